@@ -89,6 +89,18 @@ impl Linearised {
         Self::about(system, SteadySliding::new(system)?)
     }
 
+    /// The equations without friction about q = 0: masses, dampers and springs, those of the contacts included. There need not
+    /// be any steady sliding.
+    ///
+    /// # Errors
+    /// [`NoSteadySliding::NoMass`].
+    pub fn frictionless(system: &System) -> Result<Self, NoSteadySliding> {
+        let none = FrictionLine { coefficient: 0.0, constant: 0.0, slope: 0.0, slope_constant: 0.0 };
+        let position = vec![0.0; system.structure.size()];
+        let at_rest = SteadySliding::at(system, position, &vec![none; system.contacts.len()]);
+        Self::about(system, at_rest)
+    }
+
     /// Linearises a system about a steady sliding.
     ///
     /// # Errors

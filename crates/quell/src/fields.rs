@@ -4,6 +4,7 @@
 //! `units` contains the unit of every field, and `why` the reason for every null.
 
 use crate::quantity::unit_of;
+use crate::study::SystemUnits;
 use quell_model::units::{Quantity, Scales};
 use serde_json::{Map, Value as Json};
 
@@ -11,10 +12,19 @@ use serde_json::{Map, Value as Json};
 pub(crate) const PER_VELOCITY: (&str, &str, &str) =
     ("1/length (per velocity/ω₀)", "s/m", "s_per_m");
 
+/// The SI values of a study's numbers.
+#[derive(Clone, Copy, Debug)]
+enum SiValues {
+    /// Numbers of the equations of one mass, scaled by its mass and stiffness.
+    Scaled(Scales),
+    /// Numbers of a system in the units of its file.
+    System(SystemUnits),
+}
+
 /// An object under construction.
 #[derive(Clone, Debug)]
 pub struct Fields {
-    scales: Option<Scales>,
+    si: Option<SiValues>,
     object: Map<String, Json>,
     units: Map<String, Json>,
     why: Map<String, Json>,
@@ -23,12 +33,21 @@ pub struct Fields {
 impl Fields {
     /// An empty object for a study with these scales.
     pub fn new(scales: Option<Scales>) -> Self {
-        Self { scales, object: Map::new(), units: Map::new(), why: Map::new() }
+        let si = scales.map(SiValues::Scaled);
+        Self { si, object: Map::new(), units: Map::new(), why: Map::new() }
     }
 
-    /// The scales of the study.
+    /// An empty object for a study of a system in these units.
+    pub fn of_system(units: SystemUnits) -> Self {
+        Self { si: Some(SiValues::System(units)), ..Self::new(None) }
+    }
+
+    /// The scales of the study of one mass.
     pub fn scales(&self) -> Option<Scales> {
-        self.scales
+        match self.si {
+            Some(SiValues::Scaled(scales)) => Some(scales),
+            _ => None,
+        }
     }
 
     /// Adds a word, a flag, a count, or any other value without unit.
@@ -92,7 +111,7 @@ impl Fields {
     pub fn per_velocity(&mut self, name: &str, values: &[f64]) -> &mut Self {
         self.object.insert(name.to_owned(), values.into());
         self.units.insert(name.to_owned(), PER_VELOCITY.0.into());
-        if let Some(scales) = self.scales {
+        if let Some(scales) = self.scales() {
             let (_, unit, suffix) = PER_VELOCITY;
             let omega = scales.si_per_unit(Quantity::Velocity);
             let values: Vec<f64> = values.iter().map(|value| value / omega).collect();
@@ -104,8 +123,15 @@ impl Fields {
 
     /// Adds a growth rate per unit τ, in SI per second; or null with the reason.
     pub fn rate(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
-        self.units.insert(name.to_owned(), "ω₀".into());
-        let twin = self.scales.map(|scales| (format!("{name}_per_s"), scales.angular_frequency()));
+        let (unit, per_second) = match self.si {
+            None => ("ω₀", None),
+            Some(SiValues::Scaled(scales)) => ("ω₀", Some(scales.angular_frequency())),
+            Some(SiValues::System(SystemUnits::None)) => ("1 (per unit of time)", None),
+            // Both systems of units have the second.
+            Some(SiValues::System(_)) => ("1/s", None),
+        };
+        self.units.insert(name.to_owned(), unit.into());
+        let twin = per_second.map(|factor| (format!("{name}_per_s"), factor));
         if let Some((key, _)) = &twin {
             self.units.insert(key.clone(), "1/s".into());
         }
@@ -172,7 +198,10 @@ impl Fields {
 
     fn twin(&self, name: &str, quantity: Quantity) -> Option<(String, f64, &'static str)> {
         let (unit, suffix) = quantity.si_unit()?;
-        let factor = self.scales?.si_per_unit(quantity);
+        let factor = match self.si? {
+            SiValues::Scaled(scales) => scales.si_per_unit(quantity),
+            SiValues::System(units) => units.si_per_unit(quantity)?,
+        };
         Some((format!("{name}_{suffix}"), factor, unit))
     }
 
@@ -182,7 +211,10 @@ impl Fields {
         quantity: Quantity,
         twin: Option<&(String, f64, &'static str)>,
     ) {
-        let unit = unit_of(quantity, self.scales.is_some());
+        let unit = match self.si {
+            Some(SiValues::System(units)) => units.unit(quantity).unwrap_or("1").to_owned(),
+            scaled => unit_of(quantity, scaled.is_some()),
+        };
         self.units.insert(name.to_owned(), unit.into());
         if let Some((key, _, unit)) = twin {
             self.units.insert(key.clone(), (*unit).into());

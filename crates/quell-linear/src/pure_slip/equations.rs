@@ -5,7 +5,7 @@ use quell_model::system::InputTarget;
 use quell_numerics::matrix::Matrix;
 
 use crate::linearised::Linearised;
-use crate::steady::{FrictionLine, NoSteadySliding, SteadySliding, entry};
+use crate::steady::{NoSteadySliding, entry};
 
 /// Contact quantities at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,13 +33,8 @@ pub(super) struct PureSlip<'a> {
 
 impl<'a> PureSlip<'a> {
     pub(super) fn new(system: &'a System) -> Result<Self, NoSteadySliding> {
-        let zero =
-            FrictionLine { coefficient: 0.0, constant: 0.0, slope: 0.0, slope_constant: 0.0 };
         let rows = system.structure.size();
-        let position = vec![0.0; rows];
-        // Only the matrix of the linear part is needed: about q = 0, without friction.
-        let at_rest = SteadySliding::at(system, position, &vec![zero; system.contacts.len()]);
-        let linear = Linearised::about(system, at_rest)?;
+        let linear = Linearised::frictionless(system)?;
         let none: Vec<f64> = vec![0.0; system.contacts.len()];
         let base = linear.state_matrix(&none);
         let mass = system.structure.mechanical().map(|mechanical| mechanical.mass());

@@ -23,6 +23,7 @@ mod resonances;
 mod response;
 mod simulate;
 mod stability;
+mod system;
 mod table;
 mod thresholds;
 

@@ -17,6 +17,7 @@ pub mod protocol;
 pub mod response;
 pub mod simulate;
 pub mod stability;
+pub mod system;
 pub mod thresholds;
 pub mod varied;
 

@@ -1,0 +1,25 @@
+//! `modes` of a system.
+
+use serde_json::Value as Json;
+
+use super::motions;
+use crate::dataset::Dataset;
+use crate::outcome::Presented;
+use crate::run::system::modes::SystemModes;
+use crate::study::{SystemSetup, SystemStudy};
+
+impl Presented<SystemSetup> for SystemModes {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
+        self.json(study)
+    }
+
+    fn table(&self, study: &SystemStudy) -> String {
+        motions(study.units(), self.modes.iter())
+    }
+
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
+        vec![("modes", self.dataset(study))]
+    }
+}

@@ -1,0 +1,61 @@
+//! `stability --parameter` and `thresholds` of a system.
+
+use serde_json::Value as Json;
+
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::outcome::Presented;
+use crate::outcome::table::figure;
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::system::tracked::TrackedStability;
+use crate::study::{SystemSetup, SystemStudy};
+
+impl Presented<SystemSetup> for TrackedStability {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
+        self.json(study)
+    }
+
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
+        Some(self.sentence(study))
+    }
+
+    fn table(&self, _: &SystemStudy) -> String {
+        let mut text = String::new();
+        for found in &self.tracked.thresholds {
+            text += &format!(
+                "  {} = {}: {}, {} → {}\n",
+                self.request.parameter,
+                found.value,
+                found.change.name(),
+                found.verdicts[0].name(),
+                found.verdicts[1].name()
+            );
+        }
+        for curve in &self.curves {
+            let ends = curve.points.first().zip(curve.points.last());
+            if let Some(((first, at_first), (last, at_last))) = ends {
+                text += &format!(
+                    "  curve ({}): from {} at {} to {} at {}, {} points\n",
+                    at_first.change.name(),
+                    figure(at_first.value),
+                    figure(*first),
+                    figure(at_last.value),
+                    figure(*last),
+                    curve.points.len()
+                );
+            }
+        }
+        text
+    }
+
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
+        vec![("eigenvalues", self.dataset(study))]
+    }
+
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::system::tracked(study, self)))
+    }
+}

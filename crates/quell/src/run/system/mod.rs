@@ -1,0 +1,61 @@
+//! Runs of a study of a system: one file per verb.
+
+pub mod exact;
+pub mod modes;
+pub mod reach;
+pub mod stability;
+pub mod tracked;
+
+use quell_linear::averaging::NoAverage;
+use quell_linear::spectrum::{SmallMotion, Spectrum};
+use quell_model::System;
+use quell_model::units::Quantity;
+
+use crate::complaint::Failure;
+use crate::fields::Fields;
+use crate::study::SystemUnits;
+
+/// The failure of a verb with its reason.
+fn failed(verb: &str, why: impl std::fmt::Display) -> Failure {
+    Failure::Failed { key: verb.to_owned(), why: why.to_string() }
+}
+
+/// The failure of averaging.
+fn not_averaged(why: NoAverage) -> Failure {
+    failed("stability", why)
+}
+
+/// Whether some dither acts.
+fn is_dithered(system: &System) -> bool {
+    let mut waves = system.inputs.iter().flat_map(|input| input.profile.waves());
+    waves.any(|wave| wave.amplitude != 0.0)
+}
+
+/// One small motion.
+fn put_motion(system: &System, units: SystemUnits, motion: &SmallMotion) -> Fields {
+    let mut fields = Fields::of_system(units);
+    fields
+        .rate("growth_rate", Ok(motion.eigenvalue.re))
+        .number("frequency", Quantity::FrequencyRatio, motion.frequency())
+        .number("damping_ratio", Quantity::Ratio, motion.damping_ratio())
+        .rate("error", Ok(motion.error))
+        .plain("shape", motion.shape.iter().map(|z| [z.re, z.im]).map(Vec::from).collect::<Vec<_>>());
+    let contacts = system.contacts.iter().zip(&motion.friction_shares);
+    if motion.friction_shares.is_empty() && !system.contacts.is_empty() {
+        let why = "the energy of first-order equations is not known, and a motion at rest has none";
+        fields.unknown("friction_work", why);
+    } else {
+        let work = contacts.map(|(contact, share)| {
+            let mut inner = Fields::of_system(units);
+            inner.plain("contact", contact.name.clone()).rate("growth_rate", Ok(*share));
+            inner
+        });
+        fields.list("friction_work", work);
+    }
+    fields
+}
+
+/// Every motion but the conjugates of those listed.
+fn upper(spectrum: &Spectrum) -> impl Iterator<Item = &SmallMotion> {
+    spectrum.motions.iter().filter(|motion| motion.eigenvalue.im >= 0.0)
+}

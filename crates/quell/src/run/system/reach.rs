@@ -1,0 +1,192 @@
+//! `resonances` of a system: how far each dither reaches each contact, over its frequency.
+//!
+//! The slip amplitude per unit of dither has peaks at the resonances of the sliding structure, where little dither suffices, and
+//! dips at antiresonances, where the dither cannot reach the contact.
+
+use quell_linear::harmonic::response;
+use quell_linear::linearised::Linearised;
+use quell_model::units::Quantity;
+use quell_numerics::continuation::modulus;
+use quell_numerics::roots::{Closeness, minimise};
+use serde_json::Value as Json;
+
+use super::failed;
+use crate::complaint::{Complaint, Failure};
+use crate::dataset::{Array, Dataset};
+use crate::fields::Fields;
+use crate::study::SystemStudy;
+use crate::words::plural;
+
+/// Frequencies of the response, at equal ratios.
+const POINTS: usize = 801;
+
+/// A dip below this share of the mean response in its neighbourhood (an octave) is reported as out of reach.
+const OUT_OF_REACH: f64 = 1e-3;
+
+/// A peak or dip of the response of a contact to a dither.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extreme {
+    /// Angular frequency.
+    pub frequency: f64,
+    /// Slip amplitude per unit of dither.
+    pub slip_per_amplitude: f64,
+    /// Whether it is a peak.
+    pub peak: bool,
+    /// Whether the dither hardly reaches the contact there.
+    pub out_of_reach: bool,
+}
+
+/// The response of one contact to one dither.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reach {
+    /// The dither, counted from 0.
+    pub dither: usize,
+    /// The contact, counted from 0.
+    pub contact: usize,
+    /// Slip amplitude per unit of dither at each frequency.
+    pub slip: Vec<f64>,
+    /// Peaks and dips, ascending.
+    pub extremes: Vec<Extreme>,
+}
+
+/// How far the dithers of a system reach its contacts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reaches {
+    /// Angular frequencies, ascending.
+    pub frequencies: Vec<f64>,
+    /// Every pair of a dither and a contact.
+    pub pairs: Vec<Reach>,
+}
+
+/// The responses of a study over a range of angular frequencies.
+///
+/// # Errors
+/// A complaint about the range; [`Failure::Failed`] without steady sliding or dither.
+pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Failure> {
+    let system = study.system();
+    if system.inputs.is_empty() {
+        return Err(failed("resonances", "the study has no dither whose reach could be computed"));
+    }
+    let linear = Linearised::new(system).map_err(|why| failed("resonances", why))?;
+    let waves = system.inputs.iter().flat_map(|input| input.profile.waves());
+    let own = waves.map(|wave| wave.frequency).fold(0.0, f64::max);
+    let (from, to) = range.unwrap_or((0.1 * own, 10.0 * own));
+    if !(from > 0.0 && to > from && to.is_finite()) {
+        let given = format!("{from}:{to}");
+        let allowed = "two positive numbers, the second above the first";
+        return Err(Complaint::option("--frequency", given, allowed).into());
+    }
+    let frequencies: Vec<f64> = (0..POINTS)
+        .map(|k| from * libm::exp(libm::log(to / from) * k as f64 / (POINTS - 1) as f64))
+        .collect();
+    let mut pairs = Vec::new();
+    for (dither, input) in system.inputs.iter().enumerate() {
+        let slips = |frequency: f64| -> Option<Vec<f64>> {
+            let found = response(system, &linear, &input.target, frequency)?;
+            Some(found.contacts.iter().map(|contact| modulus(contact.slip)).collect())
+        };
+        let table: Vec<Option<Vec<f64>>> = frequencies.iter().map(|w| slips(*w)).collect();
+        for contact in 0..system.contacts.len() {
+            let at = |frequency: f64| slips(frequency).map_or(f64::INFINITY, |found| found[contact]);
+            let slip: Vec<f64> =
+                table.iter().map(|row| row.as_ref().map_or(f64::INFINITY, |row| row[contact])).collect();
+            let extremes = extremes(&frequencies, &slip, at);
+            pairs.push(Reach { dither, contact, slip, extremes });
+        }
+    }
+    Ok(Reaches { frequencies, pairs })
+}
+
+/// Peaks and dips of a response, located between the sampled frequencies.
+fn extremes(frequencies: &[f64], slip: &[f64], at: impl Fn(f64) -> f64) -> Vec<Extreme> {
+    let mut found = Vec::new();
+    for k in 1..slip.len().saturating_sub(1) {
+        let (before, here, after) = (slip[k - 1], slip[k], slip[k + 1]);
+        let peak = here > before && here >= after;
+        let dip = here < before && here <= after;
+        if !peak && !dip {
+            continue;
+        }
+        let sign = if peak { -1.0 } else { 1.0 };
+        let ends = (frequencies[k - 1], frequencies[k + 1]);
+        let Ok(best) = minimise(|w| sign * at(w), ends.0, ends.1, Closeness::default()) else { continue };
+        let value = sign * best.value;
+        let octave = frequencies.iter().zip(slip).filter(|(w, s)| {
+            s.is_finite() && **w > 0.5 * best.location && **w < 2.0 * best.location
+        });
+        let (sum, count) = octave.fold((0.0, 0.0), |(sum, count), (_, s)| (sum + s, count + 1.0));
+        let out_of_reach = dip && value <= OUT_OF_REACH * sum / f64::max(count, 1.0);
+        found.push(Extreme { frequency: best.location, slip_per_amplitude: value, peak, out_of_reach });
+    }
+    found
+}
+
+impl Reaches {
+    /// The answer in one sentence.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let count = self.pairs.iter().flat_map(|pair| &pair.extremes).filter(|at| at.out_of_reach).count();
+        let peaks = self.pairs.iter().flat_map(|pair| &pair.extremes).filter(|at| at.peak).count();
+        let (first, last) = (self.frequencies.first(), self.frequencies.last());
+        let unit = study.units().unit(Quantity::FrequencyRatio).map_or(String::new(), |u| format!(" {u}"));
+        format!(
+            "From {:.6} to {:.6}{unit}, the dither reaches the contacts best at {peaks} frequenc{} and hardly at all at {count} \
+             frequenc{}.",
+            first.copied().unwrap_or(0.0),
+            last.copied().unwrap_or(0.0),
+            ending(peaks),
+            ending(count),
+        )
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &SystemStudy) -> Json {
+        let units = study.units();
+        let mut fields = Fields::of_system(units);
+        let first = self.frequencies.first().copied().unwrap_or(0.0);
+        let last = self.frequencies.last().copied().unwrap_or(0.0);
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .number("from", Quantity::FrequencyRatio, first)
+            .number("to", Quantity::FrequencyRatio, last);
+        let pairs = self.pairs.iter().map(|pair| {
+            let mut inner = Fields::of_system(units);
+            let contact = &study.system().contacts[pair.contact];
+            let velocity = contact.surface_velocity.mean().abs();
+            inner.plain("dither", pair.dither).plain("contact", contact.name.clone());
+            let extremes = pair.extremes.iter().map(|at| {
+                let mut item = Fields::of_system(units);
+                item.plain("kind", if at.peak { "peak" } else { "dip" })
+                    .number("frequency", Quantity::FrequencyRatio, at.frequency)
+                    .plain("slip_per_amplitude", at.slip_per_amplitude)
+                    .plain("out_of_reach", at.out_of_reach);
+                let reversal = velocity / at.slip_per_amplitude;
+                let never = || "the dither does not reach the contact".to_owned();
+                let reversal = if reversal.is_finite() { Ok(reversal) } else { Err(never()) };
+                item.known("reversal_amplitude", Quantity::Force, reversal);
+                item
+            });
+            inner.list("extremes", extremes.collect::<Vec<_>>());
+            inner
+        });
+        fields.list("responses", pairs.collect::<Vec<_>>());
+        fields.plain("warnings", study.warnings());
+        fields.finish()
+    }
+
+    /// Slip amplitude per unit of dither over the frequency, one array for each pair.
+    pub fn dataset(&self, study: &SystemStudy) -> Dataset {
+        let mut dataset = Dataset::of(&study.into(), "resonances")
+            .axis("frequency", Quantity::Ratio, self.frequencies.clone());
+        for pair in &self.pairs {
+            let contact = &study.system().contacts[pair.contact].name;
+            let name = format!("slip_of_{contact}_per_dither_{}", pair.dither);
+            dataset = dataset.with(Array::new(name, "1", pair.slip.clone()));
+        }
+        dataset
+    }
+}
+
+fn ending(count: usize) -> &'static str {
+    if plural(count).is_empty() { "y" } else { "ies" }
+}

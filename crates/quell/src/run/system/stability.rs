@@ -1,0 +1,271 @@
+//! `stability` of a system: every small motion about steady sliding, and under dither about averaged sliding.
+
+use quell_linear::averaging::{Becomes, CriticalInput, DitheredContact, DitheredSystem};
+use quell_linear::growth::{Growth, Verdict};
+use quell_linear::linearised::Linearised;
+use quell_linear::spectrum::{Spectrum, spectrum};
+use quell_model::System;
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::{failed, is_dithered, not_averaged, put_motion, upper};
+use crate::complaint::Failure;
+use crate::fields::Fields;
+use crate::run::stability::{becomes, kind};
+use crate::study::{SystemStudy, SystemUnits};
+
+/// An eigenfrequency above the dither frequency divided by this is not far below it.
+const FAR: f64 = 3.0;
+
+/// A contact in steady or averaged sliding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlidingContact {
+    /// Friction force.
+    pub friction: f64,
+    /// Normal load.
+    pub normal_load: f64,
+    /// What dither does to it; `None` without.
+    pub dithered: Option<DitheredContact>,
+}
+
+/// What holds under dither.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnderDither {
+    /// Every small motion without it.
+    pub undithered: Spectrum,
+    /// Amplitudes of the first dither at which the verdict changes, or why they are unknown.
+    pub critical: Result<Vec<CriticalInput>, String>,
+}
+
+/// Stability of a system.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SystemStability {
+    /// Every small motion.
+    pub spectrum: Spectrum,
+    /// The contacts, in the order of the study.
+    pub contacts: Vec<SlidingContact>,
+    /// What holds under dither; `None` without.
+    pub dither: Option<UnderDither>,
+    /// Warnings about the answer.
+    pub warnings: Vec<String>,
+}
+
+/// Stability of a study's system.
+///
+/// # Errors
+/// [`Failure::Failed`] without steady sliding, and where averaging has no answer.
+pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
+    let system = study.system();
+    let linear = Linearised::new(system).map_err(|why| failed("stability", why))?;
+    let undithered = spectrum(&linear, &linear.friction()).map_err(|why| failed("stability", why))?;
+    let mut warnings = study.warnings().to_vec();
+    warnings.extend(outside_of_laws(system, None));
+    if !is_dithered(system) {
+        let contacts = linear.contacts().iter().zip(linear.friction());
+        let contacts = contacts
+            .map(|(contact, friction)| SlidingContact {
+                friction: friction.force,
+                normal_load: contact.steady.normal_load,
+                dithered: None,
+            })
+            .collect();
+        return Ok(SystemStability { spectrum: undithered, contacts, dither: None, warnings });
+    }
+    let prepared = DitheredSystem::new(system).map_err(not_averaged)?;
+    let average = prepared.average().map_err(not_averaged)?;
+    let spectrum = average.spectrum().map_err(|why| failed("stability", why))?;
+    let critical = prepared.critical_amplitudes(0).map_err(|why| why.to_string());
+    let contacts: Vec<SlidingContact> = average
+        .contacts
+        .iter()
+        .map(|contact| SlidingContact {
+            friction: contact.friction,
+            normal_load: contact.normal_load,
+            dithered: Some(*contact),
+        })
+        .collect();
+    warnings.extend(outside_of_laws(system, Some(&average.contacts)));
+    warnings.extend(opened(system, &average.contacts));
+    warnings.extend(not_slow(system, &undithered));
+    let dither = Some(UnderDither { undithered, critical });
+    Ok(SystemStability { spectrum, contacts, dither, warnings })
+}
+
+/// Warnings about contacts that the fast load opens.
+fn opened(system: &System, contacts: &[DitheredContact]) -> Vec<String> {
+    let opening = system.contacts.iter().zip(contacts).filter(|(_, found)| found.opens());
+    opening
+        .map(|(contact, found)| {
+            format!(
+                "contact {} opens: the fast part of its load, {:.4}, exceeds its mean, {:.4}; averaging does not describe that",
+                contact.name, found.load_amplitude, found.normal_load
+            )
+        })
+        .collect()
+}
+
+/// The warning about eigenfrequencies that are not far below the dither.
+fn not_slow(system: &System, undithered: &Spectrum) -> Option<String> {
+    let waves = system.inputs.iter().flat_map(|input| input.profile.waves());
+    let slowest = waves.map(|wave| wave.frequency).fold(f64::INFINITY, f64::min);
+    let near = upper(undithered).map(|motion| motion.frequency()).filter(|own| *own * FAR > slowest);
+    let nearest = near.min_by(|a, b| (a - slowest).abs().total_cmp(&(b - slowest).abs()))?;
+    Some(format!(
+        "the eigenfrequency {nearest:.6} is not far below the dither frequency {slowest:.6}: averaging assumes that the dither is \
+         faster than every motion"
+    ))
+}
+
+/// Warnings about slip outside the range of a friction law.
+fn outside_of_laws(system: &System, dithered: Option<&[DitheredContact]>) -> Vec<String> {
+    let contacts = system.contacts.iter().enumerate();
+    contacts
+        .filter_map(|(index, contact)| {
+            let range = contact.friction.range()?;
+            let fast = dithered.map_or(0.0, |contacts| contacts[index].slip_amplitude);
+            let slip = contact.surface_velocity.mean().abs() + fast;
+            (slip > range.upper).then(|| {
+                format!(
+                    "the slip velocity at contact {} reaches {slip:.4}, beyond the range of its friction law, {:.4} ({})",
+                    contact.name, range.upper, range.limit
+                )
+            })
+        })
+        .collect()
+}
+
+impl SystemStability {
+    /// The protocol of the verdict.
+    pub fn protocol(&self) -> &'static str {
+        if self.dither.is_some() { "averaged" } else { "linearised" }
+    }
+
+    /// The answer in one or two sentences.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let Growth { rate, error, frequency } = self.spectrum.growth;
+        let by = match self.dither {
+            Some(_) => "By averaging over the dither",
+            None => "By linearisation",
+        };
+        let frequency = with_hertz(study.units(), frequency);
+        let verdict = match self.spectrum.growth.verdict() {
+            Verdict::Stable => format!("steady sliding is stable: every motion decays, the slowest at the rate {rate:.6}"),
+            Verdict::Unstable => format!(
+                "steady sliding is unstable: a motion of angular frequency {frequency} grows at the rate {rate:.6}"
+            ),
+            Verdict::Undecided => format!(
+                "the stability of steady sliding is undecided: the largest growth rate is zero within its error, {error:.1e}"
+            ),
+        };
+        format!("{by}, {verdict}.{}", self.next(study))
+    }
+
+    /// The next amplitude at which the verdict changes.
+    fn next(&self, study: &SystemStudy) -> String {
+        let Some(UnderDither { critical: Ok(critical), undithered }) = &self.dither else {
+            return String::new();
+        };
+        let without = undithered.growth.verdict().name();
+        let waves = study.system().inputs.first().map(|input| input.profile.waves());
+        let now = waves.and_then(|waves| waves.first()).map_or(0.0, |wave| wave.amplitude);
+        let unit = study.units().unit(Quantity::Force).map_or(String::new(), |unit| format!(" {unit}"));
+        let wanted = match self.spectrum.growth.verdict() {
+            Verdict::Stable => Becomes::Unstable,
+            _ => Becomes::Stable,
+        };
+        let next = critical.iter().find(|found| found.amplitude > now && found.becomes == wanted);
+        let more = next.map_or(String::new(), |found| {
+            format!(
+                " A larger first dither makes it {} from the amplitude {:.6}{unit} on.",
+                becomes(found.becomes),
+                found.amplitude
+            )
+        });
+        format!(" Without dither it is {without}.{more}")
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &SystemStudy) -> Json {
+        let units = study.units();
+        let mut fields = Fields::of_system(units);
+        let Growth { rate, error, frequency } = self.spectrum.growth;
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .plain("verdict", self.spectrum.growth.verdict().name())
+            .plain("protocol", self.protocol())
+            .rate("growth_rate", Ok(rate))
+            .rate("growth_rate_error", Ok(error))
+            .number("frequency", Quantity::FrequencyRatio, frequency);
+        let values = self.spectrum.motions.iter().map(|motion| motion.eigenvalue);
+        let eigenvalues: Vec<Vec<f64>> = values.map(|value| vec![value.re, value.im]).collect();
+        fields.plain("eigenvalues", eigenvalues);
+        let motions = upper(&self.spectrum).map(|motion| put_motion(study.system(), units, motion));
+        fields.list("motions", motions.collect::<Vec<_>>());
+        let contacts = study.system().contacts.iter().zip(&self.contacts);
+        let contacts = contacts.map(|(contact, found)| put_contact(&contact.name, units, found));
+        fields.list("contacts", contacts.collect::<Vec<_>>());
+        self.put_dither(&mut fields, units);
+        fields.plain("warnings", self.warnings.clone());
+        fields.finish()
+    }
+
+    fn put_dither(&self, fields: &mut Fields, units: SystemUnits) {
+        let Some(UnderDither { undithered, critical }) = &self.dither else {
+            let why = "the study has no dither";
+            fields.unknown("undithered", why).unknown("critical_amplitudes", why);
+            return;
+        };
+        let mut inner = Fields::of_system(units);
+        inner
+            .plain("verdict", undithered.growth.verdict().name())
+            .rate("growth_rate", Ok(undithered.growth.rate))
+            .rate("growth_rate_error", Ok(undithered.growth.error))
+            .number("frequency", Quantity::FrequencyRatio, undithered.growth.frequency);
+        fields.nested("undithered", inner);
+        match critical {
+            Err(why) => {
+                fields.unknown("critical_amplitudes", why.clone());
+            }
+            Ok(critical) => {
+                let items = critical.iter().map(|found| {
+                    let mut inner = Fields::of_system(units);
+                    inner
+                        .number("amplitude", Quantity::Force, found.amplitude)
+                        .number("amplitude_error", Quantity::Force, found.error)
+                        .plain("kind", kind(found.crossing))
+                        .plain("becomes", becomes(found.becomes))
+                        .plain("contacts_stay_closed", found.contacts_stay_closed);
+                    inner
+                });
+                fields.list("critical_amplitudes", items.collect::<Vec<_>>());
+            }
+        }
+    }
+}
+
+fn put_contact(name: &str, units: SystemUnits, found: &SlidingContact) -> Fields {
+    let mut fields = Fields::of_system(units);
+    fields
+        .plain("name", name)
+        .number("friction", Quantity::Force, found.friction)
+        .number("normal", Quantity::Force, found.normal_load);
+    let no_dither = || "the study has no dither".to_owned();
+    let dithered = found.dithered.ok_or_else(no_dither);
+    let of = |pick: fn(&DitheredContact) -> f64| dithered.as_ref().map(pick).map_err(Clone::clone);
+    fields
+        .known("slip_amplitude", Quantity::Velocity, of(|found| found.slip_amplitude))
+        .known("load_amplitude", Quantity::Force, of(|found| found.load_amplitude))
+        .known("effective_coefficient", Quantity::Ratio, of(|found| found.effective_coefficient))
+        .known("ratchet_force", Quantity::Force, of(|found| found.ratchet_force))
+        .known("slope_by_velocity", Quantity::LoadDamping, of(|found| found.slope_by_velocity));
+    fields
+}
+
+/// An angular frequency, with its value in hertz where the study has units.
+pub(crate) fn with_hertz(units: SystemUnits, frequency: f64) -> String {
+    match units {
+        SystemUnits::None => format!("{frequency:.6}"),
+        _ => format!("{frequency:.6} rad/s ({:.6} Hz)", frequency / std::f64::consts::TAU),
+    }
+}

@@ -1,0 +1,299 @@
+//! `stability --parameter`: eigenvalues of a system followed over a parameter, its thresholds, and their curves along a second one.
+
+use quell_linear::averaging::DitheredSystem;
+use quell_linear::linearised::Linearised;
+use quell_linear::tracking::{Change, Family, ThresholdOfStability, Tracked, track};
+use quell_model::units::Quantity;
+use quell_numerics::eigen::EigenError;
+use quell_numerics::matrix::Matrix;
+use serde_json::{Value as Json, json};
+
+use super::stability::with_hertz;
+use super::{failed, is_dithered};
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::dataset::{Array, Dataset};
+use crate::fields::Fields;
+use crate::study::SystemStudy;
+use crate::words::plural;
+
+/// Values of the parameter at which eigenvalues are computed at least.
+const POINTS: usize = 129;
+
+/// Values of the first parameter on each line of a curve.
+const POINTS_OF_A_LINE: usize = 33;
+
+/// Lines across the second parameter.
+const LINES: usize = 81;
+
+/// Two thresholds of neighbouring lines belong to one curve if they are closer than this share of the window.
+const LINKED: f64 = 0.1;
+
+/// What to follow.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrackRequest {
+    /// Path of the parameter.
+    pub parameter: String,
+    /// Its window in the unit of that key.
+    pub window: (f64, f64),
+    /// A second parameter and its window, along which thresholds are followed.
+    pub along: Option<(String, (f64, f64))>,
+}
+
+/// A curve of thresholds: (second parameter, threshold), ascending.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StabilityCurve {
+    /// Its points.
+    pub points: Vec<(f64, ThresholdOfStability)>,
+}
+
+/// Eigenvalues over a parameter.
+#[derive(Clone, Debug)]
+pub struct TrackedStability {
+    /// The request.
+    pub request: TrackRequest,
+    /// Whether the verdicts are those of averaging.
+    pub averaged: bool,
+    /// The eigenvalues and thresholds over the window.
+    pub tracked: Tracked<String>,
+    /// Curves along the second parameter; empty without one.
+    pub curves: Vec<StabilityCurve>,
+}
+
+/// The state matrices of a study over one of its numbers, others fixed.
+struct StudyFamily<'a> {
+    study: &'a SystemStudy,
+    path: &'a str,
+    fixed: Option<(&'a str, f64)>,
+}
+
+impl Family for StudyFamily<'_> {
+    type Error = String;
+
+    fn matrix(&self, value: f64) -> Result<Matrix, String> {
+        let numbers: Vec<(&str, f64)> = self.fixed.into_iter().chain([(self.path, value)]).collect();
+        let system = self.study.system_at(&numbers).map_err(|why| why.to_string())?;
+        if is_dithered(&system) {
+            let prepared = DitheredSystem::new(&system).map_err(|why| why.to_string())?;
+            let average = prepared.average().map_err(|why| why.to_string())?;
+            return Ok(average.linear.state_matrix_with(&average.friction));
+        }
+        let linear = Linearised::new(&system).map_err(|why| why.to_string())?;
+        Ok(linear.state_matrix_with(&linear.friction()))
+    }
+
+    fn overflows(why: EigenError) -> String {
+        why.to_string()
+    }
+}
+
+/// Follows the eigenvalues of a study.
+///
+/// # Errors
+/// Complaints about the parameters and their windows; [`Failure::Failed`] if no value of the window has steady sliding.
+pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStability, Failure> {
+    understood(study, request)?;
+    let family = |fixed| StudyFamily { study, path: &request.parameter, fixed };
+    let tracked = track(&family(None), request.window, POINTS);
+    let tracked = tracked.map_err(|why| failed("stability", why))?;
+    let mut curves = Vec::new();
+    if let Some((along, (from, to))) = &request.along {
+        let width = request.window.1 - request.window.0;
+        for k in 0..LINES {
+            let value = from + (to - from) * k as f64 / (LINES - 1) as f64;
+            let line = track(&family(Some((along, value))), request.window, POINTS_OF_A_LINE);
+            let thresholds = line.map_or_else(|_| Vec::new(), |line| line.thresholds);
+            let step = (to - from) / (LINES - 1) as f64;
+            extend(&mut curves, (value, step), thresholds, width);
+        }
+    }
+    let averaged = is_dithered(study.system());
+    Ok(TrackedStability { request: request.clone(), averaged, tracked, curves })
+}
+
+/// Adds the thresholds of a line to the curves that end at the line before.
+fn extend(
+    curves: &mut Vec<StabilityCurve>,
+    (value, step): (f64, f64),
+    thresholds: Vec<ThresholdOfStability>,
+    width: f64,
+) {
+    let mut taken = vec![false; curves.len()];
+    for found in thresholds {
+        let distance = |curve: &StabilityCurve| {
+            let (at, last) = curve.points.last()?;
+            let follows = (value - at) <= 1.5 * step;
+            let same = last.change == found.change && last.verdicts == found.verdicts;
+            let distance = (last.value - found.value).abs();
+            (follows && same && distance <= LINKED * width).then_some(distance)
+        };
+        let open = taken.iter().enumerate().filter(|(_, taken)| !**taken);
+        let near = open.filter_map(|(index, _)| Some((distance(&curves[index])?, index)));
+        match near.min_by(|a, b| a.0.total_cmp(&b.0)) {
+            Some((_, index)) => {
+                curves[index].points.push((value, found));
+                taken[index] = true;
+            }
+            None => {
+                curves.push(StabilityCurve { points: vec![(value, found)] });
+                taken.push(true);
+            }
+        }
+    }
+}
+
+/// Every complaint about a request.
+fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<(), Failure> {
+    let mut wrong = Vec::new();
+    let along = request.along.as_ref();
+    let along = along.map(|(path, window)| (("--along", "--between", "--between"), path, *window));
+    let first = (("--parameter", "--from", "--to"), &request.parameter, request.window);
+    for ((option, from, to), path, window) in [Some(first), along].into_iter().flatten() {
+        if study.number(path).is_none() {
+            let allowed = "the path of a number of the study, such as contact.pad.friction.coefficient";
+            wrong.push(Complaint::option(option, path.as_str(), allowed));
+            continue;
+        }
+        if window.0.is_nan() || window.1.is_nan() || window.0 >= window.1 {
+            let allowed = format!("a finite number above {from} {}", window.0);
+            wrong.push(Complaint::option(to, window.1, allowed));
+        }
+    }
+    if request.along.as_ref().is_some_and(|(path, _)| *path == request.parameter) {
+        let allowed = "a parameter other than --parameter";
+        wrong.push(Complaint::option("--along", request.parameter.as_str(), allowed));
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
+}
+
+/// The roots of `thresholds` of a system, which are those of `stability --parameter`.
+///
+/// # Errors
+/// As [`run`]; a system with dither, whose exact thresholds are those of its periodic motions.
+pub fn thresholds(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStability, Failure> {
+    if is_dithered(study.system()) {
+        let allowed = "a study without dither: thresholds of dithered systems follow their periodic motions, which is not \
+                       implemented yet; `stability --parameter` gives the thresholds of averaging";
+        return Err(Complaint::new(Fault::NotBuilt, "dither", Origin::Whole, Json::Null, allowed).into());
+    }
+    run(study, request)
+}
+
+impl TrackedStability {
+    /// The protocol of the verdicts.
+    pub fn protocol(&self) -> &'static str {
+        if self.averaged { "averaged" } else { "linearised" }
+    }
+
+    /// The answer in one or two sentences.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let TrackRequest { parameter, window: (from, to), .. } = &self.request;
+        let changes: Vec<String> = self
+            .tracked
+            .thresholds
+            .iter()
+            .filter(|found| found.verdicts[0] != found.verdicts[1])
+            .map(|found| {
+                let frequency = with_hertz(study.units(), found.eigenvalue.im.abs());
+                let how = match found.change {
+                    Change::Hopf => format!("at the angular frequency {frequency}"),
+                    Change::Divergence => "without oscillation".to_owned(),
+                    Change::Coalescence => format!("as two motions merge at the angular frequency {frequency}"),
+                    Change::Jump => "by a jump".to_owned(),
+                };
+                format!("{} at {parameter} = {:.9}, {how}", found.verdicts[1].name(), found.value)
+            })
+            .collect();
+        let by = if self.averaged { "By averaging, steady" } else { "Steady" };
+        let mut sentence = if changes.is_empty() {
+            let verdict = self.tracked.pieces.first().and_then(|piece| piece.first());
+            let verdict = verdict.map_or("unknown", |point| point.growth.verdict().name());
+            format!("{by} sliding is {verdict} from {parameter} = {from} to {to}; no threshold was found.")
+        } else {
+            format!("{by} sliding becomes {}.", changes.join("; "))
+        };
+        if !self.curves.is_empty() {
+            let count = self.curves.len();
+            sentence += &format!(" Found {count} curve{} of thresholds.", plural(count));
+        }
+        sentence
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &SystemStudy) -> Json {
+        let mut fields = Fields::of_system(study.units());
+        let TrackRequest { parameter, window: (from, to), along } = &self.request;
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .plain("protocol", self.protocol())
+            .plain("parameter", parameter.clone())
+            .plain("from", *from)
+            .plain("to", *to);
+        let found = self.tracked.thresholds.iter().map(|found| put(study, found));
+        fields.list("thresholds", found.collect::<Vec<_>>());
+        let points: usize = self.tracked.pieces.iter().map(Vec::len).sum();
+        fields.plain("points", points);
+        if let Some((path, (first, last))) = along {
+            fields.plain("along", path.clone()).plain("between", vec![*first, *last]);
+            let curves = self.curves.iter().map(|curve| {
+                let mut inner = Fields::of_system(study.units());
+                let points = curve.points.iter().map(|(at, found)| {
+                    let mut point = put(study, found);
+                    point.plain("along", *at);
+                    point
+                });
+                inner.list("points", points.collect::<Vec<_>>());
+                inner
+            });
+            fields.list("curves", curves.collect::<Vec<_>>());
+        }
+        let unknown = self.tracked.unknown.iter();
+        let unknown = unknown.map(|range| json!({ "from": range.from, "to": range.to, "why": range.why }));
+        fields.plain("unknown", unknown.collect::<Vec<Json>>());
+        fields.plain("warnings", self.warnings(study));
+        fields.finish()
+    }
+
+    /// Warnings: those of the study, and ranges without an answer.
+    fn warnings(&self, study: &SystemStudy) -> Vec<String> {
+        let unknown = self.tracked.unknown.iter().map(|range| {
+            let parameter = &self.request.parameter;
+            format!("from {parameter} = {} to {} there is no answer: {}", range.from, range.to, range.why)
+        });
+        study.warnings().iter().cloned().chain(unknown).collect()
+    }
+
+    /// Growth rate and frequency of every branch over the parameter.
+    pub fn dataset(&self, study: &SystemStudy) -> Dataset {
+        let points: Vec<_> = self.tracked.pieces.iter().flatten().collect();
+        let branches = points.first().map_or(0, |point| point.eigenvalues.len());
+        let values = points.iter().map(|point| point.value).collect();
+        let every = |pick: fn(&num_complex::Complex64) -> f64| -> Vec<f64> {
+            points.iter().flat_map(|point| point.eigenvalues.iter().map(pick)).collect()
+        };
+        let unit = study.units().unit(Quantity::FrequencyRatio).unwrap_or("1");
+        Dataset::of(&study.into(), "stability")
+            .fact(format!("parameter: {}", self.request.parameter))
+            .axis("parameter", Quantity::Ratio, values)
+            .axis("branch", Quantity::Count, (0..branches).map(|index| index as f64).collect())
+            .with(Array::new("growth_rate", unit, every(|z| z.re)))
+            .with(Array::new("frequency", unit, every(|z| z.im)))
+    }
+}
+
+/// One threshold.
+fn put(study: &SystemStudy, found: &ThresholdOfStability) -> Fields {
+    let mut fields = Fields::of_system(study.units());
+    fields
+        .plain("value", found.value)
+        .plain("error", found.error)
+        .plain("kind", found.change.name())
+        .number("frequency", Quantity::FrequencyRatio, found.eigenvalue.im.abs())
+        .plain("before", found.verdicts[0].name());
+    if found.verdicts[0] == found.verdicts[1] {
+        fields.unknown("becomes", "the verdict does not change here");
+    } else {
+        fields.plain("becomes", found.verdicts[1].name());
+    }
+    fields
+}
