@@ -19,8 +19,8 @@ pub trait StudyKind: Clone {
     /// Reads the tables of this kind; `None` if something is invalid, which has then been reported to the reader.
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self>;
 
-    /// A data file that the study names and that has been read.
-    fn data_file(&self) -> Option<&Path>;
+    /// The data files that the study names and that have been read.
+    fn data_files(&self) -> Vec<&Path>;
 
     /// What such files contribute to the settings, as `path = value`.
     fn file_settings(&self) -> Vec<(String, String)>;
@@ -40,4 +40,10 @@ pub(super) fn not_of_a_belt(origin: Origin) -> Complaint {
     let allowed = "this command requires a study of a belt ([belt], [friction]), but the study is of a disc, which \
                    supports check, cite, modes, stability, resonances and map";
     Complaint::new(Fault::Conflict, "disc", origin, Json::Null, allowed)
+}
+
+/// The error of a command for belts given a study of a system.
+pub(super) fn not_of_a_belt_but_system(origin: Origin) -> Complaint {
+    let allowed = "this command requires a study of a belt ([belt], [friction]), but the study is of a system";
+    Complaint::new(Fault::Conflict, "system", origin, Json::Null, allowed)
 }

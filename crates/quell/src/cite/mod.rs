@@ -6,7 +6,7 @@
 use quell_model::{Belt, Direction, LawKind};
 use serde_json::{Value as Json, json};
 
-use crate::study::{BeltStudy, DiscStudy, Study};
+use crate::study::{BeltStudy, DiscStudy, Study, SystemStudy};
 
 pub mod bibliography;
 mod citation;
@@ -45,6 +45,11 @@ pub fn sources(study: &BeltStudy) -> Sources {
 /// Sources and corrections of a disc study.
 pub fn sources_of_disc(study: &DiscStudy) -> Sources {
     gather(disc::citations(study), |bears| bears.on_disc(study))
+}
+
+/// Sources of the computations of a study of a system.
+pub fn sources_of_system(_: &SystemStudy) -> Sources {
+    gather(Vec::new(), |_| false)
 }
 
 /// Sources and corrections of a study of any kind.

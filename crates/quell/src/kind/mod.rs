@@ -16,6 +16,7 @@ use crate::sweep::Running;
 
 mod belt;
 mod disc;
+mod system;
 
 /// The answer of a verb, or why it failed.
 pub type Reply = Result<Box<dyn Outcome>, Failure>;
@@ -149,5 +150,6 @@ pub fn verbs(study: &Study) -> Result<Box<dyn Verbs>, Failure> {
     Ok(match study.kind() {
         Kind::Belt(_) => Box::new(study.belt()?),
         Kind::Disc(_) => Box::new(study.disc()?),
+        Kind::System(_) => Box::new(study.system()?),
     })
 }

@@ -7,9 +7,10 @@ use super::table::Table;
 use super::{Answered, Outcome};
 use crate::input::Inputs;
 use crate::run::check::Check;
+use crate::run::check_system;
 use crate::run::disc;
 use crate::run::law;
-use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy, StudyOf};
+use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy, StudyOf, SystemSetup, SystemStudy};
 
 /// Marks a valid study; the answer of `check` follows from the study alone.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +52,24 @@ impl Outcome for Answered<DiscSetup, Valid> {
     }
 }
 
+impl Outcome for Answered<SystemSetup, Valid> {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs()
+    }
+
+    fn json(&self) -> Json {
+        check_system::json(&self.study)
+    }
+
+    fn sentence(&self) -> Option<String> {
+        Some(sentence(&self.study))
+    }
+
+    fn table(&self) -> String {
+        table_of_system(&self.study)
+    }
+}
+
 fn sentence<K>(study: &StudyOf<K>) -> String {
     let title = study.title().map(|title| format!("{title}: ")).unwrap_or_default();
     format!("{title}the study is valid.")
@@ -88,6 +107,37 @@ fn axes<K>(table: &mut Table, study: &StudyOf<K>) {
         let points = sweep.axis.len();
         table.word("axis", &format!("{} from {first} to {last}, {points} points", sweep.path));
     }
+}
+
+fn table_of_system(study: &SystemStudy) -> String {
+    let system = study.system();
+    let mut table = Table::new(None);
+    table.word("units", study.units().name());
+    let names = system.structure.names();
+    let listed = names.iter().take(12).cloned().collect::<Vec<_>>().join(", ");
+    let rest = if names.len() > 12 { ", …" } else { "" };
+    table.word("coordinates", &format!("{}: {listed}{rest}", names.len()));
+    for contact in &system.contacts {
+        let velocity = contact.surface_velocity.mean();
+        let words = format!(
+            "{}, normal load {}, velocity {velocity}, {}",
+            contact.name,
+            contact.normal_load,
+            contact.friction.kind().name()
+        );
+        table.word("contact", &words);
+    }
+    for wave in system.inputs.iter().flat_map(|input| input.profile.waves()) {
+        let words = format!(
+            "{}, amplitude {}, frequency {}",
+            wave.waveform.name(),
+            wave.amplitude,
+            wave.frequency
+        );
+        table.word("dither", &words);
+    }
+    axes(&mut table, study);
+    table.text()
 }
 
 fn table_of_disc(study: &DiscStudy) -> String {

@@ -7,6 +7,7 @@ pub mod attractor;
 pub mod basins;
 pub mod bifurcation;
 pub mod check;
+pub mod check_system;
 pub mod curves;
 pub mod disc;
 pub mod friction;

@@ -2,7 +2,7 @@
 
 mod band;
 mod dither;
-mod friction;
+pub(in crate::study) mod friction;
 mod solver;
 mod table;
 
@@ -18,7 +18,7 @@ use quell_model::{Belt, Dither, Friction, LawKind};
 use super::StudyOf;
 use super::document::Table;
 use super::reader::Reader;
-use super::study_kind::{Given, StudyKind, not_of_a_belt};
+use super::study_kind::{Given, StudyKind, not_of_a_belt, not_of_a_belt_but_system};
 
 pub use friction::Measured;
 use table::BeltTable;
@@ -51,6 +51,10 @@ impl StudyKind for BeltSetup {
             reader.complain(not_of_a_belt(node.origin));
             return None;
         }
+        if let Some(node) = document.get("system") {
+            reader.complain(not_of_a_belt_but_system(node.origin));
+            return None;
+        }
         let mut belt = table::read(reader, document);
         let known = given.known.and_then(|setup| setup.measured.as_deref());
         let context =
@@ -76,8 +80,8 @@ impl StudyKind for BeltSetup {
         })
     }
 
-    fn data_file(&self) -> Option<&Path> {
-        self.measured.as_ref().and_then(|measured| measured.file.as_deref())
+    fn data_files(&self) -> Vec<&Path> {
+        self.measured.iter().filter_map(|measured| measured.file.as_deref()).collect()
     }
 
     fn file_settings(&self) -> Vec<(String, String)> {
