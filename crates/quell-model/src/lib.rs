@@ -36,4 +36,5 @@ pub use system::{Contact, Input, Structure, System};
 pub use waveform::Waveform;
 
 /// The parameters of every kind of system, kind by kind: study files, `--set` and the schema are made of them.
-pub const PARAMETERS: &[&[parameter::Parameter]] = &[parameter::BELT, parameter::disc::DISC];
+pub const PARAMETERS: &[&[parameter::Parameter]] =
+    &[parameter::BELT, parameter::disc::DISC, parameter::system::SYSTEM];

@@ -4,6 +4,7 @@
 //! all use it.
 
 pub mod disc;
+pub mod system;
 
 use std::fmt;
 

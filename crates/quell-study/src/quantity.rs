@@ -8,12 +8,38 @@ use quell_model::units::{Quantity, Scales};
 use serde_json::Value as Json;
 
 use crate::complaint::Complaint;
-use crate::study::{DiscStudy, vocabulary};
+use crate::study::{DiscStudy, SystemUnits, vocabulary};
 
 /// Unit of a quantity in the numbers of the equations. The lengths of a study in SI are metres.
 pub fn unit_of(quantity: Quantity, si: bool) -> String {
     let unit = quantity.scaled_unit();
     if si { unit.replacen("length", "m", 1) } else { unit.to_owned() }
+}
+
+/// Reads an angular frequency of a system, or a frequency with its unit where the study has units.
+///
+/// # Errors
+/// A complaint about `option` where the text is neither.
+pub fn system_frequency(
+    text: &str,
+    units: SystemUnits,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    if let Ok(number) = text.trim().parse::<f64>()
+        && number.is_finite()
+    {
+        return Ok(number);
+    }
+    if units != SystemUnits::None
+        && let Ok(hertz) = measure::read(text.trim(), Some("Hz"))
+    {
+        return Ok(std::f64::consts::TAU * hertz);
+    }
+    let allowed = match units {
+        SystemUnits::None => "an angular frequency in the units of the study",
+        _ => "an angular frequency in rad/s, or a frequency with its unit such as 2kHz",
+    };
+    Err(Box::new(Complaint::option(option, text, allowed)))
 }
 
 /// Reads a quantity as a dimensionless number.

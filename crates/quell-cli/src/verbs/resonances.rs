@@ -3,13 +3,14 @@
 use clap::{Args, ValueEnum};
 use quell::kind::verbs;
 use quell::run::disc::resonances::{Order, ResonancesRequest};
-use quell::{Failure, Study, quantity};
+use quell::study::SystemStudy;
+use quell::{Complaint, Failure, Study, quantity};
 
 use super::numbers::pair;
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
-/// Finds the speeds at which a disc can squeal, and dither frequencies that keep a range of speeds clear
+/// Finds the speeds at which a disc can squeal and clear dither frequencies, or how far the dither of a system reaches its contacts
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -20,11 +21,12 @@ pub(crate) struct Arguments {
     /// Order of the expansion; second takes friction to second order (f of the order of √m, √c, √k)
     #[arg(long, value_name = "ORDER", default_value = "first")]
     order: Expansion,
-    /// Range of speeds to keep clear; needs --frequency
+    /// Range of speeds of a disc to keep clear; needs --frequency
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, requires = "frequency")]
     clear: Option<String>,
-    /// Range of dither frequencies to choose from, ratios R or with units such as 2kHz:20kHz; needs --clear
-    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, requires = "clear")]
+    /// Range of dither frequencies: of a disc ratios R or with units such as 2kHz:20kHz, with --clear; of a system angular
+    /// frequencies or with units
+    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     frequency: Option<String>,
     #[command(flatten)]
     output: OutputArguments,
@@ -45,12 +47,31 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let inputs = inputs(study.as_ref());
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
+    if let Some(Ok(system)) = study.as_ref().map(Study::system) {
+        let frequencies = complaints.take(frequencies(arguments, &system));
+        let (frequencies, (outputs, plot)) =
+            complaints.finish(frequencies.zip(outputs.zip(plot)))?;
+        let done = verbs(&(&system).into()).reach(frequencies)?;
+        return answer(arguments.study.json, done.as_ref(), outputs, plot);
+    }
     let request = request(arguments, study.as_ref(), &mut complaints);
     let ((study, request), (outputs, plot)) =
         complaints.finish(study.zip(request).zip(outputs.zip(plot)))?;
 
     let done = verbs(&study).resonances(request)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
+}
+
+/// The range of dither frequencies of a system.
+fn frequencies(arguments: &Arguments, study: &SystemStudy) -> Result<Option<(f64, f64)>, Failure> {
+    let only_discs = [("--speeds", &arguments.speeds), ("--clear", &arguments.clear)];
+    if let Some((option, text)) = only_discs.iter().find_map(|(o, t)| Some((*o, t.as_deref()?))) {
+        let allowed = "left out: a system has no speeds of waves; --frequency gives a range of dither frequencies";
+        return Err(Complaint::option(option, text, allowed).into());
+    }
+    let text = arguments.frequency.as_deref();
+    let read = |text: &str| quantity::system_frequency(text, study.units(), "--frequency");
+    Ok(text.map(|text| pair("--frequency", text, read)).transpose()?)
 }
 
 fn request(

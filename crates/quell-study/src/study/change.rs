@@ -7,6 +7,7 @@ use quell_model::parameter::MASS;
 
 use super::document::{Node, Table, Value};
 use super::reader;
+use super::system;
 use super::vocabulary::{self, Key, NOT_BUILT, Role, Section};
 use crate::complaint::{Complaint, Fault, Origin};
 
@@ -46,6 +47,9 @@ impl Change {
 
     /// Makes the change.
     pub(super) fn apply(&self, root: &mut Table) -> Result<(), Box<Complaint>> {
+        if system::is_described(root) && !self.is_common() {
+            return system::set(root, &self.path, &self.node);
+        }
         let address = vocabulary::resolve(&self.path)
             .map_err(|nearest| self.unknown(nearest, reader::is_si(root)))?;
         let key = address.key;
@@ -65,6 +69,12 @@ impl Change {
         };
         table.set(name, self.node.clone());
         Ok(())
+    }
+
+    /// Whether the path names a key that studies of all kinds share.
+    fn is_common(&self) -> bool {
+        let first = self.path.trim().split(['.', '[']).next().unwrap_or_default();
+        ["schema", "title", "sweep"].contains(&first)
     }
 
     /// An error with the nearest key in the unit system of the study.

@@ -18,15 +18,16 @@ pub(super) fn place(path: &Path) -> PathBuf {
     here.unwrap_or_else(|| path.to_owned())
 }
 
-/// The files that a study was read from: the study file, at its [`place`], and the data file that it names, which was
+/// The files that a study was read from: the study file, at its [`place`], and the data files that it names, which were
 /// searched in `folder`, next to the study file.
-pub(super) fn inputs(file: Option<&Path>, folder: &Path, data: Option<&Path>) -> Inputs {
+pub(super) fn inputs(file: Option<&Path>, folder: &Path, data: &[&Path]) -> Inputs {
     let home = file.filter(|file| *file != Path::new("-")).and_then(Path::parent);
-    let data = data.map(|data| match home {
+    let place = |data: &&Path| match home {
         Some(home) => home.join(data.strip_prefix(folder).unwrap_or(data)),
-        None => data.to_owned(),
-    });
-    Inputs::of(file.into_iter().chain(data.as_deref()))
+        None => (*data).to_owned(),
+    };
+    let data: Vec<PathBuf> = data.iter().map(place).collect();
+    Inputs::of(file.into_iter().chain(data.iter().map(PathBuf::as_path)))
 }
 
 /// Reads a study file; `-` is standard input.
@@ -69,7 +70,7 @@ pub(super) fn text(path: &Path) -> Result<String, Box<Complaint>> {
     }
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
         return Err(complaint(
-            "is empty; a study needs at least [belt] and [friction], or [disc] (`quell new` prints examples)".into(),
+            "is empty; a study needs at least [belt] and [friction], [disc], or [system] (`quell new` prints examples)".into(),
         ));
     }
     Ok(text)

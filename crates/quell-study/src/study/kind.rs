@@ -10,6 +10,7 @@ use super::disc::{DiscSetup, DiscStudy};
 use super::document::Table;
 use super::reader::Reader;
 use super::study_kind::{Given, StudyKind, wrong_kind};
+use super::system::{self, SystemSetup, SystemStudy};
 use crate::complaint::{Complaint, Origin};
 
 /// A checked study of any kind.
@@ -22,6 +23,8 @@ pub enum Kind {
     Belt(Box<BeltSetup>),
     /// An annular disc under rotating loads.
     Disc(Box<DiscSetup>),
+    /// A linear structure with friction contacts.
+    System(Box<SystemSetup>),
 }
 
 impl Kind {
@@ -30,55 +33,83 @@ impl Kind {
         match self {
             Self::Belt(_) => BeltSetup::NAME,
             Self::Disc(_) => DiscSetup::NAME,
+            Self::System(_) => SystemSetup::NAME,
         }
     }
+}
 
-    /// Whether a document is the study of a disc; all others are read as belts.
-    fn is_of_a_disc(document: &Table) -> bool {
-        document.has("disc")
+/// The kind that a document describes: a system or a disc where it has such a table, else a belt.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Described {
+    Belt,
+    Disc,
+    System,
+}
+
+impl Described {
+    fn by(document: &Table) -> Self {
+        if system::is_described(document) {
+            Self::System
+        } else if document.has("disc") {
+            Self::Disc
+        } else {
+            Self::Belt
+        }
     }
 }
 
 impl StudyKind for Kind {
     fn reader(document: &Table) -> Reader {
-        if Self::is_of_a_disc(document) {
-            DiscSetup::reader(document)
-        } else {
-            BeltSetup::reader(document)
+        match Described::by(document) {
+            Described::Belt => BeltSetup::reader(document),
+            Described::Disc => DiscSetup::reader(document),
+            Described::System => SystemSetup::reader(document),
         }
     }
 
     fn tables(document: &Table) -> &'static [&'static str] {
-        if Self::is_of_a_disc(document) {
-            DiscSetup::tables(document)
-        } else {
-            BeltSetup::tables(document)
+        match Described::by(document) {
+            Described::Belt => BeltSetup::tables(document),
+            Described::Disc => DiscSetup::tables(document),
+            Described::System => SystemSetup::tables(document),
         }
     }
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
         let folder = given.folder;
-        if Self::is_of_a_disc(document) {
-            let known = given.known.and_then(|kind| match kind {
-                Self::Disc(setup) => Some(&**setup),
-                Self::Belt(_) => None,
-            });
-            let setup = DiscSetup::read(reader, document, Given { folder, known })?;
-            Some(Self::Disc(Box::new(setup)))
-        } else {
-            let known = given.known.and_then(|kind| match kind {
-                Self::Belt(setup) => Some(&**setup),
-                Self::Disc(_) => None,
-            });
-            let setup = BeltSetup::read(reader, document, Given { folder, known })?;
-            Some(Self::Belt(Box::new(setup)))
+        match Described::by(document) {
+            Described::Belt => {
+                let known = given.known.and_then(|kind| match kind {
+                    Self::Belt(setup) => Some(&**setup),
+                    _ => None,
+                });
+                let setup = BeltSetup::read(reader, document, Given { folder, known })?;
+                Some(Self::Belt(Box::new(setup)))
+            }
+            Described::Disc => {
+                let known = given.known.and_then(|kind| match kind {
+                    Self::Disc(setup) => Some(&**setup),
+                    _ => None,
+                });
+                let setup = DiscSetup::read(reader, document, Given { folder, known })?;
+                Some(Self::Disc(Box::new(setup)))
+            }
+            Described::System => {
+                let known = given.known.and_then(|kind| match kind {
+                    Self::System(setup) => Some(&**setup),
+                    _ => None,
+                });
+                let setup = SystemSetup::read(reader, document, Given { folder, known })?;
+                Some(Self::System(Box::new(setup)))
+            }
         }
     }
 
-    fn data_file(&self) -> Option<&Path> {
+    fn data_files(&self) -> Vec<&Path> {
         match self {
-            Self::Belt(setup) => setup.data_file(),
-            Self::Disc(setup) => setup.data_file(),
+            Self::Belt(setup) => setup.data_files(),
+            Self::Disc(setup) => setup.data_files(),
+            Self::System(setup) => setup.data_files(),
         }
     }
 
@@ -86,6 +117,7 @@ impl StudyKind for Kind {
         match self {
             Self::Belt(setup) => setup.file_settings(),
             Self::Disc(setup) => setup.file_settings(),
+            Self::System(setup) => setup.file_settings(),
         }
     }
 }
@@ -98,7 +130,7 @@ impl Study {
     pub fn belt(&self) -> Result<BeltStudy, Box<Complaint>> {
         match self.kind() {
             Kind::Belt(setup) => Ok(self.narrowed(setup.as_ref())),
-            Kind::Disc(_) => Err(self.not_a(BeltSetup::NAME)),
+            _ => Err(self.not_a(BeltSetup::NAME)),
         }
     }
 
@@ -109,7 +141,18 @@ impl Study {
     pub fn disc(&self) -> Result<DiscStudy, Box<Complaint>> {
         match self.kind() {
             Kind::Disc(setup) => Ok(self.narrowed(setup.as_ref())),
-            Kind::Belt(_) => Err(self.not_a(DiscSetup::NAME)),
+            _ => Err(self.not_a(DiscSetup::NAME)),
+        }
+    }
+
+    /// The study of a system.
+    ///
+    /// # Errors
+    /// An error if it is of another kind.
+    pub fn system(&self) -> Result<SystemStudy, Box<Complaint>> {
+        match self.kind() {
+            Kind::System(setup) => Ok(self.narrowed(setup.as_ref())),
+            _ => Err(self.not_a(SystemSetup::NAME)),
         }
     }
 
@@ -127,7 +170,7 @@ impl Study {
     pub fn scales(&self) -> Option<Scales> {
         match self.kind() {
             Kind::Belt(setup) => setup.belt().scales(),
-            Kind::Disc(_) => None,
+            Kind::Disc(_) | Kind::System(_) => None,
         }
     }
 }
@@ -143,6 +186,19 @@ impl From<DiscStudy> for Study {
     fn from(study: DiscStudy) -> Self {
         let kind = Kind::Disc(Box::new(study.kind().clone()));
         study.map_kind(kind)
+    }
+}
+
+impl From<SystemStudy> for Study {
+    fn from(study: SystemStudy) -> Self {
+        let kind = Kind::System(Box::new(study.kind().clone()));
+        study.map_kind(kind)
+    }
+}
+
+impl From<&SystemStudy> for Study {
+    fn from(study: &SystemStudy) -> Self {
+        study.clone().into()
     }
 }
 

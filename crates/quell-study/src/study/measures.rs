@@ -5,14 +5,37 @@
 use quell_model::units::measure;
 
 use super::document::{Node, Table, Value};
+use super::system;
 use super::vocabulary::{self, Section};
 
 /// Converts texts with units under numeric keys to numbers in the unit of the key; the ends and values of an axis
 /// are in the unit of the key that it varies.
 pub(super) fn resolve(root: &mut Table) {
+    if system::is_described(root) {
+        resolve_axes(root);
+        return;
+    }
     for section in Section::ALL {
         for table in tables(root, *section) {
             resolve_table(table, *section);
+        }
+    }
+}
+
+/// The axes of a study of a system, whose other numbers its own reader converts.
+fn resolve_axes(root: &mut Table) {
+    if !root.has("sweep") {
+        return;
+    }
+    let paths = root.clone();
+    for table in tables(root, Section::Sweep) {
+        let unit = match table.get("parameter").map(|node| &node.value) {
+            Some(Value::Text(path)) => system::measured_in(&paths, path),
+            _ => None,
+        };
+        let Some(unit) = unit else { continue };
+        for (_, node) in table.iter_mut().filter(|(name, _)| *name != "points") {
+            resolve_node(node, unit);
         }
     }
 }

@@ -28,6 +28,7 @@ mod root;
 mod study_kind;
 pub mod suggest;
 mod sweep;
+pub mod system;
 pub mod vocabulary;
 
 pub use belt::{BeltSetup, BeltStudy, Measured};
@@ -37,9 +38,11 @@ pub use kind::{Kind, Study};
 pub use quell_dynamics::response::Solver;
 pub use quell_dynamics::start::InitialState;
 pub use study_kind::{Given, StudyKind, not_available};
-pub use sweep::{Axis, Sweep};
+pub use sweep::{Axis, AxisTarget, Sweep};
+pub use system::{SystemAddress, SystemSetup, SystemStart, SystemStudy, SystemUnits};
 
-/// A checked study of the kind `K`: of any kind ([`Study`]), of a belt ([`BeltStudy`]), of a disc ([`DiscStudy`]).
+/// A checked study of the kind `K`: of any kind ([`Study`]), of a belt ([`BeltStudy`]), of a disc ([`DiscStudy`]),
+/// of a system ([`SystemStudy`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyOf<K> {
     kind: K,
@@ -124,7 +127,7 @@ impl<K: StudyKind> StudyOf<K> {
     /// The files that it was read from, which outputs must not overwrite.
     pub fn inputs(&self) -> Inputs {
         let StudySource { file, folder, .. } = &*self.source;
-        file::inputs(file.as_deref(), folder, self.kind.data_file())
+        file::inputs(file.as_deref(), folder, &self.kind.data_files())
     }
 
     /// The same study with one number changed, by any path of the file, SI twins included; its axes stay.

@@ -5,6 +5,7 @@ use serde_json::Value as Json;
 use super::document::{Table, Value};
 use super::reader::Reader;
 use super::suggest;
+use super::system;
 use super::vocabulary::{self, NOT_BUILT, SCHEMA_VERSION, Section};
 use crate::complaint::{Complaint, Fault};
 
@@ -13,11 +14,17 @@ pub(super) fn read(reader: &mut Reader, document: &Table, tables: &[&str]) -> Op
     let known: Vec<&str> = Section::ALL.iter().map(|section| section.path()).collect();
     for (name, node) in document.iter() {
         if NOT_BUILT.contains(&name) {
-            let allowed =
-                format!("[{name}] is not implemented yet; this version handles belts and discs");
+            let allowed = format!(
+                "[{name}] is not implemented yet; this version handles belts, discs and systems"
+            );
             let complaint = Complaint::new(Fault::NotBuilt, name, node.origin, Json::Null, allowed);
             reader.complain(complaint);
-        } else if vocabulary::key(Section::Root, name).is_none() && !known.contains(&name) {
+        } else if vocabulary::key(Section::Root, name).is_some() || tables.contains(&name) {
+        } else if system::TABLES.contains(&name) && !known.contains(&name) {
+            let allowed = format!("[{name}] belongs to a study of a system, with [system]");
+            let complaint = Complaint::new(Fault::Conflict, name, node.origin, Json::Null, allowed);
+            reader.complain(complaint);
+        } else if !known.contains(&name) || system::is_described(document) {
             let nearest = suggest::word(name, tables.iter().copied())
                 .or_else(|| suggest::path("", name, None));
             let complaint =

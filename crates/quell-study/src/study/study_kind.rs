@@ -19,8 +19,8 @@ pub trait StudyKind: Clone {
     /// Reads the tables of this kind; `None` if something is invalid, which has then been reported to the reader.
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self>;
 
-    /// A data file that the study names and that has been read.
-    fn data_file(&self) -> Option<&Path>;
+    /// The data files that the study names and that have been read.
+    fn data_files(&self) -> Vec<&Path>;
 
     /// What such files contribute to the settings, as `path = value`.
     fn file_settings(&self) -> Vec<(String, String)>;
@@ -45,3 +45,5 @@ pub fn not_available(what: &str, kind: &str, origin: Origin) -> Complaint {
 pub(super) fn wrong_kind(required: &str, given: &str, origin: Origin) -> Complaint {
     not_available(&format!("a command for a {required} study"), given, origin)
 }
+
+/// The error of a command for belts given a study of a system.

@@ -5,6 +5,7 @@ use serde_json::Value as Json;
 
 use super::document::{Node, Table, Value};
 use super::reader::Reader;
+use super::system::{self, SystemAddress};
 use super::vocabulary::{self, Address, Choice, MOST_POINTS, Role, Section, join};
 use crate::complaint::{Complaint, Fault, Origin};
 
@@ -13,10 +14,81 @@ use crate::complaint::{Complaint, Fault, Origin};
 pub struct Sweep {
     /// Path of the number that is varied, as it was written.
     pub path: String,
-    /// The key it names.
-    pub address: Address,
+    /// The number it names.
+    pub target: AxisTarget,
     /// Spacing of the values.
     pub axis: Axis,
+}
+
+/// The number that an axis varies.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AxisTarget {
+    /// A key of a belt or a disc.
+    Key(Address),
+    /// A number of a system.
+    System(SystemAddress),
+}
+
+impl AxisTarget {
+    /// Description of the number, in one line.
+    pub fn about(&self) -> &'static str {
+        match self {
+            Self::Key(address) => address.key.about,
+            Self::System(address) => address.about,
+        }
+    }
+
+    /// Symbol in the equations, if it is a number of the registry.
+    pub fn symbol(&self) -> Option<&'static str> {
+        match self {
+            Self::Key(address) => address.key.parameter().map(|parameter| parameter.symbol),
+            Self::System(address) => address.symbol,
+        }
+    }
+
+    /// Unit of its values.
+    pub fn unit(&self) -> &'static str {
+        match self {
+            Self::Key(address) => address.key.unit(),
+            Self::System(address) => address.unit,
+        }
+    }
+
+    /// Unit of its values in words.
+    pub fn unit_in_words(&self) -> &'static str {
+        match self {
+            Self::Key(address) => address.key.unit_in_words(),
+            Self::System(address) => address.unit,
+        }
+    }
+
+    /// The key of a belt or a disc.
+    pub fn key(&self) -> Option<&Address> {
+        match self {
+            Self::Key(address) => Some(address),
+            Self::System(_) => None,
+        }
+    }
+
+    /// The unit to which values with a unit are converted.
+    fn measured_in(&self) -> Option<&'static str> {
+        match self {
+            Self::Key(address) => address.key.measured_in(),
+            Self::System(address) => Some(address.unit),
+        }
+    }
+
+    /// What a path names in a document.
+    fn resolve(document: &Table, path: &str) -> Result<Self, Option<String>> {
+        if system::is_described(document) {
+            return system::resolve_in(document, path).map(Self::System);
+        }
+        match vocabulary::resolve(path) {
+            Ok(address) if address.key.takes_number() => Ok(Self::Key(address)),
+            Ok(_) => Err(None),
+            Err(nearest) => Err(nearest),
+        }
+    }
 }
 
 /// The values of an axis.
@@ -100,8 +172,11 @@ impl Axis {
 impl Sweep {
     /// Whether both vary the same key; named constants share one, and differ by their paths.
     fn sets_the_same_as(&self, other: &Self) -> bool {
-        self.address == other.address
-            && (self.address.key.role != Role::Constant || self.path.trim() == other.path.trim())
+        let constant = |target: &AxisTarget| {
+            target.key().is_some_and(|address| address.key.role == Role::Constant)
+        };
+        self.target == other.target
+            && (!constant(&self.target) || self.path.trim() == other.path.trim())
     }
 }
 
@@ -134,7 +209,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Sweep>> {
     let mut sweeps: Vec<Option<Sweep>> = Vec::new();
     for (index, node) in list.iter().enumerate() {
         let prefix = format!("sweep[{index}]");
-        let sweep = one(reader, node, &prefix);
+        let sweep = one(reader, root, node, &prefix);
         if let Some(sweep) = &sweep
             && let Some(earlier) =
                 sweeps.iter().flatten().position(|earlier| earlier.sets_the_same_as(sweep))
@@ -154,26 +229,27 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Sweep>> {
     sweeps.into_iter().collect()
 }
 
-fn one(reader: &mut Reader, node: &Node, prefix: &str) -> Option<Sweep> {
+fn one(reader: &mut Reader, root: &Table, node: &Node, prefix: &str) -> Option<Sweep> {
     let Some(table) = node.table() else {
         reader.wrong(prefix, node, format!("a table; got {}", node.kind()));
         return None;
     };
     reader.unknown_keys(table, Section::Sweep, prefix, &[]);
-    let named = parameter(reader, table, node, prefix);
-    let unit = named.as_ref().and_then(|(_, address)| address.key.measured_in());
+    let named = parameter(reader, root, table, node, prefix);
+    let unit = named.as_ref().and_then(|(_, target)| target.measured_in());
     let unit = unit.filter(|unit| *unit != "1").unwrap_or_default();
     let axis = axis(reader, table, node, prefix, unit);
-    let (path, address) = named?;
-    Some(Sweep { path, address, axis: axis? })
+    let (path, target) = named?;
+    Some(Sweep { path, target, axis: axis? })
 }
 
 fn parameter(
     reader: &mut Reader,
+    root: &Table,
     table: &Table,
     header: &Node,
     prefix: &str,
-) -> Option<(String, Address)> {
+) -> Option<(String, AxisTarget)> {
     let key = join(prefix, "parameter");
     let Some(node) = table.get("parameter") else {
         let allowed = "the path of a number in the study, such as \"dither.amplitude\"";
@@ -181,16 +257,8 @@ fn parameter(
         return None;
     };
     let path = reader.text(&key, node)?;
-    match vocabulary::resolve(&path) {
-        Ok(address) if address.key.takes_number() => Some((path, address)),
-        Ok(_) => {
-            reader.wrong(
-                &key,
-                node,
-                "the path of a number in the study, such as \"dither.amplitude\"",
-            );
-            None
-        }
+    match AxisTarget::resolve(root, &path) {
+        Ok(target) => Some((path, target)),
         Err(nearest) => {
             let allowed = "the path of a number in the study, such as \"dither.amplitude\"";
             let complaint = Complaint::new(Fault::Value, key, node.origin, path, allowed);

@@ -6,7 +6,7 @@
 use quell_model::{Belt, Direction, LawKind};
 use serde_json::{Value as Json, json};
 
-use crate::study::{BeltStudy, DiscStudy, Kind, Study};
+use crate::study::{BeltStudy, DiscStudy, Kind, Study, SystemStudy};
 
 pub mod bibliography;
 mod citation;
@@ -47,11 +47,17 @@ pub fn sources_of_disc(study: &DiscStudy) -> Sources {
     gather(disc::citations(study), |bears| bears.on_disc(study))
 }
 
+/// Sources of the computations of a study of a system.
+pub fn sources_of_system(_: &SystemStudy) -> Sources {
+    gather(Vec::new(), |_| false)
+}
+
 /// Sources and corrections of a study of any kind.
 pub fn sources_of(study: &Study) -> Sources {
     match study.kind() {
         Kind::Belt(setup) => sources(&study.narrowed(setup.as_ref())),
         Kind::Disc(setup) => sources_of_disc(&study.narrowed(setup.as_ref())),
+        Kind::System(setup) => sources_of_system(&study.narrowed(setup.as_ref())),
     }
 }
 

@@ -10,12 +10,14 @@ use crate::complaint::{Failure, Origin};
 use crate::outcome::{Answered, Outcome, Presented};
 use crate::run::disc::resonances;
 use crate::run::orbit::Wanted;
+use crate::run::system::tracked::TrackRequest;
 use crate::run::{basins, bifurcation, curves, simulate, thresholds};
 use crate::study::{Kind, Study, StudyKind, StudyOf, not_available};
 use crate::sweep::Running;
 
 mod belt;
 mod disc;
+mod system;
 
 /// The answer of a verb, or why it failed.
 pub type Reply = Result<Box<dyn Outcome>, Failure>;
@@ -52,6 +54,32 @@ pub trait Verbs: Send + Sync {
     /// A kind without this verb; numbers that overflow.
     fn stability(&self) -> Reply {
         Err(self.lacks("stability"))
+    }
+
+    /// The exact stability of the dithered motion in pure slip, by Floquet exponents.
+    ///
+    /// # Errors
+    /// A kind without this verb; motion that is not pure slip.
+    fn exact_stability(&self) -> Reply {
+        Err(self.lacks("stability --exact"))
+    }
+
+    /// The eigenvalues of small motions followed over a parameter.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::system::tracked::run`].
+    fn tracked_stability(&self, request: &TrackRequest) -> Reply {
+        let _ = request;
+        Err(self.lacks("stability --parameter"))
+    }
+
+    /// How far each dither reaches each contact, over a range of angular frequencies.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::system::reach::run`].
+    fn reach(&self, frequencies: Option<(f64, f64)>) -> Reply {
+        let _ = frequencies;
+        Err(self.lacks("resonances without speeds"))
     }
 
     /// One trajectory up to τ = `until`.
@@ -146,6 +174,7 @@ pub fn verbs(study: &Study) -> Box<dyn Verbs> {
     match study.kind() {
         Kind::Belt(setup) => Box::new(study.narrowed(setup.as_ref())),
         Kind::Disc(setup) => Box::new(study.narrowed(setup.as_ref())),
+        Kind::System(setup) => Box::new(study.narrowed(setup.as_ref())),
     }
 }
 

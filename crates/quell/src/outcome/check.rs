@@ -8,7 +8,8 @@ use super::table::TextTable;
 use crate::run::check::Check;
 use crate::run::disc;
 use crate::run::law;
-use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy, StudyOf};
+use crate::run::system;
+use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy, StudyOf, SystemSetup, SystemStudy};
 
 /// Marks a valid study; the answer of `check` follows from the study alone.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +40,20 @@ impl Presented<DiscSetup> for Valid {
 
     fn table(&self, study: &DiscStudy) -> String {
         table_of_disc(study)
+    }
+}
+
+impl Presented<SystemSetup> for Valid {
+    fn json(&self, study: &SystemStudy) -> Json {
+        system::check::json(study)
+    }
+
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
+        Some(sentence(study))
+    }
+
+    fn table(&self, study: &SystemStudy) -> String {
+        table_of_system(study)
     }
 }
 
@@ -79,6 +94,37 @@ fn axes<K>(table: &mut TextTable, study: &StudyOf<K>) {
         let points = sweep.axis.len();
         table.word("axis", &format!("{} from {first} to {last}, {points} points", sweep.path));
     }
+}
+
+fn table_of_system(study: &SystemStudy) -> String {
+    let system = study.system();
+    let mut table = TextTable::new(None);
+    table.word("units", study.units().name());
+    let names = system.structure.names();
+    let listed = names.iter().take(12).cloned().collect::<Vec<_>>().join(", ");
+    let rest = if names.len() > 12 { ", …" } else { "" };
+    table.word("coordinates", &format!("{}: {listed}{rest}", names.len()));
+    for contact in &system.contacts {
+        let velocity = contact.surface_velocity.mean();
+        let words = format!(
+            "{}, normal load {}, velocity {velocity}, {}",
+            contact.name,
+            contact.normal_load,
+            contact.friction.kind().name()
+        );
+        table.word("contact", &words);
+    }
+    for wave in system.inputs.iter().flat_map(|input| input.profile.waves()) {
+        let words = format!(
+            "{}, amplitude {}, frequency {}",
+            wave.waveform.name(),
+            wave.amplitude,
+            wave.frequency
+        );
+        table.word("dither", &words);
+    }
+    axes(&mut table, study);
+    table.text()
 }
 
 fn table_of_disc(study: &DiscStudy) -> String {

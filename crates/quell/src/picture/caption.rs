@@ -5,8 +5,8 @@ use quell_model::units::Quantity;
 
 use super::ruler::{short, words};
 use crate::study::disc::ModeSource;
-use crate::study::{BeltStudy, DiscStudy, Kind, Study};
-use crate::words::start_in_words;
+use crate::study::{BeltStudy, DiscStudy, Kind, Study, SystemStudy};
+use crate::words::{plural, start_in_words};
 
 /// The study in one line.
 pub(super) fn caption(study: &BeltStudy) -> String {
@@ -105,10 +105,23 @@ fn capitalised(word: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
+/// The caption of a study of a system.
+fn caption_of_system(study: &SystemStudy) -> String {
+    let system = study.system();
+    let count = |count: usize, noun: &str| format!("{count} {noun}{}", plural(count));
+    let parts = [
+        count(system.structure.size(), "coordinate"),
+        count(system.contacts.len(), "contact"),
+        count(system.inputs.len(), "dither"),
+    ];
+    format!("{}.", parts.join(", "))
+}
+
 /// The caption of a study of any kind.
 pub(super) fn caption_of(study: &Study) -> String {
     match study.kind() {
         Kind::Belt(setup) => caption_of_run(&study.narrowed(setup.as_ref())),
         Kind::Disc(setup) => caption_of_disc(&study.narrowed(setup.as_ref())),
+        Kind::System(setup) => caption_of_system(&study.narrowed(setup.as_ref())),
     }
 }

@@ -7,7 +7,6 @@ mod basins;
 mod bifurcation;
 mod caption;
 pub mod disc;
-pub mod system;
 mod friction;
 mod map;
 mod orbit;
@@ -16,6 +15,7 @@ mod ruler;
 mod simulate;
 mod stability;
 mod sweep;
+pub mod system;
 mod thresholds;
 
 pub use basins::basins;

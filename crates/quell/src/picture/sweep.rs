@@ -78,7 +78,13 @@ fn picture(done: &FinishedMap, entry: &VariableArrays) -> MappedQuantity {
             MapKind::Growth(Spread::SignedLog(1e-5))
         }
         VariableKind::Number(_) if variable.name == "efficiency" => MapKind::Efficiency,
-        VariableKind::DiscRate | VariableKind::Number(_) => MapKind::Number(Spread::Linear),
+        VariableKind::SystemRate if variable.symbol.starts_with("Re") => {
+            MapKind::Growth(Spread::Linear)
+        }
+        VariableKind::DiscRate
+        | VariableKind::SystemRate
+        | VariableKind::SystemForce
+        | VariableKind::Number(_) => MapKind::Number(Spread::Linear),
     };
     let name = match kind {
         MapKind::Efficiency => "efficiency",

@@ -40,12 +40,29 @@ pub fn stability(study: &SystemStudy, done: &SystemStability) -> Figure {
     if let Some(dither) = &done.dither {
         let before = places(&dither.undithered.motions);
         panel = panel
-            .with(Points::new(PlotRole::Undithered, before).marker(Marker::Circle).size(7.0).label("without dither"))
-            .with(Points::new(PlotRole::Dithered, own).marker(Marker::Disc).size(6.0).label("averaged"));
+            .with(
+                Points::new(PlotRole::Undithered, before)
+                    .marker(Marker::Circle)
+                    .size(7.0)
+                    .label("without dither"),
+            )
+            .with(
+                Points::new(PlotRole::Dithered, own)
+                    .marker(Marker::Disc)
+                    .size(6.0)
+                    .label("averaged"),
+            );
     } else {
-        panel = panel.with(Points::new(PlotRole::Undithered, own).marker(Marker::Disc).size(6.0).label("linearised"));
+        panel = panel.with(
+            Points::new(PlotRole::Undithered, own)
+                .marker(Marker::Disc)
+                .size(6.0)
+                .label("linearised"),
+        );
     }
-    Figure::single(panel).title(study.title().unwrap_or_default()).caption("Eigenvalues of small motions about steady sliding.".to_owned())
+    Figure::single(panel)
+        .title(study.title().unwrap_or_default())
+        .caption("Eigenvalues of small motions about steady sliding.".to_owned())
 }
 
 /// Frequency and growth rate of every motion over the parameter, with the thresholds.
@@ -69,10 +86,18 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
     let upper = |z: &num_complex::Complex64| z.im >= 0.0;
     let frequencies = branches(&|z| upper(z).then_some(factor * z.im));
     let rates = branches(&|z| upper(z).then_some(z.re));
-    let marks: Vec<(f64, f64)> = done.tracked.thresholds.iter().map(|found| (found.value, factor * found.eigenvalue.im.abs())).collect();
-    let zero: Vec<(f64, f64)> = done.tracked.thresholds.iter().map(|found| (found.value, found.eigenvalue.re)).collect();
+    let marks: Vec<(f64, f64)> = done
+        .tracked
+        .thresholds
+        .iter()
+        .map(|found| (found.value, factor * found.eigenvalue.im.abs()))
+        .collect();
+    let zero: Vec<(f64, f64)> =
+        done.tracked.thresholds.iter().map(|found| (found.value, found.eigenvalue.re)).collect();
     let role = if done.averaged { PlotRole::Averaged } else { PlotRole::Undithered };
-    let mark = |points: Vec<(f64, f64)>| Points::new(PlotRole::Exact, points).marker(Marker::Disc).size(7.0).label("threshold");
+    let mark = |points: Vec<(f64, f64)>| {
+        Points::new(PlotRole::Exact, points).marker(Marker::Disc).size(7.0).label("threshold")
+    };
     let above = Panel::new(across(), frequency.from(0.0))
         .with(Polyline::pieces(role, frequencies))
         .with(mark(marks))
@@ -88,26 +113,43 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
     if let Some((along, (first, last))) = &done.request.along {
         let mut panel = Panel::new(PlotAxis::new(along.clone()).between(*first, *last), across());
         for curve in &done.curves {
-            let points: Vec<(f64, f64)> = curve.points.iter().map(|(at, found)| (*at, found.value)).collect();
+            let points: Vec<(f64, f64)> =
+                curve.points.iter().map(|(at, found)| (*at, found.value)).collect();
             let label = curve.points.first().map_or("", |(_, found)| found.change.name());
             panel = panel.with(Polyline::new(PlotRole::Exact, points).label(label));
         }
         panels.push(panel.title("(c) thresholds"));
     }
-    Figure::grid(2, panels).title(study.title().unwrap_or_default()).caption(format!("Eigenvalues followed over {}; {}.", done.request.parameter, done.protocol()))
+    Figure::grid(2, panels).title(study.title().unwrap_or_default()).caption(format!(
+        "Eigenvalues followed over {}; {}.",
+        done.request.parameter,
+        done.protocol()
+    ))
 }
 
 /// Slip amplitude per unit of dither over its frequency.
 pub fn reach(study: &SystemStudy, done: &Reaches) -> Figure {
     let (frequency, factor) = frequency_axis(study);
-    let mut panel = Panel::new(frequency.log(), PlotAxis::new("slip amplitude per unit of dither").log());
+    let mut panel =
+        Panel::new(frequency.log(), PlotAxis::new("slip amplitude per unit of dither").log());
     for pair in &done.pairs {
         let contact = &study.system().contacts[pair.contact].name;
-        let points: Vec<(f64, f64)> = done.frequencies.iter().map(|w| factor * w).zip(pair.slip.iter().copied()).filter(|(_, slip)| slip.is_finite() && *slip > 0.0).collect();
+        let points: Vec<(f64, f64)> = done
+            .frequencies
+            .iter()
+            .map(|w| factor * w)
+            .zip(pair.slip.iter().copied())
+            .filter(|(_, slip)| slip.is_finite() && *slip > 0.0)
+            .collect();
         if points.is_empty() {
             continue;
         }
-        panel = panel.with(Polyline::new(PlotRole::Series(pair.dither + pair.contact), points).label(format!("dither {} at {contact}", pair.dither)));
+        panel = panel.with(
+            Polyline::new(PlotRole::Series(pair.dither + pair.contact), points)
+                .label(format!("dither {} at {contact}", pair.dither)),
+        );
     }
-    Figure::single(panel).title(study.title().unwrap_or_default()).caption("Linear response of the sliding structure, friction carried along.".to_owned())
+    Figure::single(panel)
+        .title(study.title().unwrap_or_default())
+        .caption("Linear response of the sliding structure, friction carried along.".to_owned())
 }

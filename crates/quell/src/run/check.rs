@@ -56,7 +56,7 @@ impl Check<'_> {
             let mut inner = Fields::new(None);
             inner
                 .plain("parameter", sweep.path.as_str())
-                .plain("unit", sweep.address.key.unit())
+                .plain("unit", sweep.target.unit())
                 .plain("points", sweep.axis.len())
                 .plain("from", sweep.axis.value(0))
                 .plain("to", sweep.axis.value(usize::MAX));

@@ -163,7 +163,10 @@ fn references(plan: &Plan) -> String {
             | Computation::CriterionSharper
             | Computation::CriticalAmplitudes
             | Computation::DiscGrowth
-            | Computation::DiscGrowthUndithered => task == Task::Stability,
+            | Computation::DiscGrowthUndithered
+            | Computation::SystemGrowth
+            | Computation::SystemGrowthUndithered
+            | Computation::SystemCritical => task == Task::Stability,
         })
     };
     let citations = sources_of(plan.grid().study()).citations;

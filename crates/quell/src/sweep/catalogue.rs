@@ -1,7 +1,7 @@
 //! All quantities of maps, and their lookup by name.
 
 use super::quantity::MapQuantity;
-use super::{belt, disc};
+use super::{belt, disc, system};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::{BeltSetup, suggest};
 
@@ -38,7 +38,7 @@ impl MapQuantity {
 }
 
 /// All quantities, by kind of study.
-pub const QUANTITIES: &[&[MapQuantity]] = &[belt::QUANTITIES, disc::QUANTITIES];
+pub const QUANTITIES: &[&[MapQuantity]] = &[belt::QUANTITIES, disc::QUANTITIES, system::QUANTITIES];
 
 #[cfg(test)]
 mod tests {

@@ -56,7 +56,11 @@ pub(super) fn of_belt(study: &BeltStudy, wanted: &[Computation]) -> f64 {
         Computation::Criterion => criterion(study, false),
         Computation::CriterionSharper => criterion(study, true),
         Computation::CriticalAmplitudes => SEARCH * criterion(study, false),
-        Computation::DiscGrowth | Computation::DiscGrowthUndithered => 0.0,
+        Computation::DiscGrowth
+        | Computation::DiscGrowthUndithered
+        | Computation::SystemGrowth
+        | Computation::SystemGrowthUndithered
+        | Computation::SystemCritical => 0.0,
     });
     POINT + each.sum::<f64>()
 }

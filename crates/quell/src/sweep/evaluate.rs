@@ -8,12 +8,14 @@ use quell_dynamics::response::{
 };
 use quell_dynamics::simulation::{Start, within};
 use quell_linear::averaging::{
-    AveragingError, AveragingOptions, Criterion, CriticalAmplitude, criterion, critical_amplitudes,
+    AveragingError, AveragingOptions, Criterion, CriticalAmplitude, CriticalInput, criterion,
+    critical_amplitudes,
 };
 use quell_linear::growth::Growth;
 use quell_model::{Belt, Dither};
 
 use super::status::Status;
+use super::system::SystemPoint;
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::range;
 use crate::study::BeltStudy;
@@ -37,12 +39,25 @@ pub enum Computation {
     DiscGrowth,
     /// The largest growth rate of a disc without dither.
     DiscGrowthUndithered,
+    /// The largest growth rate of a system, by averaging under dither.
+    SystemGrowth,
+    /// The largest growth rate of a system without dither.
+    SystemGrowthUndithered,
+    /// Every critical amplitude of the first dither of a system.
+    SystemCritical,
 }
 
 impl Computation {
     /// Whether it applies to a belt, whose friction law may have a range.
     pub fn meets_friction(self) -> bool {
-        !matches!(self, Self::DiscGrowth | Self::DiscGrowthUndithered)
+        !matches!(
+            self,
+            Self::DiscGrowth
+                | Self::DiscGrowthUndithered
+                | Self::SystemGrowth
+                | Self::SystemGrowthUndithered
+                | Self::SystemCritical
+        )
     }
 
     /// Whether it integrates responses.
@@ -112,6 +127,12 @@ pub struct Results {
     pub disc: Option<Result<Growth, Status>>,
     /// The largest growth rate of a disc without dither.
     pub disc_undithered: Option<Result<Growth, Status>>,
+    /// The largest growth rate of a system.
+    pub system: Option<Result<SystemPoint, Status>>,
+    /// The largest growth rate of a system without dither.
+    pub system_undithered: Option<Result<Growth, Status>>,
+    /// Every critical amplitude of the first dither of a system, in order.
+    pub system_critical: Option<Result<Vec<CriticalInput>, Status>>,
     /// The range of the friction law and the slip that averages reach, if the law has a range.
     pub reach: Option<Reach>,
 }
@@ -163,7 +184,11 @@ impl Results {
             Computation::Criterion | Computation::CriterionSharper => reach.is_left_at(reach.ratio),
             // An amplitude ratio of the first dither.
             Computation::CriticalAmplitudes => reach.is_left_at(value),
-            Computation::DiscGrowth | Computation::DiscGrowthUndithered => false,
+            Computation::DiscGrowth
+            | Computation::DiscGrowthUndithered
+            | Computation::SystemGrowth
+            | Computation::SystemGrowthUndithered
+            | Computation::SystemCritical => false,
         }
     }
 }
@@ -240,7 +265,10 @@ fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
             | Computation::ResponseWithCost
             | Computation::ResponseWithEffect
             | Computation::DiscGrowth
-            | Computation::DiscGrowthUndithered => {}
+            | Computation::DiscGrowthUndithered
+            | Computation::SystemGrowth
+            | Computation::SystemGrowthUndithered
+            | Computation::SystemCritical => {}
             Computation::Criterion => {
                 let found = criterion(belt, AveragingOptions::default());
                 results.criterion = Some(found.map_err(status));

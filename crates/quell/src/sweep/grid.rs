@@ -6,7 +6,7 @@ use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
 use crate::study::vocabulary::{Address, Role};
-use crate::study::{Axis, Study, Sweep};
+use crate::study::{Axis, AxisTarget, Study, Sweep};
 
 /// Largest number of points of a map: their values are kept in memory until the map is done.
 pub const MOST_POINTS: usize = 100_000_000;
@@ -91,9 +91,9 @@ impl Grid {
         let axes = sweeps.iter().map(|sweep| GridAxis {
             name: name_of(&sweep.path),
             path: sweep.path.clone(),
-            about: sweep.address.key.about,
-            symbol: sweep.address.key.parameter().map(|parameter| parameter.symbol),
-            unit: sweep.address.key.unit_in_words(),
+            about: sweep.target.about(),
+            symbol: sweep.target.symbol(),
+            unit: sweep.target.unit_in_words(),
             values: values(sweep),
             logarithmic: matches!(sweep.axis, Axis::Logarithmic { .. }),
         });
@@ -178,7 +178,9 @@ impl Grid {
 /// Whether two axes set the same number, as a parameter and its SI key do. Named constants share one key and differ in
 /// their paths.
 fn same(first: &Sweep, second: &Sweep) -> bool {
-    let (one, other) = (&first.address, &second.address);
+    let (AxisTarget::Key(one), AxisTarget::Key(other)) = (&first.target, &second.target) else {
+        return first.target == second.target;
+    };
     if one.key.role == Role::Constant {
         return first.path.trim() == second.path.trim();
     }

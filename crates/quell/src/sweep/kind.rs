@@ -4,6 +4,7 @@ use super::belt::BeltPoints;
 use super::disc::DiscPoints;
 use super::grid::Grid;
 use super::mapped::Mapped;
+use super::system::SystemPoints;
 use crate::complaint::Complaint;
 use crate::study::{Kind, Study};
 
@@ -24,5 +25,6 @@ pub(crate) fn of(study: &Study) -> Box<dyn Mapped> {
     match study.kind() {
         Kind::Belt(setup) => Box::new(BeltPoints::of(study.narrowed(setup.as_ref()))),
         Kind::Disc(setup) => Box::new(DiscPoints::of(study.narrowed(setup.as_ref()))),
+        Kind::System(setup) => Box::new(SystemPoints::of(study.narrowed(setup.as_ref()))),
     }
 }

@@ -26,6 +26,7 @@ mod runner;
 mod shard;
 mod sheet;
 mod status;
+mod system;
 
 pub use catalogue::QUANTITIES;
 pub use chunks::Chunks;

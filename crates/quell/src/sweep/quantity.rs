@@ -1,4 +1,4 @@
-//! The quantities that a map can show, each a value in the file of its kind of study (`belt.rs`, `disc.rs`).
+//! The quantities that a map can show, each a value in the file of its kind of study (`belt.rs`, `disc.rs`, `system.rs`).
 //!
 //! A quantity is requested by its name; it lists the computation that it needs and the variables that it provides.
 //! Quantities with the same computation share it.
@@ -17,6 +17,10 @@ pub enum VariableKind {
     Rate,
     /// Rates of a disc per unit τ = ω_ref t.
     DiscRate,
+    /// Rates and angular frequencies of a system, in the units of its file.
+    SystemRate,
+    /// Forces of a system, in the units of its file.
+    SystemForce,
     /// One of these words, stored as its index in the list.
     Word {
         /// The words.

@@ -21,7 +21,7 @@ pub(super) fn values(study: &DiscStudy, sweep: &Sweep) -> Vec<f64> {
         Axis::Linear { from, to, .. } | Axis::Logarithmic { from, to, .. } => (from, to),
         Axis::Values(_) => return values,
     };
-    if sweep.address.key.path() == "disc.load.speed" {
+    if sweep.target.key().is_some_and(|address| address.key.path() == "disc.load.speed") {
         values.extend(beside(study, range));
         values.sort_by(f64::total_cmp);
         values.dedup_by(|a, b| (*a - *b).abs() <= 1e-9);

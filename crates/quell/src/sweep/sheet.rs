@@ -122,9 +122,11 @@ impl Sheet {
         for (variable, computation) in variables {
             let name = variable.name;
             let content = match variable.kind {
-                VariableKind::Number(_) | VariableKind::Rate | VariableKind::DiscRate => {
-                    Content::Numbers
-                }
+                VariableKind::Number(_)
+                | VariableKind::Rate
+                | VariableKind::DiscRate
+                | VariableKind::SystemRate
+                | VariableKind::SystemForce => Content::Numbers,
                 VariableKind::Word { words, unknown } => {
                     let words = words.iter().chain([&unknown]).zip(0..);
                     let words = words.map(|(word, code)| (code, *word));
@@ -225,7 +227,11 @@ fn unknown(status: Status) -> f64 {
 fn unknown_word(kind: VariableKind) -> u8 {
     match kind {
         VariableKind::Word { words, .. } => u8::try_from(words.len()).unwrap_or(MISSING),
-        VariableKind::Number(_) | VariableKind::Rate | VariableKind::DiscRate => MISSING,
+        VariableKind::Number(_)
+        | VariableKind::Rate
+        | VariableKind::DiscRate
+        | VariableKind::SystemRate
+        | VariableKind::SystemForce => MISSING,
     }
 }
 
@@ -245,6 +251,8 @@ fn unit(kind: VariableKind, si: bool) -> String {
         VariableKind::Number(quantity) => unit_of(quantity, si),
         VariableKind::Rate => "ω₀".to_owned(),
         VariableKind::DiscRate => "ω_ref".to_owned(),
+        VariableKind::SystemRate => "1/time".to_owned(),
+        VariableKind::SystemForce => "force".to_owned(),
         VariableKind::Word { .. } => String::new(),
     }
 }
@@ -255,6 +263,8 @@ fn twin(kind: VariableKind) -> Option<(&'static str, &'static str)> {
         // A displacement is already in metres.
         VariableKind::Number(units::Quantity::Displacement)
         | VariableKind::DiscRate
+        | VariableKind::SystemRate
+        | VariableKind::SystemForce
         | VariableKind::Word { .. } => None,
         VariableKind::Number(quantity) => quantity.si_unit(),
         VariableKind::Rate => Some(("1/s", "per_s")),
@@ -266,7 +276,10 @@ fn factor(kind: VariableKind, scales: Scales) -> f64 {
     match kind {
         VariableKind::Number(quantity) => scales.si_per_unit(quantity),
         VariableKind::Rate => scales.angular_frequency(),
-        VariableKind::DiscRate | VariableKind::Word { .. } => 1.0,
+        VariableKind::DiscRate
+        | VariableKind::SystemRate
+        | VariableKind::SystemForce
+        | VariableKind::Word { .. } => 1.0,
     }
 }
 

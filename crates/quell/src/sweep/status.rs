@@ -52,6 +52,10 @@ pub enum Status {
     ChangesOnce = 28,
     /// The number is known, but slip left the range of the friction law.
     BeyondRange = 29,
+    /// A system has no steady sliding.
+    NoSteadySliding = 30,
+    /// A dither excites an undamped resonance.
+    Resonance = 31,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -80,6 +84,8 @@ impl Status {
         Self::NeverChanges,
         Self::ChangesOnce,
         Self::BeyondRange,
+        Self::NoSteadySliding,
+        Self::Resonance,
         Self::Missing,
     ];
 
@@ -122,6 +128,8 @@ impl Status {
             Self::NeverChanges => "never_changes",
             Self::ChangesOnce => "changes_once",
             Self::BeyondRange => "beyond_range",
+            Self::NoSteadySliding => "no_steady_sliding",
+            Self::Resonance => "resonance",
             Self::Missing => "missing",
         }
     }
@@ -169,6 +177,8 @@ impl Status {
             Self::BeyondRange => {
                 "the value is known, but slip leaves the range of the friction law"
             }
+            Self::NoSteadySliding => "there is no steady sliding",
+            Self::Resonance => "a dither excites an undamped resonance of the structure",
             Self::Missing => "not computed yet",
         }
     }

@@ -25,12 +25,14 @@ use super::{
 use crate::parameter::{MAXIMUM_VELOCITY, Parameter, STATIC_COEFFICIENT};
 use crate::{Invalid, InvalidValues};
 
+mod number;
 mod program;
 mod proof;
 mod series;
 mod syntax;
 mod tree;
 
+pub use number::NumberFormula;
 use program::Program;
 use proof::Formula;
 pub use series::{ExpressionConstants, ExpressionSeries};

@@ -65,13 +65,22 @@ pub fn is_taken(name: &str) -> bool {
     name == "v" || name == "pi" || Function::named(name).is_some() || NOT_SMOOTH.contains(&name)
 }
 
-/// Reads a formula whose constants have these names.
+/// Reads the formula of a law whose constants have these names.
 pub(super) fn parse(text: &str, names: &[&str]) -> Result<Tree, SyntaxError> {
+    read(text, names, true)
+}
+
+/// Reads the formula of a number: the slip velocity has no meaning in it.
+pub(super) fn parse_number(text: &str, names: &[&str]) -> Result<Tree, SyntaxError> {
+    read(text, names, false)
+}
+
+fn read(text: &str, names: &[&str], of_law: bool) -> Result<Tree, SyntaxError> {
     if text.chars().count() > LONGEST {
         let what = format!("the formula is longer than {LONGEST} characters");
         return Err(SyntaxError { character: LONGEST, what });
     }
-    let mut parser = Parser { tokens: tokens(text)?, at: 0, depth: 0, names };
+    let mut parser = Parser { tokens: tokens(text)?, at: 0, depth: 0, names, of_law };
     let tree = parser.sum()?;
     match parser.peek() {
         Token::End => Ok(tree),
@@ -135,6 +144,8 @@ struct Parser<'n> {
     at: usize,
     depth: usize,
     names: &'n [&'n str],
+    /// Whether the slip velocity may occur.
+    of_law: bool,
 }
 
 impl Parser<'_> {
@@ -218,8 +229,12 @@ impl Parser<'_> {
                 self.at += 1;
                 self.closed()
             }
-            other => Err(self
-                .wrong(format!("expected a number, v, a name, a function or “(”, found {other}"))),
+            other => {
+                let velocity = if self.of_law { "v, " } else { "" };
+                Err(self.wrong(format!(
+                    "expected a number, {velocity}a name, a function or “(”, found {other}"
+                )))
+            }
         }
     }
 
@@ -249,18 +264,25 @@ impl Parser<'_> {
             )));
         } else if let Some(index) = self.names.iter().position(|known| *known == name) {
             Tree::Constant(index)
-        } else if name == "v" {
+        } else if name == "v" && self.of_law {
             Tree::Velocity
         } else if name == "pi" {
             Tree::Number(std::f64::consts::PI)
         } else {
             let functions: Vec<&str> = Function::NAMES.iter().map(|(name, _)| *name).collect();
-            let constants = match self.names {
-                [] => "no constants are given in [friction.constants]".to_owned(),
-                names => format!("constants are {}", names.join(", ")),
+            let known = match (self.of_law, self.names) {
+                (true, []) => {
+                    "the slip velocity is v, no constants are given in [friction.constants]"
+                        .to_owned()
+                }
+                (true, names) => {
+                    format!("the slip velocity is v, constants are {}", names.join(", "))
+                }
+                (false, []) => "the study has no [parameters]".to_owned(),
+                (false, names) => format!("parameters are {}", names.join(", ")),
             };
             return Err(self.wrong(format!(
-                "{name} is unknown: the slip velocity is v, {constants}, functions are {}",
+                "{name} is unknown: {known}, functions are {}",
                 functions.join(", ")
             )));
         };

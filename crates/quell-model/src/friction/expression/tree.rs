@@ -85,6 +85,27 @@ impl Tree {
         }
     }
 
+    /// Adds the places of the named constants that occur in it, each once.
+    pub(super) fn constants(&self, found: &mut Vec<usize>) {
+        match self {
+            Self::Constant(index) => {
+                if !found.contains(index) {
+                    found.push(*index);
+                }
+            }
+            Self::Number(_) | Self::Velocity => {}
+            Self::Negative(x) | Self::Call(_, x) => x.constants(found),
+            Self::Sum(x, y)
+            | Self::Difference(x, y)
+            | Self::Product(x, y)
+            | Self::Quotient(x, y)
+            | Self::Power(x, y) => {
+                x.constants(found);
+                y.constants(found);
+            }
+        }
+    }
+
     /// Its value where it has no slip velocity in it.
     pub(super) fn value(&self, constants: &[f64]) -> f64 {
         let of = |tree: &Self| tree.value(constants);

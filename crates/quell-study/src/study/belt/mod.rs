@@ -2,7 +2,7 @@
 
 mod band;
 mod dither;
-mod friction;
+pub(in crate::study) mod friction;
 mod solver;
 mod table;
 
@@ -20,6 +20,7 @@ use super::disc::DiscSetup;
 use super::document::Table;
 use super::reader::Reader;
 use super::study_kind::{Given, StudyKind, wrong_kind};
+use super::system::SystemSetup;
 
 pub use friction::Measured;
 use table::BeltTable;
@@ -52,6 +53,10 @@ impl StudyKind for BeltSetup {
             reader.complain(wrong_kind(Self::NAME, DiscSetup::NAME, node.origin));
             return None;
         }
+        if let Some(node) = document.get("system") {
+            reader.complain(wrong_kind(Self::NAME, SystemSetup::NAME, node.origin));
+            return None;
+        }
         let mut belt = table::read(reader, document);
         let known = given.known.and_then(|setup| setup.measured.as_deref());
         let context =
@@ -77,8 +82,8 @@ impl StudyKind for BeltSetup {
         })
     }
 
-    fn data_file(&self) -> Option<&Path> {
-        self.measured.as_ref().and_then(|measured| measured.file.as_deref())
+    fn data_files(&self) -> Vec<&Path> {
+        self.measured.iter().filter_map(|measured| measured.file.as_deref()).collect()
     }
 
     fn file_settings(&self) -> Vec<(String, String)> {

@@ -63,10 +63,11 @@ impl StudyKind for DiscSetup {
     }
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
-        for name in ["belt", "friction", "solver"] {
+        for name in ["belt", "friction", "solver", "system"] {
             if let Some(node) = document.get(name) {
+                let other = if name == "system" { "a system" } else { "a belt" };
                 let allowed = format!(
-                    "a study describes either a belt or a disc; [{name}] belongs to a belt"
+                    "a study describes either {other} or a disc; [{name}] belongs to {other}"
                 );
                 let complaint =
                     Complaint::new(Fault::Conflict, name, node.origin, Json::Null, allowed);
@@ -108,10 +109,10 @@ impl StudyKind for DiscSetup {
         }
     }
 
-    fn data_file(&self) -> Option<&Path> {
+    fn data_files(&self) -> Vec<&Path> {
         match &self.plate.source {
-            ModeSource::File { path, .. } => Some(path.as_path()),
-            ModeSource::Plate(_) | ModeSource::List(_) => None,
+            ModeSource::File { path, .. } => vec![path.as_path()],
+            ModeSource::Plate(_) | ModeSource::List(_) => Vec::new(),
         }
     }
 

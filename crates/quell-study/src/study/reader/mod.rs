@@ -69,6 +69,21 @@ impl Reader {
         Self { units: Units::Disc(None), complaints: Vec::new(), written: Vec::new() }
     }
 
+    /// A reader whose numbers are those of the file.
+    pub(super) fn as_written() -> Self {
+        Self { units: Units::Scaled, complaints: Vec::new(), written: Vec::new() }
+    }
+
+    /// A reader of keys in SI with these scales.
+    pub(super) fn in_si(scales: Option<Scales>) -> Self {
+        Self { units: Units::Si(scales), complaints: Vec::new(), written: Vec::new() }
+    }
+
+    /// Whether a key has been complained about.
+    pub(super) fn has_complaint_about(&self, key: &str) -> bool {
+        self.complaints.iter().any(|complaint| complaint.key == key)
+    }
+
     /// Sets the scales of the disc for the keys read from here on.
     pub(super) fn set_disc_scales(&mut self, scales: Option<DiscScales>) {
         self.units = Units::Disc(scales);

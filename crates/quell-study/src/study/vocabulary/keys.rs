@@ -62,7 +62,8 @@ fn numbers() -> Vec<Key> {
     let mut keys: Vec<Key> = scales.collect();
     // Kinds may share keys (the dither of a disc has those of a belt): the first kind defines them.
     let mut parameters: Vec<Parameter> = Vec::new();
-    for parameter in quell_model::PARAMETERS.iter().copied().flatten() {
+    // A study of a system has keys of its own (`study::system`), which only it knows.
+    for parameter in parameter::BELT.iter().chain(parameter::disc::DISC) {
         if !parameters.iter().any(|known| known.path == parameter.path) {
             parameters.push(*parameter);
         }

@@ -18,6 +18,12 @@ pub enum Choice {
     Spacing,
     /// Parts of the disc's equations.
     Contribution,
+    /// Initial states of a system.
+    SystemState,
+    /// Units of the bare numbers of a system.
+    SystemUnits,
+    /// Normalisations of mode shapes.
+    Normalisation,
 }
 
 impl Choice {
@@ -29,6 +35,9 @@ impl Choice {
             Self::Direction => Direction::ALL.iter().map(|direction| direction.name()).collect(),
             Self::Waveform => Waveform::ALL.iter().map(|waveform| waveform.name()).collect(),
             Self::Spacing => vec!["linear", "log"],
+            Self::SystemState => vec!["rest", "sliding", "squealing", "base"],
+            Self::SystemUnits => vec!["none", "SI", "mm-t-s"],
+            Self::Normalisation => vec!["mass", "max"],
             Self::Contribution => Contribution::ALL.iter().map(|part| part.name()).collect(),
         }
     }

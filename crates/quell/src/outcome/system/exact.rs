@@ -19,7 +19,8 @@ impl Presented<SystemSetup> for ExactStability {
     }
 
     fn table(&self, _: &SystemStudy) -> String {
-        let mut text = format!("  {:>14}  {:>14}  {:>14}\n", "growth rate", "error at most", "frequency");
+        let mut text =
+            format!("  {:>14}  {:>14}  {:>14}\n", "growth rate", "error at most", "frequency");
         for found in self.orbit.exponents.iter().filter(|found| found.exponent.im >= 0.0) {
             text += &format!(
                 "  {:>14}  {:>14}  {:>14}\n",

@@ -24,7 +24,8 @@ fn motions<'a>(units: SystemUnits, all: impl Iterator<Item = &'a SmallMotion>) -
         let frequency = motion.frequency();
         let frequency = if hertz { frequency / std::f64::consts::TAU } else { frequency };
         let (rate, ratio) = (motion.eigenvalue.re, motion.damping_ratio());
-        text += &format!("  {:>14}  {:>14}  {:>14}\n", figure(frequency), figure(rate), figure(ratio));
+        text +=
+            &format!("  {:>14}  {:>14}  {:>14}\n", figure(frequency), figure(rate), figure(ratio));
     }
     if all.len() > MOST_MOTIONS {
         text += &format!("  … and {} more; --json lists all\n", all.len() - MOST_MOTIONS);

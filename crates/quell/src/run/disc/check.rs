@@ -44,7 +44,7 @@ pub fn json(study: &DiscStudy) -> Json {
         .map(|sweep| {
             json!({
                 "parameter": sweep.path,
-                "unit": sweep.address.key.unit_in_words(),
+                "unit": sweep.target.unit_in_words(),
                 "points": sweep.axis.len(),
                 "from": sweep.axis.value(0),
                 "to": sweep.axis.value(usize::MAX),

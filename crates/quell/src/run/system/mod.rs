@@ -1,5 +1,6 @@
 //! Runs of a study of a system: one file per verb.
 
+pub mod check;
 pub mod exact;
 pub mod modes;
 pub mod reach;
@@ -39,7 +40,10 @@ fn put_motion(system: &System, units: SystemUnits, motion: &SmallMotion) -> Fiel
         .number("frequency", Quantity::FrequencyRatio, motion.frequency())
         .number("damping_ratio", Quantity::Ratio, motion.damping_ratio())
         .rate("error", Ok(motion.error))
-        .plain("shape", motion.shape.iter().map(|z| [z.re, z.im]).map(Vec::from).collect::<Vec<_>>());
+        .plain(
+            "shape",
+            motion.shape.iter().map(|z| [z.re, z.im]).map(Vec::from).collect::<Vec<_>>(),
+        );
     let contacts = system.contacts.iter().zip(&motion.friction_shares);
     if motion.friction_shares.is_empty() && !system.contacts.is_empty() {
         let why = "the energy of first-order equations is not known, and a motion at rest has none";

@@ -62,7 +62,8 @@ impl SystemModes {
 
     /// As a dataset, one row per mode.
     pub fn dataset(&self, study: &SystemStudy) -> Dataset {
-        let column = |of: &dyn Fn(&SmallMotion) -> f64| self.modes.iter().map(of).collect::<Vec<f64>>();
+        let column =
+            |of: &dyn Fn(&SmallMotion) -> f64| self.modes.iter().map(of).collect::<Vec<f64>>();
         let number = (1..=self.modes.len()).map(|index| index as f64).collect();
         let unit = study.units().unit(Quantity::FrequencyRatio).unwrap_or("1");
         let mut dataset = Dataset::of(&study.into(), "modes")

@@ -87,9 +87,12 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Fa
         };
         let table: Vec<Option<Vec<f64>>> = frequencies.iter().map(|w| slips(*w)).collect();
         for contact in 0..system.contacts.len() {
-            let at = |frequency: f64| slips(frequency).map_or(f64::INFINITY, |found| found[contact]);
-            let slip: Vec<f64> =
-                table.iter().map(|row| row.as_ref().map_or(f64::INFINITY, |row| row[contact])).collect();
+            let at =
+                |frequency: f64| slips(frequency).map_or(f64::INFINITY, |found| found[contact]);
+            let slip: Vec<f64> = table
+                .iter()
+                .map(|row| row.as_ref().map_or(f64::INFINITY, |row| row[contact]))
+                .collect();
             let extremes = extremes(&frequencies, &slip, at);
             pairs.push(Reach { dither, contact, slip, extremes });
         }
@@ -109,14 +112,21 @@ fn extremes(frequencies: &[f64], slip: &[f64], at: impl Fn(f64) -> f64) -> Vec<E
         }
         let sign = if peak { -1.0 } else { 1.0 };
         let ends = (frequencies[k - 1], frequencies[k + 1]);
-        let Ok(best) = minimise(|w| sign * at(w), ends.0, ends.1, Closeness::default()) else { continue };
+        let Ok(best) = minimise(|w| sign * at(w), ends.0, ends.1, Closeness::default()) else {
+            continue;
+        };
         let value = sign * best.value;
         let octave = frequencies.iter().zip(slip).filter(|(w, s)| {
             s.is_finite() && **w > 0.5 * best.location && **w < 2.0 * best.location
         });
         let (sum, count) = octave.fold((0.0, 0.0), |(sum, count), (_, s)| (sum + s, count + 1.0));
         let out_of_reach = dip && value <= OUT_OF_REACH * sum / f64::max(count, 1.0);
-        found.push(Extreme { frequency: best.location, slip_per_amplitude: value, peak, out_of_reach });
+        found.push(Extreme {
+            frequency: best.location,
+            slip_per_amplitude: value,
+            peak,
+            out_of_reach,
+        });
     }
     found
 }
@@ -124,10 +134,12 @@ fn extremes(frequencies: &[f64], slip: &[f64], at: impl Fn(f64) -> f64) -> Vec<E
 impl Reaches {
     /// The answer in one sentence.
     pub fn sentence(&self, study: &SystemStudy) -> String {
-        let count = self.pairs.iter().flat_map(|pair| &pair.extremes).filter(|at| at.out_of_reach).count();
+        let count =
+            self.pairs.iter().flat_map(|pair| &pair.extremes).filter(|at| at.out_of_reach).count();
         let peaks = self.pairs.iter().flat_map(|pair| &pair.extremes).filter(|at| at.peak).count();
         let (first, last) = (self.frequencies.first(), self.frequencies.last());
-        let unit = study.units().unit(Quantity::FrequencyRatio).map_or(String::new(), |u| format!(" {u}"));
+        let unit =
+            study.units().unit(Quantity::FrequencyRatio).map_or(String::new(), |u| format!(" {u}"));
         format!(
             "From {:.6} to {:.6}{unit}, the dither reaches the contacts best at {peaks} frequenc{} and hardly at all at {count} \
              frequenc{}.",
@@ -176,8 +188,11 @@ impl Reaches {
 
     /// Slip amplitude per unit of dither over the frequency, one array for each pair.
     pub fn dataset(&self, study: &SystemStudy) -> Dataset {
-        let mut dataset = Dataset::of(&study.into(), "resonances")
-            .axis("frequency", Quantity::Ratio, self.frequencies.clone());
+        let mut dataset = Dataset::of(&study.into(), "resonances").axis(
+            "frequency",
+            Quantity::Ratio,
+            self.frequencies.clone(),
+        );
         for pair in &self.pairs {
             let contact = &study.system().contacts[pair.contact].name;
             let name = format!("slip_of_{contact}_per_dither_{}", pair.dither);

@@ -57,7 +57,8 @@ pub struct SystemStability {
 pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
     let system = study.system();
     let linear = Linearised::new(system).map_err(|why| failed("stability", why))?;
-    let undithered = spectrum(&linear, &linear.friction()).map_err(|why| failed("stability", why))?;
+    let undithered =
+        spectrum(&linear, &linear.friction()).map_err(|why| failed("stability", why))?;
     let mut warnings = study.warnings().to_vec();
     warnings.extend(outside_of_laws(system, None));
     if !is_dithered(system) {
@@ -108,7 +109,8 @@ fn opened(system: &System, contacts: &[DitheredContact]) -> Vec<String> {
 fn not_slow(system: &System, undithered: &Spectrum) -> Option<String> {
     let waves = system.inputs.iter().flat_map(|input| input.profile.waves());
     let slowest = waves.map(|wave| wave.frequency).fold(f64::INFINITY, f64::min);
-    let near = upper(undithered).map(|motion| motion.frequency()).filter(|own| *own * FAR > slowest);
+    let near =
+        upper(undithered).map(|motion| motion.frequency()).filter(|own| *own * FAR > slowest);
     let nearest = near.min_by(|a, b| (a - slowest).abs().total_cmp(&(b - slowest).abs()))?;
     Some(format!(
         "the eigenfrequency {nearest:.6} is not far below the dither frequency {slowest:.6}: averaging assumes that the dither is \
@@ -149,7 +151,9 @@ impl SystemStability {
         };
         let frequency = with_hertz(study.units(), frequency);
         let verdict = match self.spectrum.growth.verdict() {
-            Verdict::Stable => format!("steady sliding is stable: every motion decays, the slowest at the rate {rate:.6}"),
+            Verdict::Stable => format!(
+                "steady sliding is stable: every motion decays, the slowest at the rate {rate:.6}"
+            ),
             Verdict::Unstable => format!(
                 "steady sliding is unstable: a motion of angular frequency {frequency} grows at the rate {rate:.6}"
             ),
@@ -168,7 +172,8 @@ impl SystemStability {
         let without = undithered.growth.verdict().name();
         let waves = study.system().inputs.first().map(|input| input.profile.waves());
         let now = waves.and_then(|waves| waves.first()).map_or(0.0, |wave| wave.amplitude);
-        let unit = study.units().unit(Quantity::Force).map_or(String::new(), |unit| format!(" {unit}"));
+        let unit =
+            study.units().unit(Quantity::Force).map_or(String::new(), |unit| format!(" {unit}"));
         let wanted = match self.spectrum.growth.verdict() {
             Verdict::Stable => Becomes::Unstable,
             _ => Becomes::Stable,
@@ -246,10 +251,11 @@ impl SystemStability {
 
 fn put_contact(name: &str, units: SystemUnits, found: &SlidingContact) -> Fields {
     let mut fields = Fields::of_system(units);
-    fields
-        .plain("name", name)
-        .number("friction", Quantity::Force, found.friction)
-        .number("normal", Quantity::Force, found.normal_load);
+    fields.plain("name", name).number("friction", Quantity::Force, found.friction).number(
+        "normal",
+        Quantity::Force,
+        found.normal_load,
+    );
     let no_dither = || "the study has no dither".to_owned();
     let dithered = found.dithered.ok_or_else(no_dither);
     let of = |pick: fn(&DitheredContact) -> f64| dithered.as_ref().map(pick).map_err(Clone::clone);

@@ -70,7 +70,8 @@ impl Family for StudyFamily<'_> {
     type Error = String;
 
     fn matrix(&self, value: f64) -> Result<Matrix, String> {
-        let numbers: Vec<(&str, f64)> = self.fixed.into_iter().chain([(self.path, value)]).collect();
+        let numbers: Vec<(&str, f64)> =
+            self.fixed.into_iter().chain([(self.path, value)]).collect();
         let system = self.study.system_at(&numbers).map_err(|why| why.to_string())?;
         if is_dithered(&system) {
             let prepared = DitheredSystem::new(&system).map_err(|why| why.to_string())?;
@@ -149,7 +150,8 @@ fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<(), Failure
     let first = (("--parameter", "--from", "--to"), &request.parameter, request.window);
     for ((option, from, to), path, window) in [Some(first), along].into_iter().flatten() {
         if study.number(path).is_none() {
-            let allowed = "the path of a number of the study, such as contact.pad.friction.coefficient";
+            let allowed =
+                "the path of a number of the study, such as contact.pad.friction.coefficient";
             wrong.push(Complaint::option(option, path.as_str(), allowed));
             continue;
         }
@@ -169,11 +171,16 @@ fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<(), Failure
 ///
 /// # Errors
 /// As [`run`]; a system with dither, whose exact thresholds are those of its periodic motions.
-pub fn thresholds(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStability, Failure> {
+pub fn thresholds(
+    study: &SystemStudy,
+    request: &TrackRequest,
+) -> Result<TrackedStability, Failure> {
     if is_dithered(study.system()) {
         let allowed = "a study without dither: thresholds of dithered systems follow their periodic motions, which is not \
                        implemented yet; `stability --parameter` gives the thresholds of averaging";
-        return Err(Complaint::new(Fault::NotBuilt, "dither", Origin::Whole, Json::Null, allowed).into());
+        return Err(
+            Complaint::new(Fault::NotBuilt, "dither", Origin::Whole, Json::Null, allowed).into()
+        );
     }
     run(study, request)
 }
@@ -197,7 +204,9 @@ impl TrackedStability {
                 let how = match found.change {
                     Change::Hopf => format!("at the angular frequency {frequency}"),
                     Change::Divergence => "without oscillation".to_owned(),
-                    Change::Coalescence => format!("as two motions merge at the angular frequency {frequency}"),
+                    Change::Coalescence => {
+                        format!("as two motions merge at the angular frequency {frequency}")
+                    }
                     Change::Jump => "by a jump".to_owned(),
                 };
                 format!("{} at {parameter} = {:.9}, {how}", found.verdicts[1].name(), found.value)
@@ -207,7 +216,9 @@ impl TrackedStability {
         let mut sentence = if changes.is_empty() {
             let verdict = self.tracked.pieces.first().and_then(|piece| piece.first());
             let verdict = verdict.map_or("unknown", |point| point.growth.verdict().name());
-            format!("{by} sliding is {verdict} from {parameter} = {from} to {to}; no threshold was found.")
+            format!(
+                "{by} sliding is {verdict} from {parameter} = {from} to {to}; no threshold was found."
+            )
         } else {
             format!("{by} sliding becomes {}.", changes.join("; "))
         };
@@ -248,7 +259,8 @@ impl TrackedStability {
             fields.list("curves", curves.collect::<Vec<_>>());
         }
         let unknown = self.tracked.unknown.iter();
-        let unknown = unknown.map(|range| json!({ "from": range.from, "to": range.to, "why": range.why }));
+        let unknown =
+            unknown.map(|range| json!({ "from": range.from, "to": range.to, "why": range.why }));
         fields.plain("unknown", unknown.collect::<Vec<Json>>());
         fields.plain("warnings", self.warnings(study));
         fields.finish()
@@ -258,7 +270,10 @@ impl TrackedStability {
     fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let unknown = self.tracked.unknown.iter().map(|range| {
             let parameter = &self.request.parameter;
-            format!("from {parameter} = {} to {} there is no answer: {}", range.from, range.to, range.why)
+            format!(
+                "from {parameter} = {} to {} there is no answer: {}",
+                range.from, range.to, range.why
+            )
         });
         study.warnings().iter().cloned().chain(unknown).collect()
     }

@@ -24,13 +24,13 @@ use read_law::ReadLaw;
 
 /// What is known before a law is read.
 #[derive(Clone, Copy)]
-pub(super) struct LawContext<'a> {
+pub(in crate::study) struct LawContext<'a> {
     /// Folder of sample files.
-    pub(super) folder: &'a Path,
+    pub(in crate::study) folder: &'a Path,
     /// Samples of an earlier reading: they are neither read nor fitted again.
-    pub(super) known: Option<&'a Measured>,
+    pub(in crate::study) known: Option<&'a Measured>,
     /// The normal load F, if given and valid.
-    pub(super) normal_load: Option<f64>,
+    pub(in crate::study) normal_load: Option<f64>,
 }
 
 /// Reads `[friction]`.
@@ -46,6 +46,15 @@ pub(super) fn read(reader: &mut Reader, root: &Table, context: LawContext<'_>) -
         ));
         return None;
     };
+    read_table(reader, node, context)
+}
+
+/// Reads the table of a law; its keys are reported as those of `[friction]`.
+pub(in crate::study) fn read_table(
+    reader: &mut Reader,
+    node: &Node,
+    context: LawContext<'_>,
+) -> Option<ReadLaw> {
     let table = reader.table("friction", node)?;
     let name = reader.needed_choice(table, "friction", node.origin, "law", Choice::Law);
     let kind = name.and_then(LawKind::from_name);

@@ -5,13 +5,13 @@ use quell_model::Friction;
 use super::measured::Measured;
 
 /// A law as `[friction]` gives it.
-pub(in crate::study::belt) struct ReadLaw {
+pub(in crate::study) struct ReadLaw {
     /// The law.
-    pub(in crate::study::belt) law: Friction,
+    pub(in crate::study) law: Friction,
     /// The samples that it was fitted to.
-    pub(in crate::study::belt) measured: Option<Measured>,
+    pub(in crate::study) measured: Option<Measured>,
     /// The normal load F of friction in newtons where the study gives none.
-    pub(in crate::study::belt) own_load: Option<f64>,
+    pub(in crate::study) own_load: Option<f64>,
 }
 
 impl ReadLaw {

@@ -1,0 +1,288 @@
+//! `[[contact]]`: rows, load, moving surface and friction law.
+
+use std::path::Path;
+
+use quell_model::friction::Surroundings;
+use quell_model::parameter::system::{
+    CONTACT_BELT_VELOCITY, CONTACT_NORMAL_DAMPING, CONTACT_NORMAL_LOAD, CONTACT_NORMAL_STIFFNESS,
+};
+use quell_model::profile::Profile;
+use quell_model::{Contact, Friction, LawKind};
+
+use super::friction::{self, LawRead};
+use super::keys::SystemTable;
+use super::numbers::{Numbers, missing, unknown_keys};
+use super::rows::Basis;
+use super::structure::{NAME, is_plain_name};
+use crate::complaint::{Complaint, Fault};
+use crate::study::Measured;
+use crate::study::document::{Node, Table, Value};
+use crate::study::reader::Reader;
+use crate::study::vocabulary::join;
+
+/// What contacts need to know of the rest of the study.
+#[derive(Clone, Copy)]
+pub(super) struct ContactContext<'a> {
+    pub(super) numbers: &'a Numbers,
+    pub(super) basis: &'a Basis,
+    /// Whether the equations are of first order.
+    pub(super) first_order: bool,
+    /// Whether the names are those of a measured frequency response, which may name rows of contacts.
+    pub(super) measured: bool,
+    /// The law of contacts without one of their own.
+    pub(super) shared: Option<&'a Node>,
+    pub(super) folder: &'a Path,
+    pub(super) known: &'a [Option<Measured>],
+}
+
+/// Each table of a list with its prefix; a single one has no index.
+pub(super) fn listed<'t>(
+    reader: &mut Reader,
+    parent: &'t Table,
+    prefix: &str,
+    name: &str,
+) -> Vec<(String, &'t Node, &'t Table)> {
+    let Some(node) = parent.get(name) else { return Vec::new() };
+    let path = join(prefix, name);
+    let several = match &node.value {
+        Value::List(list) => list.as_slice(),
+        _ => std::slice::from_ref(node),
+    };
+    let single = several.len() == 1;
+    let mut found = Vec::with_capacity(several.len());
+    for (index, node) in several.iter().enumerate() {
+        let at = if single { path.clone() } else { format!("{path}[{index}]") };
+        match node.table() {
+            Some(table) => found.push((at, node, table)),
+            None => {
+                reader.wrong(&at, node, format!("a table [[{path}]]; got {}", node.kind()));
+            }
+        }
+    }
+    found
+}
+
+/// Reads every contact, with the samples of measured laws; `None` if one is wrong.
+pub(super) fn read(
+    reader: &mut Reader,
+    document: &Table,
+    context: ContactContext<'_>,
+) -> Option<Vec<(Contact, Option<Measured>)>> {
+    let tables = listed(reader, document, "", "contact");
+    let mut names: Vec<String> = Vec::new();
+    let contacts: Vec<Option<(Contact, Option<Measured>)>> = tables
+        .into_iter()
+        .enumerate()
+        .map(|(index, (prefix, node, table))| {
+            let name = name(reader, table, &prefix, index, &mut names);
+            one(reader, table, node, &prefix, index, context).map(|(contact, measured)| {
+                (Contact { name: name.unwrap_or_default(), ..contact }, measured)
+            })
+        })
+        .collect();
+    contacts.into_iter().collect()
+}
+
+/// Names of the contacts of a document, as far as they are given.
+pub(super) fn names(document: &Table) -> Vec<String> {
+    let tables: Vec<&Table> = match document.get("contact").map(|node| &node.value) {
+        Some(Value::Table(table)) => vec![table],
+        Some(Value::List(list)) => list.iter().filter_map(Node::table).collect(),
+        _ => Vec::new(),
+    };
+    let name = |(index, table): (usize, &Table)| match table.get("name").map(|node| &node.value) {
+        Some(Value::Text(text)) => text.clone(),
+        _ => default_name(index),
+    };
+    tables.into_iter().enumerate().map(name).collect()
+}
+
+fn default_name(index: usize) -> String {
+    format!("contact {}", index + 1)
+}
+
+fn name(
+    reader: &mut Reader,
+    table: &Table,
+    prefix: &str,
+    index: usize,
+    earlier: &mut Vec<String>,
+) -> Option<String> {
+    let Some(node) = table.get("name") else {
+        earlier.push(default_name(index));
+        return earlier.last().cloned();
+    };
+    let key = join(prefix, "name");
+    let text = reader.text(&key, node)?;
+    if !is_plain_name(&text) {
+        reader.wrong(&key, node, NAME);
+        return None;
+    }
+    if earlier.contains(&text) {
+        reader.wrong(&key, node, "a name that no other contact has");
+        return None;
+    }
+    earlier.push(text.clone());
+    Some(text)
+}
+
+fn one(
+    reader: &mut Reader,
+    table: &Table,
+    node: &Node,
+    prefix: &str,
+    index: usize,
+    context: ContactContext<'_>,
+) -> Option<(Contact, Option<Measured>)> {
+    unknown_keys(reader, table, prefix, SystemTable::Contact);
+    let ContactContext { numbers, first_order, .. } = context;
+    let before = reader.complaints_so_far();
+    let rows = ["tangent", "normal", "slope", "force"]
+        .map(|name| row(reader, table, prefix, name, index, context));
+    let rows_are_right = reader.complaints_so_far() == before;
+    let [tangent, normal, slope, force] = rows;
+    if first_order && tangent.is_some() && !table.has("force") {
+        let allowed = "the effect of the friction force on each state, which stands for M⁻¹t: first-order equations have \
+                       no mass matrix";
+        missing(reader, join(prefix, "force"), node.origin, allowed);
+    }
+    let mut number = |parameter| numbers.needed(reader, table, prefix, node.origin, parameter);
+    let (load, velocity) = (number(CONTACT_NORMAL_LOAD), number(CONTACT_BELT_VELOCITY));
+    let mut number = |parameter| numbers.optional(reader, table, prefix, parameter);
+    let (stiffness, damping) = (number(CONTACT_NORMAL_STIFFNESS), number(CONTACT_NORMAL_DAMPING));
+    without_normal(reader, table, prefix, &["normal_stiffness", "normal_damping"]);
+    let law = law(reader, table, node, prefix, index, tangent.is_some(), context);
+    if !rows_are_right {
+        return None;
+    }
+    let (LawRead { law, measured, reversed }, velocity) = (law?, velocity?);
+    // Negative friction is friction of a surface that moves in the other direction; it exists only without a tangent,
+    // where the slip velocity is that of the surface.
+    let velocity = if reversed { -velocity } else { velocity };
+    let law = placed(reader, table, prefix, node, law, load, velocity)?;
+    let contact = Contact {
+        name: String::new(),
+        tangent,
+        force,
+        normal,
+        slope,
+        normal_load: load?,
+        normal_stiffness: stiffness?.unwrap_or(0.0),
+        normal_damping: damping?.unwrap_or(0.0),
+        surface_velocity: Profile::constant(velocity),
+        friction: law,
+    };
+    Some((contact, measured))
+}
+
+/// A row of a contact. Rows of a measured frequency response may have the name of the contact, as `pad.tangent`.
+fn row(
+    reader: &mut Reader,
+    table: &Table,
+    prefix: &str,
+    name: &'static str,
+    index: usize,
+    context: ContactContext<'_>,
+) -> Option<Vec<f64>> {
+    let ContactContext { numbers, basis, first_order, measured, .. } = context;
+    let Some(node) = table.get(name) else {
+        let own = match table.get("name").map(|node| &node.value) {
+            Some(Value::Text(text)) => text.clone(),
+            _ => default_name(index),
+        };
+        let place = basis.names.iter().position(|known| *known == format!("{own}.{name}"));
+        let place = place.filter(|_| measured)?;
+        return Some(basis.names.iter().enumerate().map(|(i, _)| f64::from(i == place)).collect());
+    };
+    let key = join(prefix, name);
+    let refused = match (first_order, name) {
+        (true, "normal" | "slope") => Some(
+            "only mechanical systems with coordinates have it: the reaction of a normal contact needs their mass matrix",
+        ),
+        (false, "force") => {
+            Some("only first-order systems with states have it; friction acts along tangent")
+        }
+        _ => None,
+    };
+    if let Some(allowed) = refused {
+        reader.complain(Complaint::new(Fault::Conflict, key, node.origin, node.given(), allowed));
+        return None;
+    }
+    basis.row_not_zero(reader, numbers, &key, node)
+}
+
+/// Reports stiffness and damping of a contact without a normal row.
+fn without_normal(reader: &mut Reader, table: &Table, prefix: &str, names: &[&str]) {
+    let has_normal = table.has("normal");
+    for (name, node) in table.iter() {
+        let compliant = names.iter().any(|known| name.starts_with(known));
+        if compliant && !has_normal && node.value != Value::Number(0.0) {
+            let key = join(prefix, name);
+            let allowed = format!(
+                "requires the row {}: without it the load is prescribed",
+                join(prefix, "normal")
+            );
+            reader.complain(Complaint::new(
+                Fault::Conflict,
+                key,
+                node.origin,
+                node.given(),
+                allowed,
+            ));
+        }
+    }
+}
+
+/// The law of a contact: its own or the shared one.
+fn law(
+    reader: &mut Reader,
+    table: &Table,
+    contact: &Node,
+    prefix: &str,
+    index: usize,
+    has_tangent: bool,
+    context: ContactContext<'_>,
+) -> Option<LawRead> {
+    let known = context.known.get(index).and_then(Option::as_ref);
+    let (path, node) = match (table.get("friction"), context.shared) {
+        (Some(node), _) => (join(prefix, "friction"), node),
+        (None, Some(node)) => ("friction".to_owned(), node),
+        (None, None) => {
+            let allowed = "a table [contact.friction] with law and its parameters, or one [friction] for all contacts";
+            missing(reader, join(prefix, "friction"), contact.origin, allowed);
+            return None;
+        }
+    };
+    friction::read(reader, node, &path, context.numbers, has_tangent, context.folder, known)
+}
+
+/// The law in the surroundings of its contact: a formula is proven up to the slip speeds that are expected there.
+fn placed(
+    reader: &mut Reader,
+    table: &Table,
+    prefix: &str,
+    contact: &Node,
+    law: Friction,
+    load: Option<f64>,
+    velocity: f64,
+) -> Option<Friction> {
+    if !matches!(law.kind(), LawKind::Expression | LawKind::Samples) {
+        return Some(law);
+    }
+    let surroundings = Surroundings { normal_load: load.unwrap_or(1.0), slip: velocity.abs() };
+    match law.placed(&surroundings) {
+        Ok(law) => Some(law),
+        Err(invalid) => {
+            let (path, friction) = match table.get("friction") {
+                Some(node) => (join(prefix, "friction"), node),
+                None => ("friction".to_owned(), contact),
+            };
+            for wrong in invalid {
+                let name = wrong.key.rsplit('.').next().unwrap_or_default().to_owned();
+                let node = friction.table().and_then(|table| table.get(&name)).unwrap_or(friction);
+                reader.wrong(&join(&path, &name), node, wrong.allowed);
+            }
+            None
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! `[[dither]]`: periodic forces on coordinates and modulations of the load of a contact.
+
+use quell_model::parameter::system::SYSTEM_DITHER_FREQUENCY;
+use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE};
+use quell_model::profile::{Profile, Wave};
+use quell_model::system::{Input, InputTarget};
+use quell_model::{Contact, Waveform};
+
+use super::contact::listed;
+use super::keys::SystemTable;
+use super::numbers::{Numbers, Wanted, missing, unknown_keys};
+use super::rows::Basis;
+use crate::complaint::{Complaint, Fault};
+use crate::study::document::{Node, Table, Value};
+use crate::study::reader::Reader;
+use crate::study::suggest;
+use crate::study::vocabulary::{Choice, join};
+
+/// The contacts that a dither can modulate.
+#[derive(Clone, Copy)]
+pub(super) struct DitherContext<'a> {
+    pub(super) numbers: &'a Numbers,
+    pub(super) basis: &'a Basis,
+    /// Names of all contacts.
+    pub(super) names: &'a [String],
+    /// The contacts, if all are right.
+    pub(super) contacts: Option<&'a [Contact]>,
+}
+
+/// Reads every dither; `None` if one is wrong.
+pub(super) fn read(
+    reader: &mut Reader,
+    document: &Table,
+    context: DitherContext<'_>,
+) -> Option<Vec<Input>> {
+    let tables = listed(reader, document, "", "dither");
+    let inputs: Vec<Option<Input>> = tables
+        .iter()
+        .map(|(prefix, node, table)| one(reader, prefix, node, table, context))
+        .collect();
+    let whole: Option<Vec<Input>> = inputs.iter().cloned().collect();
+    if let Some(contacts) = context.contacts {
+        stays_pressed(reader, &tables, &inputs, contacts);
+    }
+    whole
+}
+
+fn one(
+    reader: &mut Reader,
+    prefix: &str,
+    node: &Node,
+    table: &Table,
+    context: DitherContext<'_>,
+) -> Option<Input> {
+    unknown_keys_of_dither(reader, table, prefix);
+    let target = target(reader, prefix, node, table, context);
+    let waveform = reader
+        .needed_choice(table, prefix, node.origin, "waveform", Choice::Waveform)
+        .and_then(Waveform::from_name);
+    let numbers = context.numbers;
+    let amplitude = amplitude(reader, prefix, node, table, waveform, numbers);
+    let frequency = numbers.needed(reader, table, prefix, node.origin, SYSTEM_DITHER_FREQUENCY);
+    let phase = numbers.optional(reader, table, prefix, DITHER_PHASE);
+    let wave = Wave {
+        waveform: waveform?,
+        amplitude: amplitude?,
+        frequency: frequency?,
+        phase: phase?.unwrap_or(0.0),
+    };
+    Some(Input { target: target?, profile: Profile::constant(0.0).with(wave) })
+}
+
+/// The key that gives the amplitude as a root mean square.
+const RMS: &str = "amplitude_n_rms";
+
+fn unknown_keys_of_dither(reader: &mut Reader, table: &Table, prefix: &str) {
+    unknown_keys(reader, table, prefix, SystemTable::Dither);
+}
+
+/// Peak amplitude; the waveform converts a root mean square.
+fn amplitude(
+    reader: &mut Reader,
+    prefix: &str,
+    node: &Node,
+    table: &Table,
+    waveform: Option<Waveform>,
+    numbers: &Numbers,
+) -> Option<f64> {
+    if !table.has(RMS) {
+        return numbers.needed(reader, table, prefix, node.origin, DITHER_AMPLITUDE);
+    }
+    let first = if table.has("amplitude_n") { "amplitude_n" } else { DITHER_AMPLITUDE.key() };
+    let found = numbers.keyed(reader, table, prefix, first, Some(RMS))?;
+    let wanted = Wanted { twin: found.twin, ..Wanted::of(DITHER_AMPLITUDE) };
+    let value = numbers.number(reader, || found.key.clone(), found.node, wanted)?;
+    Some(if found.twin { value / waveform?.root_mean_square() } else { value })
+}
+
+/// Where a dither enters: `at`, or `contact`.
+fn target(
+    reader: &mut Reader,
+    prefix: &str,
+    node: &Node,
+    table: &Table,
+    context: DitherContext<'_>,
+) -> Option<InputTarget> {
+    let Some(at) = table.get("at") else {
+        let Some(contact) = table.get("contact") else {
+            let allowed = "a row over the coordinates, such as { x = 1.0 }, or contact, the name of the contact whose load \
+                           is modulated";
+            missing(reader, join(prefix, "at"), node.origin, allowed);
+            return None;
+        };
+        return of_contact(reader, prefix, node, table, contact, context);
+    };
+    for name in ["contact", "direction", "reaction"] {
+        if let Some(other) = table.get(name) {
+            let key = join(prefix, name);
+            let allowed = format!(
+                "give either {}, a force on coordinates, or contact and direction, not both",
+                join(prefix, "at")
+            );
+            let complaint =
+                Complaint::new(Fault::Conflict, key, other.origin, other.given(), allowed);
+            reader.complain(complaint);
+            return None;
+        }
+    }
+    let key = join(prefix, "at");
+    let row = context.basis.row_not_zero(reader, context.numbers, &key, at)?;
+    Some(InputTarget::Force(row))
+}
+
+fn of_contact(
+    reader: &mut Reader,
+    prefix: &str,
+    node: &Node,
+    table: &Table,
+    contact: &Node,
+    context: DitherContext<'_>,
+) -> Option<InputTarget> {
+    let direction =
+        reader.needed_choice(table, prefix, node.origin, "direction", Choice::Direction);
+    let key = join(prefix, "contact");
+    let name = reader.text(&key, contact)?;
+    let Some(index) = context.names.iter().position(|known| *known == name) else {
+        let listed = context.names.join(", ");
+        let nearest = suggest::word(&name, context.names.iter().map(String::as_str));
+        let complaint = Complaint::new(
+            Fault::Value,
+            key,
+            contact.origin,
+            name,
+            format!("the name of a contact: {listed}"),
+        );
+        reader.complain(complaint.suggesting(nearest));
+        return None;
+    };
+    let reaction = match table.get("reaction").map(|node| (node, &node.value)) {
+        None => None,
+        Some((_, Value::Flag(flag))) => Some(*flag),
+        Some((node, _)) => {
+            let allowed = format!("true or false; got {}", node.kind());
+            reader.wrong(&join(prefix, "reaction"), node, allowed);
+            return None;
+        }
+    };
+    let found = context.contacts?.get(index)?;
+    if direction? == "tangential" {
+        let along = found.force.as_ref().or(found.tangent.as_ref());
+        if along.is_none() {
+            reader.wrong(&key, contact, "a contact with a tangent, along which the force acts");
+        }
+        return along.cloned().map(InputTarget::Force);
+    }
+    let compliant = found.normal.is_some();
+    if reaction == Some(true) && !compliant {
+        let at = table.get("reaction").map_or(node, |node| node);
+        let allowed =
+            "the load of a contact without normal is prescribed: guides bear its modulation";
+        let key = join(prefix, "reaction");
+        reader.complain(Complaint::new(Fault::Conflict, key, at.origin, true, allowed));
+        return None;
+    }
+    let reaction = compliant && reaction.unwrap_or(true);
+    Some(InputTarget::NormalLoad { contact: index, reaction })
+}
+
+/// Reports loads that are prescribed and modulated so much that they would vanish.
+fn stays_pressed(
+    reader: &mut Reader,
+    tables: &[(String, &Node, &Table)],
+    inputs: &[Option<Input>],
+    contacts: &[Contact],
+) {
+    for (index, contact) in
+        contacts.iter().enumerate().filter(|(_, contact)| contact.normal.is_none())
+    {
+        let mut peaks = 0.0;
+        let mut last = None;
+        for (input, table) in inputs.iter().zip(tables) {
+            let Some(Input { target: InputTarget::NormalLoad { contact, .. }, profile }) = input
+            else {
+                continue;
+            };
+            if *contact == index {
+                peaks += profile.waves().iter().map(|wave| wave.amplitude).sum::<f64>();
+                last = Some(table);
+            }
+        }
+        let Some((prefix, _, table)) = last.filter(|_| peaks >= contact.normal_load) else {
+            continue;
+        };
+        let written = ["amplitude", "amplitude_n", RMS]
+            .into_iter()
+            .find_map(|name| Some((join(prefix, name), table.get(name)?)));
+        if let Some((key, node)) = written {
+            let allowed = format!(
+                "such that the peaks on contact {} sum to less than its load {}: they sum to {peaks}, and a prescribed \
+                 load must stay positive",
+                contact.name, contact.normal_load
+            );
+            reader.wrong(&key, node, allowed);
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! `[system.initial]` and `observe`.
+
+use quell_model::units::Quantity;
+use quell_model::{Contact, Structure};
+
+use super::keys::SystemTable;
+use super::numbers::{Keyed, Numbers, Wanted, unknown_keys};
+use super::rows::Basis;
+use crate::complaint::{Complaint, Fault};
+use crate::study::document::Table;
+use crate::study::reader::Reader;
+use crate::study::vocabulary::{Choice, join};
+
+/// Where a run begins.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum SystemStart {
+    /// Every coordinate and velocity is 0.
+    #[default]
+    Rest,
+    /// Steady sliding without dither.
+    Sliding,
+    /// The limit cycle without dither.
+    Squealing,
+    /// The dithered response that continues steady sliding.
+    Base,
+    /// The whole state: displacements, then velocities, or the states of first-order equations.
+    Values(Vec<f64>),
+}
+
+const PREFIX: &str = "system.initial";
+
+/// Reads `[system.initial]`.
+pub(super) fn read(
+    reader: &mut Reader,
+    system: &Table,
+    numbers: &Numbers,
+    basis: &Basis,
+    first_order: bool,
+) -> Option<SystemStart> {
+    let Some(node) = system.get("initial") else { return Some(SystemStart::Rest) };
+    let table = reader.table(PREFIX, node)?;
+    unknown_keys(reader, table, PREFIX, SystemTable::Initial);
+    let given: Vec<&str> = table.iter().map(|(name, _)| name).collect();
+    let kinds = ["state", "values", "displacements", "velocities"]
+        .map(|kind| given.iter().any(|name| name.starts_with(kind)));
+    let exclusive = match kinds {
+        [true, true, ..] | [true, _, true, _] | [true, _, _, true] => Some("state"),
+        [_, true, true, _] | [_, true, _, true] => Some("values"),
+        _ => None,
+    };
+    if let Some(name) = exclusive
+        && let Some(node) = table.get(name)
+    {
+        let allowed = "give one of state, displacements and velocities, or values";
+        let key = join(PREFIX, name);
+        reader.complain(Complaint::new(Fault::Conflict, key, node.origin, node.given(), allowed));
+        return None;
+    }
+    if let Some(node) = table.get("state") {
+        let name = reader.choice("system.initial.state", node, Choice::SystemState)?;
+        return Some(match name {
+            "sliding" => SystemStart::Sliding,
+            "squealing" => SystemStart::Squealing,
+            "base" => SystemStart::Base,
+            _ => SystemStart::Rest,
+        });
+    }
+    let basis = basis.without_points();
+    if first_order {
+        return of_states(reader, table, numbers, &basis);
+    }
+    if let Some(node) = table.get("values") {
+        let velocities = basis.names.iter().map(|name| format!("velocity.{name}"));
+        let whole = basis.names.iter().cloned().chain(velocities).collect();
+        let state = Basis::of(whole, "displacement and velocity");
+        let wanted = Wanted::finite(None);
+        let values = state.row(reader, numbers, &join(PREFIX, "values"), node, wanted)?;
+        return Some(SystemStart::Values(values));
+    }
+    let mut half = |name: &str, quantity: Quantity| {
+        let before = reader.complaints_so_far();
+        match numbers.array(reader, table, PREFIX, name, Some(quantity)) {
+            Some(Keyed { node, key, twin }) => {
+                let wanted = Wanted { twin, ..Wanted::finite(Some(quantity)) };
+                basis.row(reader, numbers, &key, node, wanted)
+            }
+            None => (reader.complaints_so_far() == before).then(|| vec![0.0; basis.names.len()]),
+        }
+    };
+    let displacements = half("displacements", Quantity::Displacement);
+    let velocities = half("velocities", Quantity::Velocity);
+    let values = [displacements?, velocities?].concat();
+    Some(if kinds == [false; 4] { SystemStart::Rest } else { SystemStart::Values(values) })
+}
+
+fn of_states(
+    reader: &mut Reader,
+    table: &Table,
+    numbers: &Numbers,
+    basis: &Basis,
+) -> Option<SystemStart> {
+    for name in ["displacements", "velocities"] {
+        if let Some(node) = table.get(name) {
+            let allowed = "first-order equations have states: give values = { … }";
+            let key = join(PREFIX, name);
+            let complaint =
+                Complaint::new(Fault::Conflict, key, node.origin, node.given(), allowed);
+            reader.complain(complaint);
+            return None;
+        }
+    }
+    let Some(node) = table.get("values") else { return Some(SystemStart::Rest) };
+    let key = join(PREFIX, "values");
+    let values = basis.row(reader, numbers, &key, node, Wanted::finite(None))?;
+    Some(SystemStart::Values(values))
+}
+
+/// Reads `observe`: a row over the coordinates or states, by default the tangent of the first contact that has one.
+pub(super) fn observe(
+    reader: &mut Reader,
+    system: &Table,
+    numbers: &Numbers,
+    basis: &Basis,
+) -> Option<Option<Vec<f64>>> {
+    match system.get("observe") {
+        None => Some(None),
+        Some(node) => basis.row_not_zero(reader, numbers, "system.observe", node).map(Some),
+    }
+}
+
+/// The row that is observed where the study gives none: a tangent, else a normal, else the first coordinate.
+pub(super) fn default_row(contacts: &[Contact], structure: &Structure) -> Vec<f64> {
+    let tangent = contacts.iter().find_map(|contact| contact.tangent.clone());
+    let normal = || contacts.iter().find_map(|contact| contact.normal.clone());
+    let first = || (0..structure.size()).map(|index| f64::from(index == 0)).collect();
+    tangent.or_else(normal).unwrap_or_else(first)
+}

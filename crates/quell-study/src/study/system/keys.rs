@@ -1,0 +1,231 @@
+//! The keys of a study of a system, table by table: for the reader, paths and the schema.
+
+use quell_model::parameter::system::{
+    CONTACT_BELT_VELOCITY, CONTACT_NORMAL_DAMPING, CONTACT_NORMAL_LOAD, CONTACT_NORMAL_STIFFNESS,
+    SYSTEM_DITHER_FREQUENCY, SYSTEM_MODAL_MASS, SYSTEM_MODE_DAMPING, SYSTEM_MODE_FREQUENCY,
+};
+use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE, Parameter};
+use quell_model::units::Quantity;
+
+use crate::study::vocabulary::Choice;
+
+/// A table of a study of a system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SystemTable {
+    /// Keys outside any table.
+    Root,
+    /// `[system]`.
+    System,
+    /// `[[system.mode]]`.
+    Mode,
+    /// `[[system.component]]`.
+    Component,
+    /// `[system.initial]`.
+    Initial,
+    /// `[[contact]]`.
+    Contact,
+    /// `[contact.friction]` or `[friction]`: the keys of the friction laws.
+    Friction,
+    /// `[[dither]]`.
+    Dither,
+    /// `[parameters]` or the constants of a formula: names that the study chooses.
+    Named,
+}
+
+/// The kind of value that a key takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SystemRole {
+    /// A number of the registry, or its twin in SI.
+    Number(Parameter),
+    /// A diagonal or rows of numbers of a quantity.
+    Matrix(Option<Quantity>),
+    /// A number for each coordinate, as a table of names or an array.
+    Row(Option<Quantity>),
+    /// Names of coordinates or states.
+    Names,
+    /// A word from a list.
+    Choice(Choice),
+    /// Free text.
+    Text,
+    /// `true` or `false`.
+    Flag,
+    /// A table.
+    Table(SystemTable),
+    /// A table or a list of tables.
+    Tables(SystemTable),
+}
+
+/// A key of a study of a system.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SystemKey {
+    /// Its name.
+    pub name: &'static str,
+    /// Its kind of value.
+    pub role: SystemRole,
+    /// Description, in one line.
+    pub about: &'static str,
+}
+
+impl SystemKey {
+    /// The quantity that its numbers measure.
+    pub fn quantity(&self) -> Option<Quantity> {
+        match self.role {
+            SystemRole::Number(parameter) => Some(parameter.quantity),
+            SystemRole::Matrix(quantity) | SystemRole::Row(quantity) => quantity,
+            _ => None,
+        }
+    }
+
+    /// Its twins in SI: numbers of the registry list them, other keys have their name and the suffix of the unit.
+    pub fn twins(&self) -> Vec<String> {
+        match self.role {
+            SystemRole::Number(parameter) => {
+                parameter.si.iter().map(|twin| twin.key.to_owned()).collect()
+            }
+            _ => twin(self.name, self.quantity()).into_iter().collect(),
+        }
+    }
+}
+
+/// The key that gives a quantity in SI.
+pub(super) fn twin(name: &str, quantity: Option<Quantity>) -> Option<String> {
+    let (_, suffix) = quantity?.si_unit()?;
+    Some(format!("{name}_{suffix}"))
+}
+
+const fn key(name: &'static str, role: SystemRole, about: &'static str) -> SystemKey {
+    SystemKey { name, role, about }
+}
+
+const fn number(parameter: Parameter, name: &'static str) -> SystemKey {
+    key(name, SystemRole::Number(parameter), parameter.about)
+}
+
+/// The keys of a table; friction laws and freely named numbers are not listed here.
+pub fn system_keys(table: SystemTable) -> &'static [SystemKey] {
+    match table {
+        SystemTable::Root => ROOT,
+        SystemTable::System => SYSTEM,
+        SystemTable::Mode => MODE,
+        SystemTable::Component => COMPONENT,
+        SystemTable::Initial => INITIAL,
+        SystemTable::Contact => CONTACT,
+        SystemTable::Dither => DITHER,
+        SystemTable::Friction | SystemTable::Named => &[],
+    }
+}
+
+const ROOT: &[SystemKey] = &[
+    key("system", SystemRole::Table(SystemTable::System), "the linear structure"),
+    key("contact", SystemRole::Tables(SystemTable::Contact), "a friction contact"),
+    key("friction", SystemRole::Table(SystemTable::Friction), "friction law of all contacts"),
+    key("dither", SystemRole::Tables(SystemTable::Dither), "a periodic force or load"),
+    key(
+        "parameters",
+        SystemRole::Table(SystemTable::Named),
+        "named numbers for formulas: numbers, or formulas of other parameters",
+    ),
+];
+
+const SYSTEM: &[SystemKey] = &[
+    key("coordinates", SystemRole::Names, "names of the coordinates"),
+    key("mass", SystemRole::Matrix(Some(Quantity::LoadMass)), "mass matrix: a diagonal, or rows"),
+    key(
+        "damping",
+        SystemRole::Matrix(Some(Quantity::LoadDamping)),
+        "damping and gyroscopic matrix: a diagonal, or rows [default: 0]",
+    ),
+    key(
+        "stiffness",
+        SystemRole::Matrix(Some(Quantity::LoadStiffness)),
+        "stiffness matrix without the contacts: a diagonal, or rows",
+    ),
+    key("states", SystemRole::Names, "names of the states of first-order equations"),
+    key("matrix", SystemRole::Matrix(None), "matrix of first-order equations: rows"),
+    key("force", SystemRole::Row(Some(Quantity::Force)), "constant forces [default: 0]"),
+    key("mode", SystemRole::Tables(SystemTable::Mode), "modes of the structure"),
+    key("modes", SystemRole::Text, "CSV file of modes, relative to the study file"),
+    key("normalisation", SystemRole::Choice(Choice::Normalisation), NORMALISATION),
+    key(
+        "component",
+        SystemRole::Tables(SystemTable::Component),
+        "a body given by its modes; several are joined by contacts",
+    ),
+    key(
+        "frequency_response",
+        SystemRole::Text,
+        "CSV file of a measured receptance, relative to the study file",
+    ),
+    key("units", SystemRole::Choice(Choice::SystemUnits), "unit of bare numbers [default: none]"),
+    key(
+        "observe",
+        SystemRole::Row(None),
+        "the displacement that a response measures [default: tangent of the first contact]",
+    ),
+    key("initial", SystemRole::Table(SystemTable::Initial), "initial state [default: rest]"),
+];
+
+/// What `normalisation` says.
+const NORMALISATION: &str =
+    "mass: shapes of unit modal mass; max: shapes of any size with modal_mass [default: mass]";
+
+const MODE: &[SystemKey] = &[
+    number(SYSTEM_MODE_FREQUENCY, "frequency"),
+    number(SYSTEM_MODE_DAMPING, "damping_ratio"),
+    number(SYSTEM_MODAL_MASS, "modal_mass"),
+    key("shape", SystemRole::Row(None), "displacement of each point in the mode"),
+];
+
+const COMPONENT: &[SystemKey] = &[
+    key("name", SystemRole::Text, "name, the first part of the names of its points"),
+    key("mode", SystemRole::Tables(SystemTable::Mode), "modes of the component"),
+    key("modes", SystemRole::Text, "CSV file of modes, relative to the study file"),
+    key("normalisation", SystemRole::Choice(Choice::Normalisation), NORMALISATION),
+];
+
+const INITIAL: &[SystemKey] = &[
+    key("state", SystemRole::Choice(Choice::SystemState), "a named state"),
+    key(
+        "displacements",
+        SystemRole::Row(Some(Quantity::Displacement)),
+        "displacement of each coordinate [default: 0]",
+    ),
+    key(
+        "velocities",
+        SystemRole::Row(Some(Quantity::Velocity)),
+        "velocity of each coordinate [default: 0]",
+    ),
+    key("values", SystemRole::Row(None), "the whole state"),
+];
+
+const CONTACT: &[SystemKey] = &[
+    key("name", SystemRole::Text, "name of the contact [default: contact 1, 2, …]"),
+    key("tangent", SystemRole::Row(None), "row of the tangential displacement"),
+    key("normal", SystemRole::Row(None), "row of the approach; without it the load is prescribed"),
+    key("slope", SystemRole::Row(None), "row of the slope of the surface, which turns friction"),
+    key("force", SystemRole::Row(None), "effect of the friction force on first-order states"),
+    number(CONTACT_NORMAL_LOAD, "normal_load"),
+    number(CONTACT_NORMAL_STIFFNESS, "normal_stiffness"),
+    number(CONTACT_NORMAL_DAMPING, "normal_damping"),
+    number(CONTACT_BELT_VELOCITY, "belt_velocity"),
+    key("friction", SystemRole::Table(SystemTable::Friction), "friction law of the contact"),
+];
+
+const DITHER: &[SystemKey] = &[
+    key("at", SystemRole::Row(None), "row of the force over the coordinates"),
+    key("contact", SystemRole::Text, "name of the contact whose load is modulated, instead of at"),
+    key(
+        "direction",
+        SystemRole::Choice(Choice::Direction),
+        "normal: on the load of the contact; tangential: a force along its tangent",
+    ),
+    key(
+        "reaction",
+        SystemRole::Flag,
+        "whether the structure bears the modulation of the load [default: true]",
+    ),
+    key("waveform", SystemRole::Choice(Choice::Waveform), "shape of the force in time"),
+    number(DITHER_AMPLITUDE, "amplitude"),
+    number(SYSTEM_DITHER_FREQUENCY, "frequency"),
+    number(DITHER_PHASE, "phase"),
+];

@@ -1,0 +1,65 @@
+//! The verbs of a system.
+
+use super::{Reply, Verbs, answer};
+use crate::cite::{self, Sources};
+use crate::outcome::check::Valid;
+use crate::outcome::{Answered, Outcome};
+use crate::run::curves::CurvesRequest;
+use crate::run::system::tracked::TrackRequest;
+use crate::run::system::{exact, modes, reach, stability, tracked};
+use crate::run::thresholds::ThresholdsRequest;
+use crate::study::{SystemSetup, SystemStudy};
+
+impl Verbs for SystemStudy {
+    fn kind(&self) -> &'static str {
+        SystemSetup::NAME
+    }
+
+    fn names(&self) -> &'static [&'static str] {
+        &["check", "cite", "modes", "stability", "thresholds", "resonances", "map"]
+    }
+
+    fn check(&self) -> Box<dyn Outcome> {
+        Box::new(Answered::new(self, Valid))
+    }
+
+    fn sources(&self) -> Sources {
+        cite::sources_of_system(self)
+    }
+
+    fn cite(&self) -> Box<dyn Outcome> {
+        Box::new(Answered::new(self, self.sources()))
+    }
+
+    fn modes(&self) -> Reply {
+        answer(self, modes::run(self))
+    }
+
+    fn stability(&self) -> Reply {
+        answer(self, stability::run(self))
+    }
+
+    fn exact_stability(&self) -> Reply {
+        answer(self, exact::run(self))
+    }
+
+    fn tracked_stability(&self, request: &TrackRequest) -> Reply {
+        answer(self, tracked::run(self, request))
+    }
+
+    fn reach(&self, frequencies: Option<(f64, f64)>) -> Reply {
+        answer(self, reach::run(self, frequencies))
+    }
+
+    fn thresholds(&self, request: ThresholdsRequest) -> Reply {
+        let ThresholdsRequest { parameter, from, to, .. } = request;
+        let request = TrackRequest { parameter, window: (from, to), along: None };
+        answer(self, tracked::thresholds(self, &request))
+    }
+
+    fn threshold_curves(&self, request: &CurvesRequest) -> Reply {
+        let CurvesRequest { parameter, window, along, between } = request.clone();
+        let request = TrackRequest { parameter, window, along: Some((along, between)) };
+        answer(self, tracked::thresholds(self, &request))
+    }
+}

@@ -1,0 +1,101 @@
+//! `check` of a study of a system: the numbers of a valid study.
+
+use quell_model::system::{InputTarget, Structure};
+use quell_model::units::Quantity;
+use serde_json::{Value as Json, json};
+
+use crate::study::{SystemStart, SystemStudy};
+
+/// The study as JSON.
+pub fn json(study: &SystemStudy) -> Json {
+    let system = study.system();
+    let names = system.structure.names();
+    let form = match &system.structure {
+        Structure::Mechanical(_) => "coordinates",
+        Structure::StateSpace(_) => "states",
+    };
+    let contacts: Vec<&str> = system.contacts.iter().map(|contact| contact.name.as_str()).collect();
+    let sweeps: Vec<Json> = study
+        .sweeps()
+        .iter()
+        .map(|sweep| {
+            json!({
+                "parameter": sweep.path,
+                "unit": sweep.target.unit(),
+                "points": sweep.axis.len(),
+                "from": sweep.axis.value(0),
+                "to": sweep.axis.value(usize::MAX),
+            })
+        })
+        .collect();
+    json!({
+        "ok": true,
+        "title": study.title(),
+        "kind": "system",
+        "form": form,
+        "units": study.units().name(),
+        "coordinates": names,
+        "contacts": contacts,
+        "contact_laws": laws(study),
+        "dithers": dithers(study),
+        "observe": study.observe(),
+        "initial": initial(study.initial()),
+        "sweeps": sweeps,
+        "warnings": study.warnings(),
+    })
+}
+
+/// Load, surface velocity and law of each contact.
+fn laws(study: &SystemStudy) -> Vec<Json> {
+    let units = study.units();
+    let contacts = study.system().contacts.iter();
+    contacts
+        .map(|contact| {
+            json!({
+                "name": contact.name,
+                "normal_load": contact.normal_load,
+                "normal_load_unit": units.unit(Quantity::Force),
+                "belt_velocity": contact.surface_velocity.mean(),
+                "belt_velocity_unit": units.unit(Quantity::Velocity),
+                "normal": contact.normal.is_some(),
+                "tangent": contact.tangent.is_some(),
+                "law": contact.friction.kind().name(),
+            })
+        })
+        .collect()
+}
+
+/// Target and wave of each input.
+fn dithers(study: &SystemStudy) -> Vec<Json> {
+    let system = study.system();
+    let mut dithers = Vec::new();
+    for input in &system.inputs {
+        let name = |contact: usize| system.contacts.get(contact).map(|contact| &contact.name);
+        let target = match &input.target {
+            InputTarget::Force(row) => json!({ "at": row }),
+            InputTarget::NormalLoad { contact, reaction } => {
+                json!({ "contact": name(*contact), "reaction": reaction })
+            }
+            InputTarget::Friction { contact } => json!({ "contact": name(*contact) }),
+        };
+        for wave in input.profile.waves() {
+            let mut object = target.clone();
+            object["waveform"] = wave.waveform.name().into();
+            object["amplitude"] = wave.amplitude.into();
+            object["frequency"] = wave.frequency.into();
+            object["phase"] = wave.phase.into();
+            dithers.push(object);
+        }
+    }
+    dithers
+}
+
+fn initial(start: &SystemStart) -> Json {
+    match start {
+        SystemStart::Rest => "rest".into(),
+        SystemStart::Sliding => "sliding".into(),
+        SystemStart::Squealing => "squealing".into(),
+        SystemStart::Base => "base".into(),
+        SystemStart::Values(values) => values.clone().into(),
+    }
+}
