@@ -45,5 +45,3 @@ pub fn not_available(what: &str, kind: &str, origin: Origin) -> Complaint {
 pub(super) fn wrong_kind(required: &str, given: &str, origin: Origin) -> Complaint {
     not_available(&format!("a command for a {required} study"), given, origin)
 }
-
-/// The error of a command for belts given a study of a system.
