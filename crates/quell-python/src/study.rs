@@ -153,12 +153,12 @@ impl NativeStudy {
 
     fn check(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::here(py, move || check::run(&study))
+        call::here(py, move || Ok(check::run(&study)))
     }
 
     fn cite(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::here(py, move || cite::run(&study))
+        call::here(py, move || Ok(cite::run(&study)))
     }
 
     /// `at`: slip velocities in the units of the study; `texts`: slip velocities with units. If both are empty, a grid is used.

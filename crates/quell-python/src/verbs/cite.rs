@@ -1,11 +1,11 @@
 //! `cite`: the equations and papers that a study's computations use.
 
+use quell::Study;
 use quell::kind::verbs;
-use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;
 
 /// Runs the verb.
-pub(crate) fn run(study: &Study) -> Result<NativeAnswer, Failure> {
-    Ok(NativeAnswer::new(verbs(study).cite()))
+pub(crate) fn run(study: &Study) -> NativeAnswer {
+    NativeAnswer::new(verbs(study).cite())
 }
