@@ -74,11 +74,18 @@ pub(super) fn first_order(
 }
 
 /// A structure of which only the names are known: one of a measured frequency response.
-pub(super) fn of_names(names: Vec<String>) -> Body {
+pub(super) fn of_names(
+    reader: &mut Reader,
+    numbers: &Numbers,
+    table: &Table,
+    names: Vec<String>,
+) -> Body {
     let n = names.len();
     let zeros = || Matrix::zeros(n, n);
     let structure = Mechanical::new(names.clone(), MassMatrix::identity(n), zeros(), zeros());
-    Body { structure: Some(structure.into()), basis: Some(Basis::of(names, "point")) }
+    let basis = Basis::of(names, "point");
+    let force = force(reader, numbers, table, &basis);
+    Body { structure: force.map(|force| structure.under(force).into()), basis: Some(basis) }
 }
 
 /// Constant forces; of first-order equations constant rates.
