@@ -1,6 +1,7 @@
 //! Systems given by modes or by a measured frequency response, in the study or in files.
 
 use std::f64::consts::TAU;
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
@@ -99,7 +100,8 @@ fn a_measured_response_stands_for_matrices() {
         [("pad.tangent", "pad.tangent"), ("pad.tangent", "x"), ("x", "pad.tangent"), ("x", "x")]
     {
         for frequency in [0.0, 10.0, 20.0] {
-            rows += &format!("{frequency},{output},{input},{},-0.5\n", 1.0 + frequency);
+            let value = 1.0 + frequency;
+            writeln!(rows, "{frequency},{output},{input},{value},-0.5").expect("a string");
         }
     }
     let folder = folder_with(&[("frf.csv", &rows)]);
@@ -122,7 +124,7 @@ fn a_measured_response_stands_for_matrices() {
         match read(folder.path(), &changed) {
             Ok(_) => assert!(key.is_empty(), "{to}"),
             Err(wrong) => {
-                assert_eq!((wrong[0].key.as_str(), wrong[0].fault), (key, fault), "{wrong}")
+                assert_eq!((wrong[0].key.as_str(), wrong[0].fault), (key, fault), "{wrong}");
             }
         }
     }

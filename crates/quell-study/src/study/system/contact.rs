@@ -173,8 +173,8 @@ fn one(
         normal,
         slope,
         normal_load: load?,
-        normal_stiffness: stiffness?.unwrap_or(0.0),
-        normal_damping: damping?.unwrap_or(0.0),
+        normal_stiffness: stiffness.ok()?.unwrap_or(0.0),
+        normal_damping: damping.ok()?.unwrap_or(0.0),
         surface_velocity: Profile::constant(velocity),
         friction: law,
     };

@@ -61,7 +61,8 @@ impl FrequencyResponse {
         let series = self.pairs.iter().zip(&self.data).map(|(&(output, input), series)| {
             let key = format!("{KEY}[{}][{}]", self.names[output], self.names[input]);
             let values = self.frequencies.iter().zip(series);
-            (key, values.map(|(f, [re, im])| format!("{f:?} {re:?} {im:?};")).collect())
+            let texts = values.map(|(f, [re, im])| format!("{f:?} {re:?} {im:?}"));
+            (key, texts.collect::<Vec<_>>().join("; "))
         });
         series.collect()
     }
@@ -135,6 +136,9 @@ pub(super) fn check_pairs(
     }
 }
 
+/// Frequencies and values of each output and input.
+type Series = BTreeMap<(usize, usize), Vec<(f64, [f64; 2])>>;
+
 fn parse(text: &str) -> Result<FrequencyResponse, String> {
     let file = DataFile::new(text, WHAT)?;
     let (frequency, in_hertz) = match (file.column("frequency"), file.column("frequency_hz")) {
@@ -149,7 +153,7 @@ fn parse(text: &str) -> Result<FrequencyResponse, String> {
         .map(|name| file.column(name).ok_or_else(|| format!("a CSV file with a column {name}")));
     let (output, input, re, im) = (output?, input?, re?, im?);
     let mut names: Vec<String> = Vec::new();
-    let mut series: BTreeMap<(usize, usize), Vec<(f64, [f64; 2])>> = BTreeMap::new();
+    let mut series = Series::new();
     for row in file.rows() {
         let number = |at, name, bounds: Bounds| {
             row.number(at, name, &bounds.to_string(), |value| bounds.contains(value))
@@ -183,7 +187,7 @@ fn place(names: &mut Vec<String>, row: &Row<'_>, at: usize, column: &str) -> Res
 /// The series in the order of frequency, each at the same frequencies.
 fn ordered(
     names: Vec<String>,
-    series: BTreeMap<(usize, usize), Vec<(f64, [f64; 2])>>,
+    series: Series,
     in_hertz: bool,
 ) -> Result<FrequencyResponse, String> {
     let mut found = FrequencyResponse { names, in_hertz, ..FrequencyResponse::default() };

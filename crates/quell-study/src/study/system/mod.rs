@@ -86,7 +86,7 @@ impl StudyKind for SystemSetup {
     }
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
-        read::study(reader, document, given)
+        read::study(reader, document, &given)
     }
 
     fn data_files(&self) -> Vec<&Path> {
@@ -184,7 +184,7 @@ impl SystemStudy {
         }
         let mut reader = Reader::as_written();
         let given = Given { folder: &self.source.folder, known: Some(self.kind()) };
-        let setup = read::study(&mut reader, &document, given);
+        let setup = read::study(&mut reader, &document, &given);
         let complaints: Vec<Complaint> = reader.into_complaints();
         match setup {
             Some(setup) if complaints.is_empty() => Ok(Arc::unwrap_or_clone(setup.system)),

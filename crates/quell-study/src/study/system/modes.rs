@@ -115,18 +115,17 @@ fn components(
         .map(|(prefix, node, table)| {
             unknown_keys(reader, table, &prefix, SystemTable::Component);
             let key = join(&prefix, "name");
-            let name = match table.get("name") {
-                Some(node) => reader.text(&key, node).filter(|name| {
+            let name = if let Some(node) = table.get("name") {
+                reader.text(&key, node).filter(|name| {
                     let right = is_plain_name(name) && !names.contains(name);
                     if !right {
                         reader.wrong(&key, node, format!("{NAME}, different for each component"));
                     }
                     right
-                }),
-                None => {
-                    missing(reader, key, node.origin, NAME);
-                    None
-                }
+                })
+            } else {
+                missing(reader, key, node.origin, NAME);
+                None
             };
             names.extend(name.clone());
             let list = list(reader, table, &prefix, node.origin, context);
@@ -245,11 +244,11 @@ fn inline(
         return None;
     }
     let mut points: Vec<String> = Vec::new();
-    let read: Vec<Option<(ModeLine, Vec<(usize, f64)>)>> = listed(reader, table, prefix, "mode")
+    let read: Vec<Option<Listed>> = listed(reader, table, prefix, "mode")
         .into_iter()
         .map(|(prefix, node, table)| one(reader, table, node, &prefix, numbers, &mut points))
         .collect();
-    let read: Vec<(ModeLine, Vec<(usize, f64)>)> = read.into_iter().collect::<Option<_>>()?;
+    let read: Vec<Listed> = read.into_iter().collect::<Option<_>>()?;
     let modes = read.into_iter().map(|(mode, entries)| {
         let mut shape = vec![0.0; points.len()];
         for (at, entry) in entries {
@@ -258,10 +257,13 @@ fn inline(
         ModeLine { shape, ..mode }
     });
     let modes = modes.collect();
-    Some(ModeList { modes, points, ..ModeList::default() })
+    Some(ModeList { points, modes, ..ModeList::default() })
 }
 
 /// A mode, and the entries of its shape with their places among the points.
+type Listed = (ModeLine, Vec<(usize, f64)>);
+
+/// Reads a mode.
 fn one(
     reader: &mut Reader,
     table: &Table,
@@ -269,7 +271,7 @@ fn one(
     prefix: &str,
     numbers: &Numbers,
     points: &mut Vec<String>,
-) -> Option<(ModeLine, Vec<(usize, f64)>)> {
+) -> Option<Listed> {
     unknown_keys(reader, table, prefix, SystemTable::Mode);
     let frequency = numbers.needed(reader, table, prefix, node.origin, SYSTEM_MODE_FREQUENCY);
     let damping = numbers.needed(reader, table, prefix, node.origin, SYSTEM_MODE_DAMPING);
@@ -297,7 +299,7 @@ fn one(
         });
         entries.extend(entry.map(|entry| (at, entry)));
     }
-    let (frequency, damping_ratio, modal_mass) = (frequency?, damping?, mass?);
+    let (frequency, damping_ratio, modal_mass) = (frequency?, damping?, mass.ok()?);
     let mode = ModeLine { frequency, damping_ratio, modal_mass, shape: Vec::new() };
     right.then_some((mode, entries))
 }

@@ -25,7 +25,7 @@ use crate::study::vocabulary::Choice;
 pub(super) fn study(
     reader: &mut Reader,
     document: &Table,
-    given: Given<'_, SystemSetup>,
+    given: &Given<'_, SystemSetup>,
 ) -> Option<SystemSetup> {
     conflicts(reader, document);
     let units = units(reader, document);
@@ -38,7 +38,7 @@ pub(super) fn study(
     };
     let table = reader.table("system", node)?;
     unknown_keys(reader, table, "system", SystemTable::System);
-    let read = body(reader, &numbers, table, header, &given);
+    let read = body(reader, &numbers, table, header, given);
     let Read { body: Body { basis, structure }, modes, response } = read;
     // Without names no row can be read.
     let basis = basis?;
@@ -72,7 +72,7 @@ pub(super) fn study(
     let observe = initial::observe(reader, table, &numbers, &basis);
     let initial = initial::read(reader, table, &numbers, &basis, first_order);
     let (structure, contacts, inputs) = (structure?, contacts?, inputs?);
-    let observe = observe?.unwrap_or_else(|| initial::default_row(&contacts, &structure));
+    let observe = observe.ok()?.unwrap_or_else(|| initial::default_row(&contacts, &structure));
     let system = Arc::new(System { structure, contacts, inputs });
     if let (Some(response), Some(node)) = (&response, table.get("frequency_response")) {
         let System { contacts, inputs, .. } = &*system;

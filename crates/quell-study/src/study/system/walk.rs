@@ -265,17 +265,13 @@ impl<'d> Walk<'d> {
 
     /// A name that a table does not have, with the nearest one.
     fn lost(&self, which: SystemTable, segment: &Segment<'_>, rest: &[Segment<'_>]) -> Lost {
-        let here: Vec<String> = match which {
-            SystemTable::Friction => {
-                let keys = vocabulary::keys_of(Section::Friction);
-                let plain = keys.filter(|key| !matches!(key.role, Role::FrictionForce(..)));
-                plain.map(|key| key.name.to_owned()).collect()
-            }
-            _ => {
-                let keys = system_keys(which).iter();
-                keys.flat_map(|key| std::iter::once(key.name.to_owned()).chain(key.twins()))
-                    .collect()
-            }
+        let here: Vec<String> = if which == SystemTable::Friction {
+            let keys = vocabulary::keys_of(Section::Friction);
+            let plain = keys.filter(|key| !matches!(key.role, Role::FrictionForce(..)));
+            plain.map(|key| key.name.to_owned()).collect()
+        } else {
+            let keys = system_keys(which).iter();
+            keys.flat_map(|key| [key.name.to_owned()].into_iter().chain(key.twins())).collect()
         };
         let nearest = suggest::word(segment.name, here.iter().map(String::as_str));
         let nearest = nearest.map(|name| {
@@ -338,9 +334,17 @@ fn counted(name: &str, count: usize) -> String {
 
 /// The rest of a path as it was written.
 fn after(rest: &[Segment<'_>]) -> String {
-    rest.iter().map(|segment| format!(".{}{}", segment.name, after_indices(segment))).collect()
+    let mut text = String::new();
+    for segment in rest {
+        let _ = write!(text, ".{}{}", segment.name, after_indices(segment));
+    }
+    text
 }
 
 fn after_indices(segment: &Segment<'_>) -> String {
-    segment.indices.iter().map(|index| format!("[{index}]")).collect()
+    let mut text = String::new();
+    for index in &segment.indices {
+        let _ = write!(text, "[{index}]");
+    }
+    text
 }
