@@ -4,6 +4,8 @@
 //! in SI. Relations between values (μ_m ≤ μ_s, ΣD_N ≤ F) are beyond a schema; `quell check`
 //! judges them.
 
+mod system;
+
 use quell_model::LawKind;
 use quell_model::friction::samples::{FEWEST, MOST_TERMS};
 use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
@@ -49,15 +51,18 @@ pub fn schema() -> Json {
         definitions.insert(name(Section::Root, system), root(system));
     }
     disc(&mut definitions);
+    system::define(&mut definitions);
     definitions.insert("sweep".to_owned(), sweep());
     json!({
         "$schema": DIALECT,
         "title": "Quell study file",
-        "description": "A mass on a moving belt with dither, dimensionless or in SI; or an annular disc under rotating loads.",
+        "description": "A mass on a moving belt with dither, dimensionless or in SI; an annular disc under rotating loads; or a linear \
+                        structure with friction contacts.",
         "oneOf": [
             { "$ref": reference(Section::Root, UnitSystem::Scaled) },
             { "$ref": reference(Section::Root, UnitSystem::Si) },
             { "$ref": "#/$defs/study_disc" },
+            { "$ref": "#/$defs/study_system" },
         ],
         "$defs": definitions,
     })

@@ -65,6 +65,11 @@ impl<'t> DataFile<'t> {
         self.names.iter().position(|known| *known == name)
     }
 
+    /// Names of the columns.
+    pub(super) fn names(&self) -> &[&'t str] {
+        &self.names
+    }
+
     /// The lines of numbers.
     pub(super) fn rows(&self) -> &[Row<'t>] {
         &self.rows
@@ -72,6 +77,16 @@ impl<'t> DataFile<'t> {
 }
 
 impl Row<'_> {
+    /// The text in a column; empty if the line is too short.
+    pub(super) fn text(&self, at: usize) -> &str {
+        self.cells.get(at).copied().unwrap_or_default().trim_matches('"')
+    }
+
+    /// Where the row is in its file.
+    pub(super) fn place(&self) -> String {
+        format!("line {}", self.line)
+    }
+
     /// The number in a column, if it is `right`.
     ///
     /// # Errors

@@ -39,7 +39,9 @@ pub use quell_dynamics::response::Solver;
 pub use quell_dynamics::start::InitialState;
 pub use study_kind::{Given, StudyKind, not_available};
 pub use sweep::{Axis, AxisTarget, Sweep};
-pub use system::{SystemAddress, SystemSetup, SystemStart, SystemStudy, SystemUnits};
+pub use system::{
+    FrequencyResponse, SystemAddress, SystemSetup, SystemStart, SystemStudy, SystemUnits,
+};
 
 /// A checked study of the kind `K`: of any kind ([`Study`]), of a belt ([`BeltStudy`]), of a disc ([`DiscStudy`]),
 /// of a system ([`SystemStudy`]).

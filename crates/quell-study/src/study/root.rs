@@ -12,6 +12,7 @@ use crate::complaint::{Complaint, Fault};
 /// Reports unknown tables and keys; `tables` are those of this kind of study. Returns the title.
 pub(super) fn read(reader: &mut Reader, document: &Table, tables: &[&str]) -> Option<String> {
     let known: Vec<&str> = Section::ALL.iter().map(|section| section.path()).collect();
+    let is_system = system::is_described(document);
     for (name, node) in document.iter() {
         if NOT_BUILT.contains(&name) {
             let allowed = format!(
@@ -24,7 +25,7 @@ pub(super) fn read(reader: &mut Reader, document: &Table, tables: &[&str]) -> Op
             let allowed = format!("[{name}] belongs to a study of a system, with [system]");
             let complaint = Complaint::new(Fault::Conflict, name, node.origin, Json::Null, allowed);
             reader.complain(complaint);
-        } else if !known.contains(&name) || system::is_described(document) {
+        } else if !known.contains(&name) || (is_system && !system::OTHER_KINDS.contains(&name)) {
             let nearest = suggest::word(name, tables.iter().copied())
                 .or_else(|| suggest::path("", name, None));
             let complaint =

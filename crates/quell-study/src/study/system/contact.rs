@@ -13,7 +13,7 @@ use super::friction::{self, LawRead};
 use super::keys::SystemTable;
 use super::numbers::{Numbers, missing, unknown_keys};
 use super::rows::Basis;
-use super::structure::{NAME, is_plain_name};
+use super::structure::{MOST_COORDINATES, NAME, is_plain_name};
 use crate::complaint::{Complaint, Fault};
 use crate::study::Measured;
 use crate::study::document::{Node, Table, Value};
@@ -48,6 +48,12 @@ pub(super) fn listed<'t>(
         Value::List(list) => list.as_slice(),
         _ => std::slice::from_ref(node),
     };
+    if several.len() > MOST_COORDINATES {
+        let allowed = format!("at most {MOST_COORDINATES} tables; got {}", several.len());
+        let count = several.len();
+        reader.complain(Complaint::new(Fault::Value, path, node.origin, count, allowed));
+        return Vec::new();
+    }
     let single = several.len() == 1;
     let mut found = Vec::with_capacity(several.len());
     for (index, node) in several.iter().enumerate() {
@@ -167,8 +173,8 @@ fn one(
         normal,
         slope,
         normal_load: load?,
-        normal_stiffness: stiffness?.unwrap_or(0.0),
-        normal_damping: damping?.unwrap_or(0.0),
+        normal_stiffness: stiffness.ok()?.unwrap_or(0.0),
+        normal_damping: damping.ok()?.unwrap_or(0.0),
         surface_velocity: Profile::constant(velocity),
         friction: law,
     };

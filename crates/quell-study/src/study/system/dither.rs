@@ -65,7 +65,7 @@ fn one(
         waveform: waveform?,
         amplitude: amplitude?,
         frequency: frequency?,
-        phase: phase?.unwrap_or(0.0),
+        phase: phase.ok()?.unwrap_or(0.0),
     };
     Some(Input { target: target?, profile: Profile::constant(0.0).with(wave) })
 }

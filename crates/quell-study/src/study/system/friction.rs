@@ -216,5 +216,5 @@ fn at_path(complaint: Complaint, path: &str, renamed: &Renamed) -> Complaint {
         .as_deref()
         .map(|key| if key.starts_with("friction") { moved(key) } else { key.to_owned() });
     let allowed = complaint.allowed.replace("friction.", &format!("{path}."));
-    Complaint { key, suggestion, allowed, ..complaint }
+    Complaint { key, allowed, suggestion, ..complaint }
 }

@@ -4,7 +4,7 @@ use quell_model::units::Quantity;
 use quell_model::{Contact, Structure};
 
 use super::keys::SystemTable;
-use super::numbers::{Keyed, Numbers, Wanted, unknown_keys};
+use super::numbers::{Keyed, Numbers, Reported, Wanted, unknown_keys};
 use super::rows::Basis;
 use crate::complaint::{Complaint, Fault};
 use crate::study::document::Table;
@@ -121,11 +121,9 @@ pub(super) fn observe(
     system: &Table,
     numbers: &Numbers,
     basis: &Basis,
-) -> Option<Option<Vec<f64>>> {
-    match system.get("observe") {
-        None => Some(None),
-        Some(node) => basis.row_not_zero(reader, numbers, "system.observe", node).map(Some),
-    }
+) -> Result<Option<Vec<f64>>, Reported> {
+    let Some(node) = system.get("observe") else { return Ok(None) };
+    basis.row_not_zero(reader, numbers, "system.observe", node).map(Some).ok_or(Reported)
 }
 
 /// The row that is observed where the study gives none: a tangent, else a normal, else the first coordinate.

@@ -22,7 +22,7 @@ pub(super) fn read(
     names: &[String],
 ) -> Option<MassMatrix> {
     let n = names.len();
-    let Some(matrix) = matrix(reader, numbers, table, "mass", n)? else {
+    let Some(matrix) = matrix(reader, numbers, table, "mass", n).ok()? else {
         let allowed = format!("a diagonal of {n} numbers, or {n} rows of {n} numbers");
         missing(reader, join(PREFIX, "mass"), header, allowed);
         return None;

@@ -6,17 +6,23 @@
 
 mod contact;
 mod dither;
+mod frequency_response;
 mod friction;
 mod initial;
 pub mod keys;
 mod mass;
+mod modes;
+mod modes_file;
 mod numbers;
 mod parameters;
 mod path;
+mod plausible;
 mod read;
 mod rows;
 mod structure;
 mod units;
+mod walk;
+mod walk_entries;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -30,12 +36,14 @@ use super::study_kind::{Given, StudyKind};
 use crate::complaint::{Complaint, Complaints, Origin};
 use crate::study::Measured;
 
+pub use frequency_response::FrequencyResponse;
 pub use initial::SystemStart;
 pub use path::{SystemAddress, resolve_in};
 pub use units::SystemUnits;
 
 pub(super) use path::{measured_in, set};
 
+use modes_file::ModeList;
 use numbers::Numbers;
 
 /// A checked study of a system.
@@ -51,12 +59,18 @@ pub struct SystemSetup {
     warnings: Vec<String>,
     /// Samples of the measured laws, contact by contact.
     measured: Arc<[Option<Measured>]>,
+    /// Files of modes.
+    modes: Arc<[Arc<ModeList>]>,
+    response: Option<Arc<FrequencyResponse>>,
 }
 
 /// Whether a document is the study of a system.
 pub(super) fn is_described(document: &Table) -> bool {
     document.has("system")
 }
+
+/// The tables of other kinds, which exclude `[system]`.
+pub(super) const OTHER_KINDS: &[&str] = &["belt", "disc"];
 
 /// The tables of a study of a system.
 pub(super) const TABLES: &[&str] =
@@ -72,22 +86,35 @@ impl StudyKind for SystemSetup {
     }
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
-        read::study(reader, document, given)
+        read::study(reader, document, &given)
     }
 
     fn data_files(&self) -> Vec<&Path> {
         let samples = self.measured.iter().flatten();
-        samples.filter_map(|measured| measured.file.as_deref()).collect()
+        let samples = samples.filter_map(|measured| measured.file.as_deref());
+        let modes = self.modes.iter().filter_map(|list| list.file.as_deref());
+        let response = self.response.iter().map(|response| response.file());
+        samples.chain(modes).chain(response).collect()
     }
 
     fn file_settings(&self) -> Vec<(String, String)> {
-        let samples = self.measured.iter().enumerate();
-        samples
-            .filter_map(|(index, measured)| {
-                let (key, value) = measured.as_ref()?.settings();
-                Some((format!("contact[{index}].{key}"), value))
-            })
-            .collect()
+        let samples = self.measured.iter().enumerate().filter_map(|(index, measured)| {
+            let (key, value) = measured.as_ref()?.settings();
+            Some((format!("contact[{index}].{key}"), value))
+        });
+        let modes = self.modes.iter().enumerate().flat_map(|(file, list)| {
+            let points = list.points.join(" ");
+            let modes = list.modes.iter().enumerate().map(move |(index, mode)| {
+                let numbers = format!(
+                    "{:?} {:?} {:?} {:?}",
+                    mode.frequency, mode.damping_ratio, mode.modal_mass, mode.shape
+                );
+                (format!("system.modes[{file}][{index}]"), numbers)
+            });
+            modes.chain([(format!("system.modes[{file}].points"), points)])
+        });
+        let response = self.response.iter().flat_map(|response| response.settings());
+        samples.chain(modes).chain(response).collect()
     }
 }
 
@@ -115,6 +142,14 @@ impl SystemStudy {
     /// The units of the bare numbers of the file.
     pub fn units(&self) -> SystemUnits {
         self.kind().numbers.units
+    }
+
+    /// The measured receptance of a study with `frequency_response`.
+    ///
+    /// The [`SystemStudy::system`] of such a study has no matrices: its structure only names the measured points, over which
+    /// the rows of contacts and inputs are, with unit masses and without damping and stiffness.
+    pub fn frequency_response(&self) -> Option<&FrequencyResponse> {
+        self.kind().response.as_deref()
     }
 
     /// What is valid but unlikely, in sentences.
@@ -152,7 +187,7 @@ impl SystemStudy {
         }
         let mut reader = Reader::as_written();
         let given = Given { folder: &self.source.folder, known: Some(self.kind()) };
-        let setup = read::study(&mut reader, &document, given);
+        let setup = read::study(&mut reader, &document, &given);
         let complaints: Vec<Complaint> = reader.into_complaints();
         match setup {
             Some(setup) if complaints.is_empty() => Ok(Arc::unwrap_or_clone(setup.system)),

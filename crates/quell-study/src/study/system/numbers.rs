@@ -24,6 +24,10 @@ pub(super) struct Numbers {
     pub(super) values: Vec<f64>,
 }
 
+/// A value is wrong, which has been reported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Reported;
+
 /// What a number must be.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wanted {
@@ -193,23 +197,22 @@ impl Numbers {
         Some(Keyed { node, key, twin: true })
     }
 
-    /// A number of the registry: its value, `Some(None)` if absent, `None` if it is wrong.
+    /// A number of the registry, if it is given.
     pub(super) fn optional(
         &self,
         reader: &mut Reader,
         table: &Table,
         prefix: &str,
         parameter: Parameter,
-    ) -> Option<Option<f64>> {
+    ) -> Result<Option<f64>, Reported> {
         let other = parameter.si.first().map(|twin| twin.key);
         let before = reader.complaints_so_far();
         let found = self.keyed(reader, table, prefix, parameter.key(), other);
         let Some(Keyed { node, key, twin }) = found else {
-            return (reader.complaints_so_far() == before).then_some(None);
+            return if reader.complaints_so_far() == before { Ok(None) } else { Err(Reported) };
         };
         let wanted = Wanted { twin, ..Wanted::of(parameter) };
-        let value = self.number(reader, || key.clone(), node, wanted);
-        value.map(Some)
+        self.number(reader, || key.clone(), node, wanted).map(Some).ok_or(Reported)
     }
 
     /// A required number of the registry.
@@ -221,7 +224,7 @@ impl Numbers {
         header: Origin,
         parameter: Parameter,
     ) -> Option<f64> {
-        let found = self.optional(reader, table, prefix, parameter)?;
+        let found = self.optional(reader, table, prefix, parameter).ok()?;
         if found.is_none() {
             let Parameter { bounds, symbol, about, .. } = parameter;
             let or = match (self.units, parameter.si.first()) {

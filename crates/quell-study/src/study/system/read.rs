@@ -7,12 +7,14 @@ use serde_json::Value as Json;
 
 use super::contact::{self, ContactContext};
 use super::dither::{self, DitherContext};
-use super::initial;
+use super::frequency_response::{self, FrequencyResponse};
 use super::keys::SystemTable;
+use super::modes::{self, ModesContext};
+use super::modes_file::ModeList;
 use super::numbers::{Numbers, missing, unknown_keys};
 use super::structure::{self, Body};
 use super::units::SystemUnits;
-use super::{SystemSetup, parameters};
+use super::{OTHER_KINDS, SystemSetup, initial, parameters, plausible};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::Table;
 use crate::study::reader::Reader;
@@ -23,7 +25,7 @@ use crate::study::vocabulary::Choice;
 pub(super) fn study(
     reader: &mut Reader,
     document: &Table,
-    given: Given<'_, SystemSetup>,
+    given: &Given<'_, SystemSetup>,
 ) -> Option<SystemSetup> {
     conflicts(reader, document);
     let units = units(reader, document);
@@ -36,7 +38,8 @@ pub(super) fn study(
     };
     let table = reader.table("system", node)?;
     unknown_keys(reader, table, "system", SystemTable::System);
-    let Body { basis, structure } = body(reader, &numbers, table, header);
+    let read = body(reader, &numbers, table, header, given);
+    let Read { body: Body { basis, structure }, modes, response } = read;
     // Without names no row can be read.
     let basis = basis?;
     let first_order = table.has("states");
@@ -45,7 +48,7 @@ pub(super) fn study(
         numbers: &numbers,
         basis: &basis,
         first_order,
-        measured: false,
+        measured: response.is_some(),
         shared: document.get("friction"),
         folder: given.folder,
         known,
@@ -69,16 +72,32 @@ pub(super) fn study(
     let observe = initial::observe(reader, table, &numbers, &basis);
     let initial = initial::read(reader, table, &numbers, &basis, first_order);
     let (structure, contacts, inputs) = (structure?, contacts?, inputs?);
-    let observe = observe?.unwrap_or_else(|| initial::default_row(&contacts, &structure));
+    let observe = observe.ok()?.unwrap_or_else(|| initial::default_row(&contacts, &structure));
     let system = Arc::new(System { structure, contacts, inputs });
-    let warnings = Vec::new();
-    let initial = initial?;
-    Some(SystemSetup { system, observe, initial, numbers, warnings, measured: measured.into() })
+    if let (Some(response), Some(node)) = (&response, table.get("frequency_response")) {
+        let System { contacts, inputs, .. } = &*system;
+        frequency_response::check_pairs(reader, node, response, contacts, inputs);
+    }
+    let modal = table.has("mode") || table.has("modes") || table.has("component");
+    let warnings = match &response {
+        Some(_) => Vec::new(),
+        None => plausible::warnings(&system, units, modal),
+    };
+    Some(SystemSetup {
+        system,
+        observe,
+        initial: initial?,
+        numbers,
+        warnings,
+        measured: measured.into(),
+        modes: modes.into(),
+        response,
+    })
 }
 
 /// Reports tables of the other kinds.
 fn conflicts(reader: &mut Reader, document: &Table) {
-    for name in ["belt", "disc"] {
+    for name in OTHER_KINDS.iter().copied() {
         if let Some(node) = document.get(name) {
             let allowed = format!(
                 "a study describes a belt, a disc or a system; [{name}] and [system] exclude each other"
@@ -98,22 +117,80 @@ fn units(reader: &mut Reader, document: &Table) -> SystemUnits {
     name.and_then(SystemUnits::from_name).unwrap_or_default()
 }
 
+/// The keys that a form of the structure has, the first of which choose it.
+const FORMS: &[(&[&str], &[&str])] = &[
+    (&["coordinates"], &["mass", "damping", "stiffness"]),
+    (&["states"], &["matrix"]),
+    (&["mode", "modes"], &["normalisation"]),
+    (&["component"], &[]),
+    (&["frequency_response"], &[]),
+];
+
+/// A structure and the files that it was read from.
+#[derive(Default)]
+struct Read {
+    body: Body,
+    modes: Vec<Arc<ModeList>>,
+    response: Option<Arc<FrequencyResponse>>,
+}
+
 /// Reads the structure in the form that its keys choose.
-fn body(reader: &mut Reader, numbers: &Numbers, table: &Table, header: Origin) -> Body {
-    let forms = ["coordinates", "states"];
-    let mut given = forms.into_iter().filter_map(|name| Some((name, table.get(name)?)));
-    let Some((form, _)) = given.next() else {
-        let allowed = "the names of the coordinates, with mass and stiffness; or states and matrix";
+fn body(
+    reader: &mut Reader,
+    numbers: &Numbers,
+    table: &Table,
+    header: Origin,
+    given: &Given<'_, SystemSetup>,
+) -> Read {
+    let chosen = FORMS.iter().find(|(first, _)| first.iter().any(|name| table.has(name)));
+    let Some(form @ (first, _)) = chosen else {
+        let allowed = "the names of the coordinates, with mass and stiffness; or states and matrix, mode or modes, \
+                       component, or frequency_response";
         missing(reader, "system.coordinates", header, allowed);
-        return Body::default();
+        return Read::default();
     };
-    if let Some((other, node)) = given.next() {
-        let key = format!("system.{other}");
-        let allowed = format!("give either system.{form} or {key}, not both");
-        reader.complain(Complaint::new(Fault::Conflict, key, node.origin, Json::Null, allowed));
+    other_forms(reader, table, form);
+    match first[0] {
+        "coordinates" => {
+            let body = structure::mechanical(reader, numbers, table, header);
+            Read { body, ..Read::default() }
+        }
+        "states" => {
+            let body = structure::first_order(reader, numbers, table, header);
+            Read { body, ..Read::default() }
+        }
+        "frequency_response" => {
+            let known = given.known.and_then(|setup| setup.response.as_ref());
+            let node = table.get("frequency_response");
+            let response = node.and_then(|node| {
+                frequency_response::read(reader, node, given.folder, numbers.units, known)
+            });
+            let body = response.as_ref().map(|response| {
+                structure::of_names(reader, numbers, table, response.names.clone())
+            });
+            Read { body: body.unwrap_or_default(), response, ..Read::default() }
+        }
+        _ => {
+            let known = given.known.map_or(&[][..], |setup| &setup.modes);
+            let context = ModesContext { numbers, folder: given.folder, known };
+            let (body, modes) = modes::read(reader, table, header, context);
+            Read { body, modes, response: None }
+        }
     }
-    match form {
-        "states" => structure::first_order(reader, numbers, table, header),
-        _ => structure::mechanical(reader, numbers, table, header),
+}
+
+/// Reports keys of other forms.
+fn other_forms(reader: &mut Reader, table: &Table, form: &(&[&str], &[&str])) {
+    let own = |name: &str| form.0.contains(&name) || form.1.contains(&name);
+    for (first, further) in FORMS {
+        for name in first.iter().chain(*further).filter(|name| !own(name)) {
+            if let Some(node) = table.get(name) {
+                let key = format!("system.{name}");
+                let allowed = format!("does not belong to a structure given by {}", form.0[0]);
+                let complaint =
+                    Complaint::new(Fault::Conflict, key, node.origin, Json::Null, allowed);
+                reader.complain(complaint);
+            }
+        }
     }
 }

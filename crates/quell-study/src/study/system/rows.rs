@@ -177,7 +177,9 @@ impl Basis {
 
     fn unknown(&self, reader: &mut Reader, path: String, key: &str, name: &str, node: &Node) {
         let names = self.candidates();
-        let nearest = suggest::word(name, names.iter().copied());
+        // Rows are meant to name points where there are any.
+        let meant = self.points.as_ref().map_or(&self.names, |points| &points.names);
+        let nearest = suggest::word(name, meant.iter().map(String::as_str));
         let mut listed = names.iter().take(12).copied().collect::<Vec<_>>().join(", ");
         if names.len() > 12 {
             listed += ", …";

@@ -5,7 +5,7 @@ use quell_model::units::Quantity;
 use quell_numerics::matrix::Matrix;
 
 use super::mass;
-use super::numbers::{Keyed, Numbers, Wanted, missing};
+use super::numbers::{Keyed, Numbers, Reported, Wanted, missing};
 use super::rows::Basis;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
@@ -38,15 +38,15 @@ pub(super) fn mechanical(
     let mass = mass::read(reader, numbers, table, header, &names);
     let damping = matrix(reader, numbers, table, "damping", n);
     let stiffness = matrix(reader, numbers, table, "stiffness", n);
-    if matches!(stiffness, Some(None)) {
+    if matches!(stiffness, Ok(None)) {
         let allowed = "a diagonal or rows; 0 for a body without springs";
         missing(reader, join(PREFIX, "stiffness"), header, allowed);
     }
     let basis = Basis::of(names, "coordinate");
     let force = force(reader, numbers, table, &basis);
     let build = || {
-        let damping = damping?.unwrap_or_else(|| Matrix::zeros(n, n));
-        let structure = Mechanical::new(basis.names.clone(), mass?, damping, stiffness??);
+        let damping = damping.ok()?.unwrap_or_else(|| Matrix::zeros(n, n));
+        let structure = Mechanical::new(basis.names.clone(), mass?, damping, stiffness.ok()??);
         Some(structure.under(force?).into())
     };
     let structure = build();
@@ -63,22 +63,29 @@ pub(super) fn first_order(
     let Some(names) = names(reader, table, "states") else { return Body::default() };
     let n = names.len();
     let matrix = matrix(reader, numbers, table, "matrix", n);
-    if matches!(matrix, Some(None)) {
+    if matches!(matrix, Ok(None)) {
         missing(reader, join(PREFIX, "matrix"), header, format!("{n} rows of {n} numbers"));
     }
     let basis = Basis::of(names, "state");
     let force = force(reader, numbers, table, &basis);
-    let build = || Some(StateSpace::new(basis.names.clone(), matrix??).under(force?).into());
+    let build = || Some(StateSpace::new(basis.names.clone(), matrix.ok()??).under(force?).into());
     let structure = build();
     Body { structure, basis: Some(basis) }
 }
 
 /// A structure of which only the names are known: one of a measured frequency response.
-pub(super) fn of_names(names: Vec<String>) -> Body {
+pub(super) fn of_names(
+    reader: &mut Reader,
+    numbers: &Numbers,
+    table: &Table,
+    names: Vec<String>,
+) -> Body {
     let n = names.len();
     let zeros = || Matrix::zeros(n, n);
     let structure = Mechanical::new(names.clone(), MassMatrix::identity(n), zeros(), zeros());
-    Body { structure: Some(structure.into()), basis: Some(Basis::of(names, "point")) }
+    let basis = Basis::of(names, "point");
+    let force = force(reader, numbers, table, &basis);
+    Body { structure: force.map(|force| structure.under(force).into()), basis: Some(basis) }
 }
 
 /// Constant forces; of first-order equations constant rates.
@@ -138,14 +145,14 @@ pub(super) fn is_plain_name(name: &str) -> bool {
     !name.trim().is_empty() && name.trim() == name && !name.contains(['.', '[', ']', '=', ','])
 }
 
-/// A square matrix of size `n`: a diagonal or rows. `Some(None)` if absent, `None` if it is wrong.
+/// A square matrix of size `n`, if it is given: a diagonal or rows.
 pub(super) fn matrix(
     reader: &mut Reader,
     numbers: &Numbers,
     table: &Table,
     name: &'static str,
     n: usize,
-) -> Option<Option<Matrix>> {
+) -> Result<Option<Matrix>, Reported> {
     let quantity = match name {
         "mass" => Some(Quantity::LoadMass),
         "damping" => Some(Quantity::LoadDamping),
@@ -155,11 +162,11 @@ pub(super) fn matrix(
     let before = reader.complaints_so_far();
     let found = numbers.array(reader, table, PREFIX, name, quantity);
     let Some(Keyed { node, key, twin }) = found else {
-        return (reader.complaints_so_far() == before).then_some(None);
+        return if reader.complaints_so_far() == before { Ok(None) } else { Err(Reported) };
     };
     let wanted = Wanted { twin, ..Wanted::finite(quantity) };
     let diagonal_allowed = name != "matrix" || n == 1;
-    entries(reader, numbers, &key, node, wanted, n, diagonal_allowed).map(Some)
+    entries(reader, numbers, &key, node, wanted, n, diagonal_allowed).map(Some).ok_or(Reported)
 }
 
 fn entries(

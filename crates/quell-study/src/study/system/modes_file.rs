@@ -1,0 +1,148 @@
+//! CSV files of modes: a line for each mode, a column for each point of its shape.
+//!
+//! Columns `frequency` (angular) or `frequency_hz`, `damping_ratio` and optionally `modal_mass`; every other column is a
+//! point, and its numbers are the displacements of the point in the modes.
+
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+
+use quell_model::parameter::system::{
+    SYSTEM_MODAL_MASS, SYSTEM_MODE_DAMPING, SYSTEM_MODE_FREQUENCY,
+};
+use quell_model::parameter::{Bounds, Parameter};
+
+use super::structure::MOST_COORDINATES;
+use crate::study::data_file::{self, DataFile};
+
+/// What the file must be.
+const WHAT: &str = "a CSV file of modes";
+
+/// The column of frequencies in hertz.
+const HERTZ: &str = "frequency_hz";
+
+/// A mode.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct ModeLine {
+    /// Angular frequency.
+    pub(super) frequency: f64,
+    pub(super) damping_ratio: f64,
+    pub(super) modal_mass: Option<f64>,
+    /// Displacement of each point of the list.
+    pub(super) shape: Vec<f64>,
+}
+
+/// The modes of a structure or of one of its components.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct ModeList {
+    /// The file that it was read from.
+    pub(super) file: Option<PathBuf>,
+    /// Whether the file gives frequencies in hertz.
+    pub(super) in_hertz: bool,
+    pub(super) points: Vec<String>,
+    pub(super) modes: Vec<ModeLine>,
+}
+
+impl ModeList {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// What is wrong, with its line.
+    pub(super) fn read(path: &Path) -> Result<Self, String> {
+        let list = parse(&data_file::text(path, WHAT)?)?;
+        Ok(Self { file: Some(path.to_owned()), ..list })
+    }
+}
+
+fn parse(text: &str) -> Result<ModeList, String> {
+    let file = DataFile::new(text, WHAT)?;
+    let count = file.rows().len();
+    if count > MOST_COORDINATES {
+        return Err(format!(
+            "a CSV file of at most {MOST_COORDINATES} modes; this one has {count}"
+        ));
+    }
+    let column = |parameter: Parameter| file.column(parameter.key());
+    let (frequency, in_hertz) = match (column(SYSTEM_MODE_FREQUENCY), file.column(HERTZ)) {
+        (Some(_), Some(_)) => {
+            return Err(format!(
+                "a CSV file with either the column frequency, angular, or {HERTZ}; this one has both"
+            ));
+        }
+        (Some(at), None) => (at, false),
+        (None, Some(at)) => (at, true),
+        (None, None) => return Err(format!("a CSV file with a column frequency or {HERTZ}")),
+    };
+    let damping = column(SYSTEM_MODE_DAMPING)
+        .ok_or_else(|| "a CSV file with a column damping_ratio".to_owned())?;
+    let mass = column(SYSTEM_MODAL_MASS);
+    let known = [Some(frequency), Some(damping), mass];
+    let points: Vec<(usize, &str)> = file
+        .names()
+        .iter()
+        .enumerate()
+        .filter(|(at, _)| !known.contains(&Some(*at)))
+        .map(|(at, name)| (at, *name))
+        .collect();
+    if points.is_empty() {
+        return Err("a CSV file with a column for each point of the shapes".to_owned());
+    }
+    for (index, (_, name)) in points.iter().enumerate() {
+        if name.is_empty() || points[..index].iter().any(|(_, earlier)| earlier == name) {
+            return Err("a CSV file whose columns have different names".to_owned());
+        }
+    }
+    let modes: Vec<ModeLine> = file
+        .rows()
+        .iter()
+        .map(|row| {
+            let number = |at: usize, name: &str, bounds: Bounds| {
+                row.number(at, name, &bounds.to_string(), |value| bounds.contains(value))
+            };
+            let name = if in_hertz { HERTZ } else { "frequency" };
+            let written = number(frequency, name, Bounds::NOT_NEGATIVE)?;
+            let shape = points.iter().map(|(at, name)| number(*at, name, Bounds::FINITE));
+            Ok(ModeLine {
+                frequency: if in_hertz { TAU * written } else { written },
+                damping_ratio: number(damping, "damping_ratio", Bounds::NOT_NEGATIVE)?,
+                modal_mass: mass
+                    .map(|at| number(at, "modal_mass", Bounds::POSITIVE))
+                    .transpose()?,
+                shape: shape.collect::<Result<_, String>>()?,
+            })
+        })
+        .collect::<Result<_, String>>()?;
+    if modes.is_empty() {
+        return Err("a CSV file with at least one mode".to_owned());
+    }
+    let points = points.into_iter().map(|(_, name)| name.to_owned()).collect();
+    Ok(ModeList { file: None, in_hertz, points, modes })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_beyond_the_known_ones_are_points() {
+        let text = "# a rotor\nfrequency_hz, damping_ratio, pad_x, pad_y\n10, 0.01, 0.5, 1\n20, 0.02, -1, 0\n";
+        let list = parse(text).expect("modes");
+        assert_eq!(list.points, ["pad_x", "pad_y"]);
+        assert_eq!(list.modes[1].frequency, TAU * 20.0);
+        assert_eq!(list.modes[0].shape, [0.5, 1.0]);
+        for (text, part) in [
+            ("frequency,frequency_hz,damping_ratio,x\n1,1,0,1\n", "has both"),
+            ("damping_ratio,x\n0,1\n", "frequency or frequency_hz"),
+            ("frequency,x\n1,1\n", "damping_ratio"),
+            ("frequency,damping_ratio\n1,0\n", "each point"),
+            ("frequency,damping_ratio,x\n1,0,nan\n", "line 2, x"),
+            ("frequency,damping_ratio,x\n-1,0,1\n", "line 2, frequency"),
+            ("frequency,damping_ratio,x\n", "at least one mode"),
+            ("frequency,damping_ratio,x,x\n1,0,1,1\n", "different names"),
+        ] {
+            let wrong = parse(text).expect_err(text);
+            assert!(wrong.contains(part), "{text}: {wrong}");
+        }
+        let many = "frequency,damping_ratio,x\n".to_owned() + &"1,0,1\n".repeat(100_000);
+        assert!(parse(&many).expect_err("too many").contains("100000"));
+    }
+}
