@@ -16,6 +16,8 @@
 
 use num_complex::Complex64;
 
+use crate::boundaries::NOT_PLAIN;
+
 use super::wave::{SignedWave, TravellingWave, WaveDirection};
 use quell_model::disc::{Disc, DiscDither};
 use quell_model::disc::{Load, Mode};
@@ -44,6 +46,10 @@ pub struct Waves {
 pub enum WaveError {
     /// The number of loads is not one: the couplings of several loads interfere, which the expansion neglects.
     Loads(usize),
+    /// The load is distributed, or its pad moves.
+    NotPlain,
+    /// Centrifugal stress changes the frequencies of the waves with the speed.
+    Stiffened,
     /// Friction is negative: describe the disc from the other side instead (−Ω, −f).
     NegativeFriction {
         /// The friction given.
@@ -62,6 +68,10 @@ impl core::fmt::Display for WaveError {
             Self::Loads(count) => {
                 write!(f, "resonance theory applies to one load only, but the disc has {count}")
             }
+            Self::NotPlain => f.write_str(NOT_PLAIN),
+            Self::Stiffened => f.write_str(
+                "resonance theory requires frequencies that do not depend on the speed, but centrifugal stress stiffens the disc",
+            ),
             Self::NegativeFriction { friction } => write!(
                 f,
                 "the friction is {friction}, but resonance theory requires a positive one: change the signs of speed and friction"
@@ -88,6 +98,12 @@ impl Waves {
     /// [`WaveError::Loads`], [`WaveError::NegativeFriction`].
     pub fn new(disc: &Disc) -> Result<Self, WaveError> {
         let [load] = disc.loads() else { return Err(WaveError::Loads(disc.loads().len())) };
+        if !load.is_plain() {
+            return Err(WaveError::NotPlain);
+        }
+        if disc.is_stiffened() {
+            return Err(WaveError::Stiffened);
+        }
         if load.friction < 0.0 {
             return Err(WaveError::NegativeFriction { friction: load.friction });
         }

@@ -1,9 +1,11 @@
 //! A mode of the disc and a load that rotates over it.
 
+use super::{Carrier, Patch};
 use crate::Invalid;
 use crate::parameter::disc::{
-    LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS,
-    MODE_DAMPING, MODE_DIAMETERS, MODE_RATIO, MODE_SHAPE_AT_LOAD,
+    CALIPER_DAMPING, CALIPER_MASS, CALIPER_STIFFNESS, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE,
+    LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS, MODE_DAMPING, MODE_DIAMETERS, MODE_RATIO,
+    MODE_SHAPE_AT_LOAD, PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
 };
 use crate::parameter::{Parameter, indexed};
 
@@ -20,7 +22,7 @@ pub struct Mode {
     pub damping: f64,
 }
 
-/// Mass, damper, spring and friction at one point of the rotating frame.
+/// Mass, damper, spring and friction at one point of the rotating frame, or over a patch around it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Load {
     /// Angle θ in the frame of the loads, radians.
@@ -40,6 +42,12 @@ pub struct Load {
     /// Shapes of all modes at this load, where it sits at another radius than the modes'
     /// [`Mode::shape_at_load`] means.
     pub shapes: Option<Vec<f64>>,
+    /// The area over which it is distributed; `None` for a point.
+    pub patch: Option<Patch>,
+    /// The pad, between the spring and damper of the contact and the caliper or the ground; `None` where they are at rest.
+    pub pad: Option<Carrier>,
+    /// The caliper that carries the pad; `None` for a pad on the ground. Ignored without a pad.
+    pub caliper: Option<Carrier>,
 }
 
 impl Load {
@@ -54,7 +62,42 @@ impl Load {
             dither_phase: 0.0,
             radius_ratio: None,
             shapes: None,
+            patch: None,
+            pad: None,
+            caliper: None,
         }
+    }
+
+    /// The same load on a pad that moves.
+    #[must_use]
+    pub fn on_pad(self, pad: Carrier) -> Self {
+        Self { pad: Some(pad), ..self }
+    }
+
+    /// The same load on a caliper that moves and carries its pad.
+    #[must_use]
+    pub fn on_caliper(self, caliper: Carrier) -> Self {
+        Self { caliper: Some(caliper), ..self }
+    }
+
+    /// The same load, distributed over a patch.
+    #[must_use]
+    pub fn over(self, patch: Patch) -> Self {
+        Self { patch: Some(patch), ..self }
+    }
+
+    /// Number of coordinates of its own: one for the pad, one more for the caliper.
+    pub fn bodies(&self) -> usize {
+        match (&self.pad, &self.caliper) {
+            (None, _) => 0,
+            (Some(_), None) => 1,
+            (Some(_), Some(_)) => 2,
+        }
+    }
+
+    /// Whether it acts at one point, from the ground: the load of the dissertation, for which closed forms exist.
+    pub fn is_plain(&self) -> bool {
+        self.patch.is_none() && self.pad.is_none()
     }
 
     /// The same load at another angle (radians).
@@ -71,7 +114,12 @@ impl Load {
 }
 
 /// A complaint about entry `index` of `count`, its key with the index where there are several.
-fn complain(parameter: &Parameter, value: f64, index: usize, count: usize) -> Option<Invalid> {
+pub(super) fn complain(
+    parameter: &Parameter,
+    value: f64,
+    index: usize,
+    count: usize,
+) -> Option<Invalid> {
     parameter.check(value).err().map(|mut complaint| {
         let (table, key) = parameter.path.rsplit_once('.').unwrap_or(("", parameter.path));
         complaint.key = indexed(table, index, count, key);
@@ -106,6 +154,21 @@ impl Load {
         .iter()
         .filter_map(|(parameter, value)| complain(parameter, *value, index, count))
         .collect();
+        let of_pad = [PAD_MASS, PAD_DAMPING, PAD_STIFFNESS];
+        let of_caliper = [CALIPER_MASS, CALIPER_DAMPING, CALIPER_STIFFNESS];
+        for (body, names) in [(&self.pad, of_pad), (&self.caliper, of_caliper)] {
+            let Some(Carrier { mass, damping, stiffness }) = *body else { continue };
+            let numbers = names.iter().zip([mass, damping, stiffness]);
+            complaints
+                .extend(numbers.filter_map(|(name, value)| complain(name, value, index, count)));
+        }
+        if self.caliper.is_some() && self.pad.is_none() {
+            let key = indexed("disc.load", index, count, PAD_MASS.key());
+            complaints.push(Invalid::new(key, "none", "a pad: the caliper carries it"));
+        }
+        if let Some(patch) = &self.patch {
+            complaints.extend(patch.complaints(modes, index, count));
+        }
         if let Some(shapes) = &self.shapes {
             let key = format!("disc.load[{index}].shapes");
             if shapes.len() != modes {

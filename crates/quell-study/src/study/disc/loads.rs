@@ -7,6 +7,8 @@ use quell_model::parameter::disc::{
 };
 use quell_model::units::DiscScales;
 
+use super::carriers;
+use super::patch::PatchSize;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
@@ -35,6 +37,8 @@ pub(super) struct Pad {
     pub(super) load: Load,
     /// Radius over the outer radius.
     pub(super) radius: Option<f64>,
+    /// The area over which it is distributed, if it is no point.
+    pub(super) patch: Option<PatchSize>,
     /// Speed and where it was written.
     pub(super) speed: Option<(f64, Origin)>,
     /// Path of its table.
@@ -91,14 +95,21 @@ fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Opti
         Found::Wrong => None,
     };
     let [mass, damping, stiffness, friction] = strengths;
+    let (pad, caliper) = carriers::read(reader, table, node.origin, path)?;
+    let patch = PatchSize::read(reader, table, path)?;
     let twins = DISC_SPEED.si.iter().map(|twin| twin.key);
     let given = [DISC_SPEED.key()].into_iter().chain(twins).find_map(|key| table.get(key));
     let origin = given.map_or(node.origin, |node| node.origin);
     Some(Pad {
-        load: Load::new(mass?, damping?, stiffness?, friction?)
-            .at_angle(angle?.to_radians())
-            .dithered_at(phase?.to_radians()),
+        load: Load {
+            pad,
+            caliper,
+            ..Load::new(mass?, damping?, stiffness?, friction?)
+                .at_angle(angle?.to_radians())
+                .dithered_at(phase?.to_radians())
+        },
         radius: radius?,
+        patch,
         speed: speed?.map(|speed| (speed, origin)),
         path: path.to_owned(),
         origin: table.get("radius_ratio").map_or(node.origin, |node| node.origin),

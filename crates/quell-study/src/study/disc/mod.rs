@@ -1,15 +1,19 @@
 //! `[disc]`: the study of an annular disc under rotating loads.
 //!
 //! Modes are computed from the plate, listed as `[[disc.mode]]`, or read from a CSV file; loads are one `[disc.load]` or
-//! several `[[disc.load]]`; `without` switches contributions off; `[dither]` modulates every load's friction.
+//! several `[[disc.load]]`, each at a point or over an area, on the ground or on a pad and a caliper; `without` switches contributions off; `[dither]` modulates every load's friction.
 
 mod body;
+mod carriers;
 mod loads;
 mod mode_line;
 mod modes;
 mod modes_file;
+mod patch;
 mod plate;
+mod rotation;
 
+use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -84,9 +88,11 @@ impl StudyKind for DiscSetup {
         if reader.complaints_so_far() > 0 {
             return None;
         }
-        let Body { source, material, modes, loads, radii, speed, parts, warnings } = body;
+        let Body { source, material, modes, loads, radii, speed, parts, centrifugal, warnings } =
+            body;
         let scales = body::scales(&source, material.as_ref());
-        match Disc::new(modes, loads, dither, speed) {
+        let disc = Disc::new(modes, loads, dither, speed);
+        match disc.and_then(|disc| disc.stiffened(centrifugal)) {
             Ok(disc) => Some(Self {
                 disc: disc.in_si(scales.disc, scales.outer_radius_m),
                 parts,
@@ -121,10 +127,13 @@ impl StudyKind for DiscSetup {
             _ => &[],
         };
         let modes = listed.iter().enumerate().map(|(index, mode)| {
-            let numbers = format!(
+            let mut numbers = format!(
                 "{} {:?} {:?} {:?}",
                 mode.diameters, mode.ratio, mode.shape_at_load, mode.damping
             );
+            if self.disc.is_stiffened() {
+                let _ = write!(numbers, " {:?}", self.disc.centrifugal(index));
+            }
             (format!("disc.modes_file[{index}]"), numbers)
         });
         modes.collect()

@@ -18,6 +18,8 @@ pub enum Choice {
     Spacing,
     /// Parts of the disc's equations.
     Contribution,
+    /// The part of a disc study that rotates.
+    Rotating,
 }
 
 impl Choice {
@@ -30,6 +32,7 @@ impl Choice {
             Self::Waveform => Waveform::ALL.iter().map(|waveform| waveform.name()).collect(),
             Self::Spacing => vec!["linear", "log"],
             Self::Contribution => Contribution::ALL.iter().map(|part| part.name()).collect(),
+            Self::Rotating => vec!["loads", "disc"],
         }
     }
 }

@@ -1,9 +1,11 @@
 //! `check` of a disc study: the numbers of a valid study.
 
 use quell_model::Direction;
-use quell_model::disc::DiscDither;
+use quell_model::disc::{Carrier, DiscDither, Load};
 use quell_model::parameter::disc::{
-    DISC_SPEED, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS,
+    CALIPER_DAMPING, CALIPER_MASS, CALIPER_STIFFNESS, DISC_SPEED, LOAD_DAMPING, LOAD_DITHER_PHASE,
+    LOAD_EXTENT, LOAD_FRICTION, LOAD_MASS, LOAD_POINTS, LOAD_RADIAL_POINTS, LOAD_STIFFNESS,
+    PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
 };
 use quell_model::parameter::{DITHER_FREQUENCY_RATIO, Parameter};
 use quell_model::units::{DiscScales, measure};
@@ -34,6 +36,15 @@ pub fn json(study: &DiscStudy) -> Json {
                 (LOAD_FRICTION, load.friction),
             ] {
                 put_both(&mut object, parameter, value, scales);
+            }
+            put_area(&mut object, load);
+            let of_pad = [PAD_MASS, PAD_DAMPING, PAD_STIFFNESS];
+            let of_caliper = [CALIPER_MASS, CALIPER_DAMPING, CALIPER_STIFFNESS];
+            for (body, names) in [(load.pad, of_pad), (load.caliper, of_caliper)] {
+                let Some(Carrier { mass, damping, stiffness }) = body else { continue };
+                for (parameter, value) in names.into_iter().zip([mass, damping, stiffness]) {
+                    put_both(&mut object, parameter, value, scales);
+                }
             }
             object
         })
@@ -74,6 +85,16 @@ pub fn json(study: &DiscStudy) -> Json {
         object["why"] = json!({ "title": "the study has no title" });
     }
     object
+}
+
+/// Adds the area of a distributed load: its extent and its numbers of quadrature points.
+fn put_area(object: &mut Json, load: &Load) {
+    let Some(patch) = &load.patch else { return };
+    object[LOAD_EXTENT.key()] = patch.extent.to_degrees().into();
+    object[LOAD_POINTS.key()] = patch.points.into();
+    if !patch.radii.is_empty() {
+        object[LOAD_RADIAL_POINTS.key()] = patch.radii.len().into();
+    }
 }
 
 /// Adds a number of the equations, and its value in SI under each SI key if its scale is known.
