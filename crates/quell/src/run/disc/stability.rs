@@ -2,6 +2,7 @@
 
 use quell_disc::boundaries::{Marginal, NoBoundary, boundaries};
 use quell_disc::dithered;
+use quell_disc::instability::{GrowthShares, InstabilityKind, origins};
 use quell_disc::partition::{NoPartition, crossings};
 use quell_disc::undithered;
 use quell_linear::growth::{Growth, Verdict};
@@ -34,6 +35,8 @@ pub struct Stability {
     pub undithered: Growth,
     /// Every motion that grows by more than its error, the fastest first.
     pub unstable: Vec<Growth>,
+    /// Which part of the loads causes each of them, without dither; or why that is unknown.
+    pub origins: Result<Vec<GrowthShares>, String>,
     /// Frictions at which a motion is marginal, with everything else as given, ascending; or why they are unknown. They have the
     /// sign of the load's own friction, and are ≥ 0 if that is zero.
     pub changes: Result<Vec<Change>, String>,
@@ -56,6 +59,10 @@ pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
         }
         None => (undithered, undithered::growing_with(disc, parts).map_err(failed)?),
     };
+    let origins = match disc.dither() {
+        DiscDither::None => Ok(origins(disc, parts, &unstable).map_err(failed)?),
+        _ => Err("the kinds of instability are those of a disc without dither".to_owned()),
+    };
     let (changes, out_of_reach) = match disc.dither() {
         _ if parts != Contributions::ALL => (
             Err("marginal frictions are computed for the whole disc only, and this study leaves parts out".to_owned()),
@@ -64,7 +71,7 @@ pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
         DiscDither::None => still(study),
         DiscDither::Normal { .. } | DiscDither::Tangential { .. } => (shaken(study), false),
     };
-    Ok(Stability { growth, undithered, unstable, changes, out_of_reach })
+    Ok(Stability { growth, undithered, unstable, origins, changes, out_of_reach })
 }
 
 /// Boundaries without dither.
@@ -127,6 +134,15 @@ fn ascending(mut changes: Vec<Change>) -> Vec<Change> {
     changes
 }
 
+/// Adds the kind of an unstable motion and the share of each part of the loads in its growth.
+fn put_origin(object: &mut Json, origin: Option<&GrowthShares>) {
+    object["kind"] = origin.and_then(GrowthShares::kind).map(InstabilityKind::name).into();
+    object["shares"] = origin.map_or(Json::Null, |origin| {
+        let parts = InstabilityKind::ALL.into_iter().zip(origin.shares);
+        parts.map(|(kind, share)| (kind.part().to_owned(), Json::from(share))).collect()
+    });
+}
+
 /// Adds growth per second, in decibels per second, and hertz to a motion.
 fn put_si(object: &mut Json, hertz: f64, growth: &Growth) {
     let rate = std::f64::consts::TAU * hertz * growth.rate;
@@ -177,14 +193,22 @@ impl Stability {
         object["unstable_modes"] = self
             .unstable
             .iter()
-            .map(|mode| {
+            .enumerate()
+            .map(|(index, mode)| {
                 let mut object = growth(mode);
+                let origin = self.origins.as_ref().ok().and_then(|origins| origins.get(index));
+                put_origin(&mut object, origin);
                 if let Some(hertz) = hertz {
                     put_si(&mut object, hertz, mode);
                 }
                 object
             })
             .collect();
+        if let Err(reason) = &self.origins {
+            for key in ["unstable_modes[].kind", "unstable_modes[].shares"] {
+                why.insert(key.to_owned(), reason.clone().into());
+            }
+        }
         object["ok"] = true.into();
         object["sentence"] = self.sentence(study).into();
         object["protocol"] = match study.disc().dither() {
