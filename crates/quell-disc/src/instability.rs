@@ -170,7 +170,7 @@ fn nearest(
     guess: Complex64,
 ) -> Result<(Complex64, f64, f64), EigenError> {
     let weaker = disc
-        .with_loads(|load| kind.weakened(load.clone(), strength))
+        .with_each_load(|load| kind.weakened(load.clone(), strength))
         .map_err(|_| EigenError::NotFinite)?;
     let system = linearised(&weaker.undithered(), parts)?;
     let values = eigenvalues(&system.state_matrix(&system.mean_friction()))?;

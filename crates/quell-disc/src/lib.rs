@@ -6,6 +6,7 @@
 //! * [`undithered`], [`boundaries`]: eigenvalues, Campbell diagram, exact boundaries f(Ω) at ξ = 0;
 //! * [`dithered`], [`partition`]: Floquet exponents with error bounds, boundary curves by D-partition;
 //! * [`instability`]: which part of the loads causes an unstable motion;
+//! * [`tangential`]: the follower force under tangential dither at a finite speed ratio, and the force of the dither;
 //! * [`resonance`]: where waves meet, which meetings can be unstable, tongues, clear dither frequencies.
 //!
 //! The disc itself, its modes, loads and dither, is a noun of `quell-model`.
@@ -17,4 +18,5 @@ pub mod instability;
 pub mod partition;
 pub mod plate;
 pub mod resonance;
+pub mod tangential;
 pub mod undithered;

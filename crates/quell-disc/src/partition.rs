@@ -26,7 +26,7 @@ use std::fmt;
 use num_complex::Complex64;
 use quell_numerics::eigen::Tridiagonal;
 
-use quell_model::Disc;
+use quell_model::{Disc, Waveform};
 
 use crate::boundaries::NOT_PLAIN;
 
@@ -62,6 +62,8 @@ pub enum NoPartition {
     Loads(usize),
     /// The load is distributed, or its pad moves.
     NotPlain,
+    /// The dither is not a sine.
+    Waveform,
     /// There is no dither.
     Undithered,
     /// The dither is so slow compared to the waves that more than [`MOST_HARMONICS`] harmonics would be needed.
@@ -80,6 +82,7 @@ impl fmt::Display for NoPartition {
                 write!(f, "a D-partition exists for one load only, but the disc has {count}")
             }
             Self::NotPlain => f.write_str(NOT_PLAIN),
+            Self::Waveform => f.write_str("a D-partition exists for sinusoidal dither only"),
             Self::Undithered => f.write_str("there is no dither"),
             Self::TooManyHarmonics { harmonics } => write!(
                 f,
@@ -228,6 +231,9 @@ pub fn crossings(disc: &Disc) -> Result<Vec<FrictionCrossing>, NoPartition> {
         return Err(NoPartition::NotPlain);
     }
     let Some(ratio) = disc.dither().frequency_ratio() else { return Err(NoPartition::Undithered) };
+    if disc.waveform() != Waveform::Sine {
+        return Err(NoPartition::Waveform);
+    }
     let (mean, amplitude) = disc.dither().mean_and_amplitude();
     let fastest = disc
         .modes()

@@ -137,7 +137,7 @@ fn disc(definitions: &mut Map<String, Json>) {
         "description": "modulation of the friction of every load",
         "properties": {
             "direction": { "enum": Choice::Direction.names() },
-            "waveform": { "const": "sine" },
+            "waveform": { "enum": ["sine", "square"] },
             "amplitude": property_of(DISC_DITHER_AMPLITUDE),
             "frequency_ratio": property_of(DITHER_FREQUENCY_RATIO),
             "frequency_hz": vocabulary::key(Section::Dither, "frequency_hz").map_or(json!({}), property),

@@ -19,6 +19,7 @@ use num_complex::Complex64;
 use crate::boundaries::NOT_PLAIN;
 
 use super::wave::{SignedWave, TravellingWave, WaveDirection};
+use quell_model::Waveform;
 use quell_model::disc::{Disc, DiscDither};
 use quell_model::disc::{Load, Mode};
 
@@ -50,6 +51,8 @@ pub enum WaveError {
     NotPlain,
     /// Centrifugal stress changes the frequencies of the waves with the speed.
     Stiffened,
+    /// The dither is not a sine.
+    Waveform,
     /// Friction is negative: describe the disc from the other side instead (−Ω, −f).
     NegativeFriction {
         /// The friction given.
@@ -69,6 +72,7 @@ impl core::fmt::Display for WaveError {
                 write!(f, "resonance theory applies to one load only, but the disc has {count}")
             }
             Self::NotPlain => f.write_str(NOT_PLAIN),
+            Self::Waveform => f.write_str("resonance theory applies to sinusoidal dither only"),
             Self::Stiffened => f.write_str(
                 "resonance theory requires frequencies that do not depend on the speed, but centrifugal stress stiffens the disc",
             ),
@@ -103,6 +107,9 @@ impl Waves {
         }
         if disc.is_stiffened() {
             return Err(WaveError::Stiffened);
+        }
+        if disc.waveform() != Waveform::Sine {
+            return Err(WaveError::Waveform);
         }
         if load.friction < 0.0 {
             return Err(WaveError::NegativeFriction { friction: load.friction });

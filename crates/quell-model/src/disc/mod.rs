@@ -2,7 +2,7 @@
 
 use crate::parameter::disc::{CENTRIFUGAL, DISC_SPEED, MODE_CENTRIFUGAL};
 use crate::units::DiscScales;
-use crate::{Invalid, InvalidValues};
+use crate::{Invalid, InvalidValues, Waveform};
 
 mod carrier;
 mod contributions;
@@ -25,6 +25,7 @@ pub struct Disc {
     modes: Vec<Mode>,
     loads: Vec<Load>,
     dither: DiscDither,
+    waveform: Waveform,
     speed: f64,
     /// κ of each mode; none where the disc is at rest.
     centrifugal: Vec<f64>,
@@ -62,6 +63,7 @@ impl Disc {
                 modes,
                 loads,
                 dither,
+                waveform: Waveform::Sine,
                 speed,
                 centrifugal,
                 scales: None,
@@ -93,7 +95,7 @@ impl Disc {
         speed: f64,
     ) -> Result<Self, InvalidValues> {
         let disc = Self::new(self.modes.clone(), loads, dither, speed)?;
-        let disc = Self { centrifugal: self.centrifugal.clone(), ..disc };
+        let disc = Self { centrifugal: self.centrifugal.clone(), waveform: self.waveform, ..disc };
         Ok(disc.in_si(self.scales, self.outer_radius_m))
     }
 
@@ -173,6 +175,26 @@ impl Disc {
         self.dither
     }
 
+    /// The same disc with another wave in place of the cosine of its dither: sgn cos Rτ for [`Waveform::Square`].
+    ///
+    /// # Errors
+    /// A waveform other than sine and square.
+    pub fn shaped(self, waveform: Waveform) -> Result<Self, InvalidValues> {
+        match waveform {
+            Waveform::Sine | Waveform::Square => Ok(Self { waveform, ..self }),
+            Waveform::Triangle => Err(InvalidValues::from(Invalid::new(
+                "dither.waveform",
+                waveform.name(),
+                "\"sine\" or \"square\": friction that follows the sign of the slip is a square wave",
+            ))),
+        }
+    }
+
+    /// Waveform of the dither.
+    pub fn waveform(&self) -> Waveform {
+        self.waveform
+    }
+
     /// Speed Ω of the loads over the disc, in ω_ref.
     pub fn speed(&self) -> f64 {
         self.speed
@@ -209,14 +231,14 @@ impl Disc {
     /// # Errors
     /// A friction out of bounds.
     pub fn with_friction_times(&self, factor: f64) -> Result<Self, InvalidValues> {
-        self.with_loads(|load| Load { friction: factor * load.friction, ..load.clone() })
+        self.with_each_load(|load| Load { friction: factor * load.friction, ..load.clone() })
     }
 
     /// The same disc with every load changed.
     ///
     /// # Errors
     /// A load out of bounds.
-    pub fn with_loads(&self, change: impl Fn(&Load) -> Load) -> Result<Self, InvalidValues> {
+    pub fn with_each_load(&self, change: impl Fn(&Load) -> Load) -> Result<Self, InvalidValues> {
         self.rebuilt(self.loads.iter().map(change).collect(), self.dither, self.speed)
     }
 

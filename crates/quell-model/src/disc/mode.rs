@@ -4,8 +4,8 @@ use super::{Carrier, Patch};
 use crate::Invalid;
 use crate::parameter::disc::{
     CALIPER_DAMPING, CALIPER_MASS, CALIPER_STIFFNESS, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE,
-    LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS, MODE_DAMPING, MODE_DIAMETERS, MODE_RATIO,
-    MODE_SHAPE_AT_LOAD, PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
+    LOAD_FRICTION, LOAD_MASS, LOAD_SLIP_RATIO, LOAD_STIFFNESS, MODE_DAMPING, MODE_DIAMETERS,
+    MODE_RATIO, MODE_SHAPE_AT_LOAD, PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
 };
 use crate::parameter::{Parameter, indexed};
 
@@ -37,6 +37,9 @@ pub struct Load {
     pub friction: f64,
     /// Phase φ of the dither of its friction, cos(Rτ + φ), radians.
     pub dither_phase: f64,
+    /// Slip ratio Λ > 0 of tangential dither, the peak of its velocity over the speed of sliding, where it is given. The equations
+    /// do not contain it: it determines the force that the dither needs.
+    pub slip_ratio: Option<f64>,
     /// Radius over the outer radius, where it is known.
     pub radius_ratio: Option<f64>,
     /// Shapes of all modes at this load, where it sits at another radius than the modes'
@@ -60,6 +63,7 @@ impl Load {
             stiffness,
             friction,
             dither_phase: 0.0,
+            slip_ratio: None,
             radius_ratio: None,
             shapes: None,
             patch: None,
@@ -166,6 +170,9 @@ impl Load {
             let key = indexed("disc.load", index, count, PAD_MASS.key());
             complaints.push(Invalid::new(key, "none", "a pad: the caliper carries it"));
         }
+        let slip_ratio = self.slip_ratio;
+        complaints
+            .extend(slip_ratio.and_then(|value| complain(&LOAD_SLIP_RATIO, value, index, count)));
         if let Some(patch) = &self.patch {
             complaints.extend(patch.complaints(modes, index, count));
         }

@@ -28,7 +28,7 @@ use crate::friction::{Coulomb, Friction};
 use crate::parameter::Parameter;
 use crate::profile::{Profile, Wave};
 use crate::system::{Contact, Input, InputTarget, MassMatrix, Mechanical, System};
-use crate::{InvalidValues, Parametrisation, Waveform};
+use crate::{InvalidValues, Parametrisation};
 
 impl Parametrisation for Disc {
     fn parameter(&self, path: &str) -> Option<Parameter> {
@@ -100,9 +100,9 @@ impl Disc {
         let (mean, amplitude) = self.dither().mean_and_amplitude();
         let mut factor = Profile::constant(on(Contribution::FollowerForce, mean));
         if let Some(frequency) = self.dither().frequency_ratio() {
-            // cos(Rτ + φ) is a sine that leads by a quarter of a cycle.
+            // cos(Rτ + φ) is a sine, and sgn cos a square wave, that leads by a quarter of a cycle.
             factor = factor.with(Wave {
-                waveform: Waveform::Sine,
+                waveform: self.waveform(),
                 amplitude: on(Contribution::Dither, amplitude),
                 frequency,
                 phase: load.dither_phase + FRAC_PI_2,

@@ -228,6 +228,15 @@ pub const LOAD_FRICTION: Parameter = in_si(
     &[si("friction_n", "N")],
 );
 
+/// Slip ratio of tangential dither at a load.
+pub const LOAD_SLIP_RATIO: Parameter = disc(
+    "disc.load.slip_ratio",
+    "Λ",
+    "peak velocity of tangential dither over the speed of sliding: determines the dither force that is needed",
+    Quantity::Ratio,
+    Bounds::POSITIVE,
+);
+
 /// Angular extent of a load.
 pub const LOAD_EXTENT: Parameter = disc(
     "disc.load.extent_deg",
@@ -379,6 +388,7 @@ pub const DISC: &[Parameter] = &[
     LOAD_STIFFNESS,
     LOAD_FRICTION,
     LOAD_DITHER_PHASE,
+    LOAD_SLIP_RATIO,
     LOAD_EXTENT,
     LOAD_RADIAL_EXTENT,
     LOAD_POINTS,

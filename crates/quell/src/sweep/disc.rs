@@ -163,12 +163,13 @@ fn growth(
     let equations = match prepared {
         Some(prepared) if prepared.disc == unit => &prepared.equations,
         _ => {
-            let equations = match dithered::prepared_with(&unit, parts).map_err(not_finite)? {
-                Some(dithered) => DiscEquations::Dithered(Box::new(dithered)),
-                None => {
-                    DiscEquations::Constant(Box::new(linearised(&unit, parts).map_err(not_finite)?))
-                }
-            };
+            let equations =
+                match dithered::prepared_with(&unit, parts).map_err(|_| Status::NotFinite)? {
+                    Some(dithered) => DiscEquations::Dithered(Box::new(dithered)),
+                    None => DiscEquations::Constant(Box::new(
+                        linearised(&unit, parts).map_err(not_finite)?,
+                    )),
+                };
             &prepared.insert(Prepared { disc: unit, equations }).equations
         }
     };

@@ -3,7 +3,7 @@
 use quell_model::disc::Load;
 use quell_model::parameter::disc::{
     DISC_SPEED, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_MASS, LOAD_RADIUS,
-    LOAD_STIFFNESS,
+    LOAD_SLIP_RATIO, LOAD_STIFFNESS,
 };
 use quell_model::units::DiscScales;
 
@@ -96,12 +96,18 @@ fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Opti
     };
     let [mass, damping, stiffness, friction] = strengths;
     let (pad, caliper) = carriers::read(reader, table, node.origin, path)?;
+    let slip_ratio = match reader.optional(table, path, LOAD_SLIP_RATIO, None) {
+        Found::Value(value) => Some(value),
+        Found::Absent => None,
+        Found::Wrong => return None,
+    };
     let patch = PatchSize::read(reader, table, path)?;
     let twins = DISC_SPEED.si.iter().map(|twin| twin.key);
     let given = [DISC_SPEED.key()].into_iter().chain(twins).find_map(|key| table.get(key));
     let origin = given.map_or(node.origin, |node| node.origin);
     Some(Pad {
         load: Load {
+            slip_ratio,
             pad,
             caliper,
             ..Load::new(mass?, damping?, stiffness?, friction?)

@@ -20,9 +20,9 @@ use std::sync::Arc;
 use quell_disc::plate::PlateMaterial;
 use quell_model::disc::{Contribution, Contributions, DiscDither};
 use quell_model::parameter::DITHER_FREQUENCY_RATIO;
-use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
+use quell_model::parameter::disc::{DISC_DITHER_AMPLITUDE, LOAD_SLIP_RATIO};
 use quell_model::units::DiscScales;
-use quell_model::{Direction, Disc};
+use quell_model::{Direction, Disc, Waveform};
 use serde_json::Value as Json;
 
 use super::StudyOf;
@@ -84,7 +84,13 @@ impl StudyKind for DiscSetup {
             Body::read(reader, table, origin, given.folder, known)
         });
         let dither = dither(reader, document);
-        let (body, dither) = (read.flatten()?, dither?);
+        let (body, (dither, waveform)) = (read.flatten()?, dither?);
+        let shaken = body.loads.iter().find_map(|load| load.slip_ratio);
+        if let Some(ratio) = shaken.filter(|_| !matches!(dither, DiscDither::Tangential { .. })) {
+            let allowed = "only with tangential dither, whose force it determines";
+            let key = LOAD_SLIP_RATIO.path;
+            reader.complain(Complaint::new(Fault::Conflict, key, Origin::Whole, ratio, allowed));
+        }
         if reader.complaints_so_far() > 0 {
             return None;
         }
@@ -92,7 +98,8 @@ impl StudyKind for DiscSetup {
             body;
         let scales = body::scales(&source, material.as_ref());
         let disc = Disc::new(modes, loads, dither, speed);
-        match disc.and_then(|disc| disc.stiffened(centrifugal)) {
+        let disc = disc.and_then(|disc| disc.stiffened(centrifugal)?.shaped(waveform));
+        match disc {
             Ok(disc) => Some(Self {
                 disc: disc.in_si(scales.disc, scales.outer_radius_m),
                 parts,
@@ -227,8 +234,10 @@ impl DiscStudy {
 }
 
 /// `[dither]` of a disc.
-fn dither(reader: &mut Reader, document: &Table) -> Option<DiscDither> {
-    let Some(node) = document.get("dither") else { return Some(DiscDither::None) };
+fn dither(reader: &mut Reader, document: &Table) -> Option<(DiscDither, Waveform)> {
+    let Some(node) = document.get("dither") else {
+        return Some((DiscDither::None, Waveform::Sine));
+    };
     let node = match &node.value {
         Value::List(list) if list.len() == 1 => &list[0],
         _ => node,
@@ -250,15 +259,13 @@ fn dither(reader: &mut Reader, document: &Table) -> Option<DiscDither> {
         .needed_choice(table, "dither", node.origin, "direction", Choice::Direction)
         .and_then(Direction::from_name);
     let waveform = match table.get("waveform") {
-        None => Some("sine"),
+        None => Some(Waveform::Sine),
         Some(node) => match reader.choice("dither.waveform", node, Choice::Waveform) {
-            Some("sine") => Some("sine"),
+            Some("sine") => Some(Waveform::Sine),
+            Some("square") => Some(Waveform::Square),
             Some(_) => {
-                reader.wrong(
-                    "dither.waveform",
-                    node,
-                    "\"sine\", the only waveform for the dither of a disc",
-                );
+                let allowed = "\"sine\" or \"square\", the waveforms for the dither of a disc";
+                reader.wrong("dither.waveform", node, allowed);
                 None
             }
             None => None,
@@ -270,10 +277,11 @@ fn dither(reader: &mut Reader, document: &Table) -> Option<DiscDither> {
         found => found.or(1.0),
     };
     let frequency_ratio = reader.number(table, "dither", node.origin, DITHER_FREQUENCY_RATIO);
-    waveform?;
+    let waveform = waveform?;
     let (amplitude, frequency_ratio) = (amplitude?, frequency_ratio?);
-    Some(match direction? {
+    let dither = match direction? {
         Direction::Normal => DiscDither::Normal { amplitude, frequency_ratio },
         Direction::Tangential => DiscDither::Tangential { amplitude, frequency_ratio },
-    })
+    };
+    Some((dither, waveform))
 }

@@ -49,7 +49,9 @@ pub fn run(study: &DiscStudy, last: f64) -> Result<Campbell, Failure> {
     let mut dithered = Vec::new();
     for &speed in &speeds {
         let Ok(disc) = study.disc().at_speed(speed) else { continue };
-        if let Some(prepared) = dithered::prepared(&disc).map_err(failed)? {
+        if let Some(prepared) =
+            dithered::prepared(&disc).map_err(|why| overflowed("campbell", why))?
+        {
             dithered.push(prepared.growth(1.0, Effort::default()).map_err(failed)?.rate);
         }
     }

@@ -1,6 +1,5 @@
 //! `check` of a disc study: the numbers of a valid study.
 
-use quell_model::Direction;
 use quell_model::disc::{Carrier, DiscDither, Load};
 use quell_model::parameter::disc::{
     CALIPER_DAMPING, CALIPER_MASS, CALIPER_STIFFNESS, DISC_SPEED, LOAD_DAMPING, LOAD_DITHER_PHASE,
@@ -9,6 +8,7 @@ use quell_model::parameter::disc::{
 };
 use quell_model::parameter::{DITHER_FREQUENCY_RATIO, Parameter};
 use quell_model::units::{DiscScales, measure};
+use quell_model::{Direction, Disc, Waveform};
 use serde_json::{Value as Json, json};
 
 use crate::study::DiscStudy;
@@ -72,7 +72,7 @@ pub fn json(study: &DiscStudy) -> Json {
             "without": study.without(),
             "loads": loads,
         },
-        "dither": dither(disc.dither()),
+        "dither": dither(disc),
         "sweeps": sweeps,
         "warnings": study.warnings(),
     });
@@ -117,8 +117,8 @@ pub fn source(study: &DiscStudy) -> String {
     }
 }
 
-fn dither(dither: DiscDither) -> Json {
-    match dither {
+fn dither(disc: &Disc) -> Json {
+    let mut object = match disc.dither() {
         DiscDither::None => Json::Null,
         DiscDither::Normal { amplitude, frequency_ratio } => json!({
             "direction": Direction::Normal.name(),
@@ -130,5 +130,9 @@ fn dither(dither: DiscDither) -> Json {
             "amplitude": amplitude,
             "frequency_ratio": frequency_ratio,
         }),
+    };
+    if disc.waveform() != Waveform::Sine {
+        object["waveform"] = disc.waveform().name().into();
     }
+    object
 }

@@ -5,6 +5,7 @@ pub mod check;
 pub mod modes;
 pub mod resonances;
 pub mod stability;
+mod tangential;
 
 use crate::complaint::Failure;
 

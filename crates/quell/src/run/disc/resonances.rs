@@ -131,6 +131,7 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
             }
             WaveError::NotPlain
             | WaveError::Stiffened
+            | WaveError::Waveform
             | WaveError::NegativeFriction { .. }
             | WaveError::Frequency { .. } => "",
         };

@@ -12,7 +12,7 @@ use quell_model::units::Quantity;
 use quell_numerics::floquet::Effort;
 use serde_json::{Map, Value as Json, json};
 
-use super::overflowed;
+use super::{overflowed, tangential};
 use crate::complaint::Failure;
 use crate::run::stability::DECIBELS;
 use crate::study::DiscStudy;
@@ -52,7 +52,9 @@ pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
     let (disc, parts) = (study.disc(), study.parts());
     let failed = |why| overflowed("stability", why);
     let undithered = undithered::growth_with(disc, parts).map_err(failed)?;
-    let (growth, unstable) = match dithered::prepared_with(disc, parts).map_err(failed)? {
+    let dithered =
+        dithered::prepared_with(disc, parts).map_err(|why| overflowed("stability", why))?;
+    let (growth, unstable) = match dithered {
         Some(dithered) => {
             let growth = dithered.growth(1.0, Effort::default()).map_err(failed)?;
             (growth, dithered.growing(Effort::default()).map_err(failed)?)
@@ -228,6 +230,13 @@ impl Stability {
                 Json::Null
             }
         };
+        if let Some(shaken) = tangential::json(study) {
+            object["tangential_dither"] = shaken;
+            if object["tangential_dither"].is_null() {
+                let reason = "no load has a slip_ratio and a speed";
+                why.insert("tangential_dither".to_owned(), reason.into());
+            }
+        }
         object["out_of_reach"] = self.out_of_reach.into();
         object["warnings"] = study.warnings().into();
         object["units"] = json!({
