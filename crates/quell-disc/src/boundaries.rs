@@ -23,8 +23,7 @@ use quell_model::disc::{Contribution, Contributions};
 const NEGLIGIBLE: f64 = 1e-10;
 
 /// Reason of a closed form that holds for the load of the dissertation only.
-pub(crate) const NOT_PLAIN: &str =
-    "closed forms exist only for a load at one point of the disc without a pad of its own";
+pub(crate) const NOT_PLAIN: &str = "closed forms exist only for a load at one point of the disc, without a pad of its own and with a given friction force";
 
 /// Friction at which a mode of the conservative loaded disc is marginal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +50,7 @@ pub struct ModeBoundary {
 pub enum NoBoundary {
     /// The number of loads is not one: the bracket need not vanish.
     Loads(usize),
-    /// The load is distributed, or its pad moves.
+    /// The load is distributed, its pad moves, or a law gives its friction.
     NotPlain,
     /// The modes are damped.
     DampedModes,
@@ -89,7 +88,7 @@ pub fn boundaries(disc: &Disc) -> Result<Vec<ModeBoundary>, NoBoundary> {
     if disc.loads().len() != 1 {
         return Err(NoBoundary::Loads(disc.loads().len()));
     }
-    if !disc.loads()[0].is_plain() {
+    if !disc.is_plain() {
         return Err(NoBoundary::NotPlain);
     }
     if disc.modes().iter().any(|mode| mode.damping != 0.0) {

@@ -81,7 +81,8 @@ impl InstabilityKind {
             Self::Terminal => &mut load.mass,
             Self::Damping => &mut load.damping,
             Self::Stiffness => &mut load.stiffness,
-            Self::Friction => &mut load.friction,
+            // A friction law has no strength of its own: the force is reduced where the equations are assembled.
+            Self::Friction => return load,
         };
         *part *= strength;
         load
@@ -128,7 +129,10 @@ fn origin(disc: &Disc, parts: Contributions, motion: &Growth) -> Result<GrowthSh
     let start = Complex64::new(motion.rate, motion.frequency);
     let mut shares = [0.0; 4];
     for (share, kind) in shares.iter_mut().zip(InstabilityKind::ALL) {
-        let absent = |load: &Load| kind.weakened(load.clone(), 0.0) == *load;
+        let absent = |load: &Load| match kind {
+            InstabilityKind::Friction => load.friction == 0.0 && disc.law().is_none(),
+            kind => kind.weakened(load.clone(), 0.0) == *load,
+        };
         if !disc.loads().iter().all(absent) {
             *share = start.re - without(disc, parts, kind, start)?.re;
         }
@@ -173,7 +177,13 @@ fn nearest(
         .with_each_load(|load| kind.weakened(load.clone(), strength))
         .map_err(|_| EigenError::NotFinite)?;
     let system = linearised(&weaker.undithered(), parts)?;
-    let values = eigenvalues(&system.state_matrix(&system.mean_friction()))?;
+    let mut friction = system.mean_friction();
+    if kind == InstabilityKind::Friction {
+        for force in &mut friction {
+            *force *= strength;
+        }
+    }
+    let values = eigenvalues(&system.state_matrix(&friction))?;
     let mut best = (guess, f64::INFINITY, f64::INFINITY);
     for value in values {
         let distance = modulus(value - guess);

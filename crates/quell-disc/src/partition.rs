@@ -60,7 +60,7 @@ pub struct FrictionCrossing {
 pub enum NoPartition {
     /// The number of loads is not one.
     Loads(usize),
-    /// The load is distributed, or its pad moves.
+    /// The load is distributed, its pad moves, or a law gives its friction.
     NotPlain,
     /// The dither is not a sine.
     Waveform,
@@ -227,7 +227,7 @@ pub fn crossings(disc: &Disc) -> Result<Vec<FrictionCrossing>, NoPartition> {
     if disc.loads().len() != 1 {
         return Err(NoPartition::Loads(disc.loads().len()));
     }
-    if !disc.loads()[0].is_plain() {
+    if !disc.is_plain() {
         return Err(NoPartition::NotPlain);
     }
     let Some(ratio) = disc.dither().frequency_ratio() else { return Err(NoPartition::Undithered) };

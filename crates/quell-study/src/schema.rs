@@ -153,6 +153,12 @@ fn disc(definitions: &mut Map<String, Json>) {
             "schema": { "const": SCHEMA_VERSION, "description": SCHEMA_ABOUT },
             "title": { "type": "string", "description": "subject of the study" },
             "disc": { "$ref": "#/$defs/disc" },
+            "friction": {
+                "anyOf": [
+                    { "$ref": reference(Section::Friction, UnitSystem::Scaled) },
+                    { "$ref": reference(Section::Friction, UnitSystem::Si) },
+                ],
+            },
             "dither": { "$ref": "#/$defs/disc_dither" },
             "sweep": { "type": "array", "items": { "$ref": "#/$defs/sweep" } },
         },

@@ -47,7 +47,7 @@ pub struct Waves {
 pub enum WaveError {
     /// The number of loads is not one: the couplings of several loads interfere, which the expansion neglects.
     Loads(usize),
-    /// The load is distributed, or its pad moves.
+    /// The load is distributed, its pad moves, or a law gives its friction.
     NotPlain,
     /// Centrifugal stress changes the frequencies of the waves with the speed.
     Stiffened,
@@ -102,7 +102,7 @@ impl Waves {
     /// [`WaveError::Loads`], [`WaveError::NegativeFriction`].
     pub fn new(disc: &Disc) -> Result<Self, WaveError> {
         let [load] = disc.loads() else { return Err(WaveError::Loads(disc.loads().len())) };
-        if !load.is_plain() {
+        if !disc.is_plain() {
             return Err(WaveError::NotPlain);
         }
         if disc.is_stiffened() {

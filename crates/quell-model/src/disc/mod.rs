@@ -2,11 +2,12 @@
 
 use crate::parameter::disc::{CENTRIFUGAL, DISC_SPEED, MODE_CENTRIFUGAL};
 use crate::units::DiscScales;
-use crate::{Invalid, InvalidValues, Waveform};
+use crate::{Friction, Invalid, InvalidValues, Waveform};
 
 mod carrier;
 mod contributions;
 mod dither;
+mod law;
 mod mode;
 mod numbers;
 mod patch;
@@ -27,6 +28,7 @@ pub struct Disc {
     dither: DiscDither,
     waveform: Waveform,
     speed: f64,
+    law: Option<Friction>,
     /// κ of each mode; none where the disc is at rest.
     centrifugal: Vec<f64>,
     /// Scales and outer radius (m), where the study gives them.
@@ -65,6 +67,7 @@ impl Disc {
                 dither,
                 waveform: Waveform::Sine,
                 speed,
+                law: None,
                 centrifugal,
                 scales: None,
                 outer_radius_m: None,
@@ -96,6 +99,10 @@ impl Disc {
     ) -> Result<Self, InvalidValues> {
         let disc = Self::new(self.modes.clone(), loads, dither, speed)?;
         let disc = Self { centrifugal: self.centrifugal.clone(), waveform: self.waveform, ..disc };
+        let disc = match &self.law {
+            Some(law) => disc.under_law(law.clone())?,
+            None => disc,
+        };
         Ok(disc.in_si(self.scales, self.outer_radius_m))
     }
 

@@ -4,8 +4,9 @@ use super::{Carrier, Patch};
 use crate::Invalid;
 use crate::parameter::disc::{
     CALIPER_DAMPING, CALIPER_MASS, CALIPER_STIFFNESS, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE,
-    LOAD_FRICTION, LOAD_MASS, LOAD_SLIP_RATIO, LOAD_STIFFNESS, MODE_DAMPING, MODE_DIAMETERS,
-    MODE_RATIO, MODE_SHAPE_AT_LOAD, PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
+    LOAD_FRICTION, LOAD_HALF_THICKNESS, LOAD_MASS, LOAD_NORMAL, LOAD_SLIP_RATIO, LOAD_STIFFNESS,
+    MODE_DAMPING, MODE_DIAMETERS, MODE_RATIO, MODE_SHAPE_AT_LOAD, PAD_DAMPING, PAD_MASS,
+    PAD_STIFFNESS,
 };
 use crate::parameter::{Parameter, indexed};
 
@@ -37,6 +38,12 @@ pub struct Load {
     pub friction: f64,
     /// Phase φ of the dither of its friction, cos(Rτ + φ), radians.
     pub dither_phase: f64,
+    /// Normal load N* = N/(r₀M_pω_ref²) > 0 under a friction law ([`Disc::under_law`](super::Disc::under_law)), which stands for
+    /// [`Load::friction`].
+    pub normal_load: Option<f64>,
+    /// Half the thickness of the disc over the radius of the load, η = h/(2r₀) ≥ 0: under a friction law the surface of a bent disc
+    /// moves in its plane by u_θ = −(h/2r) ∂w/∂φ.
+    pub half_thickness: f64,
     /// Slip ratio Λ > 0 of tangential dither, the peak of its velocity over the speed of sliding, where it is given. The equations
     /// do not contain it: it determines the force that the dither needs.
     pub slip_ratio: Option<f64>,
@@ -63,6 +70,8 @@ impl Load {
             stiffness,
             friction,
             dither_phase: 0.0,
+            normal_load: None,
+            half_thickness: 0.0,
             slip_ratio: None,
             radius_ratio: None,
             shapes: None,
@@ -170,6 +179,10 @@ impl Load {
             let key = indexed("disc.load", index, count, PAD_MASS.key());
             complaints.push(Invalid::new(key, "none", "a pad: the caliper carries it"));
         }
+        let own =
+            [(LOAD_NORMAL, self.normal_load), (LOAD_HALF_THICKNESS, Some(self.half_thickness))];
+        complaints
+            .extend(own.iter().filter_map(|(name, value)| complain(name, (*value)?, index, count)));
         let slip_ratio = self.slip_ratio;
         complaints
             .extend(slip_ratio.and_then(|value| complain(&LOAD_SLIP_RATIO, value, index, count)));

@@ -3,8 +3,8 @@
 use super::{Carrier, Disc, DiscDither, Load};
 use crate::parameter::disc::{
     CALIPER_DAMPING, CALIPER_MASS, CALIPER_STIFFNESS, CENTRIFUGAL, DISC, DISC_DITHER_AMPLITUDE,
-    DISC_SPEED, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS, MODAL_DAMPING, PAD_DAMPING,
-    PAD_MASS, PAD_STIFFNESS,
+    DISC_SPEED, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS, LOAD_NORMAL, LOAD_STIFFNESS, MODAL_DAMPING,
+    PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
 };
 use crate::parameter::{DITHER_FREQUENCY_RATIO, Parameter, split_index};
 use crate::{Invalid, InvalidValues};
@@ -113,8 +113,9 @@ impl Load {
             .caliper
             .as_mut()
             .map(|body| body.numbers([CALIPER_MASS, CALIPER_DAMPING, CALIPER_STIFFNESS]));
+        let normal = self.normal_load.as_mut().map(|load| (LOAD_NORMAL, load));
         let bodies = pad.into_iter().chain(caliper).flatten();
-        let mut all = own.into_iter().chain(bodies);
+        let mut all = own.into_iter().chain(normal).chain(bodies);
         all.find(|(parameter, _)| parameter.key() == key).map(|(_, number)| number)
     }
 }

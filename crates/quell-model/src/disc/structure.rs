@@ -72,26 +72,54 @@ impl Disc {
                 let load_mass = on(Contribution::LoadMass, load.mass);
                 mass = mass.attach(point.weight * load_mass, surface.clone());
                 inputs.push(self.factor(parts, load, contacts.len()));
+                let sliding = self.sliding(load, point, slope);
                 contacts.push(Contact {
                     name: load.contact_name(l, index),
-                    tangent: None,
+                    tangent: sliding.tangent,
                     force: None,
                     normal: Some(load.approach(surface, body)),
-                    slope: Some(slope),
-                    normal_load: 1.0,
+                    slope: Some(sliding.slope),
+                    normal_load: sliding.normal_load,
                     normal_stiffness: point.weight * on(Contribution::Spring, load.stiffness),
                     normal_damping: point.weight * on(Contribution::Damper, load.damping),
-                    surface_velocity: Profile::constant(1f64.copysign(load.friction)),
-                    friction: Friction::Coulomb(Coulomb::constant(
-                        point.weight * point.lever * load.friction.abs(),
-                    )),
+                    surface_velocity: Profile::constant(sliding.velocity),
+                    friction: sliding.law,
                 });
             }
             load.carry(body, &mut damping, &mut stiffness);
             body += load.bodies();
         }
+        if !self.loads().iter().all(Load::is_plain) {
+            // A patch attaches more masses than there are coordinates.
+            mass = MassMatrix::dense(mass.matrix());
+        }
         let structure = Mechanical::new(self.coordinate_names(), mass, damping, stiffness);
         System { structure: structure.into(), contacts, inputs }
+    }
+
+    /// Friction at a point of a load: as a given follower force, or by the law.
+    fn sliding(&self, load: &Load, point: &PatchPoint<'_>, slope: Vec<f64>) -> Sliding {
+        let share = point.weight * point.lever;
+        let Some(law) = self.law() else {
+            return Sliding {
+                tangent: None,
+                slope,
+                normal_load: 1.0,
+                velocity: 1f64.copysign(load.friction),
+                law: Friction::Coulomb(Coulomb::constant(share * load.friction.abs())),
+            };
+        };
+        // Radius of the point over that of the first load.
+        let radius = self.radius_over_first(load) / point.lever;
+        let lever = load.half_thickness * point.lever;
+        let tangent = (lever > 0.0).then(|| slope.iter().map(|slope| -lever * slope).collect());
+        Sliding {
+            tangent,
+            normal_load: share * radius * load.normal_load.unwrap_or(1.0),
+            velocity: radius * self.speed(),
+            slope: slope.into_iter().map(|slope| slope / radius).collect(),
+            law: law.clone(),
+        }
     }
 
     /// The factor on the friction of a contact of a load.
@@ -160,6 +188,15 @@ impl Disc {
         slope.resize(self.coordinates(), 0.0);
         (normal, slope)
     }
+}
+
+/// Friction at a point.
+struct Sliding {
+    tangent: Option<Vec<f64>>,
+    slope: Vec<f64>,
+    normal_load: f64,
+    velocity: f64,
+    law: Friction,
 }
 
 impl Load {

@@ -228,6 +228,28 @@ pub const LOAD_FRICTION: Parameter = in_si(
     &[si("friction_n", "N")],
 );
 
+/// Normal load under a friction law.
+pub const LOAD_NORMAL: Parameter = in_si(
+    disc(
+        "disc.load.normal_load",
+        "N*",
+        "normal load under a friction law, which then determines the follower force instead of friction",
+        Quantity::LoadFriction,
+        Bounds::POSITIVE,
+    ),
+    &[si("normal_load_n", "N")],
+);
+
+/// Half the thickness of the disc over the radius of a load.
+pub const LOAD_HALF_THICKNESS: Parameter = disc(
+    "disc.load.half_thickness",
+    "η",
+    "half the thickness of the disc over the radius of the load, by which a slope moves the surface along the slip; by default \
+     from disc.thickness_m where it is known, else 0",
+    Quantity::Ratio,
+    Bounds { lower: 0.0, lower_included: true, upper: 1.0 },
+);
+
 /// Slip ratio of tangential dither at a load.
 pub const LOAD_SLIP_RATIO: Parameter = disc(
     "disc.load.slip_ratio",
@@ -388,6 +410,8 @@ pub const DISC: &[Parameter] = &[
     LOAD_STIFFNESS,
     LOAD_FRICTION,
     LOAD_DITHER_PHASE,
+    LOAD_NORMAL,
+    LOAD_HALF_THICKNESS,
     LOAD_SLIP_RATIO,
     LOAD_EXTENT,
     LOAD_RADIAL_EXTENT,

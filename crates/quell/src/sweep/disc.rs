@@ -154,7 +154,7 @@ fn growth(
     prepared: &mut Option<Prepared>,
 ) -> Result<Growth, Status> {
     let (unit, factor) = match disc.loads() {
-        [load] => {
+        [load] if disc.law().is_none() => {
             let unit = disc.with("disc.load.friction", 1.0).map_err(|_| Status::NotFinite)?;
             (unit, load.friction)
         }

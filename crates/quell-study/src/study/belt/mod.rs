@@ -2,7 +2,7 @@
 
 mod band;
 mod dither;
-mod friction;
+pub(in crate::study) mod friction;
 mod solver;
 mod table;
 

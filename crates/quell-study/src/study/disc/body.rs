@@ -59,11 +59,21 @@ impl Body {
         let (modes, shapes, warnings) = modes::at_loads(reader, &source, &pads, damping)?;
         let patches = patches(reader, &source, &pads, &modes)?;
         let speed = pads.iter().find_map(|pad| pad.speed.map(|(speed, _)| speed)).unwrap_or(0.0);
+        let half_thickness = |pad: &Pad| {
+            let known = material.as_ref().zip(pad.radius).map(|((material, _), radius)| {
+                0.5 * material.thickness() / (radius * material.outer_radius())
+            });
+            // Only a friction law needs it.
+            pad.half_thickness.or(known.filter(|_| pad.load.normal_load.is_some())).unwrap_or(0.0)
+        };
+        let halves: Vec<f64> = pads.iter().map(half_thickness).collect();
         let loads = pads
             .into_iter()
             .zip(shapes)
             .zip(patches)
-            .map(|((Pad { load, radius, .. }, shapes), patch)| Load {
+            .zip(halves)
+            .map(|(((Pad { load, radius, .. }, shapes), patch), half_thickness)| Load {
+                half_thickness,
                 shapes,
                 radius_ratio: radius,
                 patch,

@@ -2,8 +2,8 @@
 
 use quell_model::disc::Load;
 use quell_model::parameter::disc::{
-    DISC_SPEED, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_MASS, LOAD_RADIUS,
-    LOAD_SLIP_RATIO, LOAD_STIFFNESS,
+    DISC_SPEED, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_HALF_THICKNESS,
+    LOAD_MASS, LOAD_NORMAL, LOAD_RADIUS, LOAD_SLIP_RATIO, LOAD_STIFFNESS,
 };
 use quell_model::units::DiscScales;
 
@@ -37,6 +37,8 @@ pub(super) struct Pad {
     pub(super) load: Load,
     /// Radius over the outer radius.
     pub(super) radius: Option<f64>,
+    /// Half the thickness of the disc over the radius, if it is given.
+    pub(super) half_thickness: Option<f64>,
     /// The area over which it is distributed, if it is no point.
     pub(super) patch: Option<PatchSize>,
     /// Speed and where it was written.
@@ -96,6 +98,12 @@ fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Opti
     };
     let [mass, damping, stiffness, friction] = strengths;
     let (pad, caliper) = carriers::read(reader, table, node.origin, path)?;
+    let mut maybe = |parameter| match reader.optional(table, path, parameter, None) {
+        Found::Value(value) => Some(Some(value)),
+        Found::Absent => Some(None),
+        Found::Wrong => None,
+    };
+    let (normal_load, half_thickness) = (maybe(LOAD_NORMAL)?, maybe(LOAD_HALF_THICKNESS)?);
     let slip_ratio = match reader.optional(table, path, LOAD_SLIP_RATIO, None) {
         Found::Value(value) => Some(value),
         Found::Absent => None,
@@ -108,6 +116,7 @@ fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Opti
     Some(Pad {
         load: Load {
             slip_ratio,
+            normal_load,
             pad,
             caliper,
             ..Load::new(mass?, damping?, stiffness?, friction?)
@@ -115,6 +124,7 @@ fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Opti
                 .dithered_at(phase?.to_radians())
         },
         radius: radius?,
+        half_thickness,
         patch,
         speed: speed?.map(|speed| (speed, origin)),
         path: path.to_owned(),

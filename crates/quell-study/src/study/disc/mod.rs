@@ -1,10 +1,12 @@
 //! `[disc]`: the study of an annular disc under rotating loads.
 //!
 //! Modes are computed from the plate, listed as `[[disc.mode]]`, or read from a CSV file; loads are one `[disc.load]` or
-//! several `[[disc.load]]`, each at a point or over an area, on the ground or on a pad and a caliper; `without` switches contributions off; `[dither]` modulates every load's friction.
+//! several `[[disc.load]]`, each at a point or over an area, on the ground or on a pad and a caliper; `without` switches contributions off; `[friction]` gives the friction of all
+//! loads by a law instead of a force each; `[dither]` modulates every load's friction.
 
 mod body;
 mod carriers;
+mod law;
 mod loads;
 mod mode_line;
 mod modes;
@@ -63,11 +65,11 @@ impl StudyKind for DiscSetup {
     }
 
     fn tables(_: &Table) -> &'static [&'static str] {
-        &["schema", "title", "disc", "dither", "sweep"]
+        &["schema", "title", "disc", "friction", "dither", "sweep"]
     }
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
-        for name in ["belt", "friction", "solver"] {
+        for name in ["belt", "solver"] {
             if let Some(node) = document.get(name) {
                 let allowed = format!(
                     "a study describes either a belt or a disc; [{name}] belongs to a belt"
@@ -84,7 +86,9 @@ impl StudyKind for DiscSetup {
             Body::read(reader, table, origin, given.folder, known)
         });
         let dither = dither(reader, document);
-        let (body, (dither, waveform)) = (read.flatten()?, dither?);
+        let read = read.flatten();
+        let law = law::read(reader, document, read.as_ref());
+        let (body, (dither, waveform), law) = (read?, dither?, law?);
         let shaken = body.loads.iter().find_map(|load| load.slip_ratio);
         if let Some(ratio) = shaken.filter(|_| !matches!(dither, DiscDither::Tangential { .. })) {
             let allowed = "only with tangential dither, whose force it determines";
@@ -99,6 +103,10 @@ impl StudyKind for DiscSetup {
         let scales = body::scales(&source, material.as_ref());
         let disc = Disc::new(modes, loads, dither, speed);
         let disc = disc.and_then(|disc| disc.stiffened(centrifugal)?.shaped(waveform));
+        let disc = disc.and_then(|disc| match law {
+            Some(law) => disc.under_law(law),
+            None => Ok(disc),
+        });
         match disc {
             Ok(disc) => Some(Self {
                 disc: disc.in_si(scales.disc, scales.outer_radius_m),

@@ -3,8 +3,8 @@
 use quell_model::disc::{Carrier, DiscDither, Load};
 use quell_model::parameter::disc::{
     CALIPER_DAMPING, CALIPER_MASS, CALIPER_STIFFNESS, DISC_SPEED, LOAD_DAMPING, LOAD_DITHER_PHASE,
-    LOAD_EXTENT, LOAD_FRICTION, LOAD_MASS, LOAD_POINTS, LOAD_RADIAL_POINTS, LOAD_STIFFNESS,
-    PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
+    LOAD_EXTENT, LOAD_FRICTION, LOAD_HALF_THICKNESS, LOAD_MASS, LOAD_NORMAL, LOAD_POINTS,
+    LOAD_RADIAL_POINTS, LOAD_STIFFNESS, PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
 };
 use quell_model::parameter::{DITHER_FREQUENCY_RATIO, Parameter};
 use quell_model::units::{DiscScales, measure};
@@ -36,6 +36,10 @@ pub fn json(study: &DiscStudy) -> Json {
                 (LOAD_FRICTION, load.friction),
             ] {
                 put_both(&mut object, parameter, value, scales);
+            }
+            if let Some(normal_load) = load.normal_load {
+                put_both(&mut object, LOAD_NORMAL, normal_load, scales);
+                put_both(&mut object, LOAD_HALF_THICKNESS, load.half_thickness, scales);
             }
             put_area(&mut object, load);
             let of_pad = [PAD_MASS, PAD_DAMPING, PAD_STIFFNESS];
@@ -76,6 +80,13 @@ pub fn json(study: &DiscStudy) -> Json {
         "sweeps": sweeps,
         "warnings": study.warnings(),
     });
+    if let Some(law) = disc.law() {
+        let kind = law.kind();
+        let numbers = kind.parameters().iter().zip(law.values());
+        object["friction"] =
+            numbers.map(|(name, value)| (name.key().to_owned(), Json::from(value))).collect();
+        object["friction"]["law"] = kind.name().into();
+    }
     let scales = study.scales(0);
     put_both(&mut object["disc"], DISC_SPEED, disc.speed(), scales);
     if let Some(ratio) = disc.dither().frequency_ratio() {
