@@ -6,6 +6,7 @@
 //! * [`undithered`], [`boundaries`]: eigenvalues, Campbell diagram, exact boundaries f(Ω) at ξ = 0;
 //! * [`dithered`], [`partition`]: Floquet exponents with error bounds, boundary curves by D-partition;
 //! * [`instability`]: which part of the loads causes an unstable motion;
+//! * [`static_load`]: deflection under a static load, critical speeds;
 //! * [`tangential`]: the follower force under tangential dither at a finite speed ratio, and the force of the dither;
 //! * [`resonance`]: where waves meet, which meetings can be unstable, tongues, clear dither frequencies.
 //!
@@ -18,5 +19,6 @@ pub mod instability;
 pub mod partition;
 pub mod plate;
 pub mod resonance;
+pub mod static_load;
 pub mod tangential;
 pub mod undithered;

@@ -69,7 +69,7 @@ fn areas_and_bodies_are_read() {
     assert_eq!(load["pad_mass"], 0.05);
     assert_eq!(load["pad_damping"], 0.0);
     assert_eq!(load["caliper_damping"], 0.02);
-    assert_eq!(load["radial_points"], 6);
+    assert_eq!(load["radial_points"], 9);
     assert_eq!(study.disc().coordinates(), 5 + 2);
     let found = answer(&text);
     assert!(found["growth_rate"].as_f64().expect("a number").is_finite());

@@ -60,7 +60,7 @@ impl Disc {
     }
 
     /// Radius of a load over that of the first load; 1 where a radius is unknown.
-    pub(super) fn radius_over_first(&self, load: &Load) -> f64 {
+    pub fn radius_over_first(&self, load: &Load) -> f64 {
         let first = self.loads.first().and_then(|first| first.radius_ratio);
         load.radius_ratio.zip(first).map_or(1.0, |(own, first)| own / first)
     }

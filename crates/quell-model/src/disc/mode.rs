@@ -4,9 +4,9 @@ use super::{Carrier, Patch};
 use crate::Invalid;
 use crate::parameter::disc::{
     CALIPER_DAMPING, CALIPER_MASS, CALIPER_STIFFNESS, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE,
-    LOAD_FRICTION, LOAD_HALF_THICKNESS, LOAD_MASS, LOAD_NORMAL, LOAD_SLIP_RATIO, LOAD_STIFFNESS,
-    MODE_DAMPING, MODE_DIAMETERS, MODE_RATIO, MODE_SHAPE_AT_LOAD, PAD_DAMPING, PAD_MASS,
-    PAD_STIFFNESS,
+    LOAD_FRICTION, LOAD_HALF_THICKNESS, LOAD_MASS, LOAD_NORMAL, LOAD_SLIP_RATIO, LOAD_STATIC,
+    LOAD_STIFFNESS, MODE_DAMPING, MODE_DIAMETERS, MODE_RATIO, MODE_SHAPE_AT_LOAD, PAD_DAMPING,
+    PAD_MASS, PAD_STIFFNESS,
 };
 use crate::parameter::{Parameter, indexed};
 
@@ -38,6 +38,8 @@ pub struct Load {
     pub friction: f64,
     /// Phase φ of the dither of its friction, cos(Rτ + φ), radians.
     pub dither_phase: f64,
+    /// Static load P* = P/(r₀M_pω_ref²) on the disc: the equations of small motions do not contain it, it deflects the disc.
+    pub static_load: f64,
     /// Normal load N* = N/(r₀M_pω_ref²) > 0 under a friction law ([`Disc::under_law`](super::Disc::under_law)), which stands for
     /// [`Load::friction`].
     pub normal_load: Option<f64>,
@@ -70,6 +72,7 @@ impl Load {
             stiffness,
             friction,
             dither_phase: 0.0,
+            static_load: 0.0,
             normal_load: None,
             half_thickness: 0.0,
             slip_ratio: None,
@@ -163,6 +166,7 @@ impl Load {
             (LOAD_STIFFNESS, self.stiffness),
             (LOAD_FRICTION, self.friction),
             (LOAD_DITHER_PHASE, self.dither_phase.to_degrees()),
+            (LOAD_STATIC, self.static_load),
         ]
         .iter()
         .filter_map(|(parameter, value)| complain(parameter, *value, index, count))

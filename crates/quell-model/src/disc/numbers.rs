@@ -3,8 +3,8 @@
 use super::{Carrier, Disc, DiscDither, Load};
 use crate::parameter::disc::{
     CALIPER_DAMPING, CALIPER_MASS, CALIPER_STIFFNESS, CENTRIFUGAL, DISC, DISC_DITHER_AMPLITUDE,
-    DISC_SPEED, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS, LOAD_NORMAL, LOAD_STIFFNESS, MODAL_DAMPING,
-    PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
+    DISC_SPEED, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS, LOAD_NORMAL, LOAD_STATIC, LOAD_STIFFNESS,
+    MODAL_DAMPING, PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
 };
 use crate::parameter::{DITHER_FREQUENCY_RATIO, Parameter, split_index};
 use crate::{Invalid, InvalidValues};
@@ -106,6 +106,7 @@ impl Load {
             (LOAD_DAMPING, &mut self.damping),
             (LOAD_STIFFNESS, &mut self.stiffness),
             (LOAD_FRICTION, &mut self.friction),
+            (LOAD_STATIC, &mut self.static_load),
         ];
         let pad =
             self.pad.as_mut().map(|body| body.numbers([PAD_MASS, PAD_DAMPING, PAD_STIFFNESS]));

@@ -168,6 +168,18 @@ impl Disc {
         plate.chain(bodies).collect()
     }
 
+    /// Row of the deflection under a load, averaged over its patch by the shares of the points.
+    pub fn surface_row(&self, load: usize) -> Vec<f64> {
+        let mut row = vec![0.0; self.coordinates()];
+        for point in self.loads()[load].quadrature() {
+            let (surface, _) = self.rows_at(load, &point);
+            for (sum, entry) in row.iter_mut().zip(surface) {
+                *sum += point.weight * entry;
+            }
+        }
+        row
+    }
+
     /// Rows of the deflection w and of its slope w_φ at a point of a load.
     fn rows_at(&self, l: usize, point: &PatchPoint<'_>) -> (Vec<f64>, Vec<f64>) {
         let (mut normal, mut slope) = (Vec::new(), Vec::new());

@@ -250,6 +250,18 @@ pub const LOAD_HALF_THICKNESS: Parameter = disc(
     Bounds { lower: 0.0, lower_included: true, upper: 1.0 },
 );
 
+/// Static load on the disc.
+pub const LOAD_STATIC: Parameter = in_si(
+    disc(
+        "disc.load.static_load",
+        "P*",
+        "static load that deflects the disc, most of all near a critical speed",
+        Quantity::LoadFriction,
+        Bounds::FINITE,
+    ),
+    &[si("static_load_n", "N")],
+);
+
 /// Slip ratio of tangential dither at a load.
 pub const LOAD_SLIP_RATIO: Parameter = disc(
     "disc.load.slip_ratio",
@@ -412,6 +424,7 @@ pub const DISC: &[Parameter] = &[
     LOAD_DITHER_PHASE,
     LOAD_NORMAL,
     LOAD_HALF_THICKNESS,
+    LOAD_STATIC,
     LOAD_SLIP_RATIO,
     LOAD_EXTENT,
     LOAD_RADIAL_EXTENT,

@@ -115,6 +115,14 @@ fn table_of_disc(study: &DiscStudy, done: &DiscStability) -> String {
         }
         Err(why) => table.word("marginal frictions", &format!("unknown: {why}")),
     }
+    if let Some(found) = &done.critical.deflection {
+        for (load, deflection) in found.deflections.iter().flatten().enumerate() {
+            let radius = study.scales(load).and_then(|scales| scales.load_radius_m);
+            let metres = radius.map(|radius| format!(" ({} m)", figure(radius * deflection)));
+            let words = format!("{} r₀{}", figure(*deflection), metres.unwrap_or_default());
+            table.word(&format!("deflection at load {load}"), &words);
+        }
+    }
     if done.out_of_reach {
         table.word(
             "out of reach",

@@ -3,7 +3,7 @@
 use quell_model::disc::Load;
 use quell_model::parameter::disc::{
     DISC_SPEED, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_HALF_THICKNESS,
-    LOAD_MASS, LOAD_NORMAL, LOAD_RADIUS, LOAD_SLIP_RATIO, LOAD_STIFFNESS,
+    LOAD_MASS, LOAD_NORMAL, LOAD_RADIUS, LOAD_SLIP_RATIO, LOAD_STATIC, LOAD_STIFFNESS,
 };
 use quell_model::units::DiscScales;
 
@@ -91,6 +91,7 @@ fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Opti
     let mut strength = |parameter| reader.optional(table, path, parameter, None).or(0.0);
     let strengths = [LOAD_MASS, LOAD_DAMPING, LOAD_STIFFNESS, LOAD_FRICTION].map(&mut strength);
     let (angle, phase) = (strength(LOAD_ANGLE), strength(LOAD_DITHER_PHASE));
+    let static_load = strength(LOAD_STATIC);
     let speed = match reader.optional(table, path, DISC_SPEED, None) {
         Found::Value(value) => Some(Some(value)),
         Found::Absent => Some(None),
@@ -115,6 +116,7 @@ fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Opti
     let origin = given.map_or(node.origin, |node| node.origin);
     Some(Pad {
         load: Load {
+            static_load: static_load?,
             slip_ratio,
             normal_load,
             pad,

@@ -85,7 +85,7 @@ impl PatchSize {
         let patch = plate.zip(radius).and_then(|(plate, radius)| {
             let inner = plate.plate.inner_radius_ratio();
             let (from, to) = (radius - 0.5 * width, radius + 0.5 * width);
-            let count = self.radial_points.unwrap_or(plate.radial_modes + 5);
+            let count = self.radial_points.unwrap_or(plate.radial_modes + 8);
             let shapes = |at| {
                 let modes = plate.set.at_radius(at, 0.0)?;
                 Some(modes.iter().map(|mode| mode.shape_at_load).collect())

@@ -38,6 +38,9 @@ pub struct Campbell {
 pub fn run(study: &DiscStudy, last: f64) -> Result<Campbell, Failure> {
     let failed = |why| overflowed("campbell", why);
     let speeds: Vec<f64> = (0..SPEEDS).map(|k| last * (k as f64 / (SPEEDS - 1) as f64)).collect();
+    // A friction law requires sliding.
+    let speeds: Vec<f64> =
+        speeds.into_iter().filter(|speed| study.disc().at_speed(*speed).is_ok()).collect();
     let columns = campbell(study.disc(), &speeds).map_err(failed)?;
     let motions = columns
         .iter()

@@ -4,7 +4,7 @@ use quell_model::disc::{Carrier, DiscDither, Load};
 use quell_model::parameter::disc::{
     CALIPER_DAMPING, CALIPER_MASS, CALIPER_STIFFNESS, DISC_SPEED, LOAD_DAMPING, LOAD_DITHER_PHASE,
     LOAD_EXTENT, LOAD_FRICTION, LOAD_HALF_THICKNESS, LOAD_MASS, LOAD_NORMAL, LOAD_POINTS,
-    LOAD_RADIAL_POINTS, LOAD_STIFFNESS, PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
+    LOAD_RADIAL_POINTS, LOAD_STATIC, LOAD_STIFFNESS, PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
 };
 use quell_model::parameter::{DITHER_FREQUENCY_RATIO, Parameter};
 use quell_model::units::{DiscScales, measure};
@@ -36,6 +36,9 @@ pub fn json(study: &DiscStudy) -> Json {
                 (LOAD_FRICTION, load.friction),
             ] {
                 put_both(&mut object, parameter, value, scales);
+            }
+            if load.static_load != 0.0 {
+                put_both(&mut object, LOAD_STATIC, load.static_load, scales);
             }
             if let Some(normal_load) = load.normal_load {
                 put_both(&mut object, LOAD_NORMAL, normal_load, scales);

@@ -2,6 +2,7 @@
 
 pub mod campbell;
 pub mod check;
+pub mod critical;
 pub mod modes;
 pub mod resonances;
 pub mod stability;

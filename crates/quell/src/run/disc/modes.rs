@@ -144,9 +144,13 @@ impl Modes {
         explain(self.reference_hz.is_none(), "reference_hz", metal);
         explain(self.plate_mass.is_none(), "plate_mass_kg", metal);
         explain(
-            self.rows.iter().any(|row| row.diameters == 0),
+            self.rows.iter().any(|row| row.critical_speed.is_none()),
             "modes[].critical_speed",
-            "a mode without nodal diameters has no critical speed",
+            if study.disc().is_stiffened() {
+                "a mode without nodal diameters has no critical speed, nor has one that centrifugal stress keeps ahead of the loads"
+            } else {
+                "a mode without nodal diameters has no critical speed"
+            },
         );
         explain(critical.is_none(), "critical_mode", "no mode has a nodal diameter");
         let mut object = json!({

@@ -12,6 +12,7 @@ use quell_model::units::Quantity;
 use quell_numerics::floquet::Effort;
 use serde_json::{Map, Value as Json, json};
 
+use super::critical::{self, Critical};
 use super::{overflowed, tangential};
 use crate::complaint::Failure;
 use crate::run::stability::DECIBELS;
@@ -37,6 +38,8 @@ pub struct Stability {
     pub unstable: Vec<Growth>,
     /// Which part of the loads causes each of them, without dither; or why that is unknown.
     pub origins: Result<Vec<GrowthShares>, String>,
+    /// Critical speeds, and deflections under static loads.
+    pub critical: Critical,
     /// Frictions at which a motion is marginal, with everything else as given, ascending; or why they are unknown. They have the
     /// sign of the load's own friction, and are ≥ 0 if that is zero.
     pub changes: Result<Vec<Change>, String>,
@@ -65,6 +68,7 @@ pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
         DiscDither::None => Ok(origins(disc, parts, &unstable).map_err(failed)?),
         _ => Err("the kinds of instability are those of a disc without dither".to_owned()),
     };
+    let critical = critical::run(study).map_err(failed)?;
     let (changes, out_of_reach) = match disc.dither() {
         _ if parts != Contributions::ALL => (
             Err("marginal frictions are computed for the whole disc only, and this study leaves parts out".to_owned()),
@@ -73,7 +77,7 @@ pub fn run(study: &DiscStudy) -> Result<Stability, Failure> {
         DiscDither::None => still(study),
         DiscDither::Normal { .. } | DiscDither::Tangential { .. } => (shaken(study), false),
     };
-    Ok(Stability { growth, undithered, unstable, origins, changes, out_of_reach })
+    Ok(Stability { growth, undithered, unstable, origins, critical, changes, out_of_reach })
 }
 
 /// Boundaries without dither.
@@ -238,10 +242,13 @@ impl Stability {
             }
         }
         object["out_of_reach"] = self.out_of_reach.into();
-        object["warnings"] = study.warnings().into();
+        let mut warnings = study.warnings().to_vec();
+        warnings.extend(self.critical.warnings(study));
+        object["warnings"] = warnings.into();
         object["units"] = json!({
             "growth_rate": "ω_ref", "growth_rate_error": "ω_ref", "frequency": "ω_ref", "speed": "ω_ref", "friction": "1",
         });
+        self.critical.put(study, &mut object, &mut why);
         if let Some(hertz) = hertz {
             put_si(&mut object, hertz, &self.growth);
             let speed = hertz * study.disc().speed();
