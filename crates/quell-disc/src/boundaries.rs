@@ -22,6 +22,9 @@ use quell_model::disc::{Contribution, Contributions};
 /// Below this fraction of |y||u| a displacement counts as zero.
 const NEGLIGIBLE: f64 = 1e-10;
 
+/// Reason of a closed form that holds for the load of the dissertation only.
+pub(crate) const NOT_PLAIN: &str = "closed forms exist only for a load at one point of the disc, without a pad of its own and with a given friction force";
+
 /// Friction at which a mode of the conservative loaded disc is marginal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Marginal {
@@ -47,6 +50,8 @@ pub struct ModeBoundary {
 pub enum NoBoundary {
     /// The number of loads is not one: the bracket need not vanish.
     Loads(usize),
+    /// The load is distributed, its pad moves, or a law gives its friction.
+    NotPlain,
     /// The modes are damped.
     DampedModes,
     /// The conservative system itself is unstable (Ω beyond β/q).
@@ -61,6 +66,7 @@ impl fmt::Display for NoBoundary {
             Self::Loads(count) => {
                 write!(f, "exact boundaries exist for one load only, but the disc has {count}")
             }
+            Self::NotPlain => f.write_str(NOT_PLAIN),
             Self::DampedModes => {
                 f.write_str("exact boundaries exist only for a disc without modal damping")
             }
@@ -81,6 +87,9 @@ impl std::error::Error for NoBoundary {}
 pub fn boundaries(disc: &Disc) -> Result<Vec<ModeBoundary>, NoBoundary> {
     if disc.loads().len() != 1 {
         return Err(NoBoundary::Loads(disc.loads().len()));
+    }
+    if !disc.is_plain() {
+        return Err(NoBoundary::NotPlain);
     }
     if disc.modes().iter().any(|mode| mode.damping != 0.0) {
         return Err(NoBoundary::DampedModes);

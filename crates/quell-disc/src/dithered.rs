@@ -1,7 +1,8 @@
-//! Stability with dither: Floquet exponents (sections 5.4 and 5.5), f(τ) = f(1 + α cos Rτ) or f α cos Rτ. Each load may have
+//! Stability with dither: Floquet exponents (sections 5.4 and 5.5), f(τ) = f(1 + α cos Rτ) or f α cos Rτ, or with a square
+//! wave sgn cos Rτ instead of the cosine. Each load may have
 //! a phase of its own, cos(Rτ + φ_l), which the dissertation does not have: under one load it only shifts the time.
 
-use quell_linear::floquet::FollowerDither;
+use quell_linear::floquet::{FollowerDither, NotFollowerDither};
 use quell_linear::growth::Growth;
 use quell_linear::linearised::Linearised;
 use quell_model::Disc;
@@ -14,8 +15,8 @@ use crate::undithered;
 /// Prepares a disc whose friction is dithered for any factor on the friction of its loads; `None` without dither.
 ///
 /// # Errors
-/// [`EigenError`] where parameters are so large that the matrix overflows.
-pub fn prepared(disc: &Disc) -> Result<Option<FollowerDither>, EigenError> {
+/// [`NotFollowerDither`] where the exponents do not describe this disc, or its parameters are so large that the matrix overflows.
+pub fn prepared(disc: &Disc) -> Result<Option<FollowerDither>, NotFollowerDither> {
     prepared_with(disc, Contributions::ALL)
 }
 
@@ -26,20 +27,20 @@ pub fn prepared(disc: &Disc) -> Result<Option<FollowerDither>, EigenError> {
 pub fn prepared_with(
     disc: &Disc,
     parts: Contributions,
-) -> Result<Option<FollowerDither>, EigenError> {
+) -> Result<Option<FollowerDither>, NotFollowerDither> {
     let Some(frequency) = disc.dither().frequency_ratio() else { return Ok(None) };
     let system = disc.system_of(parts);
     let linear = Linearised::new(&system).map_err(|_| EigenError::NotFinite)?;
-    FollowerDither::new(&system, &linear, frequency)
+    FollowerDither::new(&system, &linear, frequency).map(Some)
 }
 
 /// Largest growth rate of a disc, dithered or not.
 ///
 /// # Errors
-/// [`EigenError`] where parameters are so large that the matrix overflows.
-pub fn growth(disc: &Disc, effort: Effort) -> Result<Growth, EigenError> {
-    match prepared(disc)? {
-        Some(dithered) => dithered.growth(1.0, effort),
-        None => undithered::growth(disc),
-    }
+/// As [`prepared`].
+pub fn growth(disc: &Disc, effort: Effort) -> Result<Growth, NotFollowerDither> {
+    Ok(match prepared(disc)? {
+        Some(dithered) => dithered.growth(1.0, effort)?,
+        None => undithered::growth(disc)?,
+    })
 }

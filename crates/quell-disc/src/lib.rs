@@ -5,6 +5,9 @@
 //! * [`equations`]: the equations of motion, assembled from contributions that can be switched off;
 //! * [`undithered`], [`boundaries`]: eigenvalues, Campbell diagram, exact boundaries f(Ω) at ξ = 0;
 //! * [`dithered`], [`partition`]: Floquet exponents with error bounds, boundary curves by D-partition;
+//! * [`instability`]: which part of the loads causes an unstable motion;
+//! * [`static_load`]: deflection under a static load, critical speeds;
+//! * [`tangential`]: the follower force under tangential dither at a finite speed ratio, and the force of the dither;
 //! * [`resonance`]: where waves meet, which meetings can be unstable, tongues, clear dither frequencies.
 //!
 //! The disc itself, its modes, loads and dither, is a noun of `quell-model`.
@@ -12,7 +15,10 @@
 pub mod boundaries;
 pub mod dithered;
 pub mod equations;
+pub mod instability;
 pub mod partition;
 pub mod plate;
 pub mod resonance;
+pub mod static_load;
+pub mod tangential;
 pub mod undithered;

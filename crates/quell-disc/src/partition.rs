@@ -26,7 +26,9 @@ use std::fmt;
 use num_complex::Complex64;
 use quell_numerics::eigen::Tridiagonal;
 
-use quell_model::Disc;
+use quell_model::{Disc, Waveform};
+
+use crate::boundaries::NOT_PLAIN;
 
 /// Largest H. Time grows with its square; with this one, ten modes took 17 s on a 2.1 GHz Xeon. A smaller limit would reject slow
 /// dithers that can be computed in acceptable time.
@@ -58,6 +60,10 @@ pub struct FrictionCrossing {
 pub enum NoPartition {
     /// The number of loads is not one.
     Loads(usize),
+    /// The load is distributed, its pad moves, or a law gives its friction.
+    NotPlain,
+    /// The dither is not a sine.
+    Waveform,
     /// There is no dither.
     Undithered,
     /// The dither is so slow compared to the waves that more than [`MOST_HARMONICS`] harmonics would be needed.
@@ -75,6 +81,8 @@ impl fmt::Display for NoPartition {
             Self::Loads(count) => {
                 write!(f, "a D-partition exists for one load only, but the disc has {count}")
             }
+            Self::NotPlain => f.write_str(NOT_PLAIN),
+            Self::Waveform => f.write_str("a D-partition exists for sinusoidal dither only"),
             Self::Undithered => f.write_str("there is no dither"),
             Self::TooManyHarmonics { harmonics } => write!(
                 f,
@@ -110,10 +118,11 @@ impl Operator<'_> {
             let q = mode.diameters as f64;
             let square = self.disc.shape(index, 0) * self.disc.shape(index, 0);
             let loss = 2.0 * mode.damping * mode.ratio;
+            let ratio = self.disc.ratio_at_speed(index);
             // The wave e^{ilφ}: its oscillator is fixed to the disc, where λ is λ − ilΩ.
             let wave = |l: f64| {
                 let shifted = lambda - Complex64::new(0.0, l * speed);
-                let stiffness = shifted * shifted + shifted * loss + mode.ratio * mode.ratio;
+                let stiffness = shifted * shifted + shifted * loss + ratio * ratio;
                 // At a pole H₁ and H₂ are infinite but their quotient is not: evaluate close to the pole.
                 let offset = Complex64::new(POLE_OFFSET * mode.ratio * mode.ratio, 0.0);
                 if stiffness.norm_sqr() > 0.0 { stiffness.inv() } else { offset.inv() }
@@ -218,12 +227,21 @@ pub fn crossings(disc: &Disc) -> Result<Vec<FrictionCrossing>, NoPartition> {
     if disc.loads().len() != 1 {
         return Err(NoPartition::Loads(disc.loads().len()));
     }
+    if !disc.is_plain() {
+        return Err(NoPartition::NotPlain);
+    }
     let Some(ratio) = disc.dither().frequency_ratio() else { return Err(NoPartition::Undithered) };
+    if disc.waveform() != Waveform::Sine {
+        return Err(NoPartition::Waveform);
+    }
     let (mean, amplitude) = disc.dither().mean_and_amplitude();
     let fastest = disc
         .modes()
         .iter()
-        .map(|mode| (mode.diameters as f64).mul_add(disc.speed().abs(), mode.ratio))
+        .enumerate()
+        .map(|(index, mode)| {
+            (mode.diameters as f64).mul_add(disc.speed().abs(), disc.ratio_at_speed(index))
+        })
         .fold(0.0, f64::max);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
     let harmonics = ((2.0 * fastest / ratio).ceil() as usize).saturating_add(6);

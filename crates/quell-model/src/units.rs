@@ -233,6 +233,8 @@ impl DiscScales {
             Quantity::LoadMass => mass,
             Quantity::LoadDamping => mass.map(|mass| mass * omega),
             Quantity::LoadStiffness => mass.map(|mass| mass * omega * omega),
+            Quantity::Velocity => self.load_radius_m.map(|radius| radius * omega),
+            Quantity::PerVelocity => self.load_radius_m.map(|radius| 1.0 / (radius * omega)),
             Quantity::LoadFriction => {
                 mass.zip(self.load_radius_m).map(|(mass, radius)| radius * mass * omega * omega)
             }
@@ -245,11 +247,7 @@ impl DiscScales {
             | Quantity::Length
             | Quantity::Frequency
             | Quantity::Degrees => Some(1.0),
-            Quantity::DampingRatio
-            | Quantity::Force
-            | Quantity::Velocity
-            | Quantity::PerVelocity
-            | Quantity::Power => None,
+            Quantity::DampingRatio | Quantity::Force | Quantity::Power => None,
         }
     }
 }

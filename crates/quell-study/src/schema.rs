@@ -142,7 +142,7 @@ fn disc(definitions: &mut Map<String, Json>) {
         "description": "modulation of the friction of every load",
         "properties": {
             "direction": { "enum": Choice::Direction.names() },
-            "waveform": { "const": "sine" },
+            "waveform": { "enum": ["sine", "square"] },
             "amplitude": property_of(DISC_DITHER_AMPLITUDE),
             "frequency_ratio": property_of(DITHER_FREQUENCY_RATIO),
             "frequency_hz": vocabulary::key(Section::Dither, "frequency_hz").map_or(json!({}), property),
@@ -158,6 +158,12 @@ fn disc(definitions: &mut Map<String, Json>) {
             "schema": { "const": SCHEMA_VERSION, "description": SCHEMA_ABOUT },
             "title": { "type": "string", "description": "subject of the study" },
             "disc": { "$ref": "#/$defs/disc" },
+            "friction": {
+                "anyOf": [
+                    { "$ref": reference(Section::Friction, UnitSystem::Scaled) },
+                    { "$ref": reference(Section::Friction, UnitSystem::Si) },
+                ],
+            },
             "dither": { "$ref": "#/$defs/disc_dither" },
             "sweep": { "type": "array", "items": { "$ref": "#/$defs/sweep" } },
         },

@@ -113,10 +113,13 @@ fn complaints_about_a_plate_name_the_key() {
             "at least 1, unless disc.reference_frequency",
         ),
         (
-            format!("{PLATE}{}", DITHER.replace("\"normal\"", "\"normal\"\nwaveform = \"square\"")),
+            format!(
+                "{PLATE}{}",
+                DITHER.replace("\"normal\"", "\"normal\"\nwaveform = \"triangle\"")
+            ),
             "dither.waveform",
             Some(13),
-            "\"sine\", the only waveform",
+            "\"sine\" or \"square\"",
         ),
         (format!("{PLATE}{axis}{axis}"), "sweep[1].parameter", Some(16), "sweep[0] already varies"),
         (format!("sweep = 3\n{PLATE}"), "sweep", Some(1), "tables [[sweep]]"),

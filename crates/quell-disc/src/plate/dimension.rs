@@ -60,6 +60,12 @@ impl PlateMaterial {
         Ok(Self { youngs_modulus, density, thickness, outer_radius })
     }
 
+    /// Thickness h, m.
+    #[must_use]
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
     /// Outer radius a, m.
     #[must_use]
     pub fn outer_radius(&self) -> f64 {

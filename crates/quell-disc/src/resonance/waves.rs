@@ -16,7 +16,10 @@
 
 use num_complex::Complex64;
 
+use crate::boundaries::NOT_PLAIN;
+
 use super::wave::{SignedWave, TravellingWave, WaveDirection};
+use quell_model::Waveform;
 use quell_model::disc::{Disc, DiscDither};
 use quell_model::disc::{Load, Mode};
 
@@ -44,6 +47,12 @@ pub struct Waves {
 pub enum WaveError {
     /// The number of loads is not one: the couplings of several loads interfere, which the expansion neglects.
     Loads(usize),
+    /// The load is distributed, its pad moves, or a law gives its friction.
+    NotPlain,
+    /// Centrifugal stress changes the frequencies of the waves with the speed.
+    Stiffened,
+    /// The dither is not a sine.
+    Waveform,
     /// Friction is negative: describe the disc from the other side instead (−Ω, −f).
     NegativeFriction {
         /// The friction given.
@@ -62,6 +71,11 @@ impl core::fmt::Display for WaveError {
             Self::Loads(count) => {
                 write!(f, "resonance theory applies to one load only, but the disc has {count}")
             }
+            Self::NotPlain => f.write_str(NOT_PLAIN),
+            Self::Waveform => f.write_str("resonance theory applies to sinusoidal dither only"),
+            Self::Stiffened => f.write_str(
+                "resonance theory requires frequencies that do not depend on the speed, but centrifugal stress stiffens the disc",
+            ),
             Self::NegativeFriction { friction } => write!(
                 f,
                 "the friction is {friction}, but resonance theory requires a positive one: change the signs of speed and friction"
@@ -88,6 +102,15 @@ impl Waves {
     /// [`WaveError::Loads`], [`WaveError::NegativeFriction`].
     pub fn new(disc: &Disc) -> Result<Self, WaveError> {
         let [load] = disc.loads() else { return Err(WaveError::Loads(disc.loads().len())) };
+        if !disc.is_plain() {
+            return Err(WaveError::NotPlain);
+        }
+        if disc.is_stiffened() {
+            return Err(WaveError::Stiffened);
+        }
+        if disc.waveform() != Waveform::Sine {
+            return Err(WaveError::Waveform);
+        }
         if load.friction < 0.0 {
             return Err(WaveError::NegativeFriction { friction: load.friction });
         }

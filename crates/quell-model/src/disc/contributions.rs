@@ -22,6 +22,8 @@ pub enum Contribution {
     FollowerForce,
     /// The periodic part of the follower force, due to dither.
     Dither,
+    /// Centrifugal stress of a disc that rotates: κΩ².
+    Centrifugal,
 }
 
 impl Contribution {
@@ -36,6 +38,7 @@ impl Contribution {
         Self::Spring,
         Self::FollowerForce,
         Self::Dither,
+        Self::Centrifugal,
     ];
 
     /// Name in outputs.
@@ -50,6 +53,7 @@ impl Contribution {
             Self::Spring => "spring",
             Self::FollowerForce => "follower-force",
             Self::Dither => "dither",
+            Self::Centrifugal => "centrifugal",
         }
     }
 
@@ -65,7 +69,7 @@ pub struct Contributions(u16);
 
 impl Contributions {
     /// All contributions: the complete disc.
-    pub const ALL: Self = Self((1 << 9) - 1);
+    pub const ALL: Self = Self((1 << 10) - 1);
 
     /// Whether a contribution is switched on.
     pub fn contains(self, contribution: Contribution) -> bool {

@@ -1,83 +1,24 @@
 //! An annular disc under rotating loads, valid by construction.
 
-use crate::parameter::disc::{
-    DISC, DISC_DITHER_AMPLITUDE, DISC_SPEED, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS,
-    LOAD_STIFFNESS, MODAL_DAMPING,
-};
-use crate::parameter::{DITHER_FREQUENCY_RATIO, Parameter, split_index};
+use crate::parameter::disc::{CENTRIFUGAL, DISC_SPEED, MODE_CENTRIFUGAL};
 use crate::units::DiscScales;
-use crate::{Invalid, InvalidValues};
+use crate::{Friction, Invalid, InvalidValues, Waveform};
 
+mod carrier;
 mod contributions;
+mod dither;
+mod law;
 mod mode;
+mod numbers;
+mod patch;
+mod plate;
 mod structure;
 
+pub use carrier::Carrier;
 pub use contributions::{Contribution, Contributions};
+pub use dither::DiscDither;
 pub use mode::{Load, Mode};
-
-/// Dither of the friction force f(τ) of every load.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum DiscDither {
-    /// f(τ) = f.
-    None,
-    /// f(τ) = f (1 + α cos Rτ), (5.22): the normal load varies.
-    Normal {
-        /// Amplitude ratio α, 0 ≤ α ≤ 1: beyond 1 the pad would separate from the disc.
-        amplitude: f64,
-        /// Frequency ratio R > 0.
-        frequency_ratio: f64,
-    },
-    /// f(τ) = f α cos Rτ, (5.31): the direction of sliding alternates, the mean friction vanishes.
-    Tangential {
-        /// Amplitude ratio α ≥ 0; 1 in the dissertation.
-        amplitude: f64,
-        /// Frequency ratio R > 0.
-        frequency_ratio: f64,
-    },
-}
-
-impl DiscDither {
-    /// Mean of f(τ)/f and amplitude of its cosine.
-    pub fn mean_and_amplitude(self) -> (f64, f64) {
-        match self {
-            Self::None => (1.0, 0.0),
-            Self::Normal { amplitude, .. } => (1.0, amplitude),
-            Self::Tangential { amplitude, .. } => (0.0, amplitude),
-        }
-    }
-
-    /// Frequency ratio R; `None` without dither.
-    pub fn frequency_ratio(self) -> Option<f64> {
-        match self {
-            Self::None => None,
-            Self::Normal { frequency_ratio, .. } | Self::Tangential { frequency_ratio, .. } => {
-                Some(frequency_ratio)
-            }
-        }
-    }
-
-    fn complaints(self) -> Vec<Invalid> {
-        let (Self::Normal { amplitude, frequency_ratio }
-        | Self::Tangential { amplitude, frequency_ratio }) = self
-        else {
-            return Vec::new();
-        };
-        let mut complaints: Vec<Invalid> =
-            [(DISC_DITHER_AMPLITUDE, amplitude), (DITHER_FREQUENCY_RATIO, frequency_ratio)]
-                .iter()
-                .filter_map(|(parameter, value)| parameter.check(*value).err())
-                .collect();
-        if matches!(self, Self::Normal { .. }) && amplitude > 1.0 {
-            complaints.push(Invalid::new(
-                DISC_DITHER_AMPLITUDE.path,
-                amplitude,
-                "at most 1: more normal dither would pull the contact apart, which this model \
-                 does not describe",
-            ));
-        }
-        complaints
-    }
-}
+pub use patch::{Patch, PatchPoint, PatchRadius};
 
 /// Modes of the plate, loads, dither and speed, in the numbers of the equations.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,7 +26,11 @@ pub struct Disc {
     modes: Vec<Mode>,
     loads: Vec<Load>,
     dither: DiscDither,
+    waveform: Waveform,
     speed: f64,
+    law: Option<Friction>,
+    /// κ of each mode; none where the disc is at rest.
+    centrifugal: Vec<f64>,
     /// Scales and outer radius (m), where the study gives them.
     scales: Option<DiscScales>,
     outer_radius_m: Option<f64>,
@@ -115,7 +60,18 @@ impl Disc {
         complaints.extend(dither.complaints());
         complaints.extend(DISC_SPEED.check(speed).err());
         if complaints.is_empty() {
-            Ok(Self { modes, loads, dither, speed, scales: None, outer_radius_m: None })
+            let centrifugal = Vec::new();
+            Ok(Self {
+                modes,
+                loads,
+                dither,
+                waveform: Waveform::Sine,
+                speed,
+                law: None,
+                centrifugal,
+                scales: None,
+                outer_radius_m: None,
+            })
         } else {
             Err(InvalidValues::of(complaints))
         }
@@ -142,7 +98,73 @@ impl Disc {
         speed: f64,
     ) -> Result<Self, InvalidValues> {
         let disc = Self::new(self.modes.clone(), loads, dither, speed)?;
+        let disc = Self { centrifugal: self.centrifugal.clone(), waveform: self.waveform, ..disc };
+        let disc = match &self.law {
+            Some(law) => disc.under_law(law.clone())?,
+            None => disc,
+        };
         Ok(disc.in_si(self.scales, self.outer_radius_m))
+    }
+
+    /// The same disc with the centrifugal stiffening κ of each mode, β² + κΩ²: the disc rotates at the speed Ω and its loads are
+    /// at rest. All zero is a disc at rest under loads that rotate.
+    ///
+    /// # Errors
+    /// A number out of bounds, or not one for each mode.
+    pub fn stiffened(self, centrifugal: Vec<f64>) -> Result<Self, InvalidValues> {
+        let count = self.modes.len();
+        if centrifugal.len() != count {
+            let allowed = format!("one number for each of the {count} modes");
+            let wrong = Invalid::new(CENTRIFUGAL.path, centrifugal.len(), allowed);
+            return Err(InvalidValues::from(wrong));
+        }
+        let complaints: Vec<Invalid> = centrifugal
+            .iter()
+            .enumerate()
+            .filter_map(|(index, value)| mode::complain(&MODE_CENTRIFUGAL, *value, index, count))
+            .collect();
+        if !complaints.is_empty() {
+            return Err(InvalidValues::of(complaints));
+        }
+        let none = centrifugal.iter().all(|value| *value == 0.0);
+        Ok(Self { centrifugal: if none { Vec::new() } else { centrifugal }, ..self })
+    }
+
+    /// Centrifugal stiffening κ of a mode.
+    pub fn centrifugal(&self, mode: usize) -> f64 {
+        self.centrifugal.get(mode).copied().unwrap_or(0.0)
+    }
+
+    /// Whether centrifugal stress stiffens a mode.
+    pub fn is_stiffened(&self) -> bool {
+        !self.centrifugal.is_empty()
+    }
+
+    /// Frequency √(β² + κΩ²) of a mode of the rotating disc, in ω_ref, seen from the disc.
+    pub fn ratio_at_speed(&self, mode: usize) -> f64 {
+        let ratio = self.modes[mode].ratio;
+        match self.centrifugal(mode) {
+            0.0 => ratio,
+            centrifugal => self.square_at_speed(ratio, centrifugal).sqrt(),
+        }
+    }
+
+    /// Critical speed of a mode, at which its forward wave stands still under the loads: β/√(q² − κ) in ω_ref, that is β/q without
+    /// centrifugal stress; `None` without nodal diameters, or if the stress lets the wave run ahead at any speed.
+    pub fn critical_speed(&self, mode: usize) -> Option<f64> {
+        let Mode { diameters, ratio, .. } = self.modes[mode];
+        let q = diameters as f64;
+        match self.centrifugal(mode) {
+            _ if diameters == 0 => None,
+            0.0 => Some(ratio / q),
+            centrifugal if centrifugal < q * q => Some(ratio / (q * q - centrifugal).sqrt()),
+            _ => None,
+        }
+    }
+
+    /// β² + κΩ².
+    fn square_at_speed(&self, ratio: f64, centrifugal: f64) -> f64 {
+        f64::mul_add(centrifugal * self.speed, self.speed, ratio * ratio)
     }
 
     /// Modes of the plate.
@@ -160,6 +182,26 @@ impl Disc {
         self.dither
     }
 
+    /// The same disc with another wave in place of the cosine of its dither: sgn cos Rτ for [`Waveform::Square`].
+    ///
+    /// # Errors
+    /// A waveform other than sine and square.
+    pub fn shaped(self, waveform: Waveform) -> Result<Self, InvalidValues> {
+        match waveform {
+            Waveform::Sine | Waveform::Square => Ok(Self { waveform, ..self }),
+            Waveform::Triangle => Err(InvalidValues::from(Invalid::new(
+                "dither.waveform",
+                waveform.name(),
+                "\"sine\" or \"square\": friction that follows the sign of the slip is a square wave",
+            ))),
+        }
+    }
+
+    /// Waveform of the dither.
+    pub fn waveform(&self) -> Waveform {
+        self.waveform
+    }
+
     /// Speed Ω of the loads over the disc, in ω_ref.
     pub fn speed(&self) -> f64 {
         self.speed
@@ -173,9 +215,13 @@ impl Disc {
         }
     }
 
-    /// Number of coordinates: one for a mode without nodal diameters, two for every other. The
-    /// state has twice as many numbers.
+    /// Number of coordinates: those of the plate and one for each pad and caliper. The state has twice as many numbers.
     pub fn coordinates(&self) -> usize {
+        self.plate_coordinates() + self.loads.iter().map(Load::bodies).sum::<usize>()
+    }
+
+    /// Number of coordinates of the plate: one for a mode without nodal diameters, two for every other.
+    pub fn plate_coordinates(&self) -> usize {
         self.modes.iter().map(|mode| if mode.diameters == 0 { 1 } else { 2 }).sum()
     }
 
@@ -192,104 +238,21 @@ impl Disc {
     /// # Errors
     /// A friction out of bounds.
     pub fn with_friction_times(&self, factor: f64) -> Result<Self, InvalidValues> {
-        let scaled = |load: &Load| Load { friction: factor * load.friction, ..load.clone() };
-        let loads = self.loads.iter().map(scaled).collect();
-        self.rebuilt(loads, self.dither, self.speed)
+        self.with_each_load(|load| Load { friction: factor * load.friction, ..load.clone() })
+    }
+
+    /// The same disc with every load changed.
+    ///
+    /// # Errors
+    /// A load out of bounds.
+    pub fn with_each_load(&self, change: impl Fn(&Load) -> Load) -> Result<Self, InvalidValues> {
+        self.rebuilt(self.loads.iter().map(change).collect(), self.dither, self.speed)
     }
 
     /// The same disc without dither: f(τ) = f.
     #[must_use]
     pub fn undithered(&self) -> Self {
         Self { dither: DiscDither::None, ..self.clone() }
-    }
-
-    /// Value of a parameter by its path: `disc.load.speed`, `disc.modal_damping` (where all modes
-    /// agree), `disc.load.mass`, `disc.load[1].friction`, `dither.amplitude`,
-    /// `dither.frequency_ratio`; `None` if there is no such number here.
-    pub fn get(&self, path: &str) -> Option<f64> {
-        let mut copy = self.clone();
-        copy.number(path).map(|number| *number)
-    }
-
-    /// The entry of the registry for a path, or `None` if there is no such number here.
-    pub fn parameter(&self, path: &str) -> Option<Parameter> {
-        self.get(path)?;
-        let key = match split_index(path, "disc.load") {
-            Some((_, key)) => format!("disc.load.{key}"),
-            None => path.to_owned(),
-        };
-        DISC.iter().find(|parameter| parameter.path == key).copied()
-    }
-
-    /// The load that a path names, counted from 0.
-    pub(crate) fn load_of(path: &str) -> Option<usize> {
-        split_index(path, "disc.load").map(|(index, _)| index)
-    }
-
-    /// The same disc with one parameter changed.
-    ///
-    /// # Errors
-    /// An unknown path, a value out of bounds, a relation that no longer holds.
-    pub fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
-        let mut next = self.clone();
-        if path == MODAL_DAMPING.path {
-            MODAL_DAMPING.check(value).map_err(InvalidValues::from)?;
-            for mode in &mut next.modes {
-                mode.damping = value;
-            }
-            return Ok(next);
-        }
-        match next.number(path) {
-            Some(number) => *number = value,
-            None => {
-                return Err(InvalidValues::from(Invalid::new(
-                    path,
-                    value,
-                    "a parameter of this disc",
-                )));
-            }
-        }
-        next.rebuilt(next.loads.clone(), next.dither, next.speed)
-    }
-
-    fn number(&mut self, path: &str) -> Option<&mut f64> {
-        if path == DISC_SPEED.path {
-            return Some(&mut self.speed);
-        }
-        if path == MODAL_DAMPING.path {
-            let (first, rest) = self.modes.split_first_mut()?;
-            let same = rest.iter().all(|mode| mode.damping == first.damping);
-            return same.then_some(&mut first.damping);
-        }
-        if path == DISC_DITHER_AMPLITUDE.path || path == DITHER_FREQUENCY_RATIO.path {
-            return match &mut self.dither {
-                DiscDither::None => None,
-                DiscDither::Normal { amplitude, frequency_ratio }
-                | DiscDither::Tangential { amplitude, frequency_ratio } => {
-                    Some(if path == DISC_DITHER_AMPLITUDE.path {
-                        amplitude
-                    } else {
-                        frequency_ratio
-                    })
-                }
-            };
-        }
-        let (index, key) = split_index(path, "disc.load")?;
-        if key == DISC_SPEED.key() {
-            return Some(&mut self.speed);
-        }
-        let load = self.loads.get_mut(index)?;
-        if key == LOAD_MASS.key() {
-            Some(&mut load.mass)
-        } else if key == LOAD_DAMPING.key() {
-            Some(&mut load.damping)
-        } else if key == LOAD_STIFFNESS.key() {
-            Some(&mut load.stiffness)
-        } else if key == LOAD_FRICTION.key() {
-            Some(&mut load.friction)
-        } else {
-            None
-        }
     }
 }
 

@@ -1,9 +1,12 @@
 //! A mode of the disc and a load that rotates over it.
 
+use super::{Carrier, Patch};
 use crate::Invalid;
 use crate::parameter::disc::{
-    LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS,
-    MODE_DAMPING, MODE_DIAMETERS, MODE_RATIO, MODE_SHAPE_AT_LOAD,
+    CALIPER_DAMPING, CALIPER_MASS, CALIPER_STIFFNESS, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE,
+    LOAD_FRICTION, LOAD_HALF_THICKNESS, LOAD_MASS, LOAD_NORMAL, LOAD_SLIP_RATIO, LOAD_STATIC,
+    LOAD_STIFFNESS, MODE_DAMPING, MODE_DIAMETERS, MODE_RATIO, MODE_SHAPE_AT_LOAD, PAD_DAMPING,
+    PAD_MASS, PAD_STIFFNESS,
 };
 use crate::parameter::{Parameter, indexed};
 
@@ -20,7 +23,7 @@ pub struct Mode {
     pub damping: f64,
 }
 
-/// Mass, damper, spring and friction at one point of the rotating frame.
+/// Mass, damper, spring and friction at one point of the rotating frame, or over a patch around it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Load {
     /// Angle θ in the frame of the loads, radians.
@@ -35,11 +38,28 @@ pub struct Load {
     pub friction: f64,
     /// Phase φ of the dither of its friction, cos(Rτ + φ), radians.
     pub dither_phase: f64,
+    /// Static load P* = P/(r₀M_pω_ref²) on the disc: the equations of small motions do not contain it, it deflects the disc.
+    pub static_load: f64,
+    /// Normal load N* = N/(r₀M_pω_ref²) > 0 under a friction law ([`Disc::under_law`](super::Disc::under_law)), which stands for
+    /// [`Load::friction`].
+    pub normal_load: Option<f64>,
+    /// Half the thickness of the disc over the radius of the load, η = h/(2r₀) ≥ 0: under a friction law the surface of a bent disc
+    /// moves in its plane by u_θ = −(h/2r) ∂w/∂φ.
+    pub half_thickness: f64,
+    /// Slip ratio Λ > 0 of tangential dither, the peak of its velocity over the speed of sliding, where it is given. The equations
+    /// do not contain it: it determines the force that the dither needs.
+    pub slip_ratio: Option<f64>,
     /// Radius over the outer radius, where it is known.
     pub radius_ratio: Option<f64>,
     /// Shapes of all modes at this load, where it sits at another radius than the modes'
     /// [`Mode::shape_at_load`] means.
     pub shapes: Option<Vec<f64>>,
+    /// The area over which it is distributed; `None` for a point.
+    pub patch: Option<Patch>,
+    /// The pad, between the spring and damper of the contact and the caliper or the ground; `None` where they are at rest.
+    pub pad: Option<Carrier>,
+    /// The caliper that carries the pad; `None` for a pad on the ground. Ignored without a pad.
+    pub caliper: Option<Carrier>,
 }
 
 impl Load {
@@ -52,9 +72,48 @@ impl Load {
             stiffness,
             friction,
             dither_phase: 0.0,
+            static_load: 0.0,
+            normal_load: None,
+            half_thickness: 0.0,
+            slip_ratio: None,
             radius_ratio: None,
             shapes: None,
+            patch: None,
+            pad: None,
+            caliper: None,
         }
+    }
+
+    /// The same load on a pad that moves.
+    #[must_use]
+    pub fn on_pad(self, pad: Carrier) -> Self {
+        Self { pad: Some(pad), ..self }
+    }
+
+    /// The same load on a caliper that moves and carries its pad.
+    #[must_use]
+    pub fn on_caliper(self, caliper: Carrier) -> Self {
+        Self { caliper: Some(caliper), ..self }
+    }
+
+    /// The same load, distributed over a patch.
+    #[must_use]
+    pub fn over(self, patch: Patch) -> Self {
+        Self { patch: Some(patch), ..self }
+    }
+
+    /// Number of coordinates of its own: one for the pad, one more for the caliper.
+    pub fn bodies(&self) -> usize {
+        match (&self.pad, &self.caliper) {
+            (None, _) => 0,
+            (Some(_), None) => 1,
+            (Some(_), Some(_)) => 2,
+        }
+    }
+
+    /// Whether it acts at one point, from the ground: the load of the dissertation, for which closed forms exist.
+    pub fn is_plain(&self) -> bool {
+        self.patch.is_none() && self.pad.is_none()
     }
 
     /// The same load at another angle (radians).
@@ -71,7 +130,12 @@ impl Load {
 }
 
 /// A complaint about entry `index` of `count`, its key with the index where there are several.
-fn complain(parameter: &Parameter, value: f64, index: usize, count: usize) -> Option<Invalid> {
+pub(super) fn complain(
+    parameter: &Parameter,
+    value: f64,
+    index: usize,
+    count: usize,
+) -> Option<Invalid> {
     parameter.check(value).err().map(|mut complaint| {
         let (table, key) = parameter.path.rsplit_once('.').unwrap_or(("", parameter.path));
         complaint.key = indexed(table, index, count, key);
@@ -102,10 +166,33 @@ impl Load {
             (LOAD_STIFFNESS, self.stiffness),
             (LOAD_FRICTION, self.friction),
             (LOAD_DITHER_PHASE, self.dither_phase.to_degrees()),
+            (LOAD_STATIC, self.static_load),
         ]
         .iter()
         .filter_map(|(parameter, value)| complain(parameter, *value, index, count))
         .collect();
+        let of_pad = [PAD_MASS, PAD_DAMPING, PAD_STIFFNESS];
+        let of_caliper = [CALIPER_MASS, CALIPER_DAMPING, CALIPER_STIFFNESS];
+        for (body, names) in [(&self.pad, of_pad), (&self.caliper, of_caliper)] {
+            let Some(Carrier { mass, damping, stiffness }) = *body else { continue };
+            let numbers = names.iter().zip([mass, damping, stiffness]);
+            complaints
+                .extend(numbers.filter_map(|(name, value)| complain(name, value, index, count)));
+        }
+        if self.caliper.is_some() && self.pad.is_none() {
+            let key = indexed("disc.load", index, count, PAD_MASS.key());
+            complaints.push(Invalid::new(key, "none", "a pad: the caliper carries it"));
+        }
+        let own =
+            [(LOAD_NORMAL, self.normal_load), (LOAD_HALF_THICKNESS, Some(self.half_thickness))];
+        complaints
+            .extend(own.iter().filter_map(|(name, value)| complain(name, (*value)?, index, count)));
+        let slip_ratio = self.slip_ratio;
+        complaints
+            .extend(slip_ratio.and_then(|value| complain(&LOAD_SLIP_RATIO, value, index, count)));
+        if let Some(patch) = &self.patch {
+            complaints.extend(patch.complaints(modes, index, count));
+        }
         if let Some(shapes) = &self.shapes {
             let key = format!("disc.load[{index}].shapes");
             if shapes.len() != modes {

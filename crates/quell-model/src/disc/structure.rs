@@ -9,7 +9,9 @@
 //!
 //! Load l is a contact with the normal row u_l (φ cos qθ_l for A, φ sin qθ_l for B), w = u_lᵀy, and the slope row
 //! s_l (−qφ sin qθ_l, qφ cos qθ_l), w_φ = s_lᵀy: its spring and damper are those of the contact, its mass is attached to the
-//! structure, and its friction force f acts along the slope.
+//! structure, and its friction force f acts along the slope. Where the load has a pad of its own (displacement p), the normal
+//! row reads w − p: the contact's spring, damper and friction act on the pad with the opposite sign, and the pad has a spring and
+//! a damper to its caliper, or to the ground. The mass of the load moves with the disc.
 //!
 //! Corrections to the print. Inside the double sum of (5.18), (5.25) and (5.32) the accelerations and velocities carry the
 //! indices of the equation (A_pq″, A_pq′); they must be those of the sum (A_ij″, A_ij′), as (5.15) has them. Taken
@@ -21,12 +23,12 @@ use std::f64::consts::FRAC_PI_2;
 
 use quell_numerics::matrix::Matrix;
 
-use super::{Contribution, Contributions, Disc};
+use super::{Carrier, Contribution, Contributions, Disc, Load, PatchPoint};
 use crate::friction::{Coulomb, Friction};
 use crate::parameter::Parameter;
 use crate::profile::{Profile, Wave};
 use crate::system::{Contact, Input, InputTarget, MassMatrix, Mechanical, System};
-use crate::{InvalidValues, Parametrisation, Waveform};
+use crate::{InvalidValues, Parametrisation};
 
 impl Parametrisation for Disc {
     fn parameter(&self, path: &str) -> Option<Parameter> {
@@ -56,64 +58,135 @@ impl Disc {
     ///
     /// The follower force of the dissertation depends neither on the speed nor on the load: it is a Coulomb contact of unit
     /// load with μ = |f| on a surface that moves, at unit speed, in the direction of f. Its dither is a factor on the
-    /// friction force.
+    /// friction force. A load over a patch is a contact at every quadrature point.
     pub fn system_of(&self, parts: Contributions) -> System {
-        let (damping, stiffness) = self.plate(parts);
-        let mut mass = MassMatrix::identity(self.coordinates());
+        let (mut damping, mut stiffness) = self.plate(parts);
+        let mut mass = self.masses();
         let mut contacts = Vec::new();
         let mut inputs = Vec::new();
+        let mut body = self.plate_coordinates();
+        let on = |part, value: f64| if parts.contains(part) { value } else { 0.0 };
         for (l, load) in self.loads().iter().enumerate() {
-            let on = |part, value: f64| if parts.contains(part) { value } else { 0.0 };
-            let (normal, slope) = self.rows_at(l);
-            mass = mass.attach(on(Contribution::LoadMass, load.mass), normal.clone());
-            contacts.push(Contact {
-                name: format!("load {l}"),
-                tangent: None,
-                force: None,
-                normal: Some(normal),
-                slope: Some(slope),
-                normal_load: 1.0,
-                normal_stiffness: on(Contribution::Spring, load.stiffness),
-                normal_damping: on(Contribution::Damper, load.damping),
-                surface_velocity: Profile::constant(1f64.copysign(load.friction)),
-                friction: Friction::Coulomb(Coulomb::constant(load.friction.abs())),
-            });
-            let (mean, amplitude) = self.dither().mean_and_amplitude();
-            let mut factor = Profile::constant(on(Contribution::FollowerForce, mean));
-            if let Some(frequency) = self.dither().frequency_ratio() {
-                // cos(Rτ + φ) is a sine that leads by a quarter of a cycle.
-                factor = factor.with(Wave {
-                    waveform: Waveform::Sine,
-                    amplitude: on(Contribution::Dither, amplitude),
-                    frequency,
-                    phase: load.dither_phase + FRAC_PI_2,
+            for (index, point) in load.quadrature().iter().enumerate() {
+                let (surface, slope) = self.rows_at(l, point);
+                let load_mass = on(Contribution::LoadMass, load.mass);
+                mass = mass.attach(point.weight * load_mass, surface.clone());
+                inputs.push(self.factor(parts, load, contacts.len()));
+                let sliding = self.sliding(load, point, slope);
+                contacts.push(Contact {
+                    name: load.contact_name(l, index),
+                    tangent: sliding.tangent,
+                    force: None,
+                    normal: Some(load.approach(surface, body)),
+                    slope: Some(sliding.slope),
+                    normal_load: sliding.normal_load,
+                    normal_stiffness: point.weight * on(Contribution::Spring, load.stiffness),
+                    normal_damping: point.weight * on(Contribution::Damper, load.damping),
+                    surface_velocity: Profile::constant(sliding.velocity),
+                    friction: sliding.law,
                 });
             }
-            inputs.push(Input { target: InputTarget::Friction { contact: l }, profile: factor });
+            load.carry(body, &mut damping, &mut stiffness);
+            body += load.bodies();
+        }
+        if !self.loads().iter().all(Load::is_plain) {
+            // A patch attaches more masses than there are coordinates.
+            mass = MassMatrix::dense(mass.matrix());
         }
         let structure = Mechanical::new(self.coordinate_names(), mass, damping, stiffness);
         System { structure: structure.into(), contacts, inputs }
     }
 
+    /// Friction at a point of a load: as a given follower force, or by the law.
+    fn sliding(&self, load: &Load, point: &PatchPoint<'_>, slope: Vec<f64>) -> Sliding {
+        let share = point.weight * point.lever;
+        let Some(law) = self.law() else {
+            return Sliding {
+                tangent: None,
+                slope,
+                normal_load: 1.0,
+                velocity: 1f64.copysign(load.friction),
+                law: Friction::Coulomb(Coulomb::constant(share * load.friction.abs())),
+            };
+        };
+        // Radius of the point over that of the first load.
+        let radius = self.radius_over_first(load) / point.lever;
+        let lever = load.half_thickness * point.lever;
+        let tangent = (lever > 0.0).then(|| slope.iter().map(|slope| -lever * slope).collect());
+        Sliding {
+            tangent,
+            normal_load: share * radius * load.normal_load.unwrap_or(1.0),
+            velocity: radius * self.speed(),
+            slope: slope.into_iter().map(|slope| slope / radius).collect(),
+            law: law.clone(),
+        }
+    }
+
+    /// The factor on the friction of a contact of a load.
+    fn factor(&self, parts: Contributions, load: &Load, contact: usize) -> Input {
+        let on = |part, value: f64| if parts.contains(part) { value } else { 0.0 };
+        let (mean, amplitude) = self.dither().mean_and_amplitude();
+        let mut factor = Profile::constant(on(Contribution::FollowerForce, mean));
+        if let Some(frequency) = self.dither().frequency_ratio() {
+            // cos(Rτ + φ) is a sine, and sgn cos a square wave, that leads by a quarter of a cycle.
+            factor = factor.with(Wave {
+                waveform: self.waveform(),
+                amplitude: on(Contribution::Dither, amplitude),
+                frequency,
+                phase: load.dither_phase + FRAC_PI_2,
+            });
+        }
+        Input { target: InputTarget::Friction { contact }, profile: factor }
+    }
+
+    /// The mass matrix without the masses of the loads: I for modes of unit norm, and the pads and calipers.
+    fn masses(&self) -> MassMatrix {
+        let n = self.coordinates();
+        let plate = self.plate_coordinates();
+        if n == plate {
+            return MassMatrix::identity(n);
+        }
+        let mut matrix = Matrix::identity(n);
+        let bodies = self.loads().iter().flat_map(Load::carriers);
+        for (at, body) in (plate..n).zip(bodies) {
+            matrix[(at, at)] = body.mass;
+        }
+        MassMatrix::dense(matrix)
+    }
+
     /// Names of the coordinates: A and B of each mode, counted from 0.
     fn coordinate_names(&self) -> Vec<String> {
         let modes = self.modes().iter().enumerate();
-        modes
-            .flat_map(|(index, mode)| {
-                let second = (mode.diameters > 0).then(|| format!("B{index}"));
-                [Some(format!("A{index}")), second].into_iter().flatten()
-            })
-            .collect()
+        let plate = modes.flat_map(|(index, mode)| {
+            let second = (mode.diameters > 0).then(|| format!("B{index}"));
+            [Some(format!("A{index}")), second].into_iter().flatten()
+        });
+        let bodies = self.loads().iter().enumerate().flat_map(|(l, load)| {
+            let names = [format!("pad {l}"), format!("caliper {l}")];
+            names.into_iter().take(load.bodies())
+        });
+        plate.chain(bodies).collect()
     }
 
-    /// Normal and slope row of a load.
-    fn rows_at(&self, l: usize) -> (Vec<f64>, Vec<f64>) {
+    /// Row of the deflection under a load, averaged over its patch by the shares of the points.
+    pub fn surface_row(&self, load: usize) -> Vec<f64> {
+        let mut row = vec![0.0; self.coordinates()];
+        for point in self.loads()[load].quadrature() {
+            let (surface, _) = self.rows_at(load, &point);
+            for (sum, entry) in row.iter_mut().zip(surface) {
+                *sum += point.weight * entry;
+            }
+        }
+        row
+    }
+
+    /// Rows of the deflection w and of its slope w_φ at a point of a load.
+    fn rows_at(&self, l: usize, point: &PatchPoint<'_>) -> (Vec<f64>, Vec<f64>) {
         let (mut normal, mut slope) = (Vec::new(), Vec::new());
-        let angle = self.loads()[l].angle;
         for (index, mode) in self.modes().iter().enumerate() {
             let q = mode.diameters as f64;
-            let (sine, cosine) = libm::sincos(q * angle);
-            let shape = self.shape(index, l);
+            let (sine, cosine) = libm::sincos(q * point.angle);
+            let shape = point.shapes.map_or_else(|| self.shape(index, l), |shapes| shapes[index]);
             normal.push(shape * cosine);
             if mode.diameters > 0 {
                 normal.push(shape * sine);
@@ -123,36 +196,69 @@ impl Disc {
                 slope.push(0.0);
             }
         }
+        normal.resize(self.coordinates(), 0.0);
+        slope.resize(self.coordinates(), 0.0);
         (normal, slope)
     }
+}
 
-    /// C and K of the plate alone.
-    fn plate(&self, parts: Contributions) -> (Matrix, Matrix) {
-        let n = self.coordinates();
-        let (mut damping, mut stiffness) = (Matrix::zeros(n, n), Matrix::zeros(n, n));
-        let on = |part, value: f64| if parts.contains(part) { value } else { 0.0 };
-        let mut at = 0;
-        for mode in self.modes() {
-            let rotation = mode.diameters as f64 * self.speed();
-            let loss = 2.0 * mode.damping * mode.ratio;
-            let diagonal = on(Contribution::Plate, mode.ratio * mode.ratio)
-                - on(Contribution::Gyroscopic, rotation * rotation);
-            let coordinates = if mode.diameters == 0 { 1 } else { 2 };
-            for i in at..at + coordinates {
-                stiffness[(i, i)] += diagonal;
-                damping[(i, i)] += on(Contribution::DiscDamping, loss);
-            }
-            if coordinates == 2 {
-                let gyroscopic = on(Contribution::Gyroscopic, 2.0 * rotation);
-                damping[(at, at + 1)] -= gyroscopic;
-                damping[(at + 1, at)] += gyroscopic;
-                let circulatory = on(Contribution::CirculatoryDamping, loss * rotation);
-                stiffness[(at, at + 1)] -= circulatory;
-                stiffness[(at + 1, at)] += circulatory;
-            }
-            at += coordinates;
+/// Friction at a point.
+struct Sliding {
+    tangent: Option<Vec<f64>>,
+    slope: Vec<f64>,
+    normal_load: f64,
+    velocity: f64,
+    law: Friction,
+}
+
+impl Load {
+    /// The pad and the caliper, as far as they are given.
+    fn carriers(&self) -> impl Iterator<Item = &Carrier> {
+        let caliper = self.pad.as_ref().and(self.caliper.as_ref());
+        self.pad.iter().chain(caliper)
+    }
+
+    /// The points at which it acts: one, or those of its patch.
+    fn quadrature(&self) -> Vec<PatchPoint<'_>> {
+        match &self.patch {
+            None => vec![PatchPoint { weight: 1.0, angle: self.angle, lever: 1.0, shapes: None }],
+            Some(patch) => patch.around(self.angle),
         }
-        (damping, stiffness)
+    }
+
+    /// Name of the contact at a point.
+    fn contact_name(&self, load: usize, point: usize) -> String {
+        match self.patch {
+            None => format!("load {load}"),
+            Some(_) => format!("load {load}, point {point}"),
+        }
+    }
+
+    /// The approach w − p of disc and pad, p the coordinate `at`; w without a pad.
+    fn approach(&self, surface: Vec<f64>, at: usize) -> Vec<f64> {
+        let mut row = surface;
+        if self.pad.is_some() {
+            row[at] = -1.0;
+        }
+        row
+    }
+
+    /// Adds the springs and dampers of pad and caliper, whose coordinates begin `at`.
+    fn carry(&self, at: usize, damping: &mut Matrix, stiffness: &mut Matrix) {
+        let last = self.bodies();
+        for (index, body) in self.carriers().enumerate() {
+            let own = at + index;
+            for (matrix, strength) in
+                [(&mut *damping, body.damping), (&mut *stiffness, body.stiffness)]
+            {
+                matrix[(own, own)] += strength;
+                if index + 1 < last {
+                    matrix[(own + 1, own + 1)] += strength;
+                    matrix[(own, own + 1)] -= strength;
+                    matrix[(own + 1, own)] -= strength;
+                }
+            }
+        }
     }
 }
 

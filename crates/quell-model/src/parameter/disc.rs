@@ -87,6 +87,24 @@ pub const MODAL_DAMPING: Parameter = disc(
     Bounds::NOT_NEGATIVE,
 );
 
+/// Centrifugal stiffening of the modes.
+pub const CENTRIFUGAL: Parameter = disc(
+    "disc.centrifugal",
+    "κ",
+    "centrifugal stiffening of every mode, β² + κΩ², of a disc that rotates itself",
+    Quantity::Ratio,
+    Bounds { lower: 0.0, lower_included: true, upper: 1e6 },
+);
+
+/// Centrifugal stiffening of a listed mode.
+pub const MODE_CENTRIFUGAL: Parameter = disc(
+    "disc.mode.centrifugal",
+    "κ",
+    "centrifugal stiffening of the mode, β² + κΩ², of a disc that rotates itself",
+    Quantity::Ratio,
+    Bounds { lower: 0.0, lower_included: true, upper: 1e6 },
+);
+
 /// Speed of the loads over the disc.
 pub const DISC_SPEED: Parameter = in_si(
     disc(
@@ -210,6 +228,157 @@ pub const LOAD_FRICTION: Parameter = in_si(
     &[si("friction_n", "N")],
 );
 
+/// Normal load under a friction law.
+pub const LOAD_NORMAL: Parameter = in_si(
+    disc(
+        "disc.load.normal_load",
+        "N*",
+        "normal load under a friction law, which then determines the follower force instead of friction",
+        Quantity::LoadFriction,
+        Bounds::POSITIVE,
+    ),
+    &[si("normal_load_n", "N")],
+);
+
+/// Half the thickness of the disc over the radius of a load.
+pub const LOAD_HALF_THICKNESS: Parameter = disc(
+    "disc.load.half_thickness",
+    "η",
+    "half the thickness of the disc over the radius of the load, by which a slope moves the surface along the slip; by default \
+     from disc.thickness_m where it is known, else 0",
+    Quantity::Ratio,
+    Bounds { lower: 0.0, lower_included: true, upper: 1.0 },
+);
+
+/// Static load on the disc.
+pub const LOAD_STATIC: Parameter = in_si(
+    disc(
+        "disc.load.static_load",
+        "P*",
+        "static load that deflects the disc, most of all near a critical speed",
+        Quantity::LoadFriction,
+        Bounds::FINITE,
+    ),
+    &[si("static_load_n", "N")],
+);
+
+/// Slip ratio of tangential dither at a load.
+pub const LOAD_SLIP_RATIO: Parameter = disc(
+    "disc.load.slip_ratio",
+    "Λ",
+    "peak velocity of tangential dither over the speed of sliding: determines the dither force that is needed",
+    Quantity::Ratio,
+    Bounds::POSITIVE,
+);
+
+/// Angular extent of a load.
+pub const LOAD_EXTENT: Parameter = disc(
+    "disc.load.extent_deg",
+    "θ_e",
+    "angle over which the load is distributed, symmetric to its own angle, degrees; a point if absent",
+    Quantity::Degrees,
+    Bounds { lower: 0.0, lower_included: true, upper: 360.0 },
+);
+
+/// Radial extent of a load.
+pub const LOAD_RADIAL_EXTENT: Parameter = disc(
+    "disc.load.radial_extent",
+    "r_e/a",
+    "radial width over which the load is distributed, symmetric to its radius, over the outer radius; requires computed modes",
+    Quantity::Ratio,
+    Bounds { lower: 0.0, lower_included: false, upper: 1.0 },
+);
+
+/// Quadrature points over the angle of a load.
+pub const LOAD_POINTS: Parameter = disc(
+    "disc.load.points",
+    "n_θ",
+    "quadrature points over the angle of a distributed load; by default enough for its modes",
+    Quantity::Count,
+    Bounds { lower: 1.0, lower_included: true, upper: 200.0 },
+);
+
+/// Quadrature points over the radius of a load.
+pub const LOAD_RADIAL_POINTS: Parameter = disc(
+    "disc.load.radial_points",
+    "n_r",
+    "quadrature points over the radius of a distributed load; by default enough for its modes",
+    Quantity::Count,
+    Bounds { lower: 1.0, lower_included: true, upper: 50.0 },
+);
+
+/// Mass of the pad.
+pub const PAD_MASS: Parameter = in_si(
+    disc(
+        "disc.load.pad_mass",
+        "m_p*",
+        "mass of the pad; without one the spring and the damper of the load are grounded over the mass of the plate",
+        Quantity::LoadMass,
+        Bounds::POSITIVE,
+    ),
+    &[si("pad_mass_kg", "kg")],
+);
+
+/// Damping of the pad.
+pub const PAD_DAMPING: Parameter = in_si(
+    disc(
+        "disc.load.pad_damping",
+        "c_p*",
+        "damper between the pad and its caliper, or the ground",
+        Quantity::LoadDamping,
+        Bounds::NOT_NEGATIVE,
+    ),
+    &[si("pad_damping_n_s_per_m", "N·s/m")],
+);
+
+/// Stiffness of the pad.
+pub const PAD_STIFFNESS: Parameter = in_si(
+    disc(
+        "disc.load.pad_stiffness",
+        "k_p*",
+        "spring between the pad and its caliper, or the ground",
+        Quantity::LoadStiffness,
+        Bounds::POSITIVE,
+    ),
+    &[si("pad_stiffness_n_per_m", "N/m")],
+);
+
+/// Mass of the caliper.
+pub const CALIPER_MASS: Parameter = in_si(
+    disc(
+        "disc.load.caliper_mass",
+        "m_c*",
+        "mass of the caliper that carries the pad over the mass of the plate",
+        Quantity::LoadMass,
+        Bounds::POSITIVE,
+    ),
+    &[si("caliper_mass_kg", "kg")],
+);
+
+/// Damping of the caliper.
+pub const CALIPER_DAMPING: Parameter = in_si(
+    disc(
+        "disc.load.caliper_damping",
+        "c_c*",
+        "damper between the caliper and the ground",
+        Quantity::LoadDamping,
+        Bounds::NOT_NEGATIVE,
+    ),
+    &[si("caliper_damping_n_s_per_m", "N·s/m")],
+);
+
+/// Stiffness of the caliper.
+pub const CALIPER_STIFFNESS: Parameter = in_si(
+    disc(
+        "disc.load.caliper_stiffness",
+        "k_c*",
+        "spring between the caliper and the ground",
+        Quantity::LoadStiffness,
+        Bounds::POSITIVE,
+    ),
+    &[si("caliper_stiffness_n_per_m", "N/m")],
+);
+
 /// Phase of the dither of a load's friction.
 pub const LOAD_DITHER_PHASE: Parameter = disc(
     "disc.load.dither_phase_deg",
@@ -233,6 +402,7 @@ pub const DISC: &[Parameter] = &[
     INNER_RADIUS_RATIO,
     POISSON_RATIO,
     MODAL_DAMPING,
+    CENTRIFUGAL,
     RADIAL_MODES,
     NODAL_DIAMETERS,
     YOUNGS_MODULUS,
@@ -244,6 +414,7 @@ pub const DISC: &[Parameter] = &[
     MODE_FREQUENCY,
     MODE_SHAPE_AT_LOAD,
     MODE_DAMPING,
+    MODE_CENTRIFUGAL,
     LOAD_RADIUS,
     LOAD_ANGLE,
     LOAD_MASS,
@@ -251,6 +422,20 @@ pub const DISC: &[Parameter] = &[
     LOAD_STIFFNESS,
     LOAD_FRICTION,
     LOAD_DITHER_PHASE,
+    LOAD_NORMAL,
+    LOAD_HALF_THICKNESS,
+    LOAD_STATIC,
+    LOAD_SLIP_RATIO,
+    LOAD_EXTENT,
+    LOAD_RADIAL_EXTENT,
+    LOAD_POINTS,
+    LOAD_RADIAL_POINTS,
+    PAD_MASS,
+    PAD_DAMPING,
+    PAD_STIFFNESS,
+    CALIPER_MASS,
+    CALIPER_DAMPING,
+    CALIPER_STIFFNESS,
     DISC_SPEED,
     DISC_DITHER_AMPLITUDE,
     super::DITHER_FREQUENCY_RATIO,

@@ -16,11 +16,13 @@
 mod flow;
 mod kick;
 mod monodromy;
+mod pieces;
 mod processing;
 mod shared;
 mod steps;
 
 pub use flow::ConstantFlow;
+pub use pieces::{ConstantPiece, of_pieces};
 pub use steps::Phase;
 
 use num_complex::Complex64;

@@ -155,7 +155,7 @@ fn modal(flow: &ConstantFlow, values: &[Complex64], step: f64, count: usize) -> 
 }
 
 /// e^{At} by the Taylor series of e^{At/2^s}, ‖At‖/2^s ≤ ½, squared s times.
-fn exponential_of_matrix(a: &Matrix, t: f64) -> Matrix {
+pub(super) fn exponential_of_matrix(a: &Matrix, t: f64) -> Matrix {
     let n = a.rows();
     let mut size = (a.frobenius_norm() * t).abs();
     let mut squarings = 0;

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use quell_disc::instability::GrowthShares;
 use quell_linear::growth::of_criterion;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -78,8 +79,17 @@ fn table_of_disc(study: &DiscStudy, done: &DiscStability) -> String {
     table.word("  error at most", &format!("{} ω_ref", figure(done.growth.error)));
     table.word("frequency", &frequency(done.growth.frequency));
     table.word("growth rate without dither", &rate(done.undithered.rate));
-    for mode in &done.unstable {
-        let words = format!("{}, growth rate {}", frequency(mode.frequency), rate(mode.rate));
+    for (index, mode) in done.unstable.iter().enumerate() {
+        let origin = done.origins.as_ref().ok().and_then(|origins| origins.get(index));
+        let kind = origin
+            .and_then(GrowthShares::kind)
+            .map(|kind| format!(", {} instability", kind.name()));
+        let words = format!(
+            "{}, growth rate {}{}",
+            frequency(mode.frequency),
+            rate(mode.rate),
+            kind.unwrap_or_default()
+        );
         table.word("unstable mode", &words);
     }
     let newtons = study.scales(0).and_then(|scales| scales.si_per_unit(Quantity::LoadFriction));
@@ -97,6 +107,14 @@ fn table_of_disc(study: &DiscStudy, done: &DiscStability) -> String {
             }
         }
         Err(why) => table.word("marginal frictions", &format!("unknown: {why}")),
+    }
+    if let Some(found) = &done.critical.deflection {
+        for (load, deflection) in found.deflections.iter().flatten().enumerate() {
+            let radius = study.scales(load).and_then(|scales| scales.load_radius_m);
+            let metres = radius.map(|radius| format!(" ({} m)", figure(radius * deflection)));
+            let words = format!("{} r₀{}", figure(*deflection), metres.unwrap_or_default());
+            table.word(&format!("deflection at load {load}"), &words);
+        }
     }
     if done.out_of_reach {
         table.word(

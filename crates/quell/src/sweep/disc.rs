@@ -151,7 +151,7 @@ fn growth(
     prepared: &mut Option<Prepared>,
 ) -> Result<Growth, Status> {
     let (unit, factor) = match disc.loads() {
-        [load] => {
+        [load] if disc.law().is_none() => {
             let unit = disc.with("disc.load.friction", 1.0).map_err(|_| Status::NotFinite)?;
             (unit, load.friction)
         }
@@ -160,12 +160,13 @@ fn growth(
     let equations = match prepared {
         Some(prepared) if prepared.disc == unit => &prepared.equations,
         _ => {
-            let equations = match dithered::prepared_with(&unit, parts).map_err(not_finite)? {
-                Some(dithered) => DiscEquations::Dithered(Box::new(dithered)),
-                None => {
-                    DiscEquations::Constant(Box::new(linearised(&unit, parts).map_err(not_finite)?))
-                }
-            };
+            let equations =
+                match dithered::prepared_with(&unit, parts).map_err(|_| Status::NotFinite)? {
+                    Some(dithered) => DiscEquations::Dithered(Box::new(dithered)),
+                    None => DiscEquations::Constant(Box::new(
+                        linearised(&unit, parts).map_err(not_finite)?,
+                    )),
+                };
             &prepared.insert(Prepared { disc: unit, equations }).equations
         }
     };

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use quell_disc::plate::PlateMaterial;
 use quell_model::disc::{Contribution, Contributions};
-use quell_model::disc::{Load, Mode};
+use quell_model::disc::{Load, Mode, Patch};
 use quell_model::parameter::disc::MODAL_DAMPING;
 use quell_model::units::DiscScales;
 
@@ -13,7 +13,7 @@ use super::super::reader::Reader;
 use super::super::vocabulary::{Choice, Section};
 use super::loads::{LoadScales, Pad};
 use super::modes::{self, ModeSource};
-use super::{loads, plate};
+use super::{loads, plate, rotation};
 use crate::complaint::Origin;
 
 /// The contents of `[disc]`.
@@ -25,6 +25,8 @@ pub(super) struct Body {
     pub(super) radii: Vec<Option<f64>>,
     pub(super) speed: f64,
     pub(super) parts: Contributions,
+    /// Centrifugal stiffening of each mode.
+    pub(super) centrifugal: Vec<f64>,
     pub(super) warnings: Vec<String>,
 }
 
@@ -41,6 +43,7 @@ impl Body {
         let parts = without(reader, table);
         let material = plate::material(reader, table, header);
         let source = modes::read(reader, table, header, folder, known);
+        let centrifugal = rotation::read(reader, table, source.as_ref());
         let metal = material.as_ref().and_then(|given| given.as_ref().map(|(metal, _)| metal));
         let scales = match (&source, &material) {
             (Some(source), Some(_)) => scales(source, metal),
@@ -51,17 +54,58 @@ impl Body {
         reader.set_disc_scales(scales.disc);
         let (pads, source) = (pads?, source?);
         let (damping, parts, material) = (damping?, parts?, material?);
+        let centrifugal = centrifugal?;
         let radii: Vec<Option<f64>> = pads.iter().map(|pad| pad.radius).collect();
         let (modes, shapes, warnings) = modes::at_loads(reader, &source, &pads, damping)?;
+        let patches = patches(reader, &source, &pads, &modes)?;
         let speed = pads.iter().find_map(|pad| pad.speed.map(|(speed, _)| speed)).unwrap_or(0.0);
+        let half_thickness = |pad: &Pad| {
+            let known = material.as_ref().zip(pad.radius).map(|((material, _), radius)| {
+                0.5 * material.thickness() / (radius * material.outer_radius())
+            });
+            // Only a friction law needs it.
+            pad.half_thickness.or(known.filter(|_| pad.load.normal_load.is_some())).unwrap_or(0.0)
+        };
+        let halves: Vec<f64> = pads.iter().map(half_thickness).collect();
         let loads = pads
             .into_iter()
             .zip(shapes)
-            .map(|(Pad { load, radius, .. }, shapes)| Load { shapes, radius_ratio: radius, ..load })
+            .zip(patches)
+            .zip(halves)
+            .map(|(((Pad { load, radius, .. }, shapes), patch), half_thickness)| Load {
+                half_thickness,
+                shapes,
+                radius_ratio: radius,
+                patch,
+                ..load
+            })
             .collect();
         let material = material.map(|(material, _)| material);
-        Some(Self { source, material, modes, loads, radii, speed, parts, warnings })
+        let centrifugal = rotation::stiffening(&source, centrifugal, modes.len());
+        Some(Self { source, material, modes, loads, radii, speed, parts, centrifugal, warnings })
     }
+}
+
+/// The patches of the loads that are not points.
+fn patches(
+    reader: &mut Reader,
+    source: &ModeSource,
+    pads: &[Pad],
+    modes: &[Mode],
+) -> Option<Vec<Option<Patch>>> {
+    let plate = match source {
+        ModeSource::Plate(plate) => Some(plate),
+        ModeSource::List(_) | ModeSource::File { .. } => None,
+    };
+    let diameters = modes.iter().map(|mode| mode.diameters).max().unwrap_or(0);
+    let patches: Vec<Option<Option<Patch>>> = pads
+        .iter()
+        .map(|pad| match &pad.patch {
+            None => Some(None),
+            Some(size) => size.around(reader, &pad.path, pad.radius, diameters, plate).map(Some),
+        })
+        .collect();
+    patches.into_iter().collect()
 }
 
 /// Placeholder for unknown scales.

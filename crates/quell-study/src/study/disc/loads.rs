@@ -2,11 +2,13 @@
 
 use quell_model::disc::Load;
 use quell_model::parameter::disc::{
-    DISC_SPEED, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_MASS, LOAD_RADIUS,
-    LOAD_STIFFNESS,
+    DISC_SPEED, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_HALF_THICKNESS,
+    LOAD_MASS, LOAD_NORMAL, LOAD_RADIUS, LOAD_SLIP_RATIO, LOAD_STATIC, LOAD_STIFFNESS,
 };
 use quell_model::units::DiscScales;
 
+use super::carriers;
+use super::patch::PatchSize;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
@@ -35,6 +37,10 @@ pub(super) struct Pad {
     pub(super) load: Load,
     /// Radius over the outer radius.
     pub(super) radius: Option<f64>,
+    /// Half the thickness of the disc over the radius, if it is given.
+    pub(super) half_thickness: Option<f64>,
+    /// The area over which it is distributed, if it is no point.
+    pub(super) patch: Option<PatchSize>,
     /// Speed and where it was written.
     pub(super) speed: Option<(f64, Origin)>,
     /// Path of its table.
@@ -85,20 +91,43 @@ fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Opti
     let mut strength = |parameter| reader.optional(table, path, parameter, None).or(0.0);
     let strengths = [LOAD_MASS, LOAD_DAMPING, LOAD_STIFFNESS, LOAD_FRICTION].map(&mut strength);
     let (angle, phase) = (strength(LOAD_ANGLE), strength(LOAD_DITHER_PHASE));
+    let static_load = strength(LOAD_STATIC);
     let speed = match reader.optional(table, path, DISC_SPEED, None) {
         Found::Value(value) => Some(Some(value)),
         Found::Absent => Some(None),
         Found::Wrong => None,
     };
     let [mass, damping, stiffness, friction] = strengths;
+    let (pad, caliper) = carriers::read(reader, table, node.origin, path)?;
+    let mut maybe = |parameter| match reader.optional(table, path, parameter, None) {
+        Found::Value(value) => Some(Some(value)),
+        Found::Absent => Some(None),
+        Found::Wrong => None,
+    };
+    let (normal_load, half_thickness) = (maybe(LOAD_NORMAL)?, maybe(LOAD_HALF_THICKNESS)?);
+    let slip_ratio = match reader.optional(table, path, LOAD_SLIP_RATIO, None) {
+        Found::Value(value) => Some(value),
+        Found::Absent => None,
+        Found::Wrong => return None,
+    };
+    let patch = PatchSize::read(reader, table, path)?;
     let twins = DISC_SPEED.si.iter().map(|twin| twin.key);
     let given = [DISC_SPEED.key()].into_iter().chain(twins).find_map(|key| table.get(key));
     let origin = given.map_or(node.origin, |node| node.origin);
     Some(Pad {
-        load: Load::new(mass?, damping?, stiffness?, friction?)
-            .at_angle(angle?.to_radians())
-            .dithered_at(phase?.to_radians()),
+        load: Load {
+            static_load: static_load?,
+            slip_ratio,
+            normal_load,
+            pad,
+            caliper,
+            ..Load::new(mass?, damping?, stiffness?, friction?)
+                .at_angle(angle?.to_radians())
+                .dithered_at(phase?.to_radians())
+        },
         radius: radius?,
+        half_thickness,
+        patch,
         speed: speed?.map(|speed| (speed, origin)),
         path: path.to_owned(),
         origin: table.get("radius_ratio").map_or(node.origin, |node| node.origin),

@@ -1,24 +1,30 @@
 //! `[disc]`: the study of an annular disc under rotating loads.
 //!
 //! Modes are computed from the plate, listed as `[[disc.mode]]`, or read from a CSV file; loads are one `[disc.load]` or
-//! several `[[disc.load]]`; `without` switches contributions off; `[dither]` modulates every load's friction.
+//! several `[[disc.load]]`, each at a point or over an area, on the ground or on a pad and a caliper; `without` switches contributions off; `[friction]` gives the friction of all
+//! loads by a law instead of a force each; `[dither]` modulates every load's friction.
 
 mod body;
+mod carriers;
+mod law;
 mod loads;
 mod mode_line;
 mod modes;
 mod modes_file;
+mod patch;
 mod plate;
+mod rotation;
 
+use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
 use quell_disc::plate::PlateMaterial;
 use quell_model::disc::{Contribution, Contributions, DiscDither};
 use quell_model::parameter::DITHER_FREQUENCY_RATIO;
-use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
+use quell_model::parameter::disc::{DISC_DITHER_AMPLITUDE, LOAD_SLIP_RATIO};
 use quell_model::units::DiscScales;
-use quell_model::{Direction, Disc};
+use quell_model::{Direction, Disc, Waveform};
 use serde_json::Value as Json;
 
 use super::StudyOf;
@@ -59,11 +65,11 @@ impl StudyKind for DiscSetup {
     }
 
     fn tables(_: &Table) -> &'static [&'static str] {
-        &["schema", "title", "disc", "dither", "sweep"]
+        &["schema", "title", "disc", "friction", "dither", "sweep"]
     }
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
-        for name in ["belt", "friction", "solver", "system"] {
+        for name in ["belt", "solver", "system"] {
             if let Some(node) = document.get(name) {
                 let other = if name == "system" { "a system" } else { "a belt" };
                 let allowed = format!(
@@ -81,13 +87,28 @@ impl StudyKind for DiscSetup {
             Body::read(reader, table, origin, given.folder, known)
         });
         let dither = dither(reader, document);
-        let (body, dither) = (read.flatten()?, dither?);
+        let read = read.flatten();
+        let law = law::read(reader, document, read.as_ref());
+        let (body, (dither, waveform), law) = (read?, dither?, law?);
+        let shaken = body.loads.iter().find_map(|load| load.slip_ratio);
+        if let Some(ratio) = shaken.filter(|_| !matches!(dither, DiscDither::Tangential { .. })) {
+            let allowed = "only with tangential dither, whose force it determines";
+            let key = LOAD_SLIP_RATIO.path;
+            reader.complain(Complaint::new(Fault::Conflict, key, Origin::Whole, ratio, allowed));
+        }
         if reader.complaints_so_far() > 0 {
             return None;
         }
-        let Body { source, material, modes, loads, radii, speed, parts, warnings } = body;
+        let Body { source, material, modes, loads, radii, speed, parts, centrifugal, warnings } =
+            body;
         let scales = body::scales(&source, material.as_ref());
-        match Disc::new(modes, loads, dither, speed) {
+        let disc = Disc::new(modes, loads, dither, speed);
+        let disc = disc.and_then(|disc| disc.stiffened(centrifugal)?.shaped(waveform));
+        let disc = disc.and_then(|disc| match law {
+            Some(law) => disc.under_law(law),
+            None => Ok(disc),
+        });
+        match disc {
             Ok(disc) => Some(Self {
                 disc: disc.in_si(scales.disc, scales.outer_radius_m),
                 parts,
@@ -122,10 +143,13 @@ impl StudyKind for DiscSetup {
             _ => &[],
         };
         let modes = listed.iter().enumerate().map(|(index, mode)| {
-            let numbers = format!(
+            let mut numbers = format!(
                 "{} {:?} {:?} {:?}",
                 mode.diameters, mode.ratio, mode.shape_at_load, mode.damping
             );
+            if self.disc.is_stiffened() {
+                let _ = write!(numbers, " {:?}", self.disc.centrifugal(index));
+            }
             (format!("disc.modes_file[{index}]"), numbers)
         });
         modes.collect()
@@ -222,8 +246,10 @@ impl DiscStudy {
 }
 
 /// `[dither]` of a disc.
-fn dither(reader: &mut Reader, document: &Table) -> Option<DiscDither> {
-    let Some(node) = document.get("dither") else { return Some(DiscDither::None) };
+fn dither(reader: &mut Reader, document: &Table) -> Option<(DiscDither, Waveform)> {
+    let Some(node) = document.get("dither") else {
+        return Some((DiscDither::None, Waveform::Sine));
+    };
     let node = match &node.value {
         Value::List(list) if list.len() == 1 => &list[0],
         _ => node,
@@ -245,15 +271,13 @@ fn dither(reader: &mut Reader, document: &Table) -> Option<DiscDither> {
         .needed_choice(table, "dither", node.origin, "direction", Choice::Direction)
         .and_then(Direction::from_name);
     let waveform = match table.get("waveform") {
-        None => Some("sine"),
+        None => Some(Waveform::Sine),
         Some(node) => match reader.choice("dither.waveform", node, Choice::Waveform) {
-            Some("sine") => Some("sine"),
+            Some("sine") => Some(Waveform::Sine),
+            Some("square") => Some(Waveform::Square),
             Some(_) => {
-                reader.wrong(
-                    "dither.waveform",
-                    node,
-                    "\"sine\", the only waveform for the dither of a disc",
-                );
+                let allowed = "\"sine\" or \"square\", the waveforms for the dither of a disc";
+                reader.wrong("dither.waveform", node, allowed);
                 None
             }
             None => None,
@@ -265,10 +289,11 @@ fn dither(reader: &mut Reader, document: &Table) -> Option<DiscDither> {
         found => found.or(1.0),
     };
     let frequency_ratio = reader.number(table, "dither", node.origin, DITHER_FREQUENCY_RATIO);
-    waveform?;
+    let waveform = waveform?;
     let (amplitude, frequency_ratio) = (amplitude?, frequency_ratio?);
-    Some(match direction? {
+    let dither = match direction? {
         Direction::Normal => DiscDither::Normal { amplitude, frequency_ratio },
         Direction::Tangential => DiscDither::Tangential { amplitude, frequency_ratio },
-    })
+    };
+    Some((dither, waveform))
 }

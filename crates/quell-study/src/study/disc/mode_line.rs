@@ -8,4 +8,5 @@ pub(super) struct ModeLine {
     pub(super) hertz: Option<f64>,
     pub(super) shape_at_load: f64,
     pub(super) damping: Option<f64>,
+    pub(super) centrifugal: Option<f64>,
 }

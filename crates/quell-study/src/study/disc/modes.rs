@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use quell_disc::plate::PlateMaterial;
 use quell_model::disc::Mode;
 use quell_model::parameter::disc::{
-    MODE_DAMPING, MODE_DIAMETERS, MODE_FREQUENCY, MODE_RATIO, MODE_SHAPE_AT_LOAD,
+    MODE_CENTRIFUGAL, MODE_DAMPING, MODE_DIAMETERS, MODE_FREQUENCY, MODE_RATIO, MODE_SHAPE_AT_LOAD,
 };
 use serde_json::Value as Json;
 
@@ -64,6 +64,8 @@ pub struct ListedMode {
     pub shape_at_load: f64,
     /// Damping ratio; `None` for that of the disc.
     pub damping: Option<f64>,
+    /// Centrifugal stiffening; `None` for that of the disc.
+    pub centrifugal: Option<f64>,
 }
 
 /// Reads the modes: computed, listed, or from a file.
@@ -155,6 +157,7 @@ fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<ModeLine> {
         Found::Wrong => None,
     };
     let (hertz, damping) = (maybe(MODE_FREQUENCY), maybe(MODE_DAMPING));
+    let centrifugal = maybe(MODE_CENTRIFUGAL);
     let diameters = reader.number(table, path, node.origin, MODE_DIAMETERS);
     let shape_at_load = reader.number(table, path, node.origin, MODE_SHAPE_AT_LOAD);
     let hertz = hertz?;
@@ -177,6 +180,7 @@ fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<ModeLine> {
         hertz,
         shape_at_load: shape_at_load?,
         damping: damping?,
+        centrifugal: centrifugal?,
     })
 }
 
@@ -211,6 +215,7 @@ fn together(lines: &[ModeLine]) -> Result<Listed, String> {
             },
             shape_at_load: line.shape_at_load,
             damping: line.damping,
+            centrifugal: line.centrifugal,
         })
         .collect();
     Ok(Listed { modes, reference_hz })

@@ -1,13 +1,13 @@
 //! A CSV file of modes, as `quell modes --save` writes it.
 //!
 //! Comment lines begin with `#`; the first other line names the columns: `diameters`, `ratio` or `frequency_hz`,
-//! `shape_at_load`, and optionally `damping`. Other columns are ignored. If both are given, `ratio` is used.
+//! `shape_at_load`, and optionally `damping` and `centrifugal`. Other columns are ignored. If both are given, `ratio` is used.
 
 use std::path::Path;
 
 use quell_model::parameter::Parameter;
 use quell_model::parameter::disc::{
-    MODE_DAMPING, MODE_DIAMETERS, MODE_FREQUENCY, MODE_RATIO, MODE_SHAPE_AT_LOAD,
+    MODE_CENTRIFUGAL, MODE_DAMPING, MODE_DIAMETERS, MODE_FREQUENCY, MODE_RATIO, MODE_SHAPE_AT_LOAD,
 };
 
 use super::mode_line::ModeLine;
@@ -35,7 +35,7 @@ fn parse(text: &str) -> Result<Vec<ModeLine>, String> {
     if ratio.is_none() && hertz.is_none() {
         return Err("a CSV file with a column ratio or frequency_hz".to_owned());
     }
-    let damping = column(MODE_DAMPING);
+    let (damping, centrifugal) = (column(MODE_DAMPING), column(MODE_CENTRIFUGAL));
     let line = |row: &Row<'_>| {
         let value = |at: usize, parameter: Parameter| {
             let whole = parameter == MODE_DIAMETERS;
@@ -55,6 +55,7 @@ fn parse(text: &str) -> Result<Vec<ModeLine>, String> {
             hertz,
             shape_at_load: value(shape, MODE_SHAPE_AT_LOAD)?,
             damping: damping.map(|at| value(at, MODE_DAMPING)).transpose()?,
+            centrifugal: centrifugal.map(|at| value(at, MODE_CENTRIFUGAL)).transpose()?,
         })
     };
     let lines: Vec<ModeLine> = file.rows().iter().map(line).collect::<Result<_, String>>()?;

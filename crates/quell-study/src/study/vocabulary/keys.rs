@@ -144,6 +144,11 @@ fn disc() -> Vec<Key> {
             "CSV file of modes, relative to the study file, instead of computed modes",
         ),
         key(
+            "rotating",
+            Role::Choice(Choice::Rotating),
+            "the part that rotates; centrifugal stress acts in a disc that rotates itself [default: loads]",
+        ),
+        key(
             "without",
             Role::Choices(Choice::Contribution),
             "contributions to the equations that are omitted",

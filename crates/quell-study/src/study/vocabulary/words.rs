@@ -24,6 +24,8 @@ pub enum Choice {
     SystemUnits,
     /// Normalisations of mode shapes.
     Normalisation,
+    /// The part of a disc study that rotates.
+    Rotating,
 }
 
 impl Choice {
@@ -39,6 +41,7 @@ impl Choice {
             Self::SystemUnits => vec!["none", "SI", "mm-t-s"],
             Self::Normalisation => vec!["mass", "max"],
             Self::Contribution => Contribution::ALL.iter().map(|part| part.name()).collect(),
+            Self::Rotating => vec!["loads", "disc"],
         }
     }
 }

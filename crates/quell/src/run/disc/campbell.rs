@@ -38,6 +38,9 @@ pub struct Campbell {
 pub fn run(study: &DiscStudy, last: f64) -> Result<Campbell, Failure> {
     let failed = |why| overflowed("campbell", why);
     let speeds: Vec<f64> = (0..SPEEDS).map(|k| last * (k as f64 / (SPEEDS - 1) as f64)).collect();
+    // A friction law requires sliding.
+    let speeds: Vec<f64> =
+        speeds.into_iter().filter(|speed| study.disc().at_speed(*speed).is_ok()).collect();
     let columns = campbell(study.disc(), &speeds).map_err(failed)?;
     let motions = columns
         .iter()
@@ -49,7 +52,9 @@ pub fn run(study: &DiscStudy, last: f64) -> Result<Campbell, Failure> {
     let mut dithered = Vec::new();
     for &speed in &speeds {
         let Ok(disc) = study.disc().at_speed(speed) else { continue };
-        if let Some(prepared) = dithered::prepared(&disc).map_err(failed)? {
+        if let Some(prepared) =
+            dithered::prepared(&disc).map_err(|why| overflowed("campbell", why))?
+        {
             dithered.push(prepared.growth(1.0, Effort::default()).map_err(failed)?.rate);
         }
     }

@@ -1,12 +1,14 @@
 //! `check` of a disc study: the numbers of a valid study.
 
-use quell_model::Direction;
-use quell_model::disc::DiscDither;
+use quell_model::disc::{Carrier, DiscDither, Load};
 use quell_model::parameter::disc::{
-    DISC_SPEED, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_MASS, LOAD_STIFFNESS,
+    CALIPER_DAMPING, CALIPER_MASS, CALIPER_STIFFNESS, DISC_SPEED, LOAD_DAMPING, LOAD_DITHER_PHASE,
+    LOAD_EXTENT, LOAD_FRICTION, LOAD_HALF_THICKNESS, LOAD_MASS, LOAD_NORMAL, LOAD_POINTS,
+    LOAD_RADIAL_POINTS, LOAD_STATIC, LOAD_STIFFNESS, PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
 };
 use quell_model::parameter::{DITHER_FREQUENCY_RATIO, Parameter};
 use quell_model::units::{DiscScales, measure};
+use quell_model::{Direction, Disc, Waveform};
 use serde_json::{Value as Json, json};
 
 use crate::study::DiscStudy;
@@ -35,6 +37,22 @@ pub fn json(study: &DiscStudy) -> Json {
             ] {
                 put_both(&mut object, parameter, value, scales);
             }
+            if load.static_load != 0.0 {
+                put_both(&mut object, LOAD_STATIC, load.static_load, scales);
+            }
+            if let Some(normal_load) = load.normal_load {
+                put_both(&mut object, LOAD_NORMAL, normal_load, scales);
+                put_both(&mut object, LOAD_HALF_THICKNESS, load.half_thickness, scales);
+            }
+            put_area(&mut object, load);
+            let of_pad = [PAD_MASS, PAD_DAMPING, PAD_STIFFNESS];
+            let of_caliper = [CALIPER_MASS, CALIPER_DAMPING, CALIPER_STIFFNESS];
+            for (body, names) in [(load.pad, of_pad), (load.caliper, of_caliper)] {
+                let Some(Carrier { mass, damping, stiffness }) = body else { continue };
+                for (parameter, value) in names.into_iter().zip([mass, damping, stiffness]) {
+                    put_both(&mut object, parameter, value, scales);
+                }
+            }
             object
         })
         .collect();
@@ -61,10 +79,17 @@ pub fn json(study: &DiscStudy) -> Json {
             "without": study.without(),
             "loads": loads,
         },
-        "dither": dither(disc.dither()),
+        "dither": dither(disc),
         "sweeps": sweeps,
         "warnings": study.warnings(),
     });
+    if let Some(law) = disc.law() {
+        let kind = law.kind();
+        let numbers = kind.parameters().iter().zip(law.values());
+        object["friction"] =
+            numbers.map(|(name, value)| (name.key().to_owned(), Json::from(value))).collect();
+        object["friction"]["law"] = kind.name().into();
+    }
     let scales = study.scales(0);
     put_both(&mut object["disc"], DISC_SPEED, disc.speed(), scales);
     if let Some(ratio) = disc.dither().frequency_ratio() {
@@ -74,6 +99,16 @@ pub fn json(study: &DiscStudy) -> Json {
         object["why"] = json!({ "title": "the study has no title" });
     }
     object
+}
+
+/// Adds the area of a distributed load: its extent and its numbers of quadrature points.
+fn put_area(object: &mut Json, load: &Load) {
+    let Some(patch) = &load.patch else { return };
+    object[LOAD_EXTENT.key()] = patch.extent.to_degrees().into();
+    object[LOAD_POINTS.key()] = patch.points.into();
+    if !patch.radii.is_empty() {
+        object[LOAD_RADIAL_POINTS.key()] = patch.radii.len().into();
+    }
 }
 
 /// Adds a number of the equations, and its value in SI under each SI key if its scale is known.
@@ -96,8 +131,8 @@ pub fn source(study: &DiscStudy) -> String {
     }
 }
 
-fn dither(dither: DiscDither) -> Json {
-    match dither {
+fn dither(disc: &Disc) -> Json {
+    let mut object = match disc.dither() {
         DiscDither::None => Json::Null,
         DiscDither::Normal { amplitude, frequency_ratio } => json!({
             "direction": Direction::Normal.name(),
@@ -109,5 +144,9 @@ fn dither(dither: DiscDither) -> Json {
             "amplitude": amplitude,
             "frequency_ratio": frequency_ratio,
         }),
+    };
+    if disc.waveform() != Waveform::Sine {
+        object["waveform"] = disc.waveform().name().into();
     }
+    object
 }

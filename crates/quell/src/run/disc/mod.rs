@@ -2,9 +2,11 @@
 
 pub mod campbell;
 pub mod check;
+pub mod critical;
 pub mod modes;
 pub mod resonances;
 pub mod stability;
+mod tangential;
 
 use crate::complaint::Failure;
 

@@ -24,18 +24,24 @@ pub struct ModeRow {
     pub damping: f64,
     /// Frequency in hertz, if the study defines ω_ref.
     pub frequency_hz: Option<f64>,
+    /// Critical speed in ω_ref: β/q, or β/√(q² − κ) of a disc that rotates; `None` without nodal diameters, and where centrifugal
+    /// stress lets the wave run ahead of the loads at any speed.
+    pub critical_speed: Option<f64>,
 }
 
 impl ModeRow {
-    /// Critical speed β/q in ω_ref; `None` without nodal diameters.
+    /// Critical speed in ω_ref.
     pub fn critical_speed(&self) -> Option<f64> {
-        (self.diameters > 0).then(|| self.ratio / self.diameters as f64)
+        self.critical_speed
     }
 
     /// Critical speed in revolutions per minute.
     pub fn critical_speed_rpm(&self) -> Option<f64> {
         let hertz = self.frequency_hz?;
-        (self.diameters > 0).then(|| 60.0 * hertz / self.diameters as f64)
+        let speed = self.critical_speed?;
+        let still = self.ratio / self.diameters as f64;
+        let at_rest = 60.0 * hertz / self.diameters as f64;
+        Some(if speed == still { at_rest } else { at_rest * (speed / still) })
     }
 }
 
@@ -82,6 +88,7 @@ pub fn run(study: &DiscStudy) -> Modes {
                 shape_at_load: mode.shape_at_load,
                 damping: mode.damping,
                 frequency_hz: reference_hz.map(|hertz| mode.ratio * hertz),
+                critical_speed: study.disc().critical_speed(index),
             }
         })
         .collect();
@@ -137,9 +144,13 @@ impl Modes {
         explain(self.reference_hz.is_none(), "reference_hz", metal);
         explain(self.plate_mass.is_none(), "plate_mass_kg", metal);
         explain(
-            self.rows.iter().any(|row| row.diameters == 0),
+            self.rows.iter().any(|row| row.critical_speed.is_none()),
             "modes[].critical_speed",
-            "a mode without nodal diameters has no critical speed",
+            if study.disc().is_stiffened() {
+                "a mode without nodal diameters has no critical speed, nor has one that centrifugal stress keeps ahead of the loads"
+            } else {
+                "a mode without nodal diameters has no critical speed"
+            },
         );
         explain(critical.is_none(), "critical_mode", "no mode has a nodal diameter");
         let mut object = json!({

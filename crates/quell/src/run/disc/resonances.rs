@@ -129,7 +129,11 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
             WaveError::Loads(_) => {
                 "; `quell stability` and `quell map --quantity growth` take any number of loads"
             }
-            WaveError::NegativeFriction { .. } | WaveError::Frequency { .. } => "",
+            WaveError::NotPlain
+            | WaveError::Stiffened
+            | WaveError::Waveform
+            | WaveError::NegativeFriction { .. }
+            | WaveError::Frequency { .. } => "",
         };
         refuse("disc.load", format!("{why}{instead}"))
     })?;

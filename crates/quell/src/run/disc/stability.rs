@@ -2,6 +2,7 @@
 
 use quell_disc::boundaries::{Marginal, NoBoundary, boundaries};
 use quell_disc::dithered;
+use quell_disc::instability::{GrowthShares, InstabilityKind, origins};
 use quell_disc::partition::{NoPartition, crossings};
 use quell_disc::undithered;
 use quell_linear::growth::{Growth, Verdict};
@@ -11,7 +12,8 @@ use quell_model::units::Quantity;
 use quell_numerics::floquet::Effort;
 use serde_json::{Map, Value as Json, json};
 
-use super::overflowed;
+use super::critical::{self, Critical};
+use super::{overflowed, tangential};
 use crate::complaint::Failure;
 use crate::run::stability::DECIBELS;
 use crate::study::DiscStudy;
@@ -34,6 +36,10 @@ pub struct DiscStability {
     pub undithered: Growth,
     /// Every motion that grows by more than its error, the fastest first.
     pub unstable: Vec<Growth>,
+    /// Which part of the loads causes each of them, without dither; or why that is unknown.
+    pub origins: Result<Vec<GrowthShares>, String>,
+    /// Critical speeds, and deflections under static loads.
+    pub critical: Critical,
     /// Frictions at which a motion is marginal, with everything else as given, ascending; or why they are unknown. They have the
     /// sign of the load's own friction, and are ≥ 0 if that is zero.
     pub changes: Result<Vec<MarginalFriction>, String>,
@@ -49,13 +55,20 @@ pub fn run(study: &DiscStudy) -> Result<DiscStability, Failure> {
     let (disc, parts) = (study.disc(), study.parts());
     let failed = |why| overflowed("stability", why);
     let undithered = undithered::growth_with(disc, parts).map_err(failed)?;
-    let (growth, unstable) = match dithered::prepared_with(disc, parts).map_err(failed)? {
+    let dithered =
+        dithered::prepared_with(disc, parts).map_err(|why| overflowed("stability", why))?;
+    let (growth, unstable) = match dithered {
         Some(dithered) => {
             let growth = dithered.growth(1.0, Effort::default()).map_err(failed)?;
             (growth, dithered.growing(Effort::default()).map_err(failed)?)
         }
         None => (undithered, undithered::growing_with(disc, parts).map_err(failed)?),
     };
+    let origins = match disc.dither() {
+        DiscDither::None => Ok(origins(disc, parts, &unstable).map_err(failed)?),
+        _ => Err("the kinds of instability are those of a disc without dither".to_owned()),
+    };
+    let critical = critical::run(study).map_err(failed)?;
     let (changes, out_of_reach) = match disc.dither() {
         _ if parts != Contributions::ALL => (
             Err("marginal frictions are computed for the whole disc only, and this study leaves parts out".to_owned()),
@@ -64,7 +77,7 @@ pub fn run(study: &DiscStudy) -> Result<DiscStability, Failure> {
         DiscDither::None => still(study),
         DiscDither::Normal { .. } | DiscDither::Tangential { .. } => (shaken(study), false),
     };
-    Ok(DiscStability { growth, undithered, unstable, changes, out_of_reach })
+    Ok(DiscStability { growth, undithered, unstable, origins, critical, changes, out_of_reach })
 }
 
 /// Boundaries without dither.
@@ -127,6 +140,15 @@ fn ascending(mut changes: Vec<MarginalFriction>) -> Vec<MarginalFriction> {
     changes
 }
 
+/// Adds the kind of an unstable motion and the share of each part of the loads in its growth.
+fn put_origin(object: &mut Json, origin: Option<&GrowthShares>) {
+    object["kind"] = origin.and_then(GrowthShares::kind).map(InstabilityKind::name).into();
+    object["shares"] = origin.map_or(Json::Null, |origin| {
+        let parts = InstabilityKind::ALL.into_iter().zip(origin.shares);
+        parts.map(|(kind, share)| (kind.part().to_owned(), Json::from(share))).collect()
+    });
+}
+
 /// Adds growth per second, in decibels per second, and hertz to a motion.
 fn put_si(object: &mut Json, hertz: f64, growth: &Growth) {
     let rate = std::f64::consts::TAU * hertz * growth.rate;
@@ -177,14 +199,22 @@ impl DiscStability {
         object["unstable_modes"] = self
             .unstable
             .iter()
-            .map(|mode| {
+            .enumerate()
+            .map(|(index, mode)| {
                 let mut object = growth(mode);
+                let origin = self.origins.as_ref().ok().and_then(|origins| origins.get(index));
+                put_origin(&mut object, origin);
                 if let Some(hertz) = hertz {
                     put_si(&mut object, hertz, mode);
                 }
                 object
             })
             .collect();
+        if let Err(reason) = &self.origins {
+            for key in ["unstable_modes[].kind", "unstable_modes[].shares"] {
+                why.insert(key.to_owned(), reason.clone().into());
+            }
+        }
         object["ok"] = true.into();
         object["sentence"] = self.sentence(study).into();
         object["protocol"] = match study.disc().dither() {
@@ -204,11 +234,21 @@ impl DiscStability {
                 Json::Null
             }
         };
+        if let Some(shaken) = tangential::json(study) {
+            object["tangential_dither"] = shaken;
+            if object["tangential_dither"].is_null() {
+                let reason = "no load has a slip_ratio and a speed";
+                why.insert("tangential_dither".to_owned(), reason.into());
+            }
+        }
         object["out_of_reach"] = self.out_of_reach.into();
-        object["warnings"] = study.warnings().into();
+        let mut warnings = study.warnings().to_vec();
+        warnings.extend(self.critical.warnings(study));
+        object["warnings"] = warnings.into();
         object["units"] = json!({
             "growth_rate": "ω_ref", "growth_rate_error": "ω_ref", "frequency": "ω_ref", "speed": "ω_ref", "friction": "1",
         });
+        self.critical.put(study, &mut object, &mut why);
         if let Some(hertz) = hertz {
             put_si(&mut object, hertz, &self.growth);
             let speed = hertz * study.disc().speed();

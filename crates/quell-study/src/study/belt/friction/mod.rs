@@ -67,12 +67,29 @@ pub(in crate::study) fn read_table(
         Some(kind) if forces::are_given(table) => {
             forces::read(reader, table, node.origin, kind, context.normal_load)
         }
-        kind => numeric(reader, table, node, kind).map(ReadLaw::of),
+        kind => numeric_law(reader, table, node, kind).map(ReadLaw::of),
     }
 }
 
+/// Reads the law of a disc, which is defined by numbers alone.
+pub(in crate::study) fn of_a_disc(reader: &mut Reader, node: &Node) -> Option<Friction> {
+    let table = reader.table("friction", node)?;
+    let name = reader.needed_choice(table, "friction", node.origin, "law", Choice::Law);
+    let kind = name.and_then(LawKind::from_name);
+    unknown_keys(reader, table, kind);
+    let numeric = |kind: &LawKind| LawKind::NUMERIC.contains(kind);
+    if let Some(kind) = kind.filter(|kind| !numeric(kind) || forces::are_given(table)) {
+        let words: Vec<&str> = LawKind::NUMERIC.iter().map(|kind| kind.name()).collect();
+        let allowed = format!("a law of coefficients for a disc: {}", words.join(", "));
+        let given = Json::from(kind.name());
+        reader.complain(Complaint::new(Fault::Value, "friction.law", node.origin, given, allowed));
+        return None;
+    }
+    numeric_law(reader, table, node, kind)
+}
+
 /// A law defined by numbers alone.
-fn numeric(
+fn numeric_law(
     reader: &mut Reader,
     table: &Table,
     node: &Node,

@@ -1,0 +1,55 @@
+//! Which part rotates, and how centrifugal stress stiffens the disc.
+
+use quell_model::parameter::disc::CENTRIFUGAL;
+
+use super::modes::{Listed, ModeSource};
+use crate::complaint::{Complaint, Fault};
+use crate::study::document::Table;
+use crate::study::reader::Reader;
+use crate::study::vocabulary::Choice;
+
+/// Centrifugal stiffening κ of the disc, 0 if its loads rotate instead, as the dissertation has it.
+pub(super) fn read(reader: &mut Reader, table: &Table, source: Option<&ModeSource>) -> Option<f64> {
+    let stiffening = reader.optional(table, "disc", CENTRIFUGAL, None).or(0.0);
+    let rotates = match table.get("rotating") {
+        None => Some(false),
+        Some(node) => {
+            reader.choice("disc.rotating", node, Choice::Rotating).map(|part| part == "disc")
+        }
+    };
+    let (stiffening, rotates) = (stiffening?, rotates?);
+    let listed = match source {
+        Some(ModeSource::List(listed) | ModeSource::File { listed, .. }) => of_modes(listed),
+        _ => None,
+    };
+    let given = table.get(CENTRIFUGAL.key()).filter(|_| stiffening != 0.0);
+    let given = given.map(|node| (CENTRIFUGAL.path.to_owned(), node.origin, stiffening));
+    let listed = listed.and_then(|(index, value)| {
+        let node = table.get("mode").or(table.get("modes_file"))?;
+        Some((format!("disc.mode[{index}].centrifugal"), node.origin, value))
+    });
+    match given.or(listed) {
+        Some((key, origin, value)) if !rotates => {
+            let allowed = "0 unless rotating = \"disc\": a disc at rest has no centrifugal stress";
+            reader.complain(Complaint::new(Fault::Conflict, key, origin, value, allowed));
+            None
+        }
+        _ => Some(stiffening),
+    }
+}
+
+/// The first listed mode with a stiffening of its own.
+fn of_modes(listed: &Listed) -> Option<(usize, f64)> {
+    let own = listed.modes.iter().map(|mode| mode.centrifugal.unwrap_or(0.0));
+    own.enumerate().find(|(_, value)| *value != 0.0)
+}
+
+/// κ of every mode: its own, or that of the disc.
+pub(super) fn stiffening(source: &ModeSource, of_disc: f64, count: usize) -> Vec<f64> {
+    match source {
+        ModeSource::Plate(_) => vec![of_disc; count],
+        ModeSource::List(listed) | ModeSource::File { listed, .. } => {
+            listed.modes.iter().map(|mode| mode.centrifugal.unwrap_or(of_disc)).collect()
+        }
+    }
+}
