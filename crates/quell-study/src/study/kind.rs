@@ -41,15 +41,15 @@ impl Kind {
 
 /// The kind that a document describes: a system or a disc where it has such a table, else a belt.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Described {
+enum DocumentKind {
     Belt,
     Disc,
     System,
 }
 
-impl Described {
+impl DocumentKind {
     fn by(document: &Table) -> Self {
-        if system::is_described(document) {
+        if system::keys::is_described(document) {
             Self::System
         } else if document.has("disc") {
             Self::Disc
@@ -61,25 +61,25 @@ impl Described {
 
 impl StudyKind for Kind {
     fn reader(document: &Table) -> Reader {
-        match Described::by(document) {
-            Described::Belt => BeltSetup::reader(document),
-            Described::Disc => DiscSetup::reader(document),
-            Described::System => SystemSetup::reader(document),
+        match DocumentKind::by(document) {
+            DocumentKind::Belt => BeltSetup::reader(document),
+            DocumentKind::Disc => DiscSetup::reader(document),
+            DocumentKind::System => SystemSetup::reader(document),
         }
     }
 
     fn tables(document: &Table) -> &'static [&'static str] {
-        match Described::by(document) {
-            Described::Belt => BeltSetup::tables(document),
-            Described::Disc => DiscSetup::tables(document),
-            Described::System => SystemSetup::tables(document),
+        match DocumentKind::by(document) {
+            DocumentKind::Belt => BeltSetup::tables(document),
+            DocumentKind::Disc => DiscSetup::tables(document),
+            DocumentKind::System => SystemSetup::tables(document),
         }
     }
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
         let folder = given.folder;
-        match Described::by(document) {
-            Described::Belt => {
+        match DocumentKind::by(document) {
+            DocumentKind::Belt => {
                 let known = given.known.and_then(|kind| match kind {
                     Self::Belt(setup) => Some(&**setup),
                     _ => None,
@@ -87,7 +87,7 @@ impl StudyKind for Kind {
                 let setup = BeltSetup::read(reader, document, Given { folder, known })?;
                 Some(Self::Belt(Box::new(setup)))
             }
-            Described::Disc => {
+            DocumentKind::Disc => {
                 let known = given.known.and_then(|kind| match kind {
                     Self::Disc(setup) => Some(&**setup),
                     _ => None,
@@ -95,7 +95,7 @@ impl StudyKind for Kind {
                 let setup = DiscSetup::read(reader, document, Given { folder, known })?;
                 Some(Self::Disc(Box::new(setup)))
             }
-            Described::System => {
+            DocumentKind::System => {
                 let known = given.known.and_then(|kind| match kind {
                     Self::System(setup) => Some(&**setup),
                     _ => None,
