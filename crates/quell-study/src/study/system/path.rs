@@ -97,7 +97,8 @@ pub(in crate::study) fn set(
         Ok(found) => found,
         Err(lost) => {
             let fault = if lost.allowed.is_some() { Fault::Conflict } else { Fault::Unknown };
-            let allowed = lost.allowed.unwrap_or_else(|| "the keys of the study".to_owned());
+            let allowed =
+                lost.allowed.unwrap_or_else(|| "the keys listed by `quell schema`".to_owned());
             let complaint = Complaint::new(fault, path, node.origin, node.given(), allowed);
             return Err(Box::new(complaint.suggesting(lost.nearest)));
         }

@@ -270,6 +270,17 @@ impl<'d> Walk<'d> {
             let same = PathSegment { name: "", indices: segment.indices.clone() };
             format!("{first}{}{}", after_indices(&same), after(rest))
         });
+        // The only contact may be named, and its name mistyped.
+        let contact = || {
+            let named = which == SystemTable::Contact && !rest.is_empty();
+            let node = self.document.get("contact").filter(|_| named)?;
+            let entries = match &node.value {
+                Value::List(list) => list.as_slice(),
+                _ => std::slice::from_ref(node),
+            };
+            let name = suggest::word(segment.name, entries.iter().filter_map(name_of))?;
+            Some(format!("contact.{name}{}", after(rest)))
+        };
         let elsewhere = || {
             let alone = which == SystemTable::Root && rest.is_empty();
             let tables = [
@@ -285,7 +296,7 @@ impl<'d> Walk<'d> {
             let has = alone && named.is_some_and(|table| table.has(segment.name));
             if has { Some(format!("parameters.{}", segment.name)) } else { found }
         };
-        LostPath { nearest: nearest.or_else(elsewhere), allowed: None }
+        LostPath { nearest: contact().or(nearest).or_else(elsewhere), allowed: None }
     }
 }
 
