@@ -8,7 +8,7 @@ use quell_model::units::{Quantity, Scales};
 use serde_json::Value as Json;
 
 use crate::complaint::Complaint;
-use crate::study::{DiscStudy, SystemUnits, vocabulary};
+use crate::study::{DiscStudy, Kind, Study, SystemUnits, vocabulary};
 
 /// Unit of a quantity in the numbers of the equations. The lengths of a study in SI are metres.
 pub fn unit_of(quantity: Quantity, si: bool) -> String {
@@ -88,14 +88,33 @@ pub fn frequency(
     }
 }
 
-/// Reads a value of the number that a path names, in the unit of its key. If the path names no key, which its own reader
-/// rejects, the unit is ignored.
+/// Reads a value of the number that a path of this study names, in the unit of its key.
+///
+/// # Errors
+/// As [`parse`].
+pub fn value_of(
+    study: Option<&Study>,
+    text: &str,
+    path: &str,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    match study.map(Study::kind) {
+        Some(Kind::System(_)) => {
+            let unit = study.and_then(|study| study.measured_in(path));
+            measured(text, unit, "", option)
+        }
+        _ => value_of_key(text, path, option),
+    }
+}
+
+/// Reads a value of the number that a path of a belt or a disc names, in the unit of its key. If the path names no key, which
+/// its own reader rejects, it must still be a number.
 ///
 /// # Errors
 /// As [`parse`].
 pub fn value_of_key(text: &str, path: &str, option: &'static str) -> Result<f64, Box<Complaint>> {
     let Ok(address) = vocabulary::resolve(path) else {
-        return measured(text, Some("1"), "", option).or(Ok(0.0));
+        return measured(text, Some("1"), "", option);
     };
     measured(text, address.key.measured_in(), address.key.unit_in_words(), option)
 }

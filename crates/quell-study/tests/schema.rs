@@ -1,8 +1,8 @@
 //! The JSON Schema accepts what the reader accepts, and refuses what a schema can refuse.
 
 use quell_model::units::measure;
-use quell_study::BeltStudy;
 use quell_study::schema::schema;
+use quell_study::{BeltStudy, Study};
 use serde_json::Value as Json;
 
 /// Whether `value` is valid under `schema`: the keywords that our schema uses, and no others.
@@ -27,6 +27,7 @@ fn valid(value: &Json, schema: &Json, root: &Json) -> bool {
             Some("object") => value.is_object(),
             Some("array") => value.is_array(),
             Some("string") => value.is_string(),
+            Some("boolean") => value.is_boolean(),
             Some("number") => value.is_number(),
             Some("integer") => value.as_f64().is_some_and(|number| number.fract() == 0.0),
             other => panic!("type {other:?}"),
@@ -51,7 +52,14 @@ fn valid(value: &Json, schema: &Json, root: &Json) -> bool {
             })
         }
         "additionalProperties" => value.as_object().is_none_or(|object| {
-            object.keys().all(|name| keywords["properties"].get(name).is_some())
+            let known = |name: &str| {
+                keywords.get("properties").is_some_and(|known| known.get(name).is_some())
+            };
+            let others = || object.iter().filter(|(name, _)| !known(name));
+            match argument {
+                Json::Bool(allowed) => *allowed || others().next().is_none(),
+                schema => others().all(|(_, value)| valid(value, schema, root)),
+            }
         }),
         other => panic!("the schema uses {other}, which this test does not know"),
     })
@@ -78,6 +86,37 @@ fn judged(text: &str) -> (bool, bool) {
     let schema = schema();
     let value: Json = toml::from_str(text).expect(text);
     (valid(&value, &schema, &schema), BeltStudy::parse(text, &[]).is_ok())
+}
+
+const SYSTEM: &str = "[system]\nunits = 'SI'\ncoordinates = ['x', 'y']\nmass = [1, 'm']\nstiffness = [[1, 0], [0, '2kN/m']]\n\
+    [system.initial]\ndisplacements_m = {x = 1}\n[parameters]\nm = 2\n[[contact]]\nname = 'pad'\ntangent = [1, 0]\n\
+    normal = {y = 'm'}\nnormal_load_n = 1\nbelt_velocity = -1\n[contact.friction]\nlaw = 'coulomb'\ncoefficient = 'm/4'\n\
+    [dither]\ncontact = 'pad'\ndirection = 'normal'\nreaction = false\nwaveform = 'sine'\namplitude = 0.1\nfrequency_hz = 10\n";
+
+#[test]
+fn schema_and_reader_agree_on_systems() {
+    let schema = schema();
+    let judged = |text: &str| {
+        let value: Json = toml::from_str(text).expect(text);
+        (valid(&value, &schema, &schema), Study::parse(text, &[]).is_ok())
+    };
+    assert_eq!(judged(SYSTEM), (true, true));
+    for (from, to) in [
+        ("'SI'", "'cgs'"),
+        ("mass", "masses"),
+        ("[1, 0],", "[true, 0],"),
+        ("tangent = [1, 0]", "tangent = 3"),
+        ("reaction = false", "reaction = 'no'"),
+        ("law = 'coulomb'\n", ""),
+        ("waveform = 'sine'", "waveform = 'noise'"),
+        ("[dither]", "[belt]\n[dither]"),
+        ("m = 2", "m = [2]"),
+    ] {
+        assert!(SYSTEM.contains(from), "{from}");
+        assert_eq!(judged(&SYSTEM.replacen(from, to, 1)), (false, false), "{to}");
+    }
+    let normal_load = SYSTEM.replace("normal_load_n = 1", "normal_load = -1");
+    assert_eq!(judged(&normal_load), (false, false));
 }
 
 #[test]

@@ -326,6 +326,10 @@ fn changes_and_axes_reach_words_and_units() {
     assert_eq!(*started.initial(), SystemStart::Sliding);
     let other = set(TEXT, "contact.pad.friction.coefficient=2*0.15").expect("valid");
     assert_eq!(other.number("contact.pad.friction.coefficient"), Some(0.3));
+    let single = "[system]\ncoordinates = ['x']\nmass = [1]\nstiffness = [1]\n[contact]\nname = 'guide'\n\
+                  tangent = {x = 1}\nnormal_load = 1\nbelt_velocity = 1\n[friction]\nlaw = 'coulomb'\ncoefficient = 0.3\n";
+    let wrong = set(single, "contact.gide.normal_load=3").expect_err("another name");
+    assert_eq!(wrong[0].suggestion.as_deref(), Some("contact.guide.normal_load"));
     let wrong = set(TEXT, "contact.pad=1").expect_err("a table");
     assert!(wrong[0].allowed.contains("is a table"), "{wrong}");
     let text = TEXT.replace("coordinates =", "units = \"SI\"\ncoordinates =")

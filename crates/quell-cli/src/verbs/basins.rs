@@ -96,7 +96,7 @@ fn request(
         None => Some(None),
         Some(parameter) => {
             let end = |option, text: &Option<String>| {
-                number(option, text.as_deref().unwrap_or_default(), parameter)
+                number(option, text.as_deref().unwrap_or_default(), parameter, study)
             };
             let from = complaints.take(end("--from", &arguments.from));
             let to = complaints.take(end("--to", &arguments.to));

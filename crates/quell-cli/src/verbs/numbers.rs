@@ -22,9 +22,13 @@ pub(crate) struct VariedArguments {
 
 impl VariedArguments {
     /// Both ends, in the unit of the key.
-    pub(super) fn ends(&self, complaints: &mut Gathered) -> Option<(f64, f64)> {
-        let from = complaints.take(number("--from", &self.from, &self.parameter));
-        let to = complaints.take(number("--to", &self.to, &self.parameter));
+    pub(super) fn ends(
+        &self,
+        study: Option<&Study>,
+        complaints: &mut Gathered,
+    ) -> Option<(f64, f64)> {
+        let from = complaints.take(number("--from", &self.from, &self.parameter, study));
+        let to = complaints.take(number("--to", &self.to, &self.parameter, study));
         from.zip(to)
     }
 }
@@ -49,8 +53,9 @@ pub(crate) fn number(
     option: &'static str,
     text: &str,
     parameter: &str,
+    study: Option<&Study>,
 ) -> Result<f64, Box<Complaint>> {
-    quantity::value_of_key(text, parameter, option)
+    quantity::value_of(study, text, parameter, option)
 }
 
 /// A whole number.
@@ -81,8 +86,9 @@ pub(crate) fn window(
     option: &'static str,
     text: &str,
     parameter: &str,
+    study: Option<&Study>,
 ) -> Result<(f64, f64), Box<Complaint>> {
-    pair(option, text, |text| quantity::value_of_key(text, parameter, option))
+    pair(option, text, |text| quantity::value_of(study, text, parameter, option))
 }
 
 /// `FROM:TO`, each end parsed by `read`.

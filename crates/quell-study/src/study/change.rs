@@ -7,7 +7,7 @@ use quell_model::parameter::MASS;
 
 use super::document::{Node, Table, Value};
 use super::reader;
-use super::system;
+use super::system::{keys, path};
 use super::vocabulary::{self, Key, NOT_BUILT, Role, Section};
 use crate::complaint::{Complaint, Fault, Origin};
 
@@ -47,8 +47,8 @@ impl Change {
 
     /// Makes the change.
     pub(super) fn apply(&self, root: &mut Table) -> Result<(), Box<Complaint>> {
-        if system::is_described(root) && !self.is_common() {
-            return system::set(root, &self.path, &self.node);
+        if keys::is_described(root) && !self.is_common() {
+            return path::set(root, &self.path, &self.node);
         }
         let address = vocabulary::resolve(&self.path)
             .map_err(|nearest| self.unknown(nearest, reader::is_si(root)))?;

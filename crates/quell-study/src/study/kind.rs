@@ -40,15 +40,15 @@ impl Kind {
 
 /// The kind that a document describes: a system or a disc where it has such a table, else a belt.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Described {
+enum DocumentKind {
     Belt,
     Disc,
     System,
 }
 
-impl Described {
+impl DocumentKind {
     fn by(document: &Table) -> Self {
-        if system::is_described(document) {
+        if system::keys::is_described(document) {
             Self::System
         } else if document.has("disc") {
             Self::Disc
@@ -60,25 +60,25 @@ impl Described {
 
 impl StudyKind for Kind {
     fn reader(document: &Table) -> Reader {
-        match Described::by(document) {
-            Described::Belt => BeltSetup::reader(document),
-            Described::Disc => DiscSetup::reader(document),
-            Described::System => SystemSetup::reader(document),
+        match DocumentKind::by(document) {
+            DocumentKind::Belt => BeltSetup::reader(document),
+            DocumentKind::Disc => DiscSetup::reader(document),
+            DocumentKind::System => SystemSetup::reader(document),
         }
     }
 
     fn tables(document: &Table) -> &'static [&'static str] {
-        match Described::by(document) {
-            Described::Belt => BeltSetup::tables(document),
-            Described::Disc => DiscSetup::tables(document),
-            Described::System => SystemSetup::tables(document),
+        match DocumentKind::by(document) {
+            DocumentKind::Belt => BeltSetup::tables(document),
+            DocumentKind::Disc => DiscSetup::tables(document),
+            DocumentKind::System => SystemSetup::tables(document),
         }
     }
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
         let folder = given.folder;
-        match Described::by(document) {
-            Described::Belt => {
+        match DocumentKind::by(document) {
+            DocumentKind::Belt => {
                 let known = given.known.and_then(|kind| match kind {
                     Self::Belt(setup) => Some(&**setup),
                     _ => None,
@@ -86,7 +86,7 @@ impl StudyKind for Kind {
                 let setup = BeltSetup::read(reader, document, Given { folder, known })?;
                 Some(Self::Belt(Box::new(setup)))
             }
-            Described::Disc => {
+            DocumentKind::Disc => {
                 let known = given.known.and_then(|kind| match kind {
                     Self::Disc(setup) => Some(&**setup),
                     _ => None,
@@ -94,7 +94,7 @@ impl StudyKind for Kind {
                 let setup = DiscSetup::read(reader, document, Given { folder, known })?;
                 Some(Self::Disc(Box::new(setup)))
             }
-            Described::System => {
+            DocumentKind::System => {
                 let known = given.known.and_then(|kind| match kind {
                     Self::System(setup) => Some(&**setup),
                     _ => None,
@@ -164,6 +164,14 @@ impl Study {
     /// The error where a study of the kind `required` is needed.
     fn not_a(&self, required: &str) -> Box<Complaint> {
         Box::new(wrong_kind(required, self.kind().name(), Origin::Whole))
+    }
+
+    /// Unit in which a number of a study of a system is given, by its path; `None` for other kinds and without a unit.
+    pub fn measured_in(&self, path: &str) -> Option<&'static str> {
+        match self.kind() {
+            Kind::System(_) => system::path::measured_in(&self.source.document, path),
+            Kind::Belt(_) | Kind::Disc(_) => None,
+        }
     }
 
     /// Mass and stiffness of a belt's study in SI.

@@ -5,13 +5,13 @@
 use quell_model::units::measure;
 
 use super::document::{Node, Table, Value};
-use super::system;
+use super::system::{keys, path};
 use super::vocabulary::{self, Section};
 
 /// Converts texts with units under numeric keys to numbers in the unit of the key; the ends and values of an axis
 /// are in the unit of the key that it varies.
 pub(super) fn resolve(root: &mut Table) {
-    if system::is_described(root) {
+    if keys::is_described(root) {
         resolve_axes(root);
         return;
     }
@@ -30,7 +30,7 @@ fn resolve_axes(root: &mut Table) {
     let paths = root.clone();
     for table in tables(root, Section::Sweep) {
         let unit = match table.get("parameter").map(|node| &node.value) {
-            Some(Value::Text(path)) => system::measured_in(&paths, path),
+            Some(Value::Text(named)) => path::measured_in(&paths, named),
             _ => None,
         };
         let Some(unit) = unit else { continue };

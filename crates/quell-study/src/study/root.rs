@@ -5,14 +5,14 @@ use serde_json::Value as Json;
 use super::document::{Table, Value};
 use super::reader::Reader;
 use super::suggest;
-use super::system;
+use super::system::keys;
 use super::vocabulary::{self, NOT_BUILT, SCHEMA_VERSION, Section};
 use crate::complaint::{Complaint, Fault};
 
 /// Reports unknown tables and keys; `tables` are those of this kind of study. Returns the title.
 pub(super) fn read(reader: &mut Reader, document: &Table, tables: &[&str]) -> Option<String> {
     let known: Vec<&str> = Section::ALL.iter().map(|section| section.path()).collect();
-    let is_system = system::is_described(document);
+    let is_system = keys::is_described(document);
     for (name, node) in document.iter() {
         if NOT_BUILT.contains(&name) {
             let allowed = format!(
@@ -20,12 +20,16 @@ pub(super) fn read(reader: &mut Reader, document: &Table, tables: &[&str]) -> Op
             );
             let complaint = Complaint::new(Fault::NotBuilt, name, node.origin, Json::Null, allowed);
             reader.complain(complaint);
-        } else if vocabulary::key(Section::Root, name).is_some() || tables.contains(&name) {
-        } else if system::TABLES.contains(&name) && !known.contains(&name) {
+            continue;
+        }
+        if vocabulary::key(Section::Root, name).is_some() || tables.contains(&name) {
+            continue;
+        }
+        if keys::TABLES.contains(&name) && !known.contains(&name) {
             let allowed = format!("[{name}] belongs to a study of a system, with [system]");
             let complaint = Complaint::new(Fault::Conflict, name, node.origin, Json::Null, allowed);
             reader.complain(complaint);
-        } else if !known.contains(&name) || (is_system && !system::OTHER_KINDS.contains(&name)) {
+        } else if !known.contains(&name) || (is_system && !keys::OTHER_KINDS.contains(&name)) {
             let nearest = suggest::word(name, tables.iter().copied())
                 .or_else(|| suggest::path("", name, None));
             let complaint =

@@ -5,7 +5,8 @@ use serde_json::Value as Json;
 
 use super::document::{Node, Table, Value};
 use super::reader::Reader;
-use super::system::{self, SystemAddress};
+use super::system::keys;
+use super::system::path::{SystemAddress, resolve_in};
 use super::vocabulary::{self, Address, Choice, MOST_POINTS, Role, Section, join};
 use crate::complaint::{Complaint, Fault, Origin};
 
@@ -80,8 +81,8 @@ impl AxisTarget {
 
     /// What a path names in a document.
     fn resolve(document: &Table, path: &str) -> Result<Self, Option<String>> {
-        if system::is_described(document) {
-            return system::resolve_in(document, path).map(Self::System);
+        if keys::is_described(document) {
+            return resolve_in(document, path).map(Self::System);
         }
         match vocabulary::resolve(path) {
             Ok(address) if address.key.takes_number() => Ok(Self::Key(address)),

@@ -11,11 +11,11 @@ use quell_model::{Contact, Friction, LawKind};
 
 use super::friction::{self, LawRead};
 use super::keys::SystemTable;
+use super::names::{MOST_COORDINATES, NAME, is_plain_name};
 use super::numbers::{Numbers, missing, unknown_keys};
-use super::rows::Basis;
-use super::structure::{MOST_COORDINATES, NAME, is_plain_name};
+use super::rows::RowBasis;
 use crate::complaint::{Complaint, Fault};
-use crate::study::Measured;
+use crate::study::belt::friction::Measured;
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::vocabulary::join;
@@ -24,7 +24,7 @@ use crate::study::vocabulary::join;
 #[derive(Clone, Copy)]
 pub(super) struct ContactContext<'a> {
     pub(super) numbers: &'a Numbers,
-    pub(super) basis: &'a Basis,
+    pub(super) basis: &'a RowBasis,
     /// Whether the equations are of first order.
     pub(super) first_order: bool,
     /// Whether the names are those of a measured frequency response, which may name rows of contacts.

@@ -8,8 +8,8 @@ use quell_model::{Contact, Waveform};
 
 use super::contact::listed;
 use super::keys::SystemTable;
-use super::numbers::{Numbers, Wanted, missing, unknown_keys};
-use super::rows::Basis;
+use super::numbers::{Numbers, WantedNumber, missing, unknown_keys};
+use super::rows::RowBasis;
 use crate::complaint::{Complaint, Fault};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
@@ -20,7 +20,7 @@ use crate::study::vocabulary::{Choice, join};
 #[derive(Clone, Copy)]
 pub(super) struct DitherContext<'a> {
     pub(super) numbers: &'a Numbers,
-    pub(super) basis: &'a Basis,
+    pub(super) basis: &'a RowBasis,
     /// Names of all contacts.
     pub(super) names: &'a [String],
     /// The contacts, if all are right.
@@ -91,7 +91,7 @@ fn amplitude(
     }
     let first = if table.has("amplitude_n") { "amplitude_n" } else { DITHER_AMPLITUDE.key() };
     let found = numbers.keyed(reader, table, prefix, first, Some(RMS))?;
-    let wanted = Wanted { twin: found.twin, ..Wanted::of(DITHER_AMPLITUDE) };
+    let wanted = WantedNumber { twin: found.twin, ..WantedNumber::of(DITHER_AMPLITUDE) };
     let value = numbers.number(reader, || found.key.clone(), found.node, wanted)?;
     Some(if found.twin { value / waveform?.root_mean_square() } else { value })
 }

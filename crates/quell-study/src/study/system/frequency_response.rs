@@ -137,7 +137,7 @@ pub(super) fn check_pairs(
 }
 
 /// Frequencies and values of each output and input.
-type Series = BTreeMap<(usize, usize), Vec<(f64, [f64; 2])>>;
+type ResponseSeries = BTreeMap<(usize, usize), Vec<(f64, [f64; 2])>>;
 
 fn parse(text: &str) -> Result<FrequencyResponse, String> {
     let file = DataFile::new(text, WHAT)?;
@@ -153,7 +153,7 @@ fn parse(text: &str) -> Result<FrequencyResponse, String> {
         .map(|name| file.column(name).ok_or_else(|| format!("a CSV file with a column {name}")));
     let (output, input, re, im) = (output?, input?, re?, im?);
     let mut names: Vec<String> = Vec::new();
-    let mut series = Series::new();
+    let mut series = ResponseSeries::new();
     for row in file.rows() {
         let number = |at, name, bounds: Bounds| {
             row.number(at, name, &bounds.to_string(), |value| bounds.contains(value))
@@ -187,7 +187,7 @@ fn place(names: &mut Vec<String>, row: &Row<'_>, at: usize, column: &str) -> Res
 /// The series in the order of frequency, each at the same frequencies.
 fn ordered(
     names: Vec<String>,
-    series: Series,
+    series: ResponseSeries,
     in_hertz: bool,
 ) -> Result<FrequencyResponse, String> {
     let mut found = FrequencyResponse { names, in_hertz, ..FrequencyResponse::default() };

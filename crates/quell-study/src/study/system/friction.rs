@@ -9,11 +9,10 @@ use quell_model::Friction;
 use quell_model::parameter::{COEFFICIENT, STATIC_COEFFICIENT, VISCOUS};
 use quell_model::units::{Quantity, Scales};
 
-use super::numbers::{Keyed, Numbers, Wanted};
+use super::numbers::{Keyed, Numbers, WantedNumber};
 use super::units::SystemUnits;
 use crate::complaint::{Complaint, Fault};
-use crate::study::Measured;
-use crate::study::belt::friction::{self, LawContext};
+use crate::study::belt::friction::{self, LawContext, Measured};
 use crate::study::data_file::{self, DataFile};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
@@ -115,23 +114,24 @@ fn resolved(reader: &mut Reader, table: &Table, path: &str, numbers: &Numbers) -
         let role = vocabulary::key(Section::Friction, name).map(|key| key.role);
         match role {
             Some(Role::Number(parameter)) => {
-                let wanted = Wanted::finite(Some(parameter.quantity));
+                let wanted = WantedNumber::finite(Some(parameter.quantity));
                 plain.set(name, number(reader, numbers, &at, node, wanted));
             }
             Some(Role::Coefficient) if law == "expression" => plain.set(name, node.clone()),
             Some(Role::Coefficient) => {
-                let wanted = Wanted::finite(Some(Quantity::Ratio));
+                let wanted = WantedNumber::finite(Some(Quantity::Ratio));
                 plain.set(name, number(reader, numbers, &at, node, wanted));
             }
             Some(Role::Speeds { si: false }) => {
-                let wanted = Wanted::finite(Some(Quantity::Velocity));
+                let wanted = WantedNumber::finite(Some(Quantity::Velocity));
                 plain.set(name, number(reader, numbers, &at, node, wanted));
             }
             Some(Role::Twin(parameter, twin)) => {
                 let other = Some(twin.key);
                 let found = numbers.keyed(reader, table, path, parameter.key(), other);
                 let Some(Keyed { twin: true, .. }) = found else { continue };
-                let wanted = Wanted { twin: true, ..Wanted::finite(Some(parameter.quantity)) };
+                let wanted =
+                    WantedNumber { twin: true, ..WantedNumber::finite(Some(parameter.quantity)) };
                 plain.set(parameter.key(), number(reader, numbers, &at, node, wanted));
                 renamed.push((parameter.key(), name.to_owned()));
             }
@@ -168,7 +168,7 @@ fn constants<'t>(
     let own = table.get("constants");
     for (name, node) in own.and_then(Node::table).into_iter().flat_map(Table::iter) {
         let at = format!("{path}.constants.{name}");
-        constants.set(name, number(reader, numbers, &at, node, Wanted::finite(None)));
+        constants.set(name, number(reader, numbers, &at, node, WantedNumber::finite(None)));
     }
     if let Value::Text(text) = &formula.value {
         let word = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
@@ -185,7 +185,13 @@ fn constants<'t>(
 }
 
 /// A node with its numbers evaluated; bounds are left to the reader of laws.
-fn number(reader: &mut Reader, numbers: &Numbers, key: &str, node: &Node, wanted: Wanted) -> Node {
+fn number(
+    reader: &mut Reader,
+    numbers: &Numbers,
+    key: &str,
+    node: &Node,
+    wanted: WantedNumber,
+) -> Node {
     if let Value::List(list) = &node.value {
         let list = list
             .iter()

@@ -4,8 +4,8 @@ use quell_model::units::Quantity;
 use quell_model::{Contact, Structure};
 
 use super::keys::SystemTable;
-use super::numbers::{Keyed, Numbers, Reported, Wanted, unknown_keys};
-use super::rows::Basis;
+use super::numbers::{Keyed, Numbers, Reported, WantedNumber, unknown_keys};
+use super::rows::RowBasis;
 use crate::complaint::{Complaint, Fault};
 use crate::study::document::Table;
 use crate::study::reader::Reader;
@@ -34,7 +34,7 @@ pub(super) fn read(
     reader: &mut Reader,
     system: &Table,
     numbers: &Numbers,
-    basis: &Basis,
+    basis: &RowBasis,
     first_order: bool,
 ) -> Option<SystemStart> {
     let Some(node) = system.get("initial") else { return Some(SystemStart::Rest) };
@@ -72,8 +72,8 @@ pub(super) fn read(
     if let Some(node) = table.get("values") {
         let velocities = basis.names.iter().map(|name| format!("velocity.{name}"));
         let whole = basis.names.iter().cloned().chain(velocities).collect();
-        let state = Basis::of(whole, "displacement and velocity");
-        let wanted = Wanted::finite(None);
+        let state = RowBasis::of(whole, "displacement and velocity");
+        let wanted = WantedNumber::finite(None);
         let values = state.row(reader, numbers, &join(PREFIX, "values"), node, wanted)?;
         return Some(SystemStart::Values(values));
     }
@@ -81,7 +81,7 @@ pub(super) fn read(
         let before = reader.complaints_so_far();
         match numbers.array(reader, table, PREFIX, name, Some(quantity)) {
             Some(Keyed { node, key, twin }) => {
-                let wanted = Wanted { twin, ..Wanted::finite(Some(quantity)) };
+                let wanted = WantedNumber { twin, ..WantedNumber::finite(Some(quantity)) };
                 basis.row(reader, numbers, &key, node, wanted)
             }
             None => (reader.complaints_so_far() == before).then(|| vec![0.0; basis.names.len()]),
@@ -97,7 +97,7 @@ fn of_states(
     reader: &mut Reader,
     table: &Table,
     numbers: &Numbers,
-    basis: &Basis,
+    basis: &RowBasis,
 ) -> Option<SystemStart> {
     for name in ["displacements", "velocities"] {
         if let Some(node) = table.get(name) {
@@ -111,7 +111,7 @@ fn of_states(
     }
     let Some(node) = table.get("values") else { return Some(SystemStart::Rest) };
     let key = join(PREFIX, "values");
-    let values = basis.row(reader, numbers, &key, node, Wanted::finite(None))?;
+    let values = basis.row(reader, numbers, &key, node, WantedNumber::finite(None))?;
     Some(SystemStart::Values(values))
 }
 
@@ -120,7 +120,7 @@ pub(super) fn observe(
     reader: &mut Reader,
     system: &Table,
     numbers: &Numbers,
-    basis: &Basis,
+    basis: &RowBasis,
 ) -> Result<Option<Vec<f64>>, Reported> {
     let Some(node) = system.get("observe") else { return Ok(None) };
     basis.row_not_zero(reader, numbers, "system.observe", node).map(Some).ok_or(Reported)

@@ -7,7 +7,20 @@ use quell_model::parameter::system::{
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE, Parameter};
 use quell_model::units::Quantity;
 
+use crate::study::document::Table;
 use crate::study::vocabulary::Choice;
+
+/// Whether a document is the study of a system.
+pub(in crate::study) fn is_described(document: &Table) -> bool {
+    document.has("system")
+}
+
+/// The tables of other kinds, which exclude `[system]`.
+pub(in crate::study) const OTHER_KINDS: &[&str] = &["belt", "disc"];
+
+/// The tables of a study of a system.
+pub(in crate::study) const TABLES: &[&str] =
+    &["schema", "title", "system", "contact", "friction", "dither", "parameters", "sweep"];
 
 /// A table of a study of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

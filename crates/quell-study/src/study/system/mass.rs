@@ -3,8 +3,10 @@
 use quell_model::system::MassMatrix;
 use quell_numerics::matrix::Matrix;
 
+use super::matrices::matrix;
+use super::names::PREFIX;
 use super::numbers::{Numbers, missing};
-use super::structure::{PREFIX, matrix};
+
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;

@@ -6,19 +6,23 @@
 
 mod contact;
 mod dither;
+mod found;
 mod frequency_response;
 mod friction;
 mod initial;
 pub mod keys;
 mod mass;
+mod matrices;
 mod modes;
 mod modes_file;
+mod names;
 mod numbers;
 mod parameters;
-mod path;
+pub(in crate::study) mod path;
 mod plausible;
 mod read;
 mod rows;
+mod setup;
 mod structure;
 mod units;
 mod walk;
@@ -34,47 +38,17 @@ use super::document::{Node, Table, Value};
 use super::reader::Reader;
 use super::study_kind::{Given, StudyKind};
 use crate::complaint::{Complaint, Complaints, Origin};
-use crate::study::Measured;
 
 pub use frequency_response::FrequencyResponse;
 pub use initial::SystemStart;
 pub use path::{SystemAddress, resolve_in};
+pub use setup::SystemSetup;
 pub use units::SystemUnits;
 
-pub(super) use path::{measured_in, set};
-
-use modes_file::ModeList;
-use numbers::Numbers;
+use path::set;
 
 /// A checked study of a system.
 pub type SystemStudy = StudyOf<SystemSetup>;
-
-/// The parts of a study that only a system has.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SystemSetup {
-    system: Arc<System>,
-    observe: Vec<f64>,
-    initial: SystemStart,
-    numbers: Numbers,
-    warnings: Vec<String>,
-    /// Samples of the measured laws, contact by contact.
-    measured: Arc<[Option<Measured>]>,
-    /// Files of modes.
-    modes: Arc<[Arc<ModeList>]>,
-    response: Option<Arc<FrequencyResponse>>,
-}
-
-/// Whether a document is the study of a system.
-pub(super) fn is_described(document: &Table) -> bool {
-    document.has("system")
-}
-
-/// The tables of other kinds, which exclude `[system]`.
-pub(super) const OTHER_KINDS: &[&str] = &["belt", "disc"];
-
-/// The tables of a study of a system.
-pub(super) const TABLES: &[&str] =
-    &["schema", "title", "system", "contact", "friction", "dither", "parameters", "sweep"];
 
 impl StudyKind for SystemSetup {
     fn reader(_: &Table) -> Reader {
@@ -82,7 +56,7 @@ impl StudyKind for SystemSetup {
     }
 
     fn tables(_: &Table) -> &'static [&'static str] {
-        TABLES
+        keys::TABLES
     }
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
@@ -115,21 +89,6 @@ impl StudyKind for SystemSetup {
         });
         let response = self.response.iter().flat_map(|response| response.settings());
         samples.chain(modes).chain(response).collect()
-    }
-}
-
-impl SystemSetup {
-    /// Name of the kind.
-    pub const NAME: &'static str = "system";
-
-    /// The system in the units of the file.
-    pub fn system(&self) -> &System {
-        &self.system
-    }
-
-    /// The units of the bare numbers of the file.
-    pub fn units(&self) -> SystemUnits {
-        self.numbers.units
     }
 }
 

@@ -16,10 +16,11 @@ use serde_json::Value as Json;
 
 use super::contact::listed;
 use super::keys::SystemTable;
-use super::modes_file::{ModeLine, ModeList};
-use super::numbers::{Numbers, Wanted, missing, unknown_keys};
-use super::rows::{Basis, Points};
-use super::structure::{Body, MOST_COORDINATES, NAME, PREFIX, force, is_plain_name};
+use super::modes_file::{ModeList, SystemMode};
+use super::names::{MOST_COORDINATES, NAME, PREFIX, is_plain_name};
+use super::numbers::{Numbers, WantedNumber, missing, unknown_keys};
+use super::rows::{RowBasis, ShapePoints};
+use super::structure::{ReadStructure, force};
 use super::units::SystemUnits;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
@@ -36,7 +37,7 @@ pub(super) struct ModesContext<'a> {
 }
 
 /// Modes with the name of their component; without a name for a structure of one component.
-type Component = (Option<String>, Arc<ModeList>);
+type ModalComponent = (Option<String>, Arc<ModeList>);
 
 /// Reads a structure given by its modes, and the files that it names.
 pub(super) fn read(
@@ -44,23 +45,23 @@ pub(super) fn read(
     table: &Table,
     header: Origin,
     context: ModesContext<'_>,
-) -> (Body, Vec<Arc<ModeList>>) {
+) -> (ReadStructure, Vec<Arc<ModeList>>) {
     let components = if table.has("component") {
         components(reader, table, context)
     } else {
         let list = list(reader, table, PREFIX, header, context);
         list.map(|list| vec![(None, list)])
     };
-    let Some(components) = components else { return (Body::default(), Vec::new()) };
+    let Some(components) = components else { return (ReadStructure::default(), Vec::new()) };
     let count: usize = components.iter().map(|(_, list)| list.modes.len()).sum();
     if count > MOST_COORDINATES {
         let allowed = format!("at most {MOST_COORDINATES} modes in all; got {count}");
         reader.complain(Complaint::new(Fault::Value, PREFIX, header, count, allowed));
-        return (Body::default(), Vec::new());
+        return (ReadStructure::default(), Vec::new());
     }
     let basis = basis(&components, count);
     let modes = || components.iter().flat_map(|(_, list)| &list.modes);
-    let diagonal = |entry: &dyn Fn(&ModeLine) -> f64| {
+    let diagonal = |entry: &dyn Fn(&SystemMode) -> f64| {
         let mut matrix = Matrix::zeros(count, count);
         for (i, mode) in modes().enumerate() {
             matrix[(i, i)] = entry(mode);
@@ -74,11 +75,11 @@ pub(super) fn read(
         Mechanical::new(basis.names.clone(), mass, damping, stiffness).under(force).into()
     });
     let files = components.into_iter().map(|(_, list)| list).filter(|list| list.file.is_some());
-    (Body { basis: Some(basis), structure }, files.collect())
+    (ReadStructure { basis: Some(basis), structure }, files.collect())
 }
 
 /// Names of the modal coordinates and the rows of the points.
-fn basis(components: &[Component], count: usize) -> Basis {
+fn basis(components: &[ModalComponent], count: usize) -> RowBasis {
     let (mut names, mut points) = (Vec::with_capacity(count), Vec::new());
     for (component, list) in components {
         let own = component.as_deref().unwrap_or("mode");
@@ -100,7 +101,11 @@ fn basis(components: &[Component], count: usize) -> Basis {
         row += list.points.len();
         column += list.modes.len();
     }
-    Basis { names, what: "point of the shapes", points: Some(Points { names: points, rows }) }
+    RowBasis {
+        names,
+        what: "point of the shapes",
+        points: Some(ShapePoints { names: points, rows }),
+    }
 }
 
 /// Every component; `None` if one is wrong.
@@ -108,9 +113,9 @@ fn components(
     reader: &mut Reader,
     table: &Table,
     context: ModesContext<'_>,
-) -> Option<Vec<Component>> {
+) -> Option<Vec<ModalComponent>> {
     let mut names: Vec<String> = Vec::new();
-    let read: Vec<Option<Component>> = listed(reader, table, PREFIX, "component")
+    let read: Vec<Option<ModalComponent>> = listed(reader, table, PREFIX, "component")
         .into_iter()
         .map(|(prefix, node, table)| {
             unknown_keys(reader, table, &prefix, SystemTable::Component);
@@ -244,24 +249,24 @@ fn inline(
         return None;
     }
     let mut points: Vec<String> = Vec::new();
-    let read: Vec<Option<Listed>> = listed(reader, table, prefix, "mode")
+    let read: Vec<Option<InlineMode>> = listed(reader, table, prefix, "mode")
         .into_iter()
         .map(|(prefix, node, table)| one(reader, table, node, &prefix, numbers, &mut points))
         .collect();
-    let read: Vec<Listed> = read.into_iter().collect::<Option<_>>()?;
+    let read: Vec<InlineMode> = read.into_iter().collect::<Option<_>>()?;
     let modes = read.into_iter().map(|(mode, entries)| {
         let mut shape = vec![0.0; points.len()];
         for (at, entry) in entries {
             shape[at] = entry;
         }
-        ModeLine { shape, ..mode }
+        SystemMode { shape, ..mode }
     });
     let modes = modes.collect();
     Some(ModeList { points, modes, ..ModeList::default() })
 }
 
 /// A mode, and the entries of its shape with their places among the points.
-type Listed = (ModeLine, Vec<(usize, f64)>);
+type InlineMode = (SystemMode, Vec<(usize, f64)>);
 
 /// Reads a mode.
 fn one(
@@ -271,7 +276,7 @@ fn one(
     prefix: &str,
     numbers: &Numbers,
     points: &mut Vec<String>,
-) -> Option<Listed> {
+) -> Option<InlineMode> {
     unknown_keys(reader, table, prefix, SystemTable::Mode);
     let frequency = numbers.needed(reader, table, prefix, node.origin, SYSTEM_MODE_FREQUENCY);
     let damping = numbers.needed(reader, table, prefix, node.origin, SYSTEM_MODE_DAMPING);
@@ -290,7 +295,7 @@ fn one(
     let mut entries = Vec::new();
     let mut right = true;
     for (name, node) in inner.iter() {
-        let wanted = Wanted { bounds: Bounds::FINITE, ..Wanted::finite(None) };
+        let wanted = WantedNumber { bounds: Bounds::FINITE, ..WantedNumber::finite(None) };
         let entry = numbers.number(reader, || format!("{key}.{name}"), node, wanted);
         right &= entry.is_some();
         let at = points.iter().position(|known| known == name).unwrap_or_else(|| {
@@ -300,6 +305,6 @@ fn one(
         entries.extend(entry.map(|entry| (at, entry)));
     }
     let (frequency, damping_ratio, modal_mass) = (frequency?, damping?, mass.ok()?);
-    let mode = ModeLine { frequency, damping_ratio, modal_mass, shape: Vec::new() };
+    let mode = SystemMode { frequency, damping_ratio, modal_mass, shape: Vec::new() };
     right.then_some((mode, entries))
 }

@@ -11,7 +11,7 @@ use quell_model::parameter::system::{
 };
 use quell_model::parameter::{Bounds, Parameter};
 
-use super::structure::MOST_COORDINATES;
+use super::names::MOST_COORDINATES;
 use crate::study::data_file::{self, DataFile};
 
 /// What the file must be.
@@ -22,7 +22,7 @@ const HERTZ: &str = "frequency_hz";
 
 /// A mode.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct ModeLine {
+pub(super) struct SystemMode {
     /// Angular frequency.
     pub(super) frequency: f64,
     pub(super) damping_ratio: f64,
@@ -39,7 +39,7 @@ pub(super) struct ModeList {
     /// Whether the file gives frequencies in hertz.
     pub(super) in_hertz: bool,
     pub(super) points: Vec<String>,
-    pub(super) modes: Vec<ModeLine>,
+    pub(super) modes: Vec<SystemMode>,
 }
 
 impl ModeList {
@@ -91,7 +91,7 @@ fn parse(text: &str) -> Result<ModeList, String> {
             return Err("a CSV file whose columns have different names".to_owned());
         }
     }
-    let modes: Vec<ModeLine> = file
+    let modes: Vec<SystemMode> = file
         .rows()
         .iter()
         .map(|row| {
@@ -101,7 +101,7 @@ fn parse(text: &str) -> Result<ModeList, String> {
             let name = if in_hertz { HERTZ } else { "frequency" };
             let written = number(frequency, name, Bounds::NOT_NEGATIVE)?;
             let shape = points.iter().map(|(at, name)| number(*at, name, Bounds::FINITE));
-            Ok(ModeLine {
+            Ok(SystemMode {
                 frequency: if in_hertz { TAU * written } else { written },
                 damping_ratio: number(damping, "damping_ratio", Bounds::NOT_NEGATIVE)?,
                 modal_mass: mass

@@ -30,7 +30,7 @@ pub(super) struct Reported;
 
 /// What a number must be.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Wanted {
+pub(super) struct WantedNumber {
     pub(super) quantity: Option<Quantity>,
     /// In the units of the file.
     pub(super) bounds: Bounds,
@@ -38,7 +38,7 @@ pub(super) struct Wanted {
     pub(super) twin: bool,
 }
 
-impl Wanted {
+impl WantedNumber {
     /// Any finite number of a quantity.
     pub(super) fn finite(quantity: Option<Quantity>) -> Self {
         Self { quantity, bounds: Bounds::FINITE, twin: false }
@@ -64,7 +64,7 @@ impl Numbers {
         reader: &mut Reader,
         key: impl Fn() -> String,
         node: &Node,
-        wanted: Wanted,
+        wanted: WantedNumber,
     ) -> Option<f64> {
         match self.value(node, wanted) {
             Ok(value) if wanted.bounds.contains(value) => Some(value),
@@ -93,7 +93,7 @@ impl Numbers {
     ///
     /// # Errors
     /// Why it is not a number, to be added to a sentence.
-    pub(super) fn value(&self, node: &Node, wanted: Wanted) -> Result<f64, String> {
+    pub(super) fn value(&self, node: &Node, wanted: WantedNumber) -> Result<f64, String> {
         let factor = self.file_units(wanted);
         match &node.value {
             Value::Number(number) => Ok(number * factor),
@@ -118,7 +118,7 @@ impl Numbers {
     }
 
     /// A number with a unit, such as `5.7kN`, in the unit of its key; `None` if the text is something else.
-    fn measured(&self, text: &str, wanted: Wanted) -> Option<Result<f64, String>> {
+    fn measured(&self, text: &str, wanted: WantedNumber) -> Option<Result<f64, String>> {
         if !measure::has_unit(text) {
             return None;
         }
@@ -141,7 +141,7 @@ impl Numbers {
     }
 
     /// Unit of the number that a key takes.
-    fn unit(&self, wanted: Wanted) -> Option<&'static str> {
+    fn unit(&self, wanted: WantedNumber) -> Option<&'static str> {
         match wanted.quantity? {
             Quantity::Ratio => Some("1"),
             quantity if wanted.twin => quantity.si_unit().map(|(unit, _)| unit),
@@ -150,7 +150,7 @@ impl Numbers {
     }
 
     /// The unit of a key in the units of the file.
-    pub(super) fn file_units(&self, wanted: Wanted) -> f64 {
+    pub(super) fn file_units(&self, wanted: WantedNumber) -> f64 {
         match wanted.quantity.filter(|_| wanted.twin) {
             // A product rounds once more than a quotient: hertz are multiplied by 2π exactly as written.
             Some(Quantity::FrequencyRatio) => TAU,
@@ -211,7 +211,7 @@ impl Numbers {
         let Some(Keyed { node, key, twin }) = found else {
             return if reader.complaints_so_far() == before { Ok(None) } else { Err(Reported) };
         };
-        let wanted = Wanted { twin, ..Wanted::of(parameter) };
+        let wanted = WantedNumber { twin, ..WantedNumber::of(parameter) };
         self.number(reader, || key.clone(), node, wanted).map(Some).ok_or(Reported)
     }
 

@@ -10,7 +10,7 @@ use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 
 /// A parameter while it is evaluated.
-enum Step<'t> {
+enum ParameterStep<'t> {
     Known(f64),
     Formula(&'t Node, NumberFormula),
     /// Reported already.
@@ -26,7 +26,7 @@ pub(super) fn read(reader: &mut Reader, document: &Table, units: SystemUnits) ->
     };
     let names: Vec<String> = table.iter().map(|(name, _)| name.to_owned()).collect();
     let known: Vec<&str> = names.iter().map(String::as_str).collect();
-    let steps: Vec<Step<'_>> =
+    let steps: Vec<ParameterStep<'_>> =
         table.iter().map(|(name, node)| step(reader, name, node, &known)).collect();
     let mut values: Vec<Option<f64>> = vec![None; steps.len()];
     for index in 0..steps.len() {
@@ -36,31 +36,31 @@ pub(super) fn read(reader: &mut Reader, document: &Table, units: SystemUnits) ->
     Numbers { units, names, values }
 }
 
-fn step<'t>(reader: &mut Reader, name: &str, node: &'t Node, known: &[&str]) -> Step<'t> {
+fn step<'t>(reader: &mut Reader, name: &str, node: &'t Node, known: &[&str]) -> ParameterStep<'t> {
     let key = format!("parameters.{name}");
     if !is_name(name) || is_taken(name) {
         let allowed = "a name made of letters, digits and _ that has no other meaning in a formula";
         let complaint = Complaint::new(Fault::Conflict, key, node.origin, node.given(), allowed);
         reader.complain(complaint);
-        return Step::Wrong;
+        return ParameterStep::Wrong;
     }
     match &node.value {
-        Value::Number(number) if number.is_finite() => Step::Known(*number),
+        Value::Number(number) if number.is_finite() => ParameterStep::Known(*number),
         Value::Text(text) => match NumberFormula::parse(text, known) {
-            Ok(formula) => Step::Formula(node, formula),
+            Ok(formula) => ParameterStep::Formula(node, formula),
             Err(error) => {
                 reader.wrong(&key, node, format!("a number or a formula of parameters; {error}"));
-                Step::Wrong
+                ParameterStep::Wrong
             }
         },
         Value::Number(_) => {
             reader.wrong(&key, node, Bounds::FINITE.to_string());
-            Step::Wrong
+            ParameterStep::Wrong
         }
         _ => {
             let allowed = format!("a number or a formula of parameters; got {}", node.kind());
             reader.wrong(&key, node, allowed);
-            Step::Wrong
+            ParameterStep::Wrong
         }
     }
 }
@@ -69,20 +69,20 @@ fn step<'t>(reader: &mut Reader, name: &str, node: &'t Node, known: &[&str]) -> 
 fn evaluate(
     reader: &mut Reader,
     names: &[String],
-    steps: &[Step<'_>],
+    steps: &[ParameterStep<'_>],
     values: &mut [Option<f64>],
     first: usize,
 ) {
     let mut path = vec![first];
     while let Some(&index) = path.last() {
         let (node, formula) = match &steps[index] {
-            Step::Known(value) => {
+            ParameterStep::Known(value) => {
                 values[index] = Some(*value);
                 path.pop();
                 continue;
             }
-            Step::Formula(node, formula) if values[index].is_none() => (node, formula),
-            Step::Formula(..) | Step::Wrong => {
+            ParameterStep::Formula(node, formula) if values[index].is_none() => (node, formula),
+            ParameterStep::Formula(..) | ParameterStep::Wrong => {
                 values[index].get_or_insert(f64::NAN);
                 path.pop();
                 continue;
@@ -106,8 +106,8 @@ fn evaluate(
                 path[start..].iter().chain([&used]).map(|&index| names[index].as_str()).collect();
             let key = format!("parameters.{}", names[used]);
             let at = match &steps[used] {
-                Step::Formula(node, _) => node,
-                Step::Known(_) | Step::Wrong => node,
+                ParameterStep::Formula(node, _) => node,
+                ParameterStep::Known(_) | ParameterStep::Wrong => node,
             };
             let allowed = format!("a formula that does not need itself: {}", ring.join(" → "));
             reader.wrong(&key, at, allowed);

@@ -5,10 +5,10 @@
 
 use std::fmt::Write as _;
 
-use quell_model::parameter::Parameter;
 use quell_model::units::Quantity;
 
-use super::numbers::{Numbers, Wanted};
+use super::found::{PathStep, node_at};
+use super::numbers::{Numbers, WantedNumber};
 use super::units::SystemUnits;
 use super::walk::follow;
 use crate::complaint::{Complaint, Fault};
@@ -27,7 +27,7 @@ pub struct SystemAddress {
     pub quantity: Option<Quantity>,
     /// Unit of its value; `1` without a unit.
     pub unit: &'static str,
-    /// Whether a value of the path is in SI whatever the units of the file.
+    /// Whether a value of the path is in SI regardless of the units of the file.
     pub twin: bool,
 }
 
@@ -43,11 +43,11 @@ pub fn resolve_in(document: &Table, path: &str) -> Result<SystemAddress, Option<
     let mut canonical = String::new();
     for step in &found.steps {
         match step {
-            Step::Key(name) if canonical.is_empty() => canonical.push_str(name),
-            Step::Key(name) => {
+            PathStep::Key(name) if canonical.is_empty() => canonical.push_str(name),
+            PathStep::Key(name) => {
                 let _ = write!(canonical, ".{name}");
             }
-            Step::Index(index) => {
+            PathStep::Index(index) => {
                 let _ = write!(canonical, "[{index}]");
             }
         }
@@ -97,7 +97,8 @@ pub(in crate::study) fn set(
         Ok(found) => found,
         Err(lost) => {
             let fault = if lost.allowed.is_some() { Fault::Conflict } else { Fault::Unknown };
-            let allowed = lost.allowed.unwrap_or_else(|| "the keys of the study".to_owned());
+            let allowed =
+                lost.allowed.unwrap_or_else(|| "the keys listed by `quell schema`".to_owned());
             let complaint = Complaint::new(fault, path, node.origin, node.given(), allowed);
             return Err(Box::new(complaint.suggesting(lost.nearest)));
         }
@@ -109,7 +110,7 @@ pub(in crate::study) fn set(
         at = next;
     }
     match (at, last) {
-        (Place::Table(table), Step::Key(name)) => {
+        (Place::Table(table), PathStep::Key(name)) => {
             for sibling in &found.replaces {
                 if sibling != name {
                     table.remove(sibling);
@@ -117,7 +118,7 @@ pub(in crate::study) fn set(
             }
             table.set(name, node.clone());
         }
-        (Place::List(list), Step::Index(index)) => {
+        (Place::List(list), PathStep::Index(index)) => {
             if let Some(entry) = list.get_mut(*index) {
                 *entry = node.clone();
             }
@@ -130,67 +131,28 @@ pub(in crate::study) fn set(
 /// The number at a path; `None` if the study has none there.
 pub(super) fn number(document: &Table, numbers: &Numbers, path: &str) -> Option<f64> {
     let found = follow(document, path).ok().filter(|found| found.is_number)?;
-    let wanted = Wanted { twin: found.twin, ..Wanted::finite(found.quantity) };
+    let wanted = WantedNumber { twin: found.twin, ..WantedNumber::finite(found.quantity) };
     let size = numbers.file_units(wanted);
     let node = found.node(document);
     if let Some(node) = node {
         return numbers.value(node, wanted).ok().map(|value| value / size);
     }
     // The number may be given by another key in other units, or have a default.
-    let (Some(Step::Key(last)), Some(parameter)) = (found.steps.last(), found.parameter) else {
+    let (Some(PathStep::Key(last)), Some(parameter)) = (found.steps.last(), found.parameter) else {
         return None;
     };
     for other in found.replaces.iter().filter(|name| *name != last) {
         let mut steps = found.steps.clone();
         steps.pop();
-        steps.push(Step::Key(other.clone()));
+        steps.push(PathStep::Key(other.clone()));
         let twin = other != parameter.key();
         if let Some(node) = node_at(document, &steps) {
-            let wanted = Wanted { twin, ..wanted };
+            let wanted = WantedNumber { twin, ..wanted };
             return numbers.value(node, wanted).ok().map(|value| value / size);
         }
     }
     let optional = ["normal_stiffness", "normal_damping", "phase"];
     optional.contains(&parameter.key()).then_some(0.0)
-}
-
-/// A step from a value of the document to one inside it.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Step {
-    Key(String),
-    Index(usize),
-}
-
-/// A path that was followed to its end.
-#[derive(Debug)]
-pub(super) struct Found {
-    pub(super) steps: Vec<Step>,
-    pub(super) about: &'static str,
-    pub(super) parameter: Option<Parameter>,
-    pub(super) quantity: Option<Quantity>,
-    pub(super) twin: bool,
-    pub(super) is_number: bool,
-    /// Keys of the same table that the value replaces.
-    pub(super) replaces: Vec<String>,
-}
-
-impl Found {
-    fn node<'d>(&self, document: &'d Table) -> Option<&'d Node> {
-        node_at(document, &self.steps)
-    }
-}
-
-fn node_at<'d>(document: &'d Table, steps: &[Step]) -> Option<&'d Node> {
-    let (Step::Key(first), rest) = steps.split_first()? else { return None };
-    let mut node = document.get(first)?;
-    for step in rest {
-        node = match (&node.value, step) {
-            (Value::Table(table), Step::Key(name)) => table.get(name)?,
-            (Value::List(list), Step::Index(index)) => list.get(*index)?,
-            _ => return None,
-        };
-    }
-    Some(node)
 }
 
 /// A value of the document that is changed.
@@ -201,16 +163,16 @@ enum Place<'d> {
 
 impl<'d> Place<'d> {
     /// The value inside; a missing table is created.
-    fn inside(self, step: &Step, node: &Node) -> Option<Self> {
+    fn inside(self, step: &PathStep, node: &Node) -> Option<Self> {
         let value: &'d mut Value = match (self, step) {
-            (Self::Table(table), Step::Key(name)) => {
+            (Self::Table(table), PathStep::Key(name)) => {
                 if !table.has(name) {
                     let value = Value::Table(Table::default());
                     table.set(name, Node { value, origin: node.origin });
                 }
                 &mut table.get_mut(name)?.value
             }
-            (Self::List(list), Step::Index(index)) => &mut list.get_mut(*index)?.value,
+            (Self::List(list), PathStep::Index(index)) => &mut list.get_mut(*index)?.value,
             _ => return None,
         };
         match value {

@@ -8,13 +8,14 @@ use serde_json::Value as Json;
 use super::contact::{self, ContactContext};
 use super::dither::{self, DitherContext};
 use super::frequency_response::{self, FrequencyResponse};
-use super::keys::SystemTable;
+use super::keys::{OTHER_KINDS, SystemTable};
 use super::modes::{self, ModesContext};
 use super::modes_file::ModeList;
 use super::numbers::{Numbers, missing, unknown_keys};
-use super::structure::{self, Body};
+use super::setup::SystemSetup;
+use super::structure::{self, ReadStructure};
 use super::units::SystemUnits;
-use super::{OTHER_KINDS, SystemSetup, initial, parameters, plausible};
+use super::{initial, parameters, plausible};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::Table;
 use crate::study::reader::Reader;
@@ -39,7 +40,7 @@ pub(super) fn study(
     let table = reader.table("system", node)?;
     unknown_keys(reader, table, "system", SystemTable::System);
     let read = body(reader, &numbers, table, header, given);
-    let Read { body: Body { basis, structure }, modes, response } = read;
+    let Read { body: ReadStructure { basis, structure }, modes, response } = read;
     // Without names no row can be read.
     let basis = basis?;
     let first_order = table.has("states");
@@ -129,7 +130,7 @@ const FORMS: &[(&[&str], &[&str])] = &[
 /// A structure and the files that it was read from.
 #[derive(Default)]
 struct Read {
-    body: Body,
+    body: ReadStructure,
     modes: Vec<Arc<ModeList>>,
     response: Option<Arc<FrequencyResponse>>,
 }

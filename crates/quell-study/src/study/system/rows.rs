@@ -2,7 +2,7 @@
 
 use quell_numerics::matrix::Matrix;
 
-use super::numbers::{Numbers, Wanted};
+use super::numbers::{Numbers, WantedNumber};
 use crate::complaint::{Complaint, Fault};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
@@ -10,24 +10,24 @@ use crate::study::suggest;
 
 /// The names over which rows are written.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Basis {
+pub(super) struct RowBasis {
     /// Names of the coordinates or states: an array has one number for each.
     pub(super) names: Vec<String>,
     /// What a name is.
     pub(super) what: &'static str,
-    /// Points of modal structures: a name of a point stands for its row over the modal coordinates.
-    pub(super) points: Option<Points>,
+    /// ShapePoints of modal structures: a name of a point stands for its row over the modal coordinates.
+    pub(super) points: Option<ShapePoints>,
 }
 
-/// Points of a structure given by its modes.
+/// ShapePoints of a structure given by its modes.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Points {
+pub(super) struct ShapePoints {
     pub(super) names: Vec<String>,
     /// A row over the modal coordinates for each point.
     pub(super) rows: Matrix,
 }
 
-impl Basis {
+impl RowBasis {
     /// Coordinates or states.
     pub(super) fn of(names: Vec<String>, what: &'static str) -> Self {
         Self { names, what, points: None }
@@ -45,7 +45,7 @@ impl Basis {
         numbers: &Numbers,
         key: &str,
         node: &Node,
-        wanted: Wanted,
+        wanted: WantedNumber,
     ) -> Option<Vec<f64>> {
         match &node.value {
             Value::List(list) => self.array(reader, numbers, key, node, list, wanted),
@@ -74,7 +74,7 @@ impl Basis {
         key: &str,
         node: &Node,
     ) -> Option<Vec<f64>> {
-        let row = self.row(reader, numbers, key, node, Wanted::finite(None))?;
+        let row = self.row(reader, numbers, key, node, WantedNumber::finite(None))?;
         if row.iter().all(|entry| *entry == 0.0) {
             let allowed = format!("a row with at least one {} whose number is not 0", self.what);
             reader.wrong(key, node, allowed);
@@ -90,7 +90,7 @@ impl Basis {
         key: &str,
         node: &Node,
         list: &[Node],
-        wanted: Wanted,
+        wanted: WantedNumber,
     ) -> Option<Vec<f64>> {
         if list.len() != self.names.len() {
             let allowed = format!(
@@ -120,7 +120,7 @@ impl Basis {
         key: &str,
         first: &str,
         table: &Table,
-        wanted: Wanted,
+        wanted: WantedNumber,
         row: &mut [f64],
     ) -> bool {
         let mut right = true;

@@ -2,35 +2,20 @@
 
 use std::fmt::Write as _;
 
+use super::found::{FoundPath, LostPath, PathStep};
 use super::keys::{SystemKey, SystemRole, SystemTable, system_keys};
-use super::path::{Found, Step};
 use crate::study::document::{Node, Table, Value};
 use crate::study::suggest;
 use crate::study::vocabulary::{self, Role, Section};
 
-/// A path that leads nowhere.
-#[derive(Debug, Default)]
-pub(super) struct Lost {
-    /// The nearest path.
-    pub(super) nearest: Option<String>,
-    /// What is wrong, if more is known than that the path does not exist.
-    pub(super) allowed: Option<String>,
-}
-
-impl Lost {
-    pub(super) fn because(allowed: impl Into<String>) -> Self {
-        Self { allowed: Some(allowed.into()), ..Self::default() }
-    }
-}
-
 /// A name of a path with the indices after it.
 #[derive(Clone, Debug)]
-pub(super) struct Segment<'p> {
+pub(super) struct PathSegment<'p> {
     pub(super) name: &'p str,
     pub(super) indices: Vec<usize>,
 }
 
-fn segments(path: &str) -> Option<Vec<Segment<'_>>> {
+fn segments(path: &str) -> Option<Vec<PathSegment<'_>>> {
     path.trim()
         .split('.')
         .map(|part| {
@@ -44,37 +29,37 @@ fn segments(path: &str) -> Option<Vec<Segment<'_>>> {
                 indices.push(index.trim().parse().ok()?);
                 rest = after;
             }
-            (rest.is_empty() && !name.is_empty()).then_some(Segment { name, indices })
+            (rest.is_empty() && !name.is_empty()).then_some(PathSegment { name, indices })
         })
         .collect()
 }
 
 /// Follows a path through the document.
-pub(super) fn follow(document: &Table, path: &str) -> Result<Found, Lost> {
-    let Some(segments) = segments(path) else { return Err(Lost::default()) };
+pub(super) fn follow(document: &Table, path: &str) -> Result<FoundPath, LostPath> {
+    let Some(segments) = segments(path) else { return Err(LostPath::default()) };
     let mut walk = Walk { document, steps: Vec::new(), written: String::new() };
     walk.table(SystemTable::Root, Some(document), &segments)
 }
 
 pub(super) struct Walk<'d> {
     pub(super) document: &'d Table,
-    pub(super) steps: Vec<Step>,
+    pub(super) steps: Vec<PathStep>,
     /// The part of the path that was followed.
     pub(super) written: String,
 }
 
 impl<'d> Walk<'d> {
     fn go(&mut self, name: &str) {
-        self.steps.push(Step::Key(name.to_owned()));
+        self.steps.push(PathStep::Key(name.to_owned()));
         if !self.written.is_empty() {
             self.written.push('.');
         }
         self.written.push_str(name);
     }
 
-    pub(super) fn found(&self, key: &SystemKey, twin: bool) -> Found {
+    pub(super) fn found(&self, key: &SystemKey, twin: bool) -> FoundPath {
         let replaces = std::iter::once(key.name.to_owned()).chain(key.twins()).collect();
-        Found {
+        FoundPath {
             steps: self.steps.clone(),
             about: key.about,
             parameter: match key.role {
@@ -93,11 +78,11 @@ impl<'d> Walk<'d> {
         &mut self,
         which: SystemTable,
         table: Option<&'d Table>,
-        path: &[Segment<'_>],
-    ) -> Result<Found, Lost> {
+        path: &[PathSegment<'_>],
+    ) -> Result<FoundPath, LostPath> {
         let Some((segment, rest)) = path.split_first() else {
             let allowed = format!("set key by key: {} is a table", self.written);
-            return Err(Lost::because(allowed));
+            return Err(LostPath::because(allowed));
         };
         match which {
             SystemTable::Named => return self.named(table, segment, rest),
@@ -130,7 +115,7 @@ impl<'d> Walk<'d> {
                 }
                 Ok(found)
             }
-            _ => Err(Lost::default()),
+            _ => Err(LostPath::default()),
         }
     }
 
@@ -139,9 +124,9 @@ impl<'d> Walk<'d> {
         &mut self,
         which: SystemTable,
         node: Option<&'d Node>,
-        segment: &Segment<'_>,
-        rest: &[Segment<'_>],
-    ) -> Result<Found, Lost> {
+        segment: &PathSegment<'_>,
+        rest: &[PathSegment<'_>],
+    ) -> Result<FoundPath, LostPath> {
         let (entries, listed): (&[Node], bool) = match node {
             None => (&[], false),
             Some(Node { value: Value::List(list), .. }) => (list, true),
@@ -162,13 +147,13 @@ impl<'d> Walk<'d> {
             ([], Some(index)) => (index, &rest[1..]),
             ([], None) if entries.len() == 1 => (0, rest),
             ([], None) => return Err(unspecified(segment.name, entries, rest)),
-            _ => return Err(Lost::default()),
+            _ => return Err(LostPath::default()),
         };
         let Some(entry) = entries.get(index) else {
-            return Err(Lost::because(counted(segment.name, entries.len())));
+            return Err(LostPath::because(counted(segment.name, entries.len())));
         };
         if listed {
-            self.steps.push(Step::Index(index));
+            self.steps.push(PathStep::Index(index));
         }
         if entries.len() > 1 {
             let _ = match name_of(entry) {
@@ -184,9 +169,9 @@ impl<'d> Walk<'d> {
         {
             if entries.len() > 1 {
                 let allowed = "the law of this contact is that of all contacts: use friction.…";
-                return Err(Lost::because(allowed));
+                return Err(LostPath::because(allowed));
             }
-            self.steps = vec![Step::Key("friction".to_owned())];
+            self.steps = vec![PathStep::Key("friction".to_owned())];
             return self.friction_of(shared.table(), &rest[1..]);
         }
         self.table(which, table, rest)
@@ -195,9 +180,9 @@ impl<'d> Walk<'d> {
     fn friction_of(
         &mut self,
         table: Option<&'d Table>,
-        rest: &[Segment<'_>],
-    ) -> Result<Found, Lost> {
-        let (segment, rest) = rest.split_first().ok_or_else(Lost::default)?;
+        rest: &[PathSegment<'_>],
+    ) -> Result<FoundPath, LostPath> {
+        let (segment, rest) = rest.split_first().ok_or_else(LostPath::default)?;
         self.friction(table, segment, rest)
     }
 
@@ -205,9 +190,9 @@ impl<'d> Walk<'d> {
     fn friction(
         &mut self,
         table: Option<&'d Table>,
-        segment: &Segment<'_>,
-        rest: &[Segment<'_>],
-    ) -> Result<Found, Lost> {
+        segment: &PathSegment<'_>,
+        rest: &[PathSegment<'_>],
+    ) -> Result<FoundPath, LostPath> {
         if segment.name == "constants" {
             let inner = table.and_then(|table| table.get("constants")).and_then(Node::table);
             self.go("constants");
@@ -222,7 +207,7 @@ impl<'d> Walk<'d> {
             let twins = parameter.si.iter().map(|twin| twin.key.to_owned());
             twins.chain([parameter.key().to_owned()]).collect()
         });
-        let mut found = Found {
+        let mut found = FoundPath {
             steps: self.steps.clone(),
             about: key.about,
             parameter,
@@ -232,7 +217,7 @@ impl<'d> Walk<'d> {
             replaces: siblings.unwrap_or_default(),
         };
         if let [index] = segment.indices.as_slice() {
-            found.steps.push(Step::Index(*index));
+            found.steps.push(PathStep::Index(*index));
         }
         Ok(found)
     }
@@ -241,18 +226,18 @@ impl<'d> Walk<'d> {
     fn named(
         &mut self,
         table: Option<&'d Table>,
-        segment: &Segment<'_>,
-        rest: &[Segment<'_>],
-    ) -> Result<Found, Lost> {
+        segment: &PathSegment<'_>,
+        rest: &[PathSegment<'_>],
+    ) -> Result<FoundPath, LostPath> {
         let known: Vec<&str> =
             table.into_iter().flat_map(Table::iter).map(|(name, _)| name).collect();
         if !known.contains(&segment.name) || !rest.is_empty() || !segment.indices.is_empty() {
             let nearest = suggest::word(segment.name, known);
             let nearest = nearest.map(|name| format!("{}.{name}", self.written));
-            return Err(Lost { nearest, allowed: None });
+            return Err(LostPath { nearest, allowed: None });
         }
         self.go(segment.name);
-        Ok(Found {
+        Ok(FoundPath {
             steps: self.steps.clone(),
             about: "a named number of the study",
             parameter: None,
@@ -264,7 +249,12 @@ impl<'d> Walk<'d> {
     }
 
     /// A name that a table does not have, with the nearest one.
-    fn lost(&self, which: SystemTable, segment: &Segment<'_>, rest: &[Segment<'_>]) -> Lost {
+    fn lost(
+        &self,
+        which: SystemTable,
+        segment: &PathSegment<'_>,
+        rest: &[PathSegment<'_>],
+    ) -> LostPath {
         let here: Vec<String> = if which == SystemTable::Friction {
             let keys = vocabulary::keys_of(Section::Friction);
             let plain = keys.filter(|key| !matches!(key.role, Role::FrictionForce(..)));
@@ -277,9 +267,20 @@ impl<'d> Walk<'d> {
         let nearest = nearest.map(|name| {
             let first =
                 if self.written.is_empty() { name } else { format!("{}.{name}", self.written) };
-            let same = Segment { name: "", indices: segment.indices.clone() };
+            let same = PathSegment { name: "", indices: segment.indices.clone() };
             format!("{first}{}{}", after_indices(&same), after(rest))
         });
+        // The only contact may be named, and its name mistyped.
+        let contact = || {
+            let named = which == SystemTable::Contact && !rest.is_empty();
+            let node = self.document.get("contact").filter(|_| named)?;
+            let entries = match &node.value {
+                Value::List(list) => list.as_slice(),
+                _ => std::slice::from_ref(node),
+            };
+            let name = suggest::word(segment.name, entries.iter().filter_map(name_of))?;
+            Some(format!("contact.{name}{}", after(rest)))
+        };
         let elsewhere = || {
             let alone = which == SystemTable::Root && rest.is_empty();
             let tables = [
@@ -295,7 +296,7 @@ impl<'d> Walk<'d> {
             let has = alone && named.is_some_and(|table| table.has(segment.name));
             if has { Some(format!("parameters.{}", segment.name)) } else { found }
         };
-        Lost { nearest: nearest.or_else(elsewhere), allowed: None }
+        LostPath { nearest: contact().or(nearest).or_else(elsewhere), allowed: None }
     }
 }
 
@@ -308,7 +309,7 @@ fn name_of(node: &Node) -> Option<&str> {
 }
 
 /// A path that names no entry of a list of several.
-fn unspecified(name: &str, entries: &[Node], rest: &[Segment<'_>]) -> Lost {
+fn unspecified(name: &str, entries: &[Node], rest: &[PathSegment<'_>]) -> LostPath {
     let first = rest.first().map(|first| first.name).unwrap_or_default();
     let names: Vec<&str> = entries.iter().filter_map(name_of).collect();
     let nearest = suggest::word(first, names.iter().copied()).filter(|_| rest.len() > 1);
@@ -320,7 +321,7 @@ fn unspecified(name: &str, entries: &[Node], rest: &[Segment<'_>]) -> Lost {
         }
         _ => format!("specify which one: {name}.NAME, NAME one of {}", names.join(", ")),
     };
-    Lost { nearest, allowed: Some(allowed) }
+    LostPath { nearest, allowed: Some(allowed) }
 }
 
 /// How many entries a list has.
@@ -333,7 +334,7 @@ fn counted(name: &str, count: usize) -> String {
 }
 
 /// The rest of a path as it was written.
-fn after(rest: &[Segment<'_>]) -> String {
+fn after(rest: &[PathSegment<'_>]) -> String {
     let mut text = String::new();
     for segment in rest {
         let _ = write!(text, ".{}{}", segment.name, after_indices(segment));
@@ -341,7 +342,7 @@ fn after(rest: &[Segment<'_>]) -> String {
     text
 }
 
-fn after_indices(segment: &Segment<'_>) -> String {
+fn after_indices(segment: &PathSegment<'_>) -> String {
     let mut text = String::new();
     for index in &segment.indices {
         let _ = write!(text, "[{index}]");

@@ -1,8 +1,8 @@
 //! The end of a path: an entry of a matrix or of a row.
 
+use super::found::{FoundPath, LostPath, PathStep};
 use super::keys::{SystemKey, SystemTable};
-use super::path::{Found, Step};
-use super::walk::{Lost, Segment, Walk};
+use super::walk::{PathSegment, Walk};
 use crate::study::document::{Node, Value};
 use crate::study::suggest;
 
@@ -13,11 +13,11 @@ impl<'d> Walk<'d> {
         key: &SystemKey,
         twin: bool,
         node: Option<&'d Node>,
-        segment: &Segment<'_>,
-        rest: &[Segment<'_>],
-    ) -> Result<Found, Lost> {
+        segment: &PathSegment<'_>,
+        rest: &[PathSegment<'_>],
+    ) -> Result<FoundPath, LostPath> {
         let Some(Value::List(list)) = node.map(|node| &node.value) else {
-            return Err(Lost::default());
+            return Err(LostPath::default());
         };
         let diagonal = !matches!(list.first().map(|node| &node.value), Some(Value::List(_)));
         let name = &self.written;
@@ -29,18 +29,20 @@ impl<'d> Walk<'d> {
             ([_, _], true) => {
                 let allowed =
                     format!("{name} is a diagonal of {n} numbers: {name}[0] to {name}[{}]", n - 1);
-                return Err(Lost::because(allowed));
+                return Err(LostPath::because(allowed));
             }
             _ => {
                 let example = if diagonal { "[0]" } else { "[0][1]" };
-                return Err(Lost::because(format!("set entry by entry, such as {name}{example}")));
+                return Err(LostPath::because(format!(
+                    "set entry by entry, such as {name}{example}"
+                )));
             }
         };
         if !rest.is_empty() || indices.iter().any(|index| *index >= n) {
-            return Err(Lost::because(format!("{name} has {n} rows; indices begin at 0")));
+            return Err(LostPath::because(format!("{name} has {n} rows; indices begin at 0")));
         }
-        self.steps.extend(indices.into_iter().map(Step::Index));
-        Ok(Found { is_number: true, replaces: Vec::new(), ..self.found(key, twin) })
+        self.steps.extend(indices.into_iter().map(PathStep::Index));
+        Ok(FoundPath { is_number: true, replaces: Vec::new(), ..self.found(key, twin) })
     }
 
     /// An entry of a row, by name or index, in the form in which the row is written.
@@ -50,50 +52,50 @@ impl<'d> Walk<'d> {
         twin: bool,
         which: SystemTable,
         node: Option<&'d Node>,
-        segment: &Segment<'_>,
-        rest: &[Segment<'_>],
-    ) -> Result<Found, Lost> {
+        segment: &PathSegment<'_>,
+        rest: &[PathSegment<'_>],
+    ) -> Result<FoundPath, LostPath> {
         let names = self.names(which, key.name);
         let listed = matches!(node.map(|node| &node.value), Some(Value::List(_)));
         let inner: Vec<&str> = rest.iter().map(|segment| segment.name).collect();
         let name = inner.join(".");
         let plain = rest.iter().all(|segment| segment.indices.is_empty());
         let last = match (segment.indices.as_slice(), rest.is_empty(), listed) {
-            ([index], true, true) => Step::Index(*index),
+            ([index], true, true) => PathStep::Index(*index),
             ([index], true, false) => {
-                Step::Key(names.get(*index).cloned().ok_or_else(Lost::default)?)
+                PathStep::Key(names.get(*index).cloned().ok_or_else(LostPath::default)?)
             }
             ([], false, true) if plain => {
                 let place = names.iter().position(|known| *known == name);
-                Step::Index(place.ok_or_else(|| self.unknown_name(&name, &names))?)
+                PathStep::Index(place.ok_or_else(|| self.unknown_name(&name, &names))?)
             }
-            ([], false, false) if plain => Step::Key(name),
+            ([], false, false) if plain => PathStep::Key(name),
             _ => {
                 let allowed = format!("set entry by entry, such as {}.x", self.written);
-                return Err(Lost::because(allowed));
+                return Err(LostPath::because(allowed));
             }
         };
         match last {
             // Names with a dot are nested tables where they were written without quotes.
-            Step::Key(name) => {
+            PathStep::Key(name) => {
                 let table = node.and_then(Node::table);
                 let whole = table.is_none_or(|table| table.has(&name)) || !name.contains('.');
                 if whole {
-                    self.steps.push(Step::Key(name));
+                    self.steps.push(PathStep::Key(name));
                 } else {
-                    let parts = name.split('.').map(|part| Step::Key(part.to_owned()));
+                    let parts = name.split('.').map(|part| PathStep::Key(part.to_owned()));
                     self.steps.extend(parts);
                 }
             }
-            index @ Step::Index(_) => self.steps.push(index),
+            index @ PathStep::Index(_) => self.steps.push(index),
         }
-        Ok(Found { is_number: true, replaces: Vec::new(), ..self.found(key, twin) })
+        Ok(FoundPath { is_number: true, replaces: Vec::new(), ..self.found(key, twin) })
     }
 
-    fn unknown_name(&self, name: &str, names: &[String]) -> Lost {
+    fn unknown_name(&self, name: &str, names: &[String]) -> LostPath {
         let nearest = suggest::word(name, names.iter().map(String::as_str));
         let nearest = nearest.map(|name| format!("{}.{name}", self.written));
-        Lost { nearest, allowed: None }
+        LostPath { nearest, allowed: None }
     }
 
     /// Names of the entries of a row that is written as an array.

@@ -1,0 +1,84 @@
+//! Square matrices: a diagonal, or rows.
+
+use quell_model::units::Quantity;
+use quell_numerics::matrix::Matrix;
+
+use super::names::PREFIX;
+use super::numbers::{Keyed, Numbers, Reported, WantedNumber};
+use crate::complaint::{Complaint, Fault};
+use crate::study::document::{Node, Table, Value};
+use crate::study::reader::Reader;
+
+/// A square matrix of size `n`, if it is given: a diagonal or rows.
+pub(super) fn matrix(
+    reader: &mut Reader,
+    numbers: &Numbers,
+    table: &Table,
+    name: &'static str,
+    n: usize,
+) -> Result<Option<Matrix>, Reported> {
+    let quantity = match name {
+        "mass" => Some(Quantity::LoadMass),
+        "damping" => Some(Quantity::LoadDamping),
+        "stiffness" => Some(Quantity::LoadStiffness),
+        _ => None,
+    };
+    let before = reader.complaints_so_far();
+    let found = numbers.array(reader, table, PREFIX, name, quantity);
+    let Some(Keyed { node, key, twin }) = found else {
+        return if reader.complaints_so_far() == before { Ok(None) } else { Err(Reported) };
+    };
+    let wanted = WantedNumber { twin, ..WantedNumber::finite(quantity) };
+    let diagonal_allowed = name != "matrix" || n == 1;
+    entries(reader, numbers, &key, node, wanted, n, diagonal_allowed).map(Some).ok_or(Reported)
+}
+
+fn entries(
+    reader: &mut Reader,
+    numbers: &Numbers,
+    key: &str,
+    node: &Node,
+    wanted: WantedNumber,
+    n: usize,
+    diagonal_allowed: bool,
+) -> Option<Matrix> {
+    let diagonal =
+        if diagonal_allowed { format!("a diagonal of {n} numbers, or ") } else { String::new() };
+    let shape = format!("{diagonal}{n} rows of {n} numbers");
+    let Value::List(list) = &node.value else {
+        reader.wrong(key, node, format!("{shape}; got {}", node.kind()));
+        return None;
+    };
+    let rows = list.iter().filter(|node| matches!(node.value, Value::List(_))).count();
+    let is_diagonal = rows == 0 && diagonal_allowed;
+    if list.len() != n || (rows > 0 && rows < n) || (rows == 0 && !diagonal_allowed) {
+        let got = if rows == 0 { "numbers" } else { "rows" };
+        let allowed = format!("{shape}, one for each name; got {} {got}", list.len());
+        reader.complain(Complaint::new(Fault::Value, key, node.origin, list.len(), allowed));
+        return None;
+    }
+    let mut matrix = Matrix::zeros(n, n);
+    let mut right = true;
+    for (i, node) in list.iter().enumerate() {
+        if is_diagonal {
+            let number = numbers.number(reader, || format!("{key}[{i}]"), node, wanted);
+            right &= number.is_some();
+            matrix[(i, i)] = number.unwrap_or(f64::NAN);
+            continue;
+        }
+        let Value::List(row) = &node.value else { continue };
+        if row.len() != n {
+            let allowed = format!("a row of {n} numbers; got {}", row.len());
+            let at = format!("{key}[{i}]");
+            reader.complain(Complaint::new(Fault::Value, at, node.origin, row.len(), allowed));
+            right = false;
+            continue;
+        }
+        for (j, node) in row.iter().enumerate() {
+            let number = numbers.number(reader, || format!("{key}[{i}][{j}]"), node, wanted);
+            right &= number.is_some();
+            matrix[(i, j)] = number.unwrap_or(f64::NAN);
+        }
+    }
+    right.then_some(matrix)
+}

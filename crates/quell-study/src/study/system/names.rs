@@ -1,0 +1,52 @@
+//! Names of coordinates, states, components and contacts.
+
+use crate::complaint::{Complaint, Fault};
+use crate::study::document::{Table, Value};
+use crate::study::reader::Reader;
+use crate::study::vocabulary::join;
+
+/// The largest number of coordinates, states or modes.
+pub(super) const MOST_COORDINATES: usize = 2000;
+
+/// The prefix of the keys read here.
+pub(super) const PREFIX: &str = "system";
+
+/// Names of coordinates or states, each once.
+pub(super) fn names(reader: &mut Reader, table: &Table, key: &str) -> Option<Vec<String>> {
+    let node = table.get(key)?;
+    let key = join(PREFIX, key);
+    let Value::List(list) = &node.value else {
+        reader.wrong(&key, node, format!("an array of names; got {}", node.kind()));
+        return None;
+    };
+    if list.is_empty() || list.len() > MOST_COORDINATES {
+        let allowed = format!("an array of 1 to {MOST_COORDINATES} names; got {}", list.len());
+        reader.complain(Complaint::new(Fault::Value, key, node.origin, list.len(), allowed));
+        return None;
+    }
+    let mut names: Vec<String> = Vec::with_capacity(list.len());
+    let mut right = true;
+    for (index, node) in list.iter().enumerate() {
+        let at = format!("{key}[{index}]");
+        match &node.value {
+            Value::Text(text) if names.contains(text) => {
+                reader.wrong(&at, node, "a name that no other coordinate has");
+                right = false;
+            }
+            Value::Text(text) if is_plain_name(text) => names.push(text.clone()),
+            _ => {
+                reader.wrong(&at, node, NAME);
+                right = false;
+            }
+        }
+    }
+    right.then_some(names)
+}
+
+/// What a name of a coordinate, a component or a contact must be.
+pub(super) const NAME: &str = "a name in quotes without the characters . [ ] = ,";
+
+/// Whether a name can be part of a path.
+pub(super) fn is_plain_name(name: &str) -> bool {
+    !name.trim().is_empty() && name.trim() == name && !name.contains(['.', '[', ']', '=', ','])
+}
