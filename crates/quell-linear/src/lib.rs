@@ -11,6 +11,7 @@ pub mod floquet;
 pub mod growth;
 pub mod harmonic;
 pub mod linearised;
+pub mod measured;
 pub mod pure_slip;
 pub mod spectrum;
 pub mod steady;

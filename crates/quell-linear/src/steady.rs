@@ -182,7 +182,7 @@ impl SteadySliding {
 }
 
 /// Mean of the factors on the friction force of a contact; 1 without any.
-fn mean_factor(system: &System, index: usize) -> f64 {
+pub(crate) fn mean_factor(system: &System, index: usize) -> f64 {
     let on_it = |target: &InputTarget| matches!(target, InputTarget::Friction { contact } if *contact == index);
     let mut factors = system.inputs.iter().filter(|input| on_it(&input.target)).peekable();
     if factors.peek().is_none() {

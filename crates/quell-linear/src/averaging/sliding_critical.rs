@@ -5,18 +5,11 @@
 //! its mean friction rises steeply with the slip velocity.
 
 use super::critical_amplitudes::Becomes;
+use super::fast_inputs::FastInputs;
 use super::sign_changes::{CrossingKind, sign_changes};
 use super::sliding::{DitheredSystem, NoAverage};
 use crate::growth::Verdict;
 
-/// Amplitudes are searched from the smallest corner divided by this …
-const BELOW: f64 = 1e3;
-/// … up to the largest corner times this. Far beyond a corner mean friction falls like the inverse of the amplitude.
-const BEYOND: f64 = 30.0;
-/// Ratio of neighbouring amplitudes of the search.
-const STEP: f64 = 1.05;
-/// Amplitudes on each side of a corner, each at half the distance of the last.
-const AROUND: i32 = 14;
 /// Relative distance at which the verdict beyond a change is evaluated.
 const ASIDE: f64 = 1e-6;
 
@@ -42,11 +35,8 @@ impl DitheredSystem<'_> {
     /// # Errors
     /// [`NoAverage`] if a mean has no value.
     pub fn critical_amplitudes(&self, input: usize) -> Result<Vec<CriticalInput>, NoAverage> {
-        let corners = self.corners(input)?;
-        let (Some(&least), Some(&largest)) = (corners.first(), corners.last()) else {
-            return Ok(Vec::new());
-        };
-        let points = amplitudes(least, largest, &corners);
+        let corners = self.fast().corners(self.system(), input)?;
+        let points = FastInputs::amplitudes(&corners);
         let growth = |amplitude: f64| -> Result<f64, NoAverage> {
             let growth = self.average_with(Some((input, amplitude)))?.growth()?;
             Ok(if growth.verdict() == Verdict::Undecided { 0.0 } else { growth.rate })
@@ -72,50 +62,4 @@ impl DitheredSystem<'_> {
         }
         Ok(found)
     }
-
-    /// Amplitudes at which the fast slip of a contact reaches the velocity of its surface, ascending.
-    fn corners(&self, input: usize) -> Result<Vec<f64>, NoAverage> {
-        let mut corners: Vec<f64> = Vec::new();
-        for contact in 0..self.system().contacts.len() {
-            let excess = |amplitude: f64| self.reversal_excess(contact, Some((input, amplitude)));
-            let (at_none, at_one) = (excess(0.0)?, excess(1.0)?);
-            let alone = self.system().inputs.len() == 1;
-            if at_one == at_none {
-                continue;
-            }
-            // The slip of a single dither is proportional to its amplitude.
-            let proportional = -at_none / (at_one - at_none);
-            if alone {
-                corners.push(proportional);
-                continue;
-            }
-            let scale = proportional.abs().max(f64::MIN_POSITIVE);
-            let points: Vec<f64> =
-                (0..240).map(|k| scale * libm::exp(-9.0 + 0.06 * f64::from(k))).collect();
-            let changes = sign_changes(excess, &points, &[])?;
-            corners.extend(changes.into_iter().map(|change| change.location));
-        }
-        corners.retain(|corner| corner.is_finite() && *corner > 0.0);
-        corners.sort_unstable_by(f64::total_cmp);
-        corners.dedup_by(|a, b| (*a - *b).abs() <= 1e-14 * b.abs());
-        Ok(corners)
-    }
-}
-
-/// Amplitudes of the search: in equal ratios, and closer to the corners.
-fn amplitudes(least: f64, largest: f64, corners: &[f64]) -> Vec<f64> {
-    let (mut amplitude, end) = (least / BELOW, largest * BEYOND);
-    let mut points = vec![0.0];
-    while amplitude < end {
-        points.push(amplitude);
-        amplitude *= STEP;
-    }
-    points.push(end);
-    for corner in corners {
-        let distances = (1..=AROUND).map(|k| 2f64.powi(-k));
-        points.extend(distances.flat_map(|d| [corner * (1.0 - d), corner * (1.0 + d)]));
-    }
-    points.sort_unstable_by(f64::total_cmp);
-    points.dedup();
-    points
 }

@@ -56,6 +56,8 @@ pub enum Status {
     NoSteadySliding = 30,
     /// A dither excites an undamped resonance.
     Resonance = 31,
+    /// The structure is known by a measured frequency response alone.
+    OnlyMeasured = 32,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -86,6 +88,7 @@ impl Status {
         Self::BeyondRange,
         Self::NoSteadySliding,
         Self::Resonance,
+        Self::OnlyMeasured,
         Self::Missing,
     ];
 
@@ -130,6 +133,7 @@ impl Status {
             Self::BeyondRange => "beyond_range",
             Self::NoSteadySliding => "no_steady_sliding",
             Self::Resonance => "resonance",
+            Self::OnlyMeasured => "only_measured",
             Self::Missing => "missing",
         }
     }
@@ -179,6 +183,9 @@ impl Status {
             }
             Self::NoSteadySliding => "there is no steady sliding",
             Self::Resonance => "a dither excites an undamped resonance of the structure",
+            Self::OnlyMeasured => {
+                "the structure is known by a measured frequency response alone, which gives no growth rate"
+            }
             Self::Missing => "not computed yet",
         }
     }

@@ -1,6 +1,7 @@
 //! Answers of a study of a system, one file per verb.
 
 mod exact;
+mod measured;
 mod modes;
 mod reach;
 mod stability;

@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod exact;
+pub mod measured;
 pub mod modes;
 pub mod reach;
 pub mod stability;

@@ -228,28 +228,38 @@ impl SystemStability {
             .rate("growth_rate_error", Ok(undithered.growth.error))
             .number("frequency", Quantity::FrequencyRatio, undithered.growth.frequency);
         fields.nested("undithered", inner);
-        match critical {
-            Err(why) => {
-                fields.unknown("critical_amplitudes", why.clone());
-            }
-            Ok(critical) => {
-                let items = critical.iter().map(|found| {
-                    let mut inner = Fields::of_system(units);
-                    inner
-                        .number("amplitude", Quantity::Force, found.amplitude)
-                        .number("amplitude_error", Quantity::Force, found.error)
-                        .plain("kind", kind(found.crossing))
-                        .plain("becomes", becomes(found.becomes))
-                        .plain("contacts_stay_closed", found.contacts_stay_closed);
-                    inner
-                });
-                fields.list("critical_amplitudes", items.collect::<Vec<_>>());
-            }
-        }
+        put_critical(fields, units, critical);
     }
 }
 
-fn put_contact(name: &str, units: SystemUnits, found: &SlidingContact) -> Fields {
+/// Adds critical amplitudes, or why they are unknown.
+pub(super) fn put_critical(
+    fields: &mut Fields,
+    units: SystemUnits,
+    critical: &Result<Vec<CriticalInput>, String>,
+) {
+    let critical = match critical {
+        Ok(critical) => critical,
+        Err(why) => {
+            fields.unknown("critical_amplitudes", why.clone());
+            return;
+        }
+    };
+    let items = critical.iter().map(|found| {
+        let mut inner = Fields::of_system(units);
+        inner
+            .number("amplitude", Quantity::Force, found.amplitude)
+            .number("amplitude_error", Quantity::Force, found.error)
+            .plain("kind", kind(found.crossing))
+            .plain("becomes", becomes(found.becomes))
+            .plain("contacts_stay_closed", found.contacts_stay_closed);
+        inner
+    });
+    fields.list("critical_amplitudes", items.collect::<Vec<_>>());
+}
+
+/// One contact.
+pub(super) fn put_contact(name: &str, units: SystemUnits, found: &SlidingContact) -> Fields {
     let mut fields = Fields::of_system(units);
     fields.plain("name", name).number("friction", Quantity::Force, found.friction).number(
         "normal",

@@ -1,0 +1,361 @@
+//! The fast motion of contacts under the dithers of a system, from the response of the structure to each of them.
+//!
+//! The response may be computed from matrices ([`super::DitheredSystem`]) or measured ([`crate::measured`]); what follows from it
+//! is the same: fast slip and load of every contact, their mean friction, and the amplitudes at which a contact reverses.
+
+use std::collections::BTreeMap;
+
+use num_complex::Complex64;
+use quell_model::profile::Wave;
+use quell_model::system::{Contact, InputTarget};
+use quell_model::{System, Waveform};
+
+use super::dithers::commensurate_groups;
+use super::error::AveragingError;
+use super::fast_motion::FastMotion;
+use super::mean_friction::effective;
+use super::periodic_motion::{LoadTerm, PeriodicMotion, SlipTerm};
+use super::sign_changes::sign_changes;
+use super::sliding::{MOST_FREQUENCIES, NoAverage};
+use super::wave::FastWave;
+use crate::harmonic::ContactResponse;
+use crate::steady::{FrictionLine, SteadyContact};
+
+/// Harmonics below this share of the largest are left out.
+const SMALLEST_HARMONIC: f64 = 1e-14;
+
+/// Amplitudes are searched from the smallest corner divided by this …
+const BELOW: f64 = 1e3;
+/// … up to the largest corner times this. Far beyond a corner mean friction falls like the inverse of the amplitude.
+const BEYOND: f64 = 30.0;
+/// Ratio of neighbouring amplitudes of the search.
+const STEP: f64 = 1.05;
+/// Amplitudes on each side of a corner, each at half the distance of the last.
+const AROUND: i32 = 14;
+
+/// A contact under fast dither.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DitheredContact {
+    /// Largest fast slip velocity, |â| of a single sine.
+    pub slip_amplitude: f64,
+    /// Largest fast part of the normal load, |N̂| of a single sine; the sum of the amplitudes of several.
+    pub load_amplitude: f64,
+    /// Mean friction T̄.
+    pub friction: f64,
+    /// Mean normal load.
+    pub normal_load: f64,
+    /// Effective coefficient m₀.
+    pub effective_coefficient: f64,
+    /// Ratchet force m₁.
+    pub ratchet_force: f64,
+    /// ∂T̄/∂γ.
+    pub slope_by_velocity: f64,
+}
+
+impl DitheredContact {
+    /// Whether the fast load opens the contact, which averaging does not describe.
+    pub fn opens(&self) -> bool {
+        self.load_amplitude > self.normal_load
+    }
+}
+
+/// The response of the structure to one wave of an input, for unit amplitude.
+#[derive(Clone, Debug)]
+pub(super) struct WaveResponse {
+    pub(super) input: usize,
+    pub(super) wave: Wave,
+    /// Slip of free masses, −iωâ; `None` for a sine.
+    pub(super) free: Option<Vec<f64>>,
+    /// Harmonic n of the wave, its coefficient b_n of sin nθ, and the response at nω.
+    pub(super) harmonics: Vec<(u32, f64, Vec<ContactResponse>)>,
+}
+
+/// The fast motion of contacts, prepared for any amplitudes of the inputs.
+#[derive(Clone, Debug)]
+pub struct FastInputs {
+    pub(super) waves: Vec<WaveResponse>,
+}
+
+impl FastInputs {
+    /// From the response of every contact to each wave of the inputs, for û = 1, all of them sines.
+    ///
+    /// # Errors
+    /// The first error of `response`; [`NoAverage::TooManyFrequencies`].
+    pub fn new<E: From<NoAverage>>(
+        system: &System,
+        mut response: impl FnMut(&InputTarget, &Wave) -> Result<Vec<ContactResponse>, E>,
+    ) -> Result<Self, E> {
+        let mut waves = Vec::new();
+        for (input, given) in system.inputs.iter().enumerate() {
+            for &wave in given.profile.waves() {
+                let contacts = response(&given.target, &wave)?;
+                let harmonics = vec![(1, 1.0, contacts)];
+                waves.push(WaveResponse { input, wave, free: None, harmonics });
+            }
+        }
+        Ok(Self::of(waves)?)
+    }
+
+    pub(super) fn of(waves: Vec<WaveResponse>) -> Result<Self, NoAverage> {
+        let frequencies: Vec<f64> = waves.iter().map(|response| response.wave.frequency).collect();
+        let count = commensurate_groups(&frequencies).len();
+        if count > MOST_FREQUENCIES {
+            return Err(NoAverage::TooManyFrequencies { count });
+        }
+        Ok(Self { waves })
+    }
+
+    /// Mean friction of every contact as a function of its load; `changed` gives another amplitude of one input.
+    ///
+    /// # Errors
+    /// [`NoAverage`] if a mean has no value.
+    pub fn lines(
+        &self,
+        system: &System,
+        changed: Option<(usize, f64)>,
+    ) -> Result<Vec<FrictionLine>, NoAverage> {
+        let contacts = system.contacts.iter().enumerate();
+        contacts.map(|(index, contact)| self.motion(system, index, changed).line(contact)).collect()
+    }
+
+    /// What the dither does to every contact, in a steady sliding that was found with [`FastInputs::lines`].
+    ///
+    /// # Errors
+    /// [`NoAverage::Mean`].
+    pub fn contacts(
+        &self,
+        system: &System,
+        steady: &[SteadyContact],
+        changed: Option<(usize, f64)>,
+    ) -> Result<Vec<DitheredContact>, NoAverage> {
+        let contacts = steady.iter().enumerate();
+        contacts
+            .map(|(index, contact)| {
+                let motion = self.motion(system, index, changed);
+                let SteadyContact { line, normal_load, friction, factor, .. } = *contact;
+                Ok(DitheredContact {
+                    slip_amplitude: motion.slip_amplitude()?,
+                    load_amplitude: motion.load_amplitude,
+                    friction: factor * friction,
+                    normal_load,
+                    effective_coefficient: line.coefficient,
+                    ratchet_force: line.constant,
+                    slope_by_velocity: factor * (line.slope * normal_load + line.slope_constant),
+                })
+            })
+            .collect()
+    }
+
+    /// How far the fast slip exceeds the velocity of the surface, against it; negative while the contact slips in one direction.
+    fn reversal_excess(
+        &self,
+        system: &System,
+        contact: usize,
+        changed: (usize, f64),
+    ) -> Result<f64, NoAverage> {
+        let velocity = system.contacts[contact].surface_velocity.mean();
+        let [low, high] = self.motion(system, contact, Some(changed)).slip.slip_range()?;
+        Ok(if velocity > 0.0 { high - velocity } else { velocity - low })
+    }
+
+    /// Amplitudes of an input at which the fast slip of a contact reaches the velocity of its surface, ascending.
+    ///
+    /// # Errors
+    /// [`NoAverage::Mean`].
+    pub fn corners(&self, system: &System, input: usize) -> Result<Vec<f64>, NoAverage> {
+        let mut corners: Vec<f64> = Vec::new();
+        for contact in 0..system.contacts.len() {
+            let excess = |amplitude: f64| self.reversal_excess(system, contact, (input, amplitude));
+            let (at_none, at_one) = (excess(0.0)?, excess(1.0)?);
+            if at_one == at_none {
+                continue;
+            }
+            // The slip of a single dither is proportional to its amplitude.
+            let proportional = -at_none / (at_one - at_none);
+            if system.inputs.len() == 1 {
+                corners.push(proportional);
+                continue;
+            }
+            let scale = proportional.abs().max(f64::MIN_POSITIVE);
+            let points: Vec<f64> =
+                (0..240).map(|k| scale * libm::exp(-9.0 + 0.06 * f64::from(k))).collect();
+            let changes = sign_changes(excess, &points, &[])?;
+            corners.extend(changes.into_iter().map(|change| change.location));
+        }
+        corners.retain(|corner| corner.is_finite() && *corner > 0.0);
+        corners.sort_unstable_by(f64::total_cmp);
+        corners.dedup_by(|a, b| (*a - *b).abs() <= 1e-14 * b.abs());
+        Ok(corners)
+    }
+
+    /// Amplitudes at which a verdict is evaluated in a search: in equal ratios, and closer to the corners; none without corners.
+    pub fn amplitudes(corners: &[f64]) -> Vec<f64> {
+        let (Some(&least), Some(&largest)) = (corners.first(), corners.last()) else {
+            return Vec::new();
+        };
+        let (mut amplitude, end) = (least / BELOW, largest * BEYOND);
+        let mut points = vec![0.0];
+        while amplitude < end {
+            points.push(amplitude);
+            amplitude *= STEP;
+        }
+        points.push(end);
+        for corner in corners {
+            let distances = (1..=AROUND).map(|k| 2f64.powi(-k));
+            points.extend(distances.flat_map(|d| [corner * (1.0 - d), corner * (1.0 + d)]));
+        }
+        points.sort_unstable_by(f64::total_cmp);
+        points.dedup();
+        points
+    }
+
+    /// Fast motion at a contact.
+    fn motion(
+        &self,
+        system: &System,
+        contact: usize,
+        changed: Option<(usize, f64)>,
+    ) -> ContactMotion {
+        let amplitude = |response: &WaveResponse| match changed {
+            Some((input, amplitude)) if input == response.input => {
+                let first = system.inputs[input].profile.waves()[0].amplitude;
+                let share = if first == 0.0 { 1.0 } else { response.wave.amplitude / first };
+                amplitude * share
+            }
+            _ => response.wave.amplitude,
+        };
+        let normal_load = system.contacts[contact].normal_load;
+        let frequencies: Vec<f64> =
+            self.waves.iter().map(|response| response.wave.frequency).collect();
+        let groups = commensurate_groups(&frequencies).into_iter().map(|members| {
+            let mut parts = GroupParts::default();
+            for (index, multiple) in members {
+                let response = &self.waves[index];
+                let target = &system.inputs[response.input].target;
+                let direct =
+                    matches!(target, InputTarget::NormalLoad { contact: at, .. } if *at == contact);
+                parts.add(response, (contact, direct), (amplitude(response), multiple));
+            }
+            parts.motion(normal_load)
+        });
+        ContactMotion::new(groups.collect(), normal_load)
+    }
+}
+
+/// Parts of the fast motion of one contact in one group of commensurate frequencies.
+#[derive(Debug, Default)]
+struct GroupParts {
+    /// Terms that are integrals of a wave, and loads that are the wave itself.
+    slip_terms: Vec<SlipTerm>,
+    load_terms: Vec<LoadTerm>,
+    /// Complex amplitudes of a and Ñ by harmonic.
+    harmonics: BTreeMap<u32, [Complex64; 2]>,
+}
+
+impl GroupParts {
+    fn add(
+        &mut self,
+        response: &WaveResponse,
+        (contact, direct): (usize, bool),
+        (amplitude, multiple): (f64, u32),
+    ) {
+        let Wave { waveform, frequency, phase, .. } = response.wave;
+        let free = response.free.as_ref().map(|free| free[contact]);
+        if let Some(free) = free {
+            // s = −a, and a = c A ∫g dt.
+            let wave = FastWave::Integral(waveform);
+            let slip = -free * amplitude / frequency;
+            self.slip_terms.push(SlipTerm { wave, amplitude: slip, harmonic: multiple, phase });
+            if direct {
+                self.load_terms.push(LoadTerm { waveform, amplitude, harmonic: multiple, phase });
+            }
+        }
+        for (n, coefficient, contacts) in &response.harmonics {
+            let ContactResponse { mut slip, mut load } = contacts[contact];
+            if let Some(free) = free {
+                slip -= free / Complex64::new(0.0, f64::from(*n) * frequency);
+                load -= f64::from(u8::from(direct));
+            }
+            // A b sin(nθ) is the real part of −iA b e^{inθ}.
+            let turned = Complex64::from_polar(amplitude * coefficient, f64::from(*n) * phase);
+            let input = -Complex64::I * turned;
+            let sum = self.harmonics.entry(n * multiple).or_default();
+            sum[0] += input * slip;
+            sum[1] += input * load;
+        }
+    }
+
+    fn motion(self, normal_load: f64) -> PeriodicMotion {
+        let Self { slip_terms: mut tangential, load_terms: mut load, harmonics } = self;
+        let size = quell_numerics::eigen::modulus;
+        let largest = |part: usize| harmonics.values().fold(0.0, |m: f64, z| m.max(size(z[part])));
+        let least = [0, 1].map(|part| SMALLEST_HARMONIC * largest(part));
+        for (&harmonic, [slip, fast_load]) in &harmonics {
+            let amplitude = size(*slip);
+            if amplitude > least[0] {
+                // s = −|a| cos(θ + arg a), and the integral of a sine is −cos.
+                let wave = FastWave::Integral(Waveform::Sine);
+                tangential.push(SlipTerm { wave, amplitude, harmonic, phase: slip.arg() });
+            }
+            let amplitude = size(*fast_load);
+            if amplitude > least[1] {
+                let phase = fast_load.arg() + std::f64::consts::FRAC_PI_2;
+                load.push(LoadTerm { waveform: Waveform::Sine, amplitude, harmonic, phase });
+            }
+        }
+        for term in &mut load {
+            term.amplitude /= normal_load;
+        }
+        PeriodicMotion { tangential, load, ..PeriodicMotion::default() }
+    }
+}
+
+/// Fast motion at one contact.
+#[derive(Debug)]
+struct ContactMotion {
+    /// Slip with the load that goes with it, and slip alone.
+    whole: FastMotion,
+    slip: FastMotion,
+    load_amplitude: f64,
+    normal_load: f64,
+}
+
+impl ContactMotion {
+    fn new(groups: Vec<PeriodicMotion>, normal_load: f64) -> Self {
+        let loads = groups.iter().flat_map(|group| &group.load);
+        let load_amplitude = normal_load * loads.map(|term| term.amplitude.abs()).sum::<f64>();
+        let bare = groups
+            .iter()
+            .map(|group| PeriodicMotion { load: Vec::new(), ..group.clone() })
+            .collect();
+        let (whole, slip) = (FastMotion::new(groups), FastMotion::new(bare));
+        Self { whole, slip, load_amplitude, normal_load }
+    }
+
+    fn slip_amplitude(&self) -> Result<f64, AveragingError> {
+        let [low, high] = self.slip.slip_range()?;
+        Ok(high.max(-low))
+    }
+
+    /// Mean friction as a function of the load.
+    fn line(&self, contact: &Contact) -> Result<FrictionLine, NoAverage> {
+        let undithered = FrictionLine::of(contact)?;
+        if self.slip.groups().is_empty() {
+            return Ok(undithered);
+        }
+        let velocity = contact.surface_velocity.mean();
+        let mean = effective(&contact.friction, &self.slip, velocity)?;
+        let mut line = FrictionLine {
+            coefficient: mean.coefficient,
+            constant: 0.0,
+            slope: mean.slope,
+            slope_constant: 0.0,
+        };
+        if self.load_amplitude > 0.0 {
+            let loaded = effective(&contact.friction, &self.whole, velocity)?;
+            line.constant = self.normal_load * (loaded.coefficient - mean.coefficient);
+            line.slope_constant = self.normal_load * (loaded.slope - mean.slope);
+        }
+        Ok(line)
+    }
+}

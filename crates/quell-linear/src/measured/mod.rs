@@ -1,0 +1,182 @@
+//! The verdict on a structure that is known by its measured frequency response alone.
+//!
+//! The receptance H(iω) at the contacts and inputs closes a loop with the contacts: forces f = B(s) y and displacements y = G(s) f,
+//! with y = (tᵀz, nᵀz, sᵀz) and f = (along t, along n) of every contact. For the friction of steady sliding
+//!
+//! ```text
+//! f_t = −T_γ s y_t + T_N (k + s d) y_n,    f_n = σ f_t + T y_s − (k + s d) y_n
+//! ```
+//!
+//! Sliding is stable if det(I − B(s)G(s)) has no zero with Re s > 0. The structure alone is stable, as everything that was
+//! measured, so that their number follows from the turns of the determinant along the band (the generalised Nyquist criterion;
+//! A. G. J. MacFarlane and I. Postlethwaite, *Int. J. Control* 25 (1977) 81). A growth rate is not known. The receptance must not
+//! include the contacts' own springs.
+
+mod loops;
+mod receptance;
+
+use quell_model::System;
+
+use crate::averaging::{
+    Becomes, CriticalInput, CrossingKind, DitheredContact, FastInputs, NoAverage, sign_changes,
+};
+use crate::growth::Verdict;
+use crate::linearised::FrictionLine;
+use crate::steady::{NoSteadySliding, SteadyContact};
+pub use loops::{NoTurns, Turns};
+pub use receptance::Receptance;
+
+/// Why there is no verdict on a measured structure.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoMeasuredVerdict {
+    /// No steady sliding, or no average.
+    NoAverage(NoAverage),
+    /// The determinant does not tell.
+    NoTurns(NoTurns),
+    /// A dither is not a sine, whose harmonics would have to be measured.
+    NotASine,
+    /// The dither frequency is outside the band.
+    OutsideBand {
+        /// The angular frequency.
+        frequency: f64,
+    },
+}
+
+impl std::fmt::Display for NoMeasuredVerdict {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::NoAverage(why) => why.fmt(f),
+            Self::NoTurns(why) => why.fmt(f),
+            Self::NotASine => {
+                f.write_str("with a measured frequency response every dither must be a sine")
+            }
+            Self::OutsideBand { frequency } => {
+                write!(
+                    f,
+                    "the dither of angular frequency {frequency} is outside the measured band"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for NoMeasuredVerdict {}
+
+impl From<NoAverage> for NoMeasuredVerdict {
+    fn from(why: NoAverage) -> Self {
+        Self::NoAverage(why)
+    }
+}
+
+impl From<NoSteadySliding> for NoMeasuredVerdict {
+    fn from(why: NoSteadySliding) -> Self {
+        Self::NoAverage(why.into())
+    }
+}
+
+impl From<NoTurns> for NoMeasuredVerdict {
+    fn from(why: NoTurns) -> Self {
+        Self::NoTurns(why)
+    }
+}
+
+/// Sliding of a measured structure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredSliding {
+    /// Number of unstable motions, from the turns of the determinant.
+    pub turns: Turns,
+    /// The contacts in steady or averaged sliding.
+    pub contacts: Vec<SteadyContact>,
+    /// What dither does to them; empty without.
+    pub dithered: Vec<DitheredContact>,
+}
+
+impl MeasuredSliding {
+    /// The verdict.
+    pub fn verdict(&self) -> Verdict {
+        if self.turns.unstable > 0 { Verdict::Unstable } else { Verdict::Stable }
+    }
+}
+
+/// A measured structure with its contacts and inputs, prepared for any amplitudes.
+#[derive(Clone, Debug)]
+pub struct MeasuredSystem<'a> {
+    system: &'a System,
+    receptance: &'a Receptance,
+    undithered: Vec<SteadyContact>,
+    fast: FastInputs,
+}
+
+impl<'a> MeasuredSystem<'a> {
+    /// Prepares a system whose rows are over the points of the receptance.
+    ///
+    /// # Errors
+    /// [`NoMeasuredVerdict`] without steady sliding, or for dither that the band does not contain.
+    pub fn new(system: &'a System, receptance: &'a Receptance) -> Result<Self, NoMeasuredVerdict> {
+        let lines: Vec<FrictionLine> =
+            system.contacts.iter().map(FrictionLine::of).collect::<Result<_, _>>()?;
+        let undithered = loops::steady(system, receptance, &lines)?;
+        let fast = FastInputs::new(system, |target, wave| {
+            if wave.waveform != quell_model::Waveform::Sine {
+                return Err(NoMeasuredVerdict::NotASine);
+            }
+            loops::response(system, receptance, &undithered, target, wave.frequency)
+        })?;
+        Ok(Self { system, receptance, undithered, fast })
+    }
+
+    /// Sliding without dither.
+    ///
+    /// # Errors
+    /// [`NoMeasuredVerdict::NoTurns`].
+    pub fn sliding(&self) -> Result<MeasuredSliding, NoMeasuredVerdict> {
+        let contacts = self.undithered.clone();
+        let turns = loops::turns(self.system, self.receptance, &contacts)?;
+        Ok(MeasuredSliding { turns, contacts, dithered: Vec::new() })
+    }
+
+    /// Averaged sliding, with another amplitude of one input if given.
+    ///
+    /// # Errors
+    /// [`NoMeasuredVerdict`] if a mean has no value or the determinant does not tell.
+    pub fn average(
+        &self,
+        changed: Option<(usize, f64)>,
+    ) -> Result<MeasuredSliding, NoMeasuredVerdict> {
+        let lines = self.fast.lines(self.system, changed)?;
+        let contacts = loops::steady(self.system, self.receptance, &lines)?;
+        let turns = loops::turns(self.system, self.receptance, &contacts)?;
+        let dithered = self.fast.contacts(self.system, &contacts, changed)?;
+        Ok(MeasuredSliding { turns, contacts, dithered })
+    }
+
+    /// Every amplitude of an input at which the averaged verdict changes, ascending.
+    ///
+    /// # Errors
+    /// As [`MeasuredSystem::average`].
+    pub fn critical_amplitudes(
+        &self,
+        input: usize,
+    ) -> Result<Vec<CriticalInput>, NoMeasuredVerdict> {
+        let corners = self.fast.corners(self.system, input)?;
+        let points = FastInputs::amplitudes(&corners);
+        let unstable = |amplitude: f64| -> Result<f64, NoMeasuredVerdict> {
+            let found = self.average(Some((input, amplitude)))?;
+            Ok(if found.turns.unstable > 0 { 1.0 } else { -1.0 })
+        };
+        let changes = sign_changes(unstable, &points, &corners)?;
+        let mut found = Vec::new();
+        for change in changes {
+            let beyond = self.average(Some((input, change.location * (1.0 + 1e-6))))?;
+            let corner = corners.iter().any(|at| (at - change.location).abs() <= 1e-9 * at);
+            found.push(CriticalInput {
+                amplitude: change.location,
+                error: change.error,
+                crossing: if corner { CrossingKind::Jump } else { CrossingKind::Root },
+                becomes: if change.becomes_positive { Becomes::Unstable } else { Becomes::Stable },
+                contacts_stay_closed: !beyond.dithered.iter().any(|contact| contact.opens()),
+            });
+        }
+        Ok(found)
+    }
+}

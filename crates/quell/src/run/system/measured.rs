@@ -1,0 +1,120 @@
+//! `stability` of a structure that is known by its measured frequency response: a verdict without growth rate.
+
+use num_complex::Complex64;
+use quell_linear::averaging::CriticalInput;
+use quell_linear::growth::Verdict;
+use quell_linear::measured::{MeasuredSliding, MeasuredSystem, Receptance};
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::stability::{SlidingContact, put_contact, put_critical, with_hertz};
+use super::{failed, is_dithered};
+use crate::complaint::Failure;
+use crate::fields::Fields;
+use crate::study::{FrequencyResponse, SystemStudy};
+
+/// Why a growth rate is null.
+const NO_RATE: &str = "a measured frequency response gives a verdict by the generalised Nyquist criterion, but no growth rate";
+
+/// Stability of a measured structure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredStability {
+    /// Sliding under the dither of the study, or without dither.
+    pub sliding: MeasuredSliding,
+    /// Sliding without dither, and critical amplitudes of the first one; `None` without dither.
+    pub dither: Option<(MeasuredSliding, Result<Vec<CriticalInput>, String>)>,
+}
+
+/// The receptance of a study.
+fn receptance(response: &FrequencyResponse) -> Receptance {
+    let mut found = Receptance::new(response.frequencies.clone(), response.names.len());
+    for (&(output, input), values) in response.pairs.iter().zip(&response.data) {
+        let values = values.iter().map(|[re, im]| Complex64::new(*re, *im)).collect();
+        found = found.with(output, input, values);
+    }
+    found
+}
+
+/// Stability of a study with a measured frequency response.
+///
+/// # Errors
+/// [`Failure::Failed`] without steady sliding, and where the measured band does not decide.
+pub fn run(
+    study: &SystemStudy,
+    response: &FrequencyResponse,
+) -> Result<MeasuredStability, Failure> {
+    let receptance = receptance(response);
+    let no_verdict = |why| failed("stability", why);
+    let prepared = MeasuredSystem::new(study.system(), &receptance).map_err(no_verdict)?;
+    let undithered = prepared.sliding().map_err(no_verdict)?;
+    if !is_dithered(study.system()) {
+        return Ok(MeasuredStability { sliding: undithered, dither: None });
+    }
+    let sliding = prepared.average(None).map_err(no_verdict)?;
+    let critical = prepared.critical_amplitudes(0).map_err(|why| why.to_string());
+    Ok(MeasuredStability { sliding, dither: Some((undithered, critical)) })
+}
+
+impl MeasuredStability {
+    /// The answer in one or two sentences.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let turns = self.sliding.turns;
+        let closest = with_hertz(study.units(), turns.closest);
+        let by = if self.dither.is_some() { "By averaging and the" } else { "By the" };
+        let verdict = match turns.unstable {
+            0 => "steady sliding is stable".to_owned(),
+            1 => "steady sliding is unstable: one motion grows".to_owned(),
+            count => format!("steady sliding is unstable: {count} motions grow"),
+        };
+        format!(
+            "{by} generalised Nyquist criterion of the measured response, {verdict}. It is closest to marginal at the angular \
+             frequency {closest}."
+        )
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &SystemStudy) -> Json {
+        let units = study.units();
+        let mut fields = Fields::of_system(units);
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .plain("verdict", self.sliding.verdict().name())
+            .plain("protocol", if self.dither.is_some() { "averaged" } else { "linearised" })
+            .rate("growth_rate", Err(NO_RATE.to_owned()))
+            .rate("growth_rate_error", Err(NO_RATE.to_owned()))
+            .number("frequency", Quantity::FrequencyRatio, self.sliding.turns.closest)
+            .unknown("eigenvalues", NO_RATE)
+            .plain("unstable_motions", self.sliding.turns.unstable)
+            .plain("half_turns", self.sliding.turns.half_turns)
+            .plain("distance_from_marginal", self.sliding.turns.distance);
+        let contacts = study.system().contacts.iter().zip(&self.sliding.contacts).enumerate();
+        let contacts = contacts.map(|(index, (contact, steady))| {
+            let found = SlidingContact {
+                friction: steady.factor * steady.friction,
+                normal_load: steady.normal_load,
+                dithered: self.sliding.dithered.get(index).copied(),
+            };
+            put_contact(&contact.name, units, &found)
+        });
+        fields.list("contacts", contacts.collect::<Vec<_>>());
+        match &self.dither {
+            None => {
+                let why = "the study has no dither";
+                fields.unknown("undithered", why).unknown("critical_amplitudes", why);
+            }
+            Some((undithered, critical)) => {
+                let mut inner = Fields::of_system(units);
+                let verdict: Verdict = undithered.verdict();
+                inner
+                    .plain("verdict", verdict.name())
+                    .rate("growth_rate", Err(NO_RATE.to_owned()))
+                    .number("frequency", Quantity::FrequencyRatio, undithered.turns.closest);
+                fields.nested("undithered", inner);
+                put_critical(&mut fields, units, critical);
+            }
+        }
+        fields.plain("warnings", study.warnings());
+        fields.finish()
+    }
+}
