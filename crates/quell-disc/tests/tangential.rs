@@ -122,7 +122,8 @@ fn a_square_wave_agrees_with_many_steps() {
                 }
             };
             let multipliers = engine.multipliers(&phi, count).expect("finite");
-            let largest = multipliers.iter().map(|z| z.norm_sqr()).fold(0.0, f64::max);
+            let largest =
+                multipliers.iter().map(num_complex::Complex64::norm_sqr).fold(0.0, f64::max);
             0.5 * largest.ln() / period
         };
         let (coarse, fine) = (rate(512), rate(1024));

@@ -86,13 +86,13 @@ struct Factor {
 /// Small motions under dithered follower forces, prepared for any factor on all friction forces together.
 #[derive(Clone, Debug)]
 pub struct FollowerDither {
-    engine: Engine,
+    engine: FollowerWave,
     friction: Vec<f64>,
     factors: Vec<Factor>,
 }
 
 #[derive(Clone, Debug)]
-enum Engine {
+enum FollowerWave {
     /// A sine: kicks on a constant flow.
     Smooth(Box<Floquet>),
     /// A square wave: the linear equations, the period, and the jumps in cycles, ascending.
@@ -124,12 +124,12 @@ impl FollowerDither {
         let period = TAU / frequency;
         let engine = if waveform == Waveform::Square {
             let jumps = jumps(&factors);
-            Engine::Square { linear: Box::new(linear.clone()), period, jumps }
+            FollowerWave::Square { linear: Box::new(linear.clone()), period, jumps }
         } else {
             let none = vec![0.0; factors.len()];
             let (u, v) = linear.follower_columns();
             let flow = ConstantFlow::new(&linear.state_matrix(&none), &u, &v)?;
-            Engine::Smooth(Box::new(Floquet::new(flow, period)))
+            FollowerWave::Smooth(Box::new(Floquet::new(flow, period)))
         };
         Ok(Self { engine, friction, factors })
     }
@@ -148,10 +148,10 @@ impl FollowerDither {
     /// As [`FollowerDither::growth`].
     pub fn exponent(&self, factor: f64, effort: Effort) -> Result<Exponent, EigenError> {
         match &self.engine {
-            Engine::Smooth(engine) => {
+            FollowerWave::Smooth(engine) => {
                 engine.growth(&|phase, to| self.kick(factor, phase, to), effort)
             }
-            Engine::Square { .. } => {
+            FollowerWave::Square { .. } => {
                 let found = of_pieces(&self.pieces(factor))?;
                 let mut leading = found.first().copied().ok_or(EigenError::NotConverged)?;
                 // A slightly smaller exponent with a larger error may be the true leading one.
@@ -170,10 +170,10 @@ impl FollowerDither {
     /// As [`FollowerDither::growth`].
     pub fn growing(&self, effort: Effort) -> Result<Vec<Growth>, EigenError> {
         let found = match &self.engine {
-            Engine::Smooth(engine) => {
+            FollowerWave::Smooth(engine) => {
                 engine.growing(&|phase, to| self.kick(1.0, phase, to), effort)?
             }
-            Engine::Square { .. } => {
+            FollowerWave::Square { .. } => {
                 let found = of_pieces(&self.pieces(1.0))?.into_iter();
                 found.filter(|exponent| exponent.growth_rate > exponent.error).collect()
             }
@@ -190,7 +190,9 @@ impl FollowerDither {
 
     /// The pieces of one period between the jumps of a square wave, with the friction in the middle of each.
     fn pieces(&self, factor: f64) -> Vec<ConstantPiece> {
-        let Engine::Square { linear, period, jumps } = &self.engine else { return Vec::new() };
+        let FollowerWave::Square { linear, period, jumps } = &self.engine else {
+            return Vec::new();
+        };
         let first = jumps.first().copied().unwrap_or(0.0);
         let ends = jumps.iter().skip(1).copied().chain([first + 1.0]);
         jumps

@@ -165,7 +165,7 @@ fn a_friction_law_stands_for_the_friction_force() {
     assert!((plain - si).abs() < 1e-12, "{plain} {si}");
     for (text, key) in [
         (format!("{PLATE}{PRESSED}"), "disc.load.normal_load"),
-        (format!("{PLATE}{LOAD}{law}"), "disc.load.normal_load"),
+        (format!("{PLATE}{LOAD}{law}"), "disc.load.friction"),
         (format!("{PLATE}{LOAD}normal_load = 1.0\n{law}"), "disc.load.friction"),
         (format!("{PLATE}{}{law}", PRESSED.replace("speed = 0.3\n", "")), "disc.load.speed"),
         (
@@ -176,4 +176,18 @@ fn a_friction_law_stands_for_the_friction_force() {
         let complaints = parse(&text).expect_err(&text);
         assert_eq!(complaints.iter().next().expect("a complaint").key, key, "{text}");
     }
+}
+
+#[test]
+fn a_static_load_is_warned_of_near_a_critical_speed() {
+    let found = answer(&format!("{PLATE}{}static_load = 0.02\n", LOAD.replace("0.3\n", "0.98\n")));
+    let critical = found["critical_speeds"].as_array().expect("speeds");
+    assert_eq!(critical.len(), 2);
+    assert_eq!((&critical[0]["diameters"], &critical[0]["near"]), (&Json::from(2), &true.into()));
+    assert!(found["warnings"][0].as_str().expect("a warning").contains("critical speed"));
+    let deflection = |key: &str| found[key][0].as_f64().expect("a number");
+    assert!(deflection("deflection").abs() > deflection("deflection_at_rest").abs());
+    let slow = answer(&format!("{PLATE}{LOAD}static_load = 0.02\n"));
+    assert!(slow["warnings"].as_array().expect("a list").is_empty());
+    assert!(answer(&format!("{PLATE}{LOAD}"))["deflection"].is_null());
 }

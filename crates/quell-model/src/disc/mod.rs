@@ -5,6 +5,7 @@ use crate::units::DiscScales;
 use crate::{Friction, Invalid, InvalidValues, Waveform};
 
 mod carrier;
+mod complaint;
 mod contributions;
 mod dither;
 mod law;
@@ -121,7 +122,9 @@ impl Disc {
         let complaints: Vec<Invalid> = centrifugal
             .iter()
             .enumerate()
-            .filter_map(|(index, value)| mode::complain(&MODE_CENTRIFUGAL, *value, index, count))
+            .filter_map(|(index, value)| {
+                complaint::complain(&MODE_CENTRIFUGAL, *value, index, count)
+            })
             .collect();
         if !complaints.is_empty() {
             return Err(InvalidValues::of(complaints));

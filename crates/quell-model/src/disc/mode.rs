@@ -1,5 +1,6 @@
 //! A mode of the disc and a load that rotates over it.
 
+use super::complaint::complain;
 use super::{Carrier, Patch};
 use crate::Invalid;
 use crate::parameter::disc::{
@@ -8,7 +9,7 @@ use crate::parameter::disc::{
     LOAD_STIFFNESS, MODE_DAMPING, MODE_DIAMETERS, MODE_RATIO, MODE_SHAPE_AT_LOAD, PAD_DAMPING,
     PAD_MASS, PAD_STIFFNESS,
 };
-use crate::parameter::{Parameter, indexed};
+use crate::parameter::indexed;
 
 /// A mode R(r)·(A cos qφ + B sin qφ) of the plate at rest, φ counted from the first load.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,20 +128,6 @@ impl Load {
     pub fn dithered_at(self, dither_phase: f64) -> Self {
         Self { dither_phase, ..self }
     }
-}
-
-/// A complaint about entry `index` of `count`, its key with the index where there are several.
-pub(super) fn complain(
-    parameter: &Parameter,
-    value: f64,
-    index: usize,
-    count: usize,
-) -> Option<Invalid> {
-    parameter.check(value).err().map(|mut complaint| {
-        let (table, key) = parameter.path.rsplit_once('.').unwrap_or(("", parameter.path));
-        complaint.key = indexed(table, index, count, key);
-        complaint
-    })
 }
 
 impl Mode {

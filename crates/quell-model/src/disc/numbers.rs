@@ -109,11 +109,11 @@ impl Load {
             (LOAD_STATIC, &mut self.static_load),
         ];
         let pad =
-            self.pad.as_mut().map(|body| body.numbers([PAD_MASS, PAD_DAMPING, PAD_STIFFNESS]));
+            self.pad.as_mut().map(|body| body.numbers(&[PAD_MASS, PAD_DAMPING, PAD_STIFFNESS]));
         let caliper = self
             .caliper
             .as_mut()
-            .map(|body| body.numbers([CALIPER_MASS, CALIPER_DAMPING, CALIPER_STIFFNESS]));
+            .map(|body| body.numbers(&[CALIPER_MASS, CALIPER_DAMPING, CALIPER_STIFFNESS]));
         let normal = self.normal_load.as_mut().map(|load| (LOAD_NORMAL, load));
         let bodies = pad.into_iter().chain(caliper).flatten();
         let mut all = own.into_iter().chain(normal).chain(bodies);
@@ -122,8 +122,8 @@ impl Load {
 }
 
 impl Carrier {
-    fn numbers(&mut self, names: [Parameter; 3]) -> [(Parameter, &mut f64); 3] {
-        let [mass, damping, stiffness] = names;
+    fn numbers(&mut self, names: &[Parameter; 3]) -> [(Parameter, &mut f64); 3] {
+        let [mass, damping, stiffness] = *names;
         [(mass, &mut self.mass), (damping, &mut self.damping), (stiffness, &mut self.stiffness)]
     }
 }

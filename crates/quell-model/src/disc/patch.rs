@@ -8,7 +8,7 @@
 
 use quell_numerics::quadrature::gauss_legendre;
 
-use super::mode::complain;
+use super::complaint::complain;
 use crate::Invalid;
 use crate::parameter::disc::{LOAD_EXTENT, LOAD_POINTS};
 use crate::parameter::indexed;

@@ -18,9 +18,9 @@ pub(super) fn read(
     header: Origin,
     path: &str,
 ) -> Option<(Option<Carrier>, Option<Carrier>)> {
-    let pad = one(reader, table, header, path, [PAD_MASS, PAD_DAMPING, PAD_STIFFNESS]);
+    let pad = one(reader, table, header, path, &[PAD_MASS, PAD_DAMPING, PAD_STIFFNESS]);
     let of_caliper = [CALIPER_MASS, CALIPER_DAMPING, CALIPER_STIFFNESS];
-    let caliper = one(reader, table, header, path, of_caliper);
+    let caliper = one(reader, table, header, path, &of_caliper);
     let (pad, caliper) = (pad?, caliper?);
     if caliper.is_some() && pad.is_none() {
         let key = format!("{path}.{}", PAD_MASS.key());
@@ -38,7 +38,7 @@ fn one(
     table: &Table,
     header: Origin,
     path: &str,
-    names: [Parameter; 3],
+    names: &[Parameter; 3],
 ) -> Option<Option<Carrier>> {
     let given = |parameter: &Parameter| {
         table.has(parameter.key()) || parameter.si.iter().any(|twin| table.has(twin.key))
@@ -46,7 +46,7 @@ fn one(
     if !names.iter().any(given) {
         return Some(None);
     }
-    let [mass, damping, stiffness] = names;
+    let [mass, damping, stiffness] = *names;
     let mass = reader.number(table, path, header, mass);
     let damping = reader.optional(table, path, damping, None).or(0.0);
     let stiffness = reader.number(table, path, header, stiffness);
