@@ -50,7 +50,8 @@ impl Mapped for SystemPoints {
     ) -> Vec<Option<PointResults>> {
         let point = |index: &usize| {
             let system = self.0.system_at(&grid.numbers_at(*index)).ok()?;
-            Some((None, evaluate(&system, wanted)))
+            let measured = self.0.frequency_response().is_some();
+            Some((None, if measured { unmeasured() } else { evaluate(&system, wanted) }))
         };
         indices.iter().map(point).collect()
     }
@@ -63,6 +64,16 @@ pub struct SystemPoint {
     pub growth: Growth,
     /// Largest fast slip velocity over the velocity of its surface, over all contacts.
     pub slip_ratio: f64,
+}
+
+/// What a map shows of a measured structure: nothing.
+fn unmeasured() -> Results {
+    Results {
+        system: Some(Err(Status::OnlyMeasured)),
+        system_undithered: Some(Err(Status::OnlyMeasured)),
+        system_critical: Some(Err(Status::OnlyMeasured)),
+        ..Results::default()
+    }
 }
 
 fn evaluate(system: &System, wanted: &[Computation]) -> Results {
@@ -125,6 +136,7 @@ const OF_AVERAGE: &[Status] = &[
     Status::NotConverged,
     Status::NoSteadySliding,
     Status::Resonance,
+    Status::OnlyMeasured,
 ];
 
 /// Statuses of verdicts other than known.
@@ -136,6 +148,7 @@ const OF_VERDICT: &[Status] = &[
     Status::NotConverged,
     Status::NoSteadySliding,
     Status::Resonance,
+    Status::OnlyMeasured,
 ];
 
 /// Statuses of critical amplitudes other than known.
@@ -148,6 +161,7 @@ const OF_CRITICAL: &[Status] = &[
     Status::NeverChanges,
     Status::NoSteadySliding,
     Status::Resonance,
+    Status::OnlyMeasured,
 ];
 
 /// The quantities of a map of systems.
@@ -168,8 +182,8 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
         variable(("slip_ratio", "|â|/v"), "largest fast slip over the velocity of its surface", RATIO, OF_AVERAGE, |r| Ok(grown(r)?.slip_ratio)),
     ]),
     system("growth-undithered", "largest growth rate without dither", Computation::SystemGrowthUndithered, &[
-        variable(("growth_undithered", "Re λ_0"), "largest growth rate without dither", RATE, &[Status::NoSteadySliding], |r| Ok(grown_undithered(r)?.rate)),
-        variable(("growth_undithered_error", ""), "bound on the error of the growth rate without dither", RATE, &[Status::NoSteadySliding], |r| Ok(grown_undithered(r)?.error)),
+        variable(("growth_undithered", "Re λ_0"), "largest growth rate without dither", RATE, &[Status::NoSteadySliding, Status::OnlyMeasured], |r| Ok(grown_undithered(r)?.rate)),
+        variable(("growth_undithered_error", ""), "bound on the error of the growth rate without dither", RATE, &[Status::NoSteadySliding, Status::OnlyMeasured], |r| Ok(grown_undithered(r)?.error)),
     ]),
     system("critical-amplitude", "smallest amplitude of the first dither that makes sliding stable, by averaging", Computation::SystemCritical, &[
         variable(("critical_amplitude", "A*"), "smallest amplitude that makes sliding stable", FORCE, OF_CRITICAL, |r| first(r, Becomes::Stable)),
