@@ -58,7 +58,7 @@ impl std::error::Error for NoTurns {}
 /// The turns of the determinant along the band.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turns {
-    /// Number of unstable motions.
+    /// Number of characteristic roots with positive real part; an oscillating motion has two.
     pub unstable: usize,
     /// Half turns of the determinant, clockwise.
     pub half_turns: f64,

@@ -18,13 +18,16 @@ mod receptance;
 use quell_model::System;
 
 use crate::averaging::{
-    Becomes, CriticalInput, CrossingKind, DitheredContact, FastInputs, NoAverage, sign_changes,
+    Becomes, CriticalInput, CrossingKind, DitheredContact, FastInputs, NoAverage,
 };
 use crate::growth::Verdict;
 use crate::linearised::FrictionLine;
 use crate::steady::{NoSteadySliding, SteadyContact};
 pub use loops::{NoTurns, Turns};
 pub use receptance::Receptance;
+
+/// Halvings of an interval of amplitudes, to about 10⁻⁸ of it.
+const BISECTIONS: usize = 26;
 
 /// Why there is no verdict on a measured structure.
 #[derive(Clone, Debug, PartialEq)]
@@ -159,24 +162,61 @@ impl<'a> MeasuredSystem<'a> {
         input: usize,
     ) -> Result<Vec<CriticalInput>, NoMeasuredVerdict> {
         let corners = self.fast.corners(self.system, input)?;
-        let points = FastInputs::amplitudes(&corners);
-        let unstable = |amplitude: f64| -> Result<f64, NoMeasuredVerdict> {
-            let found = self.average(Some((input, amplitude)))?;
-            Ok(if found.turns.unstable > 0 { 1.0 } else { -1.0 })
-        };
-        let changes = sign_changes(unstable, &points, &corners)?;
+        let mut decided: Vec<(f64, bool)> = Vec::new();
+        for amplitude in FastInputs::amplitudes(&corners) {
+            if let Some(unstable) = self.is_unstable(input, amplitude)? {
+                decided.push((amplitude, unstable));
+            }
+        }
         let mut found = Vec::new();
-        for change in changes {
-            let beyond = self.average(Some((input, change.location * (1.0 + 1e-6))))?;
-            let corner = corners.iter().any(|at| (at - change.location).abs() <= 1e-9 * at);
+        for pair in decided.windows(2) {
+            let ((below, was_unstable), (beyond, unstable)) = (pair[0], pair[1]);
+            if was_unstable == unstable {
+                continue;
+            }
+            let low = self.last_decided(input, (below, was_unstable), beyond)?;
+            let high = self.last_decided(input, (beyond, unstable), low)?;
+            let (amplitude, error) = (0.5 * (low + high), 0.5 * (high - low));
+            let there =
+                self.fast.contacts(self.system, &self.undithered, Some((input, amplitude)))?;
+            let corner =
+                corners.iter().find(|at| (**at - amplitude).abs() <= error.max(1e-9 * amplitude));
             found.push(CriticalInput {
-                amplitude: change.location,
-                error: change.error,
-                crossing: if corner { CrossingKind::Jump } else { CrossingKind::Root },
-                becomes: if change.becomes_positive { Becomes::Unstable } else { Becomes::Stable },
-                contacts_stay_closed: !beyond.dithered.iter().any(|contact| contact.opens()),
+                amplitude: corner.copied().unwrap_or(amplitude),
+                error,
+                crossing: if corner.is_some() { CrossingKind::Jump } else { CrossingKind::Root },
+                becomes: if unstable { Becomes::Unstable } else { Becomes::Stable },
+                contacts_stay_closed: !there.iter().any(|contact| contact.opens()),
             });
         }
         Ok(found)
+    }
+
+    /// Whether sliding is unstable at an amplitude; `None` where the band does not tell, as close to a marginal motion.
+    fn is_unstable(&self, input: usize, amplitude: f64) -> Result<Option<bool>, NoMeasuredVerdict> {
+        match self.average(Some((input, amplitude))) {
+            Ok(found) => Ok(Some(found.turns.unstable > 0)),
+            Err(NoMeasuredVerdict::NoTurns(_)) => Ok(None),
+            Err(why) => Err(why),
+        }
+    }
+
+    /// The amplitude nearest to `other` at which the verdict is still that of `from`, by bisection.
+    fn last_decided(
+        &self,
+        input: usize,
+        (from, unstable): (f64, bool),
+        other: f64,
+    ) -> Result<f64, NoMeasuredVerdict> {
+        let (mut here, mut there) = (from, other);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (here + there);
+            if self.is_unstable(input, middle)? == Some(unstable) {
+                here = middle;
+            } else {
+                there = middle;
+            }
+        }
+        Ok(here)
     }
 }

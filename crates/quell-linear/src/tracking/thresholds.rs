@@ -10,8 +10,8 @@ use crate::growth::Verdict;
 /// Relative distance, in steps of the piece, within which a change of the verdict is that of a coalescence.
 const TOGETHER: f64 = 1e-6;
 
-/// Share of the neighbouring step at which the verdict beside a threshold is evaluated.
-const BESIDE: f64 = 1e-4;
+/// Distances over the window at which the verdict beside a threshold is evaluated, until it is decided.
+const BESIDE: [f64; 4] = [1e-10, 1e-8, 1e-6, 1e-4];
 
 /// A frequency below this share of the largest eigenvalue counts as zero.
 const NO_FREQUENCY: f64 = 1e-9;
@@ -74,8 +74,7 @@ pub(super) fn of_piece<F: Family>(
     let mut merged = coalescence::of_piece(family, piece);
     let mut found = Vec::new();
     for change in changes {
-        let width = step_at(&values, change.location);
-        let verdicts = beside(family, change.location, width, &values)?;
+        let verdicts = beside(family, change.location, &values)?;
         if verdicts[0] == verdicts[1] {
             continue;
         }
@@ -107,29 +106,25 @@ pub(super) fn of_piece<F: Family>(
         });
     }
     for Coalescence { value, error, eigenvalue, .. } in merged {
-        let verdicts = beside(family, value, step_at(&values, value), &values)?;
+        let verdicts = beside(family, value, &values)?;
         let change = Change::Coalescence;
         found.push(ThresholdOfStability { value, error, change, eigenvalue, verdicts });
     }
     Ok(found)
 }
 
-/// Length of the longest step next to a value.
-fn step_at(values: &[f64], value: f64) -> f64 {
-    let after = values.partition_point(|known| *known < value).clamp(1, values.len() - 1);
-    let near = after.saturating_sub(2)..(after + 2).min(values.len() - 1);
-    near.map(|k| values[k + 1] - values[k]).fold(values[after] - values[after - 1], f64::max)
-}
-
-/// The verdicts below and beyond a value.
-fn beside<F: Family>(
-    family: &F,
-    value: f64,
-    step: f64,
-    values: &[f64],
-) -> Result<[Verdict; 2], F::Error> {
+/// The verdicts below and beyond a value, as close to it as they are decided.
+fn beside<F: Family>(family: &F, value: f64, values: &[f64]) -> Result<[Verdict; 2], F::Error> {
     let (first, last) = (values[0], values[values.len() - 1]);
-    let below = at(family, (value - BESIDE * step).max(first))?.growth.verdict();
-    let beyond = at(family, (value + BESIDE * step).min(last))?.growth.verdict();
-    Ok([below, beyond])
+    let side = |sign: f64| {
+        for distance in BESIDE {
+            let there = (value + sign * distance * (last - first)).clamp(first, last);
+            let verdict = at(family, there)?.growth.verdict();
+            if verdict != Verdict::Undecided {
+                return Ok(verdict);
+            }
+        }
+        Ok(Verdict::Undecided)
+    };
+    Ok([side(-1.0)?, side(1.0)?])
 }

@@ -21,7 +21,7 @@ impl Presented<SystemSetup> for MeasuredStability {
     fn table(&self, _: &SystemStudy) -> String {
         let turns = self.sliding.turns;
         format!(
-            "  unstable motions {}, half turns of the determinant {}, least distance from 0 {}\n",
+            "  unstable roots {}, half turns of the determinant {}, least distance from 0 {}\n",
             turns.unstable,
             figure(turns.half_turns),
             figure(turns.distance)

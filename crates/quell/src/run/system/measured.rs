@@ -12,6 +12,7 @@ use super::{failed, is_dithered};
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::study::{FrequencyResponse, SystemStudy};
+use crate::words::plural;
 
 /// Why a growth rate is null.
 const NO_RATE: &str = "a measured frequency response gives a verdict by the generalised Nyquist criterion, but no growth rate";
@@ -63,8 +64,12 @@ impl MeasuredStability {
         let by = if self.dither.is_some() { "By averaging and the" } else { "By the" };
         let verdict = match turns.unstable {
             0 => "steady sliding is stable".to_owned(),
-            1 => "steady sliding is unstable: one motion grows".to_owned(),
-            count => format!("steady sliding is unstable: {count} motions grow"),
+            count => {
+                format!(
+                    "steady sliding is unstable: {count} characteristic root{} with positive real part",
+                    plural(count)
+                )
+            }
         };
         format!(
             "{by} generalised Nyquist criterion of the measured response, {verdict}. It is closest to marginal at the angular \
@@ -85,7 +90,7 @@ impl MeasuredStability {
             .rate("growth_rate_error", Err(NO_RATE.to_owned()))
             .number("frequency", Quantity::FrequencyRatio, self.sliding.turns.closest)
             .unknown("eigenvalues", NO_RATE)
-            .plain("unstable_motions", self.sliding.turns.unstable)
+            .plain("unstable_roots", self.sliding.turns.unstable)
             .plain("half_turns", self.sliding.turns.half_turns)
             .plain("distance_from_marginal", self.sliding.turns.distance);
         let contacts = study.system().contacts.iter().zip(&self.sliding.contacts).enumerate();

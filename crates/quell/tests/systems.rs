@@ -1,0 +1,208 @@
+//! Systems against numbers computed by independent programs, and by two methods of our own.
+
+use std::fs;
+use std::path::Path;
+
+use quell::kind::verbs;
+use quell::run::system::tracked::TrackRequest;
+use quell::{Change, Study};
+use serde_json::Value as Json;
+
+fn reference() -> Json {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reference/systems.json");
+    serde_json::from_str(&fs::read_to_string(path).expect("a file")).expect("JSON")
+}
+
+fn study(text: &str) -> Study {
+    Study::parse(text, &[]).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+fn stability(text: &str) -> Json {
+    verbs(&study(text)).stability().expect("an answer").json()
+}
+
+fn tracked(text: &str, parameter: &str, window: (f64, f64)) -> Json {
+    let request = TrackRequest { parameter: parameter.to_owned(), window, along: None };
+    verbs(&study(text)).tracked_stability(&request).expect("an answer").json()
+}
+
+fn number(value: &Json) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+fn close(name: &str, value: &Json, wanted: &Json, tolerance: f64) {
+    let (value, wanted) = (number(value), number(wanted));
+    let error = (value - wanted).abs();
+    assert!(error <= tolerance * wanted.abs().max(1.0), "{name}: {value} {wanted} {error:e}");
+}
+
+fn list(value: &Json) -> &[Json] {
+    value.as_array().map_or(&[], Vec::as_slice)
+}
+
+/// Every eigenvalue of the reference is among those found.
+fn same_eigenvalues(name: &str, found: &Json, wanted: &Json, tolerance: f64) {
+    assert_eq!(list(found).len(), list(wanted).len(), "{name}");
+    for value in list(wanted) {
+        let distance = |other: &Json| {
+            (number(&value[0]) - number(&other[0])).hypot(number(&value[1]) - number(&other[1]))
+        };
+        let nearest = list(found).iter().map(distance).fold(f64::INFINITY, f64::min);
+        assert!(nearest <= tolerance, "{name}: {value} is missing by {nearest:e}");
+    }
+}
+
+/// Eigenvalues and contacts without dither (1e-12) and averaged (growth 1e-9, contacts 1e-10).
+#[test]
+fn eigenvalues_and_contacts_are_those_of_the_reference() {
+    let reference = reference();
+    for (part, tolerance) in [("stability", 1e-12), ("averaged", 1e-9)] {
+        for case in list(&reference[part]) {
+            let name = case["name"].as_str().expect("a name");
+            let found = stability(case["study"].as_str().expect("a study"));
+            close(name, &found["growth_rate"], &case["growth_rate"], tolerance);
+            close(name, &found["frequency"], &case["frequency"], tolerance);
+            same_eigenvalues(name, &found["eigenvalues"], &case["eigenvalues"], tolerance);
+            for (contact, wanted) in list(&found["contacts"]).iter().zip(list(&case["contacts"])) {
+                for (key, wanted) in wanted.as_object().expect("an object") {
+                    match wanted {
+                        Json::Number(_) => close(name, &contact[key], wanted, 1e-10),
+                        _ => assert_eq!(&contact[key], wanted, "{name}: {key}"),
+                    }
+                }
+            }
+            if part == "averaged" {
+                let undithered = &case["undithered"]["growth_rate"];
+                close(name, &found["undithered"]["growth_rate"], undithered, 1e-12);
+            }
+            let error = number(&found["growth_rate_error"]);
+            let difference = number(&found["growth_rate"]) - number(&case["growth_rate"]);
+            assert!(part == "averaged" || difference.abs() <= error, "{name}: beyond its bound");
+            if number(&case["growth_rate"]) == 0.0 {
+                assert_eq!(found["verdict"], "undecided", "{name}");
+            }
+        }
+    }
+}
+
+/// A disc written as a system has the growth of its own kind.
+#[test]
+fn discs_as_systems_have_their_own_growth() {
+    for case in list(&reference()["disc"]) {
+        let name = case["name"].as_str().expect("a name");
+        let found = stability(case["study"].as_str().expect("a study"));
+        close(name, &found["growth_rate"], &case["growth_rate"], 1e-12);
+        close(name, &found["frequency"], &case["frequency"], 1e-12);
+    }
+}
+
+/// Thresholds by following eigenvalues and as critical amplitudes (1e-9 relative).
+#[test]
+fn thresholds_are_those_of_the_reference() {
+    let reference = reference();
+    let cases = list(&reference["stability_thresholds"]).iter();
+    for case in cases.chain(list(&reference["averaged_thresholds"])) {
+        let name = case["name"].as_str().expect("a name");
+        let text = case["study"].as_str().expect("a study");
+        let found = if case.get("from").is_some() {
+            let parameter = case["parameter"].as_str().expect("a path");
+            let window = (number(&case["from"]), number(&case["to"]));
+            tracked(text, parameter, window)["thresholds"].clone()
+        } else {
+            stability(text)["critical_amplitudes"].clone()
+        };
+        let value = |found: &Json| {
+            let key = if found.get("value").is_some() { "value" } else { "amplitude" };
+            number(&found[key])
+        };
+        let wanted = number(&case["value"]);
+        let right = list(&found).iter().filter(|found| found["becomes"] == case["becomes"]);
+        let nearest =
+            right.map(|found| (value(found) - wanted).abs()).fold(f64::INFINITY, f64::min);
+        assert!(nearest <= 1e-9 * wanted.abs(), "{name}: {nearest:e} of {found}");
+    }
+}
+
+const MODE_COUPLING: &str = "[system]\ncoordinates = [\"x\", \"y\"]\nmass = [1, 1]\n\
+    stiffness = [[2, 1], [1, \"2/3\"]]\n[[contact]]\nname = \"pad\"\ntangent = { x = 1 }\nnormal = { y = 1 }\n\
+    normal_load = 1\nnormal_stiffness = \"4/3\"\nbelt_velocity = 1\n[contact.friction]\nlaw = \"coulomb\"\n\
+    coefficient = 0.5\n";
+
+/// Hoffmann et al. 2002: without damping two frequencies merge at μ = 3/4, where growth begins; with equal damping c it
+/// begins at ¾(1 + 2c²).
+#[test]
+fn frequencies_merge_at_three_quarters() {
+    let path = "contact.pad.friction.coefficient";
+    let found = tracked(MODE_COUPLING, path, (0.5, 1.0))["thresholds"].clone();
+    assert_eq!(list(&found).len(), 1, "{found}");
+    assert_eq!(
+        (&found[0]["kind"], &found[0]["becomes"]),
+        (&"coalescence".into(), &"unstable".into())
+    );
+    close("coalescence", &found[0]["value"], &0.75.into(), 1e-13);
+    close("frequency", &found[0]["frequency"], &2f64.sqrt().into(), 1e-7);
+    for damping in [0.02, 0.1] {
+        let text = format!("{MODE_COUPLING}[parameters]\nc = {damping}\n")
+            .replace("stiffness = [[", "damping = [[\"c\", 0], [0, \"c\"]]\nstiffness = [[");
+        let found = tracked(&text, path, (0.5, 1.0))["thresholds"].clone();
+        let hopf = list(&found).iter().find(|found| found["kind"] == "hopf").expect("a Hopf point");
+        close("Hopf", &hopf["value"], &(0.75 * (1.0 + 2.0 * damping * damping)).into(), 1e-12);
+    }
+}
+
+/// The shares of the growth rate for which friction works explain it where nothing else does: undamped, with symmetric
+/// matrices.
+#[test]
+fn friction_does_all_the_work_of_an_undamped_structure() {
+    let text = MODE_COUPLING.replace("coefficient = 0.5", "coefficient = 0.9");
+    let found = stability(&text);
+    for motion in list(&found["motions"]) {
+        let shares = list(&motion["friction_work"]).iter();
+        let sum: f64 = shares.map(|share| number(&share["growth_rate"])).sum();
+        close("work", &sum.into(), &motion["growth_rate"], 1e-13);
+    }
+}
+
+const DISC: &str = "[system]\ncoordinates = [\"a\", \"b\"]\nmass = [1, 1]\ndamping = [[0.01, -0.6], [0.6, 0.01]]\n\
+    stiffness = [[3.9, 0], [0, 3.9]]\n[[contact]]\nname = \"load\"\nnormal = { a = 0.9 }\nslope = { b = 1.8 }\n\
+    normal_load = 1\nnormal_stiffness = 0.3\nnormal_damping = 0.1\nbelt_velocity = 1\n[contact.friction]\nlaw = \"coulomb\"\n\
+    coefficient = 0.4\n[[dither]]\ncontact = \"load\"\ndirection = \"normal\"\nreaction = false\nwaveform = \"sine\"\n\
+    amplitude = 0.5\nfrequency = 2.7\n";
+
+/// The exact exponents tend to the eigenvalues for a dither that vanishes, and a follower load with dither has the exponents
+/// of the splitting method that discs use.
+#[test]
+fn exact_exponents_have_the_right_limits() {
+    let exact = |text: &str, amplitude: f64| {
+        let changes = [Change::number("dither.amplitude", amplitude, "--set")];
+        let study = Study::parse(text, &changes).unwrap_or_else(|errors| panic!("{errors}"));
+        verbs(&study).exact_stability().expect("pure slip").json()
+    };
+    let linear = stability(&DISC.replace("amplitude = 0.5", "amplitude = 0"));
+    let weak = exact(DISC, 1e-7);
+    close("weak dither", &weak["growth_rate"], &linear["growth_rate"], 1e-12);
+    let strong = exact(DISC, 0.5);
+    let study = study(DISC).system().expect("a system");
+    let linear = quell_linear::linearised::Linearised::new(study.system()).expect("slides");
+    let mut split = study.system().clone();
+    // The same modulation as a factor on the friction force, which here does not depend on the load otherwise.
+    for input in &mut split.inputs {
+        input.target = quell_model::system::InputTarget::Friction { contact: 0 };
+        let wave = input.profile.waves()[0];
+        input.profile = quell_model::profile::Profile::constant(1.0).with(wave);
+    }
+    let dithered =
+        quell_linear::floquet::FollowerDither::new(&split, &linear, 2.7).expect("follower");
+    let growth = dithered.growth(1.0, quell_numerics::floquet::Effort::default()).expect("finite");
+    close("two methods", &strong["growth_rate"], &growth.rate.into(), 1e-9);
+}
+
+/// Contacts that reverse or open under dither are named instead of answered.
+#[test]
+fn what_is_not_pure_slip_is_refused() {
+    let text = format!(
+        "{MODE_COUPLING}[[dither]]\nat = {{ x = 1 }}\nwaveform = \"sine\"\namplitude = 60\nfrequency = 50\n"
+    );
+    let why = verbs(&study(&text)).exact_stability().map(|_| ()).expect_err("reverses").to_string();
+    assert!(why.contains("pad") && why.contains("pure slip"), "{why}");
+}
