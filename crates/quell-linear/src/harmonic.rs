@@ -16,7 +16,7 @@ use quell_model::System;
 use quell_model::system::InputTarget;
 use quell_numerics::matrix::Matrix;
 
-use crate::linearised::{LinearContact, Linearised};
+use crate::linearised::{FrictionSlopes, LinearContact, Linearised};
 use crate::steady::{entry, product};
 
 /// What one input does at a contact, for û = 1.
@@ -68,21 +68,64 @@ pub fn response(
     Some(HarmonicResponse { displacement, contacts })
 }
 
-/// The limit of −iω â for ω → ∞ and û = 1: â ≈ c/(iω), the slip of free masses. `None` where the mass is singular.
-pub fn slip_of_free_masses(
+/// The slip of a contact far above every eigenfrequency, for û = 1: â ≈ c₁ s/(s² + ω₀²) + c₂/s².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeSlip {
+    /// c₁, the slip of free masses.
+    pub first: f64,
+    /// c₂, what dampers change first.
+    pub second: f64,
+    /// ω₀, what springs change first; `None` where that is not an oscillation.
+    pub natural: Option<f64>,
+}
+
+impl FreeSlip {
+    /// â at iω.
+    pub fn at(&self, frequency: f64) -> Complex64 {
+        let s = Complex64::new(0.0, frequency);
+        let square = self.natural.map_or(0.0, |natural| natural * natural);
+        s * self.first / (s * s + square) + self.second / (s * s)
+    }
+}
+
+/// How an input moves each contact far above every eigenfrequency: the moments C A^k B of the sliding system, friction carried
+/// along as in [`response`]. `None` where the mass is singular.
+pub fn free_slip(
     system: &System,
     linear: &Linearised,
     target: &InputTarget,
-) -> Option<Vec<f64>> {
+) -> Option<Vec<FreeSlip>> {
     let n = linear.coordinates();
     let force = Matrix::from_fn(n, 1, |i, _| force_on(system, linear, target, i));
     let moved = match linear.matrices() {
         Some(matrices) => matrices.mass.solve(&force)?,
         None => force,
     };
-    let contacts = linear.contacts().iter();
-    // First-order: x̂ → b/s, â = −tᵀx̂. Mechanical: q̂ → M⁻¹b/s², â = −s tᵀq̂.
-    Some(contacts.map(|contact| -product(contact.tangent(), moved.as_slice())).collect())
+    let frozen: Vec<FrictionSlopes> = linear
+        .friction()
+        .into_iter()
+        .map(|friction| FrictionSlopes { by_velocity: 0.0, ..friction })
+        .collect();
+    let matrix = linear.state_matrix_with(&frozen);
+    let offset = matrix.rows() - n;
+    let first =
+        Matrix::from_fn(
+            matrix.rows(),
+            1,
+            |i, _| if i < offset { 0.0 } else { moved[(i - offset, 0)] },
+        );
+    let second = matrix.times(&first);
+    let third = matrix.times(&second);
+    let slip = |contact: &LinearContact, state: &Matrix| {
+        -product(contact.tangent(), &state.as_slice()[offset..])
+    };
+    let contacts = linear.contacts().iter().map(|contact| {
+        let [first, second, third] = [&first, &second, &third].map(|state| slip(contact, state));
+        let square = -third / first;
+        let natural = (square > 0.0 && square.is_finite()).then(|| square.sqrt());
+        FreeSlip { first, second, natural }
+    });
+    Some(contacts.collect())
 }
 
 /// The dynamic stiffness with friction inside, and the factor that turns a displacement into a velocity of slip.

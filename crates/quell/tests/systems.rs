@@ -206,3 +206,85 @@ fn what_is_not_pure_slip_is_refused() {
     let why = verbs(&study(&text)).exact_stability().map(|_| ()).expect_err("reverses").to_string();
     assert!(why.contains("pad") && why.contains("pure slip"), "{why}");
 }
+
+/// A belt as a system: for ζ → 0 its averages are those of the belt's own finite-R averaging, whatever the waveform.
+#[test]
+fn belts_as_systems_have_their_own_averages() {
+    let law = "law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n";
+    for waveform in ["sine", "triangle", "square"] {
+        for (ratio, amplitude) in [(5.0, 0.1), (5.0, 0.4), (20.0, 1.6)] {
+            let belt = stability(&format!(
+                "[belt]\ndamping_ratio = 1e-12\nnormal_load = 1\nbelt_velocity = 0.05\n[friction]\n{law}\
+                 [dither]\ndirection = \"tangential\"\nwaveform = \"{waveform}\"\namplitude = {amplitude}\nfrequency_ratio = {ratio}\n"
+            ));
+            let system = stability(&format!(
+                "[system]\ncoordinates = [\"x\"]\nmass = [1]\ndamping = [2e-12]\nstiffness = [1]\n[[contact]]\n\
+                 tangent = {{ x = 1 }}\nnormal_load = 1\nbelt_velocity = 0.05\n[contact.friction]\n{law}\
+                 [[dither]]\nat = {{ x = 1 }}\nwaveform = \"{waveform}\"\namplitude = {amplitude}\nfrequency = {ratio}\n"
+            ));
+            let own = &belt["sharper"];
+            close(waveform, &system["growth_rate"], &own["growth_rate"], 1e-11);
+            let (first, wanted) =
+                (&system["critical_amplitudes"][0], &own["critical_amplitudes"][0]);
+            close(waveform, &first["amplitude"], &wanted["amplitude"], 1e-12);
+            assert_eq!(first["kind"], wanted["kind"]);
+        }
+    }
+}
+
+/// A measured response computed from matrices gives their verdict and their contacts.
+#[test]
+fn measured_responses_decide_as_their_matrices() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let contact = "[[contact]]\nname = \"pad\"\ntangent = { x = 1 }\nnormal = { y = 1 }\nnormal_load = 1\n\
+        normal_stiffness = 1.3333333333333333\nnormal_damping = 0.01\nbelt_velocity = 0.2\n[contact.friction]\nlaw = \"coulomb\"\n\
+        coefficient = COEFFICIENT\n";
+    let dither =
+        "[[dither]]\nat = { x = 1 }\nwaveform = \"sine\"\namplitude = AMPLITUDE\nfrequency = 8\n";
+    let matrices = "[system]\ncoordinates = [\"x\", \"y\"]\nmass = [1, 1]\ndamping = [0.02, 0.02]\n\
+        stiffness = [[2, 1], [1, 0.6666666666666667]]\n";
+    // H = (K − ω² + 0.02iω)⁻¹ of two rows.
+    let mut rows = String::from("frequency,output,input,re,im\n");
+    for k in 0..=20_000 {
+        let frequency =
+            if k < 15_000 { 2e-4 * f64::from(k) } else { 3.0 + 0.02 * f64::from(k - 15_000) };
+        let damper = num_complex::Complex64::new(0.0, 0.02 * frequency);
+        let [a, d] = [2.0, 0.666_666_666_666_666_7].map(|k| damper + (k - frequency * frequency));
+        let determinant = a * d - 1.0;
+        for (out, into, value) in
+            [("x", "x", d), ("y", "y", a), ("x", "y", (-1.0).into()), ("y", "x", (-1.0).into())]
+        {
+            let value = value / determinant;
+            rows += &format!("{frequency:?},{out},{into},{:?},{:?}\n", value.re, value.im);
+        }
+    }
+    fs::write(folder.path().join("frf.csv"), rows).expect("written");
+    for (coefficient, amplitude) in [("0.6", "0.5"), ("0.8", "0.5"), ("0.8", "2.0")] {
+        let ending = format!("{contact}{dither}")
+            .replace("COEFFICIENT", coefficient)
+            .replace("AMPLITUDE", amplitude);
+        let computed = stability(&format!("{matrices}{ending}"));
+        let text = format!("[system]\nfrequency_response = \"frf.csv\"\n{ending}");
+        let measured =
+            Study::parse_in(&text, &[], folder.path()).unwrap_or_else(|errors| panic!("{errors}"));
+        let found = verbs(&measured).stability().expect("a verdict").json();
+        assert_eq!(found["verdict"], computed["verdict"], "μ = {coefficient}, A = {amplitude}");
+        assert!(found["growth_rate"].is_null() && found["why"]["growth_rate"].is_string());
+        for key in ["friction", "normal", "slip_amplitude"] {
+            close(key, &found["contacts"][0][key], &computed["contacts"][0][key], 1e-5);
+        }
+        let [critical, wanted] =
+            [&found, &computed].map(|of| of["critical_amplitudes"][0]["amplitude"].clone());
+        if wanted.is_number() {
+            close("critical amplitude", &critical, &wanted, 1e-2);
+        }
+        for verb in [verbs(&measured).modes(), verbs(&measured).reach(None)] {
+            assert!(
+                verb.map(|_| ())
+                    .expect_err("needs matrices")
+                    .to_string()
+                    .contains("frequency response")
+            );
+        }
+    }
+}

@@ -54,12 +54,20 @@ impl core::fmt::Display for AveragingError {
 
 impl core::error::Error for AveragingError {}
 
-/// Accepts an integral whose tolerance was missed only because of the rounding of its integrand, with the error that it has.
+/// Relative error of an integral that is accepted where a sliver of the integrand, between two crossings within rounding of an
+/// extremum, cannot be resolved.
+const SLIVER: f64 = 1e-8;
+
+/// Accepts an integral whose tolerance was missed because of the rounding of its integrand, or by a sliver, with the error that
+/// it has.
 pub(super) fn settled(
     integral: Result<Integral, QuadratureError>,
 ) -> Result<Integral, AveragingError> {
     match integral {
         Ok(integral) | Err(QuadratureError::Rounding { best: integral }) => Ok(integral),
+        Err(QuadratureError::Evaluations { best }) if best.error <= SLIVER * best.value.abs() => {
+            Ok(best)
+        }
         Err(error) => Err(error.into()),
     }
 }

@@ -4,6 +4,7 @@
 //! is the same: fast slip and load of every contact, their mean friction, and the amplitudes at which a contact reverses.
 
 use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
 
 use num_complex::Complex64;
 use quell_model::profile::Wave;
@@ -18,7 +19,7 @@ use super::periodic_motion::{LoadTerm, PeriodicMotion, SlipTerm};
 use super::sign_changes::sign_changes;
 use super::sliding::{MOST_FREQUENCIES, NoAverage};
 use super::wave::FastWave;
-use crate::harmonic::ContactResponse;
+use crate::harmonic::{ContactResponse, FreeSlip};
 use crate::steady::{FrictionLine, SteadyContact};
 
 /// Harmonics below this share of the largest are left out.
@@ -64,8 +65,8 @@ impl DitheredContact {
 pub(super) struct WaveResponse {
     pub(super) input: usize,
     pub(super) wave: Wave,
-    /// Slip of free masses, −iωâ; `None` for a sine.
-    pub(super) free: Option<Vec<f64>>,
+    /// Slip far above every eigenfrequency; `None` for a sine.
+    pub(super) free: Option<Vec<FreeSlip>>,
     /// Harmonic n of the wave, its coefficient b_n of sin nθ, and the response at nω.
     pub(super) harmonics: Vec<(u32, f64, Vec<ContactResponse>)>,
 }
@@ -262,10 +263,19 @@ impl GroupParts {
         let Wave { waveform, frequency, phase, .. } = response.wave;
         let free = response.free.as_ref().map(|free| free[contact]);
         if let Some(free) = free {
-            // s = −a, and a = c A ∫g dt.
-            let wave = FastWave::Integral(waveform);
-            let slip = -free * amplitude / frequency;
+            // s = −a, and a = c₁ A ∫g dt, with the springs of an oscillation.
+            let wave = free.natural.map_or(FastWave::Integral(waveform), |natural| {
+                FastWave::Oscillator { waveform, frequency_ratio: frequency / natural }
+            });
+            let slip = -free.first * amplitude / frequency;
             self.slip_terms.push(SlipTerm { wave, amplitude: slip, harmonic: multiple, phase });
+            if waveform == Waveform::Square {
+                // c₂ A ∬g dt²: the integral of a square is a triangle, −(π/2) tri(θ + π/2).
+                let wave = FastWave::Integral(Waveform::Triangle);
+                let slip = FRAC_PI_2 * free.second * amplitude / (frequency * frequency);
+                let phase = phase + FRAC_PI_2;
+                self.slip_terms.push(SlipTerm { wave, amplitude: slip, harmonic: multiple, phase });
+            }
             if direct {
                 self.load_terms.push(LoadTerm { waveform, amplitude, harmonic: multiple, phase });
             }
@@ -273,7 +283,8 @@ impl GroupParts {
         for (n, coefficient, contacts) in &response.harmonics {
             let ContactResponse { mut slip, mut load } = contacts[contact];
             if let Some(free) = free {
-                slip -= free / Complex64::new(0.0, f64::from(*n) * frequency);
+                let second = if waveform == Waveform::Square { free.second } else { 0.0 };
+                slip -= FreeSlip { second, ..free }.at(f64::from(*n) * frequency);
                 load -= f64::from(u8::from(direct));
             }
             // A b sin(nθ) is the real part of −iA b e^{inθ}.
@@ -299,7 +310,7 @@ impl GroupParts {
             }
             let amplitude = size(*fast_load);
             if amplitude > least[1] {
-                let phase = fast_load.arg() + std::f64::consts::FRAC_PI_2;
+                let phase = fast_load.arg() + FRAC_PI_2;
                 load.push(LoadTerm { waveform: Waveform::Sine, amplitude, harmonic, phase });
             }
         }

@@ -7,6 +7,9 @@ use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use super::error::{AveragingError, settled};
 use super::wave::FastWave;
 
+/// Slope of a sine over the steepest one below which its quarters are no breaks.
+const FLAT: f64 = 1e-3;
+
 /// One dither's part of the fast slip velocity: amplitude·wave(harmonic·θ + phase).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipTerm {
@@ -82,10 +85,22 @@ impl PeriodicMotion {
         })
     }
 
-    /// Phases in (0, 2π) at which the formula of a term changes.
+    /// Phases in (0, 2π) at which the formula of a term changes, and quarters of the waves that shape s.
+    ///
+    /// A sine has no change of formula: its quarters only help to find the extrema of s, to which a sine of small slope adds
+    /// nothing. High harmonics of a structure's response would otherwise divide the period into thousands of intervals.
     pub(super) fn breaks(&self) -> Vec<f64> {
-        let terms = self.tangential.iter().chain(&self.normal).map(|t| (t.harmonic, t.phase));
-        let loads = self.load.iter().map(|t| (t.harmonic, t.phase));
+        let slips = || self.tangential.iter().chain(&self.normal);
+        let steep = |t: &&SlipTerm| t.amplitude.abs() * f64::from(t.harmonic);
+        let steepest = slips().map(|t| steep(&t)).fold(0.0, f64::max);
+        let matters = |t: &&SlipTerm| {
+            t.wave != FastWave::Integral(Waveform::Sine) || steep(t) > FLAT * steepest
+        };
+        let terms = slips().filter(matters).map(|t| (t.harmonic, t.phase));
+        let largest = self.load.iter().map(|t| t.amplitude.abs()).fold(0.0, f64::max);
+        let matters =
+            |t: &&LoadTerm| t.waveform != Waveform::Sine || t.amplitude.abs() > FLAT * largest;
+        let loads = self.load.iter().filter(matters).map(|t| (t.harmonic, t.phase));
         let mut breaks = Vec::new();
         for (harmonic, phase) in terms.chain(loads) {
             for quarter in 0..4 * harmonic {

@@ -6,8 +6,8 @@
 //! m₁ = ⟨μ(γ + a)Ñ⟩, so that steady sliding and its small motions are those of a system without dither and with other friction
 //! ([`crate::steady::FrictionLine`]).
 //!
-//! Waves that are not sines are divided into the motion of free masses, whose slip is an integral of the wave, and the harmonics
-//! of the remainder, which fall quickly.
+//! Waves that are not sines are divided into the motion far above every eigenfrequency, which has a closed form
+//! ([`crate::harmonic::FreeSlip`]), and the harmonics of the remainder, which fall at least like n⁻⁴; those up to the 63rd are kept.
 
 use num_complex::Complex64;
 use quell_model::profile::Wave;
@@ -18,13 +18,16 @@ use quell_numerics::eigen::EigenError;
 use super::error::AveragingError;
 use super::fast_inputs::{DitheredContact, FastInputs, WaveResponse};
 use crate::growth::Growth;
-use crate::harmonic::{self, ContactResponse};
+use crate::harmonic::{self, ContactResponse, FreeSlip};
 use crate::linearised::{FrictionSlopes, Linearised};
 use crate::spectrum::{self, Spectrum};
 use crate::steady::{NoSteadySliding, SteadySliding};
 
 /// Most incommensurate frequencies whose mean is taken: over a torus of two phases.
 pub const MOST_FREQUENCIES: usize = 2;
+
+/// Least ratio of the frequency of a wave to that of an oscillation in closed form.
+const ABOVE: f64 = 1.2;
 
 /// Harmonics of the remainder of a wave up to this one are kept.
 const MOST_HARMONICS: u32 = 63;
@@ -232,8 +235,13 @@ fn wave_response(
     if wave.waveform == Waveform::Sine {
         return Ok(WaveResponse { input, wave, free: None, harmonics: vec![(1, 1.0, at(1)?)] });
     }
-    let free = harmonic::slip_of_free_masses(system, sliding, target);
-    let free = free.ok_or(NoSteadySliding::NoMass)?;
+    // The closed form of an oscillation needs a frequency well above it.
+    let slow = |free: FreeSlip| FreeSlip {
+        natural: free.natural.filter(|natural| wave.frequency > ABOVE * natural),
+        ..free
+    };
+    let free = harmonic::free_slip(system, sliding, target);
+    let free = free.ok_or(NoSteadySliding::NoMass)?.into_iter().map(slow).collect();
     let mut harmonics: Vec<(u32, f64, Vec<ContactResponse>)> = Vec::new();
     for n in (1..=MOST_HARMONICS).step_by(2) {
         let coefficient = wave.waveform.sine_coefficient(n);
