@@ -245,9 +245,9 @@ fn measured_responses_decide_as_their_matrices() {
         stiffness = [[2, 1], [1, 0.6666666666666667]]\n";
     // H = (K − ω² + 0.02iω)⁻¹ of two rows.
     let mut rows = String::from("frequency,output,input,re,im\n");
-    for k in 0..=20_000 {
+    for k in 0..=6_500 {
         let frequency =
-            if k < 15_000 { 2e-4 * f64::from(k) } else { 3.0 + 0.02 * f64::from(k - 15_000) };
+            if k < 5_000 { 6e-4 * f64::from(k) } else { 3.0 + 0.1 * f64::from(k - 5_000) };
         let damper = num_complex::Complex64::new(0.0, 0.02 * frequency);
         let [a, d] = [2.0, 0.666_666_666_666_666_7].map(|k| damper + (k - frequency * frequency));
         let determinant = a * d - 1.0;
@@ -276,6 +276,7 @@ fn measured_responses_decide_as_their_matrices() {
         let [critical, wanted] =
             [&found, &computed].map(|of| of["critical_amplitudes"][0]["amplitude"].clone());
         if wanted.is_number() {
+            assert!(critical.is_number(), "{found:#}");
             close("critical amplitude", &critical, &wanted, 1e-2);
         }
         for verb in [verbs(&measured).modes(), verbs(&measured).reach(None)] {

@@ -14,7 +14,7 @@ use quell_model::{System, Waveform};
 use super::dithers::commensurate_groups;
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
-use super::mean_friction::effective;
+use super::mean_friction::{effective, of_fluctuating_load};
 use super::periodic_motion::{LoadTerm, PeriodicMotion, SlipTerm};
 use super::sign_changes::sign_changes;
 use super::sliding::{MOST_FREQUENCIES, NoAverage};
@@ -363,9 +363,10 @@ impl ContactMotion {
             slope_constant: 0.0,
         };
         if self.load_amplitude > 0.0 {
-            let loaded = effective(&contact.friction, &self.whole, velocity)?;
-            line.constant = self.normal_load * (loaded.coefficient - mean.coefficient);
-            line.slope_constant = self.normal_load * (loaded.slope - mean.slope);
+            let (level, slope) =
+                of_fluctuating_load(&contact.friction, (&self.whole, &mean), velocity)?;
+            line.constant = self.normal_load * level;
+            line.slope_constant = self.normal_load * slope;
         }
         Ok(line)
     }

@@ -39,3 +39,23 @@ pub fn effective(law: &Friction, motion: &FastMotion, v: f64) -> Result<Effectiv
         groups => independent::effective(law, groups, v),
     }
 }
+
+/// The part of the mean that the fluctuating load makes, ⟨μ(v − s)ν⟩, and its frozen slope. `slip` is the same motion without its
+/// load.
+///
+/// For one group it is integrated by itself: as a difference of two means it would lose every digit near a corner, where the
+/// slopes of both grow without bound.
+pub(super) fn of_fluctuating_load(
+    law: &Friction,
+    (motion, slip): (&FastMotion, &Effective),
+    v: f64,
+) -> Result<(f64, f64), AveragingError> {
+    let found = match motion.groups() {
+        [group] => {
+            let found = periodic::mean(law, &periodic::Signal::new(group)?, 0.0, v)?;
+            return Ok((found.coefficient, found.slope));
+        }
+        _ => effective(law, motion, v)?,
+    };
+    Ok((found.coefficient - slip.coefficient, found.slope - slip.slope))
+}
