@@ -15,6 +15,7 @@ use quell_model::units::Quantity;
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::study::SystemUnits;
+use crate::words::digits;
 
 /// The failure of a verb with its reason.
 fn failed(verb: &str, why: impl std::fmt::Display) -> Failure {
@@ -30,6 +31,27 @@ fn not_averaged(why: NoAverage) -> Failure {
 fn is_dithered(system: &System) -> bool {
     let mut waves = system.inputs.iter().flat_map(|input| input.profile.waves());
     waves.any(|wave| wave.amplitude != 0.0)
+}
+
+/// A frequency after the noun: in hertz where the study has units.
+fn oscillating(units: SystemUnits, frequency: f64) -> String {
+    match units {
+        _ if frequency == 0.0 => "without oscillation".to_owned(),
+        SystemUnits::None => format!("of angular frequency {}", digits(frequency)),
+        _ => format!("of {} Hz", digits(frequency / std::f64::consts::TAU)),
+    }
+}
+
+/// A growth rate with its unit.
+fn rate_of(units: SystemUnits, rate: f64) -> String {
+    let unit = if units == SystemUnits::None { "" } else { " 1/s" };
+    format!("{}{unit}", digits(rate))
+}
+
+/// A force with its unit.
+fn force(units: SystemUnits, value: f64) -> String {
+    let unit = units.unit(Quantity::Force).map_or(String::new(), |unit| format!(" {unit}"));
+    format!("{}{unit}", digits(value))
 }
 
 /// One small motion.
