@@ -123,10 +123,8 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
     let rates = branches(&|z| upper(z).then_some(z.re));
     let role = if done.averaged { PlotRole::Averaged } else { PlotRole::Undithered };
     let marked = |panel: Panel, height: &dyn Fn(num_complex::Complex64) -> f64| -> Panel {
-        let kinds = [
-            ("threshold", Marker::Disc, true),
-            ("frequencies merge", Marker::Circle, false),
-        ];
+        let kinds =
+            [("threshold", Marker::Disc, true), ("frequencies merge", Marker::Circle, false)];
         kinds.into_iter().fold(panel, |panel, (label, marker, changes)| {
             let found = done.tracked.thresholds.iter();
             let of_kind = found.filter(|at| (at.verdicts[0] != at.verdicts[1]) == changes);
@@ -173,7 +171,7 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
         }
         panels.push(panel.title("(c) thresholds"));
     }
-    Figure::grid(panels.len(), panels).title(study.title().unwrap_or_default()).caption(format!(
+    Figure::grid(2, panels).title(study.title().unwrap_or_default()).caption(format!(
         "Eigenvalues of small motions about steady sliding over {}, {}.{}",
         done.request.parameter,
         done.protocol(),
@@ -207,7 +205,8 @@ pub fn reach(study: &SystemStudy, done: &Reaches) -> Figure {
                 .label(format!("contact {contact}, dither[{}]", pair.dither)),
         );
     }
-    Figure::single(panel)
-        .title(study.title().unwrap_or_default())
-        .caption("Slip amplitude at each contact in the linear response to the dither about steady sliding.".to_owned())
+    Figure::single(panel).title(study.title().unwrap_or_default()).caption(
+        "Slip amplitude at each contact in the linear response to the dither about steady sliding."
+            .to_owned(),
+    )
 }

@@ -14,7 +14,7 @@ use quell_model::units::Quantity;
 
 use crate::complaint::Failure;
 use crate::fields::Fields;
-use crate::study::SystemUnits;
+use crate::study::{SystemStudy, SystemUnits};
 use crate::words::digits;
 
 /// The failure of a verb with its reason.
@@ -25,6 +25,15 @@ fn failed(verb: &str, why: impl std::fmt::Display) -> Failure {
 /// The failure of averaging.
 fn not_averaged(why: NoAverage) -> Failure {
     failed("stability", why)
+}
+
+/// Rejects a verb on a measured frequency response, which has no equations.
+fn has_equations(study: &SystemStudy, verb: &str) -> Result<(), Failure> {
+    if study.frequency_response().is_none() {
+        return Ok(());
+    }
+    let why = "the study has a measured frequency response instead of equations; only `check` reads it yet";
+    Err(failed(verb, why))
 }
 
 /// Whether some dither acts.

@@ -10,7 +10,7 @@ use quell_numerics::continuation::modulus;
 use quell_numerics::roots::{Closeness, minimise};
 use serde_json::Value as Json;
 
-use super::failed;
+use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
@@ -63,6 +63,7 @@ pub struct Reaches {
 /// # Errors
 /// A complaint about the range; [`Failure::Failed`] without steady sliding or dither.
 pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Failure> {
+    has_equations(study, "resonances")?;
     let system = study.system();
     if system.inputs.is_empty() {
         return Err(failed("resonances", "the study has no dither whose reach could be computed"));
@@ -145,7 +146,10 @@ impl Reaches {
             .map(|end| digits(factor * end.copied().unwrap_or(0.0)));
         let antiresonances = match count {
             0 => String::new(),
-            _ => format!(", and {count} antiresonance{} where it does not reach a contact", plural(count)),
+            _ => format!(
+                ", and {count} antiresonance{} where it does not reach a contact",
+                plural(count)
+            ),
         };
         let peaks = match peaks {
             0 => "no resonance".to_owned(),

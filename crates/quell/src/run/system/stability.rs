@@ -8,7 +8,10 @@ use quell_model::System;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::{failed, force, is_dithered, not_averaged, oscillating, put_motion, rate_of, upper};
+use super::{
+    failed, force, has_equations, is_dithered, not_averaged, oscillating, put_motion, rate_of,
+    upper,
+};
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::run::stability::{becomes, kind};
@@ -56,6 +59,7 @@ pub struct SystemStability {
 /// # Errors
 /// [`Failure::Failed`] without steady sliding, and where averaging has no answer.
 pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
+    has_equations(study, "stability")?;
     let system = study.system();
     let linear = Linearised::new(system).map_err(|why| failed("stability", why))?;
     let undithered =
@@ -194,7 +198,11 @@ impl SystemStability {
         let more = next.map_or(String::new(), |found| {
             format!(
                 " {} makes it {} from the amplitude {} on.",
-                if study.system().inputs.len() > 1 { "A larger first dither" } else { "More dither" },
+                if study.system().inputs.len() > 1 {
+                    "A larger first dither"
+                } else {
+                    "More dither"
+                },
                 becomes(found.becomes),
                 force(study.units(), found.amplitude)
             )

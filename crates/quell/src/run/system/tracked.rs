@@ -9,7 +9,7 @@ use quell_numerics::eigen::EigenError;
 use quell_numerics::matrix::Matrix;
 use serde_json::{Value as Json, json};
 
-use super::{failed, is_dithered, oscillating};
+use super::{failed, has_equations, is_dithered, oscillating};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
@@ -92,6 +92,7 @@ impl Family for StudyFamily<'_> {
 /// # Errors
 /// Complaints about the parameters and their windows; [`Failure::Failed`] if no value of the window has steady sliding.
 pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStability, Failure> {
+    has_equations(study, "stability")?;
     understood(study, request)?;
     let family = |fixed| StudyFamily { study, path: &request.parameter, fixed };
     let tracked = track(&family(None), request.window, POINTS);
