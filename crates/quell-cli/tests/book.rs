@@ -5,6 +5,7 @@
 //! | block | action |
 //! |---|---|
 //! | `toml` | saved under the name in its first line, `# NAME.toml`, and checked |
+//! | `csv` | saved under the name in its first line, `# NAME.csv` |
 //! | `toml` that begins with `[friction]` | replaces `[friction]` in the last belt; checked unless it names a data file |
 //! | `sh` | every line that begins with `quell` is run and must succeed |
 //! | `text` after `sh` | must equal the output of the last command |
@@ -111,8 +112,12 @@ fn with_friction(study: &str, friction: &str) -> String {
 
 /// Processes a page and returns it with the actual outputs.
 fn page(path: &Path) -> String {
+    page_in(path, &workplace())
+}
+
+/// Processes a page in a folder, in which the files of its commands are left.
+fn page_in(path: &Path, folder: &tempfile::TempDir) -> String {
     let text = fs::read_to_string(path).expect("a page");
-    let folder = workplace();
     let mut answer: Option<String> = None;
     // The last complete study of a belt on the page.
     let mut belt = String::new();
@@ -141,6 +146,11 @@ fn page(path: &Path) -> String {
                 fs::write(folder.path().join(name), block.lines.join("\n")).expect("written");
                 run(&format!("quell check {name}"), folder.path(), path);
                 answer = None;
+            }
+            "csv" => {
+                let name = block.lines.first().and_then(|line| line.strip_prefix("# "));
+                let name = name.expect("the name of the file in its first line");
+                fs::write(folder.path().join(name), block.lines.join("\n")).expect("written");
             }
             "sh" => {
                 answer = None;
@@ -276,10 +286,8 @@ fn pictures_are_those_of_reproduce() {
                 fs::write(&path, &now).expect("written");
             }
             let before = fs::read_to_string(&path).expect("QUELL_BLESS=1 writes it");
-            let ((words, numbers), (kept, old)) = (drawing(&now), drawing(&before));
-            let close = numbers.iter().zip(&old).all(|(a, b)| (a - b).abs() <= 0.02);
             assert!(
-                words == kept && numbers.len() == old.len() && close,
+                same_drawing(&now, &before),
                 "{}: QUELL_BLESS=1 writes the present picture",
                 path.display()
             );
@@ -287,6 +295,48 @@ fn pictures_are_those_of_reproduce() {
         }
     }
     assert!(count > 8);
+}
+
+/// Whether two drawings have the same texts, and lines that agree within two hundredths of a point.
+fn same_drawing(one: &str, other: &str) -> bool {
+    let ((words, numbers), (others, old)) = (drawing(one), drawing(other));
+    let close = numbers.iter().zip(&old).all(|(a, b)| (a - b).abs() <= 0.02);
+    words == others && numbers.len() == old.len() && close
+}
+
+/// Every picture that is beside its page is the one that a command of the page draws, `--plot NAME.svg`.
+/// `QUELL_BLESS=1` writes them.
+#[test]
+fn pictures_beside_pages_are_those_of_their_commands() {
+    let bless = std::env::var_os("QUELL_BLESS").is_some();
+    let mut count = 0;
+    for path in pages() {
+        let text = fs::read_to_string(&path).expect("a page");
+        let links = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        let own = |link: &&str| link.ends_with(".svg") && !link.contains(['/', ':']);
+        let links: Vec<&str> = links.filter(own).collect();
+        if links.is_empty() {
+            continue;
+        }
+        let folder = workplace();
+        page_in(&path, &folder);
+        for link in links {
+            let now = fs::read_to_string(folder.path().join(link));
+            let now = now.unwrap_or_else(|_| panic!("{}: no command draws {link}", path.display()));
+            let kept = path.with_file_name(link);
+            if bless {
+                fs::write(&kept, &now).expect("written");
+            }
+            let before = fs::read_to_string(&kept).expect("QUELL_BLESS=1 writes it");
+            assert!(
+                same_drawing(&now, &before),
+                "{}: QUELL_BLESS=1 writes the present picture",
+                kept.display()
+            );
+            count += 1;
+        }
+    }
+    assert!(count > 4, "{count}");
 }
 
 /// Every link to a file is valid, and every page is in the table of contents.

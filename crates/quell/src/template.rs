@@ -47,6 +47,10 @@ templates!(
     "map",
     "disc",
     "disc-dither",
+    "mode-coupling",
+    "two-mass-drive",
+    "modes",
+    "controller",
 );
 
 impl Template {

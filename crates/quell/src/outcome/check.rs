@@ -4,12 +4,14 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::TextTable;
+use super::table::{TextTable, figure};
 use crate::run::check::Check;
 use crate::run::disc;
 use crate::run::law;
 use crate::run::system;
-use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy, StudyOf, SystemSetup, SystemStudy};
+use crate::study::{
+    BeltSetup, BeltStudy, DiscSetup, DiscStudy, StudyOf, SystemSetup, SystemStudy, SystemUnits,
+};
 
 /// Marks a valid study; the answer of `check` follows from the study alone.
 #[derive(Clone, Copy, Debug)]
@@ -104,22 +106,29 @@ fn table_of_system(study: &SystemStudy) -> String {
     let listed = names.iter().take(12).cloned().collect::<Vec<_>>().join(", ");
     let rest = if names.len() > 12 { ", …" } else { "" };
     table.word("coordinates", &format!("{}: {listed}{rest}", names.len()));
+    let with = |quantity: Quantity, value: f64| {
+        let unit = study.units().unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
+        format!("{}{unit}", figure(value))
+    };
     for contact in &system.contacts {
-        let velocity = contact.surface_velocity.mean();
         let words = format!(
-            "{}, normal load {}, velocity {velocity}, {}",
+            "{}, normal load {}, belt velocity {}, {}",
             contact.name,
-            contact.normal_load,
+            with(Quantity::Force, contact.normal_load),
+            with(Quantity::Velocity, contact.surface_velocity.mean()),
             contact.friction.kind().name()
         );
         table.word("contact", &words);
     }
     for wave in system.inputs.iter().flat_map(|input| input.profile.waves()) {
         let words = format!(
-            "{}, amplitude {}, frequency {}",
+            "{}, amplitude {}, {}",
             wave.waveform.name(),
-            wave.amplitude,
-            wave.frequency
+            with(Quantity::Force, wave.amplitude),
+            match study.units() {
+                SystemUnits::None => format!("angular frequency {}", figure(wave.frequency)),
+                _ => format!("{} Hz", figure(wave.frequency / std::f64::consts::TAU)),
+            }
         );
         table.word("dither", &words);
     }

@@ -10,10 +10,16 @@ use crate::run::system::stability::SystemStability;
 use crate::run::system::tracked::TrackedStability;
 use crate::study::{SystemStudy, SystemUnits};
 
+/// Largest share of the growth rates that is hidden below the axis: overdamped motions just beyond a jump decay arbitrarily fast.
+const HIDDEN: f64 = 0.15;
+
+/// Margin of the axis of growth rates where some rates are below it.
+const MARGIN: f64 = 0.1;
+
 /// The axis of an angular frequency, in hertz where the study has units, and the factor to it.
-fn frequency_axis(study: &SystemStudy) -> (PlotAxis, f64) {
+fn frequency_axis(study: &SystemStudy, symbol: &str) -> (PlotAxis, f64) {
     match study.units() {
-        SystemUnits::None => (PlotAxis::new("angular frequency").symbol("|Im λ|"), 1.0),
+        SystemUnits::None => (PlotAxis::new("angular frequency").symbol(symbol), 1.0),
         _ => (PlotAxis::new("frequency").unit("Hz"), 1.0 / std::f64::consts::TAU),
     }
 }
@@ -28,7 +34,7 @@ fn growth_axis(study: &SystemStudy) -> PlotAxis {
 
 /// Every eigenvalue in the complex plane; under dither those without it too.
 pub fn stability(study: &SystemStudy, done: &SystemStability) -> Figure {
-    let (frequency, factor) = frequency_axis(study);
+    let (frequency, factor) = frequency_axis(study, "|Im λ|");
     let places = |motions: &[quell_linear::spectrum::SmallMotion]| -> Vec<(f64, f64)> {
         let upper = motions.iter().filter(|motion| motion.eigenvalue.im >= 0.0);
         upper.map(|motion| (motion.eigenvalue.re, factor * motion.frequency())).collect()
@@ -65,11 +71,39 @@ pub fn stability(study: &SystemStudy, done: &SystemStability) -> Figure {
         .caption("Eigenvalues of small motions about steady sliding.".to_owned())
 }
 
+/// The axis of the number at a path.
+fn axis_of(study: &SystemStudy, path: &str) -> PlotAxis {
+    let axis = PlotAxis::new(path);
+    match study.unit_of(path).filter(|unit| *unit != "1") {
+        Some(unit) => axis.unit(unit),
+        None => axis,
+    }
+}
+
+/// Lower end of the axis of growth rates, where a few rates are far below all others.
+fn lowest_rate(done: &TrackedStability) -> Option<f64> {
+    let mut rates: Vec<(f64, f64)> = Vec::new();
+    for pair in done.tracked.pieces.iter().flat_map(|piece| piece.windows(2)) {
+        let width = pair[1].value - pair[0].value;
+        rates.extend(pair[1].eigenvalues.iter().map(|z| (z.re, width)));
+    }
+    rates.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (lowest, highest) = rates.first().zip(rates.last())?;
+    let whole: f64 = rates.iter().map(|(_, width)| width).sum();
+    let mut below = 0.0;
+    let usual = rates.iter().find(|(_, width)| {
+        below += width;
+        below >= HIDDEN * whole
+    })?;
+    let length = highest.0 - usual.0;
+    (lowest.0 < usual.0 - length).then_some(usual.0 - MARGIN * length)
+}
+
 /// Frequency and growth rate of every motion over the parameter, with the thresholds.
 pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
-    let (frequency, factor) = frequency_axis(study);
+    let (frequency, factor) = frequency_axis(study, "|Im λ|");
     let (from, to) = done.request.window;
-    let across = || PlotAxis::new(done.request.parameter.clone()).between(from, to);
+    let across = || axis_of(study, &done.request.parameter).between(from, to);
     let branches = |pick: &dyn Fn(&num_complex::Complex64) -> Option<f64>| -> Vec<Vec<(f64, f64)>> {
         let mut lines: BTreeMap<(usize, usize), Vec<(f64, f64)>> = BTreeMap::new();
         for (index, piece) in done.tracked.pieces.iter().enumerate() {
@@ -84,54 +118,76 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
         lines.into_values().collect()
     };
     let upper = |z: &num_complex::Complex64| z.im >= 0.0;
+    let lowest = lowest_rate(done);
     let frequencies = branches(&|z| upper(z).then_some(factor * z.im));
     let rates = branches(&|z| upper(z).then_some(z.re));
-    let marks: Vec<(f64, f64)> = done
-        .tracked
-        .thresholds
-        .iter()
-        .map(|found| (found.value, factor * found.eigenvalue.im.abs()))
-        .collect();
-    let zero: Vec<(f64, f64)> =
-        done.tracked.thresholds.iter().map(|found| (found.value, found.eigenvalue.re)).collect();
     let role = if done.averaged { PlotRole::Averaged } else { PlotRole::Undithered };
-    let mark = |points: Vec<(f64, f64)>| {
-        Points::new(PlotRole::Exact, points).marker(Marker::Disc).size(7.0).label("threshold")
+    let marked = |panel: Panel, height: &dyn Fn(num_complex::Complex64) -> f64| -> Panel {
+        let kinds =
+            [("threshold", Marker::Disc, true), ("frequencies merge", Marker::Circle, false)];
+        kinds.into_iter().fold(panel, |panel, (label, marker, changes)| {
+            let found = done.tracked.thresholds.iter();
+            let of_kind = found.filter(|at| (at.verdicts[0] != at.verdicts[1]) == changes);
+            let points: Vec<(f64, f64)> =
+                of_kind.map(|at| (at.value, height(at.eigenvalue))).collect();
+            if points.is_empty() {
+                return panel;
+            }
+            panel.with(Points::new(PlotRole::Exact, points).marker(marker).size(7.0).label(label))
+        })
     };
-    let above = Panel::new(across(), frequency.from(0.0))
-        .with(Polyline::pieces(role, frequencies))
-        .with(mark(marks))
-        .title("(a) frequency")
-        .legend(Legend::None);
-    let below = Panel::new(across(), growth_axis(study))
+    let all = frequencies.iter().flatten().map(|(_, height)| *height);
+    let (least, greatest) =
+        all.fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), height| (a.min(height), b.max(height)));
+    // Frequencies that are close to each other in comparison to their size are easier to tell apart without the origin.
+    let frequency = if least > 0.5 * greatest { frequency } else { frequency.from(0.0) };
+    let above = Panel::new(across(), frequency).with(Polyline::pieces(role, frequencies));
+    let above = marked(above, &|z| factor * z.im.abs()).title("(a) frequency").legend(Legend::None);
+    let growth = match lowest {
+        Some(lowest) => growth_axis(study).from(lowest),
+        None => growth_axis(study),
+    };
+    let below = Panel::new(across(), growth)
         .with(Region::across_y(PlotRole::Unstable, 0.0, f64::INFINITY).label("unstable"))
         .with(ReferenceLine::horizontal(0.0))
-        .with(Polyline::pieces(role, rates))
-        .with(mark(zero))
-        .title("(b) growth rate");
+        .with(Polyline::pieces(role, rates));
+    let below = marked(below, &|z| z.re).title("(b) growth rate");
     let mut panels = vec![above, below];
     if let Some((along, (first, last))) = &done.request.along {
-        let mut panel = Panel::new(PlotAxis::new(along.clone()).between(*first, *last), across());
-        for curve in &done.curves {
-            let points: Vec<(f64, f64)> =
-                curve.points.iter().map(|(at, found)| (*at, found.value)).collect();
-            let label = curve.points.first().map_or("", |(_, found)| found.change.name());
-            panel = panel.with(Polyline::new(PlotRole::Exact, points).label(label));
+        let second = axis_of(study, along).between(*first, *last);
+        let mut panel = Panel::new(second, across());
+        for (kind, changes) in [(PlotRole::Boundary, true), (PlotRole::Guide, false)] {
+            let of_kind = done.curves.iter().filter(|curve| {
+                let verdicts = curve.points.first().map(|(_, found)| found.verdicts);
+                verdicts.is_some_and(|[before, beyond]| (before != beyond) == changes)
+            });
+            let lines: Vec<Vec<(f64, f64)>> = of_kind
+                .map(|curve| curve.points.iter().map(|(at, found)| (*at, found.value)).collect())
+                .collect();
+            if !lines.is_empty() {
+                let label = if changes { "threshold" } else { "frequencies merge" };
+                panel = panel.with(Polyline::pieces(kind, lines).label(label));
+            }
         }
         panels.push(panel.title("(c) thresholds"));
     }
     Figure::grid(2, panels).title(study.title().unwrap_or_default()).caption(format!(
-        "Eigenvalues followed over {}; {}.",
+        "Eigenvalues of small motions about steady sliding over {}, {}.{}",
         done.request.parameter,
-        done.protocol()
+        done.protocol(),
+        if lowest.is_some() { " Lower growth rates exist." } else { "" }
     ))
 }
 
 /// Slip amplitude per unit of dither over its frequency.
 pub fn reach(study: &SystemStudy, done: &Reaches) -> Figure {
-    let (frequency, factor) = frequency_axis(study);
-    let mut panel =
-        Panel::new(frequency.log(), PlotAxis::new("slip amplitude per unit of dither").log());
+    let (frequency, factor) = frequency_axis(study, "ω");
+    let slip = match study.units() {
+        SystemUnits::None => PlotAxis::new("slip amplitude per unit of dither"),
+        SystemUnits::Si => PlotAxis::new("slip amplitude per force").unit("m/s/N"),
+        SystemUnits::MmTonneSecond => PlotAxis::new("slip amplitude per force").unit("mm/s/N"),
+    };
+    let mut panel = Panel::new(frequency.log(), slip.log());
     for pair in &done.pairs {
         let contact = &study.system().contacts[pair.contact].name;
         let points: Vec<(f64, f64)> = done
@@ -146,10 +202,11 @@ pub fn reach(study: &SystemStudy, done: &Reaches) -> Figure {
         }
         panel = panel.with(
             Polyline::new(PlotRole::Series(pair.dither + pair.contact), points)
-                .label(format!("dither {} at {contact}", pair.dither)),
+                .label(format!("contact {contact}, dither[{}]", pair.dither)),
         );
     }
-    Figure::single(panel)
-        .title(study.title().unwrap_or_default())
-        .caption("Linear response of the sliding structure, friction carried along.".to_owned())
+    Figure::single(panel).title(study.title().unwrap_or_default()).caption(
+        "Slip amplitude at each contact in the linear response to the dither about steady sliding."
+            .to_owned(),
+    )
 }

@@ -9,22 +9,45 @@ mod tracked;
 
 use quell_linear::spectrum::SmallMotion;
 
+use quell_numerics::eigen::modulus;
+
 use super::table::figure;
 use crate::study::SystemUnits;
 
 /// Motions that a table lists.
 const MOST_MOTIONS: usize = 12;
 
-/// Small motions as text, the first [`MOST_MOTIONS`] of them.
-fn motions<'a>(units: SystemUnits, all: impl Iterator<Item = &'a SmallMotion>) -> String {
+/// The frequency of a motion that a table lists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Listed {
+    /// |Im λ|, with the damping that the motion has.
+    Damped,
+    /// |λ|, the frequency of the motion without its damping.
+    Natural,
+}
+
+/// Small motions as text, the first [`MOST_MOTIONS`] of them. Rates that are zero within their error are printed as 0.
+fn motions<'a>(
+    units: SystemUnits,
+    listed: Listed,
+    all: impl Iterator<Item = &'a SmallMotion>,
+) -> String {
     let hertz = units != SystemUnits::None;
     let all: Vec<&SmallMotion> = all.collect();
     let mut text = format!("  {:>14}", if hertz { "frequency/Hz" } else { "frequency" });
-    text += &format!("  {:>14}  {:>14}\n", "growth rate", "damping ratio");
+    let rate = if hertz { "rate/(1/s)" } else { "growth rate" };
+    text += &format!("  {rate:>14}  {:>14}\n", "damping ratio");
     for motion in all.iter().take(MOST_MOTIONS) {
-        let frequency = motion.frequency();
+        let frequency = match listed {
+            Listed::Damped => motion.frequency(),
+            Listed::Natural => modulus(motion.eigenvalue),
+        };
         let frequency = if hertz { frequency / std::f64::consts::TAU } else { frequency };
-        let (rate, ratio) = (motion.eigenvalue.re, motion.damping_ratio());
+        let (rate, ratio) = if motion.eigenvalue.re.abs() <= motion.error {
+            (0.0, 0.0)
+        } else {
+            (motion.eigenvalue.re, motion.damping_ratio())
+        };
         text +=
             &format!("  {:>14}  {:>14}  {:>14}\n", figure(frequency), figure(rate), figure(ratio));
     }

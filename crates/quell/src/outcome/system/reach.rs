@@ -1,5 +1,7 @@
 //! `resonances` of a system.
 
+use std::f64::consts::TAU;
+
 use serde_json::Value as Json;
 
 use crate::complaint::Failure;
@@ -9,7 +11,7 @@ use crate::outcome::table::figure;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::system::reach::Reaches;
-use crate::study::{SystemSetup, SystemStudy};
+use crate::study::{SystemSetup, SystemStudy, SystemUnits};
 
 impl Presented<SystemSetup> for Reaches {
     const TITLED: bool = true;
@@ -24,17 +26,23 @@ impl Presented<SystemSetup> for Reaches {
 
     fn table(&self, study: &SystemStudy) -> String {
         let mut text = String::new();
+        let (factor, frequency, slip) = match study.units() {
+            SystemUnits::None => (1.0, "frequency", "slip/dither"),
+            SystemUnits::Si => (1.0 / TAU, "frequency/Hz", "slip/(m/s/N)"),
+            SystemUnits::MmTonneSecond => (1.0 / TAU, "frequency/Hz", "slip/(mm/s/N)"),
+        };
         for pair in &self.pairs {
             let contact = &study.system().contacts[pair.contact].name;
+            text += &format!("  contact {contact}, dither[{}]\n", pair.dither);
+            text += &format!("  {frequency:>14}  {slip:>14}\n");
             for at in &pair.extremes {
-                let kind = if at.peak { "reaches best" } else { "reaches least" };
-                text += &format!(
-                    "  dither {} {kind} contact {contact} at {}: slip {} per unit of dither{}\n",
-                    pair.dither,
-                    figure(at.frequency),
-                    figure(at.slip_per_amplitude),
-                    if at.out_of_reach { ", out of reach" } else { "" }
-                );
+                let kind = match (at.peak, at.out_of_reach) {
+                    (true, _) => "resonance",
+                    (false, false) => "minimum",
+                    (false, true) => "antiresonance, out of reach",
+                };
+                let (frequency, slip) = (factor * at.frequency, at.slip_per_amplitude);
+                text += &format!("  {:>14}  {:>14}  {kind}\n", figure(frequency), figure(slip));
             }
         }
         text

@@ -2,7 +2,7 @@
 
 use serde_json::Value as Json;
 
-use super::motions;
+use super::{Listed, motions};
 use crate::complaint::Failure;
 use crate::outcome::Presented;
 use crate::outcome::table::figure;
@@ -11,6 +11,7 @@ use crate::plot::Figure;
 use crate::run::stability::{becomes, kind};
 use crate::run::system::stability::SystemStability;
 use crate::study::{SystemSetup, SystemStudy};
+use quell_model::units::Quantity;
 
 impl Presented<SystemSetup> for SystemStability {
     const TITLED: bool = true;
@@ -34,18 +35,22 @@ impl Presented<SystemSetup> for SystemStability {
 
 fn table(study: &SystemStudy, done: &SystemStability) -> String {
     let upper = done.spectrum.motions.iter().filter(|motion| motion.eigenvalue.im >= 0.0);
-    let mut text = motions(study.units(), upper);
+    let mut text = motions(study.units(), Listed::Damped, upper);
+    let with = |quantity: Quantity, value: f64| {
+        let unit = study.units().unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
+        format!("{}{unit}", figure(value))
+    };
     for (contact, found) in study.system().contacts.iter().zip(&done.contacts) {
         text += &format!(
             "  contact {}: friction {}, normal load {}",
             contact.name,
-            figure(found.friction),
-            figure(found.normal_load)
+            with(Quantity::Force, found.friction),
+            with(Quantity::Force, found.normal_load)
         );
         if let Some(dithered) = found.dithered {
-            let velocity = figure(contact.surface_velocity.mean());
-            let slip = figure(dithered.slip_amplitude);
-            text += &format!(", fast slip {slip} at the surface velocity {velocity}");
+            let velocity = with(Quantity::Velocity, contact.surface_velocity.mean());
+            let slip = with(Quantity::Velocity, dithered.slip_amplitude);
+            text += &format!(", slip amplitude {slip} at the belt velocity {velocity}");
         }
         text.push('\n');
     }
@@ -55,9 +60,10 @@ fn table(study: &SystemStudy, done: &SystemStability) -> String {
             Ok(critical) => {
                 for found in critical {
                     text += &format!(
-                        "  {} from the amplitude {} of the first dither on ({})\n",
+                        "  {} from the amplitude {} {}on ({})\n",
                         becomes(found.becomes),
-                        figure(found.amplitude),
+                        with(Quantity::Force, found.amplitude),
+                        if study.system().inputs.len() > 1 { "of the first dither " } else { "" },
                         kind(found.crossing)
                     );
                 }

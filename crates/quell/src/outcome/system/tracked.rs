@@ -10,6 +10,8 @@ use crate::picture;
 use crate::plot::Figure;
 use crate::run::system::tracked::TrackedStability;
 use crate::study::{SystemSetup, SystemStudy};
+use crate::words::plural;
+use quell_linear::growth::Verdict;
 
 impl Presented<SystemSetup> for TrackedStability {
     const TITLED: bool = true;
@@ -22,29 +24,32 @@ impl Presented<SystemSetup> for TrackedStability {
         Some(self.sentence(study))
     }
 
-    fn table(&self, _: &SystemStudy) -> String {
+    fn table(&self, study: &SystemStudy) -> String {
         let mut text = String::new();
         for found in &self.tracked.thresholds {
-            text += &format!(
-                "  {} = {}: {}, {} → {}\n",
-                self.request.parameter,
-                found.value,
-                found.change.name(),
-                found.verdicts[0].name(),
-                found.verdicts[1].name()
-            );
+            let [before, beyond] = found.verdicts.map(Verdict::name);
+            let verdicts = if before == beyond {
+                format!("{before} on both sides")
+            } else {
+                format!("{before} below, {beyond} above")
+            };
+            let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
+            let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+            let value = figure(found.value) + &unit;
+            text += &format!("  {value:<16}{:<13}{verdicts}\n", found.change.name());
         }
         for curve in &self.curves {
             let ends = curve.points.first().zip(curve.points.last());
             if let Some(((first, at_first), (last, at_last))) = ends {
                 text += &format!(
-                    "  curve ({}): from {} at {} to {} at {}, {} points\n",
+                    "  curve ({}): from {} at {} to {} at {}, {} point{}\n",
                     at_first.change.name(),
                     figure(at_first.value),
                     figure(*first),
                     figure(at_last.value),
                     figure(*last),
-                    curve.points.len()
+                    curve.points.len(),
+                    plural(curve.points.len())
                 );
             }
         }

@@ -5,8 +5,7 @@ use quell_linear::pure_slip::{SlipExponent, SlipOrbit, orbit};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::stability::with_hertz;
-use super::{failed, is_dithered};
+use super::{failed, has_equations, is_dithered, oscillating, rate_of};
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::study::SystemStudy;
@@ -23,6 +22,7 @@ pub struct ExactStability {
 /// # Errors
 /// [`Failure::Failed`] without dither, and where the dithered motion is not pure slip, with the contact and the reason.
 pub fn run(study: &SystemStudy) -> Result<ExactStability, Failure> {
+    has_equations(study, "stability")?;
     if !is_dithered(study.system()) {
         let why = "the study has no dither: the eigenvalues of `stability` are exact";
         return Err(failed("stability", why));
@@ -35,14 +35,17 @@ impl ExactStability {
     /// The answer in one sentence.
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let Growth { rate, error, frequency } = self.orbit.growth();
-        let frequency = with_hertz(study.units(), frequency);
+        let units = study.units();
         match self.orbit.growth().verdict() {
             Verdict::Stable => format!(
-                "The dithered motion in pure slip is stable: every deviation decays, the slowest at the rate {rate:.6}."
+                "The dithered motion in pure slip is stable: every deviation decays, the slowest at the rate {}.",
+                rate_of(units, -rate)
             ),
             Verdict::Unstable => format!(
-                "The dithered motion in pure slip is unstable: a deviation of angular frequency {frequency} (up to multiples of that \
-                 of the motion) grows at the rate {rate:.6}."
+                "The dithered motion in pure slip is unstable: a deviation {} (up to multiples of that of the motion) grows at the \
+                 rate {}.",
+                oscillating(units, frequency),
+                rate_of(units, rate)
             ),
             Verdict::Undecided => format!(
                 "The stability of the dithered motion in pure slip is undecided: the largest growth rate is zero within its error, \

@@ -15,7 +15,8 @@ use quell_model::units::Quantity;
 
 use crate::complaint::Failure;
 use crate::fields::Fields;
-use crate::study::SystemUnits;
+use crate::study::{SystemStudy, SystemUnits};
+use crate::words::digits;
 
 /// The failure of a verb with its reason.
 fn failed(verb: &str, why: impl std::fmt::Display) -> Failure {
@@ -27,10 +28,40 @@ fn not_averaged(why: NoAverage) -> Failure {
     failed("stability", why)
 }
 
+/// Rejects a verb on a measured frequency response, which has no equations.
+fn has_equations(study: &SystemStudy, verb: &str) -> Result<(), Failure> {
+    if study.frequency_response().is_none() {
+        return Ok(());
+    }
+    let why = "the study has a measured frequency response instead of equations; only `check` reads it yet";
+    Err(failed(verb, why))
+}
+
 /// Whether some dither acts.
 fn is_dithered(system: &System) -> bool {
     let mut waves = system.inputs.iter().flat_map(|input| input.profile.waves());
     waves.any(|wave| wave.amplitude != 0.0)
+}
+
+/// A frequency after the noun: in hertz where the study has units.
+fn oscillating(units: SystemUnits, frequency: f64) -> String {
+    match units {
+        _ if frequency == 0.0 => "without oscillation".to_owned(),
+        SystemUnits::None => format!("of angular frequency {}", digits(frequency)),
+        _ => format!("of {} Hz", digits(frequency / std::f64::consts::TAU)),
+    }
+}
+
+/// A growth rate with its unit.
+fn rate_of(units: SystemUnits, rate: f64) -> String {
+    let unit = if units == SystemUnits::None { "" } else { " 1/s" };
+    format!("{}{unit}", digits(rate))
+}
+
+/// A force with its unit.
+fn force(units: SystemUnits, value: f64) -> String {
+    let unit = units.unit(Quantity::Force).map_or(String::new(), |unit| format!(" {unit}"));
+    format!("{}{unit}", digits(value))
 }
 
 /// One small motion.

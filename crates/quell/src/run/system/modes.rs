@@ -5,7 +5,7 @@ use quell_linear::spectrum::{SmallMotion, spectrum};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::failed;
+use super::{failed, has_equations};
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
@@ -23,6 +23,7 @@ pub struct SystemModes {
 /// # Errors
 /// [`Failure::Failed`] if a matrix overflows or the mass is singular.
 pub fn run(study: &SystemStudy) -> Result<SystemModes, Failure> {
+    has_equations(study, "modes")?;
     let system = study.system();
     let linear = Linearised::frictionless(system).map_err(|why| failed("modes", why))?;
     let none = FrictionSlopes { force: 0.0, by_velocity: 0.0, by_load: 0.0 };

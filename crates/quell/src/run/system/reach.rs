@@ -10,12 +10,12 @@ use quell_numerics::continuation::modulus;
 use quell_numerics::roots::{Closeness, minimise};
 use serde_json::Value as Json;
 
-use super::failed;
+use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::study::SystemStudy;
-use crate::words::plural;
+use crate::study::{SystemStudy, SystemUnits};
+use crate::words::{digits, plural};
 
 /// Frequencies of the response, at equal ratios.
 const POINTS: usize = 801;
@@ -63,6 +63,7 @@ pub struct Reaches {
 /// # Errors
 /// A complaint about the range; [`Failure::Failed`] without steady sliding or dither.
 pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Failure> {
+    has_equations(study, "resonances")?;
     let system = study.system();
     if system.inputs.is_empty() {
         return Err(failed("resonances", "the study has no dither whose reach could be computed"));
@@ -137,17 +138,24 @@ impl Reaches {
         let count =
             self.pairs.iter().flat_map(|pair| &pair.extremes).filter(|at| at.out_of_reach).count();
         let peaks = self.pairs.iter().flat_map(|pair| &pair.extremes).filter(|at| at.peak).count();
-        let (first, last) = (self.frequencies.first(), self.frequencies.last());
-        let unit =
-            study.units().unit(Quantity::FrequencyRatio).map_or(String::new(), |u| format!(" {u}"));
-        format!(
-            "From {:.6} to {:.6}{unit}, the dither reaches the contacts best at {peaks} frequenc{} and hardly at all at {count} \
-             frequenc{}.",
-            first.copied().unwrap_or(0.0),
-            last.copied().unwrap_or(0.0),
-            ending(peaks),
-            ending(count),
-        )
+        let (factor, unit) = match study.units() {
+            SystemUnits::None => (1.0, ""),
+            _ => (1.0 / std::f64::consts::TAU, " Hz"),
+        };
+        let [first, last] = [self.frequencies.first(), self.frequencies.last()]
+            .map(|end| digits(factor * end.copied().unwrap_or(0.0)));
+        let antiresonances = match count {
+            0 => String::new(),
+            _ => format!(
+                ", and {count} antiresonance{} where it does not reach a contact",
+                plural(count)
+            ),
+        };
+        let peaks = match peaks {
+            0 => "no resonance".to_owned(),
+            _ => format!("{peaks} resonance{}", plural(peaks)),
+        };
+        format!("The dither has {peaks} from {first} to {last}{unit}{antiresonances}.")
     }
 
     /// As JSON.
@@ -200,8 +208,4 @@ impl Reaches {
         }
         dataset
     }
-}
-
-fn ending(count: usize) -> &'static str {
-    if plural(count).is_empty() { "y" } else { "ies" }
 }

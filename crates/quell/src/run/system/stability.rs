@@ -8,11 +8,15 @@ use quell_model::System;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::{failed, is_dithered, not_averaged, put_motion, upper};
+use super::{
+    failed, force, has_equations, is_dithered, not_averaged, oscillating, put_motion, rate_of,
+    upper,
+};
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::run::stability::{becomes, kind};
 use crate::study::{SystemStudy, SystemUnits};
+use crate::words::digits;
 
 /// An eigenfrequency above the dither frequency divided by this is not far below it.
 const FAR: f64 = 3.0;
@@ -55,6 +59,7 @@ pub struct SystemStability {
 /// # Errors
 /// [`Failure::Failed`] without steady sliding, and where averaging has no answer.
 pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
+    has_equations(study, "stability")?;
     let system = study.system();
     let linear = Linearised::new(system).map_err(|why| failed("stability", why))?;
     let undithered =
@@ -86,35 +91,45 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
         })
         .collect();
     warnings.extend(outside_of_laws(system, Some(&average.contacts)));
-    warnings.extend(opened(system, &average.contacts));
-    warnings.extend(not_slow(system, &undithered));
+    warnings.extend(opened(study, &average.contacts));
+    warnings.extend(not_slow(study, &undithered));
     let dither = Some(UnderDither { undithered, critical });
     Ok(SystemStability { spectrum, contacts, dither, warnings })
 }
 
 /// Warnings about contacts that the fast load opens.
-fn opened(system: &System, contacts: &[DitheredContact]) -> Vec<String> {
-    let opening = system.contacts.iter().zip(contacts).filter(|(_, found)| found.opens());
+fn opened(study: &SystemStudy, contacts: &[DitheredContact]) -> Vec<String> {
+    let units = study.units();
+    let contacts = study.system().contacts.iter().zip(contacts);
+    let opening = contacts.filter(|(_, found)| found.opens());
     opening
         .map(|(contact, found)| {
             format!(
-                "contact {} opens: the fast part of its load, {:.4}, exceeds its mean, {:.4}; averaging does not describe that",
-                contact.name, found.load_amplitude, found.normal_load
+                "contact {} opens: the fast part of its load, {}, exceeds the mean load, {}; averaging does not describe an open contact",
+                contact.name,
+                force(units, found.load_amplitude),
+                force(units, found.normal_load)
             )
         })
         .collect()
 }
 
 /// The warning about eigenfrequencies that are not far below the dither.
-fn not_slow(system: &System, undithered: &Spectrum) -> Option<String> {
-    let waves = system.inputs.iter().flat_map(|input| input.profile.waves());
+fn not_slow(study: &SystemStudy, undithered: &Spectrum) -> Option<String> {
+    let waves = study.system().inputs.iter().flat_map(|input| input.profile.waves());
     let slowest = waves.map(|wave| wave.frequency).fold(f64::INFINITY, f64::min);
     let near =
         upper(undithered).map(|motion| motion.frequency()).filter(|own| *own * FAR > slowest);
     let nearest = near.min_by(|a, b| (a - slowest).abs().total_cmp(&(b - slowest).abs()))?;
+    let (factor, unit) = match study.units() {
+        SystemUnits::None => (1.0, ""),
+        _ => (1.0 / std::f64::consts::TAU, " Hz"),
+    };
     Some(format!(
-        "the eigenfrequency {nearest:.6} is not far below the dither frequency {slowest:.6}: averaging assumes that the dither is \
-         faster than every motion"
+        "the eigenfrequency {}{unit} is not far below the dither frequency {}{unit}: averaging assumes that the dither is much \
+         faster than every motion",
+        digits(factor * nearest),
+        digits(factor * slowest)
     ))
 }
 
@@ -149,13 +164,16 @@ impl SystemStability {
             Some(_) => "By averaging over the dither",
             None => "By linearisation",
         };
-        let frequency = with_hertz(study.units(), frequency);
+        let units = study.units();
         let verdict = match self.spectrum.growth.verdict() {
             Verdict::Stable => format!(
-                "steady sliding is stable: every motion decays, the slowest at the rate {rate:.6}"
+                "steady sliding is stable: every motion decays, the slowest at the rate {}",
+                rate_of(units, -rate)
             ),
             Verdict::Unstable => format!(
-                "steady sliding is unstable: a motion of angular frequency {frequency} grows at the rate {rate:.6}"
+                "steady sliding is unstable: a motion {} grows at the rate {}",
+                oscillating(units, frequency),
+                rate_of(units, rate)
             ),
             Verdict::Undecided => format!(
                 "the stability of steady sliding is undecided: the largest growth rate is zero within its error, {error:.1e}"
@@ -172,8 +190,6 @@ impl SystemStability {
         let without = undithered.growth.verdict().name();
         let waves = study.system().inputs.first().map(|input| input.profile.waves());
         let now = waves.and_then(|waves| waves.first()).map_or(0.0, |wave| wave.amplitude);
-        let unit =
-            study.units().unit(Quantity::Force).map_or(String::new(), |unit| format!(" {unit}"));
         let wanted = match self.spectrum.growth.verdict() {
             Verdict::Stable => Becomes::Unstable,
             _ => Becomes::Stable,
@@ -181,9 +197,14 @@ impl SystemStability {
         let next = critical.iter().find(|found| found.amplitude > now && found.becomes == wanted);
         let more = next.map_or(String::new(), |found| {
             format!(
-                " A larger first dither makes it {} from the amplitude {:.6}{unit} on.",
+                " {} makes it {} from the amplitude {} on.",
+                if study.system().inputs.len() > 1 {
+                    "A larger first dither"
+                } else {
+                    "More dither"
+                },
                 becomes(found.becomes),
-                found.amplitude
+                force(study.units(), found.amplitude)
             )
         });
         format!(" Without dither it is {without}.{more}")
@@ -276,12 +297,4 @@ pub(super) fn put_contact(name: &str, units: SystemUnits, found: &SlidingContact
         .known("ratchet_force", Quantity::Force, of(|found| found.ratchet_force))
         .known("slope_by_velocity", Quantity::LoadDamping, of(|found| found.slope_by_velocity));
     fields
-}
-
-/// An angular frequency, with its value in hertz where the study has units.
-pub(crate) fn with_hertz(units: SystemUnits, frequency: f64) -> String {
-    match units {
-        SystemUnits::None => format!("{frequency:.6}"),
-        _ => format!("{frequency:.6} rad/s ({:.6} Hz)", frequency / std::f64::consts::TAU),
-    }
 }

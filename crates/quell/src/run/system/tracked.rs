@@ -1,6 +1,7 @@
 //! `stability --parameter`: eigenvalues of a system followed over a parameter, its thresholds, and their curves along a second one.
 
 use quell_linear::averaging::DitheredSystem;
+use quell_linear::growth::Verdict;
 use quell_linear::linearised::Linearised;
 use quell_linear::tracking::{Change, Family, ThresholdOfStability, Tracked, track};
 use quell_model::units::Quantity;
@@ -8,13 +9,12 @@ use quell_numerics::eigen::EigenError;
 use quell_numerics::matrix::Matrix;
 use serde_json::{Value as Json, json};
 
-use super::stability::with_hertz;
-use super::{failed, is_dithered};
+use super::{failed, has_equations, is_dithered, oscillating};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::study::SystemStudy;
-use crate::words::plural;
+use crate::words::{digits, plural};
 
 /// Values of the parameter at which eigenvalues are computed at least.
 const POINTS: usize = 129;
@@ -92,6 +92,7 @@ impl Family for StudyFamily<'_> {
 /// # Errors
 /// Complaints about the parameters and their windows; [`Failure::Failed`] if no value of the window has steady sliding.
 pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStability, Failure> {
+    has_equations(study, "stability")?;
     understood(study, request)?;
     let family = |fixed| StudyFamily { study, path: &request.parameter, fixed };
     let tracked = track(&family(None), request.window, POINTS);
@@ -200,25 +201,34 @@ impl TrackedStability {
             .iter()
             .filter(|found| found.verdicts[0] != found.verdicts[1])
             .map(|found| {
-                let frequency = with_hertz(study.units(), found.eigenvalue.im.abs());
+                let motion = oscillating(study.units(), found.eigenvalue.im.abs());
                 let how = match found.change {
-                    Change::Hopf => format!("at the angular frequency {frequency}"),
-                    Change::Divergence => "without oscillation".to_owned(),
-                    Change::Coalescence => {
-                        format!("as two motions merge at the angular frequency {frequency}")
+                    Change::Hopf if found.verdicts[1] == Verdict::Stable => {
+                        format!("where a motion {motion} ceases to grow")
                     }
+                    Change::Hopf => format!("where a motion {motion} begins to grow"),
+                    Change::Divergence => "by divergence, without oscillation".to_owned(),
+                    Change::Coalescence => format!("where two motions {motion} merge"),
                     Change::Jump => "by a jump".to_owned(),
                 };
-                format!("{} at {parameter} = {:.9}, {how}", found.verdicts[1].name(), found.value)
+                let at = self.value(study, found.value);
+                format!("{} at {parameter} = {at}, {how}", found.verdicts[1].name())
             })
             .collect();
         let by = if self.averaged { "By averaging, steady" } else { "Steady" };
         let mut sentence = if changes.is_empty() {
-            let verdict = self.tracked.pieces.first().and_then(|piece| piece.first());
-            let verdict = verdict.map_or("unknown", |point| point.growth.verdict().name());
-            format!(
-                "{by} sliding is {verdict} from {parameter} = {from} to {to}; no threshold was found."
-            )
+            let known = self.verdicts().into_iter().map(|(verdict, from, to)| {
+                let to = self.value(study, to);
+                format!("{verdict} from {parameter} = {} to {to}", digits(from))
+            });
+            let known = known.collect::<Vec<_>>().join(", ");
+            let unknown = if self.tracked.unknown.is_empty() {
+                "no threshold was found".to_owned()
+            } else {
+                let to = self.value(study, *to);
+                format!("elsewhere between {} and {to} there is no answer", digits(*from))
+            };
+            format!("{by} sliding is {known}; {unknown}.")
         } else {
             format!("{by} sliding becomes {}.", changes.join("; "))
         };
@@ -227,6 +237,28 @@ impl TrackedStability {
             sentence += &format!(" Found {count} curve{} of thresholds.", plural(count));
         }
         sentence
+    }
+
+    /// The verdicts over the window, each with its first and last value; a single value in between is not listed.
+    fn verdicts(&self) -> Vec<(&'static str, f64, f64)> {
+        let mut ranges: Vec<(&'static str, f64, f64)> = Vec::new();
+        for point in self.tracked.pieces.iter().flatten() {
+            let verdict = point.growth.verdict().name();
+            match ranges.last_mut() {
+                Some((before, _, to)) if *before == verdict => *to = point.value,
+                _ => ranges.push((verdict, point.value, point.value)),
+            }
+        }
+        if ranges.len() > 1 {
+            ranges.retain(|(_, from, to)| from < to);
+        }
+        ranges
+    }
+
+    /// A value of the parameter with its unit.
+    pub(crate) fn value(&self, study: &SystemStudy, value: f64) -> String {
+        let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
+        format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
     }
 
     /// As JSON.
@@ -270,10 +302,13 @@ impl TrackedStability {
     fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let unknown = self.tracked.unknown.iter().map(|range| {
             let parameter = &self.request.parameter;
-            format!(
-                "from {parameter} = {} to {} there is no answer: {}",
-                range.from, range.to, range.why
-            )
+            let to = self.value(study, range.to);
+            if range.from == range.to {
+                format!("at {parameter} = {to} there is no answer: {}", range.why)
+            } else {
+                let from = digits(range.from);
+                format!("from {parameter} = {from} to {to} there is no answer: {}", range.why)
+            }
         });
         study.warnings().iter().cloned().chain(unknown).collect()
     }
