@@ -47,6 +47,7 @@ templates!(
     "map",
     "disc",
     "disc-dither",
+    "mode-coupling",
 );
 
 impl Template {

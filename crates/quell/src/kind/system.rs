@@ -52,7 +52,8 @@ impl Verbs for SystemStudy {
     }
 
     fn thresholds(&self, request: ThresholdsRequest) -> Reply {
-        let ThresholdsRequest { parameter, from, to, .. } = request;
+        let ThresholdsRequest { parameter, from, to, protocols, ramp } = request;
+        tracked::without_runs(&protocols, ramp)?;
         let request = TrackRequest { parameter, window: (from, to), along: None };
         answer(self, tracked::thresholds(self, &request))
     }

@@ -13,6 +13,7 @@ use super::{failed, is_dithered};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::run::protocol::Protocol;
 use crate::study::SystemStudy;
 use crate::words::plural;
 
@@ -167,6 +168,28 @@ fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<(), Failure
     if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
 }
 
+/// Rejects thresholds of runs, which are not implemented for systems.
+///
+/// # Errors
+/// A complaint about each option that asks for runs.
+pub fn without_runs(protocols: &[Protocol], ramp: f64) -> Result<(), Failure> {
+    let options = protocols.iter().map(|protocol| match protocol {
+        Protocol::Rest => "--from-rest",
+        Protocol::Sliding => "--from-sliding",
+        Protocol::Squeal => "--from-squeal",
+        Protocol::From(..) => "--start",
+    });
+    let ramp = (ramp != 0.0).then_some("--ramp");
+    let wrong: Vec<Complaint> = options
+        .chain(ramp)
+        .map(|option| {
+            let allowed = "left out: thresholds of the runs of a system are not implemented yet";
+            Complaint::new(Fault::NotBuilt, option, Origin::Argument(option), Json::Null, allowed)
+        })
+        .collect();
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
+}
+
 /// The roots of `thresholds` of a system, which are those of `stability --parameter`.
 ///
 /// # Errors
@@ -240,22 +263,17 @@ impl TrackedStability {
             .plain("parameter", parameter.clone())
             .plain("from", *from)
             .plain("to", *to);
-        let found = self.tracked.thresholds.iter().map(|found| put(study, found));
-        fields.list("thresholds", found.collect::<Vec<_>>());
         let points: usize = self.tracked.pieces.iter().map(Vec::len).sum();
         fields.plain("points", points);
+        fields.plain("covered", self.tracked.unknown.is_empty()).plain("resumes", self.resumes());
+        fields.nested("at_from", self.at_from(study));
+        let found = self.tracked.thresholds.iter().map(|found| put(study, found));
+        let found: Vec<Fields> = found.collect();
+        // The name of the list in the answer about a belt, and that of a system.
+        fields.list("local", found.clone()).list("thresholds", found);
         if let Some((path, (first, last))) = along {
             fields.plain("along", path.clone()).plain("between", vec![*first, *last]);
-            let curves = self.curves.iter().map(|curve| {
-                let mut inner = Fields::of_system(study.units());
-                let points = curve.points.iter().map(|(at, found)| {
-                    let mut point = put(study, found);
-                    point.plain("along", *at);
-                    point
-                });
-                inner.list("points", points.collect::<Vec<_>>());
-                inner
-            });
+            let curves = self.curves.iter().map(|curve| put_curve(study, curve));
             fields.list("curves", curves.collect::<Vec<_>>());
         }
         let unknown = self.tracked.unknown.iter();
@@ -264,6 +282,32 @@ impl TrackedStability {
         fields.plain("unknown", unknown.collect::<Vec<Json>>());
         fields.plain("warnings", self.warnings(study));
         fields.finish()
+    }
+
+    /// Whether there is an answer at the last value again, after a range without one.
+    fn resumes(&self) -> bool {
+        let last = self.tracked.pieces.last().and_then(|piece| piece.last());
+        let reached = last.is_some_and(|point| point.value >= self.request.window.1);
+        reached && !self.tracked.unknown.is_empty()
+    }
+
+    /// The verdict at the first value of the window.
+    fn at_from(&self, study: &SystemStudy) -> Fields {
+        let mut fields = Fields::of_system(study.units());
+        let from = self.request.window.0;
+        let first = self.tracked.pieces.first().and_then(|piece| piece.first());
+        match (first, self.tracked.unknown.first()) {
+            (Some(point), _) if point.value <= from => {
+                fields.plain("steady_sliding", point.growth.verdict().name());
+            }
+            (_, Some(range)) => {
+                fields.unknown("steady_sliding", range.why.clone());
+            }
+            _ => {
+                fields.unknown("steady_sliding", "the eigenvalues are not known there");
+            }
+        }
+        fields
     }
 
     /// Warnings: those of the study, and ranges without an answer.
@@ -304,11 +348,29 @@ fn put(study: &SystemStudy, found: &ThresholdOfStability) -> Fields {
         .plain("error", found.error)
         .plain("kind", found.change.name())
         .number("frequency", Quantity::FrequencyRatio, found.eigenvalue.im.abs())
-        .plain("before", found.verdicts[0].name());
-    if found.verdicts[0] == found.verdicts[1] {
-        fields.unknown("becomes", "the verdict does not change here");
-    } else {
-        fields.plain("becomes", found.verdicts[1].name());
+        .plain("was", found.verdicts[0].name())
+        .plain("becomes", found.verdicts[1].name());
+    fields
+}
+
+/// One curve: its points as columns. The kind and the verdicts are those of all its points.
+fn put_curve(study: &SystemStudy, curve: &StabilityCurve) -> Fields {
+    let column = |of: &dyn Fn(&ThresholdOfStability) -> f64| -> Vec<f64> {
+        curve.points.iter().map(|(_, found)| of(found)).collect()
+    };
+    let mut fields = Fields::of_system(study.units());
+    if let Some((_, first)) = curve.points.first() {
+        fields
+            .plain("kind", first.change.name())
+            .plain("was", first.verdicts[0].name())
+            .plain("becomes", first.verdicts[1].name());
     }
+    let along: Vec<f64> = curve.points.iter().map(|(at, _)| *at).collect();
+    let frequencies = column(&|found| found.eigenvalue.im.abs());
+    fields
+        .plain("value", column(&|found| found.value))
+        .plain("along", along)
+        .plain("error", column(&|found| found.error))
+        .numbers("frequency", Quantity::FrequencyRatio, &frequencies);
     fields
 }
