@@ -44,7 +44,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
     let request = arguments.request(&mut complaints);
-    let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
+    let parts: &[&str] = if arguments.along.is_some() { &["eigenvalues"] } else { &[] };
+    let outputs = complaints.take(arguments.output.prepare(parts, &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     if arguments.output.saves() && arguments.parameter.is_none() {
         let (key, allowed) =

@@ -30,6 +30,9 @@ pub enum Change {
 }
 
 impl Change {
+    /// Every kind of change.
+    pub const ALL: [Self; 4] = [Self::Hopf, Self::Divergence, Self::Coalescence, Self::Jump];
+
     /// Name in output.
     pub fn name(self) -> &'static str {
         match self {

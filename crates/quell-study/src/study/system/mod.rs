@@ -174,6 +174,11 @@ impl SystemStudy {
         path::number(&self.source.document, &self.kind().numbers, path)
     }
 
+    /// The unit of the number at a path, `1` without a unit. `None` where the study has no such number.
+    pub fn unit_of(&self, path: &str) -> Option<&'static str> {
+        resolve_in(&self.source.document, path).ok().map(|address| address.unit)
+    }
+
     /// The system with these numbers set in order as by `--set`: that of [`StudyOf::at`], without text or files being read.
     ///
     /// # Errors

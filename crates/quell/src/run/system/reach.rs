@@ -208,15 +208,21 @@ impl Reaches {
 
     /// Slip amplitude per unit of dither over the frequency, one array for each pair.
     pub fn dataset(&self, study: &SystemStudy) -> Dataset {
-        let mut dataset = Dataset::of(&study.into(), "resonances").axis(
+        let units = study.units();
+        let unit = units.unit(Quantity::FrequencyRatio).unwrap_or("1");
+        let slip = match (units.unit(Quantity::Velocity), units.unit(Quantity::Force)) {
+            (Some(velocity), Some(force)) => format!("{velocity}/{force}"),
+            _ => "1".to_owned(),
+        };
+        let mut dataset = Dataset::of(&study.into(), "resonances").with_axis(Array::new(
             "frequency",
-            Quantity::Ratio,
+            unit,
             self.frequencies.clone(),
-        );
+        ));
         for pair in &self.pairs {
             let contact = &study.system().contacts[pair.contact].name;
             let name = format!("slip_of_{contact}_per_dither_{}", pair.dither);
-            dataset = dataset.with(Array::new(name, "1", pair.slip.clone()));
+            dataset = dataset.with(Array::new(name, slip.as_str(), pair.slip.clone()));
         }
         dataset
     }

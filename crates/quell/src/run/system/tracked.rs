@@ -14,7 +14,7 @@ use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::protocol::Protocol;
-use crate::study::SystemStudy;
+use crate::study::{SystemStudy, SystemUnits};
 use crate::words::plural;
 
 /// Values of the parameter at which eigenvalues are computed at least.
@@ -256,24 +256,26 @@ impl TrackedStability {
     pub fn json(&self, study: &SystemStudy) -> Json {
         let mut fields = Fields::of_system(study.units());
         let TrackRequest { parameter, window: (from, to), along } = &self.request;
+        let unit = study.unit_of(parameter).unwrap_or("1");
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
             .plain("protocol", self.protocol())
             .plain("parameter", parameter.clone())
-            .plain("from", *from)
-            .plain("to", *to);
+            .measured("from", unit, *from)
+            .measured("to", unit, *to);
         let points: usize = self.tracked.pieces.iter().map(Vec::len).sum();
         fields.plain("points", points);
         fields.plain("covered", self.tracked.unknown.is_empty()).plain("resumes", self.resumes());
         fields.nested("at_from", self.at_from(study));
-        let found = self.tracked.thresholds.iter().map(|found| put(study, found));
+        let found = self.tracked.thresholds.iter().map(|found| put(study, unit, found));
         let found: Vec<Fields> = found.collect();
         // The name of the list in the answer about a belt, and that of a system.
         fields.list("local", found.clone()).list("thresholds", found);
         if let Some((path, (first, last))) = along {
-            fields.plain("along", path.clone()).plain("between", vec![*first, *last]);
-            let curves = self.curves.iter().map(|curve| put_curve(study, curve));
+            let other = study.unit_of(path).unwrap_or("1");
+            fields.plain("along", path.clone()).measured("between", other, vec![*first, *last]);
+            let curves = self.curves.iter().map(|curve| put_curve(study, [unit, other], curve));
             fields.list("curves", curves.collect::<Vec<_>>());
         }
         let unknown = self.tracked.unknown.iter();
@@ -330,22 +332,55 @@ impl TrackedStability {
         let every = |pick: fn(&num_complex::Complex64) -> f64| -> Vec<f64> {
             points.iter().flat_map(|point| point.eigenvalues.iter().map(pick)).collect()
         };
-        let unit = study.units().unit(Quantity::FrequencyRatio).unwrap_or("1");
+        let parameter = &self.request.parameter;
+        let branches = (0..branches).map(|index| index as f64).collect();
+        let frequency = study.units().unit(Quantity::FrequencyRatio).unwrap_or("1");
+        let rate = if study.units() == SystemUnits::None { "1" } else { "1/s" };
         Dataset::of(&study.into(), "stability")
-            .fact(format!("parameter: {}", self.request.parameter))
-            .axis("parameter", Quantity::Ratio, values)
-            .axis("branch", Quantity::Count, (0..branches).map(|index| index as f64).collect())
-            .with(Array::new("growth_rate", unit, every(|z| z.re)))
-            .with(Array::new("frequency", unit, every(|z| z.im)))
+            .fact(format!("parameter: {parameter}"))
+            .with_axis(Array::new("parameter", study.unit_of(parameter).unwrap_or("1"), values))
+            .with_axis(Array::new("branch", "1", branches))
+            .with(Array::new("growth_rate", rate, every(|z| z.re)))
+            .with(Array::new("frequency", frequency, every(|z| z.im)))
+    }
+
+    /// The curves along the second parameter, one row per point; `None` without one.
+    pub fn dataset_of_curves(&self, study: &SystemStudy) -> Option<Dataset> {
+        let (path, _) = self.request.along.as_ref()?;
+        let parameter = &self.request.parameter;
+        let points = || {
+            let curves = self.curves.iter().enumerate();
+            curves.flat_map(|(curve, all)| all.points.iter().map(move |point| (curve, point)))
+        };
+        let numbered = || (0_u8..).zip(Change::ALL);
+        let code = |change: Change| numbered().find(|(_, other)| *other == change);
+        let codes: Vec<u8> = points()
+            .filter_map(|(_, (_, found))| code(found.change))
+            .map(|(code, _)| code)
+            .collect();
+        let names = numbered().map(|(code, change)| (code, change.name())).collect();
+        let rows = (0..points().count()).map(|index| index as f64).collect();
+        let curves = points().map(|(curve, _)| curve as f64).collect();
+        let unit = |path: &str| study.unit_of(path).unwrap_or("1");
+        let along = points().map(|(_, (at, _))| *at).collect();
+        let values = points().map(|(_, (_, found))| found.value).collect();
+        let dataset = Dataset::of(&study.into(), "stability")
+            .fact(self.sentence(study))
+            .with_axis(Array::new("point", "1", rows))
+            .with(Array::new("curve", "1", curves))
+            .with(Array::of_words("kind", names, &codes))
+            .with(Array::new(path.as_str(), unit(path), along))
+            .with(Array::new(parameter.as_str(), unit(parameter), values));
+        Some(dataset)
     }
 }
 
-/// One threshold.
-fn put(study: &SystemStudy, found: &ThresholdOfStability) -> Fields {
+/// One threshold; `unit` is that of the parameter.
+fn put(study: &SystemStudy, unit: &str, found: &ThresholdOfStability) -> Fields {
     let mut fields = Fields::of_system(study.units());
     fields
-        .plain("value", found.value)
-        .plain("error", found.error)
+        .measured("value", unit, found.value)
+        .measured("error", unit, found.error)
         .plain("kind", found.change.name())
         .number("frequency", Quantity::FrequencyRatio, found.eigenvalue.im.abs())
         .plain("was", found.verdicts[0].name())
@@ -354,7 +389,7 @@ fn put(study: &SystemStudy, found: &ThresholdOfStability) -> Fields {
 }
 
 /// One curve: its points as columns. The kind and the verdicts are those of all its points.
-fn put_curve(study: &SystemStudy, curve: &StabilityCurve) -> Fields {
+fn put_curve(study: &SystemStudy, [unit, along]: [&str; 2], curve: &StabilityCurve) -> Fields {
     let column = |of: &dyn Fn(&ThresholdOfStability) -> f64| -> Vec<f64> {
         curve.points.iter().map(|(_, found)| of(found)).collect()
     };
@@ -365,12 +400,12 @@ fn put_curve(study: &SystemStudy, curve: &StabilityCurve) -> Fields {
             .plain("was", first.verdicts[0].name())
             .plain("becomes", first.verdicts[1].name());
     }
-    let along: Vec<f64> = curve.points.iter().map(|(at, _)| *at).collect();
+    let positions: Vec<f64> = curve.points.iter().map(|(at, _)| *at).collect();
     let frequencies = column(&|found| found.eigenvalue.im.abs());
     fields
-        .plain("value", column(&|found| found.value))
-        .plain("along", along)
-        .plain("error", column(&|found| found.error))
+        .measured("value", unit, column(&|found| found.value))
+        .measured("along", along, positions)
+        .measured("error", unit, column(&|found| found.error))
         .numbers("frequency", Quantity::FrequencyRatio, &frequencies);
     fields
 }
