@@ -216,7 +216,7 @@ def keys(table: str) -> set[str]:
         (quell.Initial, "belt.initial", set()),
         (quell.Dither, "dither", set()),
         (quell.Solver, "solver", set()),
-        (quell.Disc, "disc", {"dither", "mode", "load", "axes", "title"}),
+        (quell.Disc, "disc", {"friction", "dither", "mode", "load", "axes", "title"}),
         (quell.Mode, "disc.mode", set()),
         (quell.Load, "disc.load", set()),
         (quell.System, "system", {"contact", "friction", "dither", "parameters", "axes", "title"}),
