@@ -190,8 +190,17 @@ def test_thresholds_are_those_of_tracked_stability(hoffmann: quell.System) -> No
     shared = {"value", "error", "kind", "was", "becomes"}
     assert shared <= set(belt.local[0]) and shared <= set(thresholds.local[0])
     assert {"covered", "resumes", "parameter", "from", "to"} <= set(belt.facts) & set(thresholds.facts)
-    divergence = hoffmann.set({"parameters.c": 0.05, "system.stiffness[0][0]": 1.0}).stability("system.stiffness[0][0]", 0.1, 1.0)
-    assert "divergence" in {it["kind"] for it in divergence.local}
+    # A coordinate whose stiffness vanishes at k = 0.3.
+    soft = quell.System(
+        coordinates=["x", "z"],
+        mass=[1, 1],
+        damping=[0.1, 0.1],
+        stiffness=[1, "k - 0.3"],
+        contact=quell.Contact("pad", tangent={"x": 1}, normal_load=1, belt_velocity=1, friction=quell.Coulomb(0.3)),
+        parameters={"k": 1.0},
+    )
+    divergence = next(it for it in soft.thresholds("parameters.k", 0.1, 1.0).local if it["kind"] == "divergence")
+    assert divergence["becomes"] == "stable" and divergence["value"] == pytest.approx(0.3, rel=1e-9)
 
 
 def test_curves_of_thresholds_follow_a_second_parameter(hoffmann: quell.System) -> None:
@@ -310,7 +319,7 @@ def test_a_study_with_units_has_them_everywhere() -> None:
     study = quell.Study.from_text(DRIVE.replace("[system]", '[system]\nunits = "SI"'))
     assert study.check().unit_system == "SI" and study.check().system == "si"
     done = study.stability("contact.guide.belt_velocity", 0.03, 0.06)
-    assert done.units["value"] == "m/s" and done.dataset["parameter"].attrs["units"] == "m/s"
+    assert done.units["from"] == "m/s" and done.dataset["parameter"].attrs["units"] == "m/s"
     assert done.dataset["growth_rate"].attrs["units"] == "1/s"
     reach = study.resonances(frequency=("1Hz", "3Hz")).dataset
     assert reach["frequency"].attrs["units"] == "rad/s"

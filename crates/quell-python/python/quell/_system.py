@@ -22,6 +22,10 @@ Entries = Union["npt.ArrayLike", "Iterable[Iterable[Number]]"]
 """A matrix: a diagonal, or rows. An entry may be a formula of the study's parameters, as a text."""
 
 
+OTHER_TABLES = ("contact", "friction", "dither", "initial", "parameters", "axes", "title", "mode", "component")
+"""Arguments of a system that are tables of their own."""
+
+
 class Contact(Table):
     """A friction contact of a system.
 
@@ -308,8 +312,7 @@ class System(Study):
         title: str | None = None,
         **unknown: Unknown,
     ) -> None:
-        outside = ("contact", "friction", "dither", "initial", "parameters", "axes", "title", "mode", "component")
-        keys = given(locals(), *outside)
+        keys = given(locals(), *OTHER_TABLES)
         start = SystemInitial(initial) if isinstance(initial, str) else initial
         system = Table(**{**keys, "mode": tables(mode), "component": tables(component), "initial": start})
         for name in ("coordinates", "states"):
