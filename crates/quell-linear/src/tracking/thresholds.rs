@@ -10,7 +10,7 @@ use crate::growth::Verdict;
 /// Relative distance, in steps of the piece, within which a change of the verdict is that of a coalescence.
 const TOGETHER: f64 = 1e-6;
 
-/// Share of the neighbouring step at which the verdict beside a threshold is evaluated.
+/// Share of the neighbouring step at which the verdict next to a threshold is evaluated.
 const BESIDE: f64 = 1e-4;
 
 /// A frequency below this share of the largest eigenvalue counts as zero.
@@ -73,7 +73,10 @@ pub(super) fn of_piece<F: Family>(
         Verdict::Undecided => 0.0,
         _ => point.growth.rate,
     };
-    let changes = sign_changes(|value| Ok(decided(&at(family, value)?)), &values, &[])?;
+    // Where an eigenvalue is zero, the equations of steady sliding are singular, and the family fails at the root itself. Values
+    // next to it decide whether it is one.
+    let rate = |value| Ok(at(family, value).as_ref().map_or(0.0, decided));
+    let changes = sign_changes(rate, &values, &[])?;
     let mut merged = coalescence::of_piece(family, piece);
     let mut found = Vec::new();
     for change in changes {
@@ -93,9 +96,14 @@ pub(super) fn of_piece<F: Family>(
             found.push(ThresholdOfStability { value, error, change, eigenvalue, verdicts });
             continue;
         }
-        let point = at(family, change.location)?;
-        let eigenvalue = Complex64::new(point.growth.rate, point.growth.frequency);
-        let size = point.eigenvalues.iter().fold(0.0, |m: f64, z| m.max(z.re.abs() + z.im.abs()));
+        let (eigenvalue, size) = match at(family, change.location) {
+            Ok(point) => {
+                let size = |m: f64, z: &Complex64| m.max(z.re.abs() + z.im.abs());
+                let eigenvalue = Complex64::new(point.growth.rate, point.growth.frequency);
+                (eigenvalue, point.eigenvalues.iter().fold(0.0, size))
+            }
+            Err(_) => (Complex64::new(0.0, 0.0), 0.0),
+        };
         let kind = match change.crossing {
             CrossingKind::Jump => Change::Jump,
             CrossingKind::Root if eigenvalue.im <= NO_FREQUENCY * size => Change::Divergence,

@@ -27,7 +27,7 @@ pub struct SystemAddress {
     pub quantity: Option<Quantity>,
     /// Unit of its value; `1` without a unit.
     pub unit: &'static str,
-    /// Whether a value of the path is in SI whatever the units of the file.
+    /// Whether a value of the path is in SI regardless of the units of the file.
     pub twin: bool,
 }
 
