@@ -44,7 +44,13 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                     "quell friction measured-law.toml --plot friction.svg",
                 ],
             ),
-            ("stability", &["quell stability quench.toml", "quell stability disc.toml"]),
+            (
+                "stability",
+                &[
+                    "quell stability quench.toml",
+                    "quell stability mode-coupling.toml --parameter contact.pad.friction.coefficient --from 0.3 --to 0.9",
+                ],
+            ),
             (
                 "orbit",
                 &["quell orbit quench.toml", "quell orbit driven-oscillator.toml --from-rest"],
@@ -73,14 +79,14 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
         ],
     ),
     (
-        "Discs",
+        "Discs and systems",
         &[
-            ("modes", &["quell modes disc.toml"]),
+            ("modes", &["quell modes disc.toml", "quell modes mode-coupling.toml"]),
             (
                 "resonances",
                 &[
-                    "quell resonances disc.toml",
                     "quell resonances disc-dither.toml --clear 0.25:0.9 --frequency 2:6",
+                    "quell resonances mode-coupling.toml --frequency 0.5:50",
                 ],
             ),
         ],

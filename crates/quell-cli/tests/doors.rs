@@ -118,7 +118,7 @@ fn completions_are_printed_for_shells() {
         ("elvish", "edit:completion"),
     ] {
         let script = said(&place, &format!("quell completions {shell}"));
-        for word in [word, "thresholds", "from-squeal"] {
+        for word in [word, "thresholds", "from-squeal", "exact"] {
             assert!(script.contains(word), "{shell}: {word}");
         }
     }
@@ -134,7 +134,7 @@ fn cite_prints_the_entries_that_a_study_uses() {
         let entries = text.lines().filter_map(|line| line.strip_prefix('@')?.split_once('{'));
         entries.map(|(_, key)| key.trim_end_matches(',').to_owned()).collect()
     };
-    for study in ["quench.toml", "disc-dither.toml"] {
+    for study in ["quench.toml", "disc-dither.toml", "mode-coupling.toml"] {
         let object = place.good(&["cite", study]);
         let sources = object["sources"].as_array().expect("a list");
         let named = sources.iter().map(|source| source["key"].as_str().expect("a key").to_owned());

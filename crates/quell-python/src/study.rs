@@ -133,7 +133,7 @@ impl NativeStudy {
         (text, folder, self.changes.clone(), self.axes.clone(), self.has_lines, file)
     }
 
-    /// "belt" or "disc".
+    /// "belt", "disc" or "system".
     #[getter]
     fn kind(&self) -> &'static str {
         self.inner.kind().name()
@@ -174,9 +174,23 @@ impl NativeStudy {
         call::run(py, move || friction::run(&study, at, &texts))
     }
 
-    fn stability(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
+    /// `exact`: whether Floquet exponents of a dithered system decide.
+    fn stability(&self, py: Python<'_>, exact: bool) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::run(py, move || stability::run(&study))
+        call::run(py, move || stability::run(&study, exact))
+    }
+
+    /// Eigenvalues of a system over a parameter; `along`: a second parameter and its range.
+    #[pyo3(signature = (parameter, range, along))]
+    fn tracked_stability(
+        &self,
+        py: Python<'_>,
+        parameter: String,
+        range: Pair,
+        along: Option<(String, Pair)>,
+    ) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || stability::run_tracked(&study, parameter, &range, along))
     }
 
     /// `until`: τ, or a time with its unit.

@@ -12,6 +12,9 @@ const PHRASES: &[(&str, &str)] = &[
         "or on the command line: --set sweep[0].parameter=dither.amplitude --set 'sweep[0].values=[0.1, 0.2]'",
         "or axes={\"dither.amplitude\": [0.1, 0.2]}",
     ),
+    ("`stability --parameter`", "`stability(parameter=…)`"),
+    ("stability --parameter is", "stability(parameter=…) is"),
+    ("stability --exact is", "stability(exact=True) is"),
     ("the keys that `quell schema` lists", "the keys that quell.schema() lists"),
     ("`quell stability` and `quell map --quantity growth`", "`stability()` and `map(\"growth\")`"),
 ];

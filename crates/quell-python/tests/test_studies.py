@@ -42,7 +42,7 @@ def test_objects_and_files_make_the_same_study() -> None:
 @pytest.mark.parametrize("path", sorted(STUDIES.glob("*.toml")), ids=lambda path: path.stem)
 def test_every_study_of_the_project_is_read(path: Any) -> None:
     study = quell.Study.from_toml(path)
-    assert isinstance(study, (quell.Belt, quell.Disc))
+    assert isinstance(study, (quell.Belt, quell.Disc, quell.System))
     assert pickle.loads(pickle.dumps(study)) == study
     assert study.check().facts["ok"] is True
 
@@ -200,8 +200,9 @@ def parameters(cls: type) -> set[str]:
 
 
 def keys(table: str) -> set[str]:
-    """Keys of a table of study files."""
-    return {key for section, key, _, _ in _quell.keys() if section == table}
+    """Keys of a table of study files; those of a system are in the schema alone."""
+    found = {key for section, key, _, _ in _quell.keys() if section == table}
+    return found or set(quell.schema()["$defs"][table]["properties"])
 
 
 @pytest.mark.parametrize(
@@ -215,9 +216,15 @@ def keys(table: str) -> set[str]:
         (quell.Initial, "belt.initial", set()),
         (quell.Dither, "dither", set()),
         (quell.Solver, "solver", set()),
-        (quell.Disc, "disc", {"dither", "mode", "load", "axes", "title"}),
+        (quell.Disc, "disc", {"friction", "dither", "mode", "load", "axes", "title"}),
         (quell.Mode, "disc.mode", set()),
         (quell.Load, "disc.load", set()),
+        (quell.System, "system", {"contact", "friction", "dither", "parameters", "axes", "title"}),
+        (quell.SystemMode, "system_mode", set()),
+        (quell.Component, "system_component", set()),
+        (quell.SystemInitial, "system_initial", set()),
+        (quell.Contact, "contact", set()),
+        (quell.SystemDither, "system_dither", set()),
     ],
 )
 def test_classes_have_the_keys_of_their_tables(cls: type, table: str, also: set[str]) -> None:

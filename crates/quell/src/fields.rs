@@ -61,6 +61,12 @@ impl Fields {
         self.plain(name, Json::Null).why(name, why)
     }
 
+    /// Adds a value, or an array of values, with its unit.
+    pub fn measured(&mut self, name: &str, unit: &str, value: impl Into<Json>) -> &mut Self {
+        self.units.insert(name.to_owned(), unit.into());
+        self.plain(name, value)
+    }
+
     /// Adds a quantity, and in a study in SI also its SI value.
     pub fn number(&mut self, name: &str, quantity: Quantity, value: f64) -> &mut Self {
         self.known(name, quantity, Ok(value))

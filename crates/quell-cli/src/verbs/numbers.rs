@@ -1,6 +1,6 @@
 //! Numbers and ranges in the options of several verbs: `--from`, `--to`, `--points`, `FROM:TO`, `X,V`, times.
 
-use clap::Args;
+use clap::{Args, ValueHint};
 use quell::{Complaint, Study, quantity};
 use quell_model::units::{Quantity, Scales};
 
@@ -10,13 +10,13 @@ use crate::arguments::Gathered;
 #[derive(Debug, Args)]
 pub(crate) struct VariedArguments {
     /// Path of the parameter, such as dither.amplitude
-    #[arg(long, value_name = "PATH")]
+    #[arg(long, value_name = "PATH", value_hint = ValueHint::Other)]
     pub(super) parameter: String,
     /// Smallest value, in the unit of the key or with a unit, such as 5kN
-    #[arg(long, value_name = "A", allow_hyphen_values = true)]
+    #[arg(long, value_name = "A", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     from: String,
     /// Largest value, in the unit of the key or with a unit, such as 5kN
-    #[arg(long, value_name = "B", allow_hyphen_values = true)]
+    #[arg(long, value_name = "B", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     to: String,
 }
 

@@ -1,10 +1,11 @@
 //! `quell resonances`: speeds at which waves of a disc meet, and dither frequencies that keep a range of speeds clear.
 
-use clap::{Args, ValueEnum};
+use clap::{Args, ValueEnum, ValueHint};
 use quell::kind::verbs;
 use quell::run::disc::resonances::{Order, ResonancesRequest};
+use quell::run::system::reach::without_waves;
 use quell::study::SystemStudy;
-use quell::{Complaint, Failure, Study, quantity};
+use quell::{Failure, Study, quantity};
 
 use super::numbers::pair;
 use crate::answer::Answer;
@@ -16,17 +17,17 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     /// Range of speeds, in units of ω_ref or with units such as 0rpm:900rpm [default: 0:1]
-    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
+    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     speeds: Option<String>,
     /// Order of the expansion; second takes friction to second order (f of the order of √m, √c, √k)
     #[arg(long, value_name = "ORDER", default_value = "first")]
     order: Expansion,
     /// Range of speeds of a disc to keep clear; needs --frequency
-    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, requires = "frequency")]
+    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, value_hint = ValueHint::Other, requires = "frequency")]
     clear: Option<String>,
     /// Range of dither frequencies: of a disc ratios R or with units such as 2kHz:20kHz, with --clear; of a system angular
     /// frequencies or with units
-    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
+    #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     frequency: Option<String>,
     #[command(flatten)]
     output: OutputArguments,
@@ -38,6 +39,15 @@ pub(crate) struct Arguments {
 enum Expansion {
     First,
     Second,
+}
+
+impl From<Expansion> for Order {
+    fn from(expansion: Expansion) -> Self {
+        match expansion {
+            Expansion::First => Self::First,
+            Expansion::Second => Self::Second,
+        }
+    }
 }
 
 /// Runs the verb.
@@ -64,11 +74,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 
 /// The range of dither frequencies of a system.
 fn frequencies(arguments: &Arguments, study: &SystemStudy) -> Result<Option<(f64, f64)>, Failure> {
-    let only_discs = [("--speeds", &arguments.speeds), ("--clear", &arguments.clear)];
-    if let Some((option, text)) = only_discs.iter().find_map(|(o, t)| Some((*o, t.as_deref()?))) {
-        let allowed = "left out: a system has no speeds of waves; --frequency gives a range of dither frequencies";
-        return Err(Complaint::option(option, text, allowed).into());
-    }
+    let (speeds, clear) = (arguments.speeds.as_deref(), arguments.clear.as_deref());
+    without_waves(speeds, arguments.order.into(), clear)?;
     let text = arguments.frequency.as_deref();
     let read = |text: &str| quantity::system_frequency(text, study.units(), "--frequency");
     Ok(text.map(|text| pair("--frequency", text, read)).transpose()?)
@@ -87,9 +94,6 @@ fn request(
     let speeds = range("--speeds", &arguments.speeds).map(|speeds| speeds.unwrap_or((0.0, 1.0)));
     let clear = range("--clear", &arguments.clear);
     let frequency = range("--frequency", &arguments.frequency);
-    let order = match arguments.order {
-        Expansion::First => Order::First,
-        Expansion::Second => Order::Second,
-    };
+    let order = arguments.order.into();
     complaints.take(ResonancesRequest::new(speeds?, order, clear?, frequency?))
 }

@@ -1,6 +1,6 @@
 //! `quell stability`: stability of steady sliding by averaging or eigenvalues, of a disc by Floquet exponents too.
 
-use clap::Args;
+use clap::{Args, ValueHint};
 use quell::kind::verbs;
 use quell::run::system::tracked::TrackRequest;
 use quell::{Complaint, Failure, Fault, Origin, Study};
@@ -15,19 +15,19 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
     /// Follows the eigenvalues of a system over this number, such as contact.pad.friction.coefficient
-    #[arg(long, value_name = "PATH", requires_all = ["from", "to"])]
+    #[arg(long, value_name = "PATH", requires_all = ["from", "to"], value_hint = ValueHint::Other)]
     parameter: Option<String>,
     /// Smallest value, in the unit of the key or with a unit
-    #[arg(long, value_name = "A", allow_hyphen_values = true, requires = "parameter")]
+    #[arg(long, value_name = "A", allow_hyphen_values = true, requires = "parameter", value_hint = ValueHint::Other)]
     from: Option<String>,
     /// Largest value, in the unit of the key or with a unit
-    #[arg(long, value_name = "B", allow_hyphen_values = true, requires = "parameter")]
+    #[arg(long, value_name = "B", allow_hyphen_values = true, requires = "parameter", value_hint = ValueHint::Other)]
     to: Option<String>,
     /// Follows each threshold as a curve along a second number
-    #[arg(long, value_name = "PATH", requires_all = ["between", "parameter"])]
+    #[arg(long, value_name = "PATH", requires_all = ["between", "parameter"], value_hint = ValueHint::Other)]
     along: Option<String>,
     /// Range of the second number
-    #[arg(long, value_name = "FROM:TO", requires = "along", allow_hyphen_values = true)]
+    #[arg(long, value_name = "FROM:TO", requires = "along", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     between: Option<String>,
     /// Decides by Floquet exponents of the dithered motion of a system, if that is pure slip
     #[arg(long, conflicts_with = "parameter")]
@@ -44,7 +44,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
     let request = arguments.request(study.as_ref(), &mut complaints);
-    let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
+    let parts: &[&str] = if arguments.along.is_some() { &["eigenvalues"] } else { &[] };
+    let outputs = complaints.take(arguments.output.prepare(parts, &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     if arguments.output.saves() && arguments.parameter.is_none() {
         let (key, allowed) =

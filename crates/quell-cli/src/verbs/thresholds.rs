@@ -1,6 +1,6 @@
 //! `quell thresholds`: exact parameter values at which the response changes.
 
-use clap::Args;
+use clap::{Args, ValueHint};
 use quell::kind::verbs;
 use quell::run::curves::CurvesRequest;
 use quell::run::protocol::Protocol;
@@ -35,10 +35,10 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
     ramp: String,
     /// Follows each local threshold as a curve along a second parameter, such as belt.belt_velocity
-    #[arg(long, value_name = "PATH", requires = "between", conflicts_with_all = ["from_rest", "from_sliding", "from_squeal", "start", "ramp"])]
+    #[arg(long, value_name = "PATH", requires = "between", conflicts_with_all = ["from_rest", "from_sliding", "from_squeal", "start", "ramp"], value_hint = ValueHint::Other)]
     along: Option<String>,
     /// Range of the second parameter, in the unit of its key or with units
-    #[arg(long, value_name = "FROM:TO", requires = "along", allow_hyphen_values = true)]
+    #[arg(long, value_name = "FROM:TO", requires = "along", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     between: Option<String>,
     #[command(flatten)]
     output: OutputArguments,

@@ -2,7 +2,7 @@
 //!
 //! The eigenvalues at neighbouring values of the parameter are matched with a prediction from the last step. Where a match is not
 //! certain, the step is halved: near a close approach of two eigenvalues the steps are as short as the approach requires, down
-//! to a coalescence, where the two cannot be told apart. Thresholds are located by root finding on the largest growth rate, not
+//! to a coalescence, where the two cannot be distinguished. Thresholds are located by root finding on the largest growth rate, not
 //! on the grid.
 
 mod coalescence;
@@ -33,7 +33,7 @@ pub trait Family {
     /// The state matrix at a value of the parameter.
     ///
     /// # Errors
-    /// Why there is none, such as no steady sliding.
+    /// Why no matrix exists, such as the lack of steady sliding.
     fn matrix(&self, value: f64) -> Result<Matrix, Self::Error>;
 
     /// The error of a matrix whose eigenvalues cannot be computed.

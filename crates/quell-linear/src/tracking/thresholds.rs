@@ -30,6 +30,9 @@ pub enum Change {
 }
 
 impl Change {
+    /// Every kind of change.
+    pub const ALL: [Self; 4] = [Self::Hopf, Self::Divergence, Self::Coalescence, Self::Jump];
+
     /// Name in output.
     pub fn name(self) -> &'static str {
         match self {
@@ -70,7 +73,10 @@ pub(super) fn of_piece<F: Family>(
         Verdict::Undecided => 0.0,
         _ => point.growth.rate,
     };
-    let changes = sign_changes(|value| Ok(decided(&at(family, value)?)), &values, &[])?;
+    // Where an eigenvalue is zero, the equations of steady sliding are singular, and the family fails at the root itself. Values
+    // next to it decide whether it is one.
+    let rate = |value| Ok(at(family, value).as_ref().map_or(0.0, decided));
+    let changes = sign_changes(rate, &values, &[])?;
     let mut merged = coalescence::of_piece(family, piece);
     let mut found = Vec::new();
     for change in changes {
@@ -89,9 +95,14 @@ pub(super) fn of_piece<F: Family>(
             found.push(ThresholdOfStability { value, error, change, eigenvalue, verdicts });
             continue;
         }
-        let point = at(family, change.location)?;
-        let eigenvalue = Complex64::new(point.growth.rate, point.growth.frequency);
-        let size = point.eigenvalues.iter().fold(0.0, |m: f64, z| m.max(z.re.abs() + z.im.abs()));
+        let (eigenvalue, size) = match at(family, change.location) {
+            Ok(point) => {
+                let size = |m: f64, z: &Complex64| m.max(z.re.abs() + z.im.abs());
+                let eigenvalue = Complex64::new(point.growth.rate, point.growth.frequency);
+                (eigenvalue, point.eigenvalues.iter().fold(0.0, size))
+            }
+            Err(_) => (Complex64::new(0.0, 0.0), 0.0),
+        };
         let kind = match change.crossing {
             CrossingKind::Jump => Change::Jump,
             CrossingKind::Root if eigenvalue.im <= NO_FREQUENCY * size => Change::Divergence,

@@ -13,8 +13,8 @@
     print(response.sentence, response.efficiency)
     response.plot()
 
-Studies are made by :class:`Belt`, :class:`Disc` or :meth:`Study.from_toml`. Their methods are the verbs of the command
-line. Results (:mod:`quell.results`) have the numbers that ``--json`` prints as attributes, and everything with units
+Studies are made by :class:`Belt`, :class:`Disc`, :class:`System` or :meth:`Study.from_toml`. Their methods are the verbs of
+the command line. Results (:mod:`quell.results`) have the numbers that ``--json`` prints as attributes, and everything with units
 and provenance as an xarray Dataset. :class:`StudyError` reports all errors in the input at once.
 """
 
@@ -44,11 +44,14 @@ from ._disc import Disc, Load, Mode
 from ._errors import Complaint, QuellError, RunError, StudyError, complaint
 from ._quell import __version__
 from ._study import Study
+from ._system import Component, Contact, System, SystemDither, SystemInitial, SystemMode
 
 __all__ = [
     "Axis",
     "Belt",
     "Complaint",
+    "Component",
+    "Contact",
     "Coulomb",
     "Decreasing",
     "Disc",
@@ -66,6 +69,10 @@ __all__ = [
     "StribeckExponential",
     "Study",
     "StudyError",
+    "System",
+    "SystemDither",
+    "SystemInitial",
+    "SystemMode",
     "__version__",
     "new",
     "quantities",
@@ -111,10 +118,10 @@ def new(
 
 
 def quantities() -> dict[str, dict[str, str]]:
-    """The quantities that a map can show of a belt and of a disc: names and descriptions."""
-    found: dict[str, dict[str, str]] = {"belt": {}, "disc": {}}
-    for system, name, about in _quell.quantities():
-        found[system][name] = about
+    """The quantities that a map can show of each kind of study: names and descriptions."""
+    found: dict[str, dict[str, str]] = {}
+    for kind, name, about in _quell.quantities():
+        found.setdefault(kind, {})[name] = about
     return found
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
-from typing import Literal
+from collections.abc import Iterable, Mapping
+from typing import Any, Literal
 
 from ._axes import Axes, axes_tables
-from ._belt import Dither, several
+from ._belt import Dither, Friction, several
 from ._study import Study
 from ._tables import Number, Table, Unknown, given
 
@@ -25,8 +25,25 @@ class Load(Table):
         Angle of the load, in degrees; each of several loads has its own.
     mass, damping, stiffness, friction :
         m*, c*, k*, f* of the equations, dimensionless.
-    mass_kg, damping_n_s_per_m, stiffness_n_per_m, friction_n :
+    normal_load, half_thickness :
+        Normal load under a friction law of the disc, which then gives the follower force instead of ``friction``, and half the
+        thickness of the disc over the radius of the load.
+    static_load :
+        Static load that deflects the disc.
+    slip_ratio :
+        Peak velocity of tangential dither over the speed of sliding.
+    extent_deg, radial_extent, points, radial_points :
+        Angle and radial width over which the load is distributed, and numbers of quadrature points.
+    pad_mass, pad_damping, pad_stiffness :
+        Mass of a pad, and damper and spring between it and the caliper or the ground [default: no pad].
+    caliper_mass, caliper_damping, caliper_stiffness :
+        Mass, damper and spring of the caliper that carries the pad.
+    mass_kg, damping_n_s_per_m, stiffness_n_per_m, friction_n, normal_load_n, static_load_n :
         The same in SI, if the disc has its material.
+    pad_mass_kg, pad_damping_n_s_per_m, pad_stiffness_n_per_m :
+        The pad in SI.
+    caliper_mass_kg, caliper_damping_n_s_per_m, caliper_stiffness_n_per_m :
+        The caliper in SI.
     dither_phase_deg :
         Phase of the dither of this load's friction, in degrees [default: 0].
     speed :
@@ -50,6 +67,28 @@ class Load(Table):
         damping_n_s_per_m: Number | None = None,
         stiffness_n_per_m: Number | None = None,
         friction_n: Number | None = None,
+        normal_load: Number | None = None,
+        normal_load_n: Number | None = None,
+        half_thickness: Number | None = None,
+        static_load: Number | None = None,
+        static_load_n: Number | None = None,
+        slip_ratio: Number | None = None,
+        extent_deg: Number | None = None,
+        radial_extent: Number | None = None,
+        points: int | None = None,
+        radial_points: int | None = None,
+        pad_mass: Number | None = None,
+        pad_mass_kg: Number | None = None,
+        pad_damping: Number | None = None,
+        pad_damping_n_s_per_m: Number | None = None,
+        pad_stiffness: Number | None = None,
+        pad_stiffness_n_per_m: Number | None = None,
+        caliper_mass: Number | None = None,
+        caliper_mass_kg: Number | None = None,
+        caliper_damping: Number | None = None,
+        caliper_damping_n_s_per_m: Number | None = None,
+        caliper_stiffness: Number | None = None,
+        caliper_stiffness_n_per_m: Number | None = None,
         dither_phase_deg: Number | None = None,
         speed: Number | None = None,
         speed_hz: Number | None = None,
@@ -72,6 +111,8 @@ class Mode(Table):
         Value of the mode shape at the load; one for each load.
     damping :
         Damping ratio ξ of this mode.
+    centrifugal :
+        Centrifugal stiffening κ of the mode, β² + κΩ², of a disc that rotates itself.
     """
 
     _path = "disc.mode"
@@ -84,6 +125,7 @@ class Mode(Table):
         frequency_hz: Number | None = None,
         shape_at_load: Number | None = None,
         damping: Number | None = None,
+        centrifugal: Number | None = None,
         **unknown: Unknown,
     ) -> None:
         super().__init__(**given(locals()))
@@ -100,6 +142,8 @@ class Disc(Study):
         N_r and N_θ: modes with 0 to N_θ nodal diameters, N_r of each.
     modal_damping :
         ξ of every mode.
+    rotating, centrifugal :
+        "loads" or "disc", the part that rotates [default: "loads"], and the centrifugal stiffening of every mode.
     reference_frequency :
         "critical", the lowest critical speed of these modes, or a frequency parameter k².
     mode :
@@ -108,6 +152,8 @@ class Disc(Study):
         A CSV file of modes instead of computed ones.
     load :
         One :class:`Load` or several.
+    friction :
+        A friction law, for loads with a normal load.
     dither :
         A :class:`Dither` of the friction, with ``waveform="sine"``.
     without :
@@ -131,12 +177,15 @@ class Disc(Study):
         inner_radius_ratio: Number | None = None,
         poisson_ratio: Number | None = None,
         modal_damping: Number | None = None,
+        rotating: Literal["loads", "disc"] | None = None,
+        centrifugal: Number | None = None,
         radial_modes: int | None = None,
         nodal_diameters: int | None = None,
         reference_frequency: Literal["critical"] | Number | None = None,
         mode: Mode | Iterable[Mode] | None = None,
         modes_file: str | os.PathLike[str] | None = None,
         load: Load | Iterable[Load] | None = None,
+        friction: Friction | Mapping[str, Any] | None = None,
         dither: Dither | Iterable[Dither] | None = None,
         without: Iterable[str] | None = None,
         youngs_modulus_pa: Number | None = None,
@@ -147,10 +196,10 @@ class Disc(Study):
         title: str | None = None,
         **unknown: Unknown,
     ) -> None:
-        keys = given(locals(), "mode", "load", "dither", "axes", "title")
+        keys = given(locals(), "mode", "load", "friction", "dither", "axes", "title")
         disc = Table(**{**keys, "without": several(without)})
         modes = [mode] if isinstance(mode, Table) else several(mode)
         for name, inner in (("mode", modes), ("load", several(load))):
             if inner is not None:
                 disc.given[name] = inner
-        self._build(title=title, disc=disc, dither=several(dither), sweep=axes_tables(axes))
+        self._build(title=title, disc=disc, friction=friction, dither=several(dither), sweep=axes_tables(axes))

@@ -26,13 +26,15 @@ Self = TypeVar("Self", bound="Study")
 State = tuple[Number, Number]
 """Two numbers: displacement and velocity, or the ends of a range."""
 
+A_NUMBER_OF_A_SYSTEM = "path of a number, such as contact.pad.friction.coefficient"
+
 
 class Study:
-    """A checked study: of a belt or of a disc.
+    """A checked study: of a belt, of a disc or of a system.
 
-    Made by :class:`quell.Belt`, :class:`quell.Disc`, :meth:`from_toml` or :meth:`from_text`. A study is valid and
-    immutable (:meth:`set` returns a new one). Studies compare by their settings, pickle,
-    and have a method for every verb of the command line. A verb for the other kind of study raises
+    Made by :class:`quell.Belt`, :class:`quell.Disc`, :class:`quell.System`, :meth:`from_toml` or :meth:`from_text`. A study is
+    valid and immutable (:meth:`set` returns a new one). Studies compare by their settings, pickle,
+    and have a method for every verb of the command line. A verb for another kind of study raises
     :class:`quell.StudyError`.
     """
 
@@ -46,9 +48,10 @@ class Study:
     def _of(cls: type[Self], native: NativeStudy) -> Self:
         from ._belt import Belt
         from ._disc import Disc
+        from ._system import System
 
-        kind = Belt if native.kind == "belt" else Disc
-        study: Self = object.__new__(kind)
+        kinds: dict[str, type[Study]] = {"belt": Belt, "disc": Disc, "system": System}
+        study: Self = object.__new__(kinds[native.kind])  # type: ignore[assignment]
         study._native = native
         return study
 
@@ -152,12 +155,67 @@ class Study:
                 raise StudyError([complaint("at", at, "slip velocities: finite numbers")]) from None
         return results.FrictionCurve(self, self._native.friction(where, []))
 
-    def stability(self) -> results.Stability:
-        """Belt: averaged stability of steady sliding, equation (2.26), and every critical amplitude.
+    @overload
+    def stability(self) -> results.Stability: ...
 
-        Disc: the largest growth rate by eigenvalues or Floquet exponents, with its error.
+    @overload
+    def stability(
+        self, parameter: str, from_: Number, to: Number, *, along: str | None = None, between: State | None = None
+    ) -> results.TrackedStability: ...
+
+    @overload
+    def stability(self, *, exact: Literal[True]) -> results.ExactStability: ...
+
+    def stability(
+        self,
+        parameter: str | None = None,
+        from_: Number | None = None,
+        to: Number | None = None,
+        *,
+        along: str | None = None,
+        between: State | None = None,
+        exact: bool = False,
+    ) -> results.Stability | results.TrackedStability | results.ExactStability:
+        """The stability of steady sliding, and of a system also its eigenvalues over a parameter.
+
+        Belt: averaged stability, equation (2.26), and every critical amplitude. Disc: the largest growth rate by eigenvalues
+        or Floquet exponents, with its error. System: every eigenvalue, averaged over the dither.
+
+        Parameters
+        ----------
+        parameter, from_, to :
+            System: a number such as ``contact.pad.friction.coefficient`` over which eigenvalues are followed, and its range, in
+            the unit of the key or as texts with units.
+        along, between :
+            System: a second number and its range, along which each threshold is followed as a curve.
+        exact :
+            System: whether to decide by Floquet exponents of the dithered motion, if that is pure slip.
+
+        Returns
+        -------
+        quell.results.Stability
+            With a parameter :class:`quell.results.TrackedStability`, with ``exact`` :class:`quell.results.ExactStability`.
         """
-        return results.Stability(self, self._native.stability())
+        arguments = Arguments()
+        tracked = None if parameter is None else arguments.text("parameter", parameter, A_NUMBER_OF_A_SYSTEM)
+        begin = None if from_ is None else arguments.quantity("from_", from_)
+        end = None if to is None else arguments.quantity("to", to)
+        second = None if along is None else arguments.text("along", along, A_NUMBER_OF_A_SYSTEM)
+        window = None if between is None else arguments.quantities("between", between, "two numbers, the second above the first")
+        if len({it is None for it in (parameter, from_, to)}) > 1:
+            arguments.wrong.append(complaint("parameter", parameter, "given together with from_ and to", "conflict"))
+        if (along is None) != (between is None) or (along is not None and parameter is None):
+            allowed = "given together with between, parameter, from_ and to"
+            arguments.wrong.append(complaint("along", along, allowed, "conflict"))
+        if exact and parameter is not None:
+            arguments.wrong.append(complaint("exact", exact, "given without parameter", "conflict"))
+        arguments.done()
+        if tracked is not None and begin is not None and end is not None:
+            pair = None if second is None or window is None else (second, window)
+            return results.TrackedStability(self, self._native.tracked_stability(tracked, (begin, end), pair))
+        if exact:
+            return results.ExactStability(self, self._native.stability(True))
+        return results.Stability(self, self._native.stability(False))
 
     def simulate(
         self, until: Number, *, events: bool = True, samples: bool = True
@@ -255,6 +313,8 @@ class Study:
         between: State | None = None,
     ) -> results.Thresholds | results.ThresholdCurves:
         """Exact values of a parameter at which dither starts or stops quenching, or their curves in two parameters.
+
+        System without dither: the values at which steady sliding becomes stable or unstable, those of :meth:`stability`.
 
         Parameters
         ----------
@@ -483,7 +543,7 @@ class Study:
         return results.Basins(self, native)
 
     def modes(self) -> results.Modes:
-        """Natural frequencies, shapes and critical speeds of a disc."""
+        """Natural frequencies and shapes of a disc or of a system, and critical speeds of a disc."""
         return results.Modes(self, self._native.modes())
 
     def resonances(
@@ -496,15 +556,20 @@ class Study:
     ) -> results.Resonances:
         """Speeds at which waves of a disc meet, the meetings that can be unstable, and clear dither frequencies.
 
+        System: the slip at each contact per unit of each dither, over the dither frequency.
+
         Parameters
         ----------
         speeds :
-            Range of speeds in which meetings are listed, in ω_ref, or as texts with units such as ``"900rpm"`` [default: 0
+            Disc: range of speeds in which meetings are listed, in ω_ref, or as texts with units such as ``"900rpm"`` [default: 0
             to 1 ω_ref]. If a load is given in SI, plain numbers are in Hz.
         order :
-            Order of the theory in the friction, "first" or "second".
-        clear, frequency :
-            A range of speeds that the dither should keep clear, and the range of dither frequencies R to search.
+            Disc: order of the theory in the friction, "first" or "second".
+        clear :
+            Disc: a range of speeds that the dither should keep clear.
+        frequency :
+            Disc: the range of dither frequencies R to search, with ``clear``. System: the range of angular frequencies, or of
+            texts with units such as ``"2kHz"`` [default: 0.1 to 10 times that of the dither].
         """
         arguments = Arguments()
         two = "two finite numbers"

@@ -34,6 +34,7 @@ __all__ = [
     "Bifurcation",
     "Check",
     "Citations",
+    "ExactStability",
     "FrictionCurve",
     "Map",
     "Modes",
@@ -46,6 +47,7 @@ __all__ = [
     "Stability",
     "ThresholdCurves",
     "Thresholds",
+    "TrackedStability",
     "Variable",
 ]
 
@@ -204,6 +206,12 @@ class Check(Result):
     verb = "check"
     system: Literal["dimensionless", "si"]
     """Whether the numbers are only dimensionless, or also in SI."""
+    coordinates: list[str]
+    """System: names of the coordinates or states."""
+    contacts: list[str]
+    """System: names of the contacts."""
+    unit_system: Literal["none", "SI", "mm-t-s"]
+    """System: the unit of bare numbers."""
 
 
 class Citations(Result):
@@ -245,17 +253,100 @@ class FrictionCurve(Result):
 
 
 class Stability(Result):
-    """Stability of steady sliding by averaging, or of a disc by eigenvalues or Floquet exponents."""
+    """Stability of steady sliding: of a belt by averaging, of a disc or system by eigenvalues."""
 
     verb = "stability"
     verdict: Verdict
     """Whether small motions decay."""
+    protocol: str
+    """Method: "averaged", "linearised" or "floquet"."""
     criterion: float | None
     """Belt: 2ζ + Fμ̄′ (2.26), stable where positive."""
     critical_amplitudes: list[dict[str, Any]] | None
-    """Belt: every α > 0 at which the verdict changes: ``amplitude_ratio``, ``amplitude``, ``kind``, ``becomes``."""
+    """Belt: every α > 0 at which the verdict changes: ``amplitude_ratio``, ``amplitude``, ``kind``, ``becomes``. System: the
+    amplitudes of the first dither."""
     growth_rate: float | None
-    """Largest growth rate per unit τ."""
+    """Largest growth rate, per unit τ or per unit of time of a system."""
+    growth_rate_error: float | None
+    """Disc and system: bound on the error of the growth rate."""
+    frequency: float | None
+    """Disc and system: frequency of the motion that grows fastest or decays slowest."""
+    motions: list[dict[str, Any]]
+    """System: ``growth_rate``, ``frequency``, ``damping_ratio``, ``error``, ``shape`` and ``friction_work`` of each motion."""
+    contacts: list[dict[str, Any]]
+    """System: ``name``, ``friction``, ``normal``, ``slip_amplitude``, ``effective_coefficient``, … of each contact."""
+    undithered: dict[str, Any] | None
+    """System: ``verdict``, ``growth_rate`` and ``frequency`` without dither."""
+
+    @property
+    def eigenvalues(self) -> npt.NDArray[np.complex128]:
+        """System: the eigenvalues (n,), those with the largest growth rate first."""
+        return numbers_of(self.__getattr__("eigenvalues"))
+
+
+class TrackedStability(Result):
+    """Eigenvalues of a system over a parameter, and its thresholds.
+
+    The dataset has ``growth_rate`` and ``frequency`` over ``parameter`` and ``branch``; with a second parameter their names begin
+    with ``eigenvalues_``, and ``curve``, ``kind`` and both parameters are those of the points of the curves.
+    """
+
+    verb = "stability"
+    protocol: str
+    """Method: "linearised", or "averaged" under dither."""
+    parameter: str
+    """Path of the parameter."""
+    local: list[dict[str, Any]]
+    """``value`` with its ``error``, ``kind`` ("hopf", "divergence", "coalescence", "jump"), ``frequency``, and the verdicts below
+    and above it, ``was`` and ``becomes``, which are equal where two frequencies merge without a change."""
+    thresholds: list[dict[str, Any]]
+    """The same list."""
+    at_from: dict[str, Verdict | None]
+    """The verdict at the first value."""
+    covered: bool
+    """Whether every value of the range has an answer."""
+    resumes: bool
+    """Whether the last value has an answer again, after a range without one."""
+    unknown: list[dict[str, Any]]
+    """``from`` and ``to`` of ranges without an answer, and ``why``.
+
+    With a second parameter also ``along``, ``between``, and ``curves``: ``kind``, ``value`` (n,), ``along`` (n,), ``error`` (n,),
+    ``frequency`` (n,), ``was`` and ``becomes`` of each curve.
+    """
+
+
+class ExactStability(Result):
+    """Stability of the dithered motion of a system in pure slip, by its Floquet exponents."""
+
+    verb = "stability"
+    verdict: Verdict
+    """Whether small deviations decay."""
+    protocol: str
+    """Method: "floquet"."""
+    growth_rate: float
+    """Largest growth rate."""
+    growth_rate_error: float
+    """Bound on its error."""
+    frequency: float
+    """Frequency of that deviation, up to multiples of the frequency of the motion."""
+    period: float
+    """Period of the motion."""
+    state: list[float]
+    """State at time 0: displacements, velocities, further states."""
+    residual: float
+    """Distance of the state from itself after one period."""
+    exponents: list[dict[str, Any]]
+    """``growth_rate``, ``growth_rate_error``, ``frequency`` and ``multiplier`` of each exponent."""
+
+    @property
+    def multipliers(self) -> npt.NDArray[np.complex128]:
+        """The multipliers (n,), in the order of the exponents."""
+        return numbers_of([it["multiplier"] for it in self.exponents])
+
+
+def numbers_of(pairs: list[list[float]]) -> npt.NDArray[np.complex128]:
+    """Pairs of a real and an imaginary part as complex numbers."""
+    return np.array([complex(re, im) for re, im in pairs], dtype=np.complex128)
 
 
 class Simulation(Result):
@@ -357,8 +448,7 @@ class Orbit(Result):
     @property
     def multipliers(self) -> npt.NDArray[np.complex128]:
         """The two multipliers; empty if there is no orbit (see ``why``)."""
-        pairs = self.facts["multipliers"] or []
-        return np.array([complex(re, im) for re, im in pairs], dtype=np.complex128)
+        return numbers_of(self.facts["multipliers"] or [])
 
 
 class Thresholds(Result):
@@ -368,12 +458,13 @@ class Thresholds(Result):
     parameter: str
     """Path of the parameter."""
     local: list[dict[str, Any]]
-    """``value`` with its ``error``, ``kind``, ``was``, ``becomes``, and the state ``displacement``, ``velocity``.
+    """``value`` with its ``error``, ``kind``, ``was``, ``becomes``, and of a belt the state ``displacement``, ``velocity``.
 
-    Kinds are "neimark-sacker", "hopf", "flip", "fold", "grazing", "branching", "signature".
+    Kinds are "neimark-sacker", "hopf", "flip", "fold", "grazing", "branching", "signature", and of a system without dither
+    "hopf", "divergence", "coalescence", with ``frequency``; see :class:`TrackedStability`.
     """
     signature_changes: list[dict[str, Any]]
-    """``value`` at which the events of a period change, and the events ``below`` and ``above``."""
+    """Belt: ``value`` at which the events of a period change, and the events ``below`` and ``above``."""
     covered: bool
     """Whether the response was continued over the whole range.
 
@@ -392,9 +483,9 @@ class ThresholdCurves(Result):
     along: str
     """Path of the second parameter."""
     curves: list[dict[str, Any]]
-    """``kind``, ``value`` (n,), ``along`` (n,), ``multiplier_modulus`` (n,), ``ends`` of each curve."""
+    """``kind``, ``value`` (n,), ``along`` (n,) of each curve, and of a belt ``multiplier_modulus`` (n,) and ``ends``."""
     averaged: list[dict[str, Any]]
-    """Boundaries of averaging: ``sharper``, ``along`` (n,), ``value`` (n,), and both as pairs, ``points``."""
+    """Belt: boundaries of averaging: ``sharper``, ``along`` (n,), ``value`` (n,), and both as pairs, ``points``."""
 
 
 class Bifurcation(Result):
@@ -440,23 +531,29 @@ class Basins(Result):
 
 
 class Modes(Result):
-    """Natural frequencies and shapes of a disc."""
+    """Natural frequencies and shapes of a disc or of a system."""
 
     verb = "modes"
     modes: list[dict[str, Any]]
-    """``radial``, ``diameters``, ``frequency_parameter`` (k²), ``ratio`` (ω_ref), ``shape_at_load``, ``damping``, …"""
+    """Disc: ``radial``, ``diameters``, ``frequency_parameter`` (k²), ``ratio`` (ω_ref), ``shape_at_load``, ``damping``, …
+    System: ``frequency``, ``damping_ratio``, ``shape``, ``shape_imaginary``, with the springs of contacts and without friction."""
     critical_mode: dict[str, int] | None
-    """The mode with the lowest critical speed."""
+    """Disc: the mode with the lowest critical speed."""
+    coordinates: list[str]
+    """System: names of the coordinates of the shapes."""
 
 
 class Resonances(Result):
-    """Meetings of the waves of a disc."""
+    """Meetings of the waves of a disc, or responses of the contacts of a system to its dithers."""
 
     verb = "resonances"
+    responses: list[dict[str, Any]]
+    """System: ``dither``, ``contact`` and ``extremes`` of each pair: ``kind`` ("peak" or "dip"), ``frequency``,
+    ``slip_per_amplitude``, ``out_of_reach``, ``reversal_amplitude``. The dataset has the slip over ``frequency``."""
     undithered: list[dict[str, Any]]
-    """Meetings without dither, with the keys of ``dithered``."""
+    """Disc: meetings without dither, with the keys of ``dithered``."""
     dithered: list[dict[str, Any]]
-    """``speed``, ``waves``, ``can_be_unstable``, ``threshold``, ``edges``, ``peak_growth`` of each meeting.
+    """Disc: ``speed``, ``waves``, ``can_be_unstable``, ``threshold``, ``edges``, ``peak_growth`` of each meeting.
 
     If a range of speeds should be kept clear: ``clear``, with the intervals of R that are ``clear`` and ``blocked``, the best R
     (``suggestion``) with its ``verified_growth_rate``, the result of the exact equations for it (``verified``: ``verdict``,

@@ -1,7 +1,9 @@
-//! `resonances`: speeds at which waves of a disc meet, and dither frequencies that keep a range of speeds clear.
+//! `resonances`: speeds at which waves of a disc meet, or how far the dither of a system reaches its contacts.
 
 use quell::kind::verbs;
 use quell::run::disc::resonances::{Order, ResonancesRequest};
+use quell::run::system::reach::without_waves;
+use quell::study::SystemStudy;
 use quell::{Failure, Study, quantity};
 
 use super::refused;
@@ -12,15 +14,19 @@ use crate::arguments::Pair;
 pub(crate) fn run(
     study: &Study,
     order: &str,
-    [speeds, clear, frequency]: [Option<Pair>; 3],
+    ranges: [Option<Pair>; 3],
 ) -> Result<NativeAnswer, Failure> {
-    let verbs = verbs(study);
-    let disc = study.disc().ok();
     let order = match order {
         "first" => Order::First,
         "second" => Order::Second,
         other => return Err(refused("order", other, "\"first\" or \"second\"")),
     };
+    if let Ok(system) = study.system() {
+        return reach(&system, order, &ranges);
+    }
+    let [speeds, clear, frequency] = ranges;
+    let verbs = verbs(study);
+    let disc = study.disc().ok();
     let range = |pair: &Option<Pair>, option| -> Result<Option<(f64, f64)>, Failure> {
         let Some((from, to)) = pair else { return Ok(None) };
         let read = |text: &str| quantity::frequency(text, disc.as_ref(), option);
@@ -31,4 +37,20 @@ pub(crate) fn run(
     let (clear, frequency) = (range(&clear, "--clear")?, range(&frequency, "--frequency")?);
     let request = ResonancesRequest::new(speeds, order, clear, frequency)?;
     Ok(NativeAnswer::new(verbs.resonances(request)?))
+}
+
+/// How far the dither of a system reaches its contacts.
+fn reach(
+    study: &SystemStudy,
+    order: Order,
+    [speeds, clear, frequency]: &[Option<Pair>; 3],
+) -> Result<NativeAnswer, Failure> {
+    let shown = |pair: &Option<Pair>| pair.as_ref().map(|(from, to)| format!("{from}:{to}"));
+    without_waves(shown(speeds).as_deref(), order, shown(clear).as_deref())?;
+    let read = |text: &str| quantity::system_frequency(text, study.units(), "--frequency");
+    let range = match frequency {
+        Some((from, to)) => Some((read(from)?, read(to)?)),
+        None => None,
+    };
+    Ok(NativeAnswer::new(verbs(&study.into()).reach(range)?))
 }

@@ -20,7 +20,7 @@ pub(crate) fn keys() -> Vec<(&'static str, &'static str, &'static str, &'static 
     all.map(|key| (key.section.path(), key.name, key.unit_in_words(), key.about)).collect()
 }
 
-/// ("belt" or "disc", name, description) of every quantity of a map.
+/// ("belt", "disc" or "system", name, description) of every quantity of a map.
 #[pyfunction]
 pub(crate) fn quantities() -> Vec<(&'static str, &'static str, &'static str)> {
     let all = QUANTITIES.iter().copied().flatten();

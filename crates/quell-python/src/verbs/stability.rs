@@ -1,11 +1,35 @@
-//! `stability`: stability of steady sliding by averaging, or of a disc by eigenvalues or Floquet exponents.
+//! `stability`: stability of steady sliding by averaging, of a disc or system by eigenvalues or Floquet exponents.
 
 use quell::kind::verbs;
-use quell::{Failure, Study};
+use quell::run::system::tracked::TrackRequest;
+use quell::{Failure, Study, quantity};
 
 use crate::answer::NativeAnswer;
+use crate::arguments::{Pair, ends};
 
-/// Runs the verb.
-pub(crate) fn run(study: &Study) -> Result<NativeAnswer, Failure> {
-    Ok(NativeAnswer::new(verbs(study).stability()?))
+/// Runs the verb. `exact`: whether Floquet exponents decide.
+pub(crate) fn run(study: &Study, exact: bool) -> Result<NativeAnswer, Failure> {
+    let verbs = verbs(study);
+    let done = if exact { verbs.exact_stability() } else { verbs.stability() };
+    Ok(NativeAnswer::new(done?))
+}
+
+/// Runs the verb over a parameter. `along`: a second parameter and its range.
+pub(crate) fn run_tracked(
+    study: &Study,
+    parameter: String,
+    range: &Pair,
+    along: Option<(String, Pair)>,
+) -> Result<NativeAnswer, Failure> {
+    let window = ends(&parameter, range)?;
+    let along = match along {
+        Some((path, between)) => {
+            let value = |text: &str| quantity::value_of_key(text, &path, "--between");
+            let between = (value(&between.0)?, value(&between.1)?);
+            Some((path, between))
+        }
+        None => None,
+    };
+    let request = TrackRequest { parameter, window, along };
+    Ok(NativeAnswer::new(verbs(study).tracked_stability(&request)?))
 }

@@ -7,8 +7,10 @@ use super::references::Source;
 pub enum Task {
     /// Effective friction.
     Friction,
-    /// Stability of steady sliding by averaging.
+    /// Stability of steady sliding, by eigenvalues or by averaging.
     Stability,
+    /// Thresholds of the stability of a system.
+    Thresholds,
     /// A trajectory with its events.
     Simulate,
     /// The steady response.
@@ -17,9 +19,9 @@ pub enum Task {
     Bifurcation,
     /// Which starts converge to which response.
     Basins,
-    /// Modes of a disc.
+    /// Modes of a disc or of a system.
     Modes,
-    /// Resonances of a disc.
+    /// Resonances of a disc, or of the dither of a system.
     Resonances,
 }
 
@@ -39,6 +41,7 @@ impl Task {
         match self {
             Self::Friction => "friction",
             Self::Stability => "stability",
+            Self::Thresholds => "thresholds",
             Self::Simulate => "simulate",
             Self::Response => "response",
             Self::Bifurcation => "bifurcation",

@@ -15,6 +15,7 @@ mod corrections;
 mod disc;
 pub mod errata;
 mod references;
+mod system;
 
 use correction::has;
 
@@ -23,9 +24,9 @@ pub use correction::{Bears, Correction, DiscKind, Proof};
 pub use corrections::CORRECTIONS;
 pub use references::{
     ARMSTRONG_HELOUVRY_1994, CHAN_1994, CUNEFARE_GRAF_2002, DAS_SAIKI_SANDER_YORKE_2017,
-    FILIPPOV_1988, HARRIS_1978, IWAN_STAHL_1973, JORBA_ZOU_2005, MENCK_2013, MICHAUX_2005,
-    NAYFEH_MOOK_1979, SOURCES, Source, TAKAHASHI_IMADA_1984, THOMSEN_1999, THOMSEN_FIDLIN_2003,
-    VOGEL_SKINNER_1965, WILSON_1927,
+    FILIPPOV_1988, HAIRER_NORSETT_WANNER_1993, HARRIS_1978, HOFFMANN_2002, IWAN_STAHL_1973,
+    JORBA_ZOU_2005, MENCK_2013, MICHAUX_2005, NAYFEH_MOOK_1979, SOURCES, Source,
+    TAKAHASHI_IMADA_1984, THOMSEN_1999, THOMSEN_FIDLIN_2003, VOGEL_SKINNER_1965, WILSON_1927,
 };
 
 /// Sources of a study's computations.
@@ -47,9 +48,9 @@ pub fn sources_of_disc(study: &DiscStudy) -> Sources {
     gather(disc::citations(study), |bears| bears.on_disc(study))
 }
 
-/// Sources of the computations of a study of a system.
-pub fn sources_of_system(_: &SystemStudy) -> Sources {
-    gather(Vec::new(), |_| false)
+/// Sources of the computations of a study of a system. The corrections concern the equations of belts and discs alone.
+pub fn sources_of_system(study: &SystemStudy) -> Sources {
+    gather(system::citations(study), |_| false)
 }
 
 /// Sources and corrections of a study of any kind.
@@ -82,7 +83,7 @@ fn citations(study: &BeltStudy) -> Vec<Citation> {
             Task::Friction | Task::Stability => averaging(belt, task, &mut cite),
             Task::Simulate | Task::Response => simulation(task, &mut cite),
             Task::Bifurcation | Task::Basins => attractors(task, &mut cite),
-            Task::Modes | Task::Resonances => {}
+            Task::Thresholds | Task::Modes | Task::Resonances => {}
         }
     }
     citations

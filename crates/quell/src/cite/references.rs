@@ -105,6 +105,18 @@ pub const TAKAHASHI_IMADA_1984: Source = Source {
     reference: "M. Takahashi, M. Imada: Monte Carlo calculation of quantum systems. II. Higher order \
                 correction. Journal of the Physical Society of Japan 53, 3765–3769, 1984",
 };
+/// Mode coupling in its smallest model: two degrees of freedom and Coulomb friction.
+pub const HOFFMANN_2002: Source = Source {
+    key: "hoffmann2002",
+    reference: "N. Hoffmann, M. Fischer, R. Allgaier, L. Gaul: A minimal model for studying properties of the mode-coupling \
+                type instability in friction induced oscillations. Mechanics Research Communications 29(4), 197–205, 2002",
+};
+/// Extrapolation of Gragg's midpoint steps.
+pub const HAIRER_NORSETT_WANNER_1993: Source = Source {
+    key: "hairer1993",
+    reference: "E. Hairer, S. P. Nørsett, G. Wanner: Solving Ordinary Differential Equations I. Nonstiff Problems. \
+                2nd edition, Springer, Berlin, 1993",
+};
 
 /// Every source that can be cited.
 pub const SOURCES: &[Source] = &[
@@ -124,4 +136,6 @@ pub const SOURCES: &[Source] = &[
     CHAN_1994,
     NAYFEH_MOOK_1979,
     TAKAHASHI_IMADA_1984,
+    HOFFMANN_2002,
+    HAIRER_NORSETT_WANNER_1993,
 ];

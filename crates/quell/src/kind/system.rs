@@ -1,10 +1,7 @@
 //! The verbs of a system.
 
-use serde_json::Value as Json;
-
 use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
-use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::curves::CurvesRequest;
@@ -35,7 +32,6 @@ impl Verbs for SystemStudy {
     }
 
     fn modes(&self) -> Reply {
-        needs_matrices(self, "modes")?;
         answer(self, modes::run(self))
     }
 
@@ -47,43 +43,27 @@ impl Verbs for SystemStudy {
     }
 
     fn exact_stability(&self) -> Reply {
-        needs_matrices(self, "stability --exact")?;
         answer(self, exact::run(self))
     }
 
     fn tracked_stability(&self, request: &TrackRequest) -> Reply {
-        needs_matrices(self, "stability --parameter")?;
         answer(self, tracked::run(self, request))
     }
 
     fn reach(&self, frequencies: Option<(f64, f64)>) -> Reply {
-        needs_matrices(self, "resonances")?;
         answer(self, reach::run(self, frequencies))
     }
 
     fn thresholds(&self, request: ThresholdsRequest) -> Reply {
-        let ThresholdsRequest { parameter, from, to, .. } = request;
+        let ThresholdsRequest { parameter, from, to, protocols, ramp } = request;
+        tracked::without_runs(&protocols, ramp)?;
         let request = TrackRequest { parameter, window: (from, to), along: None };
-        needs_matrices(self, "thresholds")?;
         answer(self, tracked::thresholds(self, &request))
     }
 
     fn threshold_curves(&self, request: &CurvesRequest) -> Reply {
         let CurvesRequest { parameter, window, along, between } = request.clone();
         let request = TrackRequest { parameter, window, along: Some((along, between)) };
-        needs_matrices(self, "thresholds")?;
         answer(self, tracked::thresholds(self, &request))
     }
-}
-
-/// Refuses a verb that a measured frequency response cannot answer.
-fn needs_matrices(study: &SystemStudy, verb: &str) -> Result<(), Failure> {
-    if study.frequency_response().is_none() {
-        return Ok(());
-    }
-    let key = "system.frequency_response";
-    let allowed = format!(
-        "{verb} needs masses and stiffness or modes; a measured frequency response gives the verdict of `stability` alone"
-    );
-    Err(Complaint::new(Fault::Conflict, key, Origin::Whole, Json::Null, allowed).into())
 }

@@ -135,7 +135,7 @@ impl SystemStudy {
 
     /// The unit of the number at a path, `1` for a ratio; `None` without a unit and where the study has no such number.
     pub fn unit_of(&self, path: &str) -> Option<&'static str> {
-        measured_in(&self.source.document, path)
+        path::measured_in(&self.source.document, path)
     }
 
     /// The system with these numbers set in order as by `--set`: that of [`StudyOf::at`], without text or files being read.

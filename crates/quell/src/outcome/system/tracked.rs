@@ -57,7 +57,10 @@ impl Presented<SystemSetup> for TrackedStability {
     }
 
     fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
-        vec![("eigenvalues", self.dataset(study))]
+        let curves = self.dataset_of_curves(study).map(|curves| ("curves", curves));
+        let eigenvalues = ("eigenvalues", self.dataset(study));
+        // With a second parameter, the curves are the main answer.
+        curves.into_iter().chain([eigenvalues]).collect()
     }
 
     fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {

@@ -4,7 +4,7 @@ use quell_model::system::{InputTarget, Structure};
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
-use crate::study::{SystemStart, SystemStudy};
+use crate::study::{SystemStart, SystemStudy, SystemUnits};
 
 /// The study as JSON.
 pub fn json(study: &SystemStudy) -> Json {
@@ -33,7 +33,8 @@ pub fn json(study: &SystemStudy) -> Json {
         "title": study.title(),
         "kind": "system",
         "form": form,
-        "units": study.units().name(),
+        "system": if study.units() == SystemUnits::None { "dimensionless" } else { "si" },
+        "unit_system": study.units().name(),
         "coordinates": names,
         "contacts": contacts,
         "contact_laws": laws(study),

@@ -22,7 +22,7 @@ pub struct ExactStability {
 /// # Errors
 /// [`Failure::Failed`] without dither, and where the dithered motion is not pure slip, with the contact and the reason.
 pub fn run(study: &SystemStudy) -> Result<ExactStability, Failure> {
-    has_equations(study, "stability")?;
+    has_equations(study, "stability --exact")?;
     if !is_dithered(study.system()) {
         let why = "the study has no dither: the eigenvalues of `stability` are exact";
         return Err(failed("stability", why));

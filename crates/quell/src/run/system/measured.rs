@@ -7,8 +7,8 @@ use quell_linear::measured::{MeasuredSliding, MeasuredSystem, Receptance};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::stability::{SlidingContact, put_contact, put_critical, with_hertz};
-use super::{failed, is_dithered};
+use super::stability::{SlidingContact, put_contact, put_critical};
+use super::{failed, is_dithered, oscillating};
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::study::{FrequencyResponse, SystemStudy};
@@ -60,7 +60,7 @@ impl MeasuredStability {
     /// The answer in one or two sentences.
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let turns = self.sliding.turns;
-        let closest = with_hertz(study.units(), turns.closest);
+        let closest = oscillating(study.units(), turns.closest);
         let by = if self.dither.is_some() { "By averaging and the" } else { "By the" };
         let verdict = match turns.unstable {
             0 => "steady sliding is stable".to_owned(),
@@ -72,8 +72,8 @@ impl MeasuredStability {
             }
         };
         format!(
-            "{by} generalised Nyquist criterion of the measured response, {verdict}. It is closest to marginal at the angular \
-             frequency {closest}."
+            "{by} generalised Nyquist criterion of the measured response, {verdict}. The motion closest to \
+             marginal is one {closest}."
         )
     }
 

@@ -13,7 +13,9 @@ use quell_linear::spectrum::{SmallMotion, Spectrum};
 use quell_model::System;
 use quell_model::units::Quantity;
 
-use crate::complaint::Failure;
+use serde_json::Value as Json;
+
+use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
 use crate::study::{SystemStudy, SystemUnits};
 use crate::words::digits;
@@ -33,8 +35,11 @@ fn has_equations(study: &SystemStudy, verb: &str) -> Result<(), Failure> {
     if study.frequency_response().is_none() {
         return Ok(());
     }
-    let why = "the study has a measured frequency response instead of equations; only `check` reads it yet";
-    Err(failed(verb, why))
+    let key = "system.frequency_response";
+    let allowed = format!(
+        "{verb} needs masses and stiffness or modes; a measured frequency response gives the verdict of `stability` alone"
+    );
+    Err(Complaint::new(Fault::Conflict, key, Origin::Whole, Json::Null, allowed).into())
 }
 
 /// Whether some dither acts.

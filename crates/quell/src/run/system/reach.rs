@@ -11,9 +11,10 @@ use quell_numerics::roots::{Closeness, minimise};
 use serde_json::Value as Json;
 
 use super::{failed, has_equations};
-use crate::complaint::{Complaint, Failure};
+use crate::complaint::{Complaint, Complaints, Failure};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::run::disc::resonances::Order;
 use crate::study::{SystemStudy, SystemUnits};
 use crate::words::{digits, plural};
 
@@ -56,6 +57,25 @@ pub struct Reaches {
     pub frequencies: Vec<f64>,
     /// Every pair of a dither and a contact.
     pub pairs: Vec<Reach>,
+}
+
+/// Rejects the options of `resonances` that only discs have.
+///
+/// # Errors
+/// A complaint about each option given.
+pub fn without_waves(
+    speeds: Option<&str>,
+    order: Order,
+    clear: Option<&str>,
+) -> Result<(), Complaints> {
+    let order = (order == Order::Second).then_some("second");
+    let given = [("--speeds", speeds), ("--order", order), ("--clear", clear)];
+    let allowed = "left out: a system has no waves that meet; --frequency gives a range of dither frequencies";
+    let wrong: Vec<Complaint> = given
+        .into_iter()
+        .filter_map(|(option, text)| Some(Complaint::option(option, text?, allowed)))
+        .collect();
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
 }
 
 /// The responses of a study over a range of angular frequencies.
@@ -196,15 +216,21 @@ impl Reaches {
 
     /// Slip amplitude per unit of dither over the frequency, one array for each pair.
     pub fn dataset(&self, study: &SystemStudy) -> Dataset {
-        let mut dataset = Dataset::of(&study.into(), "resonances").axis(
+        let units = study.units();
+        let unit = units.unit(Quantity::FrequencyRatio).unwrap_or("1");
+        let slip = match (units.unit(Quantity::Velocity), units.unit(Quantity::Force)) {
+            (Some(velocity), Some(force)) => format!("{velocity}/{force}"),
+            _ => "1".to_owned(),
+        };
+        let mut dataset = Dataset::of(&study.into(), "resonances").with_axis(Array::new(
             "frequency",
-            Quantity::Ratio,
+            unit,
             self.frequencies.clone(),
-        );
+        ));
         for pair in &self.pairs {
             let contact = &study.system().contacts[pair.contact].name;
             let name = format!("slip_of_{contact}_per_dither_{}", pair.dither);
-            dataset = dataset.with(Array::new(name, "1", pair.slip.clone()));
+            dataset = dataset.with(Array::new(name, slip.as_str(), pair.slip.clone()));
         }
         dataset
     }

@@ -13,7 +13,8 @@ use super::{failed, has_equations, is_dithered, oscillating};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::study::SystemStudy;
+use crate::run::protocol::Protocol;
+use crate::study::{SystemStudy, SystemUnits};
 use crate::words::{digits, plural};
 
 /// Values of the parameter at which eigenvalues are computed at least.
@@ -168,6 +169,28 @@ fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<(), Failure
     if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
 }
 
+/// Rejects thresholds of runs, which are not implemented for systems.
+///
+/// # Errors
+/// A complaint about each option that asks for runs.
+pub fn without_runs(protocols: &[Protocol], ramp: f64) -> Result<(), Failure> {
+    let options = protocols.iter().map(|protocol| match protocol {
+        Protocol::Rest => "--from-rest",
+        Protocol::Sliding => "--from-sliding",
+        Protocol::Squeal => "--from-squeal",
+        Protocol::From(..) => "--start",
+    });
+    let ramp = (ramp != 0.0).then_some("--ramp");
+    let wrong: Vec<Complaint> = options
+        .chain(ramp)
+        .map(|option| {
+            let allowed = "left out: thresholds of the runs of a system are not implemented yet";
+            Complaint::new(Fault::NotBuilt, option, Origin::Argument(option), Json::Null, allowed)
+        })
+        .collect();
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
+}
+
 /// The roots of `thresholds` of a system, which are those of `stability --parameter`.
 ///
 /// # Errors
@@ -265,29 +288,26 @@ impl TrackedStability {
     pub fn json(&self, study: &SystemStudy) -> Json {
         let mut fields = Fields::of_system(study.units());
         let TrackRequest { parameter, window: (from, to), along } = &self.request;
+        let unit = study.unit_of(parameter).unwrap_or("1");
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
             .plain("protocol", self.protocol())
             .plain("parameter", parameter.clone())
-            .plain("from", *from)
-            .plain("to", *to);
-        let found = self.tracked.thresholds.iter().map(|found| put(study, found));
-        fields.list("thresholds", found.collect::<Vec<_>>());
+            .measured("from", unit, *from)
+            .measured("to", unit, *to);
         let points: usize = self.tracked.pieces.iter().map(Vec::len).sum();
         fields.plain("points", points);
+        fields.plain("covered", self.tracked.unknown.is_empty()).plain("resumes", self.resumes());
+        fields.nested("at_from", self.at_from(study));
+        let found = self.tracked.thresholds.iter().map(|found| put(study, unit, found));
+        let found: Vec<Fields> = found.collect();
+        // The name of the list in the answer about a belt, and that of a system.
+        fields.list("local", found.clone()).list("thresholds", found);
         if let Some((path, (first, last))) = along {
-            fields.plain("along", path.clone()).plain("between", vec![*first, *last]);
-            let curves = self.curves.iter().map(|curve| {
-                let mut inner = Fields::of_system(study.units());
-                let points = curve.points.iter().map(|(at, found)| {
-                    let mut point = put(study, found);
-                    point.plain("along", *at);
-                    point
-                });
-                inner.list("points", points.collect::<Vec<_>>());
-                inner
-            });
+            let other = study.unit_of(path).unwrap_or("1");
+            fields.plain("along", path.clone()).measured("between", other, vec![*first, *last]);
+            let curves = self.curves.iter().map(|curve| put_curve(study, [unit, other], curve));
             fields.list("curves", curves.collect::<Vec<_>>());
         }
         let unknown = self.tracked.unknown.iter();
@@ -296,6 +316,32 @@ impl TrackedStability {
         fields.plain("unknown", unknown.collect::<Vec<Json>>());
         fields.plain("warnings", self.warnings(study));
         fields.finish()
+    }
+
+    /// Whether there is an answer at the last value again, after a range without one.
+    fn resumes(&self) -> bool {
+        let last = self.tracked.pieces.last().and_then(|piece| piece.last());
+        let reached = last.is_some_and(|point| point.value >= self.request.window.1);
+        reached && !self.tracked.unknown.is_empty()
+    }
+
+    /// The verdict at the first value of the window.
+    fn at_from(&self, study: &SystemStudy) -> Fields {
+        let mut fields = Fields::of_system(study.units());
+        let from = self.request.window.0;
+        let first = self.tracked.pieces.first().and_then(|piece| piece.first());
+        match (first, self.tracked.unknown.first()) {
+            (Some(point), _) if point.value <= from => {
+                fields.plain("steady_sliding", point.growth.verdict().name());
+            }
+            (_, Some(range)) => {
+                fields.unknown("steady_sliding", range.why.clone());
+            }
+            _ => {
+                fields.unknown("steady_sliding", "the eigenvalues are not known there");
+            }
+        }
+        fields
     }
 
     /// Warnings: those of the study, and ranges without an answer.
@@ -321,29 +367,80 @@ impl TrackedStability {
         let every = |pick: fn(&num_complex::Complex64) -> f64| -> Vec<f64> {
             points.iter().flat_map(|point| point.eigenvalues.iter().map(pick)).collect()
         };
-        let unit = study.units().unit(Quantity::FrequencyRatio).unwrap_or("1");
+        let parameter = &self.request.parameter;
+        let branches = (0..branches).map(|index| index as f64).collect();
+        let frequency = study.units().unit(Quantity::FrequencyRatio).unwrap_or("1");
+        let rate = if study.units() == SystemUnits::None { "1" } else { "1/s" };
         Dataset::of(&study.into(), "stability")
-            .fact(format!("parameter: {}", self.request.parameter))
-            .axis("parameter", Quantity::Ratio, values)
-            .axis("branch", Quantity::Count, (0..branches).map(|index| index as f64).collect())
-            .with(Array::new("growth_rate", unit, every(|z| z.re)))
-            .with(Array::new("frequency", unit, every(|z| z.im)))
+            .fact(format!("parameter: {parameter}"))
+            .with_axis(Array::new("parameter", study.unit_of(parameter).unwrap_or("1"), values))
+            .with_axis(Array::new("branch", "1", branches))
+            .with(Array::new("growth_rate", rate, every(|z| z.re)))
+            .with(Array::new("frequency", frequency, every(|z| z.im)))
+    }
+
+    /// The curves along the second parameter, one row per point; `None` without one.
+    pub fn dataset_of_curves(&self, study: &SystemStudy) -> Option<Dataset> {
+        let (path, _) = self.request.along.as_ref()?;
+        let parameter = &self.request.parameter;
+        let points = || {
+            let curves = self.curves.iter().enumerate();
+            curves.flat_map(|(curve, all)| all.points.iter().map(move |point| (curve, point)))
+        };
+        let numbered = || (0_u8..).zip(Change::ALL);
+        let code = |change: Change| numbered().find(|(_, other)| *other == change);
+        let codes: Vec<u8> = points()
+            .filter_map(|(_, (_, found))| code(found.change))
+            .map(|(code, _)| code)
+            .collect();
+        let names = numbered().map(|(code, change)| (code, change.name())).collect();
+        let rows = (0..points().count()).map(|index| index as f64).collect();
+        let curves = points().map(|(curve, _)| curve as f64).collect();
+        let unit = |path: &str| study.unit_of(path).unwrap_or("1");
+        let along = points().map(|(_, (at, _))| *at).collect();
+        let values = points().map(|(_, (_, found))| found.value).collect();
+        let dataset = Dataset::of(&study.into(), "stability")
+            .fact(self.sentence(study))
+            .with_axis(Array::new("point", "1", rows))
+            .with(Array::new("curve", "1", curves))
+            .with(Array::of_words("kind", names, &codes))
+            .with(Array::new(path.as_str(), unit(path), along))
+            .with(Array::new(parameter.as_str(), unit(parameter), values));
+        Some(dataset)
     }
 }
 
-/// One threshold.
-fn put(study: &SystemStudy, found: &ThresholdOfStability) -> Fields {
+/// One threshold; `unit` is that of the parameter.
+fn put(study: &SystemStudy, unit: &str, found: &ThresholdOfStability) -> Fields {
     let mut fields = Fields::of_system(study.units());
     fields
-        .plain("value", found.value)
-        .plain("error", found.error)
+        .measured("value", unit, found.value)
+        .measured("error", unit, found.error)
         .plain("kind", found.change.name())
         .number("frequency", Quantity::FrequencyRatio, found.eigenvalue.im.abs())
-        .plain("before", found.verdicts[0].name());
-    if found.verdicts[0] == found.verdicts[1] {
-        fields.unknown("becomes", "the verdict does not change here");
-    } else {
-        fields.plain("becomes", found.verdicts[1].name());
+        .plain("was", found.verdicts[0].name())
+        .plain("becomes", found.verdicts[1].name());
+    fields
+}
+
+/// One curve: its points as columns. The kind and the verdicts are those of all its points.
+fn put_curve(study: &SystemStudy, [unit, along]: [&str; 2], curve: &StabilityCurve) -> Fields {
+    let column = |of: &dyn Fn(&ThresholdOfStability) -> f64| -> Vec<f64> {
+        curve.points.iter().map(|(_, found)| of(found)).collect()
+    };
+    let mut fields = Fields::of_system(study.units());
+    if let Some((_, first)) = curve.points.first() {
+        fields
+            .plain("kind", first.change.name())
+            .plain("was", first.verdicts[0].name())
+            .plain("becomes", first.verdicts[1].name());
     }
+    let positions: Vec<f64> = curve.points.iter().map(|(at, _)| *at).collect();
+    let frequencies = column(&|found| found.eigenvalue.im.abs());
+    fields
+        .measured("value", unit, column(&|found| found.value))
+        .measured("along", along, positions)
+        .measured("error", unit, column(&|found| found.error))
+        .numbers("frequency", Quantity::FrequencyRatio, &frequencies);
     fields
 }

@@ -1,0 +1,334 @@
+"""A structure with friction contacts: its tables and its study."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from typing import Any, Literal, Union
+
+import numpy.typing as npt
+
+from ._axes import Axes, axes_tables
+from ._belt import Friction, several
+from ._study import Study
+from ._tables import Number, Table, Unknown, given
+
+__all__ = ["Component", "Contact", "System", "SystemDither", "SystemInitial", "SystemMode"]
+
+Row = Union["Mapping[str, Number]", "npt.ArrayLike"]
+"""One number for each coordinate: an array, or a dict of names in which missing names are 0."""
+
+Entries = Union["npt.ArrayLike", "Iterable[Iterable[Number]]"]
+"""A matrix: a diagonal, or rows. An entry may be a formula of the study's parameters, as a text."""
+
+
+OTHER_TABLES = ("contact", "friction", "dither", "initial", "parameters", "axes", "title", "mode", "component")
+"""Arguments of a system that are tables of their own."""
+
+
+class Contact(Table):
+    """A friction contact of a system.
+
+    Parameters
+    ----------
+    name :
+        Name of the contact, by which paths such as ``contact.pad.normal_load`` address it [default: contact 1, 2, …].
+    tangent :
+        Row of the displacement along the surface.
+    normal :
+        Row of the approach, which changes the load [default: the load is prescribed].
+    slope :
+        Row of the slope of the surface, which turns friction by that angle.
+    force :
+        Effect of the friction force on the states of first-order equations.
+    normal_load :
+        Steady normal load, > 0.
+    normal_stiffness, normal_damping :
+        Stiffness and damping of the contact along ``normal`` [default: 0].
+    belt_velocity :
+        Velocity of the moving surface.
+    normal_load_n, normal_stiffness_n_per_m, normal_damping_n_s_per_m, belt_velocity_m_per_s :
+        The same in SI, in a study with units.
+    friction :
+        A friction law, such as :class:`Coulomb` [default: that of the study].
+    """
+
+    _path = "contact"
+
+    def __init__(
+        self,
+        name: str | None = None,
+        *,
+        tangent: Row | None = None,
+        normal: Row | None = None,
+        slope: Row | None = None,
+        force: Row | None = None,
+        normal_load: Number | None = None,
+        normal_stiffness: Number | None = None,
+        normal_damping: Number | None = None,
+        belt_velocity: Number | None = None,
+        normal_load_n: Number | None = None,
+        normal_stiffness_n_per_m: Number | None = None,
+        normal_damping_n_s_per_m: Number | None = None,
+        belt_velocity_m_per_s: Number | None = None,
+        friction: Friction | Mapping[str, Any] | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__(**given(locals()))
+
+
+class SystemDither(Table):
+    """A periodic force on a system, or a modulation of the load of a contact.
+
+    Parameters
+    ----------
+    at :
+        Row of the force over the coordinates.
+    contact, direction :
+        Instead of ``at``: the name of a contact, and "normal" for a modulation of its load or "tangential" for a force along
+        its tangent.
+    reaction :
+        Whether the structure bears the modulation of the load [default: True].
+    waveform :
+        "sine", "triangle" or "square".
+    amplitude, frequency, phase :
+        Peak of the force, angular frequency, and phase at time 0 in radians [default: 0].
+    amplitude_n, amplitude_n_rms, frequency_hz :
+        The same in N (peak, or root mean square) and Hz, in a study with units.
+    """
+
+    _path = "dither"
+
+    def __init__(
+        self,
+        at: Row | None = None,
+        waveform: Literal["sine", "triangle", "square"] | None = None,
+        *,
+        contact: str | None = None,
+        direction: Literal["tangential", "normal"] | None = None,
+        reaction: bool | None = None,
+        amplitude: Number | None = None,
+        frequency: Number | None = None,
+        phase: Number | None = None,
+        amplitude_n: Number | None = None,
+        amplitude_n_rms: Number | None = None,
+        frequency_hz: Number | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__(**given(locals()))
+
+
+class SystemInitial(Table):
+    """The initial state of a run of a system: a named state, or numbers.
+
+    Parameters
+    ----------
+    state :
+        "rest", "sliding" (steady sliding without dither), "squealing" or "base" (the dithered response).
+    displacements, velocities :
+        Displacement and velocity of each coordinate [default: 0].
+    displacements_m, velocities_m_per_s :
+        The same in SI, in a study with units.
+    values :
+        The whole state instead.
+    """
+
+    _path = "system.initial"
+
+    def __init__(
+        self,
+        state: Literal["rest", "sliding", "squealing", "base"] | None = None,
+        *,
+        displacements: Row | None = None,
+        velocities: Row | None = None,
+        displacements_m: Row | None = None,
+        velocities_m_per_s: Row | None = None,
+        values: Row | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__(**given(locals()))
+
+
+class SystemMode(Table):
+    """A mode of a structure.
+
+    Parameters
+    ----------
+    frequency, frequency_hz :
+        Natural angular frequency, or in Hz in a study with units.
+    damping_ratio :
+        Damping ratio of the mode.
+    shape :
+        Displacement of each point in the mode, by name.
+    modal_mass, modal_mass_kg :
+        Modal mass, if shapes have any size [default: 1].
+    """
+
+    _path = "system.mode"
+
+    def __init__(
+        self,
+        *,
+        frequency: Number | None = None,
+        frequency_hz: Number | None = None,
+        damping_ratio: Number | None = None,
+        modal_mass: Number | None = None,
+        modal_mass_kg: Number | None = None,
+        shape: Row | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__(**given(locals()))
+
+
+class Component(Table):
+    """A body given by its modes; several bodies are joined by contacts.
+
+    Parameters
+    ----------
+    name :
+        Name of the body, the first part of the names of its points.
+    mode :
+        One :class:`SystemMode` or several.
+    modes :
+        A CSV file of modes instead.
+    normalisation :
+        "mass" (shapes of unit modal mass) or "max" (shapes of any size, with a modal mass) [default: "mass"].
+    """
+
+    _path = "system.component"
+
+    def __init__(
+        self,
+        name: str | None = None,
+        *,
+        mode: SystemMode | Iterable[SystemMode] | None = None,
+        modes: str | os.PathLike[str] | None = None,
+        normalisation: Literal["mass", "max"] | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__(**{**given(locals(), "mode"), "mode": tables(mode)})
+
+
+class System(Study):
+    """A study of a linear structure with friction contacts.
+
+    The structure is given by one of these: matrices over named coordinates, first-order equations, modes, several bodies with
+    modes, or a measured frequency response.
+
+    Parameters
+    ----------
+    coordinates :
+        Names of the coordinates.
+    mass, damping, stiffness :
+        Matrices: a diagonal or rows. The springs and dampers of contacts are not part of them.
+    states, matrix :
+        Names of the states of first-order equations, and rows of their matrix.
+    mode, modes, normalisation :
+        One :class:`SystemMode` or several, or a CSV file of modes, and the size of their shapes.
+    component :
+        One :class:`Component` or several.
+    frequency_response :
+        A CSV file of a measured receptance.
+    force :
+        Constant forces [default: 0].
+    mass_kg, damping_n_s_per_m, stiffness_n_per_m, force_n :
+        The same in SI, in a study with units.
+    units :
+        "none", "SI" or "mm-t-s": the unit of bare numbers [default: "none"].
+    contact :
+        One :class:`Contact` or several.
+    friction :
+        Friction law of contacts that have none of their own.
+    dither :
+        One :class:`SystemDither` or several.
+    observe :
+        Row of the displacement that a response measures [default: the tangent of the first contact].
+    initial :
+        "rest", "sliding", "squealing", "base", or a :class:`SystemInitial` [default: "rest"].
+    parameters :
+        Named numbers for formulas; a text in place of a number is a formula of them, such as ``stiffness=[[2, "1 - kappa"], …]``.
+    axes :
+        Axes of a map: see :meth:`Study.map`.
+    title :
+        Title of the study.
+
+    Raises
+    ------
+    quell.StudyError
+        All complaints at once.
+
+    Examples
+    --------
+    >>> import quell
+    >>> system = quell.System(
+    ...     coordinates=["x", "y"],
+    ...     mass=[1, 1],
+    ...     damping=[0.05, 0.05],
+    ...     stiffness=[[2, 1], [1, 2 / 3]],
+    ...     contact=quell.Contact(
+    ...         "pad",
+    ...         tangent={"x": 1},
+    ...         normal={"y": 1},
+    ...         normal_load=1,
+    ...         normal_stiffness=4 / 3,
+    ...         belt_velocity=1,
+    ...         friction=quell.Coulomb(0.5),
+    ...     ),
+    ... )
+    >>> system.stability().verdict
+    'stable'
+    >>> hopf = system.thresholds("contact.pad.friction.coefficient", 0.6, 0.9).local[-1]
+    >>> hopf["kind"], round(hopf["value"], 9), hopf["becomes"]
+    ('hopf', 0.75375, 'unstable')
+    """
+
+    def __init__(
+        self,
+        *,
+        coordinates: Iterable[str] | None = None,
+        mass: Entries | None = None,
+        damping: Entries | None = None,
+        stiffness: Entries | None = None,
+        states: Iterable[str] | None = None,
+        matrix: Entries | None = None,
+        force: Row | None = None,
+        mode: SystemMode | Iterable[SystemMode] | None = None,
+        modes: str | os.PathLike[str] | None = None,
+        normalisation: Literal["mass", "max"] | None = None,
+        component: Component | Iterable[Component] | None = None,
+        frequency_response: str | os.PathLike[str] | None = None,
+        units: Literal["none", "SI", "mm-t-s"] | None = None,
+        observe: Row | None = None,
+        mass_kg: Entries | None = None,
+        damping_n_s_per_m: Entries | None = None,
+        stiffness_n_per_m: Entries | None = None,
+        force_n: Row | None = None,
+        contact: Contact | Iterable[Contact] | None = None,
+        friction: Friction | Mapping[str, Any] | None = None,
+        dither: SystemDither | Iterable[SystemDither] | None = None,
+        initial: Literal["rest", "sliding", "squealing", "base"] | SystemInitial | None = None,
+        parameters: Mapping[str, Number] | None = None,
+        axes: Axes | None = None,
+        title: str | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        keys = given(locals(), *OTHER_TABLES)
+        start = SystemInitial(initial) if isinstance(initial, str) else initial
+        system = Table(**{**keys, "mode": tables(mode), "component": tables(component), "initial": start})
+        for name in ("coordinates", "states"):
+            if name in system.given:
+                system.given[name] = several(system.given[name])
+        self._build(
+            title=title,
+            parameters=None if parameters is None else Table(**parameters),
+            system=system,
+            contact=tables(contact),
+            friction=friction,
+            dither=tables(dither),
+            sweep=axes_tables(axes),
+        )
+
+
+def tables(given: object) -> object:
+    """One table or several as a list; invalid values are passed through and rejected by the reader."""
+    return [given] if isinstance(given, (Table, Mapping)) else several(given)

@@ -1,0 +1,327 @@
+"""Studies of systems: objects and texts, every verb, and numbers computed without Quell (`systems.json`)."""
+
+from __future__ import annotations
+
+import doctest
+import pickle
+from pathlib import Path
+from typing import Any
+
+import matplotlib.figure
+import numpy as np
+import pytest
+import xarray
+from conftest import STUDIES
+
+import quell
+from quell import _system, results
+
+HOFFMANN = """
+schema = 1
+title = "Mode coupling (Hoffmann et al. 2002)"
+[parameters]
+c = 0.05
+[system]
+coordinates = ["x", "y"]
+mass = [1.0, 1.0]
+damping = ["c", "c"]
+stiffness = [[2.0, 1.0], [1.0, 0.6666666666666667]]
+[[contact]]
+name = "pad"
+tangent = { x = 1.0 }
+normal = { y = 1.0 }
+normal_load = 1.0
+normal_stiffness = 1.3333333333333333
+belt_velocity = 1.0
+[contact.friction]
+law = "coulomb"
+coefficient = 0.9
+"""
+
+DRIVE = """
+schema = 1
+title = "Two-mass drive, dither at the motor"
+[system]
+coordinates = ["motor", "carriage"]
+mass = [0.5, 1.0]
+damping = [[0.03, -0.01], [-0.01, 0.01]]
+stiffness = [[5.0, -4.0], [-4.0, 4.0]]
+[[contact]]
+name = "guide"
+tangent = { carriage = 1.0 }
+normal_load = 1.0
+belt_velocity = 0.05
+[contact.friction]
+law = "stribeck"
+static_coefficient = 0.4
+minimum_coefficient = 0.2857
+reference_velocity = 0.2
+[[dither]]
+at = { motor = 1.0 }
+waveform = "sine"
+amplitude = 5.2
+frequency = 10.0
+"""
+
+FRICTION = "contact.pad.friction.coefficient"
+
+
+@pytest.fixture
+def hoffmann() -> quell.System:
+    """Mode coupling in a mass with two degrees of freedom."""
+    study = quell.Study.from_text(HOFFMANN)
+    assert isinstance(study, quell.System)
+    return study
+
+
+@pytest.fixture
+def drive() -> quell.System:
+    """A drive with dither at its motor."""
+    study = quell.Study.from_text(DRIVE)
+    assert isinstance(study, quell.System)
+    return study
+
+
+def test_objects_and_texts_make_the_same_study(hoffmann: quell.System, drive: quell.System) -> None:
+    made = quell.System(
+        coordinates=["x", "y"],
+        mass=np.ones(2),
+        damping=["c", "c"],
+        stiffness=[[2, 1], [1, 2 / 3]],
+        contact=quell.Contact(
+            "pad",
+            tangent={"x": 1},
+            normal=[0, 1],
+            normal_load=1,
+            normal_stiffness=4 / 3,
+            belt_velocity=1,
+            friction=quell.Coulomb(0.9),
+        ),
+        parameters={"c": 0.05},
+        title="made of objects",
+    )
+    assert made.stability().facts == {**hoffmann.stability().facts, "sentence": made.stability().sentence}
+    also = quell.System(
+        coordinates=("motor", "carriage"),
+        mass=[0.5, 1.0],
+        damping=np.array([[0.03, -0.01], [-0.01, 0.01]]),
+        stiffness=[[5, -4], [-4, 4]],
+        contact=[quell.Contact("guide", tangent={"carriage": 1}, normal_load=1, belt_velocity=0.05)],
+        friction=quell.Stribeck(static_coefficient=0.4, minimum_coefficient=0.2857, reference_velocity=0.2),
+        dither=quell.SystemDither({"motor": 1}, "sine", amplitude=5.2, frequency=10),
+    )
+    assert also.stability().growth_rate == drive.stability().growth_rate
+    assert pickle.loads(pickle.dumps(made)) == made and "pad" in repr(made) and made._repr_html_()
+    modal = quell.System(
+        mode=[quell.SystemMode(frequency=1, damping_ratio=0.01, shape={"p": 1}),
+              quell.SystemMode(frequency=2, damping_ratio=0.02, shape={"p": -1})],
+        contact=quell.Contact(tangent={"p": 1}, normal_load=1, belt_velocity=1, friction=quell.Coulomb(0.3)),
+        initial="sliding",
+    )
+    assert [it["frequency"] for it in modal.modes().modes] == pytest.approx([1, 2], rel=1e-14)
+
+
+def test_mistakes_are_reported_at_once() -> None:
+    with pytest.raises(quell.StudyError) as caught:
+        quell.System(
+            coordinates=["x"],
+            mass=[1],
+            stiffness=[1, 2],
+            contact=quell.Contact(tangent={"y": 1}, normal_load=-1, belt_velocty=1, friction=quell.Coulomb(0.3)),  # type: ignore[arg-type]
+        )
+    keys = {error["key"] for error in caught.value.errors}
+    assert {"system.stiffness", "contact.normal_load", "contact.belt_velocty"} <= keys
+    assert all(error["line"] is None for error in caught.value.errors)
+
+
+def test_the_example_of_the_class_is_right() -> None:
+    done = doctest.testmod(_system)
+    assert done.attempted >= 4 and done.failed == 0
+
+
+def test_check_modes_and_sources(hoffmann: quell.System, drive: quell.System) -> None:
+    check = hoffmann.check()
+    assert (check.coordinates, check.contacts, check.unit_system) == (["x", "y"], ["pad"], "none")
+    modes = hoffmann.modes()
+    assert modes.coordinates == ["x", "y"]
+    # Stiffness [[2, 1], [1, 2]] with the spring of the contact.
+    assert [it["frequency"] for it in modes.modes] == pytest.approx([1, 3**0.5], rel=1e-14)
+    assert modes.dataset["shape_x"].dims == ("mode",)
+    keys = [source["key"] for source in hoffmann.cite().sources]
+    assert keys == ["hoffmann2002"]
+    keys = [source["key"] for source in drive.cite().sources]
+    assert keys == ["michaux2005", "thomsen1999", "hairer1993"]
+    assert "@book{hairer1993," in drive.cite().bibtex
+
+
+def test_stability_is_that_of_the_reference(hoffmann: quell.System, drive: quell.System) -> None:
+    undamped = hoffmann.set({"parameters.c": 0.0}).stability()
+    assert undamped.verdict == "unstable" and undamped.protocol == "linearised"
+    assert undamped.growth_rate == pytest.approx(0.157146672239535, rel=1e-12)
+    assert undamped.eigenvalues.shape == (4,) and undamped.dataset["eigenvalues"].shape == (4, 2)
+    assert abs(undamped.eigenvalues[0].imag) == pytest.approx(1.4229178038790433, rel=1e-12)
+    assert undamped.undithered is None and undamped.why["undithered"]
+    averaged = drive.stability()
+    assert averaged.protocol == "averaged" and averaged.undithered is not None
+    assert averaged.growth_rate == pytest.approx(0.2833658802332312, rel=1e-9)
+    assert averaged.undithered["growth_rate"] == pytest.approx(0.2928396179388291, rel=1e-12)
+    assert averaged.contacts[0]["slip_amplitude"] == pytest.approx(0.048340944844528395, rel=1e-10)
+    assert averaged.critical_amplitudes is not None
+    assert averaged.critical_amplitudes[0]["amplitude"] == pytest.approx(5.378463346883234, rel=1e-9)
+    with pytest.raises(AttributeError, match="its facts are"):
+        _ = quell.Study.from_text(quell.new("disc")["text"]).stability().eigenvalues
+
+
+def test_thresholds_are_those_of_tracked_stability(hoffmann: quell.System) -> None:
+    tracked = hoffmann.stability(FRICTION, 0.6, 0.9)
+    assert isinstance(tracked, results.TrackedStability)
+    merging, hopf = tracked.local
+    assert (merging["kind"], merging["was"], merging["becomes"]) == ("coalescence", "stable", "stable")
+    assert (hopf["kind"], hopf["was"], hopf["becomes"]) == ("hopf", "stable", "unstable")
+    assert hopf["value"] == pytest.approx(0.75375, rel=1e-10)
+    assert tracked.thresholds == tracked.local and tracked.at_from == {"steady_sliding": "stable"}
+    assert tracked.covered and not tracked.resumes and tracked.unknown == []
+    assert tracked.dataset["growth_rate"].dims == ("parameter", "branch")
+    assert float(tracked.dataset["parameter"][-1]) == 0.9
+    thresholds = hoffmann.thresholds(FRICTION, 0.6, 0.9)
+    assert isinstance(thresholds, results.Thresholds) and thresholds.local == tracked.local
+    # Belt and system: one list, the same keys.
+    belt = quell.Study.from_toml(STUDIES / "stribeck-belt.toml").thresholds("dither.amplitude", 0.3, 0.6)
+    shared = {"value", "error", "kind", "was", "becomes"}
+    assert shared <= set(belt.local[0]) and shared <= set(thresholds.local[0])
+    assert {"covered", "resumes", "parameter", "from", "to"} <= set(belt.facts) & set(thresholds.facts)
+    # A coordinate whose stiffness vanishes at k = 0.3.
+    soft = quell.System(
+        coordinates=["x", "z"],
+        mass=[1, 1],
+        damping=[0.1, 0.1],
+        stiffness=[1, "k - 0.3"],
+        contact=quell.Contact("pad", tangent={"x": 1}, normal_load=1, belt_velocity=1, friction=quell.Coulomb(0.3)),
+        parameters={"k": 1.0},
+    )
+    divergence = next(it for it in soft.thresholds("parameters.k", 0.1, 1.0).local if it["kind"] == "divergence")
+    assert divergence["becomes"] == "stable" and divergence["value"] == pytest.approx(0.3, rel=1e-9)
+
+
+def test_curves_of_thresholds_follow_a_second_parameter(hoffmann: quell.System) -> None:
+    done = hoffmann.stability(FRICTION, 0.6, 0.9, along="parameters.c", between=(0.02, 0.2))
+    hopf = [curve for curve in done.curves if curve["kind"] == "hopf"]
+    assert len(hopf) == 1 and hopf[0]["becomes"] == "unstable"
+    along, value = np.array(hopf[0]["along"]), np.array(hopf[0]["value"])
+    assert along[0] == 0.02 and along[-1] == 0.2
+    assert np.allclose(value, 0.75 * (1 + 2 * along**2), rtol=1e-9, atol=0)
+    same = hoffmann.thresholds(FRICTION, 0.6, 0.9, along="parameters.c", between=(0.02, 0.2))
+    assert isinstance(same, results.ThresholdCurves) and same.curves == done.curves
+    dataset = same.dataset
+    assert dataset["curve"].dims == ("point",) and dataset[FRICTION].shape == dataset["parameters.c"].shape
+    assert dataset["eigenvalues_growth_rate"].dims == ("parameter", "branch")
+
+
+def test_exact_stability_is_that_of_the_reference(drive: quell.System, hoffmann: quell.System) -> None:
+    exact = drive.stability(exact=True)
+    assert isinstance(exact, results.ExactStability)
+    assert exact.verdict == "unstable" and exact.protocol == "floquet"
+    assert exact.period == pytest.approx(0.2 * np.pi, rel=1e-14) and len(exact.state) == 4
+    assert abs(exact.multipliers[0]) == pytest.approx(1.1949215377617952, rel=1e-10)
+    with pytest.raises(quell.RunError, match="no dither"):
+        hoffmann.stability(exact=True)
+
+
+def test_resonances_are_the_reach_of_the_dither(drive: quell.System) -> None:
+    reach = drive.resonances(frequency=(10.0, 20.0))
+    # The slip amplitude of the reference for the amplitude 5.2 at the frequency 10.
+    slip = reach.dataset["slip_of_guide_per_dither_0"]
+    assert slip.dims == ("frequency",) and float(reach.dataset["frequency"][0]) == 10.0
+    assert float(slip[0]) == pytest.approx(0.048340944844528395 / 5.2, rel=1e-10)
+    peaks = [it for it in drive.resonances(frequency=(0.5, 10)).responses[0]["extremes"] if it["kind"] == "peak"]
+    assert peaks and peaks[0]["reversal_amplitude"] == pytest.approx(0.05 / peaks[0]["slip_per_amplitude"], rel=1e-12)
+    assert drive.resonances().responses[0]["contact"] == "guide"
+    for wrong in ({"speeds": (0, 1)}, {"order": "second"}, {"clear": (0, 1)}):
+        with pytest.raises(quell.StudyError, match=f"{next(iter(wrong))}.*a system has no waves"):
+            drive.resonances(**wrong)  # type: ignore[arg-type]
+    with pytest.raises(quell.StudyError, match="frequency"):
+        drive.resonances(frequency=(20, 10))
+
+
+def test_maps_of_systems_are_arrays(hoffmann: quell.System) -> None:
+    assert {"growth", "verdict"} <= set(quell.quantities()["system"])
+    done = hoffmann.map(["growth", "verdict"], {FRICTION: [0.5, 0.9]})
+    assert done["growth"].values[1] == hoffmann.stability().growth_rate
+    assert done.words("verdict").tolist() == ["stable", "unstable"]
+
+
+def test_arguments_are_checked(hoffmann: quell.System, belt: quell.Belt) -> None:
+    anyhow: Any = hoffmann
+    for wrong in (
+        {"parameter": FRICTION},
+        {"parameter": FRICTION, "from_": 0.6},
+        {"parameter": FRICTION, "from_": 0.6, "to": 0.9, "along": "parameters.c"},
+        {"along": "parameters.c", "between": (0, 1)},
+        {"parameter": FRICTION, "from_": 0.6, "to": 0.9, "exact": True},
+        {"parameter": 3, "from_": 0.6, "to": 0.9},
+        {"parameter": FRICTION, "from_": 0.9, "to": 0.6},
+        {"parameter": "contact.pad.friction.mu", "from_": 0.6, "to": 0.9},
+    ):
+        with pytest.raises(quell.StudyError):
+            anyhow.stability(**wrong)
+    with pytest.raises(quell.StudyError, match="from_rest.*not implemented"):
+        hoffmann.thresholds(FRICTION, 0.6, 0.9, from_rest=True)
+    with pytest.raises(quell.StudyError, match="ramp"):
+        hoffmann.thresholds(FRICTION, 0.6, 0.9, ramp=10)
+    with pytest.raises(quell.StudyError, match=r"stability\(parameter=…\) is not available for a belt study"):
+        belt.stability("dither.amplitude", 0.1, 0.2)
+    with pytest.raises(quell.StudyError, match=r"stability\(exact=True\) is not available for a belt study"):
+        belt.stability(exact=True)
+    with pytest.raises(quell.StudyError, match="not available for a system study"):
+        hoffmann.friction()
+
+
+def test_every_result_plots_pickles_and_equals_the_command_line(drive: quell.System, hoffmann: quell.System, cli: Any, tmp_path: Any) -> None:
+    paths = {"hoffmann": tmp_path / "hoffmann.toml", "drive": tmp_path / "drive.toml"}
+    paths["hoffmann"].write_text(HOFFMANN)
+    paths["drive"].write_text(DRIVE)
+    over = ["--parameter", FRICTION, "--from", "0.6", "--to", "0.9"]
+    second = ["--along", "parameters.c", "--between", "0.02:0.2"]
+    cases: list[tuple[results.Result, str, str, list[str], bool]] = [
+        (hoffmann.check(), "check", "hoffmann", [], False),
+        (drive.cite(), "cite", "drive", [], False),
+        (hoffmann.modes(), "modes", "hoffmann", [], False),
+        (hoffmann.stability(), "stability", "hoffmann", [], True),
+        (drive.stability(), "stability", "drive", [], True),
+        (drive.stability(exact=True), "stability", "drive", ["--exact"], False),
+        (hoffmann.stability(FRICTION, 0.6, 0.9), "stability", "hoffmann", over, True),
+        (hoffmann.stability(FRICTION, 0.6, 0.9, along="parameters.c", between=(0.02, 0.2)), "stability", "hoffmann", over + second, True),
+        (hoffmann.thresholds(FRICTION, 0.6, 0.9), "thresholds", "hoffmann", over, True),
+        (drive.resonances(frequency=(1, 20)), "resonances", "drive", ["--frequency", "1:20"], True),
+    ]  # fmt: skip
+    for result, verb, name, options, has_picture in cases:
+        assert result.facts == cli(verb, str(paths[name]), *options), verb
+        dataset = result.dataset
+        assert isinstance(dataset, xarray.Dataset) and dataset.attrs["verb"] == verb
+        again = pickle.loads(pickle.dumps(result))
+        assert again.facts == result.facts and again.dataset.identical(dataset)
+        assert repr(again) and f"quell {verb}" in again._repr_html_()
+        if has_picture:
+            assert isinstance(again.plot(), matplotlib.figure.Figure), verb
+    curves = cases[7][0].save(tmp_path / "curves.csv")
+    cli("stability", str(paths["hoffmann"]), *over, *second, "--save", str(tmp_path / "same.csv"))
+    assert curves == [str(tmp_path / "curves.csv"), str(tmp_path / "curves_eigenvalues.csv")]
+    for name in ("", "_eigenvalues"):
+        assert rows(tmp_path / f"same{name}.csv") == rows(tmp_path / f"curves{name}.csv")
+
+
+def rows(path: Path) -> list[str]:
+    """The lines of a table without its header, which names the file of the study."""
+    return [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+
+
+def test_a_study_with_units_has_them_everywhere() -> None:
+    study = quell.Study.from_text(DRIVE.replace("[system]", '[system]\nunits = "SI"'))
+    assert study.check().unit_system == "SI" and study.check().system == "si"
+    done = study.stability("contact.guide.belt_velocity", 0.03, 0.06)
+    assert done.units["from"] == "m/s" and done.dataset["parameter"].attrs["units"] == "m/s"
+    assert done.dataset["growth_rate"].attrs["units"] == "1/s"
+    reach = study.resonances(frequency=("1Hz", "3Hz")).dataset
+    assert reach["frequency"].attrs["units"] == "rad/s"
+    assert float(reach["frequency"][0]) == pytest.approx(2 * np.pi)
+    assert reach["slip_of_guide_per_dither_0"].attrs["units"] == "m/s/N"
