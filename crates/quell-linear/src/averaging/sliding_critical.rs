@@ -5,7 +5,7 @@
 //! its mean friction rises steeply with the slip velocity.
 
 use super::critical_amplitudes::Becomes;
-use super::fast_inputs::FastInputs;
+use super::fast_inputs::{DitheredContact, FastInputs};
 use super::sign_changes::{CrossingKind, sign_changes};
 use super::sliding::{DitheredSystem, NoAverage};
 use crate::growth::Verdict;
@@ -57,7 +57,7 @@ impl DitheredSystem<'_> {
                 error: change.error,
                 crossing: change.crossing,
                 becomes,
-                contacts_stay_closed: !beyond.contacts.iter().any(|contact| contact.opens()),
+                contacts_stay_closed: !beyond.contacts.iter().any(DitheredContact::opens),
             });
         }
         Ok(found)

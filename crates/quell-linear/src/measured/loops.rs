@@ -69,13 +69,16 @@ pub struct Turns {
 }
 
 /// A row of a contact, or no row.
-fn row(row: &Option<Vec<f64>>) -> &[f64] {
-    row.as_deref().unwrap_or_default()
+fn row(row: Option<&Vec<f64>>) -> &[f64] {
+    row.map_or(&[], Vec::as_slice)
 }
 
 /// Rows t, n and s of every contact.
 fn outputs(system: &System) -> impl Iterator<Item = &[f64]> {
-    system.contacts.iter().flat_map(|at| [row(&at.tangent), row(&at.normal), row(&at.slope)])
+    system
+        .contacts
+        .iter()
+        .flat_map(|at| [row(at.tangent.as_ref()), row(at.normal.as_ref()), row(at.slope.as_ref())])
 }
 
 /// Displacements (t, n, s) of every contact over forces (t, n) of every contact.
@@ -84,11 +87,16 @@ fn contact_receptance(
     receptance: &Receptance,
     frequency: f64,
 ) -> Vec<Vec<Complex64>> {
-    let outputs =
-        system.contacts.iter().flat_map(|at| [row(&at.tangent), row(&at.normal), row(&at.slope)]);
+    let outputs = system
+        .contacts
+        .iter()
+        .flat_map(|at| [row(at.tangent.as_ref()), row(at.normal.as_ref()), row(at.slope.as_ref())]);
     outputs
         .map(|out| {
-            let inputs = system.contacts.iter().flat_map(|at| [row(&at.tangent), row(&at.normal)]);
+            let inputs = system
+                .contacts
+                .iter()
+                .flat_map(|at| [row(at.tangent.as_ref()), row(at.normal.as_ref())]);
             inputs.map(|into| receptance.between(out, into, frequency)).collect()
         })
         .collect()
@@ -154,14 +162,14 @@ fn eliminate(mut a: Vec<Vec<Complex64>>, mut x: Vec<Complex64>) -> (Complex64, V
         if a[k][k] == Complex64::ZERO {
             return (Complex64::ZERO, x);
         }
-        for i in k + 1..n {
-            let factor = a[i][k] / a[k][k];
-            for j in k..n {
-                let term = a[k][j];
-                a[i][j] -= factor * term;
+        let (above, below) = a.split_at_mut(k + 1);
+        let (own, solved) = (&above[k], x[k]);
+        for (i, row) in below.iter_mut().enumerate() {
+            let factor = row[k] / own[k];
+            for (entry, term) in row[k..].iter_mut().zip(&own[k..]) {
+                *entry -= factor * term;
             }
-            let term = x[k];
-            x[i] -= factor * term;
+            x[k + 1 + i] -= factor * solved;
         }
     }
     for k in (0..n).rev() {

@@ -186,7 +186,7 @@ impl<'a> MeasuredSystem<'a> {
                 error,
                 crossing: if corner.is_some() { CrossingKind::Jump } else { CrossingKind::Root },
                 becomes: if unstable { Becomes::Unstable } else { Becomes::Stable },
-                contacts_stay_closed: !there.iter().any(|contact| contact.opens()),
+                contacts_stay_closed: !there.iter().any(DitheredContact::opens),
             });
         }
         Ok(found)

@@ -1,7 +1,7 @@
 //! The equations of motion while every contact slips, and their derivative.
 
 use quell_model::System;
-use quell_model::system::InputTarget;
+use quell_model::system::{InputTarget, Mechanical};
 use quell_numerics::matrix::Matrix;
 
 use crate::linearised::Linearised;
@@ -37,7 +37,7 @@ impl<'a> PureSlip<'a> {
         let linear = Linearised::frictionless(system)?;
         let none: Vec<f64> = vec![0.0; system.contacts.len()];
         let base = linear.state_matrix(&none);
-        let mass = system.structure.mechanical().map(|mechanical| mechanical.mass());
+        let mass = system.structure.mechanical().map(Mechanical::mass);
         let column = |row: &[f64]| -> Result<Vec<f64>, NoSteadySliding> {
             let Some(mass) = mass else { return Ok(row.to_vec()) };
             let right = Matrix::from_fn(rows, 1, |i, _| row[i]);
@@ -134,10 +134,10 @@ impl<'a> PureSlip<'a> {
                 _ => {}
             }
         }
-        let mut matrix = matrix.map(|matrix| {
+        let mut matrix = matrix;
+        if let Some(matrix) = &mut matrix {
             matrix.clone_from(&self.base);
-            matrix
-        });
+        }
         for (index, contact) in self.system.contacts.iter().enumerate() {
             let (slip, load, _) = self.at(index, time, y);
             let direction = contact.surface_velocity.mean().signum();

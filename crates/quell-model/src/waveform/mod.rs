@@ -88,7 +88,7 @@ impl Waveform {
 
     /// Fourier coefficient b_n of sin nθ; g is odd and antiperiodic, so that all others vanish.
     pub fn sine_coefficient(self, harmonic: u32) -> f64 {
-        if harmonic % 2 == 0 {
+        if harmonic.is_multiple_of(2) {
             return 0.0;
         }
         let n = f64::from(harmonic);
