@@ -6,6 +6,8 @@ mod reach;
 mod stability;
 mod tracked;
 
+use std::fmt::Write as _;
+
 use quell_linear::spectrum::SmallMotion;
 
 use super::table::figure;
@@ -19,16 +21,21 @@ fn motions<'a>(units: SystemUnits, all: impl Iterator<Item = &'a SmallMotion>) -
     let hertz = units != SystemUnits::None;
     let all: Vec<&SmallMotion> = all.collect();
     let mut text = format!("  {:>14}", if hertz { "frequency/Hz" } else { "frequency" });
-    text += &format!("  {:>14}  {:>14}\n", "growth rate", "damping ratio");
+    let _ = writeln!(text, "  {:>14}  {:>14}", "growth rate", "damping ratio");
     for motion in all.iter().take(MOST_MOTIONS) {
         let frequency = motion.frequency();
         let frequency = if hertz { frequency / std::f64::consts::TAU } else { frequency };
         let (rate, ratio) = (motion.eigenvalue.re, motion.damping_ratio());
-        text +=
-            &format!("  {:>14}  {:>14}  {:>14}\n", figure(frequency), figure(rate), figure(ratio));
+        let _ = writeln!(
+            text,
+            "  {:>14}  {:>14}  {:>14}",
+            figure(frequency),
+            figure(rate),
+            figure(ratio)
+        );
     }
     if all.len() > MOST_MOTIONS {
-        text += &format!("  … and {} more; --json lists all\n", all.len() - MOST_MOTIONS);
+        let _ = writeln!(text, "  … and {} more; --json lists all", all.len() - MOST_MOTIONS);
     }
     text
 }

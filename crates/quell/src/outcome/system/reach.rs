@@ -1,5 +1,7 @@
 //! `resonances` of a system.
 
+use std::fmt::Write as _;
+
 use serde_json::Value as Json;
 
 use crate::complaint::Failure;
@@ -28,8 +30,9 @@ impl Presented<SystemSetup> for Reaches {
             let contact = &study.system().contacts[pair.contact].name;
             for at in &pair.extremes {
                 let kind = if at.peak { "reaches best" } else { "reaches least" };
-                text += &format!(
-                    "  dither {} {kind} contact {contact} at {}: slip {} per unit of dither{}\n",
+                let _ = writeln!(
+                    text,
+                    "  dither {} {kind} contact {contact} at {}: slip {} per unit of dither{}",
                     pair.dither,
                     figure(at.frequency),
                     figure(at.slip_per_amplitude),

@@ -1,5 +1,7 @@
 //! `stability` of a system.
 
+use std::fmt::Write as _;
+
 use serde_json::Value as Json;
 
 use super::motions;
@@ -36,7 +38,8 @@ fn table(study: &SystemStudy, done: &SystemStability) -> String {
     let upper = done.spectrum.motions.iter().filter(|motion| motion.eigenvalue.im >= 0.0);
     let mut text = motions(study.units(), upper);
     for (contact, found) in study.system().contacts.iter().zip(&done.contacts) {
-        text += &format!(
+        let _ = write!(
+            text,
             "  contact {}: friction {}, normal load {}",
             contact.name,
             figure(found.friction),
@@ -45,17 +48,20 @@ fn table(study: &SystemStudy, done: &SystemStability) -> String {
         if let Some(dithered) = found.dithered {
             let velocity = figure(contact.surface_velocity.mean());
             let slip = figure(dithered.slip_amplitude);
-            text += &format!(", fast slip {slip} at the surface velocity {velocity}");
+            let _ = write!(text, ", fast slip {slip} at the surface velocity {velocity}");
         }
         text.push('\n');
     }
     if let Some(dither) = &done.dither {
         match &dither.critical {
-            Err(why) => text += &format!("  critical amplitudes: unknown: {why}\n"),
+            Err(why) => {
+                let _ = writeln!(text, "  critical amplitudes: unknown: {why}");
+            }
             Ok(critical) => {
                 for found in critical {
-                    text += &format!(
-                        "  {} from the amplitude {} of the first dither on ({})\n",
+                    let _ = writeln!(
+                        text,
+                        "  {} from the amplitude {} of the first dither on ({})",
                         becomes(found.becomes),
                         figure(found.amplitude),
                         kind(found.crossing)

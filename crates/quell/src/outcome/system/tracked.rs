@@ -1,5 +1,7 @@
 //! `stability --parameter` and `thresholds` of a system.
 
+use std::fmt::Write as _;
+
 use serde_json::Value as Json;
 
 use crate::complaint::Failure;
@@ -25,8 +27,9 @@ impl Presented<SystemSetup> for TrackedStability {
     fn table(&self, _: &SystemStudy) -> String {
         let mut text = String::new();
         for found in &self.tracked.thresholds {
-            text += &format!(
-                "  {} = {}: {}, {} → {}\n",
+            let _ = writeln!(
+                text,
+                "  {} = {}: {}, {} → {}",
                 self.request.parameter,
                 found.value,
                 found.change.name(),
@@ -37,8 +40,9 @@ impl Presented<SystemSetup> for TrackedStability {
         for curve in &self.curves {
             let ends = curve.points.first().zip(curve.points.last());
             if let Some(((first, at_first), (last, at_last))) = ends {
-                text += &format!(
-                    "  curve ({}): from {} at {} to {} at {}, {} points\n",
+                let _ = writeln!(
+                    text,
+                    "  curve ({}): from {} at {} to {} at {}, {} points",
                     at_first.change.name(),
                     figure(at_first.value),
                     figure(*first),

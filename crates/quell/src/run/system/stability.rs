@@ -3,7 +3,7 @@
 use quell_linear::averaging::{Becomes, CriticalInput, DitheredContact, DitheredSystem};
 use quell_linear::growth::{Growth, Verdict};
 use quell_linear::linearised::Linearised;
-use quell_linear::spectrum::{Spectrum, spectrum};
+use quell_linear::spectrum::{SmallMotion, Spectrum, spectrum};
 use quell_model::System;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -109,8 +109,7 @@ fn opened(system: &System, contacts: &[DitheredContact]) -> Vec<String> {
 fn not_slow(system: &System, undithered: &Spectrum) -> Option<String> {
     let waves = system.inputs.iter().flat_map(|input| input.profile.waves());
     let slowest = waves.map(|wave| wave.frequency).fold(f64::INFINITY, f64::min);
-    let near =
-        upper(undithered).map(|motion| motion.frequency()).filter(|own| *own * FAR > slowest);
+    let near = upper(undithered).map(SmallMotion::frequency).filter(|own| *own * FAR > slowest);
     let nearest = near.min_by(|a, b| (a - slowest).abs().total_cmp(&(b - slowest).abs()))?;
     Some(format!(
         "the eigenfrequency {nearest:.6} is not far below the dither frequency {slowest:.6}: averaging assumes that the dither is \
