@@ -1,5 +1,7 @@
 //! `stability --exact` of a system.
 
+use std::fmt::Write as _;
+
 use serde_json::Value as Json;
 
 use crate::outcome::Presented;
@@ -22,8 +24,9 @@ impl Presented<SystemSetup> for ExactStability {
         let mut text =
             format!("  {:>14}  {:>14}  {:>14}\n", "growth rate", "error at most", "frequency");
         for found in self.orbit.exponents.iter().filter(|found| found.exponent.im >= 0.0) {
-            text += &format!(
-                "  {:>14}  {:>14}  {:>14}\n",
+            let _ = writeln!(
+                text,
+                "  {:>14}  {:>14}  {:>14}",
                 figure(found.exponent.re),
                 figure(found.error),
                 figure(found.exponent.im)

@@ -3,7 +3,7 @@
 use quell_linear::averaging::{Becomes, CriticalInput, DitheredContact, DitheredSystem};
 use quell_linear::growth::{Growth, Verdict};
 use quell_linear::linearised::Linearised;
-use quell_linear::spectrum::{Spectrum, spectrum};
+use quell_linear::spectrum::{SmallMotion, Spectrum, spectrum};
 use quell_model::System;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -118,8 +118,7 @@ fn opened(study: &SystemStudy, contacts: &[DitheredContact]) -> Vec<String> {
 fn not_slow(study: &SystemStudy, undithered: &Spectrum) -> Option<String> {
     let waves = study.system().inputs.iter().flat_map(|input| input.profile.waves());
     let slowest = waves.map(|wave| wave.frequency).fold(f64::INFINITY, f64::min);
-    let near =
-        upper(undithered).map(|motion| motion.frequency()).filter(|own| *own * FAR > slowest);
+    let near = upper(undithered).map(SmallMotion::frequency).filter(|own| *own * FAR > slowest);
     let nearest = near.min_by(|a, b| (a - slowest).abs().total_cmp(&(b - slowest).abs()))?;
     let (factor, unit) = match study.units() {
         SystemUnits::None => (1.0, ""),

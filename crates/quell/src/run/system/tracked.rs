@@ -1,5 +1,7 @@
 //! `stability --parameter`: eigenvalues of a system followed over a parameter, its thresholds, and their curves along a second one.
 
+use std::fmt::Write as _;
+
 use quell_linear::averaging::DitheredSystem;
 use quell_linear::growth::Verdict;
 use quell_linear::linearised::Linearised;
@@ -131,15 +133,12 @@ fn extend(
         };
         let open = taken.iter().enumerate().filter(|(_, taken)| !**taken);
         let near = open.filter_map(|(index, _)| Some((distance(&curves[index])?, index)));
-        match near.min_by(|a, b| a.0.total_cmp(&b.0)) {
-            Some((_, index)) => {
-                curves[index].points.push((value, found));
-                taken[index] = true;
-            }
-            None => {
-                curves.push(StabilityCurve { points: vec![(value, found)] });
-                taken.push(true);
-            }
+        if let Some((_, index)) = near.min_by(|a, b| a.0.total_cmp(&b.0)) {
+            curves[index].points.push((value, found));
+            taken[index] = true;
+        } else {
+            curves.push(StabilityCurve { points: vec![(value, found)] });
+            taken.push(true);
         }
     }
 }
@@ -257,7 +256,7 @@ impl TrackedStability {
         };
         if !self.curves.is_empty() {
             let count = self.curves.len();
-            sentence += &format!(" Found {count} curve{} of thresholds.", plural(count));
+            let _ = write!(sentence, " Found {count} curve{} of thresholds.", plural(count));
         }
         sentence
     }
