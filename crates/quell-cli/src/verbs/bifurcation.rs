@@ -40,7 +40,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
-    let ends = arguments.varied.ends(&mut complaints);
+    let ends = arguments.varied.ends(study.as_ref(), &mut complaints);
     let points = complaints.take(count("--points", &arguments.points));
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use quell::{Complaint, Study, quantity};
-use quell_model::units::{Quantity, Scales};
+use quell_model::units::{Quantity, Scales, measure};
 
 use crate::arguments::Gathered;
 
@@ -22,9 +22,13 @@ pub(crate) struct VariedArguments {
 
 impl VariedArguments {
     /// Both ends, in the unit of the key.
-    pub(super) fn ends(&self, complaints: &mut Gathered) -> Option<(f64, f64)> {
-        let from = complaints.take(number("--from", &self.from, &self.parameter));
-        let to = complaints.take(number("--to", &self.to, &self.parameter));
+    pub(super) fn ends(
+        &self,
+        study: Option<&Study>,
+        complaints: &mut Gathered,
+    ) -> Option<(f64, f64)> {
+        let from = complaints.take(number_in(study, "--from", &self.from, &self.parameter));
+        let to = complaints.take(number_in(study, "--to", &self.to, &self.parameter));
         from.zip(to)
     }
 }
@@ -53,6 +57,34 @@ pub(crate) fn number(
     quantity::value_of_key(text, parameter, option)
 }
 
+/// A finite number in the unit of the varied number of a study, or with a unit of its own.
+///
+/// Paths of a system are those of its own study: a path that it does not have is rejected with the study at hand.
+pub(crate) fn number_in(
+    study: Option<&Study>,
+    option: &'static str,
+    text: &str,
+    parameter: &str,
+) -> Result<f64, Box<Complaint>> {
+    let Some(Ok(system)) = study.map(Study::system) else {
+        return number(option, text, parameter);
+    };
+    let unit = match system.unit_of(parameter) {
+        None if system.number(parameter).is_none() => return Ok(f64::NAN),
+        unit => unit.filter(|unit| *unit != "1"),
+    };
+    let why = match measure::read(text, unit.or(Some("1"))) {
+        Ok(value) if value.is_finite() => return Ok(value),
+        Err(why) if measure::has_unit(text) => format!(": {why}"),
+        _ => String::new(),
+    };
+    let allowed = match unit {
+        Some(unit) => format!("a finite number in {unit}, optionally with a unit{why}"),
+        None => format!("a finite number{why}"),
+    };
+    Err(Box::new(Complaint::option(option, text, allowed)))
+}
+
 /// A whole number.
 pub(crate) fn count(option: &'static str, text: &str) -> Result<usize, Box<Complaint>> {
     text.trim()
@@ -78,11 +110,12 @@ pub(crate) fn range(
 
 /// `FROM:TO`, two values of the parameter with a path.
 pub(crate) fn window(
+    study: Option<&Study>,
     option: &'static str,
     text: &str,
     parameter: &str,
 ) -> Result<(f64, f64), Box<Complaint>> {
-    pair(option, text, |text| quantity::value_of_key(text, parameter, option))
+    pair(option, text, |text| number_in(study, option, text, parameter))
 }
 
 /// `FROM:TO`, each end parsed by `read`.

@@ -3,9 +3,9 @@
 use clap::Args;
 use quell::kind::verbs;
 use quell::run::system::tracked::TrackRequest;
-use quell::{Complaint, Failure, Fault, Origin};
+use quell::{Complaint, Failure, Fault, Origin, Study};
 
-use super::numbers::{number, window};
+use super::numbers::{number_in, window};
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
-    let request = arguments.request(&mut complaints);
+    let request = arguments.request(study.as_ref(), &mut complaints);
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     if arguments.output.saves() && arguments.parameter.is_none() {
@@ -66,16 +66,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 impl Arguments {
     /// What to follow; the inner option is empty if nothing is.
     #[expect(clippy::option_option, reason = "not given, and given but invalid, differ")]
-    fn request(&self, complaints: &mut Gathered) -> Option<Option<TrackRequest>> {
+    fn request(
+        &self,
+        study: Option<&Study>,
+        complaints: &mut Gathered,
+    ) -> Option<Option<TrackRequest>> {
         let (Some(parameter), Some(from), Some(to)) = (&self.parameter, &self.from, &self.to)
         else {
             return Some(None);
         };
-        let from = complaints.take(number("--from", from, parameter));
-        let to = complaints.take(number("--to", to, parameter));
+        let from = complaints.take(number_in(study, "--from", from, parameter));
+        let to = complaints.take(number_in(study, "--to", to, parameter));
         let along = match (&self.along, &self.between) {
             (Some(path), Some(text)) => {
-                let between = complaints.take(window("--between", text, path));
+                let between = complaints.take(window(study, "--between", text, path));
                 Some((path.clone(), between?))
             }
             _ => None,

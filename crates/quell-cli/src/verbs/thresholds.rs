@@ -51,9 +51,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
-    let range = arguments.varied.ends(&mut complaints);
+    let range = arguments.varied.ends(study.as_ref(), &mut complaints);
     let along = arguments.along.as_deref().unwrap_or_default();
-    let between = arguments.between.as_deref().map(|text| window("--between", text, along));
+    let between =
+        arguments.between.as_deref().map(|text| window(study.as_ref(), "--between", text, along));
     let between = complaints.take(between.transpose());
     let start = arguments.start.as_deref().map(|text| state("--start", text, study.as_ref()));
     let start = complaints.take(start.transpose());
