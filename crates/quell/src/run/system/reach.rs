@@ -204,7 +204,12 @@ impl Reaches {
         for pair in &self.pairs {
             let contact = &study.system().contacts[pair.contact].name;
             let name = format!("slip_of_{contact}_per_dither_{}", pair.dither);
-            dataset = dataset.with(Array::new(name, "1", pair.slip.clone()));
+            let unit = match study.units() {
+                SystemUnits::None => "1",
+                SystemUnits::Si => "m/s/N",
+                SystemUnits::MmTonneSecond => "mm/s/N",
+            };
+            dataset = dataset.with(Array::new(name, unit, pair.slip.clone()));
         }
         dataset
     }
