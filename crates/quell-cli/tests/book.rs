@@ -313,7 +313,10 @@ fn pictures_beside_pages_are_those_of_their_commands() {
     for path in pages() {
         let text = fs::read_to_string(&path).expect("a page");
         let links = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
-        let own = |link: &&str| link.ends_with(".svg") && !link.contains(['/', ':']);
+        let own = |link: &&str| {
+            Path::new(link).extension().is_some_and(|end| end == "svg")
+                && !link.contains(['/', ':'])
+        };
         let links: Vec<&str> = links.filter(own).collect();
         if links.is_empty() {
             continue;

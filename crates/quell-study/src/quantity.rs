@@ -98,10 +98,10 @@ pub fn value_of(
     path: &str,
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
-    match study.map(Study::kind) {
-        Some(Kind::System(_)) => {
-            let unit = study.and_then(|study| study.measured_in(path));
-            measured(text, unit, "", option)
+    match study {
+        Some(study) if matches!(study.kind(), Kind::System(_)) => {
+            let unit = study.measured_in(path).unwrap_or_default();
+            measured(text, Some(unit).filter(|unit| !unit.is_empty()), unit, option)
         }
         _ => value_of_key(text, path, option),
     }

@@ -1,5 +1,6 @@
 //! Systems against numbers computed by independent programs, and by two methods of our own.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
@@ -255,7 +256,7 @@ fn measured_responses_decide_as_their_matrices() {
             [("x", "x", d), ("y", "y", a), ("x", "y", (-1.0).into()), ("y", "x", (-1.0).into())]
         {
             let value = value / determinant;
-            rows += &format!("{frequency:?},{out},{into},{:?},{:?}\n", value.re, value.im);
+            let _ = writeln!(rows, "{frequency:?},{out},{into},{:?},{:?}", value.re, value.im);
         }
     }
     fs::write(folder.path().join("frf.csv"), rows).expect("written");

@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use crate::outcome::Presented;
 use crate::outcome::table::figure;
 use crate::run::system::exact::ExactStability;
-use crate::study::{SystemSetup, SystemStudy};
+use crate::study::{SystemSetup, SystemStudy, SystemUnits};
 
 impl Presented<SystemSetup> for ExactStability {
     const TITLED: bool = true;
@@ -20,16 +20,19 @@ impl Presented<SystemSetup> for ExactStability {
         Some(self.sentence(study))
     }
 
-    fn table(&self, _: &SystemStudy) -> String {
-        let mut text =
-            format!("  {:>14}  {:>14}  {:>14}\n", "growth rate", "error at most", "frequency");
+    fn table(&self, study: &SystemStudy) -> String {
+        let (factor, rate, frequency) = match study.units() {
+            SystemUnits::None => (1.0, "growth rate", "frequency"),
+            _ => (1.0 / std::f64::consts::TAU, "rate/(1/s)", "frequency/Hz"),
+        };
+        let mut text = format!("  {rate:>14}  {:>14}  {frequency:>14}\n", "error at most");
         for found in self.orbit.exponents.iter().filter(|found| found.exponent.im >= 0.0) {
             let _ = writeln!(
                 text,
                 "  {:>14}  {:>14}  {:>14}",
                 figure(found.exponent.re),
                 figure(found.error),
-                figure(found.exponent.im)
+                figure(factor * found.exponent.im)
             );
         }
         text

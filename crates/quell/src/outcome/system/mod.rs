@@ -7,6 +7,8 @@ mod reach;
 mod stability;
 mod tracked;
 
+use std::fmt::Write as _;
+
 use quell_linear::spectrum::SmallMotion;
 
 use quell_numerics::eigen::modulus;
@@ -36,7 +38,7 @@ fn motions<'a>(
     let all: Vec<&SmallMotion> = all.collect();
     let mut text = format!("  {:>14}", if hertz { "frequency/Hz" } else { "frequency" });
     let rate = if hertz { "rate/(1/s)" } else { "growth rate" };
-    text += &format!("  {rate:>14}  {:>14}\n", "damping ratio");
+    let _ = writeln!(text, "  {rate:>14}  {:>14}", "damping ratio");
     for motion in all.iter().take(MOST_MOTIONS) {
         let frequency = match listed {
             Listed::Damped => motion.frequency(),
@@ -48,11 +50,16 @@ fn motions<'a>(
         } else {
             (motion.eigenvalue.re, motion.damping_ratio())
         };
-        text +=
-            &format!("  {:>14}  {:>14}  {:>14}\n", figure(frequency), figure(rate), figure(ratio));
+        let _ = writeln!(
+            text,
+            "  {:>14}  {:>14}  {:>14}",
+            figure(frequency),
+            figure(rate),
+            figure(ratio)
+        );
     }
     if all.len() > MOST_MOTIONS {
-        text += &format!("  … and {} more; --json lists all\n", all.len() - MOST_MOTIONS);
+        let _ = writeln!(text, "  … and {} more; --json lists all", all.len() - MOST_MOTIONS);
     }
     text
 }

@@ -1,5 +1,7 @@
 //! `resonances` of a system.
 
+use std::fmt::Write as _;
+
 use std::f64::consts::TAU;
 
 use serde_json::Value as Json;
@@ -33,8 +35,8 @@ impl Presented<SystemSetup> for Reaches {
         };
         for pair in &self.pairs {
             let contact = &study.system().contacts[pair.contact].name;
-            text += &format!("  contact {contact}, dither[{}]\n", pair.dither);
-            text += &format!("  {frequency:>14}  {slip:>14}\n");
+            let _ = writeln!(text, "  contact {contact}, dither[{}]", pair.dither);
+            let _ = writeln!(text, "  {frequency:>14}  {slip:>14}");
             for at in &pair.extremes {
                 let kind = match (at.peak, at.out_of_reach) {
                     (true, _) => "resonance",
@@ -42,7 +44,7 @@ impl Presented<SystemSetup> for Reaches {
                     (false, true) => "antiresonance, out of reach",
                 };
                 let (frequency, slip) = (factor * at.frequency, at.slip_per_amplitude);
-                text += &format!("  {:>14}  {:>14}  {kind}\n", figure(frequency), figure(slip));
+                let _ = writeln!(text, "  {:>14}  {:>14}  {kind}", figure(frequency), figure(slip));
             }
         }
         text

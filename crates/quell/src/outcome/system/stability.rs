@@ -1,5 +1,7 @@
 //! `stability` of a system.
 
+use std::fmt::Write as _;
+
 use serde_json::Value as Json;
 
 use super::{Listed, motions};
@@ -41,7 +43,8 @@ fn table(study: &SystemStudy, done: &SystemStability) -> String {
         format!("{}{unit}", figure(value))
     };
     for (contact, found) in study.system().contacts.iter().zip(&done.contacts) {
-        text += &format!(
+        let _ = write!(
+            text,
             "  contact {}: friction {}, normal load {}",
             contact.name,
             with(Quantity::Force, found.friction),
@@ -50,17 +53,20 @@ fn table(study: &SystemStudy, done: &SystemStability) -> String {
         if let Some(dithered) = found.dithered {
             let velocity = with(Quantity::Velocity, contact.surface_velocity.mean());
             let slip = with(Quantity::Velocity, dithered.slip_amplitude);
-            text += &format!(", slip amplitude {slip} at the belt velocity {velocity}");
+            let _ = write!(text, ", slip amplitude {slip} at the belt velocity {velocity}");
         }
         text.push('\n');
     }
     if let Some(dither) = &done.dither {
         match &dither.critical {
-            Err(why) => text += &format!("  critical amplitudes: unknown: {why}\n"),
+            Err(why) => {
+                let _ = writeln!(text, "  critical amplitudes: unknown: {why}");
+            }
             Ok(critical) => {
                 for found in critical {
-                    text += &format!(
-                        "  {} from the amplitude {} {}on ({})\n",
+                    let _ = writeln!(
+                        text,
+                        "  {} from the amplitude {} {}on ({})",
                         becomes(found.becomes),
                         with(Quantity::Force, found.amplitude),
                         if study.system().inputs.len() > 1 { "of the first dither " } else { "" },

@@ -1,5 +1,7 @@
 //! `stability --parameter` and `thresholds` of a system.
 
+use std::fmt::Write as _;
+
 use serde_json::Value as Json;
 
 use crate::complaint::Failure;
@@ -36,13 +38,14 @@ impl Presented<SystemSetup> for TrackedStability {
             let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
             let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
             let value = figure(found.value) + &unit;
-            text += &format!("  {value:<16}{:<13}{verdicts}\n", found.change.name());
+            let _ = writeln!(text, "  {value:<16}{:<13}{verdicts}", found.change.name());
         }
         for curve in &self.curves {
             let ends = curve.points.first().zip(curve.points.last());
             if let Some(((first, at_first), (last, at_last))) = ends {
-                text += &format!(
-                    "  curve ({}): from {} at {} to {} at {}, {} point{}\n",
+                let _ = writeln!(
+                    text,
+                    "  curve ({}): from {} at {} to {} at {}, {} point{}",
                     at_first.change.name(),
                     figure(at_first.value),
                     figure(*first),

@@ -143,6 +143,12 @@ fn extend(
     }
 }
 
+/// The path of the study that is closest to a wrong one.
+fn nearest(study: &SystemStudy, path: &str) -> Option<String> {
+    let complaints = study.with(path, 0.0).err()?;
+    complaints.iter().find_map(|complaint| complaint.suggestion.clone())
+}
+
 /// Every complaint about a request.
 fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<(), Failure> {
     let mut wrong = Vec::new();
@@ -153,7 +159,8 @@ fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<(), Failure
         if study.number(path).is_none() {
             let allowed =
                 "the path of a number of the study, such as contact.pad.friction.coefficient";
-            wrong.push(Complaint::option(option, path.as_str(), allowed));
+            let complaint = Complaint::option(option, path.as_str(), allowed);
+            wrong.push(complaint.suggesting(nearest(study, path)));
             continue;
         }
         if window.0.is_nan() || window.1.is_nan() || window.0 >= window.1 {
