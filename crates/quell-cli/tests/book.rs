@@ -304,7 +304,7 @@ fn same_drawing(one: &str, other: &str) -> bool {
     words == others && numbers.len() == old.len() && close
 }
 
-/// Every picture that is beside its page is the one that a command of the page draws, `--plot NAME.svg`.
+/// Every picture that is next to its page is the one that a command of the page draws, `--plot NAME.svg`.
 /// `QUELL_BLESS=1` writes them.
 #[test]
 fn pictures_beside_pages_are_those_of_their_commands() {

@@ -48,7 +48,7 @@ pub struct LinearContact {
 
 /// What is linear without friction.
 #[derive(Clone, Debug)]
-enum Equations {
+enum LinearEquations {
     Mechanical {
         /// M.
         mass: Matrix,
@@ -65,7 +65,7 @@ enum Equations {
 #[derive(Clone, Debug)]
 pub struct Linearised {
     position: Vec<f64>,
-    equations: Equations,
+    equations: LinearEquations,
     contacts: Vec<LinearContact>,
 }
 
@@ -123,7 +123,7 @@ impl Linearised {
             })
             .collect();
         let equations = match &system.structure {
-            Structure::StateSpace(states) => Equations::StateSpace(states.matrix().clone()),
+            Structure::StateSpace(states) => LinearEquations::StateSpace(states.matrix().clone()),
             Structure::Mechanical(mechanical) => {
                 let damping = with_dampers(system, mechanical.damping());
                 let stiffness = with_springs(system, mechanical.stiffness());
@@ -142,7 +142,7 @@ impl Linearised {
                     contact.across = (0..n).map(|i| across[(i, c)]).collect();
                 }
                 let over_mass = [solve(&damping)?, solve(&stiffness)?];
-                Equations::Mechanical { mass: mass.matrix(), damping, stiffness, over_mass }
+                LinearEquations::Mechanical { mass: mass.matrix(), damping, stiffness, over_mass }
             }
         };
         Ok(Self { position: steady.position, equations, contacts })
@@ -161,10 +161,10 @@ impl Linearised {
     /// M, C and K with the springs and dampers of the contacts; `None` for first-order equations.
     pub fn matrices(&self) -> Option<Matrices<'_>> {
         match &self.equations {
-            Equations::Mechanical { mass, damping, stiffness, .. } => {
+            LinearEquations::Mechanical { mass, damping, stiffness, .. } => {
                 Some(Matrices { mass, damping, stiffness })
             }
-            Equations::StateSpace(_) => None,
+            LinearEquations::StateSpace(_) => None,
         }
     }
 
@@ -211,8 +211,8 @@ impl Linearised {
     pub fn state_matrix_with(&self, friction: &[FrictionSlopes]) -> Matrix {
         let n = self.coordinates();
         let [damping, stiffness] = match &self.equations {
-            Equations::Mechanical { over_mass, .. } => over_mass,
-            Equations::StateSpace(matrix) => {
+            LinearEquations::Mechanical { over_mass, .. } => over_mass,
+            LinearEquations::StateSpace(matrix) => {
                 let mut a = matrix.clone();
                 for (contact, friction) in self.contacts.iter().zip(friction) {
                     for i in 0..n {

@@ -46,7 +46,7 @@ impl SmallMotion {
 
 /// Every small motion, the fastest growing first.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Spectrum {
+pub struct MotionSpectrum {
     /// Largest growth rate with its bound.
     pub growth: Growth,
     /// One motion for each eigenvalue, complex conjugates included.
@@ -57,7 +57,10 @@ pub struct Spectrum {
 ///
 /// # Errors
 /// [`EigenError`] where the matrix overflows.
-pub fn spectrum(linear: &Linearised, friction: &[FrictionSlopes]) -> Result<Spectrum, EigenError> {
+pub fn spectrum(
+    linear: &Linearised,
+    friction: &[FrictionSlopes],
+) -> Result<MotionSpectrum, EigenError> {
     let matrix = linear.state_matrix_with(friction);
     let decomposition = Decomposition::new(&matrix)?;
     let growth = growth_of(&decomposition)?;
@@ -78,7 +81,7 @@ pub fn spectrum(linear: &Linearised, friction: &[FrictionSlopes]) -> Result<Spec
         let (a, b) = (a.eigenvalue, b.eigenvalue);
         b.re.total_cmp(&a.re).then(a.im.abs().total_cmp(&b.im.abs())).then(b.im.total_cmp(&a.im))
     });
-    Ok(Spectrum { growth, motions })
+    Ok(MotionSpectrum { growth, motions })
 }
 
 /// Largest growth rate under a given friction of each contact.

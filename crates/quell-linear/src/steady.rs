@@ -17,6 +17,9 @@ use quell_numerics::matrix::Matrix;
 /// a few steps or not at all.
 const MOST_STEPS: usize = 50;
 
+/// Steps of Newton's method that no longer shrink are those of rounding below this share of the solution.
+const STAGNANT: f64 = 1e-9;
+
 /// Why a system has no steady sliding.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoSteadySliding {
@@ -44,7 +47,7 @@ impl fmt::Display for NoSteadySliding {
         match self {
             Self::AtRest { contact } => write!(f, "the surface of contact {contact} does not move"),
             Self::Open { contact, normal_load } => {
-                write!(f, "contact {contact} is open in steady sliding, its load is {normal_load}")
+                write!(f, "contact {contact} is open in steady sliding: its normal load would be {normal_load:.6}")
             }
             Self::Singular => f.write_str(
                 "the equations of steady sliding are singular: no spring holds some coordinate, or friction buckles the structure",
@@ -220,6 +223,7 @@ fn equilibrium(
 ) -> Result<Vec<f64>, NoSteadySliding> {
     let n = system.structure.size();
     let mut position = vec![0.0; n];
+    let mut previous = f64::INFINITY;
     for _ in 0..MOST_STEPS {
         let mut residual: Vec<f64> = (0..n)
             .map(|i| {
@@ -258,9 +262,12 @@ fn equilibrium(
         for (q, step) in position.iter_mut().zip(step.as_slice()) {
             *q += step;
         }
-        if length <= 4.0 * f64::EPSILON * largest {
+        // Near a singular matrix rounding keeps the steps above the usual bound, and they cease to shrink.
+        let stagnant = length <= STAGNANT * largest && length >= 0.5 * previous;
+        if length <= 4.0 * f64::EPSILON * largest || stagnant {
             return Ok(position);
         }
+        previous = length;
     }
     Err(NoSteadySliding::Singular)
 }

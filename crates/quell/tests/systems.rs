@@ -208,7 +208,7 @@ fn what_is_not_pure_slip_is_refused() {
     assert!(why.contains("pad") && why.contains("pure slip"), "{why}");
 }
 
-/// A belt as a system: for ζ → 0 its averages are those of the belt's own finite-R averaging, whatever the waveform.
+/// A belt as a system: for ζ → 0 its averages are those of the belt's own finite-R averaging, for every waveform.
 #[test]
 fn belts_as_systems_have_their_own_averages() {
     let law = "law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n";

@@ -15,84 +15,19 @@ use quell_model::system::InputTarget;
 use quell_model::{System, Waveform};
 use quell_numerics::eigen::EigenError;
 
-use super::error::AveragingError;
 use super::fast_inputs::{DitheredContact, FastInputs, WaveResponse};
+use super::no_average::NoAverage;
 use crate::growth::Growth;
 use crate::harmonic::{self, ContactResponse, FreeSlip};
 use crate::linearised::{FrictionSlopes, Linearised};
-use crate::spectrum::{self, Spectrum};
+use crate::spectrum::{self, MotionSpectrum};
 use crate::steady::{NoSteadySliding, SteadySliding};
-
-/// Most incommensurate frequencies whose mean is taken: over a torus of two phases.
-pub const MOST_FREQUENCIES: usize = 2;
 
 /// Least ratio of the frequency of a wave to that of an oscillation in closed form.
 const ABOVE: f64 = 1.2;
 
 /// Harmonics of the remainder of a wave up to this one are kept.
 const MOST_HARMONICS: u32 = 63;
-
-/// Why dithered sliding has no average.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NoAverage {
-    /// There is no steady sliding, with or without dither.
-    NoSteadySliding(NoSteadySliding),
-    /// A dither excites an undamped resonance.
-    Resonance {
-        /// Angular frequency.
-        frequency: f64,
-    },
-    /// More incommensurate frequencies than [`MOST_FREQUENCIES`].
-    TooManyFrequencies {
-        /// Their number.
-        count: usize,
-    },
-    /// The mean friction has no value.
-    Mean(AveragingError),
-    /// The state matrix overflows.
-    Eigenvalues(EigenError),
-}
-
-impl std::fmt::Display for NoAverage {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::NoSteadySliding(why) => write!(f, "no steady sliding: {why}"),
-            Self::Resonance { frequency } => {
-                write!(
-                    f,
-                    "the dither of angular frequency {frequency} excites an undamped resonance"
-                )
-            }
-            Self::TooManyFrequencies { count } => write!(
-                f,
-                "the dithers have {count} mutually incommensurate frequencies, but averaging of a system supports at most \
-                 {MOST_FREQUENCIES}"
-            ),
-            Self::Mean(why) => why.fmt(f),
-            Self::Eigenvalues(why) => why.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for NoAverage {}
-
-impl From<NoSteadySliding> for NoAverage {
-    fn from(why: NoSteadySliding) -> Self {
-        Self::NoSteadySliding(why)
-    }
-}
-
-impl From<AveragingError> for NoAverage {
-    fn from(why: AveragingError) -> Self {
-        Self::Mean(why)
-    }
-}
-
-impl From<EigenError> for NoAverage {
-    fn from(why: EigenError) -> Self {
-        Self::Eigenvalues(why)
-    }
-}
 
 /// Averaged steady sliding with its linear equations.
 #[derive(Clone, Debug)]
@@ -110,7 +45,7 @@ impl AveragedSliding {
     ///
     /// # Errors
     /// [`EigenError`] where the matrix overflows.
-    pub fn spectrum(&self) -> Result<Spectrum, EigenError> {
+    pub fn spectrum(&self) -> Result<MotionSpectrum, EigenError> {
         spectrum::spectrum(&self.linear, &self.friction)
     }
 

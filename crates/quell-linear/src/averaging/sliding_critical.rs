@@ -6,8 +6,9 @@
 
 use super::critical_amplitudes::Becomes;
 use super::fast_inputs::{DitheredContact, FastInputs};
+use super::no_average::NoAverage;
 use super::sign_changes::{CrossingKind, sign_changes};
-use super::sliding::{DitheredSystem, NoAverage};
+use super::sliding::DitheredSystem;
 use crate::growth::Verdict;
 
 /// Relative distance at which the verdict beyond a change is evaluated.

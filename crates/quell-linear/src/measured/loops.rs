@@ -6,7 +6,8 @@ use quell_model::system::{Contact, InputTarget};
 use quell_numerics::eigen::modulus;
 use quell_numerics::matrix::Matrix;
 
-use super::{NoMeasuredVerdict, Receptance};
+use super::no_verdict::{NoMeasuredVerdict, NoTurns};
+use super::receptance::Receptance;
 use crate::averaging::NoAverage;
 use crate::harmonic::ContactResponse;
 use crate::linearised::FrictionLine;
@@ -20,40 +21,6 @@ const LARGEST_TURN: f64 = 1.6;
 
 /// Largest distance of the turns from a whole number of motions that the end of the band may leave.
 const OPEN_END: f64 = 0.35;
-
-/// Why the turns of the determinant do not tell.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NoTurns {
-    /// The determinant turns too far between two measured frequencies.
-    TooCoarse {
-        /// The lower of them, angular.
-        frequency: f64,
-    },
-    /// The determinant has not come to rest at the end of the band.
-    BandTooShort {
-        /// Half turns up to there.
-        half_turns: f64,
-    },
-}
-
-impl std::fmt::Display for NoTurns {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::TooCoarse { frequency } => write!(
-                f,
-                "the measured frequencies are too far apart near the angular frequency {frequency:.6}: the determinant turns too far \
-                 between two of them, or sliding is marginal there"
-            ),
-            Self::BandTooShort { half_turns } => write!(
-                f,
-                "the measured band ends too early: at its end the determinant has made {half_turns:.2} half turns, which is not close \
-                 to a whole number"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for NoTurns {}
 
 /// The turns of the determinant along the band.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,75 +13,21 @@
 //! include the contacts' own springs.
 
 mod loops;
+mod no_verdict;
 mod receptance;
 
 use quell_model::System;
 
-use crate::averaging::{
-    Becomes, CriticalInput, CrossingKind, DitheredContact, FastInputs, NoAverage,
-};
+use crate::averaging::{Becomes, CriticalInput, CrossingKind, DitheredContact, FastInputs};
 use crate::growth::Verdict;
 use crate::linearised::FrictionLine;
-use crate::steady::{NoSteadySliding, SteadyContact};
-pub use loops::{NoTurns, Turns};
+use crate::steady::SteadyContact;
+pub use loops::Turns;
+pub use no_verdict::{NoMeasuredVerdict, NoTurns};
 pub use receptance::Receptance;
 
 /// Halvings of an interval of amplitudes, to about 10⁻⁸ of it.
 const BISECTIONS: usize = 26;
-
-/// Why there is no verdict on a measured structure.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NoMeasuredVerdict {
-    /// No steady sliding, or no average.
-    NoAverage(NoAverage),
-    /// The determinant does not tell.
-    NoTurns(NoTurns),
-    /// A dither is not a sine, whose harmonics would have to be measured.
-    NotASine,
-    /// The dither frequency is outside the band.
-    OutsideBand {
-        /// The angular frequency.
-        frequency: f64,
-    },
-}
-
-impl std::fmt::Display for NoMeasuredVerdict {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::NoAverage(why) => why.fmt(f),
-            Self::NoTurns(why) => why.fmt(f),
-            Self::NotASine => {
-                f.write_str("with a measured frequency response every dither must be a sine")
-            }
-            Self::OutsideBand { frequency } => {
-                write!(
-                    f,
-                    "the dither of angular frequency {frequency} is outside the measured band"
-                )
-            }
-        }
-    }
-}
-
-impl std::error::Error for NoMeasuredVerdict {}
-
-impl From<NoAverage> for NoMeasuredVerdict {
-    fn from(why: NoAverage) -> Self {
-        Self::NoAverage(why)
-    }
-}
-
-impl From<NoSteadySliding> for NoMeasuredVerdict {
-    fn from(why: NoSteadySliding) -> Self {
-        Self::NoAverage(why.into())
-    }
-}
-
-impl From<NoTurns> for NoMeasuredVerdict {
-    fn from(why: NoTurns) -> Self {
-        Self::NoTurns(why)
-    }
-}
 
 /// Sliding of a measured structure.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,7 +87,7 @@ impl<'a> MeasuredSystem<'a> {
     /// Averaged sliding, with another amplitude of one input if given.
     ///
     /// # Errors
-    /// [`NoMeasuredVerdict`] if a mean has no value or the determinant does not tell.
+    /// [`NoMeasuredVerdict`] if a mean has no value or the determinant does not decide.
     pub fn average(
         &self,
         changed: Option<(usize, f64)>,
@@ -192,7 +138,7 @@ impl<'a> MeasuredSystem<'a> {
         Ok(found)
     }
 
-    /// Whether sliding is unstable at an amplitude; `None` where the band does not tell, as close to a marginal motion.
+    /// Whether sliding is unstable at an amplitude; `None` where the band does not decide, near a marginal motion.
     fn is_unstable(&self, input: usize, amplitude: f64) -> Result<Option<bool>, NoMeasuredVerdict> {
         match self.average(Some((input, amplitude))) {
             Ok(found) => Ok(Some(found.turns.unstable > 0)),

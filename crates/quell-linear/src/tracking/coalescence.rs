@@ -8,7 +8,7 @@ use num_complex::Complex64;
 use quell_numerics::eigen::modulus;
 use quell_numerics::roots::{Closeness, find_root};
 
-use super::{Family, TrackedPoint, at};
+use super::family::{Family, TrackedPoint, at};
 
 /// The imaginary part of (λᵢ − λⱼ)² over its real part below which the two are on a common line.
 const ON_A_LINE: f64 = 1e-6;

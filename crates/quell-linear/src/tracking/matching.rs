@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 use quell_numerics::eigen::modulus;
 
-use super::{Family, TrackedPoint, at};
+use super::family::{Family, TrackedPoint, at};
 
 /// A match is certain if it is closer to its prediction than this share of the distance to the next candidate.
 const CERTAIN: f64 = 0.4;

@@ -6,17 +6,13 @@
 //! on the grid.
 
 mod coalescence;
+mod family;
 mod matching;
 mod thresholds;
 
-use num_complex::Complex64;
-use quell_numerics::eigen::{Decomposition, EigenError};
-use quell_numerics::matrix::Matrix;
-
-use crate::growth::Growth;
-use crate::spectrum::growth_of;
-
-pub use thresholds::{Change, ThresholdOfStability};
+use family::at;
+pub use family::{Family, TrackedPoint};
+pub use thresholds::{StabilityChange, ThresholdOfStability};
 
 /// Shortest step over the width of the window: below it two eigenvalues count as one.
 const SHORTEST: f64 = 1e-12;
@@ -24,32 +20,6 @@ const SHORTEST: f64 = 1e-12;
 /// Most values of the parameter at which eigenvalues are computed, for each requested point: every close approach halves a
 /// step some forty times.
 const MOST_VALUES_PER_POINT: usize = 64;
-
-/// A family of state matrices, one for each value of a parameter.
-pub trait Family {
-    /// Why there is no matrix at a value.
-    type Error: Clone;
-
-    /// The state matrix at a value of the parameter.
-    ///
-    /// # Errors
-    /// Why no matrix exists, such as the lack of steady sliding.
-    fn matrix(&self, value: f64) -> Result<Matrix, Self::Error>;
-
-    /// The error of a matrix whose eigenvalues cannot be computed.
-    fn overflows(why: EigenError) -> Self::Error;
-}
-
-/// Eigenvalues at one value of the parameter, in the order of the branches.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TrackedPoint {
-    /// Value of the parameter.
-    pub value: f64,
-    /// Eigenvalues; entry b belongs to branch b of the piece.
-    pub eigenvalues: Vec<Complex64>,
-    /// Largest growth rate with its bound.
-    pub growth: Growth,
-}
 
 /// A range of the parameter without an answer.
 #[derive(Clone, Debug, PartialEq)]
@@ -122,11 +92,4 @@ pub fn track<F: Family>(
     }
     thresholds.sort_by(|a, b| a.value.total_cmp(&b.value));
     Ok(Tracked { pieces, unknown, thresholds })
-}
-
-/// Eigenvalues at a value, in any order.
-fn at<F: Family>(family: &F, value: f64) -> Result<TrackedPoint, F::Error> {
-    let decomposition = Decomposition::new(&family.matrix(value)?).map_err(F::overflows)?;
-    let growth = growth_of(&decomposition).map_err(F::overflows)?;
-    Ok(TrackedPoint { value, eigenvalues: decomposition.values().to_vec(), growth })
 }

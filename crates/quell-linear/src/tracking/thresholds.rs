@@ -3,14 +3,14 @@
 use num_complex::Complex64;
 
 use super::coalescence::{self, Coalescence};
-use super::{Family, TrackedPoint, at};
+use super::family::{Family, TrackedPoint, at};
 use crate::averaging::{CrossingKind, sign_changes};
 use crate::growth::Verdict;
 
 /// Relative distance, in steps of the piece, within which a change of the verdict is that of a coalescence.
 const TOGETHER: f64 = 1e-6;
 
-/// Distances over the window at which the verdict beside a threshold is evaluated, until it is decided.
+/// Distances over the window at which the verdict on both sides of a threshold is evaluated, until it is decided.
 const BESIDE: [f64; 4] = [1e-10, 1e-8, 1e-6, 1e-4];
 
 /// A frequency below this share of the largest eigenvalue counts as zero.
@@ -18,7 +18,7 @@ const NO_FREQUENCY: f64 = 1e-9;
 
 /// What happens at a threshold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Change {
+pub enum StabilityChange {
     /// A motion of this frequency begins or ceases to grow.
     Hopf,
     /// A motion without frequency begins or ceases to grow.
@@ -29,7 +29,7 @@ pub enum Change {
     Jump,
 }
 
-impl Change {
+impl StabilityChange {
     /// Every kind of change.
     pub const ALL: [Self; 4] = [Self::Hopf, Self::Divergence, Self::Coalescence, Self::Jump];
 
@@ -52,7 +52,7 @@ pub struct ThresholdOfStability {
     /// Bound on its error.
     pub error: f64,
     /// What happens.
-    pub change: Change,
+    pub change: StabilityChange,
     /// The eigenvalue there.
     pub eigenvalue: Complex64,
     /// The verdict just below and just beyond it; the same where only frequencies merge.
@@ -91,7 +91,7 @@ pub(super) fn of_piece<F: Family>(
         let undecided = verdicts.contains(&Verdict::Undecided);
         if let (true, Some(index)) = (undecided, merged.iter().position(together)) {
             let Coalescence { value, error, eigenvalue, .. } = merged.remove(index);
-            let change = Change::Coalescence;
+            let change = StabilityChange::Coalescence;
             found.push(ThresholdOfStability { value, error, change, eigenvalue, verdicts });
             continue;
         }
@@ -104,9 +104,11 @@ pub(super) fn of_piece<F: Family>(
             Err(_) => (Complex64::new(0.0, 0.0), 0.0),
         };
         let kind = match change.crossing {
-            CrossingKind::Jump => Change::Jump,
-            CrossingKind::Root if eigenvalue.im <= NO_FREQUENCY * size => Change::Divergence,
-            CrossingKind::Root => Change::Hopf,
+            CrossingKind::Jump => StabilityChange::Jump,
+            CrossingKind::Root if eigenvalue.im <= NO_FREQUENCY * size => {
+                StabilityChange::Divergence
+            }
+            CrossingKind::Root => StabilityChange::Hopf,
         };
         found.push(ThresholdOfStability {
             value: change.location,
@@ -118,7 +120,7 @@ pub(super) fn of_piece<F: Family>(
     }
     for Coalescence { value, error, eigenvalue, .. } in merged {
         let verdicts = beside(family, value, &values)?;
-        let change = Change::Coalescence;
+        let change = StabilityChange::Coalescence;
         found.push(ThresholdOfStability { value, error, change, eigenvalue, verdicts });
     }
     Ok(found)

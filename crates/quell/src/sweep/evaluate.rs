@@ -15,7 +15,6 @@ use quell_linear::growth::Growth;
 use quell_model::{Belt, Dither};
 
 use super::status::Status;
-use super::system::SystemPoint;
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::range;
 use crate::study::BeltStudy;
@@ -108,6 +107,15 @@ impl From<&Compared> for ResponseNumbers {
             largest_slip: dithered.largest_slip.max(compared.undithered.largest_slip),
         }
     }
+}
+
+/// What a map shows of one system.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SystemPoint {
+    /// Largest growth rate.
+    pub growth: Growth,
+    /// Largest fast slip velocity over the velocity of its surface, over all contacts.
+    pub slip_ratio: f64,
 }
 
 /// Results at one point; `None` for computations that were not requested.

@@ -7,7 +7,7 @@ use quell_linear::spectrum;
 use quell_model::System;
 use quell_model::units;
 
-use super::evaluate::{Computation, Results};
+use super::evaluate::{Computation, Results, SystemPoint};
 use super::grid::Grid;
 use super::mapped::{Mapped, PointResults};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, variable};
@@ -55,15 +55,6 @@ impl Mapped for SystemPoints {
         };
         indices.iter().map(point).collect()
     }
-}
-
-/// What a map shows of one system.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SystemPoint {
-    /// Largest growth rate.
-    pub growth: Growth,
-    /// Largest fast slip velocity over the velocity of its surface, over all contacts.
-    pub slip_ratio: f64,
 }
 
 /// What a map shows of a measured structure: nothing.

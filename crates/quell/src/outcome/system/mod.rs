@@ -21,7 +21,7 @@ const MOST_MOTIONS: usize = 12;
 
 /// The frequency of a motion that a table lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Listed {
+enum ListedMotion {
     /// |Im λ|, with the damping that the motion has.
     Damped,
     /// |λ|, the frequency of the motion without its damping.
@@ -31,7 +31,7 @@ enum Listed {
 /// Small motions as text, the first [`MOST_MOTIONS`] of them. Rates that are zero within their error are printed as 0.
 fn motions<'a>(
     units: SystemUnits,
-    listed: Listed,
+    listed: ListedMotion,
     all: impl Iterator<Item = &'a SmallMotion>,
 ) -> String {
     let hertz = units != SystemUnits::None;
@@ -41,8 +41,8 @@ fn motions<'a>(
     let _ = writeln!(text, "  {rate:>14}  {:>14}", "damping ratio");
     for motion in all.iter().take(MOST_MOTIONS) {
         let frequency = match listed {
-            Listed::Damped => motion.frequency(),
-            Listed::Natural => modulus(motion.eigenvalue),
+            ListedMotion::Damped => motion.frequency(),
+            ListedMotion::Natural => modulus(motion.eigenvalue),
         };
         let frequency = if hertz { frequency / std::f64::consts::TAU } else { frequency };
         let (rate, ratio) = if motion.eigenvalue.re.abs() <= motion.error {

@@ -2,7 +2,7 @@
 
 use serde_json::Value as Json;
 
-use super::{Listed, motions};
+use super::{ListedMotion, motions};
 use crate::dataset::Dataset;
 use crate::outcome::Presented;
 use crate::run::system::modes::SystemModes;
@@ -16,7 +16,7 @@ impl Presented<SystemSetup> for SystemModes {
     }
 
     fn table(&self, study: &SystemStudy) -> String {
-        motions(study.units(), Listed::Natural, self.modes.iter())
+        motions(study.units(), ListedMotion::Natural, self.modes.iter())
     }
 
     fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {

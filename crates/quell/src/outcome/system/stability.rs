@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
-use super::{Listed, motions};
+use super::{ListedMotion, motions};
 use crate::complaint::Failure;
 use crate::outcome::Presented;
 use crate::outcome::table::figure;
@@ -37,7 +37,7 @@ impl Presented<SystemSetup> for SystemStability {
 
 fn table(study: &SystemStudy, done: &SystemStability) -> String {
     let upper = done.spectrum.motions.iter().filter(|motion| motion.eigenvalue.im >= 0.0);
-    let mut text = motions(study.units(), Listed::Damped, upper);
+    let mut text = motions(study.units(), ListedMotion::Damped, upper);
     let with = |quantity: Quantity, value: f64| {
         let unit = study.units().unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
         format!("{}{unit}", figure(value))

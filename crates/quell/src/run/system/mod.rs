@@ -9,7 +9,7 @@ pub mod stability;
 pub mod tracked;
 
 use quell_linear::averaging::NoAverage;
-use quell_linear::spectrum::{SmallMotion, Spectrum};
+use quell_linear::spectrum::{MotionSpectrum, SmallMotion};
 use quell_model::System;
 use quell_model::units::Quantity;
 
@@ -97,6 +97,6 @@ fn put_motion(system: &System, units: SystemUnits, motion: &SmallMotion) -> Fiel
 }
 
 /// Every motion but the conjugates of those listed.
-fn upper(spectrum: &Spectrum) -> impl Iterator<Item = &SmallMotion> {
+fn upper(spectrum: &MotionSpectrum) -> impl Iterator<Item = &SmallMotion> {
     spectrum.motions.iter().filter(|motion| motion.eigenvalue.im >= 0.0)
 }

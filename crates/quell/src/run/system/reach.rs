@@ -26,7 +26,7 @@ const OUT_OF_REACH: f64 = 1e-3;
 
 /// A peak or dip of the response of a contact to a dither.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extreme {
+pub struct ReachExtreme {
     /// Angular frequency.
     pub frequency: f64,
     /// Slip amplitude per unit of dither.
@@ -39,7 +39,7 @@ pub struct Extreme {
 
 /// The response of one contact to one dither.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Reach {
+pub struct ContactReach {
     /// The dither, counted from 0.
     pub dither: usize,
     /// The contact, counted from 0.
@@ -47,7 +47,7 @@ pub struct Reach {
     /// Slip amplitude per unit of dither at each frequency.
     pub slip: Vec<f64>,
     /// Peaks and dips, ascending.
-    pub extremes: Vec<Extreme>,
+    pub extremes: Vec<ReachExtreme>,
 }
 
 /// How far the dithers of a system reach its contacts.
@@ -56,7 +56,7 @@ pub struct Reaches {
     /// Angular frequencies, ascending.
     pub frequencies: Vec<f64>,
     /// Every pair of a dither and a contact.
-    pub pairs: Vec<Reach>,
+    pub pairs: Vec<ContactReach>,
 }
 
 /// Rejects the options of `resonances` that only discs have.
@@ -115,14 +115,14 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Fa
                 .map(|row| row.as_ref().map_or(f64::INFINITY, |row| row[contact]))
                 .collect();
             let extremes = extremes(&frequencies, &slip, at);
-            pairs.push(Reach { dither, contact, slip, extremes });
+            pairs.push(ContactReach { dither, contact, slip, extremes });
         }
     }
     Ok(Reaches { frequencies, pairs })
 }
 
 /// Peaks and dips of a response, located between the sampled frequencies.
-fn extremes(frequencies: &[f64], slip: &[f64], at: impl Fn(f64) -> f64) -> Vec<Extreme> {
+fn extremes(frequencies: &[f64], slip: &[f64], at: impl Fn(f64) -> f64) -> Vec<ReachExtreme> {
     let mut found = Vec::new();
     for k in 1..slip.len().saturating_sub(1) {
         let (before, here, after) = (slip[k - 1], slip[k], slip[k + 1]);
@@ -142,7 +142,7 @@ fn extremes(frequencies: &[f64], slip: &[f64], at: impl Fn(f64) -> f64) -> Vec<E
         });
         let (sum, count) = octave.fold((0.0, 0.0), |(sum, count), (_, s)| (sum + s, count + 1.0));
         let out_of_reach = dip && value <= OUT_OF_REACH * sum / f64::max(count, 1.0);
-        found.push(Extreme {
+        found.push(ReachExtreme {
             frequency: best.location,
             slip_per_amplitude: value,
             peak,

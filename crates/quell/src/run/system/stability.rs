@@ -3,7 +3,7 @@
 use quell_linear::averaging::{Becomes, CriticalInput, DitheredContact, DitheredSystem};
 use quell_linear::growth::{Growth, Verdict};
 use quell_linear::linearised::Linearised;
-use quell_linear::spectrum::{SmallMotion, Spectrum, spectrum};
+use quell_linear::spectrum::{MotionSpectrum, SmallMotion, spectrum};
 use quell_model::System;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -36,7 +36,7 @@ pub struct SlidingContact {
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnderDither {
     /// Every small motion without it.
-    pub undithered: Spectrum,
+    pub undithered: MotionSpectrum,
     /// Amplitudes of the first dither at which the verdict changes, or why they are unknown.
     pub critical: Result<Vec<CriticalInput>, String>,
 }
@@ -45,7 +45,7 @@ pub struct UnderDither {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SystemStability {
     /// Every small motion.
-    pub spectrum: Spectrum,
+    pub spectrum: MotionSpectrum,
     /// The contacts, in the order of the study.
     pub contacts: Vec<SlidingContact>,
     /// What holds under dither; `None` without.
@@ -115,7 +115,7 @@ fn opened(study: &SystemStudy, contacts: &[DitheredContact]) -> Vec<String> {
 }
 
 /// The warning about eigenfrequencies that are not far below the dither.
-fn not_slow(study: &SystemStudy, undithered: &Spectrum) -> Option<String> {
+fn not_slow(study: &SystemStudy, undithered: &MotionSpectrum) -> Option<String> {
     let waves = study.system().inputs.iter().flat_map(|input| input.profile.waves());
     let slowest = waves.map(|wave| wave.frequency).fold(f64::INFINITY, f64::min);
     let near = upper(undithered).map(SmallMotion::frequency).filter(|own| *own * FAR > slowest);

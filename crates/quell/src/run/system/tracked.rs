@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use quell_linear::averaging::DitheredSystem;
 use quell_linear::growth::Verdict;
 use quell_linear::linearised::Linearised;
-use quell_linear::tracking::{Change, Family, ThresholdOfStability, Tracked, track};
+use quell_linear::tracking::{Family, StabilityChange, ThresholdOfStability, Tracked, track};
 use quell_model::units::Quantity;
 use quell_numerics::eigen::EigenError;
 use quell_numerics::matrix::Matrix;
@@ -232,13 +232,13 @@ impl TrackedStability {
             .map(|found| {
                 let motion = oscillating(study.units(), found.eigenvalue.im.abs());
                 let how = match found.change {
-                    Change::Hopf if found.verdicts[1] == Verdict::Stable => {
+                    StabilityChange::Hopf if found.verdicts[1] == Verdict::Stable => {
                         format!("where a motion {motion} ceases to grow")
                     }
-                    Change::Hopf => format!("where a motion {motion} begins to grow"),
-                    Change::Divergence => "by divergence, without oscillation".to_owned(),
-                    Change::Coalescence => format!("where two motions {motion} merge"),
-                    Change::Jump => "by a jump".to_owned(),
+                    StabilityChange::Hopf => format!("where a motion {motion} begins to grow"),
+                    StabilityChange::Divergence => "by divergence, without oscillation".to_owned(),
+                    StabilityChange::Coalescence => format!("where two motions {motion} merge"),
+                    StabilityChange::Jump => "by a jump".to_owned(),
                 };
                 let at = self.value(study, found.value);
                 format!("{} at {parameter} = {at}, {how}", found.verdicts[1].name())
@@ -393,8 +393,8 @@ impl TrackedStability {
             let curves = self.curves.iter().enumerate();
             curves.flat_map(|(curve, all)| all.points.iter().map(move |point| (curve, point)))
         };
-        let numbered = || (0_u8..).zip(Change::ALL);
-        let code = |change: Change| numbered().find(|(_, other)| *other == change);
+        let numbered = || (0_u8..).zip(StabilityChange::ALL);
+        let code = |change: StabilityChange| numbered().find(|(_, other)| *other == change);
         let codes: Vec<u8> = points()
             .filter_map(|(_, (_, found))| code(found.change))
             .map(|(code, _)| code)
