@@ -8,7 +8,7 @@ use quell::outcome::Outcome;
 use quell::output::Output;
 use quell::picture::{self, EXTENSIONS};
 use quell::study::document::Node;
-use quell::{Change, Complaint, Failure, Study};
+use quell::{Change, Complaint, Failure, Fault, Origin, Study};
 use serde_json::Value as Json;
 
 use crate::answer::Answer;
@@ -96,8 +96,8 @@ impl Plot {
     pub(crate) fn write(self, outcome: &dyn Outcome, object: &mut Json) -> Result<(), Failure> {
         let Some(output) = self.output else { return Ok(()) };
         let figure = outcome.figure().unwrap_or_else(|| {
-            let allowed = "this answer has no picture";
-            Err(Complaint::option("--plot", Json::Null, allowed).into())
+            let (origin, allowed) = (Origin::Argument("--plot"), "this answer has no picture");
+            Err(Complaint::new(Fault::Conflict, "--plot", origin, Json::Null, allowed).into())
         });
         object["plotted"] = picture::write(&figure?, output)?.into();
         Ok(())

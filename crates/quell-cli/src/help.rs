@@ -86,7 +86,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 "resonances",
                 &[
                     "quell resonances disc-dither.toml --clear 0.25:0.9 --frequency 2:6",
-                    "quell resonances mode-coupling.toml --frequency 0.5:50",
+                    "quell resonances two-mass-drive.toml --frequency 1:100",
                 ],
             ),
         ],

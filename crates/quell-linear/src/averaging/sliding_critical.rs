@@ -11,8 +11,8 @@ use super::sign_changes::{CrossingKind, sign_changes};
 use super::sliding::DitheredSystem;
 use crate::growth::Verdict;
 
-/// Relative distance at which the verdict beyond a change is evaluated.
-const ASIDE: f64 = 1e-6;
+/// Relative distances at which the verdict on both sides of a change is evaluated, until it is decided.
+const BESIDE: [f64; 4] = [1e-10, 1e-8, 1e-6, 1e-4];
 
 /// An amplitude at which the averaged verdict changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,21 +46,37 @@ impl DitheredSystem<'_> {
         let mut found = Vec::new();
         for change in changes {
             let amplitude = change.location;
-            let beyond = self.average_with(Some((input, amplitude * (1.0 + ASIDE))))?;
-            let becomes = match (change.becomes_positive, beyond.growth()?.verdict()) {
-                (true, _) => Becomes::Unstable,
-                (false, Verdict::Stable) => Becomes::Stable,
-                // The motion is neutral beyond: its verdict does not become stable.
-                (false, _) => continue,
+            // Where a motion is neutral on one side, the verdict is undecided there and need not change.
+            let becomes = match self.verdicts_around(input, amplitude)? {
+                [before, beyond] if before == beyond => continue,
+                [_, Verdict::Stable] => Becomes::Stable,
+                [_, Verdict::Unstable] => Becomes::Unstable,
+                [_, Verdict::Undecided] => continue,
             };
+            let there = self.average_with(Some((input, amplitude * (1.0 + BESIDE[0]))))?;
             found.push(CriticalInput {
                 amplitude,
                 error: change.error,
                 crossing: change.crossing,
                 becomes,
-                contacts_stay_closed: !beyond.contacts.iter().any(DitheredContact::opens),
+                contacts_stay_closed: !there.contacts.iter().any(DitheredContact::opens),
             });
         }
         Ok(found)
+    }
+
+    /// The verdicts below and beyond an amplitude, as close to it as they are decided.
+    fn verdicts_around(&self, input: usize, amplitude: f64) -> Result<[Verdict; 2], NoAverage> {
+        let side = |sign: f64| -> Result<Verdict, NoAverage> {
+            for distance in BESIDE {
+                let there = amplitude * (1.0 + sign * distance);
+                let verdict = self.average_with(Some((input, there)))?.growth()?.verdict();
+                if verdict != Verdict::Undecided {
+                    return Ok(verdict);
+                }
+            }
+            Ok(Verdict::Undecided)
+        };
+        Ok([side(-1.0)?, side(1.0)?])
     }
 }

@@ -6,7 +6,7 @@
 //! is r₀/r. Products of two modes of q diameters vary as cos 2qθ, so that n points over the angle have a relative error of
 //! about (0.68 q e/n)²ⁿ.
 
-use quell_numerics::quadrature::gauss_legendre;
+use quell_numerics::gauss_legendre::GaussLegendre;
 
 use super::complaint::complain;
 use crate::Invalid;
@@ -63,7 +63,7 @@ impl Patch {
         points: usize,
         shapes: impl Fn(f64) -> Option<Vec<f64>>,
     ) -> Option<Self> {
-        let rule = gauss_legendre(points).into_iter().map(|(x, weight)| {
+        let rule = rule_of(points).into_iter().map(|(x, weight)| {
             let at = f64::mul_add(0.5 * width, x, radius);
             let (weight, lever) = (0.5 * weight * (at / radius), radius / at);
             Some(PatchRadius { weight, lever, shapes: shapes(at)? })
@@ -85,7 +85,7 @@ impl Patch {
         let over_angle = if self.extent == 0.0 {
             vec![(angle, 1.0)]
         } else {
-            let rule = gauss_legendre(self.points);
+            let rule = rule_of(self.points);
             let at = |(x, w): (f64, f64)| (f64::mul_add(0.5 * self.extent, x, angle), 0.5 * w);
             rule.into_iter().map(at).collect()
         };
@@ -119,4 +119,10 @@ impl Patch {
         }
         complaints
     }
+}
+
+/// Nodes and weights on [−1, 1].
+fn rule_of(points: usize) -> Vec<(f64, f64)> {
+    let rule = GaussLegendre::new(points);
+    rule.nodes.into_iter().zip(rule.weights).collect()
 }

@@ -17,13 +17,11 @@
 //! (QAGP without extrapolation). Nodes and weights were recomputed to 34 digits; the tests check
 //! their exactness on polynomials up to degree 31 (Kronrod) and 19 (Gauss).
 
-mod gauss;
 mod integral;
 mod rule;
 
 use std::collections::BinaryHeap;
 
-pub use gauss::gauss_legendre;
 pub use integral::{Integral, QuadratureError};
 use rule::{QuadraturePanel, panel};
 

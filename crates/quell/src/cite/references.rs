@@ -114,7 +114,7 @@ pub const HOFFMANN_2002: Source = Source {
 /// Extrapolation of Gragg's midpoint steps.
 pub const HAIRER_NORSETT_WANNER_1993: Source = Source {
     key: "hairer1993",
-    reference: "E. Hairer, S. P. Nørsett, G. Wanner: Solving Ordinary Differential Equations I. Nonstiff Problems. \
+    reference: "E. Hairer, S. P. Nørsett, G. Wanner: Solving Ordinary Differential Equations I: Nonstiff Problems. \
                 2nd edition, Springer, Berlin, 1993",
 };
 

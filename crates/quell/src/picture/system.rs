@@ -139,7 +139,7 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
     let all = frequencies.iter().flatten().map(|(_, height)| *height);
     let (least, greatest) =
         all.fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), height| (a.min(height), b.max(height)));
-    // Frequencies that are close to each other in comparison to their size are easier to show apart without the origin.
+    // Frequencies that are close to each other in comparison to their size are easier to distinguish without the origin.
     let frequency = if least > 0.5 * greatest { frequency } else { frequency.from(0.0) };
     let above = Panel::new(across(), frequency).with(Polyline::pieces(role, frequencies));
     let above = marked(above, &|z| factor * z.im.abs()).title("(a) frequency").legend(Legend::None);
