@@ -70,7 +70,7 @@ impl<'a> DitheredSystem<'a> {
     /// Prepares a system.
     ///
     /// # Errors
-    /// [`NoAverage`] without steady sliding, at an undamped resonance, and for more than [`MOST_FREQUENCIES`].
+    /// [`NoAverage`] without steady sliding, at an undamped resonance, and for more than [`super::MOST_FREQUENCIES`].
     pub fn new(system: &'a System) -> Result<Self, NoAverage> {
         let sliding = Linearised::new(system)?;
         let mut waves = Vec::new();
