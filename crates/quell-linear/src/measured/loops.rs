@@ -270,6 +270,13 @@ pub(super) fn response(
     Ok(found.collect())
 }
 
+/// Receptances of every contact along its own tangent and its own normal.
+fn driving_points(system: &System, receptance: &Receptance, frequency: f64) -> Vec<Complex64> {
+    let rows =
+        system.contacts.iter().flat_map(|at| [row(at.tangent.as_ref()), row(at.normal.as_ref())]);
+    rows.map(|own| receptance.between(own, own, frequency)).collect()
+}
+
 /// Turns of det(I − B G) from the static value to the end of the band.
 pub(super) fn turns(
     system: &System,
@@ -284,7 +291,17 @@ pub(super) fn turns(
     let mut last = determinant(0.0);
     let (mut angle, mut closest, mut distance) = (last.arg(), 0.0, modulus(last));
     let start = angle;
+    let mut direct = driving_points(system, receptance, 0.0);
     for pair in receptance.frequencies().windows(2) {
+        // A resonance between two frequencies turns the response of a point to a force at that point by half a turn.
+        let here = driving_points(system, receptance, pair[1]);
+        let turned = here.iter().zip(&direct).any(|(next, last)| {
+            *last != Complex64::ZERO && (next / last).arg().abs() > LARGEST_TURN
+        });
+        if turned {
+            return Err(NoTurns::TooCoarse { frequency: pair[0] });
+        }
+        direct = here;
         let next = determinant(pair[1]);
         let turn = (next / last).arg();
         if turn.abs() > LARGEST_TURN || !turn.is_finite() {

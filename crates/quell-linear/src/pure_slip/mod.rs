@@ -30,6 +30,9 @@ const STEPS: f64 = 32.0;
 /// Newton steps after which the orbit is given up.
 const MOST_NEWTON_STEPS: usize = 30;
 
+/// Steps of Newton's method that no longer shrink are those of rounding below this share of the state.
+const STAGNANT: f64 = 1e-8;
+
 /// Accepted change of the state over a period, relative to its size.
 const CLOSED: f64 = 1e-13;
 
@@ -160,6 +163,7 @@ pub fn orbit(system: &System) -> Result<SlipOrbit, NoPureSlip> {
     let equations = PureSlip::new(system)?;
     let mut state = DitheredSystem::new(system)?.fast_state()?;
     let breaks = breaks(system, period);
+    let mut previous = f64::INFINITY;
     for _ in 0..MOST_NEWTON_STEPS {
         let turn = turn(system, &equations, &state, period, &breaks)?;
         let n = state.len();
@@ -186,7 +190,9 @@ pub fn orbit(system: &System) -> Result<SlipOrbit, NoPureSlip> {
             *y += step;
         }
         // As close as rounding allows.
-        if moved <= 4.0 * f64::EPSILON * size {
+        let stagnant = moved <= STAGNANT * size && moved >= 0.5 * previous;
+        previous = moved;
+        if moved <= 4.0 * f64::EPSILON * size || stagnant {
             let last = self::turn(system, &equations, &state, period, &breaks)?;
             if let Some(why) = last.leaves {
                 return Err(why);
