@@ -23,6 +23,30 @@ impl Verdict {
     }
 }
 
+/// Distances at which the verdict on the two sides of a change is evaluated, until it is decided. The least is well above the
+/// rounding of the change itself; at the largest, a second change closer than that would be mistaken for one.
+const ASIDE: [f64; 4] = [1e-10, 1e-8, 1e-6, 1e-4];
+
+/// The verdicts below and beyond a change, as close to it as they are decided; `at` gives the verdict at a signed distance, in
+/// units that the caller chooses.
+///
+/// # Errors
+/// The first error of `at`.
+pub(crate) fn verdicts_around<E>(
+    at: impl Fn(f64) -> Result<Verdict, E>,
+) -> Result<[Verdict; 2], E> {
+    let side = |sign: f64| {
+        for distance in ASIDE {
+            let verdict = at(sign * distance)?;
+            if verdict != Verdict::Undecided {
+                return Ok(verdict);
+            }
+        }
+        Ok(Verdict::Undecided)
+    };
+    Ok([side(-1.0)?, side(1.0)?])
+}
+
 /// Largest growth rate with its error bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Growth {

@@ -9,10 +9,10 @@ use super::fast_inputs::{DitheredContact, FastInputs};
 use super::no_average::NoAverage;
 use super::sign_changes::{CrossingKind, sign_changes};
 use super::sliding::DitheredSystem;
-use crate::growth::Verdict;
+use crate::growth::{Verdict, verdicts_around};
 
-/// Relative distances at which the verdict on both sides of a change is evaluated, until it is decided.
-const BESIDE: [f64; 4] = [1e-10, 1e-8, 1e-6, 1e-4];
+/// Relative distance beyond a change at which contacts are examined: just past a jump.
+const BEYOND_A_CHANGE: f64 = 1e-10;
 
 /// An amplitude at which the averaged verdict changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,14 +46,18 @@ impl DitheredSystem<'_> {
         let mut found = Vec::new();
         for change in changes {
             let amplitude = change.location;
+            let verdict = |distance: f64| -> Result<Verdict, NoAverage> {
+                let there = Some((input, amplitude * (1.0 + distance)));
+                Ok(self.average_with(there)?.growth()?.verdict())
+            };
             // Where a motion is neutral on one side, the verdict is undecided there and need not change.
-            let becomes = match self.verdicts_around(input, amplitude)? {
+            let becomes = match verdicts_around(verdict)? {
                 [before, beyond] if before == beyond => continue,
                 [_, Verdict::Stable] => Becomes::Stable,
                 [_, Verdict::Unstable] => Becomes::Unstable,
                 [_, Verdict::Undecided] => continue,
             };
-            let there = self.average_with(Some((input, amplitude * (1.0 + BESIDE[0]))))?;
+            let there = self.average_with(Some((input, amplitude * (1.0 + BEYOND_A_CHANGE))))?;
             found.push(CriticalInput {
                 amplitude,
                 error: change.error,
@@ -63,20 +67,5 @@ impl DitheredSystem<'_> {
             });
         }
         Ok(found)
-    }
-
-    /// The verdicts below and beyond an amplitude, as close to it as they are decided.
-    fn verdicts_around(&self, input: usize, amplitude: f64) -> Result<[Verdict; 2], NoAverage> {
-        let side = |sign: f64| -> Result<Verdict, NoAverage> {
-            for distance in BESIDE {
-                let there = amplitude * (1.0 + sign * distance);
-                let verdict = self.average_with(Some((input, there)))?.growth()?.verdict();
-                if verdict != Verdict::Undecided {
-                    return Ok(verdict);
-                }
-            }
-            Ok(Verdict::Undecided)
-        };
-        Ok([side(-1.0)?, side(1.0)?])
     }
 }

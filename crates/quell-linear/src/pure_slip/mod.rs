@@ -172,11 +172,7 @@ pub fn orbit(system: &System) -> Result<SlipOrbit, NoPureSlip> {
         let size = state.iter().fold(0.0, |m: f64, y| m.max(y.abs()));
         let distance = residual.iter().fold(0.0, |m: f64, y| m.max(y.abs()));
         if distance <= CLOSED * size || size == 0.0 && distance == 0.0 {
-            if let Some(why) = turn.leaves {
-                return Err(why);
-            }
-            let exponents = exponents(&turn, period)?;
-            return Ok(SlipOrbit { period, state, residual: distance, exponents });
+            return closed(turn, period, state);
         }
         let jacobian =
             Matrix::from_fn(n, n, |i, j| f64::from(u8::from(i == j)) - turn.derivative[(i, j)]);
@@ -194,14 +190,21 @@ pub fn orbit(system: &System) -> Result<SlipOrbit, NoPureSlip> {
         previous = moved;
         if moved <= 4.0 * f64::EPSILON * size || stagnant {
             let last = self::turn(system, &equations, &state, period, &breaks)?;
-            if let Some(why) = last.leaves {
-                return Err(why);
-            }
-            let exponents = exponents(&last, period)?;
-            return Ok(SlipOrbit { period, state, residual: distance, exponents });
+            return closed(last, period, state);
         }
     }
     Err(NoPureSlip::NoOrbit)
+}
+
+/// The orbit of a state that returns to itself.
+fn closed(turn: Turn, period: f64, state: Vec<f64>) -> Result<SlipOrbit, NoPureSlip> {
+    if let Some(why) = turn.leaves {
+        return Err(why);
+    }
+    let exponents = exponents(&turn, period)?;
+    let changes = turn.state.iter().zip(&state).map(|(end, start)| (end - start).abs());
+    let residual = changes.fold(0.0, f64::max);
+    Ok(SlipOrbit { period, state, residual, exponents })
 }
 
 /// One period from a state.

@@ -10,10 +10,12 @@ use quell_numerics::roots::{Closeness, find_root};
 
 use super::family::{Family, TrackedPoint, at};
 
-/// The imaginary part of (λᵢ − λⱼ)² over its real part below which the two are on a common line.
+/// The imaginary part of (λᵢ − λⱼ)² over its real part below which the two are on a common line: exactly zero there, up to the
+/// rounding of close eigenvalues. Unequal damping, which leaves no coalescence, is far above.
 const ON_A_LINE: f64 = 1e-6;
 
-/// Coalescences below this distance over the frequency are searched.
+/// Distance over the frequency, squared, below which two eigenvalues may coalesce within a step; matching has made steps short
+/// long before.
 const NEAR: f64 = 1e-2;
 
 /// A coalescence.
@@ -23,8 +25,6 @@ pub(super) struct Coalescence {
     pub(super) error: f64,
     /// The double eigenvalue.
     pub(super) eigenvalue: Complex64,
-    /// Whether the two growth rates differ beyond it.
-    pub(super) begins: bool,
 }
 
 /// Every coalescence of two oscillating motions between neighbouring points.
@@ -35,7 +35,9 @@ pub(super) fn of_piece<F: Family>(family: &F, piece: &[TrackedPoint]) -> Vec<Coa
         let n = a.eigenvalues.len();
         for i in 0..n {
             for j in 0..i {
-                let Some((before, after)) = candidate(a, b, (i, j)) else { continue };
+                if !is_candidate(a, b, (i, j)) {
+                    continue;
+                }
                 let middle = 0.5 * (a.eigenvalues[i] + a.eigenvalues[j]);
                 let square = |value: f64| square_near(family, value, middle);
                 let Ok(root) = find_root(square, a.value, b.value, Closeness::default()) else {
@@ -51,7 +53,6 @@ pub(super) fn of_piece<F: Family>(family: &F, piece: &[TrackedPoint]) -> Vec<Coa
                         value: root.location,
                         error: root.width,
                         eigenvalue: middle,
-                        begins: before < after,
                     });
                 }
             }
@@ -60,11 +61,11 @@ pub(super) fn of_piece<F: Family>(family: &F, piece: &[TrackedPoint]) -> Vec<Coa
     found
 }
 
-/// (λᵢ − λⱼ)² at both ends, where it changes from one line to the other and both oscillate in the upper half plane.
-fn candidate(a: &TrackedPoint, b: &TrackedPoint, (i, j): (usize, usize)) -> Option<(f64, f64)> {
+/// Whether (λᵢ − λⱼ)² changes from one line to the other between two points, both eigenvalues in the upper half plane.
+fn is_candidate(a: &TrackedPoint, b: &TrackedPoint, (i, j): (usize, usize)) -> bool {
     let upper = |point: &TrackedPoint, index: usize| point.eigenvalues[index].im > 0.0;
     if ![i, j].iter().all(|&index| upper(a, index) && upper(b, index)) {
-        return None;
+        return false;
     }
     let square = |point: &TrackedPoint| {
         let difference = point.eigenvalues[i] - point.eigenvalues[j];
@@ -74,8 +75,7 @@ fn candidate(a: &TrackedPoint, b: &TrackedPoint, (i, j): (usize, usize)) -> Opti
     let near = |z: Complex64| modulus(z) <= NEAR * size * size;
     let on_a_line = |z: Complex64| z.im.abs() <= ON_A_LINE * z.re.abs() + 1e-14 * size * size;
     let changes = (before.re > 0.0) != (after.re > 0.0);
-    (changes && near(before) && near(after) && on_a_line(before) && on_a_line(after))
-        .then_some((before.re, after.re))
+    changes && near(before) && near(after) && on_a_line(before) && on_a_line(after)
 }
 
 /// Re (λᵢ − λⱼ)² of the two eigenvalues nearest to `middle`.

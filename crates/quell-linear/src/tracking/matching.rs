@@ -5,7 +5,8 @@ use quell_numerics::eigen::modulus;
 
 use super::family::{Family, TrackedPoint, at};
 
-/// A match is certain if it is closer to its prediction than this share of the distance to the next candidate.
+/// A match is certain if it is closer to its prediction than this share of the distance to the next candidate: below a half, the
+/// two cannot be exchanged. A smaller share costs steps, a larger one exchanges branches.
 const CERTAIN: f64 = 0.4;
 
 /// Distance over the largest eigenvalue below which two eigenvalues count as one: rounding moves a double eigenvalue by this.

@@ -5,15 +5,15 @@ use num_complex::Complex64;
 use super::coalescence::{self, Coalescence};
 use super::family::{Family, TrackedPoint, at};
 use crate::averaging::{CrossingKind, sign_changes};
-use crate::growth::Verdict;
+use crate::growth::{Verdict, verdicts_around};
 
-/// Relative distance, in steps of the piece, within which a change of the verdict is that of a coalescence.
+/// Distance over the window within which a change of the verdict that is undecided on one side is that of a coalescence: growth
+/// beyond one is hidden by its error, which rises like a square root, over some 10⁻⁸ of the window. Two changes within this
+/// distance would be taken for one.
 const TOGETHER: f64 = 1e-6;
 
-/// Distances over the window at which the verdict on both sides of a threshold is evaluated, until it is decided.
-const BESIDE: [f64; 4] = [1e-10, 1e-8, 1e-6, 1e-4];
-
-/// A frequency below this share of the largest eigenvalue counts as zero.
+/// A frequency below this share of the largest eigenvalue counts as zero: a simple real eigenvalue has none at all, and rounding
+/// splits a double one by the square root of 10⁻¹⁶.
 const NO_FREQUENCY: f64 = 1e-9;
 
 /// What happens at a threshold.
@@ -90,7 +90,7 @@ pub(super) fn of_piece<F: Family>(
         };
         let undecided = verdicts.contains(&Verdict::Undecided);
         if let (true, Some(index)) = (undecided, merged.iter().position(together)) {
-            let Coalescence { value, error, eigenvalue, .. } = merged.remove(index);
+            let Coalescence { value, error, eigenvalue } = merged.remove(index);
             let change = StabilityChange::Coalescence;
             found.push(ThresholdOfStability { value, error, change, eigenvalue, verdicts });
             continue;
@@ -118,7 +118,7 @@ pub(super) fn of_piece<F: Family>(
             verdicts,
         });
     }
-    for Coalescence { value, error, eigenvalue, .. } in merged {
+    for Coalescence { value, error, eigenvalue } in merged {
         let verdicts = beside(family, value, &values)?;
         let change = StabilityChange::Coalescence;
         found.push(ThresholdOfStability { value, error, change, eigenvalue, verdicts });
@@ -129,15 +129,8 @@ pub(super) fn of_piece<F: Family>(
 /// The verdicts below and beyond a value, as close to it as they are decided.
 fn beside<F: Family>(family: &F, value: f64, values: &[f64]) -> Result<[Verdict; 2], F::Error> {
     let (first, last) = (values[0], values[values.len() - 1]);
-    let side = |sign: f64| {
-        for distance in BESIDE {
-            let there = (value + sign * distance * (last - first)).clamp(first, last);
-            let verdict = at(family, there)?.growth.verdict();
-            if verdict != Verdict::Undecided {
-                return Ok(verdict);
-            }
-        }
-        Ok(Verdict::Undecided)
-    };
-    Ok([side(-1.0)?, side(1.0)?])
+    verdicts_around(|distance| {
+        let there = (value + distance * (last - first)).clamp(first, last);
+        Ok(at(family, there)?.growth.verdict())
+    })
 }

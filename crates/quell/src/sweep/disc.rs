@@ -7,7 +7,7 @@ use quell_disc::dithered;
 use quell_disc::equations::linearised;
 use quell_linear::eigenvalues;
 use quell_linear::floquet::FollowerDither;
-use quell_linear::growth::{Growth, Verdict};
+use quell_linear::growth::Growth;
 use quell_linear::linearised::Linearised;
 use quell_model::Disc;
 use quell_model::disc::{Contribution, Contributions};
@@ -17,7 +17,7 @@ use quell_numerics::floquet::Effort;
 use super::evaluate::{Computation, Results};
 use super::grid::Grid;
 use super::mapped::{Mapped, PointResults};
-use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, variable};
+use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, decided, variable};
 use super::status::Status;
 use super::{cost, refine};
 use crate::study::{DiscSetup, DiscStudy, Sweep};
@@ -96,14 +96,6 @@ fn grown(results: &Results) -> Result<Growth, Status> {
 
 fn grown_undithered(results: &Results) -> Result<Growth, Status> {
     results.disc_undithered.unwrap_or(Err(Status::Missing))
-}
-
-fn decided(growth: Growth) -> Result<f64, Status> {
-    match growth.verdict() {
-        Verdict::Unstable => Ok(0.0),
-        Verdict::Stable => Ok(1.0),
-        Verdict::Undecided => Err(Status::WithinError),
-    }
 }
 
 /// A disc of unit friction, and what was prepared for it.

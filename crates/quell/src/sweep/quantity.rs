@@ -3,6 +3,7 @@
 //! A quantity is requested by its name; it lists the computation that it needs and the variables that it provides.
 //! Quantities with the same computation share it.
 
+use quell_linear::growth::{Growth, Verdict};
 use quell_model::units;
 
 use super::evaluate::{Computation, Results};
@@ -90,6 +91,15 @@ impl PartialEq for MapQuantity {
 /// Words of a verdict; the first is 0, so that a verdict is 1 if sliding is stable.
 pub(super) const VERDICTS: VariableKind =
     VariableKind::Word { words: &["unstable", "stable"], unknown: "undecided" };
+
+/// The code of a verdict in [`VERDICTS`].
+pub(super) fn decided(growth: Growth) -> Result<f64, Status> {
+    match growth.verdict() {
+        Verdict::Unstable => Ok(0.0),
+        Verdict::Stable => Ok(1.0),
+        Verdict::Undecided => Err(Status::WithinError),
+    }
+}
 
 pub(super) const fn variable(
     (name, symbol): (&'static str, &'static str),

@@ -1,7 +1,7 @@
 //! Maps of systems: growth rates without dither and by averaging, critical amplitudes, and the quantities read from them.
 
 use quell_linear::averaging::{Becomes, CriticalInput, DitheredSystem, NoAverage};
-use quell_linear::growth::{Growth, Verdict};
+use quell_linear::growth::Growth;
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
 use quell_model::System;
@@ -10,7 +10,7 @@ use quell_model::units;
 use super::evaluate::{Computation, Results, SystemPoint};
 use super::grid::Grid;
 use super::mapped::{Mapped, PointResults};
-use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, variable};
+use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, decided, variable};
 use super::status::Status;
 use crate::study::{SystemSetup, SystemStudy};
 
@@ -206,12 +206,4 @@ fn first(results: &Results, becomes: Becomes) -> Result<f64, Status> {
     let found = found.as_ref().map_err(|status| *status)?;
     let first = found.iter().find(|critical| critical.becomes == becomes);
     first.map(|critical| critical.amplitude).ok_or(Status::NeverChanges)
-}
-
-fn decided(growth: Growth) -> Result<f64, Status> {
-    match growth.verdict() {
-        Verdict::Unstable => Ok(0.0),
-        Verdict::Stable => Ok(1.0),
-        Verdict::Undecided => Err(Status::WithinError),
-    }
 }

@@ -12,7 +12,6 @@ use quell_linear::averaging::NoAverage;
 use quell_linear::spectrum::{MotionSpectrum, SmallMotion};
 use quell_model::System;
 use quell_model::units::Quantity;
-
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
