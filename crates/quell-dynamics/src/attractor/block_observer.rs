@@ -121,7 +121,7 @@ impl Observer for BlockObserver<'_> {
                     contraction.reversed = true;
                 }
             }
-            EventKind::Release => {}
+            EventKind::Release | EventKind::Separation | EventKind::Landing => {}
         }
     }
 }

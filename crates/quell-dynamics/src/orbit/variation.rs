@@ -184,7 +184,7 @@ impl Observer for Variation<'_> {
     fn event(&mut self, event: &Event) {
         let factor = match event.kind {
             EventKind::Stick => 0.0,
-            EventKind::Release => 1.0,
+            EventKind::Release | EventKind::Separation | EventKind::Landing => 1.0,
             EventKind::Reversal => {
                 self.acceleration(event, event.slip_sign) / self.acceleration(event, self.sign)
             }

@@ -1,6 +1,6 @@
 //! Events of the contact.
 
-/// Kind of an event at v_r = 0.
+/// Kind of an event of a contact. A belt, whose load is prescribed, has the first three.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EventKind {
     /// Slip ends, the mass moves with the belt.
@@ -9,6 +9,10 @@ pub enum EventKind {
     Release,
     /// v_r changes sign without sticking.
     Reversal,
+    /// The normal load falls to zero and the contact opens.
+    Separation,
+    /// The contact closes again.
+    Landing,
 }
 
 impl EventKind {
@@ -18,6 +22,8 @@ impl EventKind {
             Self::Stick => "stick",
             Self::Release => "release",
             Self::Reversal => "reversal",
+            Self::Separation => "separation",
+            Self::Landing => "landing",
         }
     }
 }

@@ -7,6 +7,7 @@
 
 use std::f64::consts::TAU;
 
+use quell_model::profile::Profile;
 use quell_model::waveform::Piece;
 use quell_model::{Direction, Dither, Waveform};
 use quell_numerics::elementary::sin_cos_of_phase;
@@ -51,12 +52,12 @@ impl ForcingShape {
 
 /// Whether a dither acts in a direction.
 fn acts(dither: &Dither, direction: Direction) -> bool {
-    dither.direction == direction && dither.amplitude > 0.0
+    dither.direction == direction && dither.amplitude != 0.0
 }
 
 /// All dithers of one direction, in units of the law's velocity scale.
 #[derive(Clone, Debug)]
-pub(super) struct Forcing {
+pub(crate) struct Forcing {
     components: Vec<Component>,
     /// Constant part: the steady load for the normal direction, else 0.
     mean: f64,
@@ -114,12 +115,28 @@ impl Forcing {
             .collect();
         let mut forcing = Self {
             mean,
-            amplitude: components.iter().map(|component| component.table[0]).sum(),
+            amplitude: components.iter().map(|component| component.table[0].abs()).sum(),
             next_break: f64::INFINITY,
             components,
         };
         forcing.pass_breaks(clock);
         forcing
+    }
+
+    /// The sum of profiles, set to the moment `clock`.
+    pub(crate) fn of_profiles(profiles: &[&Profile], clock: Clock) -> Self {
+        let waves = profiles.iter().flat_map(|profile| profile.waves());
+        let dithers: Vec<Dither> = waves
+            .map(|wave| Dither {
+                direction: Direction::Tangential,
+                waveform: wave.waveform,
+                amplitude: wave.amplitude,
+                frequency_ratio: wave.frequency,
+                phase: wave.phase,
+            })
+            .collect();
+        let mean = profiles.iter().map(|profile| profile.mean()).sum();
+        Self::new(&dithers, Direction::Tangential, mean, 1.0, clock)
     }
 
     /// Rate, phase and D Rᵏ/k! of the first dither; zeros without one.
@@ -138,36 +155,36 @@ impl Forcing {
 
     /// Whether there is no dither in this direction.
     #[inline(always)]
-    pub(super) fn is_constant(&self) -> bool {
+    pub(crate) fn is_constant(&self) -> bool {
         self.components.is_empty()
     }
 
     /// Σ|D|.
     #[inline(always)]
-    pub(super) fn amplitude(&self) -> f64 {
+    pub(crate) fn amplitude(&self) -> f64 {
         self.amplitude
     }
 
     /// The constant part.
     #[inline(always)]
-    pub(super) fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         self.mean
     }
 
     /// Highest frequency ratio, or 0 without dither.
-    pub(super) fn highest_rate(&self) -> f64 {
+    pub(crate) fn highest_rate(&self) -> f64 {
         self.components.iter().fold(0.0, |rate, component| rate.max(component.rate))
     }
 
     /// The next kink or jump.
     #[inline(always)]
-    pub(super) fn next_break(&self) -> f64 {
+    pub(crate) fn next_break(&self) -> f64 {
         self.next_break
     }
 
     /// Advances past every break that is not after `clock`.
     #[inline(always)]
-    pub(super) fn pass_breaks(&mut self, clock: Clock) {
+    pub(crate) fn pass_breaks(&mut self, clock: Clock) {
         let mut next = f64::INFINITY;
         for component in &mut self.components {
             if component.ends < f64::INFINITY {
@@ -180,7 +197,7 @@ impl Forcing {
 
     /// Taylor coefficients at `clock`.
     #[inline(always)]
-    pub(super) fn series(&self, clock: Clock) -> Series {
+    pub(crate) fn series(&self, clock: Clock) -> Series {
         let Some((first, rest)) = self.components.split_first() else {
             let mut out = [0.0; ORDER + 1];
             out[0] = self.mean;
@@ -199,7 +216,7 @@ impl Forcing {
 
     /// Value at `clock`, with the same bits as the first coefficient of [`Forcing::series`].
     #[inline(always)]
-    pub(super) fn value(&self, clock: Clock) -> f64 {
+    pub(crate) fn value(&self, clock: Clock) -> f64 {
         let Some((first, rest)) = self.components.split_first() else {
             return self.mean;
         };

@@ -67,7 +67,7 @@ pub fn within<T>(steps: u64, work: impl FnOnce() -> T) -> T {
 
 /// The step budget of one run.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct StepBudget {
+pub(crate) struct StepBudget {
     /// Start and end of the run.
     from: f64,
     until: f64,
@@ -82,13 +82,13 @@ pub(super) struct StepBudget {
 
 impl StepBudget {
     /// For a run whose fastest oscillation has this frequency ratio.
-    pub(super) fn new(from: f64, until: f64, fastest: f64) -> Self {
+    pub(crate) fn new(from: f64, until: f64, fastest: f64) -> Self {
         Self { from, until, period: TAU / fastest.max(1.0), steps: 0, window: from, checks: 0 }
     }
 
     /// Whether a check is due after this number of steps.
     #[inline(always)]
-    pub(super) fn is_due(&self, steps: u64) -> bool {
+    pub(crate) fn is_due(&self, steps: u64) -> bool {
         steps - self.steps >= CHECK_INTERVAL
     }
 
@@ -97,7 +97,7 @@ impl StepBudget {
     /// # Errors
     /// Why the run will not end.
     #[cold]
-    pub(super) fn check(&mut self, steps: u64, time: f64) -> Result<(), &'static str> {
+    pub(crate) fn check(&mut self, steps: u64, time: f64) -> Result<(), &'static str> {
         self.spend(steps)?;
         if time - self.window >= self.period {
             (self.window, self.checks) = (time, 0);
@@ -121,7 +121,7 @@ impl StepBudget {
     ///
     /// # Errors
     /// If the steps of the request are used up.
-    pub(super) fn begin() -> Result<(), &'static str> {
+    pub(crate) fn begin() -> Result<(), &'static str> {
         charge(STEPS_PER_START)
     }
 
@@ -129,7 +129,7 @@ impl StepBudget {
     ///
     /// # Errors
     /// If the steps of the request are used up.
-    pub(super) fn spend(&mut self, steps: u64) -> Result<(), &'static str> {
+    pub(crate) fn spend(&mut self, steps: u64) -> Result<(), &'static str> {
         let taken = steps - self.steps;
         self.steps = steps;
         charge(taken)

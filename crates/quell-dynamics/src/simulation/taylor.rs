@@ -5,10 +5,10 @@
 pub const ORDER: usize = 16;
 
 /// Coefficients of a Taylor series of the engine's order.
-pub(super) type Series = [f64; ORDER + 1];
+pub(crate) type Series = [f64; ORDER + 1];
 
 /// 1/k for k = 1…ORDER + 1 (entry 0 unused).
-pub(super) const RECIPROCALS: [f64; ORDER + 2] = {
+pub(crate) const RECIPROCALS: [f64; ORDER + 2] = {
     let mut table = [0.0; ORDER + 2];
     let mut k = 1;
     while k < ORDER + 2 {

@@ -4,8 +4,9 @@ use std::any::Any;
 
 use super::law::AnyLaw;
 use super::{
-    Coulomb, Decreasing, Expression, LawParameters, LawSeries, LawVisitor, NumericLaw, Otherwise,
-    Samples, SlidingLaw, SlipRange, Stribeck, StribeckExponential, Surroundings,
+    BranchSeries, Coulomb, Decreasing, Expression, LawParameters, LawSeries, LawVisitor,
+    NumericLaw, Otherwise, Samples, SlidingLaw, SlipRange, Stribeck, StribeckExponential,
+    Surroundings,
 };
 use crate::parameter::Parameter;
 use crate::{Invalid, InvalidValues};
@@ -74,6 +75,59 @@ macro_rules! laws {
             /// Parameters of the law, in the order of [`Friction::values`].
             pub fn parameters(self) -> &'static [Parameter] {
                 match self { $(Self::$kind => <$kind as LawParameters>::PARAMETERS),+ }
+            }
+        }
+
+        /// The constants of a law's recurrence, one run at a time, for engines whose contacts have different laws.
+        pub enum FrictionConstants {
+            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind(<$kind as LawSeries>::Constants<f64>),)+
+        }
+
+        /// The Taylor recurrence of a law, one run at a time.
+        pub enum FrictionSeries<'c, const N: usize> {
+            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind(<$kind as LawSeries>::Series<'c, f64, N>),)+
+        }
+
+        impl FrictionConstants {
+            /// The constants of a law.
+            pub fn of(law: &Friction) -> Self {
+                match law {
+                    $(Friction::$kind(law) => {
+                        Self::$kind(<$kind as LawSeries>::constants::<f64>(std::slice::from_ref(law)))
+                    })+
+                }
+            }
+
+            /// Starts the recurrence on the branch of `sign` (±1) at scaled slip `w0`.
+            #[inline(always)]
+            pub fn series<const N: usize>(&mut self, sign: f64, w0: f64) -> FrictionSeries<'_, N> {
+                match self {
+                    $(Self::$kind(constants) => FrictionSeries::$kind(
+                        <$kind as LawSeries>::series::<f64, N>(constants, sign, w0),
+                    ),)+
+                }
+            }
+        }
+
+        impl<const N: usize> BranchSeries<f64> for FrictionSeries<'_, N> {
+            #[inline(always)]
+            fn first(&self) -> f64 {
+                match self { $(Self::$kind(series) => series.first()),+ }
+            }
+
+            #[inline(always)]
+            fn slope(&self) -> f64 {
+                match self { $(Self::$kind(series) => series.slope()),+ }
+            }
+
+            #[inline(always)]
+            fn lower(&mut self, k: usize, w: &[f64]) -> f64 {
+                match self { $(Self::$kind(series) => series.lower(k, w)),+ }
+            }
+
+            #[inline(always)]
+            fn trusted(&self, w: &[f64], length: f64) -> f64 {
+                match self { $(Self::$kind(series) => series.trusted(w, length)),+ }
             }
         }
 

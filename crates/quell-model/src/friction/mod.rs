@@ -24,7 +24,7 @@ mod stribeck_exponential;
 pub use coulomb::{Coulomb, CoulombConstants, CoulombSeries};
 pub use decreasing::{Decreasing, DecreasingConstants, DecreasingSeries};
 pub use expression::Expression;
-pub use kinds::{Friction, LawKind};
+pub use kinds::{Friction, FrictionConstants, FrictionSeries, LawKind};
 pub use law::{AnyLaw, LawParameters, LawSeries, LawVisitor, Otherwise, SlidingLaw};
 pub use numeric::NumericLaw;
 pub use range::{RangeLimit, SlipRange, Surroundings};

@@ -1,0 +1,287 @@
+//! A system as the engine needs it: rates of the state without its contacts, and what each contact reads and adds.
+//!
+//! ```text
+//! ẋ = A x + p + Σ_j b_j u_j(t) + Σ_c [ (g_c + h_c s_cᵀx) T_c − h_c P_c ]
+//! ```
+//!
+//! with g = M⁻¹t and h = M⁻¹n in the rows of velocities (first-order equations: the column g of the study). The springs of the
+//! contacts are not in A: a contact reads its load N = N₀ + ΔN(t) + rᵀx, and adds the reaction P. Opening a contact then changes no
+//! matrix, and a modal structure stays sparse.
+
+use quell_model::System;
+use quell_model::system::{Contact, InputTarget, Mechanical, Structure};
+use quell_numerics::matrix::Matrix;
+
+use super::rows::{Entries, SparseMatrix};
+use super::stopped::Immobile;
+use crate::simulation::{Clock, Forcing};
+
+/// A contact as the engine needs it.
+#[derive(Clone, Debug)]
+pub(super) struct ContactEquation {
+    /// Row t of the slip velocity γ = v − tᵀx.
+    pub(super) tangent: Entries,
+    /// Row r of the load: k nᵀ over displacements and d nᵀ over velocities.
+    pub(super) approach: Entries,
+    /// Row s of the tilt.
+    pub(super) slope: Entries,
+    /// Columns g and h.
+    pub(super) along: Entries,
+    pub(super) across: Entries,
+    /// N₀.
+    pub(super) normal_load: f64,
+    /// Velocity that scales slip for the law.
+    pub(super) scale: f64,
+    /// μ_s and μ(0⁺).
+    pub(super) static_coefficient: f64,
+    pub(super) sliding_coefficient: f64,
+}
+
+impl ContactEquation {
+    /// Whether the load depends on the motion, so that the contact can open.
+    #[inline(always)]
+    pub(super) fn is_compliant(&self) -> bool {
+        !self.approach.is_empty()
+    }
+
+    /// Whether the contact has a tangent, so that it can stick.
+    #[inline(always)]
+    pub(super) fn can_stick(&self) -> bool {
+        !self.tangent.is_empty()
+    }
+}
+
+/// The equations of a system.
+#[derive(Clone, Debug)]
+pub(super) struct Equations {
+    /// Length of the state.
+    pub(super) size: usize,
+    pub(super) matrix: SparseMatrix,
+    pub(super) constant: Vec<f64>,
+    /// Columns b of the inputs that are forces.
+    pub(super) pushes: Vec<Entries>,
+    pub(super) contacts: Vec<ContactEquation>,
+    /// Estimate of the fastest rate of the closed structure.
+    pub(super) rate: f64,
+    /// t_cᵀg_d and t_cᵀh_d.
+    pub(super) coupling: Matrix,
+    pub(super) follower: Matrix,
+    /// Whether a contact has a slope row.
+    pub(super) follows: bool,
+}
+
+/// What varies in time, along one run.
+#[derive(Clone, Debug)]
+pub(super) struct Forcings {
+    pub(super) pushes: Vec<Forcing>,
+    pub(super) contacts: Vec<ContactForcing>,
+}
+
+/// What varies in time at a contact.
+#[derive(Clone, Debug)]
+pub(super) struct ContactForcing {
+    /// v.
+    pub(super) surface: Forcing,
+    /// N₀ + ΔN.
+    pub(super) load: Forcing,
+    /// The part of ΔN without reaction on the structure.
+    pub(super) guided: Forcing,
+    /// Factor on the friction force.
+    pub(super) factor: Option<Forcing>,
+}
+
+impl Forcings {
+    /// Those of a system, set to a moment.
+    pub(super) fn of(system: &System, clock: Clock) -> Self {
+        let pushes = system.inputs.iter().filter(|input| is_push(&input.target));
+        let pushes = pushes.map(|input| Forcing::of_profiles(&[&input.profile], clock)).collect();
+        let contacts = system.contacts.iter().enumerate();
+        let contacts = contacts
+            .map(|(index, contact)| {
+                let on_load = |guided_only: bool| {
+                    let inputs = system.inputs.iter().filter(move |input| {
+                        matches!(input.target, InputTarget::NormalLoad { contact, reaction }
+                            if contact == index && !(guided_only && reaction))
+                    });
+                    inputs.map(|input| &input.profile)
+                };
+                let steady = quell_model::profile::Profile::constant(contact.normal_load);
+                let loads: Vec<_> = std::iter::once(&steady).chain(on_load(false)).collect();
+                let guided: Vec<_> = on_load(true).collect();
+                let factors = system.inputs.iter().filter(
+                    |input| matches!(input.target, InputTarget::Friction { contact } if contact == index),
+                );
+                let factors: Vec<_> = factors.map(|input| &input.profile).collect();
+                ContactForcing {
+                    surface: Forcing::of_profiles(&[&contact.surface_velocity], clock),
+                    load: Forcing::of_profiles(&loads, clock),
+                    guided: Forcing::of_profiles(&guided, clock),
+                    factor: (!factors.is_empty()).then(|| Forcing::of_profiles(&factors, clock)),
+                }
+            })
+            .collect();
+        Self { pushes, contacts }
+    }
+
+    /// Every forcing.
+    fn all(&self) -> impl Iterator<Item = &Forcing> {
+        let contacts = self.contacts.iter();
+        self.pushes.iter().chain(contacts.flat_map(|contact| {
+            [&contact.surface, &contact.load, &contact.guided].into_iter().chain(&contact.factor)
+        }))
+    }
+
+    /// The next kink or jump.
+    pub(super) fn next_break(&self) -> f64 {
+        self.all().fold(f64::INFINITY, |next, forcing| next.min(forcing.next_break()))
+    }
+
+    /// Highest frequency of any wave.
+    pub(super) fn highest_rate(&self) -> f64 {
+        self.all().fold(0.0, |rate: f64, forcing| rate.max(forcing.highest_rate()))
+    }
+
+    /// Advances past every break that is not after `clock`.
+    pub(super) fn pass_breaks(&mut self, clock: Clock) {
+        self.pushes.iter_mut().for_each(|forcing| forcing.pass_breaks(clock));
+        for contact in &mut self.contacts {
+            contact.surface.pass_breaks(clock);
+            contact.load.pass_breaks(clock);
+            contact.guided.pass_breaks(clock);
+            if let Some(factor) = &mut contact.factor {
+                factor.pass_breaks(clock);
+            }
+        }
+    }
+}
+
+fn is_push(target: &InputTarget) -> bool {
+    matches!(target, InputTarget::Force(_))
+}
+
+impl Equations {
+    pub(super) fn new(system: &System) -> Result<Self, Immobile> {
+        let rows = system.structure.size();
+        let mass = system.structure.mechanical().map(Mechanical::mass);
+        let offset = if mass.is_some() { rows } else { 0 };
+        let column = |row: &[f64]| -> Result<Entries, Immobile> {
+            let Some(mass) = mass else { return Ok(Entries::at(row, 0)) };
+            let right = Matrix::from_fn(rows, 1, |i, _| row[i]);
+            let solved = mass.solve(&right).ok_or(Immobile::NoMass)?;
+            Ok(Entries::at(solved.as_slice(), offset))
+        };
+        let matrix = state_matrix(&system.structure)?;
+        let size = matrix.rows();
+        let contacts = system.contacts.iter().map(|contact| {
+            let optional = |row: &Option<Vec<f64>>| match row {
+                Some(row) => column(row),
+                None => Ok(Entries::default()),
+            };
+            let along = match &contact.force {
+                Some(force) => Entries::at(force, 0),
+                None => optional(&contact.tangent)?,
+            };
+            contact_equation(contact, offset, along, optional(&contact.normal)?)
+        });
+        let contacts: Vec<ContactEquation> = contacts.collect::<Result<_, _>>()?;
+        let pushes = system.inputs.iter().filter_map(|input| match &input.target {
+            InputTarget::Force(row) => Some(column(row)),
+            _ => None,
+        });
+        let pushes = pushes.collect::<Result<_, _>>()?;
+        let constant = column(system.structure.force())?.dense(size);
+        let count = contacts.len();
+        let product = |of: fn(&ContactEquation) -> &Entries| {
+            Matrix::from_fn(count, count, |c, d| contacts[c].tangent.product(of(&contacts[d])))
+        };
+        let coupling = product(|contact| &contact.along);
+        let follower = product(|contact| &contact.across);
+        let rate = fastest_rate(&matrix, &contacts);
+        let follows = contacts.iter().any(|contact| !contact.slope.is_empty());
+        let matrix = SparseMatrix::of(&matrix);
+        Ok(Self { size, matrix, constant, pushes, contacts, rate, coupling, follower, follows })
+    }
+}
+
+fn contact_equation(
+    contact: &Contact,
+    offset: usize,
+    along: Entries,
+    across: Entries,
+) -> Result<ContactEquation, Immobile> {
+    if let Some(why) = contact.friction.unsimulated() {
+        return Err(Immobile::Law { contact: contact.name.clone(), why });
+    }
+    let row = |row: &Option<Vec<f64>>, offset| {
+        row.as_ref().map(|row| Entries::at(row, offset)).unwrap_or_default()
+    };
+    let approach = if contact.normal_stiffness == 0.0 && contact.normal_damping == 0.0 {
+        Entries::default()
+    } else {
+        let spring = row(&contact.normal, 0).times(contact.normal_stiffness);
+        let damper = row(&contact.normal, offset).times(contact.normal_damping);
+        let nonzero = |entries: Entries, factor: f64| {
+            if factor == 0.0 { Entries::default() } else { entries }
+        };
+        nonzero(spring, contact.normal_stiffness).plus(nonzero(damper, contact.normal_damping))
+    };
+    Ok(ContactEquation {
+        tangent: row(&contact.tangent, offset),
+        approach,
+        slope: row(&contact.slope, 0),
+        along,
+        across,
+        normal_load: contact.normal_load,
+        scale: contact.friction.velocity_scale(),
+        static_coefficient: contact.friction.static_coefficient(),
+        sliding_coefficient: contact.friction.coefficient(0.0),
+    })
+}
+
+/// A of ẋ = A x without contacts.
+fn state_matrix(structure: &Structure) -> Result<Matrix, Immobile> {
+    let mechanical = match structure {
+        Structure::StateSpace(states) => return Ok(states.matrix().clone()),
+        Structure::Mechanical(mechanical) => mechanical,
+    };
+    let n = mechanical.size();
+    let solved = |matrix: &Matrix| mechanical.mass().solve(matrix).ok_or(Immobile::NoMass);
+    let (stiffness, damping) = (solved(mechanical.stiffness())?, solved(mechanical.damping())?);
+    Ok(Matrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+        (true, _) => f64::from(u8::from(j == i + n)),
+        (false, true) => -stiffness[(i - n, j)],
+        (false, false) => -damping[(i - n, j - n)],
+    }))
+}
+
+/// ‖A⁴‖^(1/4) of the structure with the springs of its contacts: an estimate of its fastest rate, which scales time alone.
+fn fastest_rate(matrix: &Matrix, contacts: &[ContactEquation]) -> f64 {
+    let size = matrix.rows();
+    let mut closed = matrix.clone();
+    for contact in contacts {
+        let (across, approach) = (contact.across.dense(size), contact.approach.dense(size));
+        for i in 0..size {
+            for j in 0..size {
+                closed[(i, j)] -= across[i] * approach[j];
+            }
+        }
+    }
+    // Applied to a vector of ones with the signs of no cancellation: |A| instead of A.
+    let mut vector = vec![1.0; size];
+    let (mut sum, mut count) = (0.0, 0);
+    for pass in 0..8 {
+        let next: Vec<f64> = (0..size)
+            .map(|i| closed.row(i).iter().zip(&vector).map(|(a, x)| (a * x).abs()).sum())
+            .collect();
+        let largest = next.iter().fold(0.0, |m: f64, x| m.max(*x));
+        if largest == 0.0 || !largest.is_finite() {
+            break;
+        }
+        if pass >= 4 {
+            sum += libm::log(largest);
+            count += 1;
+        }
+        vector = next.iter().map(|x| x / largest).collect();
+    }
+    if count == 0 { 1.0 } else { libm::exp(sum / f64::from(count)) }
+}

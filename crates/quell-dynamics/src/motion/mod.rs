@@ -1,0 +1,119 @@
+//! Event-exact motion of any system: a linear structure with friction contacts that slip, stick, open and land.
+//!
+//! * A phase of the motion is what every contact does. Within it the state, and slip velocity, load and friction of every
+//!   contact, are Taylor series of order [`ORDER`](crate::simulation::ORDER) (`series`).
+//! * A phase ends at the first root of its guards: the slip velocity of a slipping contact, the margin μ_s N ∓ T of a sticking
+//!   one, the load of a compliant one. Every root of a step is isolated or proven absent (`guards`).
+//! * What follows is decided for all contacts of that moment together (`selection`), by the selection declared there.
+//! * Contacts that stick are held by the forces that keep their slip velocities at zero (`stuck`).
+//! * Events that accumulate (Zeno behaviour), prescribed loads that vanish and decisions that are not unique end a run with
+//!   time, state and contact ([`MotionStopped`]).
+//!
+//! | file | contents |
+//! |---|---|
+//! | `equations`, `rows` | a system as the engine needs it |
+//! | `series`, `stuck` | the Taylor series of a step |
+//! | `guards`, `selection` | what ends a step, and what follows |
+//! | `engine` | the loop |
+//! | `phase`, `state`, `observer`, `stopped` | what goes into a run and comes out of it |
+
+mod engine;
+mod equations;
+mod guards;
+mod observer;
+mod phase;
+mod rows;
+mod selection;
+mod series;
+mod state;
+mod stopped;
+mod stuck;
+
+use quell_model::System;
+
+use engine::MotionRun;
+use equations::Equations;
+use selection::first_minor_not_positive;
+
+pub use observer::{
+    MotionEvent, MotionMoment, MotionObserver, MotionRecorder, MotionSampler, MotionSegment,
+    RecordedEvent, Trigger,
+};
+pub use phase::ContactPhase;
+pub use state::{ContactEnd, MotionEnd, MotionStart};
+pub use stopped::{Immobile, MotionStopped, StopReason};
+
+/// Default bound on the last retained terms of a step, relative to the size of each number of the state.
+pub const MOTION_TOLERANCE: f64 = 1e-13;
+
+/// A system whose motion can be computed.
+#[derive(Clone, Debug)]
+pub struct Motion<'s> {
+    system: &'s System,
+    equations: Equations,
+}
+
+impl<'s> Motion<'s> {
+    /// Checks that sticking has one solution, as far as that does not depend on the state.
+    ///
+    /// # Errors
+    /// [`Immobile`] with the contact and the reason.
+    pub fn new(system: &'s System) -> Result<Self, Immobile> {
+        let equations = Equations::new(system)?;
+        let name = |contact: usize| system.contacts[contact].name.clone();
+        let mut able = Vec::new();
+        for (index, contact) in equations.contacts.iter().enumerate() {
+            if contact.can_stick() {
+                able.push(index);
+                if equations.coupling[(index, index)] <= 0.0 {
+                    return Err(Immobile::Unopposed { contact: name(index) });
+                }
+            } else if system.contacts[index].surface_velocity.mean() == 0.0 {
+                return Err(Immobile::AtRest { contact: name(index) });
+            }
+        }
+        let matrix = stuck::coupling(&equations, &able, &vec![0.0; equations.contacts.len()]);
+        let is_symmetric = system.structure.mechanical().is_some();
+        if !is_symmetric && let Some(set) = first_minor_not_positive(&matrix) {
+            return Err(Immobile::NotUnique {
+                contacts: set.into_iter().map(|place| name(able[place])).collect(),
+            });
+        }
+        Ok(Self { system, equations })
+    }
+
+    /// The system.
+    pub fn system(&self) -> &'s System {
+        self.system
+    }
+
+    /// Length of the state.
+    pub fn size(&self) -> usize {
+        self.equations.size
+    }
+
+    /// Time scale of the system: the reciprocal of its fastest rate.
+    pub fn time_scale(&self) -> f64 {
+        1.0 / self.equations.rate
+    }
+
+    /// Integrates from `start` to t = `until` and passes every segment and event to `observer`.
+    ///
+    /// `tolerance` bounds the last two retained Taylor terms of a step ([`MOTION_TOLERANCE`]).
+    ///
+    /// # Errors
+    /// [`MotionStopped`] with time, state and reason.
+    ///
+    /// # Panics
+    /// If `start` has not as many numbers as the state.
+    pub fn run(
+        &self,
+        start: &MotionStart,
+        until: f64,
+        tolerance: f64,
+        observer: &mut dyn MotionObserver,
+    ) -> Result<MotionEnd, MotionStopped> {
+        assert_eq!(start.state.len(), self.size(), "numbers of the state");
+        MotionRun::new((self.system, &self.equations), start, until, tolerance, observer).run()
+    }
+}

@@ -1,0 +1,304 @@
+//! Passive observers of a system's motion: they receive every smooth segment and every event, and change no bit of the result.
+
+use quell_numerics::dispatch::{Work, with_fused_multiply_add};
+use quell_numerics::lane::horner;
+
+use super::phase::{ContactNow, ContactPhase};
+use super::series::{ContactSeries, horner_states};
+use crate::simulation::{Clock, EventKind, ORDER};
+
+/// One smooth piece of a motion: a Taylor step during which no contact changes.
+#[derive(Clone, Copy)]
+pub struct MotionSegment<'a> {
+    pub(super) clock: Clock,
+    pub(super) duration: f64,
+    pub(super) size: usize,
+    pub(super) states: &'a [f64],
+    pub(super) contacts: &'a [ContactSeries],
+    pub(super) now: &'a [ContactNow],
+}
+
+impl<'a> MotionSegment<'a> {
+    /// Its start.
+    pub fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    /// Its length.
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    /// What a contact does on it.
+    pub fn phase(&self, contact: usize) -> ContactPhase {
+        self.now[contact].phase
+    }
+
+    /// Taylor coefficients of every number of the state, order by order.
+    pub fn states(&self) -> &'a [f64] {
+        &self.states[..(ORDER + 1) * self.size]
+    }
+
+    /// Writes the state at time `since` after its start, 0 ≤ `since` ≤ its duration, to `out`.
+    pub fn state(&self, since: f64, out: &mut [f64]) {
+        with_fused_multiply_add(StateAt { states: self.states, since, out });
+    }
+
+    /// Taylor coefficients of the slip velocity γ of a contact; zero in stick.
+    pub fn slip_velocity(&self, contact: usize) -> &'a [f64; ORDER + 1] {
+        &self.contacts[contact].slip
+    }
+
+    /// Taylor coefficients of the friction force T of a contact; zero where it is open.
+    pub fn friction(&self, contact: usize) -> &'a [f64; ORDER + 1] {
+        &self.contacts[contact].friction
+    }
+
+    /// Taylor coefficients of the normal load N of a contact; where it is open those of the load that it would have, which is
+    /// negative.
+    pub fn normal_load(&self, contact: usize) -> &'a [f64; ORDER + 1] {
+        &self.contacts[contact].load
+    }
+
+    /// Value of a series of [`MotionSegment::slip_velocity`] and its neighbours at a time after the start.
+    pub fn value(series: &[f64; ORDER + 1], since: f64) -> f64 {
+        with_fused_multiply_add(ValueAt { series, since })
+    }
+}
+
+struct StateAt<'a> {
+    states: &'a [f64],
+    since: f64,
+    out: &'a mut [f64],
+}
+
+impl Work for StateAt<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        horner_states(self.states, self.since, self.out);
+    }
+}
+
+struct ValueAt<'a> {
+    series: &'a [f64; ORDER + 1],
+    since: f64,
+}
+
+impl Work for ValueAt<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        horner(self.series, self.since)
+    }
+}
+
+/// An event of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionEvent<'a> {
+    /// Time.
+    pub time: f64,
+    /// Number of the contact, in the order of the system.
+    pub contact: usize,
+    /// Kind.
+    pub kind: EventKind,
+    /// Sign of the slip velocity afterwards; 0 in stick and after a separation.
+    pub slip_sign: i8,
+    /// Whether friction changes without a jump there (μ_s = μ(0⁺)): a release with zero slip acceleration.
+    pub is_smooth: bool,
+    /// State.
+    pub state: &'a [f64],
+}
+
+/// All events of one moment, which are one decision.
+#[derive(Clone, Copy)]
+pub struct MotionMoment<'a> {
+    /// The moment.
+    pub clock: Clock,
+    /// State.
+    pub state: &'a [f64],
+    /// What the contacts did before.
+    pub before: &'a [ContactPhase],
+    /// What they do from here on.
+    pub after: &'a [ContactPhase],
+    /// The contact whose guard reached zero first.
+    pub trigger: Trigger,
+    /// How many guards reached zero at this moment.
+    pub triggers: usize,
+}
+
+/// The guard that reached zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trigger {
+    /// The slip velocity of a contact.
+    Slip(usize),
+    /// The margin μ_s N ∓ T of a sticking contact; 1 where T rose to its bound, −1 where it fell to it.
+    Margin(usize, i8),
+    /// The load of a contact.
+    Load(usize),
+}
+
+/// Observes the motion of a system.
+pub trait MotionObserver {
+    /// Called after a segment has been integrated.
+    fn segment(&mut self, segment: &MotionSegment<'_>) {
+        let _ = segment;
+    }
+
+    /// Called for every event, which is at the end of the last segment; events of one moment in the order of contacts.
+    fn event(&mut self, event: &MotionEvent<'_>) {
+        let _ = event;
+    }
+
+    /// Called once for all events of a moment, before them.
+    fn moment(&mut self, moment: &MotionMoment<'_>) {
+        let _ = moment;
+    }
+
+    /// Whether [`MotionObserver::segment`] is to be called. Asked once, at the start of a run.
+    fn watches(&self) -> bool {
+        true
+    }
+}
+
+impl MotionObserver for () {
+    fn watches(&self) -> bool {
+        false
+    }
+}
+
+impl<A: MotionObserver, B: MotionObserver> MotionObserver for (A, B) {
+    fn segment(&mut self, segment: &MotionSegment<'_>) {
+        self.0.segment(segment);
+        self.1.segment(segment);
+    }
+
+    fn event(&mut self, event: &MotionEvent<'_>) {
+        self.0.event(event);
+        self.1.event(event);
+    }
+
+    fn moment(&mut self, moment: &MotionMoment<'_>) {
+        self.0.moment(moment);
+        self.1.moment(moment);
+    }
+
+    fn watches(&self) -> bool {
+        self.0.watches() || self.1.watches()
+    }
+}
+
+impl<A: MotionObserver> MotionObserver for &mut A {
+    fn segment(&mut self, segment: &MotionSegment<'_>) {
+        (**self).segment(segment);
+    }
+
+    fn event(&mut self, event: &MotionEvent<'_>) {
+        (**self).event(event);
+    }
+
+    fn moment(&mut self, moment: &MotionMoment<'_>) {
+        (**self).moment(moment);
+    }
+
+    fn watches(&self) -> bool {
+        (**self).watches()
+    }
+}
+
+/// An event with its own state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordedEvent {
+    /// Time.
+    pub time: f64,
+    /// Number of the contact.
+    pub contact: usize,
+    /// Kind.
+    pub kind: EventKind,
+    /// Sign of the slip velocity afterwards; 0 in stick and after a separation.
+    pub slip_sign: i8,
+    /// State.
+    pub state: Vec<f64>,
+}
+
+/// Records every event.
+#[derive(Clone, Debug, Default)]
+pub struct MotionRecorder {
+    /// The events, in order.
+    pub events: Vec<RecordedEvent>,
+}
+
+impl MotionObserver for MotionRecorder {
+    fn event(&mut self, event: &MotionEvent<'_>) {
+        self.events.push(RecordedEvent {
+            time: event.time,
+            contact: event.contact,
+            kind: event.kind,
+            slip_sign: event.slip_sign,
+            state: event.state.to_vec(),
+        });
+    }
+
+    fn watches(&self) -> bool {
+        false
+    }
+}
+
+/// Samples the state at t₀ + nΔ for n = 0, 1, …
+#[derive(Clone, Debug)]
+pub struct MotionSampler {
+    first: f64,
+    step: f64,
+    count: usize,
+    /// Times of the samples.
+    pub times: Vec<f64>,
+    /// States, one after the other.
+    pub states: Vec<f64>,
+    /// What the contacts do, one after the other.
+    pub phases: Vec<ContactPhase>,
+    /// Friction forces of the contacts, one after the other.
+    pub friction: Vec<f64>,
+    /// Normal loads of the contacts, one after the other; 0 where open.
+    pub normal_loads: Vec<f64>,
+}
+
+impl MotionSampler {
+    /// `count` samples from `first`, `step` apart.
+    pub fn new(first: f64, step: f64, count: usize) -> Self {
+        Self {
+            first,
+            step,
+            count,
+            times: Vec::with_capacity(count),
+            states: Vec::new(),
+            phases: Vec::new(),
+            friction: Vec::new(),
+            normal_loads: Vec::new(),
+        }
+    }
+}
+
+impl MotionObserver for MotionSampler {
+    fn segment(&mut self, segment: &MotionSegment<'_>) {
+        while self.times.len() < self.count {
+            let time = f64::mul_add(self.times.len() as f64, self.step, self.first);
+            let since = segment.clock.until(time);
+            if since > segment.duration {
+                break;
+            }
+            let since = since.max(0.0);
+            self.times.push(time);
+            let from = self.states.len();
+            self.states.resize(from + segment.size, 0.0);
+            segment.state(since, &mut self.states[from..]);
+            for (contact, now) in segment.now.iter().enumerate() {
+                self.phases.push(now.phase);
+                self.friction.push(MotionSegment::value(segment.friction(contact), since));
+                let load = MotionSegment::value(segment.normal_load(contact), since);
+                self.normal_loads.push(if now.is_open() { 0.0 } else { load });
+            }
+        }
+    }
+}

@@ -1,0 +1,336 @@
+//! Which contacts stick: the joint decision of all contacts whose slip velocity is zero at one moment.
+//!
+//! Among these γ̇ = w − G T. Our declared selection:
+//!
+//! 1. If forces within the static bounds μ_s N hold all of them, all stick.
+//! 2. Otherwise the box problem with the static bounds: T inside its bounds where γ̇ = 0, at the upper one where γ̇ > 0, at the
+//!    lower one where γ̇ < 0. It has one solution where G is a P-matrix.
+//! 3. Contacts at their bound get the sliding level μ(0⁺)N as their new bound, and the problem is solved again, until no further
+//!    contact reaches its bound. A contact whose force is inside its bound at the end sticks, the others slip.
+//!
+//! For symmetric G the box problem minimises ½TᵀGT − wᵀT over the box. It is solved by principal pivoting with Murty's rule (the
+//! violated condition with the least index changes first), which ends after finitely many steps for every P-matrix: Murty (1974);
+//! Júdice and Pires (1994) for bounds on both sides.
+//!
+//! Dependent rows make G singular: a share [`LEAST_NORM`] of its diagonal is added, whose solution is that of least norm.
+
+use quell_numerics::matrix::Matrix;
+
+use super::stuck::remainder;
+
+/// Share of the diagonal that is added where rows are dependent.
+const LEAST_NORM: f64 = 1e-13;
+
+/// Slip accelerations below this share of their terms are zero to rounding.
+const AT_REST: f64 = 1e-9;
+
+/// A force within this share of its bound is at it.
+const AT_BOUND: f64 = 1e-10;
+
+/// A force whose margin has a root at this moment is within this share of its bound unless other events have relieved it.
+const NEAR_BOUND: f64 = 1e-7;
+
+/// A row that others carry all but for this share is dependent on them.
+const DEPENDENT: f64 = 1e-10;
+
+/// The contacts whose slip velocity is zero.
+#[derive(Clone, Debug)]
+pub(super) struct Moment {
+    /// G.
+    pub(super) coupling: Matrix,
+    /// w.
+    pub(super) accelerations: Vec<f64>,
+    /// μ_s N.
+    pub(super) holding: Vec<f64>,
+    /// μ(0⁺) N.
+    pub(super) sliding: Vec<f64>,
+    /// Direction in which the force of a sticking contact has just reached its bound; 0 for the others.
+    pub(super) reached: Vec<i8>,
+    /// Whether rows are dependent.
+    pub(super) is_dependent: bool,
+}
+
+/// What the contacts do.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Selected {
+    /// 0 for stick, else the direction of slip.
+    pub(super) directions: Vec<i8>,
+    /// Whether the slip acceleration vanishes: a smooth release.
+    pub(super) is_smooth: Vec<bool>,
+    /// Bound at which the force of a sticking contact stands, carried along by contacts on which it depends.
+    pub(super) saturated: Vec<i8>,
+}
+
+/// Solution of a box problem.
+#[derive(Clone, Debug)]
+struct Boxed {
+    forces: Vec<f64>,
+    /// γ̇.
+    rates: Vec<f64>,
+    /// −1, 0 or 1: at the lower bound, inside, at the upper bound.
+    places: Vec<i8>,
+}
+
+impl Boxed {
+    /// Bound at which a force stands; 0 inside.
+    fn side(&self, c: usize, bounds: &[f64]) -> i8 {
+        if self.places[c] != 0 {
+            return self.places[c];
+        }
+        let near = self.forces[c].abs() >= bounds[c] * (1.0 - AT_BOUND);
+        match (near, self.forces[c] >= 0.0) {
+            (false, _) => 0,
+            (true, true) => 1,
+            (true, false) => -1,
+        }
+    }
+}
+
+impl Moment {
+    fn size(&self) -> usize {
+        self.accelerations.len()
+    }
+
+    /// Whether a slip acceleration is zero to rounding.
+    fn is_at_rest(&self, contact: usize, rate: f64) -> bool {
+        let row = self.coupling.row(contact).iter().zip(&self.holding);
+        let terms: f64 = row.map(|(g, bound)| (g * bound).abs()).sum();
+        rate.abs() <= AT_REST * (terms + self.accelerations[contact].abs())
+    }
+
+    /// The decision; `None` where it is not unique.
+    pub(super) fn decide(&self) -> Option<Selected> {
+        let size = self.size();
+        let mut bounds = self.holding.clone();
+        let mut released = vec![false; size];
+        let mut solved = self.boxed(&bounds)?;
+        for round in 0..=size {
+            let sides: Vec<i8> =
+                (0..size).map(|c| self.side(c, &solved, &bounds, round == 0)).collect();
+            let newly: Vec<usize> = (0..size)
+                .filter(|&c| sides[c] != 0 && !released[c] && !self.is_carried(c, &sides, &solved))
+                .collect();
+            if newly.is_empty() {
+                break;
+            }
+            for c in newly {
+                released[c] = true;
+                bounds[c] = self.sliding[c];
+            }
+            solved = self.boxed(&bounds)?;
+        }
+        let mut selected = Selected {
+            directions: vec![0; size],
+            is_smooth: vec![false; size],
+            saturated: vec![0; size],
+        };
+        for (c, released) in released.into_iter().enumerate() {
+            let side = solved.side(c, &bounds);
+            if released && side != 0 {
+                selected.directions[c] = side;
+                selected.is_smooth[c] = self.is_at_rest(c, solved.rates[c]);
+            } else if side != 0 && self.is_dependent {
+                selected.saturated[c] = side;
+            }
+        }
+        Some(selected)
+    }
+
+    /// Bound at which a force stands. In the first round a force that has just reached its bound is there, if the others leave it
+    /// near: a simultaneous event may have relieved it.
+    fn side(&self, c: usize, solved: &Boxed, bounds: &[f64], is_first: bool) -> i8 {
+        let side = solved.side(c, bounds);
+        if side != 0 || !is_first || self.reached[c] == 0 {
+            return side;
+        }
+        let force = solved.forces[c] * f64::from(self.reached[c]);
+        if force >= bounds[c] * (1.0 - NEAR_BOUND) { self.reached[c] } else { 0 }
+    }
+
+    /// Whether a contact at its bound is held by others that are not at theirs, because its row depends on theirs.
+    fn is_carried(&self, c: usize, sides: &[i8], solved: &Boxed) -> bool {
+        if !self.is_dependent || !self.is_at_rest(c, solved.rates[c]) {
+            return false;
+        }
+        let others: Vec<usize> = (0..self.size()).filter(|d| *d != c && sides[*d] == 0).collect();
+        let basis = super::stuck::independent(&self.coupling, &others);
+        !others.is_empty()
+            && remainder(&self.coupling, c, &basis).is_some_and(|rest| rest.abs() < DEPENDENT)
+    }
+
+    /// The box problem |T| ≤ bounds.
+    fn boxed(&self, bounds: &[f64]) -> Option<Boxed> {
+        let size = self.size();
+        let mut places = vec![0_i8; size];
+        // Murty's rule ends; the count only guards against rounding that makes two sets alternate.
+        for _ in 0..(1_usize << size.min(12)).saturating_mul(8).max(64) {
+            let forces = self.forces(bounds, &places)?;
+            let rates: Vec<f64> = (0..size)
+                .map(|c| {
+                    let row = self.coupling.row(c).iter().zip(&forces);
+                    self.accelerations[c] - row.map(|(g, force)| g * force).sum::<f64>()
+                })
+                .collect();
+            let violated = (0..size).find_map(|c| match places[c] {
+                0 if forces[c] > bounds[c] => Some((c, 1)),
+                0 if forces[c] < -bounds[c] => Some((c, -1)),
+                1 if rates[c] < 0.0 && !self.is_at_rest(c, rates[c]) => Some((c, 0)),
+                -1 if rates[c] > 0.0 && !self.is_at_rest(c, rates[c]) => Some((c, 0)),
+                _ => None,
+            });
+            match violated {
+                Some((c, place)) => places[c] = place,
+                None => return Some(Boxed { forces, rates, places }),
+            }
+        }
+        None
+    }
+
+    /// Forces with those at their bounds given.
+    fn forces(&self, bounds: &[f64], places: &[i8]) -> Option<Vec<f64>> {
+        let mut forces: Vec<f64> =
+            places.iter().zip(bounds).map(|(place, bound)| f64::from(*place) * bound).collect();
+        let inside: Vec<usize> = (0..places.len()).filter(|c| places[*c] == 0).collect();
+        if inside.is_empty() {
+            return Some(forces);
+        }
+        let shift = if self.is_dependent { LEAST_NORM } else { 0.0 };
+        let matrix = Matrix::from_fn(inside.len(), inside.len(), |i, j| {
+            let entry = self.coupling[(inside[i], inside[j])];
+            if i == j { entry * (1.0 + shift) } else { entry }
+        });
+        let right = Matrix::from_fn(inside.len(), 1, |i, _| {
+            let row = self.coupling.row(inside[i]).iter().zip(&forces);
+            self.accelerations[inside[i]] - row.map(|(g, force)| g * force).sum::<f64>()
+        });
+        let solved = matrix.solve(&right)?;
+        for (c, force) in inside.iter().zip(solved.as_slice()) {
+            forces[*c] = *force;
+        }
+        Some(forces)
+    }
+}
+
+/// Whether every principal minor of a matrix is positive, with the members of the first that is not.
+pub(super) fn first_minor_not_positive(matrix: &Matrix) -> Option<Vec<usize>> {
+    let size = matrix.rows().min(12);
+    (1_u32..1 << size).find_map(|set| {
+        let members: Vec<usize> = (0..size).filter(|c| set >> c & 1 == 1).collect();
+        (determinant(matrix, &members) <= 0.0).then_some(members)
+    })
+}
+
+/// Determinant of a principal submatrix, relative to the product of its diagonal; within rounding of zero it is zero.
+fn determinant(matrix: &Matrix, members: &[usize]) -> f64 {
+    let size = members.len();
+    let mut rows: Vec<Vec<f64>> =
+        members.iter().map(|i| members.iter().map(|j| matrix[(*i, *j)]).collect()).collect();
+    let mut product = 1.0;
+    for column in 0..size {
+        let pivot = (column..size)
+            .max_by(|a, b| rows[*a][column].abs().total_cmp(&rows[*b][column].abs()))
+            .unwrap_or(column);
+        if rows[pivot][column] == 0.0 {
+            return 0.0;
+        }
+        if pivot != column {
+            rows.swap(pivot, column);
+            product = -product;
+        }
+        product *= rows[column][column];
+        for row in column + 1..size {
+            let factor = rows[row][column] / rows[column][column];
+            let head = rows[column].clone();
+            for (entry, head) in rows[row].iter_mut().zip(&head).skip(column) {
+                *entry -= factor * head;
+            }
+        }
+    }
+    let scale: f64 = members.iter().map(|i| matrix[(*i, *i)].abs()).product();
+    if product.abs() <= DEPENDENT * scale { 0.0 } else { product }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn moment(
+        coupling: [[f64; 2]; 2],
+        accelerations: [f64; 2],
+        holding: [f64; 2],
+        sliding: [f64; 2],
+    ) -> Moment {
+        Moment {
+            coupling: Matrix::from_fn(2, 2, |i, j| coupling[i][j]),
+            accelerations: accelerations.to_vec(),
+            holding: holding.to_vec(),
+            sliding: sliding.to_vec(),
+            reached: vec![0; 2],
+            is_dependent: false,
+        }
+    }
+
+    #[test]
+    fn a_released_contact_is_not_moved_against_its_own_acceleration() {
+        // The smallest example of the reference: G, bounds 1 and 1, sliding .9 and .5, w = (−.6, .55).
+        let moment = moment([[1.0, 0.5], [0.5, 1.0]], [-0.6, 0.55], [1.0, 1.0], [0.9, 0.5]);
+        let selected = moment.decide().expect("a P-matrix");
+        assert_eq!(selected.directions, [0, 1]);
+        let bounds = [0.9, 0.5];
+        let solved = moment.boxed(&bounds).expect("a P-matrix");
+        assert!((solved.forces[0] + 0.85).abs() < 1e-15 && solved.forces[1] == 0.5);
+        assert!((solved.rates[1] - 0.475).abs() < 1e-15);
+    }
+
+    #[test]
+    fn two_dependent_contacts_release_together_at_the_sum_of_their_bounds() {
+        for (force, expected) in [(0.3, [0, 0]), (0.45, [0, 0]), (0.51, [1, 1])] {
+            let mut pads = moment([[1.0, 1.0], [1.0, 1.0]], [force; 2], [0.2, 0.3], [0.12, 0.18]);
+            pads.is_dependent = true;
+            let selected = pads.decide().expect("solvable");
+            assert_eq!(selected.directions, expected, "{force}");
+            assert_eq!(selected.saturated, if force == 0.45 { [1, 0] } else { [0, 0] });
+        }
+    }
+
+    #[test]
+    fn the_box_problem_agrees_with_every_set() {
+        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+        let mut random = move || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+        };
+        for _ in 0..500 {
+            let entries: Vec<f64> = (0..20).map(|_| random()).collect();
+            let root = Matrix::from_fn(4, 5, |i, j| entries[5 * i + j]);
+            let coupling = root.times(&root.transpose());
+            let moment = Moment {
+                coupling,
+                accelerations: (0..4).map(|_| random()).collect(),
+                holding: (0..4).map(|_| 0.3 + 0.4 * random()).collect(),
+                sliding: vec![0.0; 4],
+                reached: vec![0; 4],
+                is_dependent: false,
+            };
+            let solved = moment.boxed(&moment.holding).expect("positive definite");
+            for c in 0..4 {
+                let (force, rate, bound) = (solved.forces[c], solved.rates[c], moment.holding[c]);
+                assert!(force.abs() <= bound * (1.0 + 1e-12));
+                match solved.places[c] {
+                    0 => assert!(rate.abs() < 1e-12),
+                    place => assert!(rate * f64::from(place) >= -1e-12),
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn matrices_that_decide_nothing_are_recognised() {
+        let unique = Matrix::from_fn(2, 2, |i, j| [[1.0, 3.0], [-1.0, 1.0]][i][j]);
+        assert_eq!(first_minor_not_positive(&unique), None);
+        let twice = Matrix::from_fn(2, 2, |i, j| [[1.0, 2.0], [2.0, 1.0]][i][j]);
+        assert_eq!(first_minor_not_positive(&twice), Some(vec![0, 1]));
+    }
+}

@@ -1,0 +1,166 @@
+//! Friction of the contacts that stick: the forces for which their slip velocities stay zero.
+//!
+//! γ̇ = w − G T = 0 with G_cd = t_cᵀ(g_d + h_d σ_d). Where the rows of some are dependent (two pads on one rigid body) the forces are
+//! not unique, but the motion is: the least-norm forces within the bounds. With the rows t_F = R t_B of the free contacts over
+//! an independent subset B of them these are T = R (RᵀR)⁻¹ G_BB⁻¹ w_B; a contact that reaches its bound stays there (saturated),
+//! while the others carry the rest.
+
+use quell_numerics::matrix::Matrix;
+
+use super::equations::Equations;
+use super::phase::ContactNow;
+use super::series::ContactSeries;
+use crate::simulation::ORDER;
+
+/// A row is dependent on others if they carry all but this share of it.
+const DEPENDENT: f64 = 1e-11;
+
+/// Forces of the sticking contacts that are not saturated.
+#[derive(Clone, Debug, Default)]
+pub(super) struct StuckForces {
+    /// The contacts, in order.
+    free: Vec<usize>,
+    /// Those with independent rows, whose conditions are used.
+    independent: Vec<usize>,
+    /// T of the free contacts per w of the independent ones, row by row.
+    gain: Vec<f64>,
+    /// σ of the free contacts at the start of the step.
+    tilts: Vec<f64>,
+    /// Whether the rows of the sticking contacts, saturated ones included, are dependent.
+    pub(super) is_dependent: bool,
+}
+
+/// G over a set of contacts, at their tilts.
+pub(super) fn coupling(equations: &Equations, members: &[usize], tilts: &[f64]) -> Matrix {
+    Matrix::from_fn(members.len(), members.len(), |i, j| {
+        let (c, d) = (members[i], members[j]);
+        equations.follower[(c, d)].mul_add(tilts[d], equations.coupling[(c, d)])
+    })
+}
+
+/// The members of a set whose rows are independent, the first ones first.
+pub(super) fn independent(matrix: &Matrix, among: &[usize]) -> Vec<usize> {
+    let mut chosen: Vec<usize> = Vec::new();
+    for &next in among {
+        if remainder(matrix, next, &chosen).is_some_and(|rest| rest > DEPENDENT) {
+            chosen.push(next);
+        }
+    }
+    chosen
+}
+
+/// The part of a row that others do not carry, relative to it: its Schur complement.
+pub(super) fn remainder(matrix: &Matrix, row: usize, others: &[usize]) -> Option<f64> {
+    let own = matrix[(row, row)];
+    if others.is_empty() {
+        return Some(1.0);
+    }
+    let block = Matrix::from_fn(others.len(), others.len(), |i, j| matrix[(others[i], others[j])]);
+    let right = Matrix::from_fn(others.len(), 1, |i, _| matrix[(others[i], row)]);
+    let shares = block.solve(&right)?;
+    let carried: f64 =
+        others.iter().zip(shares.as_slice()).map(|(d, share)| matrix[(row, *d)] * share).sum();
+    Some((own - carried) / own)
+}
+
+impl StuckForces {
+    /// For the contacts that stick now; `None` where their forces are not determined.
+    pub(super) fn of(equations: &Equations, now: &[ContactNow], tilts: &[f64]) -> Option<Self> {
+        let sticking: Vec<usize> = (0..now.len()).filter(|c| now[*c].sticks()).collect();
+        if sticking.is_empty() {
+            return Some(Self::default());
+        }
+        let all = coupling(equations, &sticking, tilts);
+        let places: Vec<usize> = (0..sticking.len()).collect();
+        let is_dependent = independent(&all, &places).len() < sticking.len();
+        let free: Vec<usize> =
+            sticking.iter().copied().filter(|c| now[*c].saturated == 0).collect();
+        if free.is_empty() {
+            return Some(Self { is_dependent, ..Self::default() });
+        }
+        let matrix = coupling(equations, &free, tilts);
+        let places: Vec<usize> = (0..free.len()).collect();
+        let chosen = independent(&matrix, &places);
+        let block =
+            Matrix::from_fn(chosen.len(), chosen.len(), |i, j| matrix[(chosen[i], chosen[j])]);
+        let inverse = block.solve(&Matrix::identity(chosen.len()))?;
+        let gain = if chosen.len() == free.len() {
+            inverse
+        } else {
+            let shares = Matrix::from_fn(free.len(), chosen.len(), |i, j| matrix[(i, chosen[j])])
+                .times(&inverse);
+            let normal = shares.transpose().times(&shares);
+            shares.times(&normal.solve(&inverse)?)
+        };
+        let independent = chosen.iter().map(|place| free[*place]).collect();
+        let tilts = free.iter().map(|c| tilts[*c]).collect();
+        Some(Self { free, independent, gain: gain.as_slice().to_vec(), tilts, is_dependent })
+    }
+
+    /// Adds the friction of order k that holds the contacts to the rates.
+    #[inline(always)]
+    pub(super) fn hold(
+        &self,
+        equations: &Equations,
+        k: usize,
+        contacts: &mut [ContactSeries],
+        rates: &mut [f64],
+    ) {
+        let count = self.independent.len();
+        // The conditions of all are read before any force is added: force by force into the series of this order.
+        for place in 0..self.free.len() {
+            let mut force = 0.0;
+            for j in 0..count {
+                let index = self.independent[j];
+                let lost =
+                    contacts[index].lost_slip(k, equations.contacts[index].tangent.dot(rates));
+                force = f64::mul_add(self.gain[place * count + j], lost, force);
+            }
+            contacts[self.free[place]].friction[k] = force;
+        }
+        for (place, &index) in self.free.iter().enumerate() {
+            let contact = &equations.contacts[index];
+            let force = contacts[index].friction[k];
+            contact.along.add_to(force, rates);
+            if !contact.slope.is_empty() {
+                contact.across.add_to(self.tilts[place] * force, rates);
+            }
+        }
+    }
+
+    /// Corrects a state in which the slip velocities of the sticking contacts have drifted from zero by rounding.
+    pub(super) fn project(
+        &self,
+        equations: &Equations,
+        surfaces: impl Fn(usize) -> f64,
+        state: &mut [f64],
+    ) {
+        let drift = |state: &[f64], index: usize| {
+            surfaces(index) - equations.contacts[index].tangent.dot(state)
+        };
+        let lost: Vec<f64> = self.independent.iter().map(|index| drift(state, *index)).collect();
+        for (place, &index) in self.free.iter().enumerate() {
+            let row = &self.gain[place * lost.len()..(place + 1) * lost.len()];
+            let impulse: f64 = row.iter().zip(&lost).map(|(gain, lost)| gain * lost).sum();
+            let contact = &equations.contacts[index];
+            contact.along.add_to(impulse, state);
+            if !contact.slope.is_empty() {
+                contact.across.add_to(self.tilts[place] * impulse, state);
+            }
+        }
+    }
+
+    /// Whether nothing is held.
+    pub(super) fn is_empty(&self) -> bool {
+        self.free.is_empty()
+    }
+}
+
+impl ContactSeries {
+    /// γ̇ of order k without the forces that are sought: (k + 1) v_{k+1} − tᵀẋ.
+    #[inline(always)]
+    fn lost_slip(&self, k: usize, along: f64) -> f64 {
+        let surface = if k < ORDER { self.surface_at(k + 1) } else { 0.0 };
+        f64::mul_add((k + 1) as f64, surface, -along)
+    }
+}
