@@ -28,6 +28,9 @@ const NEARLY_TANGENTIAL: f64 = 1e-6;
 /// Slip velocities below this multiple of their rounding are zero at the start of a run.
 const AT_REST: f64 = 32.0 * f64::EPSILON;
 
+/// A load beyond zero by this share of N₀ has jumped there.
+const JUMP: f64 = 1e-9;
+
 /// So many events within [`ACCUMULATED`] of the time scale are Zeno behaviour.
 const MOST_EVENTS: u64 = 96;
 
@@ -332,9 +335,11 @@ impl<'a> MotionRun<'a> {
         let before: Vec<ContactPhase> = self.now.iter().map(|now| now.phase).collect();
         let mut arrived = Vec::new();
         let mut reached = Vec::new();
+        // A load that jumps through zero changes forces at once, which may release others.
+        let mut jumped = false;
         for trigger in triggers {
             match trigger.what {
-                Trigger::Load(contact) => self.open_or_close(contact)?,
+                Trigger::Load(contact) => jumped |= self.open_or_close(contact)?,
                 Trigger::Slip(contact) => arrived.push(contact),
                 Trigger::Margin(contact, side) => {
                     self.count_tangential(contact, trigger);
@@ -345,7 +350,7 @@ impl<'a> MotionRun<'a> {
         let open = |contact: &usize| self.now[*contact].is_open();
         arrived.retain(|contact| !open(contact));
         reached.retain(|(contact, _)| !open(contact));
-        if !(arrived.is_empty() && reached.is_empty()) {
+        if jumped || !(arrived.is_empty() && reached.is_empty()) {
             let holds = self.idle >= PATIENCE;
             self.decide(&arrived, &reached, holds)?;
         }
@@ -359,8 +364,8 @@ impl<'a> MotionRun<'a> {
         }
     }
 
-    /// The load of a contact has reached zero.
-    fn open_or_close(&mut self, contact: usize) -> Progress {
+    /// The load of a contact has reached zero, or jumped through it: whether it jumped.
+    fn open_or_close(&mut self, contact: usize) -> Result<bool, MotionStopped> {
         if !self.equations.contacts[contact].is_compliant() {
             let contact = self.name(contact);
             return Err(self.stopped(StopReason::LoadVanishes { contact }));
@@ -371,8 +376,10 @@ impl<'a> MotionRun<'a> {
         } else {
             ContactPhase::Open
         };
-        self.now[contact] = ContactNow { load_zeros: 1, ..ContactNow::of(phase) };
-        Ok(())
+        let jumped = self.load(contact).abs() > JUMP * self.equations.contacts[contact].normal_load;
+        let load_zeros = usize::from(!jumped);
+        self.now[contact] = ContactNow { load_zeros, ..ContactNow::of(phase) };
+        Ok(jumped)
     }
 
     /// The contacts at zero slip velocity decide together what they do.

@@ -2,6 +2,7 @@
 
 mod cases;
 mod checker;
+mod comparison;
 mod expected;
 
 use std::collections::BTreeMap;
