@@ -3,6 +3,9 @@
 use std::fs;
 use std::path::Path;
 
+use quell_dynamics::motion::orbit::{
+    MotionOrbit, base_motion, free_cycle, motion_thresholds, settled,
+};
 use quell_dynamics::motion::{
     ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder, MotionStart, RecordedEvent,
 };
@@ -110,4 +113,104 @@ fn dependent_contacts_move_as_one() {
         assert!(error <= ACCURACY, "event {place}: {error:e}");
     }
     assert!(distance(&end.state, &case["final_state"]) <= ACCURACY);
+}
+
+fn complex(value: &Json) -> (f64, f64) {
+    (number(&value[0]), number(&value[1]))
+}
+
+/// Every multiplier of the reference is among those found.
+fn same_multipliers(name: &str, orbit: &MotionOrbit, wanted: &Json) -> f64 {
+    assert_eq!(orbit.multipliers.len(), list(wanted).len(), "{name}");
+    let nearest = |wanted: &Json| {
+        let (re, im) = complex(wanted);
+        let off = orbit.multipliers.iter().map(|z| (z.re - re).hypot(z.im - im));
+        off.fold(f64::INFINITY, f64::min)
+    };
+    let worst = list(wanted).iter().map(nearest).fold(0.0, f64::max);
+    assert!(worst <= 1e-8, "{name}: multipliers off by {worst:e}: {:?}", orbit.multipliers);
+    worst
+}
+
+fn same_events(name: &str, found: &[RecordedEvent], wanted: &Json) {
+    assert_eq!(found.len(), list(wanted).len(), "{name}: {found:?}");
+    for (found, wanted) in found.iter().zip(list(wanted)) {
+        let is_same = found.kind.name() == wanted["kind"]
+            && Some(found.contact as u64) == wanted["contact"].as_u64()
+            && Some(i64::from(found.slip_sign)) == wanted["slip_sign"].as_i64();
+        let off = (found.time - number(&wanted["time"])).abs();
+        assert!(is_same && off <= ACCURACY, "{name}: {found:?} {wanted}");
+    }
+}
+
+#[test]
+fn orbits_and_multipliers_are_those_of_the_reference() {
+    for case in list(&reference()["orbits"]) {
+        let name = case["name"].as_str().expect("a name");
+        let study = study(case["study"].as_str().expect("a study"));
+        let base = base_motion(study.system(), 8);
+        if let Err(why) = &base {
+            println!("{name}: base: {why}");
+        }
+        let orbit = base.or_else(|_| {
+            settled(study.system(), &vec![0.0; study.system().structure.state_size()], 4000)
+                .map(|s| s.orbit)
+        });
+        let orbit = orbit.unwrap_or_else(|why| panic!("{name}: {why}"));
+        let state = distance(&orbit.state, &case["state"]);
+        println!("{name}: state {state:.1e} residual {:.1e} {:?}", orbit.residual, orbit.verdict());
+        assert!(state <= ACCURACY, "{name}: {state:e}");
+        same_events(name, &orbit.events, &case["events"]);
+        let worst = same_multipliers(name, &orbit, &case["multipliers"]);
+        println!("{name}: multipliers within {worst:.1e}");
+        assert_eq!(orbit.verdict().name(), case["verdict"], "{name}");
+    }
+}
+
+#[test]
+fn limit_cycles_are_those_of_the_reference() {
+    for case in list(&reference()["limit_cycles"]) {
+        let name = case["name"].as_str().expect("a name");
+        let study = study(case["study"].as_str().expect("a study"));
+        let state = match study.initial() {
+            SystemStart::Values(values) => values.clone(),
+            _ => vec![0.0; study.system().structure.state_size()],
+        };
+        let cycle =
+            free_cycle(study.system(), &state).unwrap_or_else(|why| panic!("{name}: {why}"));
+        let off = (cycle.period - number(&case["period"])).abs();
+        println!("{name}: period off by {off:.1e}, residual {:.1e}", cycle.residual);
+        assert!(off <= ACCURACY, "{name}: {off:e}");
+        same_events(name, &cycle.events, &case["events"]);
+        let worst = same_multipliers(name, &cycle, &case["multipliers"]);
+        println!("{name}: multipliers within {worst:.1e}");
+        assert!((cycle.radius() - number(&case["second_multiplier"])).abs() <= 1e-8);
+        assert_eq!(cycle.verdict().name(), case["verdict"], "{name}");
+    }
+}
+
+#[test]
+fn thresholds_are_those_of_the_reference() {
+    for case in list(&reference()["thresholds"]) {
+        let name = case["name"].as_str().expect("a name");
+        let study = study(case["study"].as_str().expect("a study"));
+        let path = case["parameter"].as_str().expect("a path");
+        let at =
+            |values: &[f64]| study.system_at(&[(path, values[0])]).map_err(|why| why.to_string());
+        let window = (number(&case["from"]), number(&case["to"]));
+        let found = motion_thresholds(&at, window, 8, None);
+        let found = found.unwrap_or_else(|why| panic!("{name}: {why}"));
+        println!("{name}: {:?} {:?}", found.thresholds, found.ending);
+        let wanted = number(&case["value"]);
+        let off = |value: f64| (value - wanted).abs() / wanted;
+        let threshold = found
+            .thresholds
+            .iter()
+            .min_by(|a, b| off(a.value).total_cmp(&off(b.value)))
+            .unwrap_or_else(|| panic!("{name}: no threshold"));
+        println!("{name}: off by {:.1e}", off(threshold.value));
+        assert!(off(threshold.value) <= 1e-6, "{name}: {threshold:?}");
+        assert_eq!(threshold.kind.name(), case["kind"], "{name}");
+        assert_eq!(threshold.becomes.map(|v| v.name()), case["becomes"].as_str(), "{name}");
+    }
 }

@@ -28,6 +28,9 @@ const NEARLY_TANGENTIAL: f64 = 1e-6;
 /// Slip velocities below this multiple of their rounding are zero at the start of a run.
 const AT_REST: f64 = 32.0 * f64::EPSILON;
 
+/// Time over the time scale within which a slip velocity is negligible at the start of a run if friction can stop it.
+const NEGLIGIBLE: f64 = 1e-13;
+
 /// A load beyond zero by this share of N₀ has jumped there.
 const JUMP: f64 = 1e-9;
 
@@ -55,6 +58,8 @@ pub(super) struct MotionRun<'a> {
     time_scale: f64,
     budget: StepBudget,
     idle: u32,
+    /// Time of the last kink or jump of a forcing.
+    last_break: f64,
     events: u64,
     steps: u64,
     near_tangential_releases: u64,
@@ -62,6 +67,8 @@ pub(super) struct MotionRun<'a> {
     window: (f64, u64),
     observer: &'a mut dyn MotionObserver,
     watched: bool,
+    /// Whether guards end steps; otherwise every contact keeps its phase, whatever its slip velocity and load.
+    is_guarded: bool,
     scratch: Vec<f64>,
 }
 
@@ -94,11 +101,13 @@ impl<'a> MotionRun<'a> {
             time_scale: 1.0 / fastest,
             budget: StepBudget::new(start.time, until, fastest),
             idle: 0,
+            last_break: f64::NEG_INFINITY,
             events: 0,
             steps: 0,
             near_tangential_releases: 0,
             window: (start.time, 0),
             watched: observer.watches(),
+            is_guarded: true,
             observer,
             scratch: vec![0.0; equations.size],
             forcings,
@@ -107,10 +116,19 @@ impl<'a> MotionRun<'a> {
         }
     }
 
+    /// The contacts keep these phases throughout: the smooth continuation of a motion beyond the borders of its phase.
+    pub(super) fn keeping(mut self, phases: &[ContactPhase]) -> Self {
+        self.is_guarded = false;
+        self.now = phases.iter().map(|phase| ContactNow::of(*phase)).collect();
+        self
+    }
+
     /// Runs to the end.
     pub(super) fn run(mut self) -> Result<MotionEnd, MotionStopped> {
         StepBudget::begin().map_err(|why| self.stalled(why))?;
-        self.begin()?;
+        if self.is_guarded {
+            self.begin()?;
+        }
         while self.clock.until(self.until) > 0.0 {
             self.step()?;
         }
@@ -146,6 +164,13 @@ impl<'a> MotionRun<'a> {
         self.forcings.contacts[contact].load.value(self.clock) + approach.dot(self.series.start())
     }
 
+    /// A slip velocity that friction brings to rest within a time too short to be told from zero.
+    fn negligible_slip(&self, contact: usize, load: f64) -> f64 {
+        let level = self.equations.contacts[contact].static_coefficient * load;
+        let own = self.equations.coupling[(contact, contact)];
+        NEGLIGIBLE * self.time_scale * own * level
+    }
+
     /// The contacts at the start of a run: no event.
     fn begin(&mut self) -> Progress {
         let mut resting = Vec::new();
@@ -159,7 +184,9 @@ impl<'a> MotionRun<'a> {
             }
             let phase = if load < 0.0 {
                 ContactPhase::Open
-            } else if self.equations.contacts[contact].can_stick() && slip.abs() <= AT_REST * size {
+            } else if self.equations.contacts[contact].can_stick()
+                && slip.abs() <= (AT_REST * size).max(self.negligible_slip(contact, load))
+            {
                 resting.push(contact);
                 ContactPhase::Stick
             } else {
@@ -193,7 +220,11 @@ impl<'a> MotionRun<'a> {
             limit,
             out: &mut self.series,
         });
-        let reached = with_fused_multiply_add(FirstGuard { guards: self.guards(), length });
+        let reached = if self.is_guarded {
+            with_fused_multiply_add(FirstGuard { guards: self.guards(), length })
+        } else {
+            None
+        };
         let duration = reached.map_or(length, |reached| reached.after);
         let triggers = match &reached {
             Some(first) => self.guards().together(first, self.time_scale),
@@ -298,6 +329,7 @@ impl<'a> MotionRun<'a> {
         });
         let reaches_stop = duration >= room || self.clock.after(duration).time() == stop;
         if reaches_stop {
+            self.last_break = stop;
             self.clock = Clock::at(stop);
             self.forcings.pass_breaks(self.clock);
         } else {
@@ -354,7 +386,7 @@ impl<'a> MotionRun<'a> {
             let holds = self.idle >= PATIENCE;
             self.decide(&arrived, &reached, holds)?;
         }
-        self.report(&before, first, triggers.len())
+        self.report(&before, first, triggers)
     }
 
     fn count_tangential(&mut self, contact: usize, trigger: &Reached) {
@@ -479,20 +511,27 @@ impl<'a> MotionRun<'a> {
     }
 
     /// Reports what has changed, in the order of contacts.
-    fn report(&mut self, before: &[ContactPhase], first: Reached, triggers: usize) -> Progress {
+    fn report(
+        &mut self,
+        before: &[ContactPhase],
+        first: Reached,
+        triggers: &[Reached],
+    ) -> Progress {
         let after: Vec<ContactPhase> = self.now.iter().map(|now| now.phase).collect();
         if after == before {
             return Ok(());
         }
         let state = self.series.start();
-        let (clock, trigger) = (self.clock, first.what);
+        let clock = self.clock;
         self.observer.moment(&MotionMoment {
             clock,
             state,
             before,
             after: &after,
-            trigger,
-            triggers,
+            trigger: first.what,
+            rate: first.rate,
+            is_jump: first.after == 0.0 && self.last_break == clock.time(),
+            is_one_sided: triggers.len() > 1 && !self.stuck.is_dependent,
         });
         let mut last = None;
         for (contact, (was, is)) in before.iter().zip(&after).enumerate() {

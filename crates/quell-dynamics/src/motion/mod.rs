@@ -20,7 +20,9 @@
 mod engine;
 mod equations;
 mod guards;
+mod least;
 mod observer;
+pub mod orbit;
 mod phase;
 mod rows;
 mod selection;
@@ -28,6 +30,7 @@ mod series;
 mod state;
 mod stopped;
 mod stuck;
+mod variation;
 
 use quell_model::System;
 
@@ -42,6 +45,7 @@ pub use observer::{
 pub use phase::ContactPhase;
 pub use state::{ContactEnd, MotionEnd, MotionStart};
 pub use stopped::{Immobile, MotionStopped, StopReason};
+pub use variation::{LeastDistance, MotionVariation};
 
 /// Default bound on the last retained terms of a step, relative to the size of each number of the state.
 pub const MOTION_TOLERANCE: f64 = 1e-13;
@@ -115,5 +119,19 @@ impl<'s> Motion<'s> {
     ) -> Result<MotionEnd, MotionStopped> {
         assert_eq!(start.state.len(), self.size(), "numbers of the state");
         MotionRun::new((self.system, &self.equations), start, until, tolerance, observer).run()
+    }
+
+    /// The same with every contact kept in its phase: the smooth continuation of a motion beyond the borders of its phase, which
+    /// is no motion of the system there.
+    pub(crate) fn continued(
+        &self,
+        start: &MotionStart,
+        phases: &[ContactPhase],
+        until: f64,
+        observer: &mut dyn MotionObserver,
+    ) -> Result<MotionEnd, MotionStopped> {
+        let parts = (self.system, &self.equations);
+        let run = MotionRun::new(parts, start, until, MOTION_TOLERANCE, observer);
+        run.keeping(phases).run()
     }
 }

@@ -125,8 +125,12 @@ pub struct MotionMoment<'a> {
     pub after: &'a [ContactPhase],
     /// The contact whose guard reached zero first.
     pub trigger: Trigger,
-    /// How many guards reached zero at this moment.
-    pub triggers: usize,
+    /// Rate at which that guard fell.
+    pub rate: f64,
+    /// Whether the moment is a jump of the dither, which no change of the state moves.
+    pub is_jump: bool,
+    /// Whether independent guards reached zero together, so that derivatives by the state are one-sided.
+    pub is_one_sided: bool,
 }
 
 /// The guard that reached zero.

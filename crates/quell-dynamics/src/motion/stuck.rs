@@ -150,6 +150,40 @@ impl StuckForces {
         }
     }
 
+    /// Adds the change of the forces that keeps the slip accelerations zero to the rates of a change.
+    pub(super) fn hold_change(
+        &self,
+        equations: &Equations,
+        tilt: impl Fn(usize) -> f64,
+        rates: &mut [f64],
+    ) {
+        if self.free.is_empty() {
+            return;
+        }
+        let forces: Vec<f64> =
+            self.free.iter().map(|index| self.change_of_force(equations, *index, rates)).collect();
+        for (&index, force) in self.free.iter().zip(forces) {
+            let contact = &equations.contacts[index];
+            contact.along.add_to(force, rates);
+            if !contact.slope.is_empty() {
+                contact.across.add_to(tilt(index) * force, rates);
+            }
+        }
+    }
+
+    /// Change of the force of a sticking contact, from the rates of a change without these forces; 0 for other contacts.
+    pub(super) fn change_of_force(
+        &self,
+        equations: &Equations,
+        contact: usize,
+        rates: &[f64],
+    ) -> f64 {
+        let Some(place) = self.free.iter().position(|index| *index == contact) else { return 0.0 };
+        let count = self.independent.len();
+        let lost = |j: usize| -equations.contacts[self.independent[j]].tangent.dot(rates);
+        (0..count).map(|j| self.gain[place * count + j] * lost(j)).sum()
+    }
+
     /// Whether nothing is held.
     pub(super) fn is_empty(&self) -> bool {
         self.free.is_empty()

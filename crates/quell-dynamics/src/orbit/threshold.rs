@@ -42,11 +42,13 @@ pub enum ThresholdKind {
     Grazing,
     /// The order of sticks and reversals changes.
     Signature,
+    /// A contact opens, or closes for good.
+    Separation,
 }
 
 impl ThresholdKind {
     /// Every kind, in the order of the codes in files: a new one is added at the end.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::NeimarkSacker,
         Self::Hopf,
         Self::Flip,
@@ -54,6 +56,7 @@ impl ThresholdKind {
         Self::Grazing,
         Self::Branching,
         Self::Signature,
+        Self::Separation,
     ];
 
     /// The word in outputs.
@@ -66,10 +69,11 @@ impl ThresholdKind {
             Self::Branching => "branching",
             Self::Grazing => "grazing",
             Self::Signature => "signature",
+            Self::Separation => "separation",
         }
     }
 
-    fn of(event: Event) -> Self {
+    pub(crate) fn of(event: Event) -> Self {
         match event {
             Event::Fold => Self::Fold,
             Event::Branching => Self::Branching,
@@ -84,7 +88,7 @@ impl ThresholdKind {
     pub(super) fn event(self) -> Option<Event> {
         Some(match self {
             Self::Fold => Event::Fold,
-            Self::Branching | Self::Signature => return None,
+            Self::Branching | Self::Signature | Self::Separation => return None,
             Self::Flip => Event::Flip,
             Self::NeimarkSacker | Self::Hopf => Event::NeimarkSacker,
             Self::Grazing => Event::Grazing,
@@ -162,6 +166,26 @@ pub enum BranchEnding {
         /// The last value.
         at: f64,
     },
+}
+
+impl BranchEnding {
+    /// How a branch over a window ends.
+    pub(crate) fn of<S>(branch: &FixedPointBranch<S>, from: f64, to: f64) -> Self {
+        let beyond = |a: f64, b: f64| (b - a) * (to - from) > 0.0;
+        let further = |a: f64, b: f64| if beyond(a, b) { b } else { a };
+        let special = branch.special_points.iter().map(|point| point.parameter);
+        let furthest =
+            branch.points.iter().map(|point| point.parameter).chain(special).fold(from, further);
+        match branch.end {
+            End::Window { at } if at == to => Self::Covered,
+            End::Window { .. } | End::Closed => Self::TurnedBack { at: furthest },
+            End::Grazing { at } => Self::Touch { at },
+            End::Lost { at } | End::TooLong { at } if beyond(at, furthest) => {
+                Self::LostTurning { furthest, at }
+            }
+            End::Lost { at } | End::TooLong { at } => Self::Lost { at },
+        }
+    }
 }
 
 /// The thresholds in an interval, and the branch that contains them.
@@ -281,20 +305,7 @@ fn local_thresholds_of(branch: &FixedPointBranch<Signature>, from: f64, to: f64)
         least_slip: point.distance.is_finite().then_some(point.distance),
         signature: point.signature.clone(),
     });
-    let beyond = |a: f64, b: f64| (b - a) * (to - from) > 0.0;
-    let further = |a: f64, b: f64| if beyond(a, b) { b } else { a };
-    let special = branch.special_points.iter().map(|point| point.parameter);
-    let furthest =
-        branch.points.iter().map(|point| point.parameter).chain(special).fold(from, further);
-    let ending = match branch.end {
-        End::Window { at } if at == to => BranchEnding::Covered,
-        End::Window { .. } | End::Closed => BranchEnding::TurnedBack { at: furthest },
-        End::Grazing { at } => BranchEnding::Touch { at },
-        End::Lost { at } | End::TooLong { at } if beyond(at, furthest) => {
-            BranchEnding::LostTurning { furthest, at }
-        }
-        End::Lost { at } | End::TooLong { at } => BranchEnding::Lost { at },
-    };
+    let ending = BranchEnding::of(branch, from, to);
     Local { thresholds, changes, branch: responses.collect(), ending }
 }
 

@@ -99,6 +99,7 @@ fn words(kind: ThresholdKind) -> &'static str {
         ThresholdKind::Branching => "branching",
         ThresholdKind::Grazing => "grazing",
         ThresholdKind::Signature => "change of events",
+        ThresholdKind::Separation => "separation",
     }
 }
 

@@ -1,0 +1,75 @@
+//! The least value of a Taylor polynomial on a step.
+
+use quell_numerics::lane::horner;
+use quell_numerics::polynomial::{derivative, first_crossing_after, value};
+
+use crate::simulation::ORDER;
+
+/// Least value of a polynomial on [0, `duration`], and where: at an end or at a root of the derivative, all of which are isolated.
+pub(super) fn least(series: &[f64; ORDER + 1], duration: f64) -> (f64, f64) {
+    let mut lowest = (series[0], 0.0);
+    let mut consider = |since: f64| {
+        let height = horner(series, since);
+        if height < lowest.0 {
+            lowest = (height, since);
+        }
+    };
+    consider(duration);
+    // Between the ends the least value is where the slope rises through zero; the shifts separate several such places.
+    let mut slope = derivative(series);
+    let (mut since, mut rest) = (0.0, duration);
+    for _ in 0..ORDER {
+        let zeros = slope.iter().take_while(|coefficient| **coefficient == 0.0).count();
+        if zeros > ORDER || rest <= 0.0 {
+            break;
+        }
+        let Some(root) = first_crossing_after(&slope, zeros, rest) else { break };
+        if root <= 0.0 {
+            break;
+        }
+        since += root;
+        rest -= root;
+        consider(since);
+        let rising = value(&derivative(&slope), root);
+        shift(&mut slope, root);
+        slope[0] = f64::MIN_POSITIVE.copysign(rising);
+    }
+    lowest
+}
+
+/// Re-expands Σ cₖtᵏ about `by`.
+fn shift(c: &mut [f64; ORDER + 1], by: f64) {
+    for start in 0..c.len() {
+        for k in (start..c.len() - 1).rev() {
+            c[k] = f64::mul_add(c[k + 1], by, c[k]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_least_value_is_that_of_a_dense_scan() {
+        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+        let mut random = move || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+        };
+        for _ in 0..2000 {
+            let mut scale = 1.0;
+            let series: [f64; ORDER + 1] = std::array::from_fn(|_| {
+                scale *= 1.4;
+                random() * scale
+            });
+            let (found, since) = least(&series, 1.0);
+            let scan = (0..=2000).map(|i| horner(&series, f64::from(i) / 2000.0));
+            let scan = scan.fold(f64::INFINITY, f64::min);
+            assert!(found <= scan + 1e-12, "{found} {scan}");
+            assert!((horner(&series, since) - found).abs() < 1e-12);
+        }
+    }
+}

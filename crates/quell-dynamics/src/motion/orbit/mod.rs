@@ -1,0 +1,23 @@
+//! Periodic motions of systems, exactly: shooting on the period map, Floquet multipliers through stick, slip and separation.
+//!
+//! [`family`] makes a system with parameters a [`PeriodMap`](quell_numerics::continuation::PeriodMap), so that branches, thresholds
+//! and their curves are those of [`quell_numerics::continuation`], as for the belt.
+//!
+//! | file | contents |
+//! |---|---|
+//! | `family` | one period with its derivative and its signature |
+//! | `periodic` | a periodic motion, its multipliers and verdict; found near a state, or continued from steady sliding |
+//! | `free` | limit cycles without dither |
+//! | `settled` | the periodic motion on which a run ends |
+//! | `thresholds` | values of a parameter at which the base response gains or loses stability |
+
+pub mod family;
+mod free;
+mod periodic;
+mod settled;
+mod thresholds;
+
+pub use free::{NoCycle, free_cycle};
+pub use periodic::{MotionOrbit, NoMotionOrbit, base_motion, motion_near, sliding_state};
+pub use settled::{Settled, settled};
+pub use thresholds::{MotionThreshold, MotionThresholds, motion_thresholds};

@@ -1,0 +1,267 @@
+//! A periodic motion: found near a state, or continued from steady sliding as the dither grows.
+
+use std::fmt;
+
+use num_complex::Complex64;
+use quell_linear::steady::{NoSteadySliding, SteadySliding};
+use quell_model::System;
+use quell_model::profile::Profile;
+use quell_numerics::continuation::branch::{End, Follow, follow};
+use quell_numerics::continuation::shooting::{NotClosed, Shooting, fixed_point};
+use quell_numerics::continuation::{modulus, multipliers, spectral_radius};
+
+use super::super::{Immobile, Motion, RecordedEvent};
+use super::family::{MotionFamily, MotionSignature, NoImage, shot, time_of};
+use crate::orbit::OrbitVerdict;
+
+/// Accuracy of an image, relative to the size of the state.
+const NOISE: f64 = 1e-13;
+
+/// A periodic motion.
+#[derive(Clone, Debug)]
+pub struct MotionOrbit {
+    /// State at t = 0.
+    pub state: Vec<f64>,
+    /// Period.
+    pub period: f64,
+    /// Largest mismatch of the state after a period.
+    pub residual: f64,
+    /// Estimated error of the state.
+    pub state_error: f64,
+    /// Multipliers, the largest modulus first; of a limit cycle the 1 of its phase included.
+    pub multipliers: Vec<Complex64>,
+    /// Estimated error of the modulus of the deciding multiplier.
+    pub multiplier_error: f64,
+    /// Events over the period.
+    pub events: Vec<RecordedEvent>,
+    /// The sequence of events.
+    pub signature: MotionSignature,
+    /// Whether it is a limit cycle without dither, whose phase is free.
+    pub is_free: bool,
+    /// Whether independent events coincide, so that the multipliers are one-sided.
+    pub is_one_sided: bool,
+}
+
+impl MotionOrbit {
+    /// Modulus of the multiplier that decides: the largest, without the 1 of a free phase.
+    pub fn radius(&self) -> f64 {
+        if !self.is_free {
+            return spectral_radius(&self.multipliers);
+        }
+        let distance = |z: &&Complex64| modulus(**z - 1.0);
+        let trivial = self.multipliers.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let trivial = trivial.copied();
+        let mut skipped = false;
+        let others = self.multipliers.iter().filter(|z| {
+            let is_trivial = !skipped && Some(**z) == trivial;
+            skipped |= is_trivial;
+            !is_trivial
+        });
+        others.fold(0.0, |m: f64, z| m.max(modulus(*z)))
+    }
+
+    /// The verdict of the multipliers.
+    pub fn verdict(&self) -> OrbitVerdict {
+        OrbitVerdict::of(self.radius(), self.multiplier_error)
+    }
+}
+
+/// Why no periodic motion was found.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoMotionOrbit {
+    /// There is no dither: the response has no period of its own.
+    NoDither,
+    /// The motion cannot be computed.
+    Immobile(Immobile),
+    /// There is no steady sliding to continue from.
+    NoSliding(NoSteadySliding),
+    /// An iterate has no image.
+    NoImage(NoImage),
+    /// Newton's method did not converge.
+    NotConverged {
+        /// Number of steps.
+        steps: u32,
+        /// Least mismatch.
+        residual: f64,
+    },
+    /// The base response ends before the dither reaches its amplitude.
+    Ends {
+        /// Fraction of the amplitude up to which it exists.
+        share: f64,
+    },
+    /// The base response could not be followed to the dither's amplitude.
+    Lost {
+        /// Fraction of the amplitude up to which it was followed.
+        share: f64,
+    },
+    /// The run does not settle on a periodic motion.
+    Unsettled {
+        /// Number of periods after which it was given up.
+        periods: u32,
+    },
+}
+
+impl fmt::Display for NoMotionOrbit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoDither => f.write_str("without dither the response has no prescribed period"),
+            Self::Immobile(why) => why.fmt(f),
+            Self::NoSliding(why) => why.fmt(f),
+            Self::NoImage(why) => why.fmt(f),
+            Self::NotConverged { steps, residual } => {
+                write!(
+                    f,
+                    "shooting did not converge in {steps} steps: least mismatch {residual:.1e}"
+                )
+            }
+            Self::Ends { share } => write!(
+                f,
+                "the response that continues steady sliding ends at {:.4} % of the dither amplitude",
+                100.0 * share
+            ),
+            Self::Lost { share } => write!(
+                f,
+                "the response that continues steady sliding was lost at {:.4} % of the dither amplitude",
+                100.0 * share
+            ),
+            Self::Unsettled { periods } => {
+                write!(f, "the run did not settle on a periodic motion within {periods} periods")
+            }
+        }
+    }
+}
+
+impl std::error::Error for NoMotionOrbit {}
+
+impl From<NotClosed<NoImage>> for NoMotionOrbit {
+    fn from(why: NotClosed<NoImage>) -> Self {
+        match why {
+            NotClosed::TooManySteps { steps, residual, .. }
+            | NotClosed::Singular { steps, residual, .. }
+            | NotClosed::Strayed { steps, distance: residual, .. } => {
+                Self::NotConverged { steps, residual }
+            }
+            NotClosed::NoImage { why, .. } => Self::NoImage(why),
+        }
+    }
+}
+
+/// The orbit through a state that closes after a time.
+pub(crate) fn orbit_at(
+    motion: &Motion<'_>,
+    state: &[f64],
+    period: f64,
+    is_free: bool,
+) -> Result<MotionOrbit, NoMotionOrbit> {
+    let (image, met) = shot(motion, state, period, None).map_err(NoMotionOrbit::NoImage)?;
+    let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let mismatch: Vec<f64> = image.state.iter().zip(state).map(|(to, from)| to - from).collect();
+    let residual = largest(&mismatch);
+    let found =
+        multipliers(&image.derivative).ok_or(NoMotionOrbit::NotConverged { steps: 0, residual })?;
+    let noise = residual + NOISE * largest(state);
+    let slowness = found.iter().fold(f64::INFINITY, |m: f64, z| {
+        let distance = modulus(*z - 1.0);
+        if is_free && distance < 1e-6 { m } else { m.min(distance) }
+    });
+    Ok(MotionOrbit {
+        state: state.to_vec(),
+        period,
+        residual,
+        state_error: noise / slowness.min(1.0),
+        multiplier_error: noise / largest(state).max(f64::MIN_POSITIVE) / slowness.min(1.0),
+        multipliers: found,
+        events: met.events,
+        signature: image.signature,
+        is_free,
+        is_one_sided: met.is_one_sided,
+    })
+}
+
+/// Typical size of the numbers of a state.
+pub(crate) fn scale_of(motion: &Motion<'_>, state: &[f64]) -> f64 {
+    let system = motion.system();
+    let speeds = system.contacts.iter().map(|contact| contact.surface_velocity.mean().abs());
+    let largest = state.iter().map(|value| value.abs()).chain(speeds).fold(0.0, f64::max);
+    if largest > 0.0 { largest } else { 1.0 }
+}
+
+/// The orbit of `periods` common periods near a state at t = 0.
+///
+/// # Errors
+/// [`NoMotionOrbit`].
+pub fn motion_near(
+    system: &System,
+    guess: &[f64],
+    periods: u32,
+) -> Result<MotionOrbit, NoMotionOrbit> {
+    let motion = Motion::new(system).map_err(NoMotionOrbit::Immobile)?;
+    let period = period_of(&motion, periods)?;
+    let at = |_: &[f64]| Ok(system.clone());
+    let scale = scale_of(&motion, guess);
+    let family = MotionFamily { at: &at, periods, size: guess.len(), scale };
+    let found = fixed_point(&family, guess, &[], None, &Shooting::default())?;
+    orbit_at(&motion, &found.state, period, false)
+}
+
+/// The common period, of a system that has one.
+fn period_of(motion: &Motion<'_>, periods: u32) -> Result<f64, NoMotionOrbit> {
+    let waves = motion.system().inputs.iter().any(|input| !input.profile.waves().is_empty());
+    if !waves {
+        return Err(NoMotionOrbit::NoDither);
+    }
+    time_of(motion, periods.max(1)).map_err(NoMotionOrbit::NoImage)
+}
+
+/// The base response: the orbit that continues steady sliding as the dither grows from zero, followed in the common factor of
+/// all amplitudes in at least `steps` steps.
+///
+/// # Errors
+/// [`NoMotionOrbit`].
+pub fn base_motion(system: &System, steps: u32) -> Result<MotionOrbit, NoMotionOrbit> {
+    let motion = Motion::new(system).map_err(NoMotionOrbit::Immobile)?;
+    let period = period_of(&motion, 1)?;
+    let sliding = sliding_state(system).map_err(NoMotionOrbit::NoSliding)?;
+    let at = |factor: &[f64]| Ok(amplified(system, factor[0]));
+    let scale = scale_of(&motion, &sliding);
+    let family = MotionFamily { at: &at, periods: 1, size: sliding.len(), scale };
+    let branch = follow(&family, &sliding, 0.0, true, Follow::window(0.0, 1.0, steps))?;
+    let fold =
+        branch.special_points.iter().find(|point| point.below.is_none() || point.above.is_none());
+    if let Some(fold) = fold {
+        return Err(NoMotionOrbit::Ends { share: fold.parameter });
+    }
+    match branch.end {
+        End::Window { at: 1.0 } => {}
+        End::Grazing { at } => return Err(NoMotionOrbit::Ends { share: at }),
+        End::Lost { at } | End::TooLong { at } => return Err(NoMotionOrbit::Lost { share: at }),
+        End::Window { .. } | End::Closed => return Err(NoMotionOrbit::Ends { share: 0.0 }),
+    }
+    let last = branch.points.last().ok_or(NoMotionOrbit::Ends { share: 0.0 })?;
+    orbit_at(&motion, &last.state, period, false)
+}
+
+/// Steady sliding without dither as a state.
+///
+/// # Errors
+/// [`NoSteadySliding`].
+pub fn sliding_state(system: &System) -> Result<Vec<f64>, NoSteadySliding> {
+    let mut state = SteadySliding::new(system)?.position;
+    state.resize(system.structure.state_size(), 0.0);
+    Ok(state)
+}
+
+/// The system with the waves of its inputs multiplied by a factor.
+fn amplified(system: &System, factor: f64) -> System {
+    let mut system = system.clone();
+    for input in &mut system.inputs {
+        let waves = input.profile.waves().iter();
+        let mean = Profile::constant(input.profile.mean());
+        input.profile = waves.fold(mean, |profile, wave| {
+            let mut wave = *wave;
+            wave.amplitude *= factor;
+            profile.with(wave)
+        });
+    }
+    system
+}

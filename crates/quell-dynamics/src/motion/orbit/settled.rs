@@ -1,0 +1,77 @@
+//! The periodic motion on which a run ends.
+
+use quell_model::System;
+
+use super::super::{MOTION_TOLERANCE, Motion, MotionStart};
+use super::family::{NoImage, time_of};
+use super::periodic::{MotionOrbit, NoMotionOrbit, motion_near, scale_of};
+
+/// Common periods in a motion's own period that are tried.
+const MOST_MULTIPLES: usize = 12;
+
+/// Mismatch, relative to the state, below which Newton's method is tried.
+const NEAR: f64 = 3e-2;
+
+/// Distance, relative to the state, between an orbit and a run that is on its way to it.
+const SAME: f64 = 0.2;
+
+/// Where a run ends.
+#[derive(Clone, Debug)]
+pub struct Settled {
+    /// The periodic motion.
+    pub orbit: MotionOrbit,
+    /// Common dither periods in its period.
+    pub multiple: u32,
+    /// Common dither periods that the run took to reach its neighbourhood.
+    pub periods: u32,
+}
+
+/// The periodic motion on which a run from a state at t = 0 ends, within `most` common periods.
+///
+/// The run goes on until its states repeat nearly, after one or several periods; then Newton's method closes the orbit. An orbit
+/// that is unstable, or far from the run, is not where it ends, and the run goes on.
+///
+/// # Errors
+/// [`NoMotionOrbit::Unsettled`] where no such orbit is found.
+pub fn settled(system: &System, start: &[f64], most: u32) -> Result<Settled, NoMotionOrbit> {
+    let motion = Motion::new(system).map_err(NoMotionOrbit::Immobile)?;
+    let period = time_of(&motion, 1).map_err(NoMotionOrbit::NoImage)?;
+    let mut states = vec![start.to_vec()];
+    let mut from = MotionStart { time: 0.0, state: start.to_vec() };
+    let mut next_try = 8;
+    for count in 1..=most {
+        let until = f64::from(count) * period;
+        let end = motion
+            .run(&from, until, MOTION_TOLERANCE, &mut ())
+            .map_err(|why| NoMotionOrbit::NoImage(NoImage::Stopped(why)))?;
+        from = end.restart();
+        states.push(end.state);
+        if count < next_try {
+            continue;
+        }
+        if let Some((orbit, multiple)) = closed(system, &motion, &states) {
+            return Ok(Settled { orbit, multiple, periods: count });
+        }
+        next_try = count + (count / 3).max(8);
+    }
+    Err(NoMotionOrbit::Unsettled { periods: most })
+}
+
+/// A stable orbit near the last states.
+fn closed(system: &System, motion: &Motion<'_>, states: &[Vec<f64>]) -> Option<(MotionOrbit, u32)> {
+    let last = states.last()?;
+    let scale = scale_of(motion, last);
+    let distance =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+    let most = MOST_MULTIPLES.min(states.len() - 1);
+    let (multiple, mismatch) = (1..=most)
+        .map(|back| (back, distance(last, &states[states.len() - 1 - back])))
+        .reduce(|best, next| if next.1 < 0.3 * best.1 { next } else { best })?;
+    if mismatch > NEAR * scale {
+        return None;
+    }
+    let multiple = u32::try_from(multiple).ok()?;
+    let orbit = motion_near(system, last, multiple).ok()?;
+    let is_near = distance(&orbit.state, last) <= SAME * scale;
+    (is_near && orbit.radius() < 1.0).then_some((orbit, multiple))
+}

@@ -1,0 +1,357 @@
+//! The variational equation of a system's run, with a jump at every event.
+//!
+//! Between events a small change obeys δẋ = J(t) δx, in stick with the forces that keep δγ = 0. At the moment at which a guard h
+//! reaches zero it is multiplied by the saltation matrix
+//!
+//! ```text
+//! S = I + (f⁺ − f⁻) ∇hᵀ / ḣ
+//! ```
+//!
+//! with the rates f of the state on both sides, f⁺ after all decisions of that moment, and ḣ along the motion before. A smooth
+//! release, a separation and a landing have f⁺ = f⁻ and S = I; a stick projects onto γ = 0. A jump of the dither happens at
+//! a fixed time, whatever the state: S = I there.
+//!
+//! Where two independent guards reach zero together, S depends on the order in which a change separates them: the multipliers
+//! are one-sided, and [`MotionVariation::is_one_sided`] says so.
+//!
+//! Scheme: extrapolation of order 16 on every Taylor step, like the step itself. Reference: Leine and Nijmeijer (2004), ch. 7.
+
+use quell_model::System;
+use quell_model::friction::{BranchSeries, FrictionConstants};
+use quell_numerics::extrapolation::integrate;
+use quell_numerics::matrix::Matrix;
+
+use super::equations::Equations;
+use super::observer::{
+    MotionEvent, MotionMoment, MotionObserver, MotionSegment, RecordedEvent, Trigger,
+};
+use super::phase::{ContactNow, ContactPhase};
+use super::stuck::StuckForces;
+use super::{Motion, least};
+use crate::simulation::ORDER;
+
+/// Error of the integration over a step.
+const TOLERANCE: f64 = 3e-15;
+
+/// Friction of a contact linearised at one instant: δT = −a tᵀδx + b rᵀδx.
+#[derive(Clone, Copy, Debug, Default)]
+struct Instant {
+    /// a = μ′ N.
+    by_slip: f64,
+    /// b = μ.
+    by_load: f64,
+    /// T.
+    friction: f64,
+    /// sᵀx.
+    tilt: f64,
+}
+
+/// Least distance of the slip velocities and loads from zero, relative to the velocity of the surface and to N₀.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeastDistance {
+    /// The distance.
+    pub distance: f64,
+    /// When.
+    pub time: f64,
+    /// The contact.
+    pub contact: usize,
+    /// Whether it is the distance of a load: of a separation.
+    pub is_load: bool,
+}
+
+/// Integrates the matrix of changes along a run, and records its events.
+pub struct MotionVariation<'a> {
+    system: &'a System,
+    equations: &'a Equations,
+    laws: Vec<FrictionConstants>,
+    /// Derivative of the state with respect to the initial one, column by column.
+    columns: Vec<f64>,
+    /// Events in order.
+    pub events: Vec<RecordedEvent>,
+    /// Nearest approach to an event of a contact that slips.
+    pub least: Option<LeastDistance>,
+    /// Whether independent guards reached zero together.
+    pub is_one_sided: bool,
+    /// Whether the integration of changes failed.
+    pub has_failed: bool,
+    /// ẋ at the end of the last step, and what the contacts did on it.
+    rates: Vec<f64>,
+    now: Vec<ContactNow>,
+    stuck: StuckForces,
+    /// (∇h, ḣ) of an event whose f⁺ is not known yet.
+    pending: Option<(Vec<f64>, f64)>,
+    last: Instants,
+    is_first: bool,
+}
+
+type Instants = Vec<Instant>;
+
+impl<'a> MotionVariation<'a> {
+    /// From the identity.
+    pub fn new(motion: &'a Motion<'a>) -> Self {
+        let (system, equations) = (motion.system, &motion.equations);
+        let size = equations.size;
+        Self {
+            laws: system.contacts.iter().map(|c| FrictionConstants::of(&c.friction)).collect(),
+            columns: Matrix::identity(size).as_slice().to_vec(),
+            events: Vec::new(),
+            least: None,
+            is_one_sided: false,
+            has_failed: false,
+            rates: vec![0.0; size],
+            now: Vec::new(),
+            stuck: StuckForces::default(),
+            pending: None,
+            last: Vec::new(),
+            is_first: true,
+            system,
+            equations,
+        }
+    }
+
+    /// Derivative of the state with respect to the initial one.
+    pub fn matrix(&self) -> Matrix {
+        let size = self.equations.size;
+        Matrix::from_fn(size, size, |i, j| self.columns[j * size + i])
+    }
+
+    /// Friction of every contact linearised at a time after the start of a segment.
+    fn instants(&mut self, segment: &MotionSegment<'_>, since: f64, out: &mut Instants) {
+        out.clear();
+        for index in 0..self.now.len() {
+            let contact = &self.equations.contacts[index];
+            let friction = MotionSegment::value(segment.friction(index), since);
+            let tilt = MotionSegment::value(&segment.contacts[index].tilt, since);
+            let mut instant = Instant { friction, tilt, ..Instant::default() };
+            // T = μ N times the factor on friction: what multiplies μ is `pressed`.
+            let pressed = MotionSegment::value(&segment.contacts[index].pressed, since);
+            let load = MotionSegment::value(segment.normal_load(index), since);
+            let factor = if load == 0.0 { 1.0 } else { pressed / load };
+            match self.now[index].phase {
+                ContactPhase::Slip(sign) => {
+                    let slip = MotionSegment::value(segment.slip_velocity(index), since);
+                    let branch =
+                        self.laws[index].series::<1>(f64::from(sign), slip / contact.scale);
+                    instant.by_slip = branch.slope() / contact.scale * pressed;
+                    instant.by_load = branch.first() * factor;
+                }
+                ContactPhase::Stick => {
+                    let side = f64::from(self.now[index].saturated);
+                    instant.by_load = side * contact.static_coefficient * factor;
+                }
+                ContactPhase::Open => {}
+            }
+            out.push(instant);
+        }
+    }
+
+    /// Whether J is the same along the whole segment.
+    fn is_steady(&self, first: &Instants, last: &Instants) -> bool {
+        let laws = self.system.contacts.iter();
+        let linear = laws.zip(&self.now).all(|(contact, now)| match now.phase {
+            ContactPhase::Slip(_) => {
+                contact.friction.kind() == quell_model::LawKind::Coulomb
+                    && contact.friction.slope(1.0) == 0.0
+                    && contact.slope.is_none()
+            }
+            _ => contact.slope.is_none(),
+        });
+        linear
+            && first.iter().zip(last).all(|(a, b)| (a.by_load, a.by_slip) == (b.by_load, b.by_slip))
+    }
+
+    /// J δx, with the forces of sticking contacts if `holds`.
+    fn rates_of(&self, instants: &Instants, change: &[f64], out: &mut [f64], holds: bool) {
+        self.equations.matrix.times(change, out);
+        for (index, contact) in self.equations.contacts.iter().enumerate() {
+            let (now, instant) = (&self.now[index], &instants[index]);
+            if now.is_open() {
+                continue;
+            }
+            let load = contact.approach.dot(change);
+            if load != 0.0 {
+                contact.across.add_to(-load, out);
+            }
+            if !contact.slope.is_empty() {
+                contact.across.add_to(instant.friction * contact.slope.dot(change), out);
+            }
+            let force = instant.by_load * load - instant.by_slip * contact.tangent.dot(change);
+            if force != 0.0 {
+                contact.along.add_to(force, out);
+                contact.across.add_to(force * instant.tilt, out);
+            }
+        }
+        if holds {
+            let tilt = |index: usize| instants[index].tilt;
+            self.stuck.hold_change(self.equations, tilt, out);
+        }
+    }
+
+    /// Advances all columns over a segment.
+    fn flow(&mut self, segment: &MotionSegment<'_>) {
+        let (mut first, mut last) = (Vec::new(), Vec::new());
+        self.instants(segment, 0.0, &mut first);
+        self.instants(segment, segment.duration, &mut last);
+        let size = self.equations.size;
+        let mut columns = std::mem::take(&mut self.columns);
+        let duration = segment.duration;
+        if self.is_steady(&first, &last) {
+            for column in columns.chunks_mut(size) {
+                self.exponential(&first, duration, column);
+            }
+        } else {
+            let mut instants = first;
+            let mut rates = |since: f64, changes: &[f64], out: &mut [f64]| {
+                self.instants(segment, since, &mut instants);
+                for (change, out) in changes.chunks(size).zip(out.chunks_mut(size)) {
+                    self.rates_of(&instants, change, out, true);
+                }
+            };
+            let largest = columns.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+            let settings = (TOLERANCE * largest.max(1e-300), duration);
+            let done = integrate(&mut rates, (0.0, duration), &mut columns, settings, |_, _| {});
+            self.has_failed |= done.is_err();
+        }
+        self.columns = columns;
+        self.last = last;
+    }
+
+    /// exp(Jh) δx by its Taylor series: a step of the engine, so that the series converges in few terms.
+    fn exponential(&self, instants: &Instants, duration: f64, column: &mut [f64]) {
+        let mut term = column.to_vec();
+        let mut next = vec![0.0; column.len()];
+        for k in 1..400 {
+            self.rates_of(instants, &term, &mut next, true);
+            let factor = duration / f64::from(k);
+            let mut is_done = true;
+            for ((value, term), next) in column.iter_mut().zip(&mut term).zip(&next) {
+                *term = next * factor;
+                *value += *term;
+                is_done &= term.abs() <= 1e-18 * value.abs();
+            }
+            if is_done || term.iter().all(|term| *term == 0.0) {
+                break;
+            }
+        }
+    }
+
+    /// Applies a jump once the rates behind it are known.
+    fn jump(&mut self, after: &[f64]) {
+        let Some((gradient, rate)) = self.pending.take() else { return };
+        let size = self.equations.size;
+        for column in self.columns.chunks_mut(size) {
+            let height: f64 = gradient.iter().zip(column.iter()).map(|(g, x)| g * x).sum();
+            let share = height / rate;
+            for ((value, after), before) in column.iter_mut().zip(after).zip(&self.rates) {
+                *value = (after - before).mul_add(share, *value);
+            }
+        }
+    }
+
+    /// Removes what a change of a sticking contact's slip velocity would be: it is lost at once.
+    fn project(&mut self) {
+        let size = self.equations.size;
+        let mut columns = std::mem::take(&mut self.columns);
+        for column in columns.chunks_mut(size) {
+            self.stuck.project(self.equations, |_| 0.0, column);
+        }
+        self.columns = columns;
+    }
+
+    /// ∇h of the guard that reached zero, while the contacts still do what they did before.
+    fn gradient(&mut self, trigger: Trigger) -> Option<Vec<f64>> {
+        let size = self.equations.size;
+        match trigger {
+            Trigger::Load(_) => None,
+            Trigger::Slip(contact) => {
+                let sign = f64::from(self.now[contact].phase.slip_sign());
+                let row = self.equations.contacts[contact].tangent.dense(size);
+                Some(row.into_iter().map(|entry| -sign * entry).collect())
+            }
+            Trigger::Margin(contact, side) => {
+                let equation = &self.equations.contacts[contact];
+                let mut change = vec![0.0; size];
+                let mut out = vec![0.0; size];
+                let mut gradient = vec![0.0; size];
+                for j in 0..size {
+                    change.fill(0.0);
+                    change[j] = 1.0;
+                    self.rates_of(&self.last, &change, &mut out, false);
+                    let force = self.stuck.change_of_force(self.equations, contact, &out);
+                    let load = equation.static_coefficient * equation.approach.dot(&change);
+                    gradient[j] = load - f64::from(side) * force;
+                }
+                Some(gradient)
+            }
+        }
+    }
+
+    fn watch(&mut self, segment: &MotionSegment<'_>) {
+        for index in 0..self.now.len() {
+            let ContactPhase::Slip(sign) = self.now[index].phase else { continue };
+            let equation = &self.equations.contacts[index];
+            let contact = &self.system.contacts[index];
+            let mut nearer = |series: &[f64; ORDER + 1], scale: f64, is_load: bool| {
+                let (lowest, since) = least::least(series, segment.duration);
+                let distance = scale * lowest;
+                if self.least.is_none_or(|known| distance < known.distance) {
+                    let time = segment.clock.time() + since;
+                    self.least = Some(LeastDistance { distance, time, contact: index, is_load });
+                }
+            };
+            if equation.can_stick() {
+                let speed = contact.surface_velocity.mean().abs();
+                let scale = 1.0 / if speed > 0.0 { speed } else { 1.0 };
+                let slip = segment.slip_velocity(index).map(|c| f64::from(sign) * c);
+                nearer(&slip, scale, false);
+            }
+            if equation.is_compliant() {
+                nearer(segment.normal_load(index), 1.0 / contact.normal_load, true);
+            }
+        }
+    }
+}
+
+impl MotionObserver for MotionVariation<'_> {
+    fn segment(&mut self, segment: &MotionSegment<'_>) {
+        let size = self.equations.size;
+        if self.now != segment.now || self.equations.follows {
+            self.now = segment.now.to_vec();
+            let tilts: Vec<f64> = segment.contacts.iter().map(|contact| contact.tilt[0]).collect();
+            match StuckForces::of(self.equations, &self.now, &tilts) {
+                Some(stuck) => self.stuck = stuck,
+                None => self.has_failed = true,
+            }
+        }
+        self.jump(&segment.states[size..2 * size]);
+        if std::mem::take(&mut self.is_first) {
+            self.project();
+        }
+        self.watch(segment);
+        self.flow(segment);
+        for (i, rate) in self.rates.iter_mut().enumerate() {
+            *rate = 0.0;
+            for k in (1..=ORDER).rev() {
+                *rate = rate.mul_add(segment.duration, k as f64 * segment.states[k * size + i]);
+            }
+        }
+    }
+
+    fn event(&mut self, event: &MotionEvent<'_>) {
+        self.events.push(RecordedEvent {
+            time: event.time,
+            contact: event.contact,
+            kind: event.kind,
+            slip_sign: event.slip_sign,
+            state: event.state.to_vec(),
+        });
+    }
+
+    fn moment(&mut self, moment: &MotionMoment<'_>) {
+        self.is_one_sided |= moment.is_one_sided;
+        if self.now.is_empty() || moment.is_jump || self.pending.is_some() {
+            return;
+        }
+        self.pending = self.gradient(moment.trigger).map(|gradient| (gradient, -moment.rate));
+    }
+}
