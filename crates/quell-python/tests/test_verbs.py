@@ -68,7 +68,7 @@ def test_the_options_are_the_same(verb: str) -> None:
     given = set(inspect.signature(offered()[verb]).parameters) - {"self"}
     python_only = {
         "map": {"axes", "store", "progress", "client"},
-        "simulate": {"samples"},
+        "simulate": {"samples", "sound"},
         "bifurcation": {"progress"},
         "basins": {"progress"},
         "reproduce": {"names"},
