@@ -162,6 +162,23 @@ def test_a_map_is_the_same(cli: Any) -> None:
     assert {name: value for name, value in there.items() if name in here.facts} == here.facts
 
 
+def test_a_sound_is_the_same(cli: Any, tmp_path: Any) -> None:
+    study = quell.Study.from_toml(BELT)
+    options = ["--until", "500", "--transpose", "2", "--gain", "4.5"]
+    there = cli("simulate", BELT, *options, "--save", str(tmp_path / "cli.wav"))
+    here = study.simulate(500, events=False, transpose=2, gain=4.5)
+    assert here.sound == there["sound"] and here.sentence == there["sentence"]
+    assert here.save(tmp_path / "python.wav") == [str(tmp_path / "python.wav")]
+    assert (tmp_path / "python.wav").read_bytes() == (tmp_path / "cli.wav").read_bytes()
+    assert float(here.arrays["sound_gain"].values) == 4.5
+    # Without options the file has the default ones.
+    plain = study.simulate(500)
+    assert "sound" not in plain.facts
+    plain.save(tmp_path / "plain.wav")
+    study.simulate(500, sound=True).save(tmp_path / "asked.wav")
+    assert (tmp_path / "plain.wav").read_bytes() == (tmp_path / "asked.wav").read_bytes()
+
+
 def test_reproduce_writes_the_same_files(cli: Any, tmp_path: Any) -> None:
     quell.reproduce("2.2", out=tmp_path / "python")
     cli("reproduce", "2.2", "--out", str(tmp_path / "cli"))

@@ -51,6 +51,9 @@ pub const REFERENCE_PITCH: f64 = 110.0;
 /// Level of the largest sample below full scale, dB, where no gain is given.
 pub const DEFAULT_PEAK_DB: f64 = 3.0;
 
+/// Part of a sample by which a sound may end after its run, so that 0.3 s have 13230 samples however they are rounded.
+const SAMPLE_ROUNDING: f64 = 1e-6;
+
 /// Fewest velocities per sample.
 const LEAST_OVERSAMPLING: usize = 4;
 
@@ -159,7 +162,7 @@ impl SoundPlan {
         let least = 1.0 / f64::from(SAMPLE_RATE);
         let advice = if seconds > MOST_SECONDS || seconds.is_nan() {
             "shorten the run, or raise --transpose"
-        } else if seconds < least {
+        } else if seconds < least * (1.0 - SAMPLE_ROUNDING) {
             "lengthen the run, or lower --transpose"
         } else {
             return Ok(Self::with(motion, options, time_per_second, seconds));
@@ -193,7 +196,7 @@ impl SoundPlan {
         Self {
             options,
             time_per_second,
-            samples: (seconds * rate) as usize,
+            samples: (seconds * rate + SAMPLE_ROUNDING) as usize,
             oversampling: wanted.max(LEAST_OVERSAMPLING),
             natural_frequency: motion.natural_frequency.map(hertz),
             fastest_forcing,

@@ -17,9 +17,10 @@ impl Sound {
             .measured("sample_rate", "Hz", SAMPLE_RATE)
             .measured("duration_s", "s", self.duration())
             .plain("transposition", self.transposition);
-        if let Some(hertz) = self.natural_frequency {
-            fields.measured("natural_frequency_hz", "Hz", hertz);
-        }
+        match self.natural_frequency {
+            Some(hertz) => fields.measured("natural_frequency_hz", "Hz", hertz),
+            None => fields.plain("time_per_second", self.time_per_second),
+        };
         match self.strongest {
             Some(hertz) => fields.measured("strongest_frequency_hz", "Hz", hertz),
             None if self.samples.len() < SHORTEST_SPECTRUM => {
@@ -38,8 +39,13 @@ impl Sound {
         let seconds = digits(self.duration());
         let real = if in_real_time { " in real time" } else { "" };
         let mut transposition = format!("transposition {}", digits(self.transposition));
-        if let Some(hertz) = self.natural_frequency {
-            transposition += &format!(", ω₀ at {} Hz", digits(hertz));
+        match self.natural_frequency {
+            Some(hertz) => transposition += &format!(", ω₀ at {} Hz", digits(hertz)),
+            None if in_real_time => {}
+            None => {
+                let units = digits(self.time_per_second);
+                transposition += &format!(", {units} units of time per second");
+            }
         }
         let level = self.gain.map_or_else(
             || AT_REST.to_owned(),

@@ -33,7 +33,11 @@ fn level(sound: &Sound, hertz: f64) -> f64 {
         let window = 1.0 - libm::cos(TAU * (index as f64 + 0.5) / count);
         let angle = TAU * hertz * index as f64 / f64::from(SAMPLE_RATE);
         let value = window * f64::from(*sample) / gain;
-        sums = [sums[0] + value * libm::cos(angle), sums[1] + value * libm::sin(angle), sums[2] + window];
+        sums = [
+            sums[0] + value * libm::cos(angle),
+            sums[1] + value * libm::sin(angle),
+            sums[2] + window,
+        ];
     }
     2.0 * libm::hypot(sums[0], sums[1]) / sums[2]
 }
@@ -125,6 +129,30 @@ fn clipping_is_counted() {
     assert!(limit.abs_diff(29_400) < 900 && limit.abs_diff(sound.clipped) < 900, "{limit}");
     let warnings = sound.warnings(|_, value| digits(value));
     assert!(warnings.len() == 1 && warnings[0].contains("of 44100 samples"), "{warnings:?}");
+}
+
+#[test]
+fn the_transposition_is_stated() {
+    let said = |motion: &RecordedMotion, in_real_time: bool, transposition: f64| {
+        let options = SoundOptions { transposition, gain: Some(4.0) };
+        let sound = tones(motion, options, &[(0.1, 200.0)]);
+        sound.sentence(in_real_time, |_, value| digits(value))
+    };
+    let rest = ", and full scale is a velocity of 0.25 (gain 4).";
+    let motion = seconds(0.5, None);
+    assert_eq!(
+        said(&motion, true, 1.0),
+        format!("The sound lasts 0.5 s in real time (transposition 1){rest}")
+    );
+    assert_eq!(
+        said(&motion, false, 0.5),
+        format!("The sound lasts 1 s (transposition 0.5, 0.5 units of time per second){rest}")
+    );
+    let natural = RecordedMotion { natural_frequency: Some(TAU * 200.0), ..motion };
+    assert_eq!(
+        said(&natural, false, 2.0),
+        format!("The sound lasts 0.25 s (transposition 2, ω₀ at 400 Hz){rest}")
+    );
 }
 
 #[test]

@@ -64,7 +64,8 @@ mod tests {
     fn the_header_is_that_of_the_specification() {
         let file = bytes(&[1, -2, 3], 44_100, "odd");
         let header: [u8; 36] = [
-            b'W', b'A', b'V', b'E', b'f', b'm', b't', b' ', 16, 0, 0, 0, // length of the format
+            b'W', b'A', b'V', b'E', b'f', b'm', b't', b' ', 16, 0, 0,
+            0, // length of the format
             1, 0, 1, 0, // PCM, one channel
             0x44, 0xac, 0, 0, 0x88, 0x58, 1, 0, // 44100 samples and 88200 bytes per second
             2, 0, 16, 0, // bytes and bits per sample
