@@ -162,12 +162,11 @@ impl Outputs {
     fn write(self, outcome: &dyn Outcome, object: &mut Json) -> Result<(), Failure> {
         let Some(first) = self.save.first() else { return Ok(()) };
         let sound = if first.extension() == WAV { outcome.sound() } else { None };
-        let contents = match sound {
-            Some(sound) => vec![sound?],
-            None => {
-                let datasets = outcome.datasets().into_iter();
-                datasets.map(|(_, dataset)| dataset.csv().into_bytes()).collect()
-            }
+        let contents = if let Some(sound) = sound {
+            vec![sound?]
+        } else {
+            let datasets = outcome.datasets().into_iter();
+            datasets.map(|(_, dataset)| dataset.csv().into_bytes()).collect()
         };
         let mut saved = Vec::new();
         for (output, content) in self.save.into_iter().zip(contents) {

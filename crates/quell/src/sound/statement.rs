@@ -38,15 +38,12 @@ impl Sound {
     pub fn sentence(&self, in_real_time: bool, words: impl Fn(Quantity, f64) -> String) -> String {
         let seconds = digits(self.duration());
         let real = if in_real_time { " in real time" } else { "" };
-        let mut transposition = format!("transposition {}", digits(self.transposition));
-        match self.natural_frequency {
-            Some(hertz) => transposition += &format!(", ω₀ at {} Hz", digits(hertz)),
-            None if in_real_time => {}
-            None => {
-                let units = digits(self.time_per_second);
-                transposition += &format!(", {units} units of time per second");
-            }
-        }
+        let pitch = match self.natural_frequency {
+            Some(hertz) => format!(", ω₀ at {} Hz", digits(hertz)),
+            None if in_real_time => String::new(),
+            None => format!(", {} units of time per second", digits(self.time_per_second)),
+        };
+        let transposition = format!("transposition {}{pitch}", digits(self.transposition));
         let level = self.gain.map_or_else(
             || AT_REST.to_owned(),
             |gain| {
