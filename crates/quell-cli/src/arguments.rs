@@ -1,6 +1,6 @@
 //! Arguments shared by several verbs, and the collection of their complaints.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use quell::input::Inputs;
@@ -112,6 +112,9 @@ pub(crate) struct OutputArguments {
     save: Option<PathBuf>,
 }
 
+/// Extension of a sound.
+pub(crate) const WAV: &str = "wav";
+
 /// Output files that have been checked to be writable.
 #[derive(Debug)]
 pub(crate) struct Outputs {
@@ -127,32 +130,47 @@ impl OutputArguments {
     /// Checks that every output can be written and does not replace one of the inputs; `parts` name further files in the folder
     /// of the first.
     pub(crate) fn prepare(&self, parts: &[&str], inputs: &Inputs) -> Result<Outputs, Failure> {
+        Outputs::prepare(self.save.as_deref(), &["csv"], parts, inputs)
+    }
+}
+
+impl Outputs {
+    /// [`OutputArguments::prepare`] for a path with one of these extensions.
+    pub(crate) fn prepare(
+        path: Option<&Path>,
+        extensions: &[&str],
+        parts: &[&str],
+        inputs: &Inputs,
+    ) -> Result<Self, Failure> {
         let mut save = Vec::new();
-        if let Some(path) = &self.save {
-            let first = Output::prepare(path, "--save", &["csv"], inputs)?;
+        if let Some(path) = path {
+            let first = Output::prepare(path, "--save", extensions, inputs)?;
             for part in parts {
                 save.push(first.sibling(part, "--save", inputs)?);
             }
             save.insert(0, first);
         }
-        Ok(Outputs { save })
+        Ok(Self { save })
     }
-}
 
-impl Outputs {
     /// No output.
     pub(crate) fn none() -> Self {
         Self { save: Vec::new() }
     }
 
-    /// Writes the datasets of an outcome, one per file, and adds their paths to the object.
+    /// Writes the sound of an outcome, or its datasets, one per file, and adds the paths to the object.
     fn write(self, outcome: &dyn Outcome, object: &mut Json) -> Result<(), Failure> {
-        if self.save.is_empty() {
-            return Ok(());
-        }
+        let Some(first) = self.save.first() else { return Ok(()) };
+        let sound = if first.extension() == WAV { outcome.sound() } else { None };
+        let contents = if let Some(sound) = sound {
+            vec![sound?]
+        } else {
+            let datasets = outcome.datasets().into_iter();
+            datasets.map(|(_, dataset)| dataset.csv().into_bytes()).collect()
+        };
         let mut saved = Vec::new();
-        for (output, (_, dataset)) in self.save.into_iter().zip(outcome.datasets()) {
-            saved.push(output.write(dataset.csv().as_bytes())?.display().to_string());
+        for (output, content) in self.save.into_iter().zip(contents) {
+            saved.push(output.write(&content)?.display().to_string());
         }
         object["saved"] = saved.into();
         Ok(())

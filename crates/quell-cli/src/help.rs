@@ -59,7 +59,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 "simulate",
                 &[
                     "quell simulate quench.toml --until 50 --events",
-                    "quell simulate drive.toml --until 0.5s --save drive.csv",
+                    "quell simulate quench.toml --until 2000 --save quench.wav",
                 ],
             ),
             (

@@ -77,6 +77,20 @@ impl NativeAnswer {
         })
     }
 
+    /// Writes the sound.
+    fn sound(&self, py: Python<'_>, path: PathBuf) -> PyResult<String> {
+        let inner = Arc::clone(&self.inner);
+        call::run(py, move || {
+            let output = Output::prepare(&path, "path", &["wav"], &inner.inputs())?;
+            let sound = inner.sound().unwrap_or_else(|| {
+                let allowed = "this result has no sound";
+                let origin = Origin::Whole;
+                Err(Complaint::new(Fault::Usage, "save", origin, Json::Null, allowed).into())
+            });
+            Ok(output.write(&sound?)?.display().to_string())
+        })
+    }
+
     /// Writes the datasets as CSV; those after the first go to further files in the same folder.
     fn csv(&self, py: Python<'_>, path: PathBuf) -> PyResult<Vec<String>> {
         let inner = Arc::clone(&self.inner);

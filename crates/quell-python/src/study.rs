@@ -15,6 +15,7 @@ use quell_model::units::Quantity;
 use crate::answer::NativeAnswer;
 use crate::arguments::{Pair, both, ends};
 use crate::verbs::map::Asked;
+use crate::verbs::simulate::SoundTexts;
 use crate::verbs::{
     basins, bifurcation, check, cite, friction, map, modes, orbit, resonances, response, simulate,
     stability, thresholds,
@@ -193,16 +194,17 @@ impl NativeStudy {
         call::run(py, move || stability::run_tracked(&study, parameter, &range, along))
     }
 
-    /// `until`: τ, or a time with its unit.
+    /// `until`: τ, or a time with its unit; `kept`: whether events and samples are kept; `sound`: its transposition and gain.
+    #[pyo3(signature = (until, kept, sound))]
     fn simulate(
         &self,
         py: Python<'_>,
         until: String,
-        events: bool,
-        samples: bool,
+        kept: (bool, bool),
+        sound: Option<SoundTexts>,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::run(py, move || simulate::run(&study, &until, events, samples))
+        call::run(py, move || simulate::run(&study, &until, kept, sound.as_ref()))
     }
 
     fn response(&self, py: Python<'_>) -> PyResult<NativeAnswer> {

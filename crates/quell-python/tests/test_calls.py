@@ -197,6 +197,9 @@ WRONG: list[tuple[str, str, Any]] = [
     ("grid", "", lambda belt, disc: belt.basins(grid=(1, 9))),
     ("sample", "", lambda belt, disc: belt.basins(sample=0)),
     ("until", "", lambda belt, disc: belt.simulate(-1.0)),
+    ("until", "raise transpose", lambda belt, disc: belt.simulate(1e9, sound=True)),
+    ("transpose", "a factor above 0", lambda belt, disc: belt.simulate(1.0, transpose=-1)),
+    ("gain", "", lambda belt, disc: belt.simulate(1.0, gain="loud")),
     ("quantity", "efficiency", lambda belt, disc: belt.map("eficiency", {"dither.amplitude": [0.1]})),
     ("[[sweep]]", 'axes={"dither.amplitude"', lambda belt, disc: belt.map("efficiency")),
     ("clear", "clear and frequency must be given together", lambda belt, disc: disc.resonances(clear=(0.2, 0.6))),
@@ -204,6 +207,7 @@ WRONG: list[tuple[str, str, Any]] = [
     ("out", "", lambda belt, disc: quell.reproduce("2.2", out=__file__)),
     ("path", "must end in", lambda belt, disc: belt.simulate(1.0).save("x.xlsx")),
     ("path", "must end in", lambda belt, disc: belt.cite().save("x.xlsx")),
+    ("save", "no sound", lambda belt, disc: belt.cite().save("x.wav")),
 ]
 """The wrong argument, words of the reason, and the call."""
 

@@ -25,7 +25,7 @@ def every(belt: quell.Belt, disc: quell.Disc) -> dict[str, results.Result]:
         "friction": belt.friction(),
         "stability": belt.stability(),
         "disc stability": disc.stability(),
-        "simulate": belt.simulate(20.0),
+        "simulate": belt.simulate(20.0, sound=True),
         "response": belt.response(),
         "orbit": belt.orbit(),
         "thresholds": belt.thresholds("dither.amplitude", 0.3, 0.6),

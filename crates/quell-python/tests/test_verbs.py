@@ -68,7 +68,7 @@ def test_the_options_are_the_same(verb: str) -> None:
     given = set(inspect.signature(offered()[verb]).parameters) - {"self"}
     python_only = {
         "map": {"axes", "store", "progress", "client"},
-        "simulate": {"samples"},
+        "simulate": {"samples", "sound"},
         "bifurcation": {"progress"},
         "basins": {"progress"},
         "reproduce": {"names"},
@@ -160,6 +160,23 @@ def test_a_map_is_the_same(cli: Any) -> None:
     assert here.words("verdict").tolist() == there["verdict"]
     assert here.words("growth_status").tolist() == there["growth_status"]
     assert {name: value for name, value in there.items() if name in here.facts} == here.facts
+
+
+def test_a_sound_is_the_same(cli: Any, tmp_path: Any) -> None:
+    study = quell.Study.from_toml(BELT)
+    options = ["--until", "500", "--transpose", "2", "--gain", "4.5"]
+    there = cli("simulate", BELT, *options, "--save", str(tmp_path / "cli.wav"))
+    here = study.simulate(500, events=False, transpose=2, gain=4.5)
+    assert here.sound == there["sound"] and here.sentence == there["sentence"]
+    assert here.save(tmp_path / "python.wav") == [str(tmp_path / "python.wav")]
+    assert (tmp_path / "python.wav").read_bytes() == (tmp_path / "cli.wav").read_bytes()
+    assert float(here.arrays["sound_gain"].values) == 4.5
+    # Without options the file has the default ones.
+    plain = study.simulate(500)
+    assert "sound" not in plain.facts
+    plain.save(tmp_path / "plain.wav")
+    study.simulate(500, sound=True).save(tmp_path / "asked.wav")
+    assert (tmp_path / "plain.wav").read_bytes() == (tmp_path / "asked.wav").read_bytes()
 
 
 def test_reproduce_writes_the_same_files(cli: Any, tmp_path: Any) -> None:

@@ -146,6 +146,7 @@
 //! | [`sweep`], [`store`] | maps: points, quantities, threads; stores that survive interruptions |
 //! | [`picture`], [`plot`] | pictures of outcomes; figures as data (`quell-plot`) |
 //! | [`dataset`], [`fields`], [`output`] | labelled arrays, JSON objects, files that are complete or absent |
+//! | [`sound`] | the velocity of a motion as a sound file |
 //! | [`cite`], [`template`] | sources of a study's computations; commented studies to start from |
 
 pub mod cite;
@@ -158,6 +159,7 @@ pub mod output;
 pub mod picture;
 mod range;
 pub mod run;
+pub mod sound;
 pub mod store;
 pub mod sweep;
 pub mod template;

@@ -218,7 +218,14 @@ class Study:
         return results.Stability(self, self._native.stability(False))
 
     def simulate(
-        self, until: Number, *, events: bool = True, samples: bool = True
+        self,
+        until: Number,
+        *,
+        events: bool = True,
+        samples: bool = True,
+        sound: bool = False,
+        transpose: Number | None = None,
+        gain: Number | None = None,
     ) -> results.Simulation:
         """Simulates one trajectory with the exact time of every event at the contact.
 
@@ -231,11 +238,22 @@ class Study:
         samples :
             Whether to sample the trajectory: displacement and velocity over ``time`` (n,). Sampling does not change
             the run.
+        sound :
+            Whether to describe in ``sound`` the file that ``save("run.wav")`` writes: the velocity as sound.
+        transpose :
+            Factor of every frequency of that sound, which is then computed [default: 1, in SI real time, otherwise ω₀ at
+            110 Hz].
+        gain :
+            Fraction of full scale per unit of velocity, in a study in SI per m/s; the sound is then computed [default: the
+            largest sample is 3 dB below full scale].
         """
         arguments = Arguments()
         end = arguments.quantity("until", until, 'a finite number, or a time with its unit such as "0.5s"')
+        factor = None if transpose is None else arguments.quantity("transpose", transpose, "a factor above 0, such as 0.5")
+        level = None if gain is None else arguments.quantity("gain", gain)
         arguments.done()
-        return results.Simulation(self, self._native.simulate(end, bool(events), bool(samples)))
+        texts = (factor, level) if sound or factor is not None or level is not None else None
+        return results.Simulation(self, self._native.simulate(end, (bool(events), bool(samples)), texts))
 
     def response(self) -> results.Response:
         """The steady response, the effect of the dither (``effect``; residual vibration E, equation (2.27)), and its cost."""

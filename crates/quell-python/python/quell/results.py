@@ -132,7 +132,7 @@ class Result:
         return draw(self._described())
 
     def save(self, path: str | os.PathLike[str]) -> list[str]:
-        """Writes the arrays as .csv, with units and the study in the header, or the picture as .svg or .png.
+        """Writes the arrays as .csv, with units and the study in the header, the picture as .svg or .png, or a run as .wav.
 
         The files are those of ``--save`` and ``--plot`` on the command line. Returns the paths of the written files.
         """
@@ -144,6 +144,8 @@ class Result:
             raise StudyError([complaint("save", None, "a result that was not unpickled: repeat the call", "usage")])
         if str(place).lower().endswith((".svg", ".png")):
             return [self._native.picture(str(place))]
+        if str(place).lower().endswith(".wav"):
+            return [self._native.sound(str(place))]
         return self._native.csv(str(place))
 
     def _alive(self) -> NativeAnswer:
@@ -359,6 +361,9 @@ class Simulation(Result):
     """``time``, ``kind`` ("stick", "release", "reversal"), ``slip_sign``, ``displacement`` of every event."""
     event_count: int
     """Number of events, including those that were not kept."""
+    sound: dict[str, Any]
+    """With ``sound``: ``sample_rate``, ``duration_s``, ``transposition``, ``natural_frequency_hz`` (where ω₀ sounds),
+    ``strongest_frequency_hz``, ``gain`` and ``clipped`` of the file that ``save("run.wav")`` writes."""
 
 
 class Response(Result):

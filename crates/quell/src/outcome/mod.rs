@@ -1,4 +1,4 @@
-//! The answer of a verb for its readers: a sentence, a table, fields, datasets, a picture.
+//! The answer of a verb for its readers: a sentence, a table, fields, datasets, a sound, a picture.
 //!
 //! Every verb has two files: `run/VERB.rs` computes, `outcome/VERB.rs` presents the result. The command line and Python
 //! both take an [`Outcome`] and need nothing else of a verb's result.
@@ -74,6 +74,11 @@ pub trait Outcome: Send + Sync {
         Vec::new()
     }
 
+    /// The bytes of a sound file, if the verb has one.
+    fn sound(&self) -> Option<Result<Vec<u8>, Failure>> {
+        None
+    }
+
     /// The picture, if the verb has one.
     fn figure(&self) -> Option<Result<Figure, Failure>> {
         None
@@ -103,6 +108,12 @@ pub trait Presented<K>: Send + Sync {
     fn datasets(&self, study: &StudyOf<K>) -> Vec<(&'static str, Dataset)> {
         let _ = study;
         Vec::new()
+    }
+
+    /// [`Outcome::sound`].
+    fn sound(&self, study: &StudyOf<K>) -> Option<Result<Vec<u8>, Failure>> {
+        let _ = study;
+        None
     }
 
     /// [`Outcome::figure`].
@@ -151,6 +162,10 @@ impl<K: StudyKind + Send + Sync, D: Presented<K>> Outcome for Answered<K, D> {
 
     fn datasets(&self) -> Vec<(&'static str, Dataset)> {
         self.done.datasets(&self.study)
+    }
+
+    fn sound(&self) -> Option<Result<Vec<u8>, Failure>> {
+        self.done.sound(&self.study)
     }
 
     fn figure(&self) -> Option<Result<Figure, Failure>> {

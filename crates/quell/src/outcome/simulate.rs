@@ -12,6 +12,7 @@ use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::simulate::{Options, Simulation, run};
+use crate::sound::SoundOptions;
 use crate::study::{BeltSetup, BeltStudy};
 
 impl Presented<BeltSetup> for Simulation {
@@ -38,12 +39,28 @@ impl Presented<BeltSetup> for Simulation {
         datasets
     }
 
+    /// The sound is the requested one, or one with the default options.
+    fn sound(&self, study: &BeltStudy) -> Option<Result<Vec<u8>, Failure>> {
+        let wav = |done: &Self| {
+            let comment = done.sound_sentence(study).unwrap_or_default();
+            done.sound.as_ref().map(|sound| sound.wav(&comment))
+        };
+        if let Some(bytes) = wav(self) {
+            return Some(Ok(bytes));
+        }
+        let options = Options { sound: Some(SoundOptions::default()), ..Options::default() };
+        match run(study, self.end.time, options) {
+            Ok(done) => wav(&done).map(Ok),
+            Err(failure) => Some(Err(failure)),
+        }
+    }
+
     /// The picture shows the run without dither next to this one.
     fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
         if self.samples.is_some() && self.undithered_samples.is_some() {
             return Some(Ok(picture::simulate(study, self)));
         }
-        let options = Options { events: false, samples: true, undithered: true };
+        let options = Options { samples: true, undithered: true, ..Options::default() };
         let both = run(study, self.end.time, options);
         Some(both.map(|both| picture::simulate(study, &both)))
     }

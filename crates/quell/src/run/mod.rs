@@ -16,6 +16,7 @@ pub mod orbit;
 pub mod protocol;
 pub mod response;
 pub mod simulate;
+mod sound_tap;
 pub mod stability;
 pub mod system;
 pub mod thresholds;

@@ -8,11 +8,13 @@ use quell_dynamics::simulation::{
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::sound_tap::{SoundTap, fastest_dither, plan};
 use super::{failed, start};
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::range::SlipMet;
+use crate::sound::{Sound, SoundOptions};
 use crate::study::BeltStudy;
 use crate::words::{in_words, plural, start_in_words};
 
@@ -24,7 +26,7 @@ const SAMPLES_PER_SLOW_PERIOD: f64 = 256.0;
 pub const MOST_SAMPLES: usize = 2_000_000;
 
 /// What a run keeps.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options {
     /// Whether every event is kept.
     pub events: bool,
@@ -32,6 +34,8 @@ pub struct Options {
     pub samples: bool,
     /// Whether the run without dither is computed as well.
     pub undithered: bool,
+    /// The sound of the velocity, if wanted.
+    pub sound: Option<SoundOptions>,
 }
 
 /// A trajectory.
@@ -47,6 +51,8 @@ pub struct Simulation {
     pub samples: Option<Vec<Sample>>,
     /// Samples of the run without dither, if requested and the study has dither.
     pub undithered_samples: Option<Vec<Sample>>,
+    /// The sound of the velocity, if requested.
+    pub sound: Option<Sound>,
     /// Whether the samples are too coarse to resolve the fastest dither.
     pub coarse: bool,
     /// The slip reached.
@@ -56,10 +62,11 @@ pub struct Simulation {
 /// Integrates a study to τ = `until`.
 ///
 /// # Errors
-/// [`Failure::Wrong`] if a squealing start is requested but does not exist; [`Failure::Failed`] if the
-/// engine stops.
+/// [`Failure::Wrong`] if a squealing start is requested but does not exist, or if the sound would be too long;
+/// [`Failure::Failed`] if the engine stops.
 pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation, Failure> {
     let belt = study.belt();
+    let sound = options.sound.map(|sound| plan(study, until, sound)).transpose()?;
     let start = start(study)?;
     let (intervals, coarse) =
         if options.samples { grid(study, until - start.time) } else { (0, false) };
@@ -69,7 +76,8 @@ pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation
     let tolerance = study.solver().tolerance;
     let mut recorder = EventRecorder::default();
     let mut largest = LargestSlip::of(belt);
-    let mut watch = (&mut largest, &mut sampler);
+    let mut tap = SoundTap::new(start, sound.as_ref());
+    let mut watch = (&mut largest, (&mut sampler, &mut tap));
     let end = if options.events {
         simulate(belt, start, until, tolerance, &mut (&mut recorder, &mut watch))
     } else {
@@ -93,6 +101,7 @@ pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation
         events: options.events.then_some(recorder.events),
         samples: options.samples.then_some(samples),
         undithered_samples,
+        sound: tap.finish(&end),
         coarse,
         slip,
     })
@@ -111,8 +120,7 @@ fn with_end(mut samples: Vec<Sample>, end: &FinalState) -> Vec<Sample> {
 
 /// Number of intervals between samples, and whether it had to be limited.
 fn grid(study: &BeltStudy, length: f64) -> (usize, bool) {
-    let dithers = study.belt().dithers().iter().filter(|dither| dither.amplitude > 0.0);
-    let fastest = dithers.fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
+    let fastest = fastest_dither(study).unwrap_or(0.0);
     let per_slow = SAMPLES_PER_SLOW_PERIOD.max(SAMPLES_PER_DITHER_PERIOD * fastest);
     let wanted = (length / TAU * per_slow).ceil().max(1.0);
     if wanted > MOST_SAMPLES as f64 {
@@ -142,12 +150,23 @@ impl Simulation {
             1 => "after 1 contact event".to_owned(),
             count => format!("after {count} contact events"),
         };
-        format!(
+        let ends = format!(
             "Started {}: at {} = {} {state}, {events}.",
             start_in_words(study),
             time,
             in_words(study, Quantity::Time, end.time)
-        )
+        );
+        match self.sound_sentence(study) {
+            Some(sound) => format!("{ends} {sound}"),
+            None => ends,
+        }
+    }
+
+    /// The sound in one sentence, if it was requested.
+    pub fn sound_sentence(&self, study: &BeltStudy) -> Option<String> {
+        let sound = self.sound.as_ref()?;
+        let in_real_time = study.scales().is_some() && sound.transposition == 1.0;
+        Some(sound.sentence(in_real_time, |quantity, value| in_words(study, quantity, value)))
     }
 
     /// As JSON.
@@ -183,6 +202,11 @@ impl Simulation {
             });
             fields.list("events", items);
         }
+        if let Some(sound) = &self.sound {
+            let mut inner = Fields::new(scales);
+            sound.state(&mut inner);
+            fields.nested("sound", inner);
+        }
         fields
             .plain("event_count", end.events)
             .plain("steps", end.steps)
@@ -206,6 +230,9 @@ impl Simulation {
                 "{releases} release{} barely crossed the stiction threshold, where forward uniqueness is not guaranteed",
                 plural(releases)
             ));
+        }
+        if let Some(sound) = &self.sound {
+            warnings.extend(sound.warnings(|quantity, value| in_words(study, quantity, value)));
         }
         warnings
     }
