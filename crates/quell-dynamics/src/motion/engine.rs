@@ -86,7 +86,7 @@ impl<'a> MotionRun<'a> {
         let forcings = Forcings::of(system, clock);
         let waves = forcings.highest_rate();
         let fastest = equations.rate.max(waves);
-        let mut series = StepSeries::new(equations);
+        let mut series = StepSeries::new(equations, &forcings, clock);
         series.set_start(&start.state);
         Self {
             laws: system.contacts.iter().map(|c| FrictionConstants::of(&c.friction)).collect(),

@@ -12,7 +12,7 @@ use quell_model::System;
 use quell_model::system::{Contact, InputTarget, Mechanical, Structure};
 use quell_numerics::matrix::Matrix;
 
-use super::rows::{Entries, SparseMatrix};
+use super::rows::{Entries, StateMatrix};
 use super::stopped::Immobile;
 use crate::simulation::{Clock, Forcing};
 
@@ -56,7 +56,7 @@ impl ContactEquation {
 pub(super) struct Equations {
     /// Length of the state.
     pub(super) size: usize,
-    pub(super) matrix: SparseMatrix,
+    pub(super) matrix: StateMatrix,
     pub(super) constant: Vec<f64>,
     /// Columns b of the inputs that are forces.
     pub(super) pushes: Vec<Entries>,
@@ -198,7 +198,7 @@ impl Equations {
         let follower = product(|contact| &contact.across);
         let rate = fastest_rate(&matrix, &contacts);
         let follows = contacts.iter().any(|contact| !contact.slope.is_empty());
-        let matrix = SparseMatrix::of(&matrix);
+        let matrix = StateMatrix::of(&matrix);
         Ok(Self { size, matrix, constant, pushes, contacts, rate, coupling, follower, follows })
     }
 }
@@ -215,19 +215,19 @@ fn contact_equation(
     let row = |row: &Option<Vec<f64>>, offset| {
         row.as_ref().map(|row| Entries::at(row, offset)).unwrap_or_default()
     };
-    let approach = if contact.normal_stiffness == 0.0 && contact.normal_damping == 0.0 {
-        Entries::default()
-    } else {
-        let spring = row(&contact.normal, 0).times(contact.normal_stiffness);
-        let damper = row(&contact.normal, offset).times(contact.normal_damping);
-        let nonzero = |entries: Entries, factor: f64| {
-            if factor == 0.0 { Entries::default() } else { entries }
-        };
-        nonzero(spring, contact.normal_stiffness).plus(nonzero(damper, contact.normal_damping))
-    };
+    let normal = contact.normal.as_deref().unwrap_or_default();
+    let mut loads = vec![0.0; offset + contact.normal.as_ref().map_or(0, Vec::len)];
+    for (place, entry) in normal.iter().enumerate() {
+        if contact.normal_stiffness != 0.0 {
+            loads[place] += contact.normal_stiffness * entry;
+        }
+        if contact.normal_damping != 0.0 {
+            loads[offset + place] += contact.normal_damping * entry;
+        }
+    }
     Ok(ContactEquation {
         tangent: row(&contact.tangent, offset),
-        approach,
+        approach: Entries::at(&loads, 0),
         slope: row(&contact.slope, 0),
         along,
         across,

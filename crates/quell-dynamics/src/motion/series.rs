@@ -20,6 +20,8 @@ pub(super) struct ContactSeries {
     pub(super) slip: Series,
     /// N; where the contact is open the load that it would have, which is negative.
     pub(super) load: Series,
+    /// N₀ + ΔN(t).
+    given: Series,
     /// N times its factor: what the coefficient of friction multiplies.
     pub(super) pressed: Series,
     /// T.
@@ -37,6 +39,7 @@ impl ContactSeries {
     const ZERO: Self = Self {
         slip: [0.0; ORDER + 1],
         load: [0.0; ORDER + 1],
+        given: [0.0; ORDER + 1],
         pressed: [0.0; ORDER + 1],
         friction: [0.0; ORDER + 1],
         tilt: [0.0; ORDER + 1],
@@ -75,14 +78,20 @@ pub(super) struct StepLimit {
 }
 
 impl StepSeries {
-    pub(super) fn new(equations: &Equations) -> Self {
+    pub(super) fn new(equations: &Equations, forcings: &Forcings, clock: Clock) -> Self {
         let size = equations.size;
+        let contacts = forcings.contacts.iter().map(|forcing| ContactSeries {
+            surface: forcing.surface.series(clock),
+            given: forcing.load.series(clock),
+            guided: forcing.guided.series(clock),
+            ..ContactSeries::ZERO
+        });
         Self {
             size,
             states: vec![0.0; (ORDER + 2) * size],
             rates: vec![0.0; size],
             pushes: vec![[0.0; ORDER + 1]; equations.pushes.len()],
-            contacts: vec![ContactSeries::ZERO; equations.contacts.len()],
+            contacts: contacts.collect(),
             scales: vec![0.0; size],
         }
     }
@@ -153,15 +162,19 @@ impl Work for Expansion<'_> {
 type Branches<'c> = Vec<Option<FrictionSeries<'c, { ORDER + 1 }>>>;
 
 impl<'a> Expansion<'a> {
-    /// Series of what varies in time.
+    /// Series of what varies in time; constant ones were written when the run began.
     #[inline(always)]
     fn forcings(&mut self) {
         for (series, forcing) in self.out.pushes.iter_mut().zip(&self.forcings.pushes) {
             *series = forcing.series(self.clock);
         }
         for (contact, forcing) in self.out.contacts.iter_mut().zip(&self.forcings.contacts) {
-            contact.surface = forcing.surface.series(self.clock);
-            contact.load = forcing.load.series(self.clock);
+            if !forcing.surface.is_constant() {
+                contact.surface = forcing.surface.series(self.clock);
+            }
+            if !forcing.load.is_constant() {
+                contact.given = forcing.load.series(self.clock);
+            }
             if !forcing.guided.is_constant() {
                 contact.guided = forcing.guided.series(self.clock);
             }
@@ -315,9 +328,11 @@ fn read(
 ) {
     let is_zero = now.sticks() || k < now.slip_zeros;
     series.slip[k] = if is_zero { 0.0 } else { series.surface[k] - contact.tangent.dot(state) };
-    if contact.is_compliant() {
-        series.load[k] += contact.approach.dot(state);
-    }
+    series.load[k] = if contact.is_compliant() {
+        series.given[k] + contact.approach.dot(state)
+    } else {
+        series.given[k]
+    };
     if !contact.across.is_empty() {
         let rest = if k == 0 { contact.normal_load } else { 0.0 };
         let carried = if guided { rest + series.guided[k] } else { rest };
