@@ -89,10 +89,6 @@ fn modes(count: usize) -> System {
     }
 }
 
-fn sine_of(x: f64) -> f64 {
-    x.sin()
-}
-
 fn run(system: &System, until: f64) -> (f64, u64, u64) {
     let motion = Motion::new(system).expect("movable");
     let start = MotionStart { time: 0.0, state: vec![0.0; motion.size()] };
