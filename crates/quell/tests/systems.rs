@@ -200,7 +200,8 @@ const DISC: &str = "[system]\ncoordinates = [\"a\", \"b\"]\nmass = [1, 1]\ndampi
 #[test]
 fn exact_exponents_have_the_right_limits() {
     let exact = |text: &str, amplitude: f64| {
-        let changes = [Change::number("dither.amplitude", amplitude, "--set")];
+        let changes =
+            [Change::number("dither.amplitude", amplitude, quell::Origin::Argument("--set"))];
         let study = Study::parse(text, &changes).unwrap_or_else(|errors| panic!("{errors}"));
         verbs(&study).exact_stability().expect("pure slip").json()
     };
