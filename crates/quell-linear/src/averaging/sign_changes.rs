@@ -122,7 +122,7 @@ fn locate<E>(
     let root = try_find_root(&mut *f, a, b, Closeness::default())?;
     let location = root.map_or(a.midpoint(b), |root| root.location);
     let error = root.map_or(b - a, |root| root.width.max(4.0 * f64::EPSILON * location.abs()));
-    // Near a root the difference of the values decreases with the distance, at a branch point beside it only close to the root;
+    // Near a root the difference of the values decreases with the distance, near a branch point only close to the root;
     // across a jump it never does.
     let mut crossing = CrossingKind::Jump;
     for share in NEAR {

@@ -31,7 +31,7 @@ const RATIO: f64 = 2.0;
 
 /// D² of a pair at one value of the parameter.
 #[derive(Clone, Copy, Debug)]
-struct Sample {
+struct PairSample {
     value: f64,
     square: Complex64,
     mean: Complex64,
@@ -39,7 +39,7 @@ struct Sample {
     top: f64,
 }
 
-impl Sample {
+impl PairSample {
     fn of(value: f64, [first, second]: [Complex64; 2]) -> Self {
         let difference = first - second;
         Self {
@@ -70,7 +70,7 @@ struct Parabola {
 }
 
 impl Parabola {
-    fn through([a, b, c]: [&Sample; 3]) -> Self {
+    fn through([a, b, c]: [&PairSample; 3]) -> Self {
         let first = (a.square - b.square) / (a.value - b.value);
         let second = (c.square - b.square) / (c.value - b.value);
         let square = (first - second) / (a.value - c.value);
@@ -140,7 +140,7 @@ impl<'a, F: Family> Search<'a, F> {
         values: &mut Vec<f64>,
     ) {
         let sample = |point: &TrackedPoint| {
-            Sample::of(point.value, [point.eigenvalues[first], point.eigenvalues[second]])
+            PairSample::of(point.value, [point.eigenvalues[first], point.eigenvalues[second]])
         };
         for k in 1..piece.len() {
             let (a, b) = (&piece[k - 1], &piece[k]);
@@ -171,7 +171,7 @@ impl<'a, F: Family> Search<'a, F> {
         }
     }
 
-    fn is_known(&self, guess: f64, [a, b]: &[Sample; 2]) -> bool {
+    fn is_known(&self, guess: f64, [a, b]: &[PairSample; 2]) -> bool {
         let step = b.value - a.value;
         let motion =
             modulus(a.mean - b.mean) + 0.5 * modulus(a.square).max(modulus(b.square)).sqrt();
@@ -184,12 +184,12 @@ impl<'a, F: Family> Search<'a, F> {
     /// The approach near `guess`; `None` where the eigenvalues do not approach each other between the ends.
     fn located(
         &mut self,
-        ends: [Sample; 2],
-        third: Option<Sample>,
+        ends: [PairSample; 2],
+        third: Option<PairSample>,
         guess: f64,
     ) -> Option<Approach> {
         let (low, high) = (ends[0].value, ends[1].value);
-        let mut samples: Vec<Sample> = ends.into_iter().chain(third).collect();
+        let mut samples: Vec<PairSample> = ends.into_iter().chain(third).collect();
         let (mut target, mut width) = (guess, f64::INFINITY);
         for _ in 0..MOST_STEPS {
             let nearest = samples.iter().map(|sample| (sample.value - target).abs());
@@ -226,14 +226,14 @@ impl<'a, F: Family> Search<'a, F> {
     }
 
     /// D² of the two eigenvalues nearest to the mean expected at a value.
-    fn sample(&mut self, value: f64, [a, b]: [Sample; 2]) -> Option<Sample> {
+    fn sample(&mut self, value: f64, [a, b]: [PairSample; 2]) -> Option<PairSample> {
         self.left = self.left.saturating_sub(1);
         let mut values = at(self.family, value).ok()?.eigenvalues;
         let share = (value - a.value) / (b.value - a.value);
         let mean = a.mean + (b.mean - a.mean) * share;
         values.sort_by(|x, y| modulus(x - mean).total_cmp(&modulus(y - mean)));
         match values.as_slice() {
-            [first, second, ..] => Some(Sample::of(value, [*first, *second])),
+            [first, second, ..] => Some(PairSample::of(value, [*first, *second])),
             _ => None,
         }
     }
@@ -265,7 +265,7 @@ fn crossing(a: &TrackedPoint, b: &TrackedPoint, (i, j): (usize, usize)) -> Optio
 
 /// Where the parabola of D² through three neighbouring points has an approach, if that is narrower than a step and near the first
 /// two of them.
-fn predicted(samples: &[Sample; 3]) -> Option<f64> {
+fn predicted(samples: &[PairSample; 3]) -> Option<f64> {
     let [a, b, third] = samples;
     let step = b.value - a.value;
     let (value, width) = Parabola::through([a, b, third]).approach(step)?;
@@ -273,7 +273,7 @@ fn predicted(samples: &[Sample; 3]) -> Option<f64> {
     (near && width <= 0.5 * step).then_some(value)
 }
 
-/// Whether the verdict between two neighbouring points is unstable whatever a pair of branches does: by the mean of the pair, or by
+/// Whether the verdict between two neighbouring points is unstable regardless of a pair of branches: by the mean of the pair, or by
 /// another branch.
 fn is_settled(points: [&TrackedPoint; 2], (i, j): (usize, usize)) -> bool {
     let grows = |pick: &dyn Fn(&TrackedPoint) -> f64| {
