@@ -44,6 +44,14 @@ impl TrackedStability {
             })
             .collect();
         let by = if self.averaged { "By averaging, steady" } else { "Steady" };
+        let opening = self.contacts[0].opening(study.system());
+        let condition = match opening.as_slice() {
+            [] => String::new(),
+            [name] => format!(" This holds only where contact {name} stays closed."),
+            names => {
+                format!(" This holds only where contacts {} stay closed.", names.join(" and "))
+            }
+        };
         let mut sentence = if changes.is_empty() {
             let known = self.verdicts().into_iter().map(|(verdict, from, to)| {
                 let to = self.value(study, to);
@@ -64,7 +72,7 @@ impl TrackedStability {
             let count = self.curves.len();
             let _ = write!(sentence, " Found {count} curve{} of thresholds.", plural(count));
         }
-        sentence
+        sentence + &condition
     }
 
     /// The verdicts over the window, each with its first and last value; a single value in between is not listed.
@@ -173,7 +181,15 @@ impl TrackedStability {
                 if count == 1 { "" } else { "es" }
             )
         });
-        study.warnings().iter().cloned().chain(unknown).chain(unexamined).collect()
+        let TrackRequest { parameter, along, .. } = &self.request;
+        let [own, of_curves] = &self.contacts;
+        let own = own.warnings(study, |range| between(study, parameter, range));
+        let along = along.as_ref().map_or("", |(path, _)| path.as_str());
+        let of_curves = of_curves.warnings(study, |range| {
+            format!("on lines {} of the second parameter", between(study, along, range))
+        });
+        let listed = study.warnings().iter().cloned().chain(unknown).chain(unexamined);
+        listed.chain(own).chain(of_curves).collect()
     }
 
     /// Growth rate and frequency of every branch over the parameter.
@@ -225,6 +241,16 @@ impl TrackedStability {
             .with(Array::new(parameter.as_str(), unit(parameter), values));
         Some(dataset)
     }
+}
+
+/// A range of a parameter in words.
+fn between(study: &SystemStudy, path: &str, (from, to): (f64, f64)) -> String {
+    let unit = study.unit_of(path).filter(|unit| *unit != "1");
+    let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+    if from == to {
+        return format!("at {path} = {}{unit}", digits(from));
+    }
+    format!("from {path} = {} to {}{unit}", digits(from), digits(to))
 }
 
 /// One threshold; `unit` is that of the parameter.

@@ -2,6 +2,8 @@
 
 mod answer;
 
+use std::cell::RefCell;
+
 use quell_linear::averaging::DitheredSystem;
 use quell_linear::linearised::Linearised;
 use quell_linear::tracking::{Family, ThresholdOfStability, Tracked, track};
@@ -9,6 +11,7 @@ use quell_numerics::eigen::EigenError;
 use quell_numerics::matrix::Matrix;
 use serde_json::Value as Json;
 
+use super::validity::ContactRanges;
 use super::{failed, has_equations, is_dithered};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::run::protocol::Protocol;
@@ -55,6 +58,8 @@ pub struct TrackedStability {
     pub tracked: Tracked<String>,
     /// Curves along the second parameter; empty without one.
     pub curves: Vec<StabilityCurve>,
+    /// Where contacts open or leave the range of their law: in the window, and over the second parameter.
+    pub contacts: [ContactRanges; 2],
 }
 
 /// The state matrices of a study over one of its numbers, others fixed.
@@ -62,6 +67,7 @@ struct StudyFamily<'a> {
     study: &'a SystemStudy,
     path: &'a str,
     fixed: Option<(&'a str, f64)>,
+    recorded: &'a RefCell<ContactRanges>,
 }
 
 impl Family for StudyFamily<'_> {
@@ -70,13 +76,16 @@ impl Family for StudyFamily<'_> {
     fn matrix(&self, value: f64) -> Result<Matrix, String> {
         let numbers: Vec<(&str, f64)> =
             self.fixed.into_iter().chain([(self.path, value)]).collect();
+        let at = self.fixed.map_or(value, |(_, along)| along);
         let system = self.study.system_at(&numbers).map_err(|why| why.to_string())?;
         if is_dithered(&system) {
             let prepared = DitheredSystem::new(&system).map_err(|why| why.to_string())?;
             let average = prepared.average().map_err(|why| why.to_string())?;
+            ContactRanges::add(self.recorded, at, &system, Some(&average.contacts));
             return Ok(average.linear.state_matrix_with(&average.friction));
         }
         let linear = Linearised::new(&system).map_err(|why| why.to_string())?;
+        ContactRanges::add(self.recorded, at, &system, None);
         Ok(linear.state_matrix_with(&linear.friction()))
     }
 
@@ -92,7 +101,11 @@ impl Family for StudyFamily<'_> {
 pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStability, Failure> {
     has_equations(study, "stability")?;
     understood(study, request)?;
-    let family = |fixed| StudyFamily { study, path: &request.parameter, fixed };
+    let recorded = [RefCell::default(), RefCell::default()];
+    let family = |fixed: Option<_>| {
+        let recorded = &recorded[usize::from(fixed.is_some())];
+        StudyFamily { study, path: &request.parameter, fixed, recorded }
+    };
     let tracked = track(&family(None), request.window, POINTS);
     let tracked = tracked.map_err(|why| failed("stability", why))?;
     let mut curves = Vec::new();
@@ -107,7 +120,8 @@ pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStabili
         }
     }
     let averaged = is_dithered(study.system());
-    Ok(TrackedStability { request: request.clone(), averaged, tracked, curves })
+    let contacts = recorded.map(RefCell::into_inner);
+    Ok(TrackedStability { request: request.clone(), averaged, tracked, curves, contacts })
 }
 
 /// Adds the thresholds of a line to the curves that end at the line before.
@@ -201,8 +215,8 @@ pub fn thresholds(
     request: &TrackRequest,
 ) -> Result<TrackedStability, Failure> {
     if is_dithered(study.system()) {
-        let allowed = "a study without dither: thresholds of dithered systems follow their periodic motions, which is not \
-                       implemented yet; `stability --parameter` gives the thresholds of averaging";
+        let allowed = "thresholds needs a study without dither, because the periodic motions of dithered systems are not \
+                       implemented yet. `stability --parameter` gives the thresholds of averaging.";
         return Err(
             Complaint::new(Fault::NotBuilt, "dither", Origin::Whole, Json::Null, allowed).into()
         );
