@@ -226,7 +226,9 @@ fn paths(value: &Json, path: &str, nulls: &mut Vec<String>) {
     match value {
         Json::Null => nulls.push(path.to_owned()),
         Json::Object(object) => {
-            object.iter().for_each(|(name, value)| paths(value, &join(name), nulls));
+            for (name, value) in object {
+                paths(value, &join(name), nulls);
+            }
         }
         Json::Array(items) if items.iter().any(Json::is_object) => {
             for (index, item) in items.iter().enumerate() {
@@ -235,7 +237,9 @@ fn paths(value: &Json, path: &str, nulls: &mut Vec<String>) {
         }
         Json::Array(items) => {
             let before = nulls.len();
-            items.iter().for_each(|item| paths(item, path, nulls));
+            for item in items {
+                paths(item, path, nulls);
+            }
             nulls.truncate(before + usize::from(nulls.len() > before));
         }
         _ => {}
