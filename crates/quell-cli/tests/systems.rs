@@ -199,3 +199,20 @@ fn values_of_options_have_the_unit_of_their_path() {
         assert!(why.contains(part), "{path}: {why}");
     }
 }
+
+/// A picture that an answer lacks is refused before the table is written.
+#[test]
+fn outputs_are_tested_before_the_work_begins() {
+    let folder = std::env::temp_dir().join(format!("quell-systems-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let [table, picture] = ["modes.csv", "modes.svg"].map(|name| folder.join(name));
+    let [save, plot] = [&table, &picture].map(|path| path.to_str().expect("text"));
+    let why = complaint(&["modes", "two-blocks.toml", "--save", save, "--plot", plot]);
+    assert!(why.contains("--plot: this answer has no picture"), "{why}");
+    assert!(!table.exists() && !picture.exists());
+    let why = complaint(&["stability", "two-mass-drive.toml", "--exact", "--plot", plot]);
+    assert!(why.contains("no picture"), "{why}");
+    let help = quell(&["modes", "--help"]);
+    assert!(String::from_utf8_lossy(&help.stdout).contains("of a disc or a system"));
+    std::fs::remove_dir_all(&folder).expect("removed");
+}

@@ -30,6 +30,11 @@ pub trait Verbs: Send + Sync {
     /// Names of the verbs of the kind.
     fn names(&self) -> &'static [&'static str];
 
+    /// Whether the answer of a verb has a picture.
+    fn draws(&self, verb: &str) -> bool {
+        !["check", "cite"].contains(&verb)
+    }
+
     /// The values of the study.
     fn check(&self) -> Box<dyn Outcome>;
 

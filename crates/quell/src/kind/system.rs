@@ -19,6 +19,14 @@ impl Verbs for SystemStudy {
         &["check", "cite", "modes", "stability", "thresholds", "resonances", "map"]
     }
 
+    fn draws(&self, verb: &str) -> bool {
+        match verb {
+            "check" | "cite" | "modes" | "stability --exact" => false,
+            "stability" => self.frequency_response().is_none(),
+            _ => true,
+        }
+    }
+
     fn check(&self) -> Box<dyn Outcome> {
         Box::new(Answered::new(self, Valid))
     }

@@ -58,6 +58,8 @@ pub enum Status {
     Resonance = 31,
     /// The structure is known by a measured frequency response alone.
     OnlyMeasured = 32,
+    /// The number is known, but the fast motion opens a contact, which averaging does not describe.
+    Opens = 33,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -89,6 +91,7 @@ impl Status {
         Self::NoSteadySliding,
         Self::Resonance,
         Self::OnlyMeasured,
+        Self::Opens,
         Self::Missing,
     ];
 
@@ -99,7 +102,7 @@ impl Status {
 
     /// Whether the number is known.
     pub const fn has_number(self) -> bool {
-        matches!(self, Self::Known | Self::BeyondRange)
+        matches!(self, Self::Known | Self::BeyondRange | Self::Opens)
     }
 
     /// The status with a code.
@@ -134,6 +137,7 @@ impl Status {
             Self::NoSteadySliding => "no_steady_sliding",
             Self::Resonance => "resonance",
             Self::OnlyMeasured => "only_measured",
+            Self::Opens => "opens",
             Self::Missing => "missing",
         }
     }
@@ -185,6 +189,9 @@ impl Status {
             Self::Resonance => "a dither excites an undamped resonance of the structure",
             Self::OnlyMeasured => {
                 "the structure is known by a measured frequency response alone, which gives no growth rate"
+            }
+            Self::Opens => {
+                "the value is known, but the fast motion opens a contact, which averaging does not describe"
             }
             Self::Missing => "not computed yet",
         }

@@ -1,7 +1,6 @@
 //! Maps of systems: growth rates without dither and by averaging, critical amplitudes, and the quantities read from them.
 
-use quell_linear::averaging::{Becomes, CriticalInput, DitheredSystem, NoAverage};
-use quell_linear::growth::Growth;
+use quell_linear::averaging::{Becomes, CriticalInput, DitheredContact, DitheredSystem, NoAverage};
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
 use quell_model::System;
@@ -12,6 +11,7 @@ use super::grid::Grid;
 use super::mapped::{Mapped, PointResults};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, decided, variable};
 use super::status::Status;
+use crate::range::outside_of_laws;
 use crate::study::{SystemSetup, SystemStudy};
 
 /// Seconds of one growth rate of ten states, and how often a search of critical amplitudes computes one.
@@ -82,9 +82,11 @@ fn evaluate(system: &System, wanted: &[Computation]) -> Results {
     results
 }
 
-fn undithered(system: &System) -> Result<Growth, Status> {
+fn undithered(system: &System) -> Result<SystemPoint, Status> {
     let linear = Linearised::new(system).map_err(|_| Status::NoSteadySliding)?;
-    spectrum::growth(&linear, &linear.friction()).map_err(|_| Status::NotFinite)
+    let growth = spectrum::growth(&linear, &linear.friction()).map_err(|_| Status::NotFinite)?;
+    let beyond_range = !outside_of_laws(system, None).is_empty();
+    Ok(SystemPoint { growth, slip_ratio: 0.0, opens: false, beyond_range })
 }
 
 fn growth(system: &System) -> Result<SystemPoint, Status> {
@@ -94,7 +96,12 @@ fn growth(system: &System) -> Result<SystemPoint, Status> {
     let contacts = system.contacts.iter().zip(&average.contacts);
     let ratios = contacts
         .map(|(contact, found)| found.slip_amplitude / contact.surface_velocity.mean().abs());
-    Ok(SystemPoint { growth, slip_ratio: ratios.fold(0.0, f64::max) })
+    Ok(SystemPoint {
+        growth,
+        slip_ratio: ratios.fold(0.0, f64::max),
+        opens: average.contacts.iter().any(DitheredContact::opens),
+        beyond_range: !outside_of_laws(system, Some(&average.contacts)).is_empty(),
+    })
 }
 
 fn critical(system: &System) -> Result<Vec<CriticalInput>, Status> {
@@ -128,6 +135,7 @@ const OF_AVERAGE: &[Status] = &[
     Status::NoSteadySliding,
     Status::Resonance,
     Status::OnlyMeasured,
+    Status::Opens,
 ];
 
 /// Statuses of verdicts other than known.
@@ -140,6 +148,7 @@ const OF_VERDICT: &[Status] = &[
     Status::NoSteadySliding,
     Status::Resonance,
     Status::OnlyMeasured,
+    Status::Opens,
 ];
 
 /// Statuses of critical amplitudes other than known.
@@ -153,6 +162,7 @@ const OF_CRITICAL: &[Status] = &[
     Status::NoSteadySliding,
     Status::Resonance,
     Status::OnlyMeasured,
+    Status::Opens,
 ];
 
 /// The quantities of a map of systems.
@@ -173,8 +183,8 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
         variable(("slip_ratio", "|â|/v"), "largest fast slip over the velocity of its surface", RATIO, OF_AVERAGE, |r| Ok(grown(r)?.slip_ratio)),
     ]),
     system("growth-undithered", "largest growth rate without dither", Computation::SystemGrowthUndithered, &[
-        variable(("growth_undithered", "Re λ_0"), "largest growth rate without dither", RATE, &[Status::NoSteadySliding, Status::OnlyMeasured], |r| Ok(grown_undithered(r)?.rate)),
-        variable(("growth_undithered_error", ""), "bound on the error of the growth rate without dither", RATE, &[Status::NoSteadySliding, Status::OnlyMeasured], |r| Ok(grown_undithered(r)?.error)),
+        variable(("growth_undithered", "Re λ_0"), "largest growth rate without dither", RATE, &[Status::NoSteadySliding, Status::OnlyMeasured], |r| Ok(grown_undithered(r)?.growth.rate)),
+        variable(("growth_undithered_error", ""), "bound on the error of the growth rate without dither", RATE, &[Status::NoSteadySliding, Status::OnlyMeasured], |r| Ok(grown_undithered(r)?.growth.error)),
     ]),
     system("critical-amplitude", "smallest amplitude of the first dither that makes sliding stable, by averaging", Computation::SystemCritical, &[
         variable(("critical_amplitude", "A*"), "smallest amplitude that makes sliding stable", FORCE, OF_CRITICAL, |r| first(r, Becomes::Stable)),
@@ -197,7 +207,7 @@ fn grown(results: &Results) -> Result<SystemPoint, Status> {
     results.system.unwrap_or(Err(Status::Missing))
 }
 
-fn grown_undithered(results: &Results) -> Result<Growth, Status> {
+fn grown_undithered(results: &Results) -> Result<SystemPoint, Status> {
     results.system_undithered.unwrap_or(Err(Status::Missing))
 }
 

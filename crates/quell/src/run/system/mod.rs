@@ -7,6 +7,7 @@ pub mod modes;
 pub mod reach;
 pub mod stability;
 pub mod tracked;
+pub mod validity;
 
 use quell_linear::averaging::NoAverage;
 use quell_linear::spectrum::{MotionSpectrum, SmallMotion};
