@@ -7,7 +7,8 @@ use quell_dynamics::motion::orbit::{
     MotionOrbit, base_motion, free_cycle, motion_thresholds, settled,
 };
 use quell_dynamics::motion::{
-    ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder, MotionStart, RecordedEvent,
+    ContactPhase, Exponent, MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder, MotionStart,
+    RecordedEvent,
 };
 use quell_study::study::system::{SystemStart, SystemStudy};
 use serde_json::Value as Json;
@@ -212,5 +213,40 @@ fn thresholds_are_those_of_the_reference() {
         assert!(off(threshold.value) <= 1e-6, "{name}: {threshold:?}");
         assert_eq!(threshold.kind.name(), case["kind"], "{name}");
         assert_eq!(threshold.becomes.map(|v| v.name()), case["becomes"].as_str(), "{name}");
+    }
+}
+
+/// The exponents of a periodic motion are the logarithms of its multipliers over its period; one that a stick erases is −∞.
+#[test]
+fn lyapunov_exponents_of_periodic_motions_are_those_of_their_multipliers() {
+    for case in list(&reference()["orbits"]) {
+        let name = case["name"].as_str().expect("a name");
+        if case["verdict"] != "stable" {
+            continue;
+        }
+        let study = study(case["study"].as_str().expect("a study"));
+        let motion = Motion::new(study.system()).expect("movable");
+        let state: Vec<f64> = list(&case["state"]).iter().map(number).collect();
+        let period = number(&case["period"]);
+        let start = MotionStart { time: 0.0, state };
+        let periods = 400.0;
+        let found = motion.lyapunov_exponents(&start, periods * period, motion.size());
+        let found = found.unwrap_or_else(|why| panic!("{name}: {why}"));
+        let sizes = list(&case["multipliers"]).iter().map(|z| number(&z[0]).hypot(number(&z[1])));
+        let mut rates: Vec<f64> = sizes.map(|size| size.ln() / period).collect();
+        rates.sort_by(|a, b| b.total_cmp(a));
+        for (exponent, wanted) in found.exponents.iter().zip(rates) {
+            match exponent {
+                Exponent::Erased => assert!(wanted == f64::NEG_INFINITY, "{name}: {wanted}"),
+                Exponent::Rate { value, error } => {
+                    let off = (value - wanted).abs();
+                    println!("{name}: {value} {wanted} ±{error:.1e}");
+                    assert!(
+                        off < 5.0 / (periods * period) + 3.0 * error,
+                        "{name}: {value} {wanted}"
+                    );
+                }
+            }
+        }
     }
 }

@@ -21,6 +21,7 @@ mod engine;
 mod equations;
 mod guards;
 mod least;
+mod lyapunov;
 mod observer;
 pub mod orbit;
 mod phase;
@@ -38,6 +39,7 @@ use engine::MotionRun;
 use equations::Equations;
 use selection::first_minor_not_positive;
 
+pub use lyapunov::{Exponent, LyapunovExponents};
 pub use observer::{
     MotionEvent, MotionMoment, MotionObserver, MotionRecorder, MotionSampler, MotionSegment,
     RecordedEvent, Trigger,

@@ -109,6 +109,11 @@ impl<'a> MotionVariation<'a> {
         }
     }
 
+    /// The changes, column by column: any number of them.
+    pub(super) fn columns_mut(&mut self) -> &mut Vec<f64> {
+        &mut self.columns
+    }
+
     /// Derivative of the state with respect to the initial one.
     pub fn matrix(&self) -> Matrix {
         let size = self.equations.size;
