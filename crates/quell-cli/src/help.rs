@@ -28,6 +28,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 &[
                     "quell response quench.toml --plot response.svg",
                     "quell response brake-si.toml --set dither.amplitude_n=4000",
+                    "quell response two-mass-drive.toml --plot response.svg",
                 ],
             ),
             (
@@ -59,6 +60,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 "simulate",
                 &[
                     "quell simulate quench.toml --until 50 --events",
+                    "quell simulate mode-coupling.toml --until 50 --start velocity.x=0.1 --plot motion.svg",
                     "quell simulate drive.toml --until 0.5s --save drive.csv",
                 ],
             ),

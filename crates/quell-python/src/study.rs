@@ -193,21 +193,30 @@ impl NativeStudy {
         call::run(py, move || stability::run_tracked(&study, parameter, &range, along))
     }
 
-    /// `until`: τ, or a time with its unit.
+    /// `until`: τ, or a time with its unit; `start`: names of the state of a system with their values.
+    #[pyo3(signature = (until, events, samples, start))]
     fn simulate(
         &self,
         py: Python<'_>,
-        until: String,
+        until: Option<String>,
         events: bool,
         samples: bool,
+        start: Vec<Pair>,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::run(py, move || simulate::run(&study, &until, events, samples))
+        call::run(py, move || simulate::run(&study, until.as_deref(), (events, samples), &start))
     }
 
-    fn response(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
+    /// `settle` and `record`: times of the response of a system.
+    #[pyo3(signature = (settle, record))]
+    fn response(
+        &self,
+        py: Python<'_>,
+        settle: Option<String>,
+        record: Option<String>,
+    ) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::run(py, move || response::run(&study))
+        call::run(py, move || response::run(&study, (settle.as_deref(), record.as_deref())))
     }
 
     /// `after`: name of a start; or `start`: a state. The run from there is followed to its response.

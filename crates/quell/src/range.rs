@@ -8,9 +8,9 @@ use std::f64::consts::TAU;
 use quell_dynamics::simulation::{
     DEFAULT_TOLERANCE, LargestSlip, Observer, SimulationRun, Start, simulate, simulate_many,
 };
-use quell_model::Belt;
 use quell_model::friction::SlipRange;
 use quell_model::units::Quantity;
+use quell_model::{Belt, Contact};
 
 use crate::study::BeltStudy;
 use crate::words::in_words;
@@ -140,6 +140,17 @@ pub(crate) fn averaged_at(study: &BeltStudy, slip: f64) -> Vec<String> {
         warnings.push(sentence(study, &range, "steady sliding has a slip of", slow));
     }
     warnings
+}
+
+/// The warning about slip at a contact of a system beyond the range of its law.
+pub(crate) fn at_contact(contact: &Contact, slip: f64) -> Option<String> {
+    let range = contact.friction.range()?;
+    (slip > range.upper).then(|| {
+        format!(
+            "the slip velocity at contact {} reaches {slip:.4}, beyond the range of its friction law, {:.4} ({})",
+            contact.name, range.upper, range.limit
+        )
+    })
 }
 
 /// One sentence about slip outside a range; `what` is the part before the speed.

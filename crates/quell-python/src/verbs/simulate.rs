@@ -2,18 +2,47 @@
 
 use quell::kind::verbs;
 use quell::run::simulate::Options;
-use quell::{Failure, Study, quantity};
+use quell::run::system::simulate::MotionRequest;
+use quell::run::system::start;
+use quell::study::SystemStudy;
+use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
 
 use crate::answer::NativeAnswer;
 
-/// Runs the verb.
+/// Runs the verb. `until` and `start` are texts: a time, and names of a state with their values.
 pub(crate) fn run(
     study: &Study,
-    until: &str,
-    events: bool,
-    samples: bool,
+    until: Option<&str>,
+    (events, samples): (bool, bool),
+    start: &[(String, String)],
 ) -> Result<NativeAnswer, Failure> {
-    let verbs = verbs(study);
+    if let Ok(system) = study.system() {
+        let request = of_system(&system, until, (events, samples), start)?;
+        return Ok(NativeAnswer::new(verbs(study).simulate_from(&request)?));
+    }
+    let refused = |option: &'static str, fault, allowed: &str| {
+        let origin = Origin::Argument(option);
+        Failure::from(Complaint::new(fault, option, origin, serde_json::Value::Null, allowed))
+    };
+    if !start.is_empty() {
+        let allowed = "left out: the start of a belt is its initial state";
+        return Err(refused("--start", Fault::Conflict, allowed));
+    }
+    let until = until
+        .ok_or_else(|| refused("--until", Fault::Missing, "a time: only systems have a default"))?;
     let until = quantity::duration(until, study.scales(), "--until")?;
-    Ok(NativeAnswer::new(verbs.simulate(until, Options { events, samples, undithered: false })?))
+    let options = Options { events, samples, undithered: false };
+    Ok(NativeAnswer::new(verbs(study).simulate(until, options)?))
+}
+
+fn of_system(
+    study: &SystemStudy,
+    until: Option<&str>,
+    (events, samples): (bool, bool),
+    start: &[(String, String)],
+) -> Result<MotionRequest, Failure> {
+    let read = |text| quantity::duration_of_system(text, study.units(), "--until");
+    let until = until.map(read).transpose()?;
+    let pairs = start.iter().map(|(name, value)| Ok((name.as_str(), value.as_str())));
+    Ok(MotionRequest { until, start: start::named(study, pairs)?, events, samples })
 }

@@ -81,36 +81,15 @@ impl MeasuredResponse {
                 Err(why) => format!("The study has no dither. {}.", capital(&why.to_string())),
             };
         }
-        let residual = response.efficiency.map_or_else(
-            |_| String::new(),
-            |ratio| {
-                let level = self.level();
-                let in_brackets = |level: f64| {
-                    if level < -MOST_DECIBELS {
-                        format!(" (below −{MOST_DECIBELS} dB)")
-                    } else {
-                        format!(" ({level:.1} dB)")
-                    }
-                };
-                let level = level.map_or_else(String::new, in_brackets);
-                format!("the residual vibration E below {BAND_END} ω₀ is {}{level}", percent(ratio))
-            },
-        );
+        let residual = residual_in_words(response.efficiency.ok(), &format!("{BAND_END} ω₀"));
         let amplitude = in_words(study, Quantity::Displacement, response.amplitude);
-        let what = match response.effect {
-            Effect::Quenches => format!("this dither quenches the vibration: {residual}"),
-            Effect::Reduces => format!("this dither reduces the vibration: {residual}"),
-            Effect::Increases => format!("this dither increases the vibration: {residual}"),
-            Effect::Causes => format!(
-                "this dither causes vibration: the belt is quiet without it, and with it vibrates below \
-                 {BAND_END} ω₀ with an amplitude of {amplitude}"
-            ),
-            Effect::Quiet => {
-                "the belt is quiet with and without this dither: there is nothing to quench"
-                    .to_owned()
-            }
-            Effect::Unknown(why) => format!("the effect of this dither is unknown: {why}"),
+        let what = EffectWords {
+            body: "the belt",
+            band: &format!("{BAND_END} ω₀"),
+            amplitude: &amplitude,
+            residual: &residual,
         };
+        let what = what.sentence(response.effect);
         let left = match (response.effect, response.ending) {
             (Effect::Quenches, RunEnding::Reached(Reached::Elsewhere)) => {
                 " A slow vibration of that size remains: `thresholds`, `basins` and `bifurcation` classify this \
@@ -173,8 +152,7 @@ impl MeasuredResponse {
 
     /// 20 lg E, in dB; `None` if E is undefined or zero.
     pub fn level(&self) -> Option<f64> {
-        let ratio = self.response.efficiency.ok().filter(|ratio| *ratio > 0.0)?;
-        Some(20.0 * ratio.log10())
+        self.response.efficiency.ok().and_then(level_of)
     }
 
     /// The levels in the frequency band of the study.
@@ -387,6 +365,54 @@ impl MeasuredResponse {
     }
 }
 
+/// The parts of a sentence about an effect.
+pub(crate) struct EffectWords<'a> {
+    /// What vibrates.
+    pub(crate) body: &'a str,
+    /// Upper end of the band of slow vibration.
+    pub(crate) band: &'a str,
+    /// Amplitude in that band.
+    pub(crate) amplitude: &'a str,
+    /// [`residual_in_words`].
+    pub(crate) residual: &'a str,
+}
+
+impl EffectWords<'_> {
+    /// What the dither does.
+    pub(crate) fn sentence(&self, effect: Effect) -> String {
+        let Self { body, band, amplitude, residual } = self;
+        match effect {
+            Effect::Quenches => format!("this dither quenches the vibration: {residual}"),
+            Effect::Reduces => format!("this dither reduces the vibration: {residual}"),
+            Effect::Increases => format!("this dither increases the vibration: {residual}"),
+            Effect::Causes => format!(
+                "this dither causes vibration: {body} is quiet without it, and with it vibrates below {band} with an \
+                 amplitude of {amplitude}"
+            ),
+            Effect::Quiet => {
+                format!("{body} is quiet with and without this dither: there is nothing to quench")
+            }
+            Effect::Unknown(why) => format!("the effect of this dither is unknown: {why}"),
+        }
+    }
+}
+
+/// The residual vibration in words, with its level; empty if it is undefined.
+pub(crate) fn residual_in_words(efficiency: Option<f64>, band: &str) -> String {
+    let Some(ratio) = efficiency else { return String::new() };
+    let level = match level_of(ratio) {
+        Some(level) if level < -MOST_DECIBELS => format!(" (below −{MOST_DECIBELS} dB)"),
+        Some(level) => format!(" ({level:.1} dB)"),
+        None => String::new(),
+    };
+    format!("the residual vibration E below {band} is {}{level}", percent(ratio))
+}
+
+/// 20 lg E, in dB; `None` if E is zero.
+pub(crate) fn level_of(ratio: f64) -> Option<f64> {
+    (ratio > 0.0).then(|| 20.0 * ratio.log10())
+}
+
 /// Levels in a frequency band.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InBand {
@@ -428,7 +454,7 @@ fn why_end_unknown(ending: RunEnding) -> Option<String> {
 }
 
 /// A share as a percentage with three digits.
-fn percent(ratio: f64) -> String {
+pub(crate) fn percent(ratio: f64) -> String {
     let value = 100.0 * ratio;
     if value >= 100.0 {
         format!("{value:.0} %")

@@ -14,6 +14,7 @@ use super::{
 };
 use crate::complaint::Failure;
 use crate::fields::Fields;
+use crate::range;
 use crate::run::stability::{becomes, kind};
 use crate::study::{SystemStudy, SystemUnits};
 use crate::words::digits;
@@ -137,15 +138,8 @@ fn outside_of_laws(system: &System, dithered: Option<&[DitheredContact]>) -> Vec
     let contacts = system.contacts.iter().enumerate();
     contacts
         .filter_map(|(index, contact)| {
-            let range = contact.friction.range()?;
             let fast = dithered.map_or(0.0, |contacts| contacts[index].slip_amplitude);
-            let slip = contact.surface_velocity.mean().abs() + fast;
-            (slip > range.upper).then(|| {
-                format!(
-                    "the slip velocity at contact {} reaches {slip:.4}, beyond the range of its friction law, {:.4} ({})",
-                    contact.name, range.upper, range.limit
-                )
-            })
+            range::at_contact(contact, contact.surface_velocity.mean().abs() + fast)
         })
         .collect()
 }
