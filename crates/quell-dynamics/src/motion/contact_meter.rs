@@ -99,16 +99,16 @@ impl ContactMeter {
 impl MotionObserver for ContactMeter {
     fn segment(&mut self, segment: &MotionSegment<'_>) {
         self.length += segment.duration();
-        with_fused_multiply_add(Measured { sums: &mut self.sums, segment });
+        with_fused_multiply_add(ContactsOnSegment { sums: &mut self.sums, segment });
     }
 }
 
-struct Measured<'a, 'b> {
+struct ContactsOnSegment<'a, 'b> {
     sums: &'a mut [ContactSums],
     segment: &'a MotionSegment<'b>,
 }
 
-impl Work for Measured<'_, '_> {
+impl Work for ContactsOnSegment<'_, '_> {
     type Output = ();
 
     #[inline(always)]

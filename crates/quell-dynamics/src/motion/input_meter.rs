@@ -12,7 +12,7 @@ use quell_numerics::lane::horner;
 use super::contact_meter::RULE;
 use super::observer::{MotionObserver, MotionSegment};
 use super::phase::ContactPhase;
-use super::row_meter::{Extremes, series_of};
+use super::row_meter::{RowRange, series_of};
 use super::rows::Entries;
 use crate::simulation::Clock;
 
@@ -66,7 +66,7 @@ struct Worker<'s> {
     /// The contact without which it does no work.
     contact: Option<usize>,
     work: f64,
-    extremes: Extremes,
+    extremes: RowRange,
 }
 
 /// Measures every input of a motion.
@@ -93,7 +93,7 @@ impl<'s> InputMeter<'s> {
                 }
             };
             let rows = [Entries::at(row, 0), Entries::at(row, structure.size())];
-            let (profile, extremes) = (&input.profile, Extremes::NONE);
+            let (profile, extremes) = (&input.profile, RowRange::NONE);
             Ok(Worker { rows, profile, sign, contact, work: 0.0, extremes })
         });
         Self { length: 0.0, inputs: inputs.collect() }

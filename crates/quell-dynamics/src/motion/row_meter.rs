@@ -15,12 +15,12 @@ const MOST_STEPS: usize = 40;
 
 /// The range of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Extremes {
+pub(super) struct RowRange {
     least: f64,
     most: f64,
 }
 
-impl Extremes {
+impl RowRange {
     pub(super) const NONE: Self = Self { least: f64::INFINITY, most: f64::NEG_INFINITY };
 
     /// Peak to peak; 0 if nothing was added.
@@ -89,7 +89,7 @@ pub struct RowMeter {
     step: f64,
     count: usize,
     length: f64,
-    extremes: Extremes,
+    extremes: RowRange,
     sum: f64,
     squares: f64,
     /// The values at `first` + n · `step`.
@@ -106,7 +106,7 @@ impl RowMeter {
             step,
             count,
             length: 0.0,
-            extremes: Extremes::NONE,
+            extremes: RowRange::NONE,
             sum: 0.0,
             squares: 0.0,
             samples: Vec::with_capacity(count),
@@ -133,9 +133,13 @@ impl RowMeter {
         self.extremes.width()
     }
 
-    /// Largest magnitude.
+    /// Largest magnitude; 0 if no time has been measured.
     pub fn largest(&self) -> f64 {
-        self.extremes.least.abs().max(self.extremes.most.abs())
+        if self.length > 0.0 {
+            self.extremes.least.abs().max(self.extremes.most.abs())
+        } else {
+            0.0
+        }
     }
 }
 

@@ -164,7 +164,8 @@ pub struct Vibrations {
     pub undithered: RecordLines,
     /// Whether the undithered run settles without vibration.
     pub quiet_without: bool,
-    /// Whether the dithered run is known to settle without slow vibration, whatever its record still shows.
+    /// Whether the dithered run is known to settle without slow vibration, or its vibration decays, so that a small one in its
+    /// record does not grow.
     pub quiet_with: bool,
 }
 

@@ -48,6 +48,11 @@ impl RecordLines {
             || first.max(second) <= NOTHING * self.scale
     }
 
+    /// Whether the vibration is smaller in the second half.
+    pub fn decays(&self) -> bool {
+        self.lines.halves[1] < self.lines.halves[0]
+    }
+
     /// The relative difference of M between the halves: the accuracy to which the record determines M.
     pub fn unsteadiness(&self) -> f64 {
         let [first, second] = self.lines.halves;

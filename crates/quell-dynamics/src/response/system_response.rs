@@ -1,15 +1,21 @@
 //! The steady response of any system: a settled record of one row, compared with the undithered run from the same start.
 //!
 //! The band of slow vibration ends below the lowest dither frequency. M is the largest spectral amplitude in it, as for a belt,
-//! and the same rules decide the effect ([`Vibrations`]). Where the undithered run ends is judged by its record alone: the
-//! halves of a vibration that lasts agree.
+//! and the same rules decide the effect ([`Vibrations`]). The tones of the dithers are subtracted first: near the end of the band
+//! the window would spread them into it.
+//!
+//! The undithered run keeps vibrating if its record does not decay, or shows a vibration while steady sliding is unstable.
 
 use std::f64::consts::TAU;
 use std::fmt;
 
+use quell_linear::growth::Verdict;
+use quell_linear::linearised::Linearised;
+use quell_linear::spectrum::spectrum;
 use quell_linear::steady::SteadySliding;
 use quell_model::System;
 use quell_model::profile::Profile;
+use quell_numerics::matrix::Matrix;
 use quell_numerics::spectrum::Spectrum;
 use quell_numerics::spectrum::low_band::LargestLines;
 
@@ -101,6 +107,8 @@ pub struct SystemRecord {
     pub inputs: Vec<Result<InputCost, NoPower>>,
     /// The contacts from the start to the end of the record, transient included.
     pub whole: ContactMeter,
+    /// Largest magnitude of the row from the start to the end of the record.
+    pub largest: f64,
     /// The end of the record.
     pub end: MotionEnd,
 }
@@ -146,13 +154,18 @@ pub fn respond_system(
     let without = Motion::new(&still).map_err(ResponseRefused::Immobile)?;
     let grid = RecordGrid::of(&motion, plan)?;
     let dithered = record(&motion, start, plan, grid).map_err(ResponseRefused::Stopped)?;
-    let undithered = record(&without, start, plan, grid).map_err(ResponseRefused::Stopped)?;
-    let scale = dithered.row.largest().max(undithered.row.largest());
+    let has_dither = frequencies(system).next().is_some();
+    let undithered = if has_dither {
+        record(&without, start, plan, grid).map_err(ResponseRefused::Stopped)?
+    } else {
+        dithered.clone()
+    };
+    let scale = dithered.largest.max(undithered.largest);
     let [with, without] =
         [&dithered, &undithered].map(|record| RecordLines { lines: record.lines, scale });
-    let vibrates = if without.is_negligible() {
+    let vibrates = if without.is_negligible() || without.whole() == 0.0 {
         Err(Undefined::UnditheredSettles)
-    } else if without.is_steady() {
+    } else if without.is_steady() || cannot_settle(&still) {
         Ok(())
     } else {
         Err(Undefined::UnditheredUnknown)
@@ -161,10 +174,10 @@ pub fn respond_system(
         dithered: with,
         undithered: without,
         quiet_without: vibrates == Err(Undefined::UnditheredSettles),
-        quiet_with: false,
+        quiet_with: with.decays(),
     };
     let effect = match vibrates {
-        _ if frequencies(system).next().is_none() => Effect::Unknown(Uncertain::NoDither),
+        _ if !has_dither => Effect::Unknown(Uncertain::NoDither),
         Err(why @ Undefined::UnditheredUnknown) => Effect::Unknown(Uncertain::Undithered(why)),
         _ => vibrations.effect(),
     };
@@ -179,6 +192,13 @@ pub fn respond_system(
         vibrations,
         effect,
     })
+}
+
+/// Whether steady sliding of a system is unstable, so that hardly any run can settle there.
+fn cannot_settle(system: &System) -> bool {
+    let Ok(linear) = Linearised::new(system) else { return false };
+    let found = spectrum(&linear, &linear.friction());
+    found.is_ok_and(|found| found.growth.verdict() == Verdict::Unstable)
 }
 
 /// The same system with every input at its mean.
@@ -234,7 +254,8 @@ fn record(
     let contacts = motion.system().contacts.len();
     let mut whole = ContactMeter::new(contacts);
     let from = start.time + plan.settle;
-    let settled = motion.run(start, from, MOTION_TOLERANCE, &mut whole)?;
+    let mut transient = RowMeter::new(&plan.row, start.time, grid.step, 0);
+    let settled = motion.run(start, from, MOTION_TOLERANCE, &mut (&mut whole, &mut transient))?;
     let mut meter = ContactMeter::new(contacts);
     let mut inputs = InputMeter::new(motion.system());
     let mut row = RowMeter::new(&plan.row, from, grid.step, grid.count);
@@ -242,21 +263,12 @@ fn record(
     let until = from + plan.length;
     let end = motion.run(&settled.restart(), until, MOTION_TOLERANCE, &mut observer)?;
     row.finish(&end.state);
-    let half = grid.count / 2;
+    let lines = lines_of(&row.samples, motion.system(), grid);
     let spectrum = spectrum_of(&row.samples, grid.step);
-    let largest = |spectrum: &Spectrum| {
-        let lines = spectrum.frequencies().zip(spectrum.amplitudes());
-        let low = lines.skip(1).take_while(|(frequency, _)| *frequency <= grid.band_end);
-        low.fold(0.0_f64, |most, (_, amplitude)| most.max(*amplitude))
-    };
-    let halves = [&row.samples[..half], &row.samples[half..]];
-    let lines = LargestLines {
-        whole: largest(&spectrum),
-        halves: halves.map(|half| largest(&spectrum_of(half, grid.step))),
-    };
     Ok(SystemRecord {
         contacts: meter.means().unwrap_or_default(),
         inputs: inputs.costs().unwrap_or_default(),
+        largest: transient.largest().max(row.largest()),
         step: grid.step,
         row,
         spectrum,
@@ -264,6 +276,48 @@ fn record(
         whole,
         end,
     })
+}
+
+/// M of a record and of its halves, without the tones of the dithers.
+fn lines_of(samples: &[f64], system: &System, grid: RecordGrid) -> LargestLines {
+    let mut rest = samples.to_vec();
+    for frequency in frequencies(system) {
+        subtract_tone(&mut rest, frequency * grid.step);
+    }
+    let largest = |samples: &[f64]| {
+        let spectrum = spectrum_of(samples, grid.step);
+        let lines = spectrum.frequencies().zip(spectrum.amplitudes());
+        let low = lines.skip(1).take_while(|(frequency, _)| *frequency <= grid.band_end);
+        low.fold(0.0_f64, |most, (_, amplitude)| most.max(*amplitude))
+    };
+    let (first, second) = rest.split_at(rest.len() / 2);
+    LargestLines { whole: largest(&rest), halves: [largest(first), largest(second)] }
+}
+
+/// Subtracts the tone of an angular frequency per sample that fits best under the Hann window, and leaves the mean.
+fn subtract_tone(samples: &mut [f64], rate: f64) {
+    let count = samples.len() as f64;
+    let parts = |number: usize| {
+        let sine = libm::sin(std::f64::consts::PI * number as f64 / count);
+        let phase = rate * number as f64;
+        (sine * sine, [1.0, libm::cos(phase), libm::sin(phase)])
+    };
+    let mut matrix = Matrix::zeros(3, 3);
+    let mut right = Matrix::zeros(3, 1);
+    for (number, sample) in samples.iter().enumerate() {
+        let (weight, basis) = parts(number);
+        for (i, a) in basis.iter().enumerate() {
+            right[(i, 0)] += weight * a * sample;
+            for (j, b) in basis.iter().enumerate() {
+                matrix[(i, j)] += weight * a * b;
+            }
+        }
+    }
+    let Some(fit) = matrix.solve(&right) else { return };
+    for (number, sample) in samples.iter_mut().enumerate() {
+        let (_, [_, cosine, sine]) = parts(number);
+        *sample -= fit[(1, 0)] * cosine + fit[(2, 0)] * sine;
+    }
 }
 
 fn spectrum_of(samples: &[f64], step: f64) -> Spectrum {

@@ -1,7 +1,7 @@
 //! Pictures of the motion of a system: the observed displacement, what every contact does, and the phase plane.
 
 use quell_dynamics::motion::{ContactPhase, MotionSampler};
-use quell_dynamics::response::{Effect, SystemRecord, Uncertain};
+use quell_dynamics::response::SystemRecord;
 use quell_model::units::Quantity;
 
 use super::caption::caption_of_system;
@@ -9,8 +9,8 @@ use super::system::frequency_axis;
 use crate::plot::{
     Figure, LineStyle, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, SharedLegend,
 };
-use crate::run::system::history::RunHistory;
-use crate::run::system::response::MeasuredSystem;
+use crate::run::system::history::EventHistory;
+use crate::run::system::response::SettledSystem;
 use crate::run::system::simulate::SystemSimulation;
 use crate::run::system::start::start_in_words;
 use crate::study::SystemStudy;
@@ -84,7 +84,7 @@ pub fn simulate(study: &SystemStudy, done: &SystemSimulation, samples: &MotionSa
 }
 
 /// A bar below the curve for every interval in which a contact sticks or is open, one line for each of the first contacts.
-fn bars(history: &RunHistory, (least, most): (f64, f64)) -> Vec<Polyline> {
+fn bars(history: &EventHistory, (least, most): (f64, f64)) -> Vec<Polyline> {
     let length = if most > least { most - least } else { 1.0 };
     let kinds = [("stick", ContactPhase::Stick, 0), ("open", ContactPhase::Open, 1)];
     let mut lines = Vec::new();
@@ -118,9 +118,9 @@ fn caption(study: &SystemStudy, start: &str) -> String {
 }
 
 /// The picture of a steady response: the end of the record and the spectrum, with and without dither.
-pub fn response(study: &SystemStudy, done: &MeasuredSystem) -> Figure {
+pub fn response(study: &SystemStudy, done: &SettledSystem) -> Figure {
     let (with, without) = (&done.response.dithered, &done.response.undithered);
-    let dithered = done.response.effect != Effect::Unknown(Uncertain::NoDither);
+    let dithered = done.has_dither();
     let start = start_in_words(study, &Vec::new());
     Figure::grid(
         1,
@@ -142,7 +142,7 @@ fn both(panel: Panel, dithered: bool, curves: [Vec<(f64, f64)>; 2]) -> Panel {
         .with(Polyline::new(PlotRole::Dithered, with).label("with dither"))
 }
 
-fn record(study: &SystemStudy, done: &MeasuredSystem, dithered: bool) -> Panel {
+fn record(study: &SystemStudy, done: &SettledSystem, dithered: bool) -> Panel {
     let (with, without) = (&done.response.dithered, &done.response.undithered);
     let lines = without.spectrum.frequencies().zip(without.spectrum.amplitudes()).skip(1);
     let low = lines.take_while(|(frequency, _)| *frequency <= done.response.band_end);
@@ -166,7 +166,7 @@ fn spectra(
     study: &SystemStudy,
     records: [&SystemRecord; 2],
     dithered: bool,
-    done: &MeasuredSystem,
+    done: &SettledSystem,
 ) -> Panel {
     let (across, factor) = frequency_axis(study, "ω");
     let largest =

@@ -11,10 +11,10 @@ use crate::outcome::Presented;
 use crate::outcome::table::figure;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::system::response::MeasuredSystem;
+use crate::run::system::response::SettledSystem;
 use crate::study::{SystemSetup, SystemStudy};
 
-impl Presented<SystemSetup> for MeasuredSystem {
+impl Presented<SystemSetup> for SettledSystem {
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {
@@ -32,13 +32,16 @@ impl Presented<SystemSetup> for MeasuredSystem {
             format!("{}{unit}", figure(value))
         };
         let mut text = String::new();
-        let records =
-            [("with dither", &self.response.dithered), ("without", &self.response.undithered)];
-        for (name, record) in records {
+        let records = [
+            ("with dither", &self.response.dithered),
+            ("without dither", &self.response.undithered),
+        ];
+        let first = usize::from(!self.has_dither());
+        for (name, record) in &records[first..] {
             let length = |value| with(Quantity::Displacement, value);
             let _ = writeln!(
                 text,
-                "  {name:<12} slow amplitude {}, half peak-to-peak {}, rms {}, mean {}",
+                "  {name}: slow amplitude {}, half peak-to-peak {}, rms {}, mean {}",
                 length(record.lines.whole),
                 length(0.5 * record.row.range()),
                 length(record.row.deviation()),

@@ -35,8 +35,8 @@ pub struct PhaseInterval {
 
 /// Events and intervals of a run.
 #[derive(Clone, Debug, Default)]
-pub struct RunHistory {
-    /// The first events, in order; all of them unless [`RunHistory::lost`].
+pub struct EventHistory {
+    /// The first events, in order; all of them unless [`EventHistory::lost`].
     pub events: Vec<RecordedEvent>,
     /// Number of events of each contact, kind by kind.
     pub counts: Vec<[u64; KINDS.len()]>,
@@ -48,7 +48,7 @@ pub struct RunHistory {
     keeps_intervals: bool,
 }
 
-impl RunHistory {
+impl EventHistory {
     /// For a run with so many contacts and numbers in its state.
     pub(super) fn new(contacts: usize, size: usize, keeps_intervals: bool) -> Self {
         Self {
@@ -61,7 +61,7 @@ impl RunHistory {
     }
 }
 
-impl MotionObserver for RunHistory {
+impl MotionObserver for EventHistory {
     fn segment(&mut self, segment: &MotionSegment<'_>) {
         let from = segment.clock().time();
         let to = segment.clock().after(segment.duration()).time();

@@ -14,7 +14,7 @@ use super::{failed, frequency_in_words, has_equations, in_units};
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::run::response::{EffectWords, level_of, percent, residual_in_words};
+use crate::run::effect_words::{EffectWords, level_of, percent, residual_in_words};
 use crate::study::{SystemStudy, SystemUnits};
 
 /// Periods of the slowest oscillation that are discarded before the record.
@@ -34,7 +34,7 @@ pub struct ResponseRequest {
 
 /// A steady response of a system.
 #[derive(Clone, Debug)]
-pub struct MeasuredSystem {
+pub struct SettledSystem {
     /// How it was measured.
     pub plan: ResponsePlan,
     /// The response.
@@ -45,7 +45,7 @@ pub struct MeasuredSystem {
 ///
 /// # Errors
 /// A complaint about the start or the times; [`Failure::Failed`] where the motion cannot be computed or the engine stops.
-pub fn run(study: &SystemStudy, request: ResponseRequest) -> Result<MeasuredSystem, Failure> {
+pub fn run(study: &SystemStudy, request: ResponseRequest) -> Result<SettledSystem, Failure> {
     has_equations(study, "response")?;
     let start = start_of(study)?;
     let period = || slowest_period(study, "--settle");
@@ -67,7 +67,7 @@ pub fn run(study: &SystemStudy, request: ResponseRequest) -> Result<MeasuredSyst
             in_units(study.units(), Quantity::Time, least)
         )),
     })?;
-    Ok(MeasuredSystem { plan, response })
+    Ok(SettledSystem { plan, response })
 }
 
 /// Why E is undefined.
@@ -91,7 +91,12 @@ fn uncertain(why: Uncertain) -> String {
     }
 }
 
-impl MeasuredSystem {
+impl SettledSystem {
+    /// Whether a dither acts.
+    pub fn has_dither(&self) -> bool {
+        self.response.effect != Effect::Unknown(Uncertain::NoDither)
+    }
+
     /// Whether M of the halves of the record with dither agree.
     fn settled(&self) -> bool {
         let vibrations = &self.response.vibrations;
@@ -109,7 +114,7 @@ impl MeasuredSystem {
         let response = &self.response;
         let (units, from) = (study.units(), start_in_words(study, &Vec::new()));
         let amplitude = in_units(units, Quantity::Displacement, response.dithered.lines.whole);
-        if response.effect == Effect::Unknown(Uncertain::NoDither) {
+        if !self.has_dither() {
             return match response.efficiency {
                 Ok(_) => format!(
                     "Started {from}, without dither, the system keeps vibrating with an amplitude of {amplitude}."

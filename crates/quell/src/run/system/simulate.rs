@@ -10,7 +10,7 @@ use quell_model::System;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::history::{KINDS, RunHistory};
+use super::history::{EventHistory, KINDS};
 use super::start::{StateNumbers, start_in_words, start_with, state_in_words, state_names};
 use super::{failed, has_equations, in_units, modes};
 use crate::complaint::{Complaint, Failure};
@@ -57,7 +57,7 @@ pub struct SystemSimulation {
     /// Final state.
     pub end: MotionEnd,
     /// Events and intervals of stick and separation.
-    pub history: RunHistory,
+    pub history: EventHistory,
     /// What every contact did on average; `None` for a run without duration.
     pub means: Option<Vec<ContactMeans>>,
     /// Samples at equal steps, both ends included, if requested.
@@ -86,7 +86,7 @@ pub fn run(study: &SystemStudy, request: &MotionRequest) -> Result<SystemSimulat
     let step = (until - start.time) / intervals.max(1) as f64;
     let contacts = system.contacts.len();
     let mut meter = ContactMeter::new(contacts);
-    let mut history = RunHistory::new(contacts, motion.size(), request.samples);
+    let mut history = EventHistory::new(contacts, motion.size(), request.samples);
     let mut sampler = MotionSampler::new(start.time, step, intervals);
     let mut observer = (&mut meter, (&mut history, &mut sampler));
     let end = motion
