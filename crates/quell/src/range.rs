@@ -11,7 +11,7 @@ use quell_dynamics::simulation::{
 use quell_linear::averaging::DitheredContact;
 use quell_model::friction::SlipRange;
 use quell_model::units::Quantity;
-use quell_model::{Belt, System};
+use quell_model::{Belt, Contact, System};
 
 use crate::study::BeltStudy;
 use crate::words::{digits, in_words};
@@ -30,20 +30,11 @@ pub(crate) fn outside_of_laws(
     let contacts = system.contacts.iter().enumerate();
     contacts
         .filter_map(|(index, contact)| {
-            let range = contact.friction.range()?;
             let slip = match dithered {
                 Some(found) => found[index].largest_slip(contact),
                 None => contact.surface_velocity.mean().abs(),
             };
-            (slip > range.upper).then(|| {
-                format!(
-                    "the slip velocity at contact {} reaches {}, beyond the range of its friction law, {} ({})",
-                    contact.name,
-                    digits(slip),
-                    digits(range.upper),
-                    range.limit
-                )
-            })
+            at_contact(contact, slip)
         })
         .collect()
 }
@@ -167,6 +158,20 @@ pub(crate) fn averaged_at(study: &BeltStudy, slip: f64) -> Vec<String> {
         warnings.push(sentence(study, &range, "steady sliding has a slip of", slow));
     }
     warnings
+}
+
+/// The warning about slip at a contact of a system beyond the range of its law.
+pub(crate) fn at_contact(contact: &Contact, slip: f64) -> Option<String> {
+    let range = contact.friction.range()?;
+    (slip > range.upper).then(|| {
+        format!(
+            "the slip velocity at contact {} reaches {}, beyond the range of its friction law, {} ({})",
+            contact.name,
+            digits(slip),
+            digits(range.upper),
+            range.limit
+        )
+    })
 }
 
 /// One sentence about slip outside a range; `what` is the part before the speed.

@@ -12,7 +12,7 @@ use super::selection::{Moment, first_minor_not_positive};
 use super::series::{Expansion, StepLimit, StepSeries};
 use super::state::{ContactEnd, MotionEnd, MotionStart};
 use super::stopped::{MotionStopped, StopReason};
-use super::stuck::{StuckForces, coupling, independent};
+use super::stuck::{StuckForces, coupling, dependent, independent};
 use crate::simulation::{Clock, EventKind, ORDER, StepBudget};
 
 /// Decisions at one moment after which the contacts are held in stick: a jump that releases a contact just made needs two;
@@ -63,6 +63,8 @@ pub(super) struct MotionRun<'a> {
     events: u64,
     steps: u64,
     near_tangential_releases: u64,
+    /// Whether the force of each contact in stick was not unique at some time.
+    dependent: Vec<bool>,
     /// Start of the current window of events, and their number in it.
     window: (f64, u64),
     observer: &'a mut dyn MotionObserver,
@@ -105,6 +107,7 @@ impl<'a> MotionRun<'a> {
             events: 0,
             steps: 0,
             near_tangential_releases: 0,
+            dependent: vec![false; system.contacts.len()],
             window: (start.time, 0),
             watched: observer.watches(),
             is_guarded: true,
@@ -267,6 +270,9 @@ impl<'a> MotionRun<'a> {
             let contacts = sticking().into_iter().map(|c| self.name(c)).collect();
             return Err(self.stopped(StopReason::NotUnique { contacts }));
         };
+        if stuck.is_dependent && self.is_stale {
+            self.note_dependent(&sticking(), &tilts);
+        }
         self.stuck = stuck;
         self.is_stale = false;
         Ok(())
@@ -289,6 +295,12 @@ impl<'a> MotionRun<'a> {
             for (place, contact) in members.iter().enumerate() {
                 self.now[*contact].saturated = selected.saturated[place];
             }
+        }
+    }
+
+    fn note_dependent(&mut self, sticking: &[usize], tilts: &[f64]) {
+        for place in dependent(&coupling(self.equations, sticking, tilts)) {
+            self.dependent[sticking[place]] = true;
         }
     }
 
@@ -592,6 +604,7 @@ impl<'a> MotionRun<'a> {
             events: self.events,
             steps: self.steps,
             near_tangential_releases: self.near_tangential_releases,
+            dependent: (0..self.dependent.len()).filter(|c| self.dependent[*c]).collect(),
         })
     }
 }

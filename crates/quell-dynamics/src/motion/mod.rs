@@ -16,15 +16,19 @@
 //! | `guards`, `selection` | what ends a step, and what follows |
 //! | `engine` | the loop |
 //! | `phase`, `state`, `observer`, `stopped` | what goes into a run and comes out of it |
+//! | `contact_meter`, `input_meter`, `row_meter` | integrals over a motion: what contacts do on average, the cost of inputs, a row |
 
+mod contact_meter;
 mod engine;
 mod equations;
 mod guards;
+mod input_meter;
 mod least;
 mod lyapunov;
 mod observer;
 pub mod orbit;
 mod phase;
+mod row_meter;
 mod rows;
 mod selection;
 mod series;
@@ -39,12 +43,15 @@ use engine::MotionRun;
 use equations::Equations;
 use selection::first_minor_not_positive;
 
+pub use contact_meter::{ContactMeans, ContactMeter};
+pub use input_meter::{InputCost, InputMeter, NoPower};
 pub use lyapunov::{Exponent, LyapunovExponents};
 pub use observer::{
     MotionEvent, MotionMoment, MotionObserver, MotionRecorder, MotionSampler, MotionSegment,
     RecordedEvent, Trigger,
 };
 pub use phase::ContactPhase;
+pub use row_meter::RowMeter;
 pub use state::{ContactEnd, MotionEnd, MotionStart};
 pub use stopped::{Immobile, MotionStopped, StopReason};
 pub use variation::{LeastDistance, MotionVariation};

@@ -49,6 +49,16 @@ pub(super) fn independent(matrix: &Matrix, among: &[usize]) -> Vec<usize> {
     chosen
 }
 
+/// The places of a matrix whose rows the others carry.
+pub(super) fn dependent(matrix: &Matrix) -> Vec<usize> {
+    let carried = |place: &usize| {
+        let others: Vec<usize> = (0..matrix.rows()).filter(|other| other != place).collect();
+        let others = independent(matrix, &others);
+        remainder(matrix, *place, &others).is_none_or(|rest| rest <= DEPENDENT)
+    };
+    (0..matrix.rows()).filter(carried).collect()
+}
+
 /// The part of a row that others do not carry, relative to it: its Schur complement.
 pub(super) fn remainder(matrix: &Matrix, row: usize, others: &[usize]) -> Option<f64> {
     let own = matrix[(row, row)];

@@ -5,8 +5,11 @@ use crate::cite::{self, Sources};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::curves::CurvesRequest;
+use crate::run::simulate::Options;
+use crate::run::system::response::ResponseRequest;
+use crate::run::system::simulate::MotionRequest;
 use crate::run::system::tracked::TrackRequest;
-use crate::run::system::{exact, measured, modes, reach, stability, tracked};
+use crate::run::system::{exact, measured, modes, reach, response, simulate, stability, tracked};
 use crate::run::thresholds::ThresholdsRequest;
 use crate::study::{SystemSetup, SystemStudy};
 
@@ -16,7 +19,17 @@ impl Verbs for SystemStudy {
     }
 
     fn names(&self) -> &'static [&'static str] {
-        &["check", "cite", "modes", "stability", "thresholds", "resonances", "map"]
+        &[
+            "check",
+            "cite",
+            "modes",
+            "stability",
+            "simulate",
+            "response",
+            "thresholds",
+            "resonances",
+            "map",
+        ]
     }
 
     fn draws(&self, verb: &str) -> bool {
@@ -60,6 +73,24 @@ impl Verbs for SystemStudy {
 
     fn reach(&self, frequencies: Option<(f64, f64)>) -> Reply {
         answer(self, reach::run(self, frequencies))
+    }
+
+    fn simulate(&self, until: f64, options: Options) -> Reply {
+        let Options { events, samples, .. } = options;
+        let request = MotionRequest { until: Some(until), events, samples, ..Default::default() };
+        self.simulate_from(&request)
+    }
+
+    fn simulate_from(&self, request: &MotionRequest) -> Reply {
+        answer(self, simulate::run(self, request))
+    }
+
+    fn response(&self) -> Reply {
+        self.response_after(ResponseRequest::default())
+    }
+
+    fn response_after(&self, request: ResponseRequest) -> Reply {
+        answer(self, response::run(self, request))
     }
 
     fn thresholds(&self, request: ThresholdsRequest) -> Reply {

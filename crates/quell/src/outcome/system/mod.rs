@@ -4,6 +4,8 @@ mod exact;
 mod measured;
 mod modes;
 mod reach;
+mod response;
+mod simulate;
 mod stability;
 mod tracked;
 

@@ -2,11 +2,17 @@
 
 pub mod check;
 pub mod exact;
+pub mod history;
 pub mod measured;
 pub mod modes;
 pub mod reach;
+pub mod response;
+pub mod simulate;
+mod sound;
 pub mod stability;
+pub mod start;
 pub mod tracked;
+mod trajectory;
 pub mod validity;
 
 use quell_linear::averaging::NoAverage;
@@ -57,6 +63,20 @@ fn oscillating(units: SystemUnits, frequency: f64) -> String {
     }
 }
 
+/// A frequency with its unit: in hertz where the study has units.
+fn frequency_in_words(units: SystemUnits, frequency: f64) -> String {
+    match units {
+        SystemUnits::None => format!("the angular frequency {}", digits(frequency)),
+        _ => format!("{} Hz", digits(frequency / std::f64::consts::TAU)),
+    }
+}
+
+/// A quantity with its unit.
+fn in_units(units: SystemUnits, quantity: Quantity, value: f64) -> String {
+    let unit = units.unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
+    format!("{}{unit}", digits(value))
+}
+
 /// A growth rate with its unit.
 fn rate_of(units: SystemUnits, rate: f64) -> String {
     let unit = if units == SystemUnits::None { "" } else { " 1/s" };
@@ -65,8 +85,7 @@ fn rate_of(units: SystemUnits, rate: f64) -> String {
 
 /// A force with its unit.
 fn force(units: SystemUnits, value: f64) -> String {
-    let unit = units.unit(Quantity::Force).map_or(String::new(), |unit| format!(" {unit}"));
-    format!("{}{unit}", digits(value))
+    in_units(units, Quantity::Force, value)
 }
 
 /// One small motion.
