@@ -143,7 +143,12 @@ pub fn start_in_words(study: &SystemStudy, numbers: &StateNumbers) -> String {
         return from.to_owned();
     }
     let names = state_names(study.system());
-    let given = numbers.iter().map(|(place, value)| format!("{} = {value:?}", names[*place]));
+    let given = numbers.iter().map(|(place, value)| {
+        let quantity = state_quantity(study.system(), *place);
+        let unit = quantity.and_then(|quantity| study.units().unit(quantity));
+        let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+        format!("{} = {}{unit}", names[*place], digits(*value))
+    });
     format!("{from} with {}", given.collect::<Vec<_>>().join(", "))
 }
 
