@@ -1,4 +1,4 @@
-//! Times of the general engine: belts written as systems beside the belt's own engine, two masses on two contacts, and many modes.
+//! Times of the general engine: belts written as systems next to the own engine of belts, two masses on two contacts, and many modes.
 //!
 //! `cargo run --release --package quell-dynamics --example motion_speed` prints one JSON line: microseconds per dither period of a
 //! belt by its own engine and as a system, of two masses, and microseconds per step over the number of modes.

@@ -11,8 +11,8 @@ use quell_dynamics::motion::orbit::{
     MotionOrbit, base_motion, free_cycle, motion_thresholds, settled,
 };
 use quell_dynamics::motion::{
-    ContactPhase, Exponent, MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder, MotionStart,
-    RecordedEvent,
+    ContactPhase, LyapunovExponent, MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder,
+    MotionStart, RecordedEvent,
 };
 use quell_study::study::system::{SystemStart, SystemStudy};
 use serde_json::Value as Json;
@@ -241,8 +241,10 @@ fn lyapunov_exponents_of_periodic_motions_are_those_of_their_multipliers() {
         rates.sort_by(|a, b| b.total_cmp(a));
         for (exponent, wanted) in found.exponents.iter().zip(rates) {
             match exponent {
-                Exponent::Erased => assert!(wanted == f64::NEG_INFINITY, "{name}: {wanted}"),
-                Exponent::Rate { value, error } => {
+                LyapunovExponent::Erased => {
+                    assert!(wanted == f64::NEG_INFINITY, "{name}: {wanted}")
+                }
+                LyapunovExponent::Rate { value, error } => {
                     let off = (value - wanted).abs();
                     println!("{name}: {value} {wanted} ±{error:.1e}");
                     assert!(

@@ -13,7 +13,7 @@ use super::contact_meter::RULE;
 use super::observer::{MotionObserver, MotionSegment};
 use super::phase::ContactPhase;
 use super::row_meter::{RowRange, series_of};
-use super::rows::Entries;
+use super::rows::RowEntries;
 use crate::simulation::Clock;
 
 /// Why the power and the stroke of an input are unknown.
@@ -60,7 +60,7 @@ pub struct InputCost {
 #[derive(Clone, Debug)]
 struct Worker<'s> {
     /// Row over the displacements and over the velocities.
-    rows: [Entries; 2],
+    rows: [RowEntries; 2],
     profile: &'s Profile,
     sign: f64,
     /// The contact without which it does no work.
@@ -92,7 +92,7 @@ impl<'s> InputMeter<'s> {
                     (normal.ok_or(NoPower::NoNormal)?, -1.0, Some(*contact))
                 }
             };
-            let rows = [Entries::at(row, 0), Entries::at(row, structure.size())];
+            let rows = [RowEntries::at(row, 0), RowEntries::at(row, structure.size())];
             let (profile, extremes) = (&input.profile, RowRange::NONE);
             Ok(Worker { rows, profile, sign, contact, work: 0.0, extremes })
         });

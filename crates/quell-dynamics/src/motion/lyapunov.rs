@@ -5,7 +5,7 @@
 //! Müller (1995).
 //!
 //! A stick erases the change of its slip velocity at once: the exponent of that direction is −∞, which is reported as
-//! [`Exponent::Erased`]. The error is the standard error of the mean over [`BLOCKS`] blocks: it does not see a transient that is
+//! [`LyapunovExponent::Erased`]. The error is the standard error of the mean over [`BLOCKS`] blocks: it does not see a transient that is
 //! longer than the run.
 
 use super::variation::MotionVariation;
@@ -25,7 +25,7 @@ const ERASED: f64 = 1e-13;
 
 /// A Lyapunov exponent.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Exponent {
+pub enum LyapunovExponent {
     /// Mean rate of growth, per unit of time.
     Rate {
         /// The exponent.
@@ -41,7 +41,7 @@ pub enum Exponent {
 #[derive(Clone, Debug, PartialEq)]
 pub struct LyapunovExponents {
     /// The exponents, the largest first.
-    pub exponents: Vec<Exponent>,
+    pub exponents: Vec<LyapunovExponent>,
     /// Time over which they were averaged.
     pub time: f64,
     /// State at the end.
@@ -49,7 +49,7 @@ pub struct LyapunovExponents {
 }
 
 /// Accumulates the logarithms of lengths.
-struct Growth<'a> {
+struct GrowthMeter<'a> {
     variation: MotionVariation<'a>,
     size: usize,
     interval: f64,
@@ -61,7 +61,7 @@ struct Growth<'a> {
     erased: Vec<bool>,
 }
 
-impl Growth<'_> {
+impl GrowthMeter<'_> {
     fn orthonormalise(&mut self, time: f64) {
         let block = (((time - self.begin) / self.span) * BLOCKS as f64).floor();
         #[expect(
@@ -125,7 +125,7 @@ fn replace(before: &[f64], column: &mut [f64], size: usize) {
     }
 }
 
-impl MotionObserver for Growth<'_> {
+impl MotionObserver for GrowthMeter<'_> {
     fn segment(&mut self, segment: &MotionSegment<'_>) {
         self.variation.segment(segment);
         let time = segment.clock().after(segment.duration()).time();
@@ -162,7 +162,7 @@ impl Motion<'_> {
         assert!(count <= size, "number of exponents");
         let mut variation = MotionVariation::new(self);
         variation.columns_mut().truncate(count * size);
-        let mut growth = Growth {
+        let mut growth = GrowthMeter {
             variation,
             size,
             interval: INTERVAL * self.time_scale(),
@@ -178,18 +178,18 @@ impl Motion<'_> {
         let length = time / BLOCKS as f64;
         let exponents = (0..count).map(|index| {
             if growth.erased[index] {
-                return Exponent::Erased;
+                return LyapunovExponent::Erased;
             }
             let rates: Vec<f64> = growth.blocks.iter().map(|block| block[index] / length).collect();
             let value = rates.iter().sum::<f64>() / BLOCKS as f64;
             let squares: f64 = rates.iter().map(|rate| (rate - value) * (rate - value)).sum();
             let error = (squares / (BLOCKS * (BLOCKS - 1)) as f64).sqrt();
-            Exponent::Rate { value, error }
+            LyapunovExponent::Rate { value, error }
         });
-        let mut exponents: Vec<Exponent> = exponents.collect();
-        let rank = |exponent: &Exponent| match exponent {
-            Exponent::Rate { value, .. } => *value,
-            Exponent::Erased => f64::NEG_INFINITY,
+        let mut exponents: Vec<LyapunovExponent> = exponents.collect();
+        let rank = |exponent: &LyapunovExponent| match exponent {
+            LyapunovExponent::Rate { value, .. } => *value,
+            LyapunovExponent::Erased => f64::NEG_INFINITY,
         };
         exponents.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
         Ok(LyapunovExponents { exponents, time, state: end.state })

@@ -3,8 +3,9 @@
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::lane::horner;
 
+use super::contact_series::ContactSeries;
 use super::phase::{ContactNow, ContactPhase};
-use super::series::{ContactSeries, horner_states};
+use super::series::horner_states;
 use super::state::MotionEnd;
 use crate::simulation::{Clock, EventKind, ORDER};
 

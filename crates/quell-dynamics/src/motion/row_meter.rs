@@ -7,7 +7,7 @@ use quell_numerics::polynomial::derivative;
 
 use super::contact_meter::{RULE, integral};
 use super::observer::{MotionObserver, MotionSegment};
-use super::rows::Entries;
+use super::rows::RowEntries;
 use crate::simulation::{ORDER, Series};
 
 /// Steps of the search for an extremum between two moments: it halves the interval at least every second step.
@@ -73,7 +73,7 @@ fn zero_between(series: &Series, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
 
 /// Taylor coefficients of a row times the state.
 #[inline(always)]
-pub(super) fn series_of(row: &Entries, segment: &MotionSegment<'_>) -> Series {
+pub(super) fn series_of(row: &RowEntries, segment: &MotionSegment<'_>) -> Series {
     let mut series = [0.0; ORDER + 1];
     for (coefficient, state) in series.iter_mut().zip(segment.states().chunks(segment.size)) {
         *coefficient = row.dot(state);
@@ -84,7 +84,7 @@ pub(super) fn series_of(row: &Entries, segment: &MotionSegment<'_>) -> Series {
 /// Measures a row over the state.
 #[derive(Clone, Debug)]
 pub struct RowMeter {
-    row: Entries,
+    row: RowEntries,
     first: f64,
     step: f64,
     count: usize,
@@ -101,7 +101,7 @@ impl RowMeter {
     /// apart.
     pub fn new(row: &[f64], first: f64, step: f64, count: usize) -> Self {
         Self {
-            row: Entries::at(row, 0),
+            row: RowEntries::at(row, 0),
             first,
             step,
             count,

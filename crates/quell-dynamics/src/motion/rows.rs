@@ -3,21 +3,21 @@
 
 use quell_numerics::matrix::Matrix;
 
-/// Entries of a row or of a column over the state.
+/// RowEntries of a row or of a column over the state.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Entries {
+pub(super) struct RowEntries {
     /// Place of the first value.
     start: usize,
     /// Values without gaps.
     values: Vec<f64>,
-    /// Entries with gaps, instead of values.
+    /// RowEntries with gaps, instead of values.
     scattered: Vec<(usize, f64)>,
 }
 
 /// Share of zeros in a range above which its entries are kept apart.
 const SCATTERED: usize = 4;
 
-impl Entries {
+impl RowEntries {
     /// The entries of `values` that are not zero, moved by `offset` places.
     pub(super) fn at(values: &[f64], offset: usize) -> Self {
         let nonzero = |value: &f64| *value != 0.0;
@@ -49,7 +49,7 @@ impl Entries {
         sum
     }
 
-    /// Σ |rᵢxᵢ|, which bounds the rounding of [`Entries::dot`].
+    /// Σ |rᵢxᵢ|, which bounds the rounding of [`RowEntries::dot`].
     pub(super) fn size_at(&self, state: &[f64]) -> f64 {
         self.pairs().map(|(place, value)| (value * state[place]).abs()).sum()
     }
@@ -243,7 +243,7 @@ mod tests {
         (wide[3], wide[38]) = (2.0, -1.5);
         let state: Vec<f64> = (0..44).map(|i| f64::from(i) - 7.0).collect();
         for values in [&wide[..], &wide[2..5], &[1.0, 0.0, 3.0], &[0.0; 5], &wide[30..]] {
-            let row = Entries::at(values, 4);
+            let row = RowEntries::at(values, 4);
             let exact: f64 = values.iter().zip(&state[4..]).map(|(a, x)| a * x).sum();
             assert_eq!(row.dot(&state), exact);
             assert_eq!(row.dense(44)[4..4 + values.len()], *values);

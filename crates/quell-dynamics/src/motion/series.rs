@@ -8,48 +8,11 @@ use quell_model::friction::{BranchSeries, FrictionConstants, FrictionSeries};
 use quell_numerics::dispatch::Work;
 use quell_numerics::polynomial::step_length;
 
-use super::equations::{ContactEquation, Equations, Forcings};
+use super::contact_series::ContactSeries;
+use super::equations::{ContactEquation, Forcings, MotionEquations};
 use super::phase::{ContactNow, ContactPhase};
 use super::stuck::StuckForces;
 use crate::simulation::{Clock, ORDER, RECIPROCALS, Series};
-
-/// Series of one contact on a step.
-#[derive(Clone, Debug)]
-pub(super) struct ContactSeries {
-    /// γ.
-    pub(super) slip: Series,
-    /// N; where the contact is open the load that it would have, which is negative.
-    pub(super) load: Series,
-    /// N₀ + ΔN(t).
-    given: Series,
-    /// N times its factor: what the coefficient of friction multiplies.
-    pub(super) pressed: Series,
-    /// T.
-    pub(super) friction: Series,
-    /// sᵀx.
-    pub(super) tilt: Series,
-    scaled: Series,
-    coefficient: Series,
-    surface: Series,
-    guided: Series,
-    factor: Series,
-}
-
-impl ContactSeries {
-    const ZERO: Self = Self {
-        slip: [0.0; ORDER + 1],
-        load: [0.0; ORDER + 1],
-        given: [0.0; ORDER + 1],
-        pressed: [0.0; ORDER + 1],
-        friction: [0.0; ORDER + 1],
-        tilt: [0.0; ORDER + 1],
-        scaled: [0.0; ORDER + 1],
-        coefficient: [0.0; ORDER + 1],
-        surface: [0.0; ORDER + 1],
-        guided: [0.0; ORDER + 1],
-        factor: [0.0; ORDER + 1],
-    };
-}
 
 /// Series of a step; the memory is kept from step to step.
 #[derive(Clone, Debug)]
@@ -78,7 +41,7 @@ pub(super) struct StepLimit {
 }
 
 impl StepSeries {
-    pub(super) fn new(equations: &Equations, forcings: &Forcings, clock: Clock) -> Self {
+    pub(super) fn new(equations: &MotionEquations, forcings: &Forcings, clock: Clock) -> Self {
         let size = equations.size;
         let contacts = forcings.contacts.iter().map(|forcing| ContactSeries {
             surface: forcing.surface.series(clock),
@@ -126,8 +89,8 @@ pub(super) fn horner_states(states: &[f64], since: f64, out: &mut [f64]) {
 }
 
 /// Computes the series of a step and its length.
-pub(super) struct Expansion<'a> {
-    pub(super) equations: &'a Equations,
+pub(super) struct StepExpansion<'a> {
+    pub(super) equations: &'a MotionEquations,
     pub(super) forcings: &'a Forcings,
     pub(super) laws: &'a mut [FrictionConstants],
     pub(super) now: &'a [ContactNow],
@@ -137,7 +100,7 @@ pub(super) struct Expansion<'a> {
     pub(super) out: &'a mut StepSeries,
 }
 
-impl Work for Expansion<'_> {
+impl Work for StepExpansion<'_> {
     type Output = f64;
 
     #[inline(always)]
@@ -161,7 +124,7 @@ impl Work for Expansion<'_> {
 /// One recurrence for each slipping contact.
 type Branches<'c> = Vec<Option<FrictionSeries<'c, { ORDER + 1 }>>>;
 
-impl<'a> Expansion<'a> {
+impl<'a> StepExpansion<'a> {
     /// Series of what varies in time; constant ones were written when the run began.
     #[inline(always)]
     fn forcings(&mut self) {
@@ -365,12 +328,4 @@ fn convolution(a: &Series, b: &Series, k: usize, from: usize) -> f64 {
         sum = f64::mul_add(a[i], b[k - i], sum);
     }
     sum
-}
-
-impl ContactSeries {
-    /// Coefficient k of the velocity of the surface.
-    #[inline(always)]
-    pub(super) fn surface_at(&self, k: usize) -> f64 {
-        self.surface[k]
-    }
 }
