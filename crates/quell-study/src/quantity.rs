@@ -42,6 +42,47 @@ pub fn system_frequency(
     Err(Box::new(Complaint::option(option, text, allowed)))
 }
 
+/// Reads a number of a study of a system in the units of its file: plain, or with a unit where the quantity has one.
+///
+/// # Errors
+/// A complaint about `option`.
+pub fn of_system(
+    text: &str,
+    quantity: Option<Quantity>,
+    units: SystemUnits,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    let unit = quantity.and_then(|quantity| units.unit(quantity));
+    let why = match measure::read(text.trim(), unit) {
+        Ok(number) if number.is_finite() => return Ok(number),
+        Err(why) if measure::has_unit(text.trim()) && unit.is_some() => format!(": {why}"),
+        _ => String::new(),
+    };
+    let allowed = match unit {
+        None => "a finite number in the units of the study".to_owned(),
+        Some(unit) => {
+            format!("a finite number in {unit}, optionally with a unit, such as 0.5{unit}{why}")
+        }
+    };
+    Err(Box::new(Complaint::option(option, text, allowed)))
+}
+
+/// Reads how long a run of a system lasts, in the unit of time of its study.
+///
+/// # Errors
+/// As [`of_system`], and for a negative time.
+pub fn duration_of_system(
+    text: &str,
+    units: SystemUnits,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    let time = of_system(text, Some(Quantity::Time), units, option)?;
+    if time >= 0.0 {
+        return Ok(time);
+    }
+    Err(Box::new(Complaint::option(option, text, "a time from 0, the start of the run, on")))
+}
+
 /// Reads a quantity as a dimensionless number.
 ///
 /// # Errors

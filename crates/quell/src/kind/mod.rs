@@ -10,6 +10,7 @@ use crate::complaint::{Failure, Origin};
 use crate::outcome::{Answered, Outcome, Presented};
 use crate::run::disc::resonances;
 use crate::run::orbit::Wanted;
+use crate::run::system::orbit::WantedMotion;
 use crate::run::system::tracked::TrackRequest;
 use crate::run::{basins, bifurcation, curves, simulate, thresholds};
 use crate::study::{Kind, Study, StudyKind, StudyOf, not_available};
@@ -106,6 +107,15 @@ pub trait Verbs: Send + Sync {
     fn orbit(&self, wanted: Wanted) -> Reply {
         let _ = wanted;
         Err(self.lacks("orbit"))
+    }
+
+    /// A periodic motion of a system and its multipliers.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::system::orbit::run`].
+    fn orbit_of_system(&self, wanted: &WantedMotion) -> Reply {
+        let _ = wanted;
+        Err(self.lacks("orbit with named states"))
     }
 
     /// Thresholds of one parameter.

@@ -5,8 +5,10 @@ use crate::cite::{self, Sources};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::curves::CurvesRequest;
+use crate::run::orbit::Wanted;
+use crate::run::system::orbit::WantedMotion;
 use crate::run::system::tracked::TrackRequest;
-use crate::run::system::{exact, measured, modes, reach, stability, tracked};
+use crate::run::system::{exact, measured, modes, orbit, reach, stability, tracked};
 use crate::run::thresholds::ThresholdsRequest;
 use crate::study::{SystemSetup, SystemStudy};
 
@@ -16,7 +18,7 @@ impl Verbs for SystemStudy {
     }
 
     fn names(&self) -> &'static [&'static str] {
-        &["check", "cite", "modes", "stability", "thresholds", "resonances", "map"]
+        &["check", "cite", "modes", "stability", "orbit", "thresholds", "resonances", "map"]
     }
 
     fn check(&self) -> Box<dyn Outcome> {
@@ -52,6 +54,14 @@ impl Verbs for SystemStudy {
 
     fn reach(&self, frequencies: Option<(f64, f64)>) -> Reply {
         answer(self, reach::run(self, frequencies))
+    }
+
+    fn orbit(&self, wanted: Wanted) -> Reply {
+        self.orbit_of_system(&WantedMotion::of(wanted)?)
+    }
+
+    fn orbit_of_system(&self, wanted: &WantedMotion) -> Reply {
+        answer(self, orbit::run(self, wanted))
     }
 
     fn thresholds(&self, request: ThresholdsRequest) -> Reply {

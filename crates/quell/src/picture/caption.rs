@@ -106,7 +106,7 @@ fn capitalised(word: &str) -> String {
 }
 
 /// The caption of a study of a system.
-fn caption_of_system(study: &SystemStudy) -> String {
+pub(super) fn caption_of_system(study: &SystemStudy) -> String {
     let system = study.system();
     let count = |count: usize, noun: &str| format!("{count} {noun}{}", plural(count));
     let parts = [

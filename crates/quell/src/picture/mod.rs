@@ -16,6 +16,7 @@ mod simulate;
 mod stability;
 mod sweep;
 pub mod system;
+pub mod system_orbit;
 mod thresholds;
 
 pub use basins::basins;

@@ -3,6 +3,7 @@
 mod exact;
 mod measured;
 mod modes;
+mod orbit;
 mod reach;
 mod stability;
 mod tracked;

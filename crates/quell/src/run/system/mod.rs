@@ -1,11 +1,17 @@
 //! Runs of a study of a system: one file per verb.
 
 pub mod check;
+pub mod cycle;
+pub mod cycle_samples;
 pub mod exact;
 pub mod measured;
 pub mod modes;
+pub mod orbit;
+pub mod orbit_answer;
+pub mod protocol;
 pub mod reach;
 pub mod stability;
+pub mod start;
 pub mod tracked;
 
 use quell_linear::averaging::NoAverage;

@@ -1,0 +1,156 @@
+//! Where a run of a system begins: the one place that decides it, for every verb.
+
+use quell_dynamics::motion::MotionStart;
+use quell_linear::steady::SteadySliding;
+use quell_model::System;
+use quell_model::units::Quantity;
+
+use super::cycle::{base_state, squealing_state};
+use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
+use crate::quantity;
+use crate::study::{SystemStart, SystemStudy, suggest};
+use crate::words::digits;
+
+/// Numbers of a state by their places in it.
+pub type StateNumbers = Vec<(usize, f64)>;
+
+/// Numbers of a state that a sentence lists.
+const MOST_LISTED: usize = 8;
+
+/// Names of the numbers of a state: coordinates and `velocity.` coordinate, or the states of first-order equations.
+pub fn state_names(system: &System) -> Vec<String> {
+    let names = system.structure.names();
+    let velocities = names.iter().map(|name| format!("velocity.{name}"));
+    match system.structure.mechanical() {
+        Some(_) => names.iter().cloned().chain(velocities).collect(),
+        None => names.to_vec(),
+    }
+}
+
+/// What the number at a place of a state is; `None` for first-order equations.
+pub fn state_quantity(system: &System, place: usize) -> Option<Quantity> {
+    let displacements = system.structure.mechanical()?.size();
+    Some(if place < displacements { Quantity::Displacement } else { Quantity::Velocity })
+}
+
+/// The start of a study's runs.
+///
+/// # Errors
+/// A complaint about a start that does not exist or is not available.
+pub fn start_of(study: &SystemStudy) -> Result<MotionStart, Failure> {
+    let system = study.system();
+    let size = system.structure.state_size();
+    let refused = |name: &str, allowed: String| -> Failure {
+        Complaint::new(Fault::Value, "system.initial.state", Origin::Whole, name, allowed).into()
+    };
+    let state = match study.initial() {
+        SystemStart::Rest => vec![0.0; size],
+        SystemStart::Values(values) => values.clone(),
+        SystemStart::Sliding => {
+            let steady = SteadySliding::new(system)
+                .map_err(|why| refused("sliding", format!("another state: {why}")))?;
+            let mut state = steady.position;
+            state.resize(size, 0.0);
+            state
+        }
+        SystemStart::Squealing => {
+            squealing_state(system).map_err(|why| refused("squealing", why))?
+        }
+        SystemStart::Base => base_state(system).map_err(|why| refused("base", why))?,
+    };
+    Ok(MotionStart { time: 0.0, state })
+}
+
+/// [`start_of`] with some numbers replaced.
+///
+/// # Errors
+/// As [`start_of`].
+pub fn start_with(study: &SystemStudy, numbers: &StateNumbers) -> Result<MotionStart, Failure> {
+    let mut start = start_of(study)?;
+    for (place, value) in numbers {
+        start.state[*place] = *value;
+    }
+    Ok(start)
+}
+
+/// Reads `name=value,…`, such as `x=0.1,velocity.x=-2`.
+///
+/// # Errors
+/// A complaint about every part.
+pub fn read_state(study: &SystemStudy, text: &str) -> Result<StateNumbers, Complaints> {
+    let parts = text.split(',').map(|part| match part.split_once('=') {
+        Some((name, value)) => Ok((name.trim(), value.trim())),
+        None => {
+            let allowed = "name=value pairs with commas between them, such as x=0.1,velocity.x=-2";
+            Err(Box::new(Complaint::option("--start", part.trim(), allowed)))
+        }
+    });
+    named(study, parts)
+}
+
+/// Reads pairs of a name and a value.
+///
+/// # Errors
+/// A complaint about every pair.
+pub fn named<'a>(
+    study: &SystemStudy,
+    pairs: impl Iterator<Item = Result<(&'a str, &'a str), Box<Complaint>>>,
+) -> Result<StateNumbers, Complaints> {
+    let system = study.system();
+    let names = state_names(system);
+    let mut numbers = StateNumbers::new();
+    let mut wrong: Vec<Complaint> = Vec::new();
+    for pair in pairs {
+        let number = pair.and_then(|(name, text)| {
+            let place = place_of(&names, name)?;
+            if numbers.iter().any(|(known, _)| *known == place) {
+                let allowed = format!("one value for {name}");
+                return Err(Box::new(Complaint::option("--start", text, allowed)));
+            }
+            let quantity = state_quantity(system, place);
+            Ok((place, quantity::of_system(text, quantity, study.units(), "--start")?))
+        });
+        match number {
+            Ok(number) => numbers.push(number),
+            Err(complaint) => wrong.push(*complaint),
+        }
+    }
+    if wrong.is_empty() { Ok(numbers) } else { Err(wrong.into()) }
+}
+
+/// The place of a name in a state.
+fn place_of(names: &[String], name: &str) -> Result<usize, Box<Complaint>> {
+    names.iter().position(|known| known == name).ok_or_else(|| {
+        let listed = names.iter().take(MOST_LISTED).cloned().collect::<Vec<_>>().join(", ");
+        let more = if names.len() > MOST_LISTED { ", …" } else { "" };
+        let allowed = format!("one of the names of the state, {listed}{more}");
+        let nearest = suggest::word(name, names.iter().map(String::as_str));
+        Box::new(Complaint::option("--start", name, allowed).suggesting(nearest))
+    })
+}
+
+/// The start in words, such as "from rest".
+pub fn start_in_words(study: &SystemStudy, numbers: &StateNumbers) -> String {
+    let from = match study.initial() {
+        SystemStart::Rest => "from rest",
+        SystemStart::Sliding => "from steady sliding",
+        SystemStart::Squealing => "from the undithered limit cycle",
+        SystemStart::Base => "from the base response",
+        SystemStart::Values(_) => "from the initial state of the study",
+    };
+    if numbers.is_empty() {
+        return from.to_owned();
+    }
+    let names = state_names(study.system());
+    let given = numbers.iter().map(|(place, value)| format!("{} = {value:?}", names[*place]));
+    format!("{from} with {}", given.collect::<Vec<_>>().join(", "))
+}
+
+/// A state in words, at most [`MOST_LISTED`] of its numbers.
+pub fn state_in_words(system: &System, state: &[f64]) -> String {
+    let names = state_names(system);
+    let listed = names.iter().zip(state).take(MOST_LISTED);
+    let listed = listed.map(|(name, value)| format!("{name} = {}", digits(*value)));
+    let more = if state.len() > MOST_LISTED { ", …" } else { "" };
+    format!("{}{more}", listed.collect::<Vec<_>>().join(", "))
+}
