@@ -7,6 +7,7 @@ use quell::Study;
 use quell::kind::verbs;
 use quell::run::system::orbit::WantedMotion;
 use quell::run::system::protocol::{SystemProtocol, read_state_of};
+use quell::run::system::thresholds::MotionThresholdsRequest;
 use serde_json::Value as Json;
 
 /// Accuracy of states and event times.
@@ -155,4 +156,54 @@ fn a_study_can_start_on_its_limit_cycle() {
     );
     let found = orbit(&text, &WantedMotion::default());
     assert!((number(&found["period"]) - number(&case["period"])).abs() <= ACCURACY, "{found}");
+}
+
+fn thresholds(text: &str, request: &MotionThresholdsRequest) -> Json {
+    let answer = verbs(&study(text)).thresholds_of_system(request);
+    answer.unwrap_or_else(|why| panic!("{why:?}")).json()
+}
+
+fn request_of(case: &Json) -> MotionThresholdsRequest {
+    MotionThresholdsRequest {
+        parameter: case["parameter"].as_str().expect("a path").to_owned(),
+        window: (number(&case["from"]), number(&case["to"])),
+        ..MotionThresholdsRequest::default()
+    }
+}
+
+#[test]
+fn thresholds_of_dithered_systems_are_those_of_the_reference() {
+    for case in list(&reference()["thresholds"]) {
+        let name = case["name"].as_str().expect("a name");
+        let found = thresholds(case["study"].as_str().expect("a study"), &request_of(case));
+        println!("{name}: {}", found["sentence"]);
+        let wanted = number(&case["value"]);
+        let off = |found: &&Json| (number(&found["value"]) - wanted).abs() / wanted;
+        let threshold = list(&found["thresholds"]).iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        let threshold = threshold.unwrap_or_else(|| panic!("{name}: no threshold"));
+        assert!(off(&threshold) <= 1e-6, "{name}: {threshold}");
+        assert_eq!(threshold["kind"], case["kind"], "{name}");
+        assert_eq!(threshold["becomes"], case["becomes"], "{name}");
+        assert_eq!(found["ending"] == "covered", found["covered"] == true, "{name}");
+    }
+}
+
+/// The threshold of a run from rest is that of the orbit on which it ends, and `dither.amplitude` names the only dither.
+#[test]
+fn runs_change_where_their_orbit_does() {
+    let reference = reference();
+    let case = &reference["thresholds"][0];
+    let request = MotionThresholdsRequest {
+        parameter: "dither.amplitude".to_owned(),
+        protocols: vec![SystemProtocol::Rest],
+        ..request_of(case)
+    };
+    let found = thresholds(case["study"].as_str().expect("a study"), &request);
+    println!("{}", found["sentence"]);
+    let changes = list(&found["from_rest"]);
+    assert_eq!(found["at_from"]["from_rest"], "not quenched", "{found}");
+    let [change] = changes else { panic!("{found}") };
+    let off = (number(&change["value"]) - number(&case["value"])).abs() / number(&case["value"]);
+    assert!(off <= 1e-5, "{change}");
+    assert_eq!(change["becomes"], "quenched");
 }

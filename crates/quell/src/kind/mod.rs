@@ -11,6 +11,7 @@ use crate::outcome::{Answered, Outcome, Presented};
 use crate::run::disc::resonances;
 use crate::run::orbit::Wanted;
 use crate::run::system::orbit::WantedMotion;
+use crate::run::system::thresholds::MotionThresholdsRequest;
 use crate::run::system::tracked::TrackRequest;
 use crate::run::{basins, bifurcation, curves, simulate, thresholds};
 use crate::study::{Kind, Study, StudyKind, StudyOf, not_available};
@@ -125,6 +126,15 @@ pub trait Verbs: Send + Sync {
     fn thresholds(&self, request: thresholds::ThresholdsRequest) -> Reply {
         let _ = request;
         Err(self.lacks("thresholds"))
+    }
+
+    /// Thresholds of one parameter of a system.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::system::thresholds::run`].
+    fn thresholds_of_system(&self, request: &MotionThresholdsRequest) -> Reply {
+        let _ = request;
+        Err(self.lacks("thresholds with named states"))
     }
 
     /// Curves of thresholds in two parameters.

@@ -7,8 +7,11 @@ use crate::outcome::{Answered, Outcome};
 use crate::run::curves::CurvesRequest;
 use crate::run::orbit::Wanted;
 use crate::run::system::orbit::WantedMotion;
+use crate::run::system::thresholds::{
+    MotionThresholdsRequest, is_dithered_within, without_motions,
+};
 use crate::run::system::tracked::TrackRequest;
-use crate::run::system::{exact, measured, modes, orbit, reach, stability, tracked};
+use crate::run::system::{exact, measured, modes, orbit, reach, stability, thresholds, tracked};
 use crate::run::thresholds::ThresholdsRequest;
 use crate::study::{SystemSetup, SystemStudy};
 
@@ -65,10 +68,15 @@ impl Verbs for SystemStudy {
     }
 
     fn thresholds(&self, request: ThresholdsRequest) -> Reply {
-        let ThresholdsRequest { parameter, from, to, protocols, ramp } = request;
-        tracked::without_runs(&protocols, ramp)?;
-        let request = TrackRequest { parameter, window: (from, to), along: None };
-        answer(self, tracked::thresholds(self, &request))
+        self.thresholds_of_system(&MotionThresholdsRequest::of(request)?)
+    }
+
+    fn thresholds_of_system(&self, request: &MotionThresholdsRequest) -> Reply {
+        if is_dithered_within(self, request) {
+            return answer(self, thresholds::run(self, request));
+        }
+        without_motions(request)?;
+        answer(self, tracked::run(self, &request.tracked()))
     }
 
     fn threshold_curves(&self, request: &CurvesRequest) -> Reply {

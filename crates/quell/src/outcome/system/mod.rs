@@ -6,6 +6,7 @@ mod modes;
 mod orbit;
 mod reach;
 mod stability;
+mod thresholds;
 mod tracked;
 
 use std::fmt::Write as _;

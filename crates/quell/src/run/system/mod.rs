@@ -12,6 +12,9 @@ pub mod protocol;
 pub mod reach;
 pub mod stability;
 pub mod start;
+pub mod switches;
+pub mod thresholds;
+pub mod thresholds_answer;
 pub mod tracked;
 
 use quell_linear::averaging::NoAverage;

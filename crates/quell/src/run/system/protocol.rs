@@ -7,7 +7,7 @@ use super::cycle::squealing_state;
 use super::start::{StateNumbers, read_state, start_in_words, start_with};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::run::protocol::Protocol;
-use crate::study::SystemStudy;
+use crate::study::{SystemStart, SystemStudy};
 
 /// The state from which a run of a system starts.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -72,7 +72,12 @@ impl SystemProtocol {
             Complaint::new(Fault::Conflict, option, origin, serde_json::Value::Null, allowed).into()
         };
         match self {
-            Self::Study => Ok(start_with(study, &StateNumbers::new())?.state),
+            // Named states depend on the system.
+            Self::Study => match study.initial() {
+                SystemStart::Sliding => Self::Sliding.state(study, system),
+                SystemStart::Squealing => Self::Squeal.state(study, system),
+                _ => Ok(start_with(study, &StateNumbers::new())?.state),
+            },
             Self::From(numbers) => Ok(start_with(study, numbers)?.state),
             Self::Rest => Ok(vec![0.0; system.structure.state_size()]),
             Self::Sliding => {

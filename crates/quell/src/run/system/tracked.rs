@@ -15,7 +15,6 @@ use super::{failed, has_equations, is_dithered, oscillating};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::run::protocol::Protocol;
 use crate::study::{SystemStudy, SystemUnits};
 use crate::words::{digits, plural};
 
@@ -150,7 +149,7 @@ fn nearest(study: &SystemStudy, path: &str) -> Option<String> {
 }
 
 /// Every complaint about a request.
-fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<(), Failure> {
+pub(super) fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<(), Failure> {
     let mut wrong = Vec::new();
     let along = request.along.as_ref();
     let along = along.map(|(path, window)| (("--along", "--between", "--between"), path, *window));
@@ -175,28 +174,6 @@ fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<(), Failure
     if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
 }
 
-/// Rejects thresholds of runs, which are not implemented for systems.
-///
-/// # Errors
-/// A complaint about each option that asks for runs.
-pub fn without_runs(protocols: &[Protocol], ramp: f64) -> Result<(), Failure> {
-    let options = protocols.iter().map(|protocol| match protocol {
-        Protocol::Rest => "--from-rest",
-        Protocol::Sliding => "--from-sliding",
-        Protocol::Squeal => "--from-squeal",
-        Protocol::From(..) => "--start",
-    });
-    let ramp = (ramp != 0.0).then_some("--ramp");
-    let wrong: Vec<Complaint> = options
-        .chain(ramp)
-        .map(|option| {
-            let allowed = "left out: thresholds of the runs of a system are not implemented yet";
-            Complaint::new(Fault::NotBuilt, option, Origin::Argument(option), Json::Null, allowed)
-        })
-        .collect();
-    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
-}
-
 /// The roots of `thresholds` of a system, which are those of `stability --parameter`.
 ///
 /// # Errors
@@ -206,8 +183,8 @@ pub fn thresholds(
     request: &TrackRequest,
 ) -> Result<TrackedStability, Failure> {
     if is_dithered(study.system()) {
-        let allowed = "a study without dither: thresholds of dithered systems follow their periodic motions, which is not \
-                       implemented yet; `stability --parameter` gives the thresholds of averaging";
+        let allowed = "a study without dither: curves of thresholds of periodic motions are not implemented yet; `thresholds` \
+                       without --along gives the exact thresholds, and `stability --parameter --along` those of averaging";
         return Err(
             Complaint::new(Fault::NotBuilt, "dither", Origin::Whole, Json::Null, allowed).into()
         );
