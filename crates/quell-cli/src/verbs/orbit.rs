@@ -1,10 +1,13 @@
 //! `quell orbit`: the periodic response and its Floquet multipliers.
 
 use clap::Args;
-use quell::Failure;
 use quell::kind::verbs;
 use quell::run::orbit::Wanted;
 use quell::run::protocol::Protocol;
+use quell::run::system::orbit::WantedMotion;
+use quell::run::system::protocol::{SystemProtocol, read_state_of};
+use quell::study::SystemStudy;
+use quell::{Failure, Study};
 
 use super::numbers::state;
 use crate::answer::Answer;
@@ -20,7 +23,7 @@ pub(crate) struct Arguments {
     study: StudyArguments,
     /// Searches near this state x,v at τ = 0; in a study in SI in metres and m/s, or with units such as 1um,50mm/s [default:
     /// the base response, continued from steady sliding; without dither the limit cycle; at v₀ = 0 the response that a run
-    /// from rest reaches]
+    /// from rest reaches]. Of a system, numbers that replace those of the study's start, such as x=0.1,velocity.x=-2
     #[arg(long, value_name = "X,V", conflicts_with_all = STARTS, allow_hyphen_values = true)]
     near: Option<String>,
     /// Number of common periods of the dithers in one period of the response
@@ -35,7 +38,7 @@ pub(crate) struct Arguments {
     /// Finds the response that a run from the undithered limit cycle reaches
     #[arg(long, group = "run")]
     from_squeal: bool,
-    /// Finds the response that a run from this state reaches
+    /// Finds the response that a run from this state reaches, given as for --near
     #[arg(long, group = "run", value_name = "X,V", allow_hyphen_values = true)]
     start: Option<String>,
     #[command(flatten)]
@@ -55,6 +58,28 @@ impl Arguments {
         let flag = flags.into_iter().find_map(|(asked, protocol)| asked.then_some(protocol));
         flag.or(start.map(|(x, v)| Protocol::From(x, v)))
     }
+
+    /// The motion of a system that is requested.
+    fn motion(&self, study: &SystemStudy) -> Result<WantedMotion, Failure> {
+        let mut complaints = Gathered::default();
+        let mut read = |option, text: &Option<String>| {
+            let read = |text: &str| read_state_of(study, option, text);
+            complaints.take(text.as_deref().map(read).transpose())
+        };
+        let near = read("--near", &self.near);
+        let start = read("--start", &self.start);
+        let (near, start) = complaints.finish(near.zip(start))?;
+        let periods = self.periods;
+        let after = match (self.after(None), start) {
+            (Some(protocol), _) => Some(SystemProtocol::of(protocol)?),
+            (None, start) => start.map(SystemProtocol::From),
+        };
+        Ok(match (after, near) {
+            (Some(protocol), _) => WantedMotion::After(protocol),
+            (None, Some(state)) => WantedMotion::Near { state, periods },
+            (None, None) => WantedMotion::Base { periods },
+        })
+    }
 }
 
 /// Runs the verb.
@@ -62,6 +87,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
+    if let Some(Ok(system)) = study.as_ref().map(Study::system) {
+        let wanted = complaints.take(arguments.motion(&system));
+        let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
+        let plot = complaints.take(arguments.plot.prepare(&inputs));
+        let (wanted, (outputs, plot)) = complaints.finish(wanted.zip(outputs.zip(plot)))?;
+        let done = verbs(&(&system).into()).orbit_of_system(&wanted)?;
+        return answer(arguments.study.json, done.as_ref(), outputs, plot);
+    }
     let near = arguments.near.as_deref().map(|text| state("--near", text, study.as_ref()));
     let near = complaints.take(near.transpose());
     let start = arguments.start.as_deref().map(|text| state("--start", text, study.as_ref()));

@@ -10,8 +10,10 @@ use crate::complaint::{Failure, Origin};
 use crate::outcome::{Answered, Outcome, Presented};
 use crate::run::disc::resonances;
 use crate::run::orbit::Wanted;
+use crate::run::system::orbit::WantedMotion;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
+use crate::run::system::thresholds::MotionThresholdsRequest;
 use crate::run::system::tracked::TrackRequest;
 use crate::run::{basins, bifurcation, curves, simulate, thresholds};
 use crate::study::{Kind, Study, StudyKind, StudyOf, not_available};
@@ -133,6 +135,15 @@ pub trait Verbs: Send + Sync {
         Err(self.lacks("orbit"))
     }
 
+    /// A periodic motion of a system and its multipliers.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::system::orbit::run`].
+    fn orbit_of_system(&self, wanted: &WantedMotion) -> Reply {
+        let _ = wanted;
+        Err(self.lacks("orbit with named states"))
+    }
+
     /// Thresholds of one parameter.
     ///
     /// # Errors
@@ -140,6 +151,15 @@ pub trait Verbs: Send + Sync {
     fn thresholds(&self, request: thresholds::ThresholdsRequest) -> Reply {
         let _ = request;
         Err(self.lacks("thresholds"))
+    }
+
+    /// Thresholds of one parameter of a system.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::system::thresholds::run`].
+    fn thresholds_of_system(&self, request: &MotionThresholdsRequest) -> Reply {
+        let _ = request;
+        Err(self.lacks("thresholds with named states"))
     }
 
     /// Curves of thresholds in two parameters.

@@ -5,11 +5,18 @@ use crate::cite::{self, Sources};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::curves::CurvesRequest;
+use crate::run::orbit::Wanted;
 use crate::run::simulate::Options;
+use crate::run::system::orbit::WantedMotion;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
+use crate::run::system::thresholds::{
+    MotionThresholdsRequest, is_dithered_within, without_motions,
+};
 use crate::run::system::tracked::TrackRequest;
-use crate::run::system::{exact, measured, modes, reach, response, simulate, stability, tracked};
+use crate::run::system::{
+    exact, measured, modes, orbit, reach, response, simulate, stability, thresholds, tracked,
+};
 use crate::run::thresholds::ThresholdsRequest;
 use crate::study::{SystemSetup, SystemStudy};
 
@@ -26,6 +33,7 @@ impl Verbs for SystemStudy {
             "stability",
             "simulate",
             "response",
+            "orbit",
             "thresholds",
             "resonances",
             "map",
@@ -93,11 +101,24 @@ impl Verbs for SystemStudy {
         answer(self, response::run(self, request))
     }
 
+    fn orbit(&self, wanted: Wanted) -> Reply {
+        self.orbit_of_system(&WantedMotion::of(wanted)?)
+    }
+
+    fn orbit_of_system(&self, wanted: &WantedMotion) -> Reply {
+        answer(self, orbit::run(self, wanted))
+    }
+
     fn thresholds(&self, request: ThresholdsRequest) -> Reply {
-        let ThresholdsRequest { parameter, from, to, protocols, ramp } = request;
-        tracked::without_runs(&protocols, ramp)?;
-        let request = TrackRequest { parameter, window: (from, to), along: None };
-        answer(self, tracked::thresholds(self, &request))
+        self.thresholds_of_system(&MotionThresholdsRequest::of(request)?)
+    }
+
+    fn thresholds_of_system(&self, request: &MotionThresholdsRequest) -> Reply {
+        if is_dithered_within(self, request) {
+            return answer(self, thresholds::run(self, request));
+        }
+        without_motions(request)?;
+        answer(self, tracked::run(self, &request.tracked()))
     }
 
     fn threshold_curves(&self, request: &CurvesRequest) -> Reply {

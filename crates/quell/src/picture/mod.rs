@@ -17,6 +17,8 @@ mod stability;
 mod sweep;
 pub mod system;
 pub mod system_motion;
+pub mod system_orbit;
+pub mod system_thresholds;
 mod thresholds;
 
 pub use basins::basins;

@@ -72,7 +72,7 @@ pub fn stability(study: &SystemStudy, done: &SystemStability) -> Figure {
 }
 
 /// The axis of the number at a path.
-fn axis_of(study: &SystemStudy, path: &str) -> PlotAxis {
+pub(super) fn axis_of(study: &SystemStudy, path: &str) -> PlotAxis {
     let axis = PlotAxis::new(path);
     match study.unit_of(path).filter(|unit| *unit != "1") {
         Some(unit) => axis.unit(unit),

@@ -90,7 +90,7 @@ pub fn thresholds(study: &BeltStudy, done: &Thresholds) -> Figure {
 }
 
 /// Name of a kind in the legend.
-fn words(kind: ThresholdKind) -> &'static str {
+pub(super) fn words(kind: ThresholdKind) -> &'static str {
     match kind {
         ThresholdKind::NeimarkSacker => "Neimark–Sacker",
         ThresholdKind::Hopf => "Hopf",

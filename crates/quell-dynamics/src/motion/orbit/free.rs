@@ -34,6 +34,9 @@ const CLOSED: f64 = 1e-12;
 /// Mismatch, relative to the state, of a cycle after a part of its period that is itself a period.
 const PART: f64 = 1e-7;
 
+/// Rate times period, relative to the state, of an equilibrium.
+const EQUILIBRIUM: f64 = 1e-7;
+
 /// Number of spans over which a run is watched, each [`SPAN`] times the slowest time scale.
 const SPANS: u32 = 60;
 
@@ -253,12 +256,19 @@ fn repeated(
         let quiet = &passages.quiet[all.len() - back..all.len()];
         let longest = quiet.iter().max_by(|a, b| a.2.total_cmp(&b.2))?;
         let period = last.time - before.time;
-        if let Some((state, period)) = close(motion, &longest.1, period, scale) {
+        let closed = close(motion, &longest.1, period, scale);
+        if let Some((state, period)) = closed.filter(|closed| moves(motion, closed, scale)) {
             let (state, period) = least_period(motion, (state, period), back, scale);
             return reported(motion, &state, period);
         }
     }
     None
+}
+
+/// Whether the state moves: an equilibrium closes after any time, and is no cycle.
+fn moves(motion: &Motion<'_>, (state, period): &(Vec<f64>, f64), scale: f64) -> bool {
+    rates(motion, state)
+        .is_some_and(|rates| rates.iter().any(|rate| rate.abs() * period > EQUILIBRIUM * scale))
 }
 
 /// The least period of a cycle closed after several passages.

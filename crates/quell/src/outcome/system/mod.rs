@@ -3,10 +3,12 @@
 mod exact;
 mod measured;
 mod modes;
+mod orbit;
 mod reach;
 mod response;
 mod simulate;
 mod stability;
+mod thresholds;
 mod tracked;
 
 use std::fmt::Write as _;

@@ -1,16 +1,24 @@
 //! Runs of a study of a system: one file per verb.
 
 pub mod check;
+pub mod cycle;
+pub mod cycle_samples;
 pub mod exact;
 pub mod history;
 pub mod measured;
 pub mod modes;
+pub mod orbit;
+pub mod orbit_answer;
+pub mod protocol;
 pub mod reach;
 pub mod response;
 pub mod simulate;
 mod sound;
 pub mod stability;
 pub mod start;
+pub mod switches;
+pub mod thresholds;
+pub mod thresholds_answer;
 pub mod tracked;
 mod trajectory;
 pub mod validity;

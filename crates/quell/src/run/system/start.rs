@@ -5,6 +5,7 @@ use quell_linear::steady::SteadySliding;
 use quell_model::System;
 use quell_model::units::Quantity;
 
+use super::cycle::{base_state, squealing_state};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::quantity;
 use crate::study::{SystemStart, SystemStudy, suggest};
@@ -39,12 +40,8 @@ pub fn state_quantity(system: &System, place: usize) -> Option<Quantity> {
 pub fn start_of(study: &SystemStudy) -> Result<MotionStart, Failure> {
     let system = study.system();
     let size = system.structure.state_size();
-    let refused = |name: &str, allowed: String| {
+    let refused = |name: &str, allowed: String| -> Failure {
         Complaint::new(Fault::Value, "system.initial.state", Origin::Whole, name, allowed).into()
-    };
-    let limit_cycle = |name: &str| {
-        let allowed = "\"rest\", \"sliding\" or numbers: runs of a system cannot start on a periodic motion yet";
-        Err(refused(name, allowed.to_owned()))
     };
     let state = match study.initial() {
         SystemStart::Rest => vec![0.0; size],
@@ -56,8 +53,10 @@ pub fn start_of(study: &SystemStudy) -> Result<MotionStart, Failure> {
             state.resize(size, 0.0);
             state
         }
-        SystemStart::Squealing => return limit_cycle("squealing"),
-        SystemStart::Base => return limit_cycle("base"),
+        SystemStart::Squealing => {
+            squealing_state(system).map_err(|why| refused("squealing", why))?
+        }
+        SystemStart::Base => base_state(system).map_err(|why| refused("base", why))?,
     };
     Ok(MotionStart { time: 0.0, state })
 }

@@ -1,0 +1,94 @@
+//! `orbit` of a system.
+
+use std::fmt::Write as _;
+
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::outcome::Presented;
+use crate::outcome::table::figure;
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::system::cycle_samples::CycleSamples;
+use crate::run::system::orbit::{FoundMotion, PeriodicMotion};
+use crate::run::system::start::{state_names, state_quantity};
+use crate::study::{SystemSetup, SystemStudy};
+
+/// Numbers of a state, multipliers and contacts that a table lists.
+const MOST_LISTED: usize = 12;
+
+impl Presented<SystemSetup> for PeriodicMotion {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
+        self.json(study)
+    }
+
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
+        Some(self.sentence(study))
+    }
+
+    fn table(&self, study: &SystemStudy) -> String {
+        let mut text = String::new();
+        if let Some(found) = &self.found {
+            text += &table(study, found);
+        }
+        for tried in &self.tried {
+            let _ = writeln!(text, "  tried {}: {}", tried.start, tried.outcome);
+        }
+        text
+    }
+
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
+        self.dataset(study).map(|dataset| ("orbit", dataset)).into_iter().collect()
+    }
+
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(picture::system_orbit::orbit(study, self))
+    }
+}
+
+fn table(study: &SystemStudy, found: &FoundMotion) -> String {
+    let (orbit, samples) = (&found.orbit, &found.samples);
+    let unit = |quantity: Option<Quantity>| {
+        let unit = quantity.and_then(|quantity| study.units().unit(quantity));
+        unit.map_or(String::new(), |unit| format!(" {unit}"))
+    };
+    let mut text = String::new();
+    let mut row = |label: &str, value: String| {
+        let _ = writeln!(text, "  {label:<36}{value}");
+    };
+    row("verdict", orbit.verdict().name().to_owned());
+    for z in orbit.multipliers.iter().take(MOST_LISTED) {
+        let sign = if z.im < 0.0 { '−' } else { '+' };
+        row("multiplier", format!("{:.9} {sign} {:.9} i", z.re, z.im.abs()));
+    }
+    row("modulus of the deciding multiplier", figure(orbit.radius()));
+    row("period", figure(orbit.period) + &unit(Some(Quantity::Time)));
+    let states = state_names(study.system()).into_iter().zip(&orbit.state).enumerate();
+    for (place, (name, value)) in states.take(MOST_LISTED) {
+        let unit = unit(state_quantity(study.system(), place));
+        row(&format!("{name} at t = 0"), figure(*value) + &unit);
+    }
+    for (contact, sampled) in
+        study.system().contacts.iter().zip(&samples.contacts).take(MOST_LISTED)
+    {
+        let name = &contact.name;
+        row(&format!("stick fraction of {name}"), figure(samples.share(sampled.stuck)));
+        if sampled.open > 0.0 {
+            row(&format!("open fraction of {name}"), figure(samples.share(sampled.open)));
+        }
+    }
+    let (low, high) = CycleSamples::extremes(&samples.observed);
+    row("lowest observed displacement", figure(low) + &unit(Some(Quantity::Displacement)));
+    row("highest observed displacement", figure(high) + &unit(Some(Quantity::Displacement)));
+    row("residual", figure(orbit.residual));
+    row("error of the state", figure(orbit.state_error));
+    row("error of the multiplier", figure(orbit.multiplier_error));
+    if orbit.state.len() > MOST_LISTED {
+        row("…", "--json lists every number".to_owned());
+    }
+    text
+}

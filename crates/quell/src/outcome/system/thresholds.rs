@@ -1,0 +1,67 @@
+//! `thresholds` of a dithered system.
+
+use std::fmt::Write as _;
+
+use serde_json::Value as Json;
+
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::outcome::Presented;
+use crate::outcome::table::figure;
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::system::switches::STEPS_TRIED;
+use crate::run::system::thresholds::MotionThresholdsFound;
+use crate::run::thresholds::side;
+use crate::study::{SystemSetup, SystemStudy};
+
+impl Presented<SystemSetup> for MotionThresholdsFound {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
+        self.json(study)
+    }
+
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
+        Some(self.sentence(study))
+    }
+
+    fn table(&self, study: &SystemStudy) -> String {
+        let mut text = String::new();
+        let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
+        let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+        for found in self.local.iter().flat_map(|local| &local.thresholds) {
+            let value = figure(found.value) + &unit;
+            let sides = format!("{} below, {} above", side(found.was), side(found.becomes));
+            let _ = writeln!(text, "  {value:<16}{:<16}{sides}", found.kind.name());
+        }
+        for (protocol, switches) in &self.runs {
+            let _ = writeln!(
+                text,
+                "run {} (at {} values; a pair of changes between two of them is missed):",
+                protocol.words(study),
+                STEPS_TRIED + 1
+            );
+            let first = figure(self.request.window.0) + &unit;
+            let _ = writeln!(text, "  {first:<16}{}", self.words(&switches.first));
+            for change in &switches.changes {
+                let value = figure(change.value) + &unit;
+                let kind = change.kind.map_or_else(
+                    || format!("± {}", figure(change.error)),
+                    |kind| kind.name().to_owned(),
+                );
+                let _ =
+                    writeln!(text, "  {value:<16}{kind:<16}{} above", self.words(&change.becomes));
+            }
+        }
+        text
+    }
+
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
+        self.dataset(study).map(|dataset| ("branch", dataset)).into_iter().collect()
+    }
+
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::system_thresholds::thresholds(study, self)))
+    }
+}

@@ -1,0 +1,68 @@
+//! The modulus of the deciding multiplier of a system's periodic motion over a parameter, with its thresholds.
+
+use super::caption::caption_of_system;
+use super::system::axis_of;
+use super::thresholds::words;
+use crate::plot::{
+    Figure, Legend, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
+    Region,
+};
+use crate::run::system::thresholds::MotionThresholdsFound;
+use crate::study::SystemStudy;
+use quell_dynamics::orbit::threshold::ThresholdKind;
+
+/// Minimum jump of the multiplier between neighbouring points with different events that counts as grazing.
+const JUMP: f64 = 0.05;
+
+/// The picture of the thresholds of one parameter.
+pub fn thresholds(study: &SystemStudy, done: &MotionThresholdsFound) -> Figure {
+    let branch = done.local.as_ref().map_or(&[][..], |local| &local.branch);
+    // The multipliers jump at grazing, and the curve has a gap there.
+    let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
+    for (place, point) in branch.iter().enumerate() {
+        let jumps =
+            place.checked_sub(1).and_then(|before| branch.get(before)).is_some_and(|before| {
+                before.signature != point.signature && (before.radius - point.radius).abs() > JUMP
+            });
+        if jumps {
+            pieces.push(Vec::new());
+        }
+        if let Some(piece) = pieces.last_mut() {
+            piece.push((point.value, point.radius));
+        }
+    }
+    let radii = || pieces.iter().flatten().map(|point| point.1);
+    let (low, high) = (radii().fold(1.0, f64::min), radii().fold(1.0, f64::max));
+    let room = 0.15 * (high - low).max(1e-3);
+    let modulus =
+        PlotAxis::new("modulus of the multiplier").symbol("|λ|").between(low - room, high + room);
+    let (from, to) = done.request.window;
+    let across = axis_of(study, &done.request.parameter).between(from, to);
+    let mut panel = Panel::new(across, modulus)
+        .with(Region::across_y(PlotRole::Unstable, 1.0, f64::INFINITY).label("unstable"))
+        .with(ReferenceLine::horizontal(1.0))
+        .with(Polyline::pieces(PlotRole::Exact, pieces));
+    for kind in ThresholdKind::ALL {
+        let found = done.local.iter().flat_map(|local| &local.thresholds);
+        let places: Vec<(f64, f64)> = found
+            .filter(|threshold| threshold.kind == kind)
+            .map(|threshold| (threshold.value, 1.0))
+            .collect();
+        if !places.is_empty() {
+            let marker = if kind == ThresholdKind::Grazing { Marker::Circle } else { Marker::Disc };
+            let points = Points::new(PlotRole::Exact, places).marker(marker).size(7.0);
+            panel = panel.with(points.label(words(kind)));
+        }
+    }
+    for (protocol, switches) in &done.runs {
+        for change in &switches.changes {
+            let label =
+                format!("run {}: {} above", protocol.words(study), done.words(&change.becomes));
+            let rule = ReferenceLine::vertical(change.value).style(LineStyle::Dashed);
+            panel = panel.with(rule.label(label));
+        }
+    }
+    Figure::single(panel.legend(Legend::Above))
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{} {}", done.sentence(study), caption_of_system(study)))
+}

@@ -1,0 +1,125 @@
+//! Limit cycles of systems without dither, and what was tried to find one.
+
+use quell_dynamics::motion::orbit::{MotionOrbit, base_motion, free_cycle, sliding_state};
+use quell_dynamics::orbit::OrbitVerdict;
+use quell_model::System;
+use quell_model::profile::Profile;
+
+/// Velocities of kicked starts, over that of the surface: at 1 the contact moves with it.
+const KICKS: [f64; 3] = [1.0, 0.5, 2.0];
+
+/// Share of a kick by which those of the contacts differ.
+const UNEQUAL: f64 = 0.3;
+
+/// Steps in which the base response is continued from steady sliding.
+pub(super) const BASE_STEPS: u32 = 8;
+
+/// A start from which no limit cycle was reached.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TriedStart {
+    /// The start in words, such as "from rest".
+    pub start: String,
+    /// What became of the run.
+    pub outcome: String,
+}
+
+/// A search for a limit cycle.
+#[derive(Clone, Debug)]
+pub struct CycleSearch {
+    /// The cycle and the start of the run that reached it, in words.
+    pub found: Option<(MotionOrbit, String)>,
+    /// The starts that reached none.
+    pub tried: Vec<TriedStart>,
+}
+
+/// A start in words and its state.
+pub type NamedStart = (String, Vec<f64>);
+
+/// The limit cycle that a run from the first successful start reaches. A cycle that is not stable, on which only symmetric
+/// runs end, is kept for the case that no other is found.
+pub fn search(system: &System, starts: Vec<NamedStart>) -> CycleSearch {
+    let mut tried = Vec::new();
+    let mut unstable = None;
+    for (start, state) in starts {
+        match free_cycle(system, &state) {
+            Ok(cycle) if cycle.verdict() == OrbitVerdict::Unstable => {
+                unstable.get_or_insert((cycle, start));
+            }
+            Ok(cycle) => return CycleSearch { found: Some((cycle, start)), tried },
+            Err(why) => tried.push(TriedStart { start, outcome: why.to_string() }),
+        }
+    }
+    CycleSearch { found: unstable, tried }
+}
+
+/// Steady sliding with velocities towards those of the surfaces; empty without steady sliding.
+pub fn kicked(system: &System) -> Vec<NamedStart> {
+    let Ok(sliding) = sliding_state(system) else { return Vec::new() };
+    let size = system.structure.size();
+    let offset = if system.structure.mechanical().is_some() { size } else { 0 };
+    let kick = |factor: f64| {
+        let mut state = sliding.clone();
+        for (number, contact) in system.contacts.iter().enumerate() {
+            let Some(row) = &contact.tangent else { continue };
+            let length: f64 = row.iter().map(|weight| weight * weight).sum();
+            // Equal contacts are not kicked equally: a run from a symmetric start remains symmetric.
+            let share = 1.0 - UNEQUAL * number as f64 / system.contacts.len() as f64;
+            let velocity = share * factor * contact.surface_velocity.mean();
+            for (place, weight) in row.iter().enumerate() {
+                state[offset + place] += velocity * weight / length;
+            }
+        }
+        let start = format!("from steady sliding kicked by {factor} times the surface velocity");
+        (start, state)
+    };
+    KICKS.into_iter().map(kick).collect()
+}
+
+/// The starts of a search without a given start: kicked steady sliding, then rest.
+pub fn usual_starts(system: &System) -> Vec<NamedStart> {
+    let rest = vec![0.0; system.structure.state_size()];
+    kicked(system).into_iter().chain([("from rest".to_owned(), rest)]).collect()
+}
+
+/// The system without the waves of its dithers.
+pub fn undithered(system: &System) -> System {
+    let mut system = system.clone();
+    for input in &mut system.inputs {
+        input.profile = Profile::constant(input.profile.mean());
+    }
+    system
+}
+
+/// A state of the limit cycle without dither.
+///
+/// # Errors
+/// What was tried.
+pub fn squealing_state(system: &System) -> Result<Vec<f64>, String> {
+    let system = undithered(system);
+    let search = search(&system, usual_starts(&system));
+    match search.found {
+        Some((cycle, _)) => Ok(cycle.state),
+        None => Err(format!("another state: {}", without_cycle(&search.tried))),
+    }
+}
+
+/// The state of the base response at t = 0.
+///
+/// # Errors
+/// Why it does not exist.
+pub fn base_state(system: &System) -> Result<Vec<f64>, String> {
+    let found = base_motion(system, BASE_STEPS);
+    found.map(|orbit| orbit.state).map_err(|why| format!("another state: {why}"))
+}
+
+/// What was tried, in one sentence without its full stop.
+pub fn without_cycle(tried: &[TriedStart]) -> String {
+    let starts: Vec<&str> = tried.iter().map(|tried| tried.start.as_str()).collect();
+    match starts.split_last() {
+        None => "no limit cycle was found".to_owned(),
+        Some((last, [])) => format!("no limit cycle was found by a run {last}"),
+        Some((last, before)) => {
+            format!("no limit cycle was found by runs {} and {last}", before.join(", "))
+        }
+    }
+}

@@ -1,0 +1,355 @@
+//! The answer of `orbit` of a system in sentences, JSON and a dataset.
+
+use quell_dynamics::motion::orbit::MotionOrbit;
+use quell_dynamics::motion::orbit::family::MotionSignature;
+use quell_dynamics::motion::{ContactPhase, RecordedEvent};
+use quell_dynamics::orbit::OrbitVerdict;
+use quell_dynamics::simulation::EventKind;
+use quell_model::units::Quantity;
+use serde_json::{Value as Json, json};
+
+use super::cycle::without_cycle;
+use super::cycle_samples::CycleSamples;
+use super::orbit::{FoundBy, FoundMotion, PeriodicMotion};
+use super::start::{state_names, state_quantity};
+use crate::complaint::Failure;
+use crate::dataset::{Array, Dataset};
+use crate::fields::Fields;
+use crate::study::SystemStudy;
+use crate::words::{capital, digits, plural};
+
+/// Groups of contacts that a sentence describes.
+const MOST_GROUPS: usize = 3;
+
+/// What a contact does, as words with their codes.
+const PHASES: [(u8, &str); 3] = [(0, "slip"), (1, "stick"), (2, "open")];
+
+/// A quantity with its unit.
+fn with_unit(study: &SystemStudy, quantity: Quantity, value: f64) -> String {
+    let unit = study.units().unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
+    format!("{}{unit}", digits(value))
+}
+
+/// A count as text: "once", "twice", "3 times".
+fn times(count: usize) -> String {
+    match count {
+        1 => "once".to_owned(),
+        2 => "twice".to_owned(),
+        count => format!("{count} times"),
+    }
+}
+
+/// What a contact does in a period, after the noun, singular or plural.
+fn behaviour(orbit: &MotionOrbit, contact: usize, count: usize) -> String {
+    let s = if count == 1 { "s" } else { "" };
+    let reverses = if count == 1 { "reverses" } else { "reverse" };
+    let number = |kind: EventKind| {
+        let of = |event: &&RecordedEvent| event.contact == contact && event.kind == kind;
+        orbit.events.iter().filter(of).count()
+    };
+    let (sticks, reversals, opens) =
+        (number(EventKind::Stick), number(EventKind::Reversal), number(EventKind::Separation));
+    let mut parts = Vec::new();
+    if sticks > 0 {
+        parts.push(format!("stick{s} {} per period", times(sticks)));
+    }
+    if reversals > 0 {
+        parts.push(format!("{reverses} {} per period", times(reversals)));
+    }
+    if opens > 0 {
+        parts.push(format!("open{s} {} per period", times(opens)));
+    }
+    if let Some((last, before)) = parts.split_last() {
+        let before = before.join(", ");
+        return if before.is_empty() { last.clone() } else { format!("{before} and {last}") };
+    }
+    match phase_of(orbit, contact) {
+        Some(ContactPhase::Stick) => format!("stick{s} throughout"),
+        Some(ContactPhase::Open) if count == 1 => "is open throughout".to_owned(),
+        Some(ContactPhase::Open) => "are open throughout".to_owned(),
+        _ => format!("slide{s} throughout, without grazing γ = 0"),
+    }
+}
+
+/// What a contact without events does, where the signature says so.
+fn phase_of(orbit: &MotionOrbit, contact: usize) -> Option<ContactPhase> {
+    match &orbit.signature {
+        MotionSignature::Steady(phases) => phases.get(contact).copied(),
+        MotionSignature::Events(_) => None,
+    }
+}
+
+/// What the contacts do, in sentences.
+fn contacts_in_words(study: &SystemStudy, orbit: &MotionOrbit) -> String {
+    let contacts = &study.system().contacts;
+    let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
+    for index in 0..contacts.len() {
+        let key = behaviour(orbit, index, 1);
+        match groups.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, members)) => members.push(index),
+            None => groups.push((key, vec![index])),
+        }
+    }
+    if groups.len() > MOST_GROUPS {
+        let events = orbit.events.len();
+        return format!(
+            "Its {} contacts have {events} event{} per period.",
+            contacts.len(),
+            plural(events)
+        );
+    }
+    let sentence = |(_, members): &(String, Vec<usize>)| {
+        let names: Vec<&str> = members.iter().map(|index| contacts[*index].name.as_str()).collect();
+        let doing = behaviour(orbit, members[0], members.len());
+        match names.as_slice() {
+            [only] => format!("Contact {only} {doing}."),
+            [.., _] if members.len() == contacts.len() && members.len() > 2 => {
+                format!("All {} contacts {doing}.", names.len())
+            }
+            [before @ .., last] => format!("Contacts {} and {last} {doing}.", before.join(", ")),
+            [] => String::new(),
+        }
+    };
+    groups.iter().map(sentence).collect::<Vec<_>>().join(" ")
+}
+
+/// The verdict in a sentence.
+fn verdict_in_words(orbit: &MotionOrbit) -> &'static str {
+    match orbit.verdict() {
+        OrbitVerdict::Stable => "It is stable: small deviations die out.",
+        OrbitVerdict::Unstable => "It is unstable: small deviations grow.",
+        OrbitVerdict::Undecided => {
+            "Its stability is undecided: the deciding multiplier has modulus 1 within its error."
+        }
+    }
+}
+
+/// A motion in a few sentences.
+pub fn sentence(study: &SystemStudy, found: &FoundMotion) -> String {
+    let orbit = &found.orbit;
+    let period = with_unit(study, Quantity::Time, orbit.period);
+    let subject = match &found.by {
+        FoundBy::Continuation if found.multiple == 1 => "The base response".to_owned(),
+        FoundBy::Continuation | FoundBy::Shooting => "The periodic motion".to_owned(),
+        FoundBy::Run { start, .. } => format!("The motion that a run {start} reaches"),
+        FoundBy::FreeRun { start } => format!("The limit cycle that a run {start} reaches"),
+    };
+    let locked = match found.multiple {
+        1 => String::new(),
+        n => format!(", {n} periods of the dither"),
+    };
+    let contacts = contacts_in_words(study, orbit);
+    let verdict = verdict_in_words(orbit);
+    let instead = match &found.by {
+        FoundBy::Run { instead: Some(why), .. } => {
+            format!(" It replaces the base response, which does not exist: {why}.")
+        }
+        _ => String::new(),
+    };
+    format!("{subject} has period {period}{locked}. {contacts} {verdict}{instead}")
+}
+
+/// The events of a contact as words in their order; what it does without events.
+fn signature_of(found: &FoundMotion, contact: usize) -> Vec<&'static str> {
+    let events = found.orbit.events.iter().filter(|event| event.contact == contact);
+    let words: Vec<&'static str> = events.map(|event| event.kind.name()).collect();
+    if !words.is_empty() {
+        return words;
+    }
+    match found.samples.contacts.get(contact).and_then(|sampled| sampled.phases.first()) {
+        Some(ContactPhase::Stick) => vec!["sticking"],
+        Some(ContactPhase::Open) => vec!["open"],
+        Some(ContactPhase::Slip(_)) => vec!["slipping"],
+        None => Vec::new(),
+    }
+}
+
+fn put_events(events: &[RecordedEvent]) -> Vec<Json> {
+    let event = |event: &RecordedEvent| {
+        json!({
+            "time": event.time,
+            "contact": event.contact,
+            "kind": event.kind.name(),
+            "slip_sign": event.slip_sign,
+            "state": event.state,
+        })
+    };
+    events.iter().map(event).collect()
+}
+
+/// An estimated error, or why it is unknown.
+fn put_error(fields: &mut Fields, name: &str, error: f64) {
+    if error.is_finite() {
+        fields.plain(name, error);
+    } else {
+        fields.unknown(name, "a multiplier is too close to 1 for the error to be bounded");
+    }
+}
+
+impl PeriodicMotion {
+    /// The answer in a few sentences.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let Some(found) = &self.found else {
+            let tried = capital(&without_cycle(&self.tried));
+            return match &self.sliding {
+                Some(Ok(verdict)) => format!("{tried}. Steady sliding is {verdict}."),
+                Some(Err(why)) => format!("{tried}. Steady sliding has no verdict: {why}."),
+                None => format!("{tried}."),
+            };
+        };
+        sentence(study, found)
+    }
+
+    /// Warnings: those of the study, and one-sided multipliers.
+    pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
+        let one_sided = self.found.as_ref().filter(|found| found.orbit.is_one_sided).map(|_| {
+            "independent events coincide: the multipliers hold for deviations to one side only"
+                .to_owned()
+        });
+        study.warnings().iter().cloned().chain(one_sided).collect()
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &SystemStudy) -> Json {
+        let mut fields = Fields::of_system(study.units());
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .plain("state_names", state_names(study.system()));
+        match &self.found {
+            Some(found) => put_found(&mut fields, study, found),
+            None => self.put_without(&mut fields),
+        }
+        let tried = self.tried.iter().map(|tried| {
+            let mut inner = Fields::of_system(study.units());
+            inner.plain("start", tried.start.clone()).plain("outcome", tried.outcome.clone());
+            inner
+        });
+        fields.list("tried", tried);
+        match &self.sliding {
+            Some(Ok(verdict)) => {
+                fields.plain("steady_sliding", *verdict);
+            }
+            Some(Err(why)) => {
+                fields.unknown("steady_sliding", why.clone());
+            }
+            None => {}
+        }
+        fields.plain("warnings", self.warnings(study));
+        fields.finish()
+    }
+
+    fn put_without(&self, fields: &mut Fields) {
+        let why = without_cycle(&self.tried);
+        fields.plain("protocol", "runs without dither");
+        for name in ["response", "period", "state", "multipliers", "radius", "residual", "events"] {
+            fields.unknown(name, why.clone());
+        }
+        match &self.sliding {
+            Some(Ok(verdict)) => fields.plain("verdict", *verdict),
+            Some(Err(why)) => fields.unknown("verdict", why.clone()),
+            None => fields.unknown("verdict", why),
+        };
+    }
+
+    /// The motion over one period.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] if no periodic motion exists.
+    pub fn dataset(&self, study: &SystemStudy) -> Result<Dataset, Failure> {
+        let why = || Failure::Failed { key: "--save".to_owned(), why: self.sentence(study) };
+        let found = self.found.as_ref().ok_or_else(why)?;
+        Ok(dataset(study, found).fact(self.sentence(study)))
+    }
+}
+
+fn put_found(fields: &mut Fields, study: &SystemStudy, found: &FoundMotion) {
+    let orbit = &found.orbit;
+    let response = match &found.by {
+        FoundBy::Continuation if found.multiple == 1 => "base",
+        FoundBy::Continuation | FoundBy::Shooting => "near",
+        FoundBy::Run { .. } => "reached",
+        FoundBy::FreeRun { .. } => "limit-cycle",
+    };
+    fields
+        .plain("protocol", "local: Floquet multipliers of the periodic motion")
+        .plain("response", response)
+        .plain("periods", found.multiple)
+        .plain("free_phase", orbit.is_free)
+        .number("period", Quantity::Time, orbit.period)
+        .plain("state", orbit.state.clone());
+    if let FoundBy::Run { start, periods, instead } = &found.by {
+        fields.plain("start", start.clone()).plain("periods_to_settle", *periods);
+        if let Some(why) = instead {
+            fields.plain("no_base_response", why.clone());
+        }
+    }
+    if let FoundBy::FreeRun { start } = &found.by {
+        fields.plain("start", start.clone());
+    }
+    let multipliers: Vec<Vec<f64>> = orbit.multipliers.iter().map(|z| vec![z.re, z.im]).collect();
+    fields
+        .plain("multipliers", multipliers)
+        .plain("radius", orbit.radius())
+        .plain("verdict", orbit.verdict().name())
+        .plain("residual", orbit.residual)
+        .plain("one_sided", orbit.is_one_sided);
+    put_error(fields, "state_error", orbit.state_error);
+    put_error(fields, "multiplier_error", orbit.multiplier_error);
+    fields.plain("events", put_events(&orbit.events));
+    let samples = &found.samples;
+    let contacts = study.system().contacts.iter().zip(&samples.contacts).enumerate();
+    let contacts = contacts.map(|(index, (contact, sampled))| {
+        let mut inner = Fields::of_system(study.units());
+        inner
+            .plain("name", contact.name.clone())
+            .plain("signature", signature_of(found, index))
+            .number("stick_fraction", Quantity::Ratio, samples.share(sampled.stuck))
+            .number("open_fraction", Quantity::Ratio, samples.share(sampled.open));
+        inner
+    });
+    fields.list("contacts", contacts);
+    let (low, high) = CycleSamples::extremes(&samples.observed);
+    let (slow, fast) = CycleSamples::extremes(&samples.rate);
+    fields
+        .number("lowest", Quantity::Displacement, low)
+        .number("highest", Quantity::Displacement, high)
+        .number("lowest_velocity", Quantity::Velocity, slow)
+        .number("highest_velocity", Quantity::Velocity, fast);
+}
+
+/// The samples of a motion: every number of the state, and slip velocity, friction, load and phase of every contact.
+fn dataset(study: &SystemStudy, found: &FoundMotion) -> Dataset {
+    let samples = &found.samples;
+    let system = study.system();
+    let unit = |quantity: Option<Quantity>| -> &'static str {
+        quantity.and_then(|quantity| study.units().unit(quantity)).unwrap_or("1")
+    };
+    let time = Array::new("time", unit(Some(Quantity::Time)), samples.times.clone());
+    let mut dataset = Dataset::of(&study.into(), "orbit").with_axis(time);
+    let size = found.orbit.state.len();
+    for (place, name) in state_names(system).into_iter().enumerate() {
+        let values = samples.states.iter().skip(place).step_by(size).copied().collect();
+        let name = if name == "time" { "displacement.time".to_owned() } else { name };
+        dataset = dataset.with(Array::new(name, unit(state_quantity(system, place)), values));
+    }
+    let (velocity, force) = (unit(Some(Quantity::Velocity)), unit(Some(Quantity::Force)));
+    for (contact, sampled) in system.contacts.iter().zip(&samples.contacts) {
+        let name = |what: &str| format!("{}.{what}", contact.name);
+        let phases: Vec<u8> = sampled.phases.iter().map(|phase| phase_code(*phase)).collect();
+        dataset = dataset
+            .with(Array::new(name("slip_velocity"), velocity, sampled.slip_velocity.clone()))
+            .with(Array::new(name("friction"), force, sampled.friction.clone()))
+            .with(Array::new(name("normal"), force, sampled.normal_load.clone()))
+            .with(Array::of_words(name("phase"), PHASES.to_vec(), &phases));
+    }
+    dataset
+}
+
+fn phase_code(phase: ContactPhase) -> u8 {
+    match phase {
+        ContactPhase::Slip(_) => 0,
+        ContactPhase::Stick => 1,
+        ContactPhase::Open => 2,
+    }
+}

@@ -1,0 +1,113 @@
+//! Initial-condition protocols of systems.
+
+use quell_dynamics::motion::orbit::sliding_state;
+use quell_model::System;
+
+use super::cycle::squealing_state;
+use super::start::{StateNumbers, read_state, start_in_words, start_with};
+use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
+use crate::run::protocol::Protocol;
+use crate::study::{SystemStart, SystemStudy};
+
+/// The state from which a run of a system starts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum SystemProtocol {
+    /// The start of the study.
+    #[default]
+    Study,
+    /// Every number of the state is 0.
+    Rest,
+    /// Steady sliding without dither.
+    Sliding,
+    /// The limit cycle without dither.
+    Squeal,
+    /// The start of the study with these numbers.
+    From(StateNumbers),
+}
+
+impl SystemProtocol {
+    /// The protocol of a belt for a system.
+    ///
+    /// # Errors
+    /// A start given by two numbers, which do not say which numbers of the state they are.
+    pub fn of(protocol: Protocol) -> Result<Self, Failure> {
+        match protocol {
+            Protocol::Rest => Ok(Self::Rest),
+            Protocol::Sliding => Ok(Self::Sliding),
+            Protocol::Squeal => Ok(Self::Squeal),
+            Protocol::From(x, v) => Err(unnamed("--start", (x, v)).into()),
+        }
+    }
+
+    /// Name of its field in JSON.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Study => "from_initial",
+            Self::Rest => "from_rest",
+            Self::Sliding => "from_sliding",
+            Self::Squeal => "from_squeal",
+            Self::From(_) => "from_start",
+        }
+    }
+
+    /// The start in words, such as "from rest".
+    pub fn words(&self, study: &SystemStudy) -> String {
+        match self {
+            Self::Study => start_in_words(study, &StateNumbers::new()),
+            Self::Rest => "from rest".to_owned(),
+            Self::Sliding => "from steady sliding".to_owned(),
+            Self::Squeal => "from the undithered limit cycle".to_owned(),
+            Self::From(numbers) => start_in_words(study, numbers),
+        }
+    }
+
+    /// The state at t = 0 in a system, that of the study with some numbers changed.
+    ///
+    /// # Errors
+    /// Why there is no such state.
+    pub fn state(&self, study: &SystemStudy, system: &System) -> Result<Vec<f64>, Failure> {
+        let refused = |option: &'static str, why: String| -> Failure {
+            let allowed = format!("choose another start: {why}");
+            let origin = Origin::Argument(option);
+            Complaint::new(Fault::Conflict, option, origin, serde_json::Value::Null, allowed).into()
+        };
+        match self {
+            // Named states depend on the system.
+            Self::Study => match study.initial() {
+                SystemStart::Sliding => Self::Sliding.state(study, system),
+                SystemStart::Squealing => Self::Squeal.state(study, system),
+                _ => Ok(start_with(study, &StateNumbers::new())?.state),
+            },
+            Self::From(numbers) => Ok(start_with(study, numbers)?.state),
+            Self::Rest => Ok(vec![0.0; system.structure.state_size()]),
+            Self::Sliding => {
+                sliding_state(system).map_err(|why| refused("--from-sliding", why.to_string()))
+            }
+            Self::Squeal => squealing_state(system).map_err(|why| refused("--from-squeal", why)),
+        }
+    }
+}
+
+/// The complaint about a state given by two numbers.
+pub(crate) fn unnamed(option: &'static str, (x, v): (f64, f64)) -> Complaint {
+    let allowed = "name=value pairs such as x=0.1,velocity.x=-2: a system has many coordinates";
+    Complaint::option(option, format!("{x},{v}"), allowed)
+}
+
+/// Reads `name=value,…` given by an option.
+///
+/// # Errors
+/// A complaint about every part.
+pub fn read_state_of(
+    study: &SystemStudy,
+    option: &'static str,
+    text: &str,
+) -> Result<StateNumbers, Complaints> {
+    let renamed = |complaint: &Complaint| Complaint {
+        key: option.to_owned(),
+        origin: Origin::Argument(option),
+        ..complaint.clone()
+    };
+    read_state(study, text)
+        .map_err(|wrong| wrong.iter().map(renamed).collect::<Vec<Complaint>>().into())
+}

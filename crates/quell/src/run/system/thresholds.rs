@@ -1,0 +1,175 @@
+//! `thresholds` of a system under dither: values of a parameter at which its base response, or a periodic motion near a state,
+//! gains or loses stability, and those at which runs from given starts change.
+
+use quell_dynamics::motion::orbit::{
+    MotionThresholds as Local, NoMotionOrbit, base_motion, motion_thresholds,
+};
+use quell_dynamics::orbit::threshold::BranchEnding;
+use quell_dynamics::response::BAND_END;
+use quell_linear::linearised::Linearised;
+use quell_linear::spectrum;
+use quell_model::System;
+use serde_json::Value as Json;
+
+use super::cycle::{BASE_STEPS, undithered};
+use super::protocol::SystemProtocol;
+use super::start::{StateNumbers, start_with};
+use super::switches::{RunSwitches, run_switches};
+use super::tracked::{TrackRequest, understood};
+use super::{failed, has_equations, is_dithered};
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::run::thresholds::ThresholdsRequest;
+use crate::study::SystemStudy;
+
+/// Minimum number of continuation steps over the range.
+const STEPS: u32 = 40;
+
+/// Options of `thresholds` of a system.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MotionThresholdsRequest {
+    /// Path of the parameter.
+    pub parameter: String,
+    /// First and last value, in the unit of that key.
+    pub window: (f64, f64),
+    /// Numbers of a state near which the motion to follow is searched at the first value, and its number of dither periods; the
+    /// base response if `None`.
+    pub near: Option<(StateNumbers, u32)>,
+    /// Runs to follow in addition.
+    pub protocols: Vec<SystemProtocol>,
+}
+
+impl MotionThresholdsRequest {
+    /// The request about a belt for a system.
+    ///
+    /// # Errors
+    /// A state given by two numbers; a ramp, which runs of systems do not have.
+    pub fn of(request: ThresholdsRequest) -> Result<Self, Failure> {
+        let ThresholdsRequest { parameter, from, to, protocols, ramp } = request;
+        if ramp != 0.0 {
+            let allowed = "0: the dither of a system's run is switched on at once";
+            return Err(Complaint::option("--ramp", ramp, allowed).into());
+        }
+        let protocols = protocols.into_iter().map(SystemProtocol::of).collect::<Result<_, _>>()?;
+        Ok(Self { parameter, window: (from, to), near: None, protocols })
+    }
+
+    /// The same parameter and window for eigenvalues.
+    pub fn tracked(&self) -> TrackRequest {
+        TrackRequest { parameter: self.parameter.clone(), window: self.window, along: None }
+    }
+}
+
+/// The thresholds of the periodic motions of a system.
+#[derive(Clone, Debug)]
+pub struct MotionThresholdsFound {
+    /// The request.
+    pub request: MotionThresholdsRequest,
+    /// The branch of motions and its changes of stability, or why there is none.
+    pub local: Result<Local, NoMotionOrbit>,
+    /// Whether a base response exists at the last value although the branch ends before it.
+    pub resumes: bool,
+    /// The changes of each run.
+    pub runs: Vec<(SystemProtocol, RunSwitches)>,
+    /// Whether a dither acts in the band of the slowest growing vibration, so that a motion in step with it may vibrate.
+    pub in_band: bool,
+}
+
+/// Whether some dither acts at an end of the window.
+pub fn is_dithered_within(study: &SystemStudy, request: &MotionThresholdsRequest) -> bool {
+    let (from, to) = request.window;
+    is_dithered(study.system())
+        || [from, to].iter().any(|value| {
+            let numbers = [(request.parameter.as_str(), *value)];
+            study.system_at(&numbers).is_ok_and(|system| is_dithered(&system))
+        })
+}
+
+/// Thresholds of a study whose dither acts somewhere in the window.
+///
+/// # Errors
+/// Complaints about the request; [`Failure::Failed`] if there is no periodic motion at the first value and no run is requested.
+pub fn run(
+    study: &SystemStudy,
+    request: &MotionThresholdsRequest,
+) -> Result<MotionThresholdsFound, Failure> {
+    has_equations(study, "thresholds")?;
+    understood(study, &request.tracked())?;
+    let path = request.parameter.as_str();
+    let at = |values: &[f64]| -> Result<System, String> {
+        study.system_at(&[(path, values[0])]).map_err(|why| why.to_string())
+    };
+    let (from, to) = request.window;
+    for (option, value) in [("--from", from), ("--to", to)] {
+        at(&[value]).map_err(|why| {
+            let allowed = format!("a value that {path} can take: {why}");
+            Complaint::option(option, value, allowed)
+        })?;
+    }
+    let local = match &request.near {
+        Some((numbers, periods)) => {
+            let guess = start_with(study, numbers)?.state;
+            motion_thresholds(&at, (from, to), STEPS, Some((&guess, *periods)))
+        }
+        None => motion_thresholds(&at, (from, to), STEPS, None),
+    };
+    if let Err(why) = &local
+        && (request.protocols.is_empty() || request.near.is_some())
+    {
+        return Err(failed(
+            "thresholds",
+            format!(
+                "{why}, at {path} = {from}: begin where a base response exists, give a state near another motion (--near), or \
+                 request runs (--from-rest, --from-squeal, …)"
+            ),
+        ));
+    }
+    let ends = local.as_ref().is_ok_and(|local| local.ending != BranchEnding::Covered);
+    let resumes = (local.is_err() || ends)
+        && request.near.is_none()
+        && at(&[to]).is_ok_and(|system| base_motion(&system, BASE_STEPS).is_ok());
+    let runs = request
+        .protocols
+        .iter()
+        .map(|protocol| (protocol.clone(), run_switches(study, protocol, &at, request.window)));
+    let runs = runs.collect();
+    Ok(MotionThresholdsFound {
+        request: request.clone(),
+        local,
+        resumes,
+        runs,
+        in_band: reaches_the_band(study.system()),
+    })
+}
+
+/// Whether a dither is not fast in comparison with the fastest growing motion.
+fn reaches_the_band(system: &System) -> bool {
+    let free = undithered(system);
+    let Ok(linear) = Linearised::new(&free) else { return false };
+    let Ok(growth) = spectrum::growth(&linear, &linear.friction()) else { return false };
+    let waves = system.inputs.iter().flat_map(|input| input.profile.waves());
+    let lowest = waves.map(|wave| wave.frequency).fold(f64::INFINITY, f64::min);
+    lowest <= BAND_END * growth.frequency
+}
+
+/// Rejects `--near` where no dither acts.
+///
+/// # Errors
+/// A complaint about each option that is about motions.
+pub fn without_motions(request: &MotionThresholdsRequest) -> Result<(), Failure> {
+    let options = request.protocols.iter().map(|protocol| match protocol {
+        SystemProtocol::Rest => "--from-rest",
+        SystemProtocol::Sliding => "--from-sliding",
+        SystemProtocol::Squeal => "--from-squeal",
+        SystemProtocol::Study | SystemProtocol::From(_) => "--start",
+    });
+    let near = request.near.as_ref().map(|_| "--near");
+    let wrong: Vec<Complaint> = options
+        .chain(near)
+        .map(|option| {
+            let allowed = "left out: without dither the thresholds are those of steady sliding, and its limit cycles are not \
+                           followed over a parameter; `orbit` finds them at one value";
+            Complaint::new(Fault::Conflict, option, Origin::Argument(option), Json::Null, allowed)
+        })
+        .collect();
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
+}
