@@ -4,16 +4,22 @@ use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
+use crate::run::basins::BasinsRequest;
+use crate::run::bifurcation::SweepRequest;
 use crate::run::curves::CurvesRequest;
 use crate::run::orbit::Wanted;
+use crate::run::system::basins::{PlaneRequest, default_plane};
 use crate::run::system::orbit::WantedMotion;
 use crate::run::system::thresholds::{
     MotionThresholdsRequest, is_dithered_within, without_motions,
 };
 use crate::run::system::tracked::TrackRequest;
-use crate::run::system::{exact, measured, modes, orbit, reach, stability, thresholds, tracked};
+use crate::run::system::{
+    basins, bifurcation, exact, measured, modes, orbit, reach, stability, thresholds, tracked,
+};
 use crate::run::thresholds::ThresholdsRequest;
 use crate::study::{SystemSetup, SystemStudy};
+use crate::sweep::Running;
 
 impl Verbs for SystemStudy {
     fn kind(&self) -> &'static str {
@@ -21,7 +27,18 @@ impl Verbs for SystemStudy {
     }
 
     fn names(&self) -> &'static [&'static str] {
-        &["check", "cite", "modes", "stability", "orbit", "thresholds", "resonances", "map"]
+        &[
+            "check",
+            "cite",
+            "modes",
+            "stability",
+            "orbit",
+            "thresholds",
+            "bifurcation",
+            "basins",
+            "resonances",
+            "map",
+        ]
     }
 
     fn check(&self) -> Box<dyn Outcome> {
@@ -77,6 +94,18 @@ impl Verbs for SystemStudy {
         }
         without_motions(request)?;
         answer(self, tracked::run(self, &request.tracked()))
+    }
+
+    fn bifurcation(&self, request: &SweepRequest, running: Running<'_>) -> Reply {
+        answer(self, bifurcation::run(self, request, running))
+    }
+
+    fn basins(&self, request: &BasinsRequest, running: Running<'_>) -> Reply {
+        self.basins_of_system(&default_plane(self, request)?, running)
+    }
+
+    fn basins_of_system(&self, request: &PlaneRequest, running: Running<'_>) -> Reply {
+        answer(self, basins::run(self, request, running))
     }
 
     fn threshold_curves(&self, request: &CurvesRequest) -> Reply {

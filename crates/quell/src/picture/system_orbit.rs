@@ -19,7 +19,7 @@ const CIRCLE: u32 = 180;
 const WIDE: f64 = 3.5;
 
 /// An axis of a quantity of a study.
-fn axis(study: &SystemStudy, name: &str, quantity: Quantity) -> PlotAxis {
+pub(super) fn axis(study: &SystemStudy, name: &str, quantity: Quantity) -> PlotAxis {
     match study.units().unit(quantity) {
         Some(unit) => PlotAxis::new(name).unit(unit),
         None => PlotAxis::new(name),
