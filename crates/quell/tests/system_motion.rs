@@ -2,12 +2,17 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 use quell::Study;
 use quell::kind::verbs;
+use quell::run::bifurcation::SweepRequest;
+use quell::run::system::basins::{PlaneRequest, read_plane};
 use quell::run::system::orbit::WantedMotion;
 use quell::run::system::protocol::{SystemProtocol, read_state_of};
 use quell::run::system::thresholds::MotionThresholdsRequest;
+use quell::run::varied::Range;
+use quell::sweep::Running;
 use serde_json::Value as Json;
 
 /// Accuracy of states and event times.
@@ -206,4 +211,58 @@ fn runs_change_where_their_orbit_does() {
     let off = (number(&change["value"]) - number(&case["value"])).abs() / number(&case["value"]);
     assert!(off <= 1e-5, "{change}");
     assert_eq!(change["becomes"], "quenched");
+}
+
+/// Swept up and down, the drive falls into step with the dither at its threshold, and leaves it there.
+#[test]
+fn sweeps_change_at_the_threshold() {
+    let reference = reference();
+    let case = &reference["thresholds"][0];
+    let range = Range { parameter: "dither.amplitude".into(), from: 5.3, to: 5.5, points: 5 };
+    let request = SweepRequest { range, up: false, down: false };
+    let stop = AtomicBool::new(false);
+    let running = Running { threads: None, stop: &stop, progress: &() };
+    let study = study(case["study"].as_str().expect("a study"));
+    let found = verbs(&study).bifurcation(&request, running);
+    let found = found.unwrap_or_else(|why| panic!("{why:?}")).json();
+    println!("{}", found["sentence"]);
+    for (point, value) in list(&found["up"]).iter().zip([5.3, 5.35, 5.4, 5.45, 5.5]) {
+        let kind = if value > 5.39 { "period-1" } else { "not-periodic" };
+        assert_eq!(point["kind"], kind, "{point}");
+        assert_eq!(point["local_verdict"], if value > 5.39 { "stable" } else { "unstable" });
+    }
+    assert_eq!(list(&found["hysteresis"]).len(), 0, "{}", found["hysteresis"]);
+}
+
+fn basins(text: &str, plane: &str, grid: (usize, usize)) -> Json {
+    let study = study(text);
+    let Ok(system) = study.system() else { panic!("a system") };
+    let axes = read_plane(&system, plane).unwrap_or_else(|why| panic!("{why}"));
+    let stop = AtomicBool::new(false);
+    let running = Running { threads: Some(2), stop: &stop, progress: &() };
+    let found = verbs(&study).basins_of_system(&PlaneRequest { axes, grid }, running);
+    found.unwrap_or_else(|why| panic!("{why:?}")).json()
+}
+
+/// Beyond the threshold of the drive every start of a plane ends on the base response; without dither on its limit cycle.
+#[test]
+fn starts_of_a_plane_end_on_their_motions() {
+    let reference = reference();
+    let case = list(&reference["orbits"])
+        .iter()
+        .find(|case| case["name"].as_str().is_some_and(|name| name.starts_with("drive 8")));
+    let text = case.expect("the drive")["study"].as_str().expect("a study");
+    let found = basins(text, "carriage=0.2:0.6,velocity.carriage=-0.5:0.5", (4, 3));
+    println!("{}", found["sentence"]);
+    assert_eq!(list(&found["ends"]).len(), 12);
+    assert_eq!(list(&found["attractors"]).len(), 1, "{found}");
+    assert_eq!(found["attractors"][0]["kind"], "period-1");
+    assert_eq!(found["quiet_fraction"], 1.0);
+    assert_eq!(found["local_verdict"], "stable");
+    let free = basins(
+        &text.replace("amplitude = 8.0", "amplitude = 0.0"),
+        "carriage,velocity.carriage",
+        (3, 3),
+    );
+    println!("{}", free["sentence"]);
 }

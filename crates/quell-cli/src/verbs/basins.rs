@@ -3,7 +3,9 @@
 use clap::Args;
 use quell::kind::verbs;
 use quell::run::basins::{BasinsRequest, StartLayout};
+use quell::run::system::basins::{PlaneRequest, read_plane};
 use quell::run::varied::Range;
+use quell::study::SystemStudy;
 use quell::sweep::Running;
 use quell::{Complaint, Failure, Fault, Origin, Study};
 use quell_model::units::Quantity;
@@ -26,7 +28,11 @@ pub(crate) struct Arguments {
     /// Velocities x′ of the window, SI in a study in SI [default: around 0]
     #[arg(long, value_name = "FROM:TO", allow_hyphen_values = true)]
     velocity: Option<String>,
-    /// Numbers of displacements and velocities of the grid, edges included [default: 41x31]
+    /// System: the two numbers of the state that are varied, such as x,velocity.x or x=-1:1,velocity.x=-2:2 with their windows;
+    /// the others are those of the study's start [default: the first displacement and its velocity]
+    #[arg(long, value_name = "NAME,NAME", conflicts_with_all = ["displacement", "velocity", "sample", "over"], allow_hyphen_values = true)]
+    plane: Option<String>,
+    /// Numbers of displacements and velocities of the grid, edges included [default: 41x31; of a system 21x15]
     #[arg(long, value_name = "NxM", conflicts_with = "sample")]
     grid: Option<String>,
     /// Number of random states instead of a grid
@@ -67,6 +73,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
+    if let (Some(Ok(system)), Some(text)) = (study.as_ref().map(Study::system), &arguments.plane) {
+        return run_in_plane(arguments, &system, text, complaints);
+    }
+    if let Some(text) = &arguments.plane {
+        let allowed = "left out: the plane of a belt is that of displacement and velocity";
+        complaints.take::<()>(Err(Complaint::option("--plane", text.as_str(), allowed)));
+    }
     let request = request(arguments, study.as_ref(), &mut complaints);
     let threads = complaints.take(threads(arguments.threads.as_deref()));
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
@@ -76,6 +89,29 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let bar = Bar::new();
     let running = Running { threads, stop: interrupt::flag(), progress: &bar };
     let done = verbs(&study).basins(&request, running)?;
+    answer(arguments.study.json, done.as_ref(), outputs, plot)
+}
+
+/// Runs the verb on a system in a given plane.
+fn run_in_plane(
+    arguments: &Arguments,
+    system: &SystemStudy,
+    plane: &str,
+    mut complaints: Gathered,
+) -> Result<Answer, Failure> {
+    let study: Study = system.into();
+    let inputs = inputs(Some(&study));
+    let axes = complaints.take(read_plane(system, plane));
+    let layout = complaints.take(layout(arguments));
+    let threads = complaints.take(threads(arguments.threads.as_deref()));
+    let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
+    let ((axes, layout), (threads, (outputs, plot))) =
+        complaints.finish(axes.zip(layout).zip(threads.zip(outputs.zip(plot))))?;
+    let request = PlaneRequest::of(axes, layout)?;
+    let bar = Bar::new();
+    let running = Running { threads, stop: interrupt::flag(), progress: &bar };
+    let done = verbs(&study).basins_of_system(&request, running)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }
 

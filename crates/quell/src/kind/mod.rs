@@ -10,6 +10,7 @@ use crate::complaint::{Failure, Origin};
 use crate::outcome::{Answered, Outcome, Presented};
 use crate::run::disc::resonances;
 use crate::run::orbit::Wanted;
+use crate::run::system::basins::PlaneRequest;
 use crate::run::system::orbit::WantedMotion;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
@@ -187,6 +188,15 @@ pub trait Verbs: Send + Sync {
     fn basins(&self, request: &basins::BasinsRequest, running: Running<'_>) -> Reply {
         let _ = (request, running);
         Err(self.lacks("basins"))
+    }
+
+    /// The motion on which each start in a plane of a system's state ends.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::system::basins::run`].
+    fn basins_of_system(&self, request: &PlaneRequest, running: Running<'_>) -> Reply {
+        let _ = (request, running);
+        Err(self.lacks("basins --plane"))
     }
 
     /// Natural frequencies and shapes.

@@ -4,9 +4,12 @@ use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
+use crate::run::basins::BasinsRequest;
+use crate::run::bifurcation::SweepRequest;
 use crate::run::curves::CurvesRequest;
 use crate::run::orbit::Wanted;
 use crate::run::simulate::Options;
+use crate::run::system::basins::{PlaneRequest, default_plane};
 use crate::run::system::orbit::WantedMotion;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
@@ -15,10 +18,12 @@ use crate::run::system::thresholds::{
 };
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
-    exact, measured, modes, orbit, reach, response, simulate, stability, thresholds, tracked,
+    basins, bifurcation, exact, measured, modes, orbit, reach, response, simulate, stability,
+    thresholds, tracked,
 };
 use crate::run::thresholds::ThresholdsRequest;
 use crate::study::{SystemSetup, SystemStudy};
+use crate::sweep::Running;
 
 impl Verbs for SystemStudy {
     fn kind(&self) -> &'static str {
@@ -35,6 +40,8 @@ impl Verbs for SystemStudy {
             "response",
             "orbit",
             "thresholds",
+            "bifurcation",
+            "basins",
             "resonances",
             "map",
         ]
@@ -119,6 +126,18 @@ impl Verbs for SystemStudy {
         }
         without_motions(request)?;
         answer(self, tracked::run(self, &request.tracked()))
+    }
+
+    fn bifurcation(&self, request: &SweepRequest, running: Running<'_>) -> Reply {
+        answer(self, bifurcation::run(self, request, running))
+    }
+
+    fn basins(&self, request: &BasinsRequest, running: Running<'_>) -> Reply {
+        self.basins_of_system(&default_plane(self, request)?, running)
+    }
+
+    fn basins_of_system(&self, request: &PlaneRequest, running: Running<'_>) -> Reply {
+        answer(self, basins::run(self, request, running))
     }
 
     fn threshold_curves(&self, request: &CurvesRequest) -> Reply {

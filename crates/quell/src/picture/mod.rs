@@ -16,6 +16,8 @@ mod simulate;
 mod stability;
 mod sweep;
 pub mod system;
+pub mod system_basins;
+pub mod system_bifurcation;
 pub mod system_motion;
 pub mod system_orbit;
 pub mod system_thresholds;

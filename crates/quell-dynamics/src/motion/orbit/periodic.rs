@@ -98,6 +98,8 @@ pub enum NoMotionOrbit {
     Unsettled {
         /// Number of periods after which it was given up.
         periods: u32,
+        /// Its last states at whole periods, the latest last.
+        last: Vec<Vec<f64>>,
     },
 }
 
@@ -124,7 +126,7 @@ impl fmt::Display for NoMotionOrbit {
                 "the response that continues steady sliding was lost at {:.4} % of the dither amplitude",
                 100.0 * share
             ),
-            Self::Unsettled { periods } => {
+            Self::Unsettled { periods, .. } => {
                 write!(f, "the run did not settle on a periodic motion within {periods} periods")
             }
         }

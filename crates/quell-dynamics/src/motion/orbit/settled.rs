@@ -9,6 +9,9 @@ use super::periodic::{MotionOrbit, NoMotionOrbit, motion_near, scale_of};
 /// Common periods in a motion's own period that are tried.
 const MOST_MULTIPLES: usize = 12;
 
+/// States kept of a run that does not settle.
+const KEPT: usize = 100;
+
 /// Mismatch, relative to the state, below which Newton's method is tried.
 const NEAR: f64 = 3e-2;
 
@@ -54,7 +57,8 @@ pub fn settled(system: &System, start: &[f64], most: u32) -> Result<SettledMotio
         }
         next_try = count + (count / 3).max(8);
     }
-    Err(NoMotionOrbit::Unsettled { periods: most })
+    let last = states.split_off(states.len().saturating_sub(KEPT));
+    Err(NoMotionOrbit::Unsettled { periods: most, last })
 }
 
 /// A stable orbit near the last states.

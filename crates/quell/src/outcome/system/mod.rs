@@ -1,5 +1,7 @@
 //! Answers of a study of a system, one file per verb.
 
+mod basins;
+mod bifurcation;
 mod exact;
 mod measured;
 mod modes;

@@ -25,7 +25,7 @@ pub struct Share {
 
 impl Share {
     /// The share of the starts for which `inside` holds.
-    pub(super) fn of(layout: StartLayout, inside: &[bool]) -> Self {
+    pub(crate) fn of(layout: StartLayout, inside: &[bool]) -> Self {
         let starts = inside.iter().filter(|holds| **holds).count();
         let count = inside.len().max(1) as f64;
         let fraction = starts as f64 / count;

@@ -47,20 +47,25 @@ pub struct CycleSamples {
 impl CycleSamples {
     /// The samples of an orbit of a system, with the displacement that `row` observes.
     pub fn of(system: &System, row: &[f64], orbit: &MotionOrbit) -> Self {
+        Self::over(system, row, &orbit.state, orbit.period)
+    }
+
+    /// The samples of a run from a state at t = 0.
+    pub fn over(system: &System, row: &[f64], state: &[f64], duration: f64) -> Self {
         let mut samples = Self {
             row: row.to_vec(),
-            step: orbit.period / SAMPLES as f64,
-            size: orbit.state.len(),
+            step: duration / SAMPLES as f64,
+            size: state.len(),
             times: Vec::new(),
             states: Vec::new(),
             observed: Vec::new(),
             rate: Vec::new(),
             contacts: vec![SampledContact::default(); system.contacts.len()],
         };
-        let start = MotionStart { time: 0.0, state: orbit.state.clone() };
+        let start = MotionStart { time: 0.0, state: state.to_vec() };
         // The orbit was already integrated when it was found; a run that stops keeps the part before.
         if let Ok(motion) = Motion::new(system) {
-            let _ = motion.run(&start, orbit.period, MOTION_TOLERANCE, &mut samples);
+            let _ = motion.run(&start, duration, MOTION_TOLERANCE, &mut samples);
         }
         samples
     }

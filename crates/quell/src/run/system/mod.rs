@@ -1,5 +1,10 @@
 //! Runs of a study of a system: one file per verb.
 
+pub mod attractor;
+pub mod basins;
+pub mod basins_answer;
+pub mod bifurcation;
+pub mod bifurcation_answer;
 pub mod check;
 pub mod cycle;
 pub mod cycle_samples;

@@ -1,0 +1,66 @@
+//! `bifurcation` of a system.
+
+use std::fmt::Write as _;
+
+use serde_json::Value as Json;
+
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::outcome::Presented;
+use crate::outcome::table::figure;
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::system::bifurcation::{SystemBifurcation, SystemBranch};
+use crate::run::system::bifurcation_answer::words;
+use crate::study::{SystemSetup, SystemStudy};
+
+impl Presented<SystemSetup> for SystemBifurcation {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
+        self.json(study)
+    }
+
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
+        Some(self.sentence(study))
+    }
+
+    fn table(&self, _: &SystemStudy) -> String {
+        let mut text = String::new();
+        for branch in &self.branches {
+            let _ = writeln!(text, "\n{}:", branch.direction.name());
+            for interval in intervals(branch) {
+                let _ = writeln!(text, "  {interval}");
+            }
+        }
+        text
+    }
+
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
+        vec![("bifurcation", self.dataset(study))]
+    }
+
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::system_bifurcation::bifurcation(study, self)))
+    }
+}
+
+/// Ranges of neighbouring values with the same kind of motion, one line each.
+fn intervals(branch: &SystemBranch) -> Vec<String> {
+    let mut lines = Vec::new();
+    let mut from = 0;
+    for place in 0..branch.points.len() {
+        let last = place + 1 == branch.points.len();
+        if last || words(&branch.points[place + 1]) != words(&branch.points[from]) {
+            let value = |place: usize| figure(branch.points[place].value);
+            let ends = if from == place {
+                value(place)
+            } else {
+                format!("{} to {}", value(from), value(place))
+            };
+            lines.push(format!("{ends:<22}  {}", words(&branch.points[from])));
+            from = place + 1;
+        }
+    }
+    lines
+}

@@ -1,0 +1,262 @@
+//! The motion on which a run of a system ends, as `bifurcation` and `basins` report it.
+
+use quell_dynamics::motion::orbit::{
+    MotionOrbit, NoCycle, NoMotionOrbit, Settled, free_cycle, settled,
+};
+use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart};
+use quell_linear::pure_slip::period;
+use quell_model::System;
+use quell_model::units::Quantity;
+
+use super::cycle_samples::CycleSamples;
+use super::is_dithered;
+use crate::fields::Fields;
+use crate::study::SystemStudy;
+use crate::words::{digits, plural};
+
+/// Periods of the dither over which a motion that is not periodic is measured.
+const MEASURED: f64 = 20.0;
+
+/// Mismatch of states, relative to their size, of one motion.
+const SAME: f64 = 1e-5;
+
+/// The kind of a motion on which a run ends.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MotionKind {
+    /// It repeats after this number of periods of the dither.
+    Periodic {
+        /// The number of periods.
+        periods: u32,
+        /// Modulus of the deciding multiplier.
+        radius: f64,
+    },
+    /// It does not repeat within the periods of the dither that were tried.
+    NotPeriodic {
+        /// Their number.
+        tried: u32,
+    },
+    /// A limit cycle without dither.
+    Cycle {
+        /// Its period.
+        period: f64,
+        /// Modulus of the deciding multiplier.
+        radius: f64,
+    },
+    /// Rest or steady sliding, without dither.
+    Rest,
+}
+
+/// The motion on which a run ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SystemAttractor {
+    /// Its kind.
+    pub kind: MotionKind,
+    /// A state of it at a whole period of the dither.
+    pub state: Vec<f64>,
+    /// Its states at whole periods.
+    pub states: Vec<Vec<f64>>,
+    /// Observed displacement at whole periods.
+    pub section: Vec<f64>,
+    /// Least and largest observed displacement.
+    pub extremes: (f64, f64),
+    /// Share of the time that each contact sticks.
+    pub stick: Vec<f64>,
+}
+
+/// The end of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EndOfRun {
+    /// The motion.
+    pub attractor: SystemAttractor,
+    /// Periods of the dither until the run was near it; 0 without dither.
+    pub periods: u32,
+}
+
+/// The motion on which a run from a state ends, within `most` periods of the dither.
+///
+/// # Errors
+/// Why it cannot be computed.
+pub fn end_of_run(
+    system: &System,
+    row: &[f64],
+    start: &[f64],
+    most: u32,
+) -> Result<EndOfRun, String> {
+    if !is_dithered(system) && period(system).is_none() {
+        return undithered(system, row, start);
+    }
+    let (kind, state, states, length, periods) = match settled(system, start, most) {
+        Ok(Settled { orbit, multiple, periods }) => {
+            let states = at_periods(system, &orbit, multiple)?;
+            let kind = MotionKind::Periodic { periods: multiple, radius: orbit.radius() };
+            (kind, orbit.state, states, orbit.period, periods)
+        }
+        Err(NoMotionOrbit::Unsettled { periods, mut last }) => {
+            let length = MEASURED * period(system).ok_or("the dithers have no common period")?;
+            let state = last.last().cloned().unwrap_or_else(|| start.to_vec());
+            last.reverse();
+            (MotionKind::NotPeriodic { tried: periods }, state, last, length, periods)
+        }
+        Err(why) => return Err(why.to_string()),
+    };
+    let samples = CycleSamples::over(system, row, &state, length);
+    Ok(EndOfRun { attractor: SystemAttractor::new(kind, row, states, &samples), periods })
+}
+
+fn undithered(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRun, String> {
+    let (kind, state, length) = match free_cycle(system, start) {
+        Ok(cycle) => {
+            let kind = MotionKind::Cycle { period: cycle.period, radius: cycle.radius() };
+            (kind, cycle.state, cycle.period)
+        }
+        Err(NoCycle::Rest { state, .. }) => (MotionKind::Rest, state, 0.0),
+        Err(why) => return Err(why.to_string()),
+    };
+    let samples = CycleSamples::over(system, row, &state, length);
+    let attractor = SystemAttractor::new(kind, row, vec![state], &samples);
+    Ok(EndOfRun { attractor, periods: 0 })
+}
+
+/// The states of an orbit at whole periods of the dither.
+fn at_periods(
+    system: &System,
+    orbit: &MotionOrbit,
+    multiple: u32,
+) -> Result<Vec<Vec<f64>>, String> {
+    let motion = Motion::new(system).map_err(|why| why.to_string())?;
+    let mut from = MotionStart { time: 0.0, state: orbit.state.clone() };
+    let mut states = vec![orbit.state.clone()];
+    for count in 1..multiple {
+        let until = f64::from(count) * orbit.period / f64::from(multiple);
+        let end = motion.run(&from, until, MOTION_TOLERANCE, &mut ());
+        from = end.map_err(|why| why.to_string())?.restart();
+        states.push(from.state.clone());
+    }
+    Ok(states)
+}
+
+impl SystemAttractor {
+    fn new(kind: MotionKind, row: &[f64], states: Vec<Vec<f64>>, samples: &CycleSamples) -> Self {
+        let observed =
+            |state: &Vec<f64>| -> f64 { row.iter().zip(state).map(|(w, x)| w * x).sum() };
+        let section: Vec<f64> = states.iter().map(observed).collect();
+        let (least, most) = CycleSamples::extremes(&samples.observed);
+        let bounds = section.iter().fold((least, most), |(a, b), x| (a.min(*x), b.max(*x)));
+        let stick = samples.contacts.iter().map(|contact| samples.share(contact.stuck));
+        let stick = stick.map(|share| if share.is_finite() { share } else { 0.0 }).collect();
+        let state = states.first().cloned().unwrap_or_default();
+        Self { kind, state, states, section, extremes: bounds, stick }
+    }
+
+    /// Peak-to-peak of the observed displacement.
+    pub fn size(&self) -> f64 {
+        self.extremes.1 - self.extremes.0
+    }
+
+    /// Whether it has the period of the dither, or is at rest without it.
+    pub fn is_quiet(&self) -> bool {
+        matches!(self.kind, MotionKind::Periodic { periods: 1, .. } | MotionKind::Rest)
+    }
+
+    /// Its kind in words.
+    pub fn words(&self) -> String {
+        match self.kind {
+            MotionKind::Periodic { periods: 1, .. } => {
+                "period 1, in step with the dither".to_owned()
+            }
+            MotionKind::Periodic { periods, .. } => {
+                format!("locked: repeats after {periods} periods")
+            }
+            MotionKind::NotPeriodic { tried } => {
+                format!("not periodic within {tried} period{}", plural(tried))
+            }
+            MotionKind::Cycle { period, .. } => format!("limit cycle of period {}", digits(period)),
+            MotionKind::Rest => "rest or steady sliding".to_owned(),
+        }
+    }
+
+    /// Name of its kind in JSON.
+    pub fn kind_name(&self) -> &'static str {
+        KINDS[usize::from(self.kind_code())].1
+    }
+
+    /// Code of its kind in datasets.
+    pub fn kind_code(&self) -> u8 {
+        match self.kind {
+            MotionKind::Periodic { periods: 1, .. } => 0,
+            MotionKind::Periodic { .. } => 1,
+            MotionKind::NotPeriodic { .. } => 2,
+            MotionKind::Cycle { .. } => 3,
+            MotionKind::Rest => 4,
+        }
+    }
+
+    /// Whether both are one motion: periodic with the same states, perhaps after some periods of the dither.
+    pub fn is(&self, other: &Self) -> bool {
+        let size = self.state.iter().chain(&self.section).fold(0.0, |m: f64, x| m.max(x.abs()));
+        let near = |state: &Vec<f64>| {
+            let pairs = state.iter().zip(&self.state);
+            pairs.fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())) <= SAME * size
+        };
+        match (&self.kind, &other.kind) {
+            (
+                MotionKind::Periodic { periods, .. },
+                MotionKind::Periodic { periods: others, .. },
+            ) => periods == others && other.states.iter().any(near),
+            (MotionKind::Cycle { period, .. }, MotionKind::Cycle { period: others, .. }) => {
+                (period - others).abs() <= SAME * period && other.states.iter().any(near)
+            }
+            (MotionKind::Rest, MotionKind::Rest) => true,
+            // A record shows a part of a motion that is not periodic: such motions count as one.
+            (MotionKind::NotPeriodic { .. }, MotionKind::NotPeriodic { .. }) => true,
+            _ => false,
+        }
+    }
+
+    /// Adds its fields to an object.
+    pub(super) fn put(&self, fields: &mut Fields, study: &SystemStudy) {
+        fields
+            .plain("words", self.words())
+            .plain("kind", self.kind_name())
+            .plain("quiet", self.is_quiet());
+        match self.kind {
+            MotionKind::Periodic { periods, radius } => {
+                fields.plain("periods", periods).plain("multiplier", radius);
+            }
+            MotionKind::Cycle { period, radius } => {
+                fields.unknown("periods", "a limit cycle has a period of its own");
+                fields.number("period", Quantity::Time, period).plain("multiplier", radius);
+            }
+            MotionKind::NotPeriodic { .. } | MotionKind::Rest => {
+                let why = self.words();
+                fields.unknown("periods", why.clone()).unknown("multiplier", why);
+            }
+        }
+        let contacts = study.system().contacts.iter().zip(&self.stick).map(|(contact, share)| {
+            let mut inner = Fields::of_system(study.units());
+            inner.plain("name", contact.name.clone()).number(
+                "stick_fraction",
+                Quantity::Ratio,
+                *share,
+            );
+            inner
+        });
+        fields
+            .plain("state", self.state.clone())
+            .number("lowest", Quantity::Displacement, self.extremes.0)
+            .number("highest", Quantity::Displacement, self.extremes.1)
+            .number("peak_to_peak", Quantity::Displacement, self.size())
+            .numbers("section_displacement", Quantity::Displacement, &self.section)
+            .list("contacts", contacts);
+    }
+}
+
+/// Words of the column `kind`.
+pub(super) const KINDS: [(u8, &str); 6] = [
+    (0, "period-1"),
+    (1, "locked"),
+    (2, "not-periodic"),
+    (3, "limit-cycle"),
+    (4, "rest"),
+    (5, "unknown"),
+];

@@ -1,0 +1,178 @@
+//! `bifurcation` of a dithered system: the motion along a parameter, swept up and down with the state carried over.
+
+use std::sync::atomic::Ordering;
+
+use quell_dynamics::motion::orbit::base_motion;
+use quell_model::System;
+
+use super::attractor::{EndOfRun, SystemAttractor, end_of_run};
+use super::cycle::BASE_STEPS;
+use super::protocol::SystemProtocol;
+use super::thresholds::{MotionThresholdsRequest, is_dithered_within};
+use super::tracked::understood;
+use super::{failed, has_equations};
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::run::bifurcation::{SweepDirection, SweepRequest};
+use crate::run::varied::{MOST_VALUES, Range};
+use crate::run::{evenly, stopped};
+use crate::study::SystemStudy;
+use crate::sweep::Running;
+
+/// Periods of the dither within which a motion must settle at each value.
+pub const MOST_PERIODS_OF_A_VALUE: u32 = 1000;
+
+/// Relative difference of size beyond which the two directions show different motions.
+const APART: f64 = 0.02;
+
+/// The motion at one value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SystemSweepPoint {
+    /// The parameter.
+    pub value: f64,
+    /// Verdict on the base response, or why it is unknown.
+    pub local: Result<&'static str, String>,
+    /// The motion that the sweep is on, or why it cannot be computed.
+    pub end: Result<EndOfRun, String>,
+}
+
+impl SystemSweepPoint {
+    /// The motion, if it is known.
+    pub fn attractor(&self) -> Option<&SystemAttractor> {
+        self.end.as_ref().ok().map(|end| &end.attractor)
+    }
+}
+
+/// A sweep in one direction, in the order of the sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SystemBranch {
+    /// Direction.
+    pub direction: SweepDirection,
+    /// Its points.
+    pub points: Vec<SystemSweepPoint>,
+}
+
+/// Sweeps of one parameter of a system.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SystemBifurcation {
+    /// The parameter and its values.
+    pub range: Range,
+    /// The start of the first sweep in words.
+    pub start: String,
+    /// The sweeps, up before down.
+    pub branches: Vec<SystemBranch>,
+    /// First and last value of each range in which the two directions show different motions.
+    pub hysteresis: Vec<(f64, f64)>,
+}
+
+/// Checks the request.
+fn checked(study: &SystemStudy, range: &Range) -> Result<(), Failure> {
+    has_equations(study, "bifurcation")?;
+    let window = (range.from, range.to);
+    let parameter = range.parameter.clone();
+    let request = MotionThresholdsRequest { parameter, window, ..Default::default() };
+    understood(study, &request.tracked())?;
+    if !(2..=MOST_VALUES).contains(&range.points) {
+        let allowed = format!("a whole number from 2 to {MOST_VALUES}");
+        return Err(Complaint::option("--points", range.points, allowed).into());
+    }
+    if !is_dithered_within(study, &request) {
+        let allowed = "a study with dither: `stability --parameter` follows the eigenvalues of steady sliding, and `orbit` \
+                       finds the limit cycle at one value";
+        let complaint = Complaint::new(
+            Fault::Conflict,
+            "dither",
+            Origin::Whole,
+            serde_json::Value::Null,
+            allowed,
+        );
+        return Err(complaint.into());
+    }
+    Ok(())
+}
+
+/// Sweeps a study.
+///
+/// # Errors
+/// Complaints about the request or the start; [`Failure::Failed`] if the work is interrupted.
+pub fn run(
+    study: &SystemStudy,
+    request: &SweepRequest,
+    running: Running<'_>,
+) -> Result<SystemBifurcation, Failure> {
+    let range = &request.range;
+    checked(study, range)?;
+    // Both directions by default.
+    let (up, down) =
+        if request.up || request.down { (request.up, request.down) } else { (true, true) };
+    let asked =
+        [(up, SweepDirection::Up), (down, SweepDirection::Down)].into_iter().filter(|(on, _)| *on);
+    let directions: Vec<SweepDirection> = asked.map(|(_, direction)| direction).collect();
+    let values = evenly((range.from, range.to), range.points);
+    running.progress.begin(values.len() * directions.len(), 0);
+    let mut state: Option<Vec<f64>> = None;
+    let mut branches: Vec<SystemBranch> = Vec::new();
+    let swept = directions.into_iter().try_for_each(|direction| {
+        let mut values = values.clone();
+        if direction == SweepDirection::Down {
+            values.reverse();
+        }
+        let mut points = Vec::with_capacity(values.len());
+        for value in values {
+            if running.stop.load(Ordering::Relaxed) {
+                return Err(stopped("bifurcation"));
+            }
+            let (point, end) = point(study, &range.parameter, value, state.take())?;
+            points.push(point);
+            state = Some(end);
+            running.progress.advance(1);
+        }
+        branches.push(SystemBranch { direction, points });
+        Ok(())
+    });
+    running.progress.end();
+    swept?;
+    let hysteresis = hysteresis(&branches);
+    let start = SystemProtocol::Study.words(study);
+    Ok(SystemBifurcation { range: range.clone(), start, branches, hysteresis })
+}
+
+/// The motion at one value, and the state from which the next one starts.
+fn point(
+    study: &SystemStudy,
+    path: &str,
+    value: f64,
+    begun: Option<Vec<f64>>,
+) -> Result<(SystemSweepPoint, Vec<f64>), Failure> {
+    let system: System =
+        study.system_at(&[(path, value)]).map_err(|why| failed("bifurcation", why))?;
+    let begun = match begun {
+        Some(state) => state,
+        None => SystemProtocol::Study.state(study, &system)?,
+    };
+    let end = end_of_run(&system, &study.observe(), &begun, MOST_PERIODS_OF_A_VALUE);
+    let state = end.as_ref().map_or(begun, |end| end.attractor.state.clone());
+    let local = base_motion(&system, BASE_STEPS);
+    let local = local.map(|orbit| orbit.verdict().name()).map_err(|why| why.to_string());
+    Ok((SystemSweepPoint { value, local, end }, state))
+}
+
+/// Ranges in which both directions were swept and show different motions.
+fn hysteresis(branches: &[SystemBranch]) -> Vec<(f64, f64)> {
+    let [up, down] = branches else { return Vec::new() };
+    let mut ranges: Vec<(f64, f64)> = Vec::new();
+    let mut open = false;
+    for (one, other) in up.points.iter().zip(down.points.iter().rev()) {
+        let apart = one.attractor().zip(other.attractor()).is_some_and(|(one, other)| {
+            let most = one.size().max(other.size());
+            one.is_quiet() != other.is_quiet()
+                || one.is_quiet() && (one.size() - other.size()).abs() > APART * most
+        });
+        match (apart, ranges.last_mut()) {
+            (true, Some(last)) if open => last.1 = one.value,
+            (true, _) => ranges.push((one.value, one.value)),
+            (false, _) => {}
+        }
+        open = apart;
+    }
+    ranges
+}
