@@ -14,6 +14,7 @@ use quell_dynamics::motion::{
     ContactPhase, LyapunovExponent, MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder,
     MotionStart, RecordedEvent,
 };
+use quell_dynamics::orbit::OrbitVerdict;
 use quell_study::study::system::{SystemStart, SystemStudy};
 use serde_json::Value as Json;
 
@@ -216,7 +217,7 @@ fn thresholds_are_those_of_the_reference() {
         println!("{name}: off by {:.1e}", off(threshold.value));
         assert!(off(threshold.value) <= 1e-6, "{name}: {threshold:?}");
         assert_eq!(threshold.kind.name(), case["kind"], "{name}");
-        assert_eq!(threshold.becomes.map(|v| v.name()), case["becomes"].as_str(), "{name}");
+        assert_eq!(threshold.becomes.map(OrbitVerdict::name), case["becomes"].as_str(), "{name}");
     }
 }
 
@@ -242,7 +243,7 @@ fn lyapunov_exponents_of_periodic_motions_are_those_of_their_multipliers() {
         for (exponent, wanted) in found.exponents.iter().zip(rates) {
             match exponent {
                 LyapunovExponent::Erased => {
-                    assert!(wanted == f64::NEG_INFINITY, "{name}: {wanted}")
+                    assert!(wanted == f64::NEG_INFINITY, "{name}: {wanted}");
                 }
                 LyapunovExponent::Rate { value, error } => {
                     let off = (value - wanted).abs();
