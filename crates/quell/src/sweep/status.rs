@@ -58,6 +58,8 @@ pub enum Status {
     Resonance = 31,
     /// The structure is known by a measured frequency response alone.
     OnlyMeasured = 32,
+    /// A system has no base response, or it could not be followed.
+    NoBaseResponse = 33,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -89,6 +91,7 @@ impl Status {
         Self::NoSteadySliding,
         Self::Resonance,
         Self::OnlyMeasured,
+        Self::NoBaseResponse,
         Self::Missing,
     ];
 
@@ -134,6 +137,7 @@ impl Status {
             Self::NoSteadySliding => "no_steady_sliding",
             Self::Resonance => "resonance",
             Self::OnlyMeasured => "only_measured",
+            Self::NoBaseResponse => "no_base_response",
             Self::Missing => "missing",
         }
     }
@@ -185,6 +189,9 @@ impl Status {
             Self::Resonance => "a dither excites an undamped resonance of the structure",
             Self::OnlyMeasured => {
                 "the structure is known by a measured frequency response alone, which gives no growth rate"
+            }
+            Self::NoBaseResponse => {
+                "the response that continues steady sliding ends before the dither reaches its amplitude, or could not be followed"
             }
             Self::Missing => "not computed yet",
         }

@@ -206,9 +206,9 @@ impl SystemAttractor {
             (MotionKind::Cycle { period, .. }, MotionKind::Cycle { period: others, .. }) => {
                 (period - others).abs() <= SAME * period && other.states.iter().any(near)
             }
-            (MotionKind::Rest, MotionKind::Rest) => true,
             // A record shows a part of a motion that is not periodic: such motions count as one.
-            (MotionKind::NotPeriodic { .. }, MotionKind::NotPeriodic { .. }) => true,
+            (MotionKind::Rest, MotionKind::Rest)
+            | (MotionKind::NotPeriodic { .. }, MotionKind::NotPeriodic { .. }) => true,
             _ => false,
         }
     }
