@@ -166,7 +166,8 @@ fn references(plan: &Plan) -> String {
             | Computation::DiscGrowthUndithered
             | Computation::SystemGrowth
             | Computation::SystemGrowthUndithered
-            | Computation::SystemCritical => task == Task::Stability,
+            | Computation::SystemCritical
+            | Computation::SystemOrbit => task == Task::Stability,
         })
     };
     let citations = sources_of(plan.grid().study()).citations;

@@ -60,7 +60,8 @@ pub(super) fn of_belt(study: &BeltStudy, wanted: &[Computation]) -> f64 {
         | Computation::DiscGrowthUndithered
         | Computation::SystemGrowth
         | Computation::SystemGrowthUndithered
-        | Computation::SystemCritical => 0.0,
+        | Computation::SystemCritical
+        | Computation::SystemOrbit => 0.0,
     });
     POINT + each.sum::<f64>()
 }

@@ -3,6 +3,7 @@
 //! This is the only place that calls the engines for a map. Steady responses are computed for the
 //! whole chunk in one batch; the result of a point still depends on its own study alone.
 
+use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::{
     Compared, Effect, Observables, ResponseCase, RunEnding, Undefined, compare_many, effect,
 };
@@ -44,12 +45,14 @@ pub enum Computation {
     SystemGrowthUndithered,
     /// Every critical amplitude of the first dither of a system.
     SystemCritical,
+    /// The base response of a dithered system and its multipliers.
+    SystemOrbit,
 }
 
 impl Computation {
     /// Whether it applies to a belt or a system, whose friction laws may have a range.
     pub fn meets_friction(self) -> bool {
-        !matches!(self, Self::DiscGrowth | Self::DiscGrowthUndithered)
+        !matches!(self, Self::DiscGrowth | Self::DiscGrowthUndithered | Self::SystemOrbit)
     }
 
     /// Whether it integrates responses.
@@ -127,6 +130,15 @@ impl SystemPoint {
     }
 }
 
+/// What a map shows of the base response of one system.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SystemOrbitPoint {
+    /// Modulus of the deciding multiplier.
+    pub radius: f64,
+    /// The verdict of the multipliers.
+    pub verdict: OrbitVerdict,
+}
+
 /// Results at one point; `None` for computations that were not requested.
 #[derive(Clone, Debug, Default)]
 pub struct Results {
@@ -150,6 +162,8 @@ pub struct Results {
     pub system_undithered: Option<Result<SystemPoint, Status>>,
     /// Every critical amplitude of the first dither of a system, in order.
     pub system_critical: Option<Result<Vec<CriticalInput>, Status>>,
+    /// The base response of a dithered system.
+    pub system_orbit: Option<Result<SystemOrbitPoint, Status>>,
     /// The range of the friction law and the slip that averages reach, if the law has a range.
     pub reach: Option<Reach>,
 }
@@ -230,7 +244,8 @@ impl Results {
             | Computation::DiscGrowthUndithered
             | Computation::SystemGrowth
             | Computation::SystemGrowthUndithered
-            | Computation::SystemCritical => false,
+            | Computation::SystemCritical
+            | Computation::SystemOrbit => false,
         }
     }
 }
@@ -310,7 +325,8 @@ fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
             | Computation::DiscGrowthUndithered
             | Computation::SystemGrowth
             | Computation::SystemGrowthUndithered
-            | Computation::SystemCritical => {}
+            | Computation::SystemCritical
+            | Computation::SystemOrbit => {}
             Computation::Criterion => {
                 let found = criterion(belt, AveragingOptions::default());
                 results.criterion = Some(found.map_err(status));

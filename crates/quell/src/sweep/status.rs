@@ -60,6 +60,8 @@ pub enum Status {
     OnlyMeasured = 32,
     /// The number is known, but the fast motion opens a contact, which averaging does not describe.
     Opens = 33,
+    /// A system has no base response, or it could not be followed.
+    NoBaseResponse = 34,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -92,6 +94,7 @@ impl Status {
         Self::Resonance,
         Self::OnlyMeasured,
         Self::Opens,
+        Self::NoBaseResponse,
         Self::Missing,
     ];
 
@@ -138,6 +141,7 @@ impl Status {
             Self::Resonance => "resonance",
             Self::OnlyMeasured => "only_measured",
             Self::Opens => "opens",
+            Self::NoBaseResponse => "no_base_response",
             Self::Missing => "missing",
         }
     }
@@ -192,6 +196,9 @@ impl Status {
             }
             Self::Opens => {
                 "the value is known, but the fast motion opens a contact, which averaging does not describe"
+            }
+            Self::NoBaseResponse => {
+                "the response that continues steady sliding ends before the dither reaches its amplitude, or could not be followed"
             }
             Self::Missing => "not computed yet",
         }

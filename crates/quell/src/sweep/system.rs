@@ -1,22 +1,29 @@
 //! Maps of systems: growth rates without dither and by averaging, critical amplitudes, and the quantities read from them.
 
+use quell_dynamics::motion::orbit::family::NoImage;
+use quell_dynamics::motion::orbit::{NoMotionOrbit, base_motion};
+use quell_dynamics::orbit::OrbitVerdict;
 use quell_linear::averaging::{Becomes, CriticalInput, DitheredContact, DitheredSystem, NoAverage};
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
 use quell_model::System;
 use quell_model::units;
 
-use super::evaluate::{Computation, Results, SystemPoint};
+use super::evaluate::{Computation, Results, SystemOrbitPoint, SystemPoint};
 use super::grid::Grid;
 use super::mapped::{Mapped, PointResults};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, decided, variable};
 use super::status::Status;
 use crate::range::outside_of_laws;
+use crate::run::system::cycle::BASE_STEPS;
 use crate::study::{SystemSetup, SystemStudy};
 
 /// Seconds of one growth rate of ten states, and how often a search of critical amplitudes computes one.
 const GROWTH: f64 = 5e-5;
 const SEARCH: f64 = 300.0;
+
+/// Seconds in which the base response of four states is followed.
+const ORBIT: f64 = 3e-2;
 
 /// Maps of studies of systems.
 pub(super) struct SystemPoints(SystemStudy);
@@ -37,6 +44,7 @@ impl Mapped for SystemPoints {
         let growth = GROWTH * (states / 10.0).powi(2).max(0.1);
         let each = wanted.iter().map(|computation| match computation {
             Computation::SystemCritical => SEARCH * growth,
+            Computation::SystemOrbit => ORBIT * (states / 4.0).powi(2).max(0.1),
             _ => growth,
         });
         each.sum()
@@ -63,6 +71,7 @@ fn unmeasured() -> Results {
         system: Some(Err(Status::OnlyMeasured)),
         system_undithered: Some(Err(Status::OnlyMeasured)),
         system_critical: Some(Err(Status::OnlyMeasured)),
+        system_orbit: Some(Err(Status::OnlyMeasured)),
         ..Results::default()
     }
 }
@@ -76,6 +85,8 @@ fn evaluate(system: &System, wanted: &[Computation]) -> Results {
                 results.system_undithered = Some(undithered(system));
             }
             Computation::SystemCritical => results.system_critical = Some(critical(system)),
+            Computation::SystemOrbit => results.system_orbit = Some(base_response(system)),
+            // A quantity of the steady response gets its computation here.
             _ => {}
         }
     }
@@ -110,6 +121,16 @@ fn critical(system: &System) -> Result<Vec<CriticalInput>, Status> {
     }
     let found = DitheredSystem::new(system).and_then(|prepared| prepared.critical_amplitudes(0));
     found.map_err(|why| status(&why))
+}
+
+fn base_response(system: &System) -> Result<SystemOrbitPoint, Status> {
+    match base_motion(system, BASE_STEPS) {
+        Ok(orbit) => Ok(SystemOrbitPoint { radius: orbit.radius(), verdict: orbit.verdict() }),
+        Err(NoMotionOrbit::NoDither) => Err(Status::NoDither),
+        Err(NoMotionOrbit::NoSliding(_)) => Err(Status::NoSteadySliding),
+        Err(NoMotionOrbit::NoImage(NoImage::Stopped(_))) => Err(Status::Stalled),
+        Err(_) => Err(Status::NoBaseResponse),
+    }
 }
 
 fn status(why: &NoAverage) -> Status {
@@ -165,6 +186,25 @@ const OF_CRITICAL: &[Status] = &[
     Status::Opens,
 ];
 
+/// Statuses of base responses other than known.
+const OF_ORBIT: &[Status] = &[
+    Status::Stalled,
+    Status::NoDither,
+    Status::NoSteadySliding,
+    Status::OnlyMeasured,
+    Status::NoBaseResponse,
+];
+
+/// Statuses of verdicts on base responses other than known.
+const OF_ORBIT_VERDICT: &[Status] = &[
+    Status::Stalled,
+    Status::WithinError,
+    Status::NoDither,
+    Status::NoSteadySliding,
+    Status::OnlyMeasured,
+    Status::NoBaseResponse,
+];
+
 /// The quantities of a map of systems.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[MapQuantity] = &[
@@ -192,6 +232,12 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
     system("destabilising-amplitude", "smallest amplitude of the first dither that makes sliding unstable, by averaging", Computation::SystemCritical, &[
         variable(("destabilising_amplitude", "A°"), "smallest amplitude that makes sliding unstable", FORCE, OF_CRITICAL, |r| first(r, Becomes::Unstable)),
     ]),
+    system("orbit-verdict", "verdict on the base response by its multipliers", Computation::SystemOrbit, &[
+        variable(("orbit_verdict", ""), "verdict on the base response by its multipliers", VERDICTS, OF_ORBIT_VERDICT, judged),
+    ]),
+    system("orbit-radius", "modulus of the deciding multiplier of the base response: stable below 1", Computation::SystemOrbit, &[
+        variable(("orbit_radius", "|λ|"), "modulus of the deciding multiplier", RATIO, OF_ORBIT, |r| Ok(orbit(r)?.radius)),
+    ]),
 ];
 
 const fn system(
@@ -209,6 +255,18 @@ fn grown(results: &Results) -> Result<SystemPoint, Status> {
 
 fn grown_undithered(results: &Results) -> Result<SystemPoint, Status> {
     results.system_undithered.unwrap_or(Err(Status::Missing))
+}
+
+fn orbit(results: &Results) -> Result<SystemOrbitPoint, Status> {
+    results.system_orbit.unwrap_or(Err(Status::Missing))
+}
+
+fn judged(results: &Results) -> Result<f64, Status> {
+    match orbit(results)?.verdict {
+        OrbitVerdict::Unstable => Ok(0.0),
+        OrbitVerdict::Stable => Ok(1.0),
+        OrbitVerdict::Undecided => Err(Status::WithinError),
+    }
 }
 
 fn first(results: &Results, becomes: Becomes) -> Result<f64, Status> {

@@ -12,7 +12,7 @@ const KICKS: [f64; 3] = [1.0, 0.5, 2.0];
 const UNEQUAL: f64 = 0.3;
 
 /// Steps in which the base response is continued from steady sliding.
-pub(super) const BASE_STEPS: u32 = 8;
+pub(crate) const BASE_STEPS: u32 = 8;
 
 /// A start from which no limit cycle was reached.
 #[derive(Clone, Debug, PartialEq)]
