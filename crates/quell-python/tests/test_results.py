@@ -67,6 +67,8 @@ def test_annotated_facts_are_there(belt: quell.Belt, disc: quell.Disc) -> None:
         "disc stability": systems | {"critical_amplitudes", "criterion"},
         "modes": systems,
         "resonances": {"responses"},
+        "simulate": {"event_counts", "contacts", "state_names"},
+        "response": {"half_peak_to_peak", "band_end", "contacts", "dithers"},
     }
     for name, result in every(belt, disc).items():
         for fact, hint in get_type_hints(type(result), localns={"Study": quell.Study}).items():

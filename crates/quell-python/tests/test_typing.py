@@ -36,7 +36,7 @@ quell.Dither("sideways", "sine")
 quell.Stribeck(mu=0.4)
 belt: quell.Belt = quell.Study.from_text("")
 number: str = belt.response().amplitude
-belt.simulate()
+belt.simulate(start=0.1)
 """
 
 
