@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use quell::input::Inputs;
+use quell::kind::verbs;
 use quell::outcome::Outcome;
 use quell::output::Output;
 use quell::picture::{self, EXTENSIONS};
+use quell::plot::Figure;
 use quell::study::document::Node;
 use quell::{Change, Complaint, Failure, Fault, Origin, Study};
 use serde_json::Value as Json;
@@ -87,6 +89,14 @@ impl Plot {
         self.output.is_some()
     }
 
+    /// Rejects a picture of an answer that has none, before anything is computed or written.
+    pub(crate) fn drawn_by(self, study: Option<&Study>, verb: &str) -> Result<Self, Failure> {
+        if self.wanted() && study.is_some_and(|study| !verbs(study).draws(verb)) {
+            return Err(no_picture());
+        }
+        Ok(self)
+    }
+
     /// No picture.
     pub(crate) fn none() -> Self {
         Self { output: None }
@@ -94,14 +104,34 @@ impl Plot {
 
     /// Draws the picture of an outcome and adds its path to the object.
     pub(crate) fn write(self, outcome: &dyn Outcome, object: &mut Json) -> Result<(), Failure> {
-        let Some(output) = self.output else { return Ok(()) };
-        let figure = outcome.figure().unwrap_or_else(|| {
-            let (origin, allowed) = (Origin::Argument("--plot"), "this answer has no picture");
-            Err(Complaint::new(Fault::Conflict, "--plot", origin, Json::Null, allowed).into())
-        });
-        object["plotted"] = picture::write(&figure?, output)?.into();
+        self.drawn(outcome)?.write(object)
+    }
+
+    /// The picture of an outcome, not written yet.
+    fn drawn(self, outcome: &dyn Outcome) -> Result<Drawn, Failure> {
+        let Some(output) = self.output else { return Ok(Drawn(None)) };
+        let figure = outcome.figure().unwrap_or_else(|| Err(no_picture()));
+        Ok(Drawn(Some((figure?, output))))
+    }
+}
+
+/// A picture with its output, if one is requested.
+struct Drawn(Option<(Figure, Output)>);
+
+impl Drawn {
+    /// Writes the picture and adds its path to the object.
+    fn write(self, object: &mut Json) -> Result<(), Failure> {
+        if let Some((figure, output)) = self.0 {
+            object["plotted"] = picture::write(&figure, output)?.into();
+        }
         Ok(())
     }
+}
+
+/// The complaint about `--plot` where there is no picture.
+fn no_picture() -> Failure {
+    let (origin, allowed) = (Origin::Argument("--plot"), "this answer has no picture");
+    Complaint::new(Fault::Conflict, "--plot", origin, Json::Null, allowed).into()
 }
 
 /// The option for the table of numbers.
@@ -185,8 +215,9 @@ pub(crate) fn answer(
     plot: Plot,
 ) -> Result<Answer, Failure> {
     let mut object = outcome.json();
+    let drawn = plot.drawn(outcome)?;
     outputs.write(outcome, &mut object)?;
-    plot.write(outcome, &mut object)?;
+    drawn.write(&mut object)?;
     Ok(Answer::new(json, &object, || outcome.text()))
 }
 

@@ -28,6 +28,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 &[
                     "quell response quench.toml --plot response.svg",
                     "quell response brake-si.toml --set dither.amplitude_n=4000",
+                    "quell response two-mass-drive.toml --plot response.svg",
                 ],
             ),
             (
@@ -60,6 +61,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 &[
                     "quell simulate quench.toml --until 50 --events",
                     "quell simulate quench.toml --until 2000 --save quench.wav",
+                    "quell simulate mode-coupling.toml --until 50 --start velocity.x=0.1 --plot motion.svg",
                 ],
             ),
             (

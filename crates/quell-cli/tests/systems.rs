@@ -199,3 +199,124 @@ fn values_of_options_have_the_unit_of_their_path() {
         assert!(why.contains(part), "{path}: {why}");
     }
 }
+
+/// A picture that an answer lacks is refused before the table is written.
+#[test]
+fn outputs_are_tested_before_the_work_begins() {
+    let folder = std::env::temp_dir().join(format!("quell-systems-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let [table, picture] = ["modes.csv", "modes.svg"].map(|name| folder.join(name));
+    let [save, plot] = [&table, &picture].map(|path| path.to_str().expect("text"));
+    let why = complaint(&["modes", "two-blocks.toml", "--save", save, "--plot", plot]);
+    assert!(why.contains("--plot: this answer has no picture"), "{why}");
+    assert!(!table.exists() && !picture.exists());
+    let why = complaint(&["stability", "two-mass-drive.toml", "--exact", "--plot", plot]);
+    assert!(why.contains("no picture"), "{why}");
+    let help = quell(&["modes", "--help"]);
+    assert!(String::from_utf8_lossy(&help.stdout).contains("of a disc or a system"));
+    std::fs::remove_dir_all(&folder).expect("removed");
+}
+
+/// Every study of a system can be simulated, for the default time, with the state of every contact at the end.
+#[test]
+fn every_study_of_a_system_can_be_simulated() {
+    for study in ALL {
+        let found = answer(&["simulate", study]);
+        let states = found["state_names"].as_array().expect("names").len();
+        assert_eq!(found["final"]["state"].as_array().map(Vec::len), Some(states), "{study}");
+        let contacts = found["contacts"].as_array().expect("contacts");
+        for (contact, end) in
+            contacts.iter().zip(found["final"]["contacts"].as_array().expect("ends"))
+        {
+            assert_eq!(contact["name"], end["name"], "{study}");
+            let closed = end["normal"].as_f64().expect("a load") > 0.0;
+            assert_eq!(end["open"], !closed, "{study}");
+            let sum = ["stick_fraction", "open_fraction"]
+                .map(|key| contact[key].as_f64().expect("a fraction"));
+            assert!((0.0..=1.0 + 1e-12).contains(&(sum[0] + sum[1])), "{study}: {contact}");
+        }
+        let sentence = found["sentence"].as_str().expect("a sentence");
+        assert!(sentence.contains("100 periods of the slowest oscillation"), "{study}: {sentence}");
+    }
+    // The first events as another program finds them.
+    let siconos = answer(&["simulate", "two-masses-siconos.toml", "--until", "10"]);
+    close(&siconos["events"][0]["time"], 1.7153118187665, 1e-12);
+    close(&siconos["events"][1]["time"], 5.7784921741816, 1e-12);
+}
+
+#[test]
+fn times_and_starts_of_simulations_have_units() {
+    let study = "bowed-string.toml";
+    let found = answer(&["simulate", study, "--until", "5ms", "--start", "velocity.mode.1=2mm/s"]);
+    assert_eq!(found["final"]["time_s"], 0.005);
+    assert_eq!(found["start"]["state"][40], 0.002);
+    for (options, part) in [
+        (&["--until", "5m"][..], "in s"),
+        (&["--until", "-1"], "a time from 0"),
+        (&["--start", "velocity.mode.1=2N"], "m/s"),
+        (&["--start", "velocity.mod.1=2"], "did you mean velocity.mode.1"),
+        (&["--start", "x=1,y"], "name=value"),
+    ] {
+        let all: Vec<&str> = ["simulate", study].iter().chain(options).copied().collect();
+        let why = complaint(&all);
+        assert!(why.contains(part), "{options:?}: {why}");
+    }
+    let why = complaint(&["simulate", "stribeck-belt.toml", "--until", "1", "--start", "x=1"]);
+    assert!(why.contains("[belt.initial]"), "{why}");
+    assert!(complaint(&["simulate", "stribeck-belt.toml"]).contains("--until"));
+}
+
+/// The belt as a system has the response of the belt itself.
+#[test]
+fn a_belt_as_a_system_has_the_response_of_the_belt() {
+    for amplitude in ["dither.amplitude=0.4", "dither.amplitude=0.52"] {
+        let belt = answer(&["response", "stribeck-belt.toml", "--set", amplitude]);
+        let times = ["--settle", "1200", "--record", "376.99111843077515"];
+        let arguments = ["response", "belt-as-system.toml", "--set", amplitude];
+        let all: Vec<&str> = arguments.iter().chain(&times).copied().collect();
+        let system = answer(&all);
+        assert_eq!(system["effect"], belt["effect"], "{amplitude}");
+        for key in ["amplitude", "undithered_amplitude", "efficiency"] {
+            // The grids of samples differ, and the window weighs their ends.
+            close(&system[key], belt[key].as_f64().expect("a number"), 1e-5);
+        }
+        let contact = &system["contacts"][0];
+        close(&contact["stick_fraction"], belt["stick_fraction"].as_f64().expect("a number"), 1e-8);
+        close(&contact["mean_friction"], belt["mean_friction"].as_f64().expect("a number"), 1e-8);
+        close(&contact["friction_loss"], belt["friction_loss"].as_f64().expect("a number"), 1e-7);
+        close(
+            &system["dithers"][0]["power"],
+            belt["dither_power"].as_f64().expect("a number"),
+            1e-8,
+        );
+    }
+}
+
+#[test]
+fn responses_name_the_effect_of_a_dither() {
+    for (study, amplitude, effect) in [
+        ("two-mass-drive.toml", "dither.amplitude=5.2", "reduces"),
+        ("two-mass-drive.toml", "dither.amplitude=5.6", "quenches"),
+        ("two-mass-drive.toml", "dither.amplitude=0", "unknown"),
+        ("mode-coupling-dither.toml", "dither.amplitude=21", "quenches"),
+    ] {
+        let found = answer(&["response", study, "--set", amplitude]);
+        assert_eq!(found["effect"], effect, "{study} {amplitude}: {}", found["sentence"]);
+        let (record, settle) = (&found["record_length"], &found["settle"]);
+        close(record, 0.3 * settle.as_f64().expect("a time"), 1e-12);
+        let half = found["half_peak_to_peak"].as_f64().expect("a length");
+        assert!(half >= 0.9 * found["amplitude"].as_f64().expect("a length"), "{found}");
+    }
+    for (options, part) in [
+        (&["--record", "0.1"][..], "so that the band of slow vibration ends below the dither"),
+        (&["--record", "1e9"], "at most"),
+        (&["--settle", "x"], "--settle"),
+    ] {
+        let all: Vec<&str> =
+            ["response", "two-mass-drive.toml"].iter().chain(options).copied().collect();
+        let why = complaint(&all);
+        assert!(why.contains(part), "{options:?}: {why}");
+    }
+    let why = complaint(&["response", "stribeck-belt.toml", "--settle", "10"]);
+    assert!(why.contains("[solver]"), "{why}");
+}

@@ -1,6 +1,6 @@
 //! Event-exact motion under friction: pure functions of valid values, without files, threads, clocks or printing.
 //!
-//! The structure is one mass on a moving belt with dither; the general loop over several contacts is not implemented yet.
+//! [`motion`] is that of any system; the other modules have one mass on a moving belt with dither, [`response`] both.
 //!
 //! * [`simulation`]: event-exact trajectories by adaptive Taylor series;
 //! * [`orbit`]: periodic responses, their Floquet multipliers, exact thresholds;

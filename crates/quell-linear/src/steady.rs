@@ -10,6 +10,7 @@
 use std::fmt;
 
 use quell_model::System;
+use quell_model::digits::digits;
 use quell_model::system::{Contact, InputTarget, Structure};
 use quell_numerics::matrix::Matrix;
 
@@ -47,7 +48,8 @@ impl fmt::Display for NoSteadySliding {
         match self {
             Self::AtRest { contact } => write!(f, "the surface of contact {contact} does not move"),
             Self::Open { contact, normal_load } => {
-                write!(f, "contact {contact} is open in steady sliding: its normal load would be {normal_load:.6}")
+                let load = digits(*normal_load, 6);
+                write!(f, "contact {contact} is open in steady sliding: its normal load would be {load}")
             }
             Self::Singular => f.write_str(
                 "the equations of steady sliding are singular: no spring holds some coordinate, or friction buckles the structure",

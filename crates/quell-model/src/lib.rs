@@ -4,13 +4,14 @@
 //!   that vary in time;
 //! * [`belt`], [`disc`]: the two kinds of system with their parameters, behind one trait ([`Parametrisation`]);
 //! * [`friction`], [`waveform`], [`dither`]: laws, waves, and the dither of a belt;
-//! * [`parameter`], [`units`]: the registry of all numbers with symbols, bounds and units.
+//! * [`parameter`], [`units`]: the registry of all numbers with symbols, bounds and units; [`digits`]: numbers in sentences.
 //!
 //! A value that exists is valid: constructors return all invalid values together, as
 //! [`InvalidValues`]. Symbols and equation numbers are those of Michaux (2005), *Suppression of
 //! Friction-Induced Oscillations through Use of High-Frequency Dither Signals*.
 
 pub mod belt;
+pub mod digits;
 pub mod disc;
 pub mod dither;
 pub mod friction;

@@ -194,22 +194,31 @@ impl NativeStudy {
         call::run(py, move || stability::run_tracked(&study, parameter, &range, along))
     }
 
-    /// `until`: τ, or a time with its unit; `kept`: whether events and samples are kept; `sound`: its transposition and gain.
-    #[pyo3(signature = (until, kept, sound))]
+    /// `until`: τ, or a time with its unit; `kept`: whether events and samples are kept; `start`: names of the state of a system
+    /// with their values; `sound`: its transposition and gain.
+    #[pyo3(signature = (until, kept, start, sound))]
     fn simulate(
         &self,
         py: Python<'_>,
-        until: String,
+        until: Option<String>,
         kept: (bool, bool),
+        start: Vec<Pair>,
         sound: Option<SoundTexts>,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::run(py, move || simulate::run(&study, &until, kept, sound.as_ref()))
+        call::run(py, move || simulate::run(&study, until.as_deref(), kept, &start, sound.as_ref()))
     }
 
-    fn response(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
+    /// `settle` and `record`: times of the response of a system.
+    #[pyo3(signature = (settle, record))]
+    fn response(
+        &self,
+        py: Python<'_>,
+        settle: Option<String>,
+        record: Option<String>,
+    ) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::run(py, move || response::run(&study))
+        call::run(py, move || response::run(&study, (settle.as_deref(), record.as_deref())))
     }
 
     /// `after`: name of a start; or `start`: a state. The run from there is followed to its response.

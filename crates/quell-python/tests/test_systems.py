@@ -243,6 +243,43 @@ def test_resonances_are_the_reach_of_the_dither(drive: quell.System) -> None:
         drive.resonances(frequency=(20, 10))
 
 
+def test_simulations_have_every_contact(hoffmann: quell.System, belt: quell.Belt) -> None:
+    done = hoffmann.simulate(60, start={"velocity.x": 0.1})
+    assert isinstance(done, results.Simulation)
+    assert done.state_names == ["x", "y", "velocity.x", "velocity.y"]
+    assert done.event_count == len(done.events) == sum(done.event_counts.values()) > 0
+    pad = done.final["contacts"][0]
+    assert pad["name"] == "pad" and {"slip_velocity", "friction", "normal", "sticking", "open", "slip_sign"} <= set(pad)
+    assert done.contacts[0]["event_counts"] == done.event_counts
+    dataset = done.dataset
+    assert float(dataset["velocity.x"][0]) == 0.1 and dataset["pad.friction"].dims == ("time",)
+    assert float(dataset["time"][-1]) == 60.0
+    assert np.allclose(dataset["x"][-1], done.final["state"][0], rtol=0, atol=1e-12)
+    assert "100 periods" in hoffmann.simulate(samples=False).sentence
+    with pytest.raises(quell.StudyError, match="did you mean velocity.x"):
+        hoffmann.simulate(1, start={"velocty.x": 1})
+    with pytest.raises(quell.StudyError, match="start"):
+        hoffmann.simulate(1, start=[1])  # type: ignore[arg-type]
+    with pytest.raises(quell.StudyError, match="until"):
+        belt.simulate()
+    with pytest.raises(quell.StudyError, match="start"):
+        belt.simulate(1, start={"x": 1})
+
+
+def test_responses_have_contacts_and_dithers(drive: quell.System, belt: quell.Belt) -> None:
+    done = drive.set({"dither.amplitude": 5.6}).response(settle=400, record=200)
+    assert isinstance(done, results.Response) and done.effect == "quenches"
+    assert done.facts["settle"] == 400 and done.facts["record_length"] == 200
+    assert done.contacts[0]["name"] == "guide" and 0 <= done.contacts[0]["stick_fraction"] <= 1
+    assert done.dithers[0]["stroke"] > 0 and done.band_end < 10
+    assert done.half_peak_to_peak >= 0.9 * done.amplitude
+    assert done.dataset["observed"].dims == ("time",) and done.dataset["spectrum_amplitude"].dims == ("frequency",)
+    with pytest.raises(quell.StudyError, match="settle"):
+        drive.response(settle="soon")
+    with pytest.raises(quell.StudyError, match="record"):
+        belt.response(record=10)
+
+
 def test_maps_of_systems_are_arrays(hoffmann: quell.System) -> None:
     assert {"growth", "verdict"} <= set(quell.quantities()["system"])
     done = hoffmann.map(["growth", "verdict"], {FRICTION: [0.5, 0.9]})
@@ -292,6 +329,8 @@ def test_every_result_plots_pickles_and_equals_the_command_line(drive: quell.Sys
         (hoffmann.stability(FRICTION, 0.6, 0.9), "stability", "hoffmann", over, True),
         (hoffmann.stability(FRICTION, 0.6, 0.9, along="parameters.c", between=(0.02, 0.2)), "stability", "hoffmann", over + second, True),
         (hoffmann.thresholds(FRICTION, 0.6, 0.9), "thresholds", "hoffmann", over, True),
+        (hoffmann.simulate(20), "simulate", "hoffmann", ["--until", "20"], True),
+        (drive.response(settle=100, record=100), "response", "drive", ["--settle", "100", "--record", "100"], True),
         (drive.resonances(frequency=(1, 20)), "resonances", "drive", ["--frequency", "1:20"], True),
     ]  # fmt: skip
     for result, verb, name, options, has_picture in cases:

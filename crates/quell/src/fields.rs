@@ -79,9 +79,8 @@ impl Fields {
         quantity: Quantity,
         value: Result<f64, String>,
     ) -> &mut Self {
-        let value = value.and_then(|value| {
-            if value.is_finite() { Ok(value) } else { Err(format!("the value is {value}")) }
-        });
+        let value = value
+            .and_then(|value| if value.is_finite() { Ok(value) } else { Err(beyond_range(value)) });
         let twin = self.twin(name, quantity);
         self.name_units(name, quantity, twin.as_ref());
         match value {
@@ -141,7 +140,10 @@ impl Fields {
         if let Some((key, _)) = &twin {
             self.units.insert(key.clone(), "1/s".into());
         }
-        match value {
+        let finite = |value: f64| {
+            if value.is_finite() { Ok(value) } else { Err(beyond_range(value)) }
+        };
+        match value.and_then(finite) {
             Ok(value) => {
                 self.object.insert(name.to_owned(), value.into());
                 if let Some((key, omega)) = twin {
@@ -193,6 +195,13 @@ impl Fields {
 
     /// The finished object, with `units` and `why`.
     pub fn finish(mut self) -> Json {
+        if matches!(self.si, Some(SiValues::System(_))) {
+            let lists = self.object.iter().flat_map(|(name, value)| arrays(name, value));
+            let without: Vec<String> = lists.filter(|path| !self.why.contains_key(path)).collect();
+            for path in without {
+                self.why.insert(path, NOT_FINITE.into());
+            }
+        }
         if !self.units.is_empty() {
             self.object.insert("units".to_owned(), Json::Object(self.units));
         }
@@ -236,6 +245,36 @@ impl Fields {
             self.why.insert(format!("{path}.{name}"), why);
         }
         inner.object
+    }
+}
+
+/// Why a number that is not finite is null.
+const NOT_FINITE: &str = "a value is beyond the range of floating-point numbers";
+
+fn beyond_range(value: f64) -> String {
+    format!("the value is {value}: it is beyond the range of floating-point numbers")
+}
+
+/// Paths of the arrays of numbers that have nulls, at or below a path: values that are not finite.
+fn arrays(path: &str, value: &Json) -> Vec<String> {
+    match value {
+        Json::Object(inner) => {
+            let inner = inner.iter().filter(|(name, _)| *name != "why");
+            inner.flat_map(|(name, value)| arrays(&format!("{path}.{name}"), value)).collect()
+        }
+        Json::Array(items) if items.iter().any(Json::is_object) => {
+            let items = items.iter().enumerate();
+            items.flat_map(|(index, item)| arrays(&format!("{path}[{index}]"), item)).collect()
+        }
+        Json::Array(_) if has_null(value) => vec![path.to_owned()],
+        _ => Vec::new(),
+    }
+}
+
+fn has_null(value: &Json) -> bool {
+    match value {
+        Json::Array(items) => items.iter().any(has_null),
+        value => value.is_null(),
     }
 }
 

@@ -8,18 +8,36 @@ use std::f64::consts::TAU;
 use quell_dynamics::simulation::{
     DEFAULT_TOLERANCE, LargestSlip, Observer, SimulationRun, Start, simulate, simulate_many,
 };
-use quell_model::Belt;
+use quell_linear::averaging::DitheredContact;
 use quell_model::friction::SlipRange;
 use quell_model::units::Quantity;
+use quell_model::{Belt, Contact, System};
 
 use crate::study::BeltStudy;
-use crate::words::in_words;
+use crate::words::{digits, in_words};
 
 /// Time for which a start is observed: its first slow period, in which a decaying transient is largest.
 const OF_START: f64 = TAU;
 
 /// Time for which an attractor is observed.
 const OF_ATTRACTOR: f64 = 4.0 * TAU;
+
+/// Warnings about contacts of a system whose slip leaves the range of their law; `dithered` has their fast motion.
+pub(crate) fn outside_of_laws(
+    system: &System,
+    dithered: Option<&[DitheredContact]>,
+) -> Vec<String> {
+    let contacts = system.contacts.iter().enumerate();
+    contacts
+        .filter_map(|(index, contact)| {
+            let slip = match dithered {
+                Some(found) => found[index].largest_slip(contact),
+                None => contact.surface_velocity.mean().abs(),
+            };
+            at_contact(contact, slip)
+        })
+        .collect()
+}
 
 /// The slip reached by the runs of an answer, each compared with the range of its own law.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -140,6 +158,20 @@ pub(crate) fn averaged_at(study: &BeltStudy, slip: f64) -> Vec<String> {
         warnings.push(sentence(study, &range, "steady sliding has a slip of", slow));
     }
     warnings
+}
+
+/// The warning about slip at a contact of a system beyond the range of its law.
+pub(crate) fn at_contact(contact: &Contact, slip: f64) -> Option<String> {
+    let range = contact.friction.range()?;
+    (slip > range.upper).then(|| {
+        format!(
+            "the slip velocity at contact {} reaches {}, beyond the range of its friction law, {} ({})",
+            contact.name,
+            digits(slip),
+            digits(range.upper),
+            range.limit
+        )
+    })
 }
 
 /// One sentence about slip outside a range; `what` is the part before the speed.

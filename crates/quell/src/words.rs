@@ -33,9 +33,7 @@ pub(crate) fn in_scales(scales: Option<Scales>, quantity: Quantity, value: f64) 
 
 /// Six significant digits, without trailing zeros.
 pub(crate) fn digits(value: f64) -> String {
-    let text = format!("{value:.5e}");
-    text.parse::<f64>()
-        .map_or(text, |rounded| format!("{rounded:?}").trim_end_matches(".0").to_owned())
+    quell_model::digits::digits(value, 6)
 }
 
 /// The ending of a noun after a count.
@@ -47,18 +45,4 @@ pub fn plural<N: Copy + PartialEq + From<u8>>(count: N) -> &'static str {
 pub(crate) fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn small_numbers_are_not_rounded() {
-        for (value, text) in
-            [(1e-8, "1e-8"), (4.3224, "4.3224"), (20.0, "20"), (0.0, "0"), (1234567.0, "1234570")]
-        {
-            assert_eq!(digits(value), text);
-        }
-    }
 }

@@ -3,11 +3,16 @@
 use std::fs;
 use std::path::Path;
 
+use quell::Study;
+use quell::kind::verbs;
+use quell::run::system::simulate::{self, MotionRequest};
+use quell::run::system::start::read_state;
 use quell_dynamics::motion::orbit::{
     MotionOrbit, base_motion, free_cycle, motion_thresholds, settled,
 };
 use quell_dynamics::motion::{
-    ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder, MotionStart, RecordedEvent,
+    ContactPhase, LyapunovExponent, MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder,
+    MotionStart, RecordedEvent,
 };
 use quell_study::study::system::{SystemStart, SystemStudy};
 use serde_json::Value as Json;
@@ -211,6 +216,190 @@ fn thresholds_are_those_of_the_reference() {
         println!("{name}: off by {:.1e}", off(threshold.value));
         assert!(off(threshold.value) <= 1e-6, "{name}: {threshold:?}");
         assert_eq!(threshold.kind.name(), case["kind"], "{name}");
-        assert_eq!(threshold.becomes.map(|v| v.name()), case["becomes"].as_str(), "{name}");
+        assert_eq!(
+            threshold.becomes.map(quell_dynamics::orbit::OrbitVerdict::name),
+            case["becomes"].as_str(),
+            "{name}"
+        );
+    }
+}
+
+/// The exponents of a periodic motion are the logarithms of its multipliers over its period; one that a stick erases is −∞.
+#[test]
+fn lyapunov_exponents_of_periodic_motions_are_those_of_their_multipliers() {
+    for case in list(&reference()["orbits"]) {
+        let name = case["name"].as_str().expect("a name");
+        if case["verdict"] != "stable" {
+            continue;
+        }
+        let study = study(case["study"].as_str().expect("a study"));
+        let motion = Motion::new(study.system()).expect("movable");
+        let state: Vec<f64> = list(&case["state"]).iter().map(number).collect();
+        let period = number(&case["period"]);
+        let start = MotionStart { time: 0.0, state };
+        let periods = 400.0;
+        let found = motion.lyapunov_exponents(&start, periods * period, motion.size());
+        let found = found.unwrap_or_else(|why| panic!("{name}: {why}"));
+        let sizes = list(&case["multipliers"]).iter().map(|z| number(&z[0]).hypot(number(&z[1])));
+        let mut rates: Vec<f64> = sizes.map(|size| size.ln() / period).collect();
+        rates.sort_by(|a, b| b.total_cmp(a));
+        for (exponent, wanted) in found.exponents.iter().zip(rates) {
+            match exponent {
+                LyapunovExponent::Erased => {
+                    assert!(wanted == f64::NEG_INFINITY, "{name}: {wanted}");
+                }
+                LyapunovExponent::Rate { value, error } => {
+                    let off = (value - wanted).abs();
+                    println!("{name}: {value} {wanted} ±{error:.1e}");
+                    assert!(
+                        off < 5.0 / (periods * period) + 3.0 * error,
+                        "{name}: {value} {wanted}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// The `simulate` verb reports the same events and the same end, under the published names.
+#[test]
+fn simulations_have_the_numbers_of_the_reference() {
+    let reference = reference();
+    for case in list(&reference["trajectories"]) {
+        let name = case["name"].as_str().expect("a name");
+        let study = Study::from(&study(case["study"].as_str().expect("a study")));
+        let until = Some(number(&case["until"]));
+        let request = MotionRequest { until, samples: true, ..MotionRequest::default() };
+        let done = verbs(&study).simulate_from(&request).unwrap_or_else(|why| panic!("{why}"));
+        let found = done.json();
+        for (found, wanted) in list(&found["events"]).iter().zip(list(&case["events"])) {
+            for key in ["contact", "kind", "slip_sign"] {
+                assert_eq!(found[key], wanted[key], "{name}: {found} {wanted}");
+            }
+            assert!((number(&found["time"]) - number(&wanted["time"])).abs() <= ACCURACY, "{name}");
+        }
+        assert_eq!(found["event_count"], case["n_events"], "{name}");
+        if case["event_counts"].is_object() {
+            assert_eq!(found["event_counts"], case["event_counts"], "{name}");
+        }
+        let end = &found["final"];
+        let state: Vec<f64> = list(&end["state"]).iter().map(number).collect();
+        assert!(distance(&state, &case["final"]["state"]) <= ACCURACY, "{name}");
+        for (found, wanted) in list(&end["contacts"]).iter().zip(list(&case["final"]["contacts"])) {
+            for (key, wanted) in wanted.as_object().expect("an object") {
+                match wanted.as_f64() {
+                    Some(wanted) if key != "slip_sign" => {
+                        assert!((number(&found[key]) - wanted).abs() <= ACCURACY, "{name}: {key}");
+                    }
+                    _ => assert_eq!(&found[key], wanted, "{name}: {key}"),
+                }
+            }
+        }
+        let datasets = done.datasets();
+        assert_eq!(datasets[0].1.axes()[0].values.last(), Some(&number(&case["until"])), "{name}");
+        assert_eq!(datasets[1].1.axes()[0].values.len(), list(&found["events"]).len());
+        let figure = done.figure().expect("a picture").unwrap_or_else(|why| panic!("{why}"));
+        assert!(figure.to_svg().len() > 1000, "{name}");
+    }
+}
+
+/// Fractions and means are those of the samples.
+#[test]
+fn means_of_a_run_are_those_of_its_samples() {
+    let reference = reference();
+    let mut stuck_and_open = (0.0_f64, 0.0_f64);
+    for case in list(&reference["trajectories"]).iter().take(4) {
+        let study = study(case["study"].as_str().expect("a study"));
+        let until = Some(number(&case["until"]));
+        let request = MotionRequest { until, samples: true, ..MotionRequest::default() };
+        let done = simulate::run(&study, &request).unwrap_or_else(|why| panic!("{why}"));
+        let samples = done.samples.as_ref().expect("samples");
+        let contacts = study.system().contacts.len();
+        let count = samples.times.len() as f64;
+        for (index, means) in done.means.as_ref().expect("a duration").iter().enumerate() {
+            let of =
+                |values: &[f64]| values.iter().skip(index).step_by(contacts).sum::<f64>() / count;
+            let phases = samples.phases.iter().skip(index).step_by(contacts);
+            let share = |phase| phases.clone().filter(|own| **own == phase).count() as f64 / count;
+            let force = means.normal_load.max(means.friction.abs());
+            let near =
+                |a: f64, b: f64, scale: f64| (a - b).abs() <= 20.0 / count * scale + 2e-3 * scale;
+            assert!(near(means.stick_fraction, share(ContactPhase::Stick), 1.0), "{means:?}");
+            assert!(near(means.open_fraction, share(ContactPhase::Open), 1.0), "{means:?}");
+            assert!(near(means.friction, of(&samples.friction), force), "{means:?}");
+            assert!(near(means.normal_load, of(&samples.normal_loads), force), "{means:?}");
+            let powers: Vec<f64> =
+                samples.friction.iter().zip(&samples.slip_velocities).map(|(t, v)| t * v).collect();
+            assert!(near(means.friction_power, of(&powers), force), "{means:?}");
+            stuck_and_open.0 = stuck_and_open.0.max(means.stick_fraction);
+            stuck_and_open.1 = stuck_and_open.1.max(means.open_fraction);
+        }
+    }
+    assert!(stuck_and_open.0 > 0.1 && stuck_and_open.1 > 0.01, "{stuck_and_open:?}");
+}
+
+#[test]
+fn dependent_contacts_are_named() {
+    let reference = reference();
+    let text = reference["dependent_rows"]["study"].as_str().expect("a study");
+    let request = MotionRequest { until: Some(20.0), ..MotionRequest::default() };
+    let found = verbs(&Study::from(&study(text))).simulate_from(&request).expect("a run").json();
+    let warning = found["warnings"][0].as_str().expect("a warning");
+    assert!(warning.contains("are not unique") && warning.contains(" and "), "{warning}");
+}
+
+/// Steady sliding is a start without motion, and every refusal has its reason.
+#[test]
+fn starts_are_those_of_the_study() {
+    let text = "schema = 1\n[system]\ncoordinates = [\"x\"]\nmass = [1.0]\nstiffness = [4.0]\n\
+        [system.initial]\nstate = \"sliding\"\n[[contact]]\nname = \"pad\"\ntangent = { x = 1.0 }\n\
+        normal_load = 2.0\nbelt_velocity = 1.0\n[friction]\nlaw = \"coulomb\"\ncoefficient = 0.5\n";
+    let end = |text: &str, start: &str| {
+        let study = study(text);
+        let start = read_state(&study, start).unwrap_or_else(|why| panic!("{why}"));
+        let request = MotionRequest { start, ..MotionRequest::default() };
+        simulate::run(&study, &request).map_err(|why| why.to_string())
+    };
+    let done = end(text, "velocity.x=0").expect("a run");
+    assert_eq!((done.end.state.as_slice(), done.end.events), (&[0.25, 0.0][..], 0));
+    // 100 periods of ω = 2.
+    assert!((done.end.time - 100.0 * std::f64::consts::PI).abs() < 1e-9);
+    let moved = end(text, "x=0.3, velocity.x=0.1").expect("a run");
+    assert_eq!(moved.start.state, [0.3, 0.1]);
+    let at_rest = text.replace("belt_velocity = 1.0", "belt_velocity = 0.0");
+    assert!(end(&at_rest, "x=0").expect_err("no sliding").contains("does not move"));
+    for state in ["squealing", "base"] {
+        let why = end(&text.replace("sliding", state), "x=0").expect_err("not yet");
+        assert!(why.contains("system.initial.state") && why.contains("periodic motion"), "{why}");
+    }
+    for (start, part) in [
+        ("velocty.x=1", "did you mean velocity.x"),
+        ("x", "name=value"),
+        ("x=fast", "a finite number"),
+        ("x=1,x=2", "one value for x"),
+    ] {
+        let why = read_state(&study(text), start).expect_err("wrong").to_string();
+        assert!(why.contains(part), "{start}: {why}");
+    }
+}
+
+/// A run that cannot go on reports time, contact, reason and state.
+#[test]
+fn failures_have_time_and_contact() {
+    let text = "schema = 1\n[system]\ncoordinates = [\"x\"]\nmass = [1.0]\nstiffness = [1.0]\n\
+        [[contact]]\nname = \"pad\"\nnormal = { x = 1.0 }\nnormal_load = 1.0\nbelt_velocity = 0.0\n\
+        [friction]\nlaw = \"coulomb\"\ncoefficient = 0.5\n";
+    let why = |text: &str| {
+        let request = MotionRequest { until: Some(1e15), ..MotionRequest::default() };
+        simulate::run(&study(text), &request).expect_err("no run").to_string()
+    };
+    let at_rest = why(text);
+    assert!(
+        at_rest.contains("contact pad has no tangent and its surface does not move"),
+        "{at_rest}"
+    );
+    let endless = why(&text.replace("normal = ", "tangent = ").replace("= 0.0", "= 0.1"));
+    for part in ["stopped at t = ", "the state there is x = ", "velocity.x = "] {
+        assert!(endless.contains(part), "{endless}");
     }
 }

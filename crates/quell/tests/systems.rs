@@ -151,6 +151,31 @@ fn frequencies_merge_at_three_quarters() {
     }
 }
 
+/// Two weakly coupled frequencies cross between two of the values at which eigenvalues are computed first.
+#[test]
+fn a_narrow_range_of_instability_is_found_in_a_wide_window() {
+    for (coupling, wanted) in [(1e-3, None), (1e-4, Some([3.29886863, 3.30113136])), (1e-5, None)] {
+        let text = format!(
+            "[system]\ncoordinates = [\"x\", \"y\"]\nmass = [1, 1]\ndamping = [[1e-6, 0], [0, 1e-6]]\n\
+             stiffness = [[\"k\", {coupling}], [{coupling}, 0]]\n[parameters]\nk = 3\n[[contact]]\nname = \"pad\"\n\
+             tangent = {{ x = 1 }}\nnormal = {{ y = 1 }}\nnormal_load = 1\nnormal_stiffness = 3.3\nbelt_velocity = 1\n\
+             [contact.friction]\nlaw = \"coulomb\"\ncoefficient = 0.001\n"
+        );
+        let wide = tracked(&text, "parameters.k", (0.5, 50.0));
+        let narrow = tracked(&text, "parameters.k", (3.29, 3.31));
+        let of = |found: &Json| -> Vec<f64> {
+            let changes = list(&found["thresholds"]).iter();
+            let changes = changes.filter(|found| found["was"] != found["becomes"]);
+            changes.map(|found| number(&found["value"])).collect()
+        };
+        let (wide, narrow) = (of(&wide), of(&narrow));
+        assert_eq!((wide.len(), narrow.len()), (2, 2), "{coupling} {wide:?} {narrow:?}");
+        for (a, b) in wide.iter().zip(wanted.unwrap_or([narrow[0], narrow[1]])) {
+            assert!((a - b).abs() < 1e-8, "{coupling} {a} {b}");
+        }
+    }
+}
+
 /// The shares of the growth rate for which friction works explain it where nothing else does: undamped, with symmetric
 /// matrices.
 #[test]
@@ -175,7 +200,8 @@ const DISC: &str = "[system]\ncoordinates = [\"a\", \"b\"]\nmass = [1, 1]\ndampi
 #[test]
 fn exact_exponents_have_the_right_limits() {
     let exact = |text: &str, amplitude: f64| {
-        let changes = [Change::number("dither.amplitude", amplitude, "--set")];
+        let changes =
+            [Change::number("dither.amplitude", amplitude, quell::Origin::Argument("--set"))];
         let study = Study::parse(text, &changes).unwrap_or_else(|errors| panic!("{errors}"));
         verbs(&study).exact_stability().expect("pure slip").json()
     };

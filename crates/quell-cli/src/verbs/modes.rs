@@ -1,4 +1,4 @@
-//! `quell modes`: natural frequencies and shapes of a disc.
+//! `quell modes`: natural frequencies and shapes of a disc or a system.
 
 use clap::Args;
 use quell::Failure;
@@ -7,7 +7,7 @@ use quell::kind::verbs;
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
-/// Computes the natural frequencies, shapes and critical speeds of a disc
+/// Computes the natural frequencies and shapes of a disc or a system, and the critical speeds of a disc
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -24,7 +24,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
-    let plot = complaints.take(arguments.plot.prepare(&inputs));
+    let plot = arguments.plot.prepare(&inputs);
+    let plot = complaints.take(plot.and_then(|plot| plot.drawn_by(study.as_ref(), "modes")));
     let (study, (outputs, plot)) = complaints.finish(study.zip(outputs.zip(plot)))?;
 
     let done = verbs(&study).modes()?;

@@ -1,8 +1,11 @@
 //! `quell response`: the steady response, the effect of the dither on it, and the cost of the dither.
 
-use clap::Args;
-use quell::Failure;
+use clap::{Args, ValueHint};
+use quell::complaint::Complaints;
 use quell::kind::verbs;
+use quell::run::system::response::ResponseRequest;
+use quell::study::SystemStudy;
+use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
 
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
@@ -12,10 +15,45 @@ use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments,
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
+    /// System: time before the record, in its units or with a unit such as 50ms [default: 200 periods of the slowest oscillation]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, value_hint = ValueHint::Other)]
+    settle: Option<String>,
+    /// System: length of the record, in its units or with a unit such as 50ms [default: 60 periods of the slowest oscillation]
+    #[arg(long, value_name = "T", allow_hyphen_values = true, value_hint = ValueHint::Other)]
+    record: Option<String>,
     #[command(flatten)]
     plot: PlotArguments,
     #[command(flatten)]
     output: OutputArguments,
+}
+
+impl Arguments {
+    /// The times of a system's response.
+    fn request(&self, study: &SystemStudy) -> Result<ResponseRequest, Failure> {
+        let mut complaints = Gathered::default();
+        let mut read = |option, text: &Option<String>| {
+            let read = |text: &str| quantity::duration_of_system(text, study.units(), option);
+            complaints.take(text.as_deref().map(read).transpose())
+        };
+        let settle = read("--settle", &self.settle);
+        let record = read("--record", &self.record);
+        let (settle, record) = complaints.finish(settle.zip(record))?;
+        Ok(ResponseRequest { settle, record })
+    }
+
+    /// Rejects the options that only systems have.
+    fn without_times(&self) -> Result<(), Complaints> {
+        let given = [("--settle", &self.settle), ("--record", &self.record)];
+        let allowed = "left out: [solver] of the study has settle and record_periods";
+        let wrong: Vec<Complaint> = given
+            .into_iter()
+            .filter_map(|(option, text)| {
+                let origin = Origin::Argument(option);
+                Some(Complaint::new(Fault::Conflict, option, origin, text.as_deref()?, allowed))
+            })
+            .collect();
+        if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
+    }
 }
 
 /// Runs the verb.
@@ -25,8 +63,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let inputs = inputs(study.as_ref());
     let outputs = complaints.take(arguments.output.prepare(&["spectrum"], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
-    let (study, (outputs, plot)) = complaints.finish(study.zip(outputs.zip(plot)))?;
+    let request = match study.as_ref().map(Study::system) {
+        Some(Ok(system)) => complaints.take(arguments.request(&system)).map(Some),
+        _ => complaints.take(arguments.without_times()).map(|()| None),
+    };
+    let ((study, request), (outputs, plot)) =
+        complaints.finish(study.zip(request).zip(outputs.zip(plot)))?;
 
-    let done = verbs(&study).response()?;
+    let done = match request {
+        Some(request) => verbs(&study).response_after(request)?,
+        None => verbs(&study).response()?,
+    };
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }

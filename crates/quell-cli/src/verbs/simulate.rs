@@ -5,21 +5,31 @@ use std::path::PathBuf;
 use clap::{Args, ValueHint};
 use quell::kind::verbs;
 use quell::run::simulate::Options;
+use quell::run::system::simulate::MotionRequest;
+use quell::run::system::start::read_state;
 use quell::sound::SoundOptions;
-use quell::{Complaint, Failure, Fault, Origin, Study};
+use quell::study::SystemStudy;
+use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
+use serde_json::Value as Json;
 
 use super::numbers::{duration, scales};
 use crate::answer::Answer;
-use crate::arguments::{Gathered, Outputs, PlotArguments, StudyArguments, WAV, answer, inputs};
+use crate::arguments::{
+    Gathered, Outputs, Plot, PlotArguments, StudyArguments, WAV, answer, inputs,
+};
 
 /// Simulates one run and locates every event at the contact
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Duration τ; in a study in SI in seconds, or a time such as 50ms
+    /// Duration: τ of a belt, or time in the units of a system; in a study in SI in seconds, or a time such as 50ms [default, for
+    /// systems: 100 periods of the slowest oscillation]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    until: String,
+    until: Option<String>,
+    /// Start of a system: numbers that replace those of the study's start, such as x=0.1,velocity.x=-2
+    #[arg(long, value_name = "NAME=VALUE,…", allow_hyphen_values = true, value_hint = ValueHint::Other)]
+    start: Option<String>,
     /// Lists every event; with --save FILE.csv also writes them to a second file, such as run_events.csv next to run.csv
     #[arg(long)]
     events: bool,
@@ -70,12 +80,55 @@ fn needs_sound(option: &'static str, text: &str, saved: bool, complaints: &mut G
     }
 }
 
+impl Arguments {
+    /// The run of a system.
+    fn request(&self, study: &SystemStudy, samples: bool) -> Result<MotionRequest, Failure> {
+        let mut complaints = Gathered::default();
+        let read = |text: &str| quantity::duration_of_system(text, study.units(), "--until");
+        let until = complaints.take(self.until.as_deref().map(read).transpose());
+        let start = self.start.as_deref().map(|text| read_state(study, text));
+        let start = complaints.take(start.transpose());
+        let (until, start) = complaints.finish(until.zip(start))?;
+        Ok(MotionRequest {
+            until,
+            start: start.unwrap_or_default(),
+            events: self.events,
+            samples,
+            sound: None,
+        })
+    }
+
+    /// The duration of the run of a study of another kind, which must be given.
+    fn until_of_belt(&self, study: Option<&Study>) -> Result<f64, Failure> {
+        let mut complaints = Gathered::default();
+        if let Some(text) = &self.start {
+            let origin = Origin::Argument("--start");
+            let allowed =
+                "left out: the start of a belt is that of [belt.initial], which --set changes";
+            let complaint =
+                Complaint::new(Fault::Conflict, "--start", origin, text.as_str(), allowed);
+            complaints.take::<()>(Err(complaint));
+        }
+        let until = match &self.until {
+            Some(text) => duration("--until", text, study),
+            None => Err(Box::new(Complaint::new(
+                Fault::Missing,
+                "--until",
+                Origin::Argument("--until"),
+                Json::Null,
+                "a duration, such as 50",
+            ))),
+        };
+        let until = complaints.take(until);
+        complaints.finish(until)
+    }
+}
+
 /// Runs the verb.
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
-    let until = complaints.take(duration("--until", &arguments.until, study.as_ref()));
     let save = arguments.save.as_deref();
     let extension = save.and_then(|path| path.extension()?.to_str());
     let is_sound = extension.is_some_and(|extension| extension.eq_ignore_ascii_case(WAV));
@@ -83,6 +136,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let parts: &[&str] = if arguments.events && !is_sound { &["events"] } else { &[] };
     let outputs = complaints.take(Outputs::prepare(save, &["csv", WAV], parts, &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
+    if let Some(Ok(system)) = study.as_ref().map(Study::system) {
+        let sampled = save.is_some() && !is_sound || plot.as_ref().is_some_and(Plot::wanted);
+        let request = complaints.take(arguments.request(&system, sampled));
+        let ((request, sound), (outputs, plot)) =
+            complaints.finish(request.zip(sound).zip(outputs.zip(plot)))?;
+        let request = MotionRequest { sound, ..request };
+        let done = verbs(&(&system).into()).simulate_from(&request)?;
+        return answer(arguments.study.json, done.as_ref(), outputs, plot);
+    }
+    let until = complaints.take(arguments.until_of_belt(study.as_ref()));
     let ((study, until), (sound, (outputs, plot))) =
         complaints.finish(study.zip(until).zip(sound.zip(outputs.zip(plot))))?;
 

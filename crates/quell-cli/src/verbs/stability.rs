@@ -46,7 +46,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let request = arguments.request(study.as_ref(), &mut complaints);
     let parts: &[&str] = if arguments.along.is_some() { &["eigenvalues"] } else { &[] };
     let outputs = complaints.take(arguments.output.prepare(parts, &inputs));
-    let plot = complaints.take(arguments.plot.prepare(&inputs));
+    let verb = match (&arguments.parameter, arguments.exact) {
+        (Some(_), _) => "stability --parameter",
+        (None, true) => "stability --exact",
+        (None, false) => "stability",
+    };
+    let plot = arguments.plot.prepare(&inputs);
+    let plot = complaints.take(plot.and_then(|plot| plot.drawn_by(study.as_ref(), verb)));
     if arguments.output.saves() && arguments.parameter.is_none() {
         let (key, allowed) =
             ("--save", "--save saves the eigenvalues of --parameter, and requires that option");

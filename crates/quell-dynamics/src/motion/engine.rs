@@ -4,79 +4,63 @@ use quell_model::System;
 use quell_model::friction::FrictionConstants;
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 
-use super::equations::{Equations, Forcings};
-use super::guards::{FirstGuard, Guards, Reached};
-use super::observer::{MotionEvent, MotionMoment, MotionObserver, MotionSegment, Trigger};
+use super::equations::{Forcings, MotionEquations};
+use super::guards::{FirstGuard, Guards};
+use super::observer::{MotionObserver, MotionSegment};
 use super::phase::{ContactNow, ContactPhase};
-use super::selection::{Moment, first_minor_not_positive};
-use super::series::{Expansion, StepLimit, StepSeries};
+use super::selection::first_minor_not_positive;
+use super::series::{StepExpansion, StepLimit, StepSeries};
 use super::state::{ContactEnd, MotionEnd, MotionStart};
 use super::stopped::{MotionStopped, StopReason};
-use super::stuck::{StuckForces, coupling, independent};
-use crate::simulation::{Clock, EventKind, ORDER, StepBudget};
+use super::stuck::{StuckForces, coupling, dependent};
+use crate::simulation::{Clock, ORDER, StepBudget};
 
 /// Decisions at one moment after which the contacts are held in stick: a jump that releases a contact just made needs two;
 /// grazing of a threshold repeats indefinitely.
-const PATIENCE: u32 = 4;
+pub(super) const PATIENCE: u32 = 4;
 
 /// Time for which contacts are held in stick after grazing, over the time scale of the system.
 const HOLD: f64 = 1e-8;
 
-/// Rate of a margin, over its size and the time scale, below which a release counts as nearly tangential.
-const NEARLY_TANGENTIAL: f64 = 1e-6;
-
-/// Slip velocities below this multiple of their rounding are zero at the start of a run.
-const AT_REST: f64 = 32.0 * f64::EPSILON;
-
-/// Time over the time scale within which a slip velocity is negligible at the start of a run if friction can stop it.
-const NEGLIGIBLE: f64 = 1e-13;
-
-/// A load beyond zero by this share of N₀ has jumped there.
-const JUMP: f64 = 1e-9;
-
-/// So many events within [`ACCUMULATED`] of the time scale are Zeno behaviour.
-const MOST_EVENTS: u64 = 96;
-
-/// Time within which events accumulate, over the time scale.
-const ACCUMULATED: f64 = 1e-6;
-
 /// One run.
 pub(super) struct MotionRun<'a> {
-    system: &'a System,
-    equations: &'a Equations,
-    forcings: Forcings,
-    laws: Vec<FrictionConstants>,
-    now: Vec<ContactNow>,
-    clock: Clock,
-    series: StepSeries,
-    stuck: StuckForces,
+    pub(super) system: &'a System,
+    pub(super) equations: &'a MotionEquations,
+    pub(super) forcings: Forcings,
+    pub(super) laws: Vec<FrictionConstants>,
+    pub(super) now: Vec<ContactNow>,
+    pub(super) clock: Clock,
+    pub(super) series: StepSeries,
+    pub(super) stuck: StuckForces,
     /// Whether the sets of sticking contacts have changed since `stuck` was computed.
-    is_stale: bool,
-    until: f64,
-    tolerance: f64,
-    longest: f64,
-    time_scale: f64,
-    budget: StepBudget,
-    idle: u32,
+    pub(super) is_stale: bool,
+    pub(super) until: f64,
+    pub(super) tolerance: f64,
+    pub(super) longest: f64,
+    pub(super) time_scale: f64,
+    pub(super) budget: StepBudget,
+    pub(super) idle: u32,
     /// Time of the last kink or jump of a forcing.
-    last_break: f64,
-    events: u64,
-    steps: u64,
-    near_tangential_releases: u64,
+    pub(super) last_break: f64,
+    pub(super) events: u64,
+    pub(super) steps: u64,
+    pub(super) near_tangential_releases: u64,
+    /// Whether the force of each contact in stick was not unique at some time.
+    pub(super) dependent: Vec<bool>,
     /// Start of the current window of events, and their number in it.
-    window: (f64, u64),
-    observer: &'a mut dyn MotionObserver,
-    watched: bool,
-    /// Whether guards end steps; otherwise every contact keeps its phase, whatever its slip velocity and load.
-    is_guarded: bool,
-    scratch: Vec<f64>,
+    pub(super) window: (f64, u64),
+    pub(super) observer: &'a mut dyn MotionObserver,
+    pub(super) watched: bool,
+    /// Whether guards end steps; otherwise every contact keeps its phase, regardless of its slip velocity and load.
+    pub(super) is_guarded: bool,
+    pub(super) scratch: Vec<f64>,
 }
 
-type Progress = Result<(), MotionStopped>;
+pub(super) type MotionProgress = Result<(), MotionStopped>;
 
 impl<'a> MotionRun<'a> {
     pub(super) fn new(
-        (system, equations): (&'a System, &'a Equations),
+        (system, equations): (&'a System, &'a MotionEquations),
         start: &MotionStart,
         until: f64,
         tolerance: f64,
@@ -86,7 +70,7 @@ impl<'a> MotionRun<'a> {
         let forcings = Forcings::of(system, clock);
         let waves = forcings.highest_rate();
         let fastest = equations.rate.max(waves);
-        let mut series = StepSeries::new(equations);
+        let mut series = StepSeries::new(equations, &forcings, clock);
         series.set_start(&start.state);
         Self {
             laws: system.contacts.iter().map(|c| FrictionConstants::of(&c.friction)).collect(),
@@ -105,6 +89,7 @@ impl<'a> MotionRun<'a> {
             events: 0,
             steps: 0,
             near_tangential_releases: 0,
+            dependent: vec![false; system.contacts.len()],
             window: (start.time, 0),
             watched: observer.watches(),
             is_guarded: true,
@@ -137,7 +122,7 @@ impl<'a> MotionRun<'a> {
         self.end()
     }
 
-    fn stopped(&self, reason: StopReason) -> MotionStopped {
+    pub(super) fn stopped(&self, reason: StopReason) -> MotionStopped {
         let state = self.series.start().to_vec();
         MotionStopped { time: self.clock.time(), state, reason }
     }
@@ -146,12 +131,12 @@ impl<'a> MotionRun<'a> {
         self.stopped(StopReason::Stalled(why))
     }
 
-    fn name(&self, contact: usize) -> String {
+    pub(super) fn name(&self, contact: usize) -> String {
         self.system.contacts[contact].name.clone()
     }
 
     /// Slip velocity of a contact now, and the size of its terms.
-    fn slip(&self, contact: usize) -> (f64, f64) {
+    pub(super) fn slip(&self, contact: usize) -> (f64, f64) {
         let tangent = &self.equations.contacts[contact].tangent;
         let surface = self.forcings.contacts[contact].surface.value(self.clock);
         let state = self.series.start();
@@ -159,46 +144,13 @@ impl<'a> MotionRun<'a> {
     }
 
     /// Load of a contact now, or that it would have if it is open.
-    fn load(&self, contact: usize) -> f64 {
+    pub(super) fn load(&self, contact: usize) -> f64 {
         let approach = &self.equations.contacts[contact].approach;
         self.forcings.contacts[contact].load.value(self.clock) + approach.dot(self.series.start())
     }
 
-    /// A slip velocity that friction brings to rest within a time too short to be told from zero.
-    fn negligible_slip(&self, contact: usize, load: f64) -> f64 {
-        let level = self.equations.contacts[contact].static_coefficient * load;
-        let own = self.equations.coupling[(contact, contact)];
-        NEGLIGIBLE * self.time_scale * own * level
-    }
-
-    /// The contacts at the start of a run: no event.
-    fn begin(&mut self) -> Progress {
-        let mut resting = Vec::new();
-        for contact in 0..self.now.len() {
-            let (slip, size) = self.slip(contact);
-            let load = self.load(contact);
-            let is_compliant = self.equations.contacts[contact].is_compliant();
-            if !is_compliant && load <= 0.0 {
-                let contact = self.name(contact);
-                return Err(self.stopped(StopReason::LoadVanishes { contact }));
-            }
-            let phase = if load < 0.0 {
-                ContactPhase::Open
-            } else if self.equations.contacts[contact].can_stick()
-                && slip.abs() <= (AT_REST * size).max(self.negligible_slip(contact, load))
-            {
-                resting.push(contact);
-                ContactPhase::Stick
-            } else {
-                ContactPhase::Slip(if slip > 0.0 { 1 } else { -1 })
-            };
-            self.now[contact] = ContactNow::of(phase);
-        }
-        if resting.is_empty() { Ok(()) } else { self.decide(&resting, &[], false) }
-    }
-
     /// One pass of the loop: it advances time or changes contacts.
-    fn step(&mut self) -> Progress {
+    fn step(&mut self) -> MotionProgress {
         let before = self.clock;
         self.refresh()?;
         let stop = self.forcings.next_break().min(self.until);
@@ -210,7 +162,7 @@ impl<'a> MotionRun<'a> {
             longest: if holds { self.longest.min(HOLD * self.time_scale) } else { self.longest },
             room,
         };
-        let length = with_fused_multiply_add(Expansion {
+        let length = with_fused_multiply_add(StepExpansion {
             equations: self.equations,
             forcings: &self.forcings,
             laws: &mut self.laws,
@@ -249,7 +201,7 @@ impl<'a> MotionRun<'a> {
     }
 
     /// Computes the forces of the sticking contacts anew where they have changed.
-    fn refresh(&mut self) -> Progress {
+    fn refresh(&mut self) -> MotionProgress {
         let tilted = self.equations.follows && self.now.iter().any(ContactNow::sticks);
         if !(self.is_stale || tilted || self.stuck.is_dependent) {
             return Ok(());
@@ -267,6 +219,9 @@ impl<'a> MotionRun<'a> {
             let contacts = sticking().into_iter().map(|c| self.name(c)).collect();
             return Err(self.stopped(StopReason::NotUnique { contacts }));
         };
+        if stuck.is_dependent && self.is_stale {
+            self.note_dependent(&sticking(), &tilts);
+        }
         self.stuck = stuck;
         self.is_stale = false;
         Ok(())
@@ -292,13 +247,19 @@ impl<'a> MotionRun<'a> {
         }
     }
 
-    fn tilts(&self) -> Vec<f64> {
+    fn note_dependent(&mut self, sticking: &[usize], tilts: &[f64]) {
+        for place in dependent(&coupling(self.equations, sticking, tilts)) {
+            self.dependent[sticking[place]] = true;
+        }
+    }
+
+    pub(super) fn tilts(&self) -> Vec<f64> {
         let state = self.series.start();
         self.equations.contacts.iter().map(|contact| contact.slope.dot(state)).collect()
     }
 
     /// Refuses a set of contacts whose decision is not unique.
-    fn check_unique(&self, members: &[usize], tilts: &[f64]) -> Progress {
+    pub(super) fn check_unique(&self, members: &[usize], tilts: &[f64]) -> MotionProgress {
         let matrix = coupling(self.equations, members, tilts);
         match first_minor_not_positive(&matrix) {
             None => Ok(()),
@@ -347,7 +308,7 @@ impl<'a> MotionRun<'a> {
     }
 
     /// Counts passes without advance, and checks that the run can go on.
-    fn check_progress(&mut self, before: Clock) -> Progress {
+    fn check_progress(&mut self, before: Clock) -> MotionProgress {
         self.idle = if self.clock == before { self.idle + 1 } else { 0 };
         if self.idle > 4 * PATIENCE {
             return Err(self.stalled("no step advanced time"));
@@ -362,204 +323,6 @@ impl<'a> MotionRun<'a> {
         Ok(())
     }
 
-    /// Decides what follows from guards that have reached zero.
-    fn moment(&mut self, first: Reached, triggers: &[Reached]) -> Progress {
-        let before: Vec<ContactPhase> = self.now.iter().map(|now| now.phase).collect();
-        let mut arrived = Vec::new();
-        let mut reached = Vec::new();
-        // A load that jumps through zero changes forces at once, which may release others.
-        let mut jumped = false;
-        for trigger in triggers {
-            match trigger.what {
-                Trigger::Load(contact) => jumped |= self.open_or_close(contact)?,
-                Trigger::Slip(contact) => arrived.push(contact),
-                Trigger::Margin(contact, side) => {
-                    self.count_tangential(contact, trigger);
-                    reached.push((contact, side));
-                }
-            }
-        }
-        let open = |contact: &usize| self.now[*contact].is_open();
-        arrived.retain(|contact| !open(contact));
-        reached.retain(|(contact, _)| !open(contact));
-        if jumped || !(arrived.is_empty() && reached.is_empty()) {
-            let holds = self.idle >= PATIENCE;
-            self.decide(&arrived, &reached, holds)?;
-        }
-        self.report(&before, first, triggers)
-    }
-
-    fn count_tangential(&mut self, contact: usize, trigger: &Reached) {
-        let level = self.equations.contacts[contact].static_coefficient * self.load(contact);
-        if trigger.after > 0.0 && trigger.rate * self.time_scale < NEARLY_TANGENTIAL * level {
-            self.near_tangential_releases += 1;
-        }
-    }
-
-    /// The load of a contact has reached zero, or jumped through it: whether it jumped.
-    fn open_or_close(&mut self, contact: usize) -> Result<bool, MotionStopped> {
-        if !self.equations.contacts[contact].is_compliant() {
-            let contact = self.name(contact);
-            return Err(self.stopped(StopReason::LoadVanishes { contact }));
-        }
-        self.is_stale = true;
-        let phase = if self.now[contact].is_open() {
-            ContactPhase::Slip(if self.slip(contact).0 < 0.0 { -1 } else { 1 })
-        } else {
-            ContactPhase::Open
-        };
-        let jumped = self.load(contact).abs() > JUMP * self.equations.contacts[contact].normal_load;
-        let load_zeros = usize::from(!jumped);
-        self.now[contact] = ContactNow { load_zeros, ..ContactNow::of(phase) };
-        Ok(jumped)
-    }
-
-    /// The contacts at zero slip velocity decide together what they do.
-    fn decide(&mut self, arrived: &[usize], reached: &[(usize, i8)], holds: bool) -> Progress {
-        let members: Vec<usize> =
-            (0..self.now.len()).filter(|c| self.now[*c].sticks() || arrived.contains(c)).collect();
-        self.is_stale = true;
-        if holds {
-            for &contact in &members {
-                let load_zeros = self.now[contact].load_zeros;
-                let stick = ContactNow::of(ContactPhase::Stick);
-                self.now[contact] = ContactNow { held: true, load_zeros, ..stick };
-            }
-            return Ok(());
-        }
-        if self.equations.follows {
-            self.check_unique(&members, &self.tilts())?;
-        }
-        let Some(selected) = self.moment_of(&members, reached).decide() else {
-            let contacts = members.iter().map(|c| self.name(*c)).collect();
-            return Err(self.stopped(StopReason::NotUnique { contacts }));
-        };
-        for (place, &contact) in members.iter().enumerate() {
-            let load_zeros = self.now[contact].load_zeros;
-            let direction = selected.directions[place];
-            let next = if direction == 0 {
-                let stick = ContactNow::of(ContactPhase::Stick);
-                ContactNow { saturated: selected.saturated[place], ..stick }
-            } else {
-                let slip = ContactNow::of(ContactPhase::Slip(direction));
-                ContactNow { slip_zeros: if selected.is_smooth[place] { 2 } else { 1 }, ..slip }
-            };
-            self.now[contact] = ContactNow { load_zeros, ..next };
-        }
-        Ok(())
-    }
-
-    /// The conditions of a decision of some contacts.
-    fn moment_of(&self, members: &[usize], reached: &[(usize, i8)]) -> Moment {
-        let rates = self.rates_without(members);
-        let tilts = self.tilts();
-        let matrix = coupling(self.equations, members, &tilts);
-        let places: Vec<usize> = (0..members.len()).collect();
-        let is_dependent = independent(&matrix, &places).len() < members.len();
-        let accelerations = members.iter().map(|&c| {
-            let surface = self.forcings.contacts[c].surface.series(self.clock)[1];
-            surface - self.equations.contacts[c].tangent.dot(&rates)
-        });
-        let pressed = |c: usize| self.load(c).max(0.0) * self.factor(c);
-        let level = |c: usize, coefficient: f64| coefficient * pressed(c);
-        let contacts = &self.equations.contacts;
-        Moment {
-            accelerations: accelerations.collect(),
-            holding: members.iter().map(|&c| level(c, contacts[c].static_coefficient)).collect(),
-            sliding: members.iter().map(|&c| level(c, contacts[c].sliding_coefficient)).collect(),
-            reached: members
-                .iter()
-                .map(|c| reached.iter().find(|(at, _)| at == c).map_or(0, |(_, side)| *side))
-                .collect(),
-            coupling: matrix,
-            is_dependent,
-        }
-    }
-
-    fn factor(&self, contact: usize) -> f64 {
-        let factor = &self.forcings.contacts[contact].factor;
-        factor.as_ref().map_or(1.0, |factor| factor.value(self.clock))
-    }
-
-    /// ẋ now, without the friction of some contacts.
-    fn rates_without(&self, members: &[usize]) -> Vec<f64> {
-        let state = self.series.start();
-        let mut rates = vec![0.0; state.len()];
-        self.equations.matrix.times(state, &mut rates);
-        for (rate, constant) in rates.iter_mut().zip(&self.equations.constant) {
-            *rate += constant;
-        }
-        for (push, forcing) in self.equations.pushes.iter().zip(&self.forcings.pushes) {
-            push.add_to(forcing.value(self.clock), &mut rates);
-        }
-        for (index, contact) in self.equations.contacts.iter().enumerate() {
-            let forcing = &self.forcings.contacts[index];
-            let load = if self.now[index].is_open() { 0.0 } else { self.load(index) };
-            let carried = contact.normal_load + forcing.guided.value(self.clock);
-            contact.across.add_to(carried - load, &mut rates);
-            let ContactPhase::Slip(sign) = self.now[index].phase else { continue };
-            if members.contains(&index) {
-                continue;
-            }
-            let speed = self.slip(index).0.abs();
-            let coefficient = self.system.contacts[index].friction.coefficient(speed);
-            let force = f64::from(sign) * coefficient * load * self.factor(index);
-            contact.along.add_to(force, &mut rates);
-            contact.across.add_to(force * contact.slope.dot(state), &mut rates);
-        }
-        rates
-    }
-
-    /// Reports what has changed, in the order of contacts.
-    fn report(
-        &mut self,
-        before: &[ContactPhase],
-        first: Reached,
-        triggers: &[Reached],
-    ) -> Progress {
-        let after: Vec<ContactPhase> = self.now.iter().map(|now| now.phase).collect();
-        if after == before {
-            return Ok(());
-        }
-        let state = self.series.start();
-        let clock = self.clock;
-        self.observer.moment(&MotionMoment {
-            clock,
-            state,
-            before,
-            after: &after,
-            trigger: first.what,
-            rate: first.rate,
-            is_jump: first.after == 0.0 && self.last_break == clock.time(),
-            is_one_sided: triggers.len() > 1 && !self.stuck.is_dependent,
-        });
-        let mut last = None;
-        for (contact, (was, is)) in before.iter().zip(&after).enumerate() {
-            let Some(kind) = kind_of(*was, *is) else { continue };
-            self.events += 1;
-            last = Some(contact);
-            self.observer.event(&MotionEvent {
-                time: clock.time(),
-                contact,
-                kind,
-                slip_sign: is.slip_sign(),
-                is_smooth: self.now[contact].slip_zeros == 2,
-                state: self.series.start(),
-            });
-        }
-        if clock.time() - self.window.0 > ACCUMULATED * self.time_scale {
-            self.window = (clock.time(), 0);
-        }
-        self.window.1 += 1;
-        match last {
-            Some(contact) if self.window.1 > MOST_EVENTS => {
-                let contact = self.name(contact);
-                Err(self.stopped(StopReason::Zeno { contact }))
-            }
-            _ => Ok(()),
-        }
-    }
-
     /// The state at the end of the run.
     fn end(mut self) -> Result<MotionEnd, MotionStopped> {
         self.refresh()?;
@@ -569,7 +332,7 @@ impl<'a> MotionRun<'a> {
             longest: self.longest,
             room: self.time_scale,
         };
-        with_fused_multiply_add(Expansion {
+        with_fused_multiply_add(StepExpansion {
             equations: self.equations,
             forcings: &self.forcings,
             laws: &mut self.laws,
@@ -592,20 +355,8 @@ impl<'a> MotionRun<'a> {
             events: self.events,
             steps: self.steps,
             near_tangential_releases: self.near_tangential_releases,
+            dependent: (0..self.dependent.len()).filter(|c| self.dependent[*c]).collect(),
         })
-    }
-}
-
-/// The event between two phases of a contact; `None` where nothing happened.
-fn kind_of(was: ContactPhase, is: ContactPhase) -> Option<EventKind> {
-    match (was, is) {
-        (ContactPhase::Open, ContactPhase::Open) => None,
-        (ContactPhase::Open, _) => Some(EventKind::Landing),
-        (_, ContactPhase::Open) => Some(EventKind::Separation),
-        (ContactPhase::Slip(_), ContactPhase::Stick) => Some(EventKind::Stick),
-        (ContactPhase::Stick, ContactPhase::Slip(_)) => Some(EventKind::Release),
-        (ContactPhase::Slip(a), ContactPhase::Slip(b)) if a != b => Some(EventKind::Reversal),
-        _ => None,
     }
 }
 

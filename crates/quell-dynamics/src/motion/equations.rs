@@ -12,7 +12,7 @@ use quell_model::System;
 use quell_model::system::{Contact, InputTarget, Mechanical, Structure};
 use quell_numerics::matrix::Matrix;
 
-use super::rows::{Entries, SparseMatrix};
+use super::rows::{RowEntries, StateMatrix};
 use super::stopped::Immobile;
 use crate::simulation::{Clock, Forcing};
 
@@ -20,14 +20,14 @@ use crate::simulation::{Clock, Forcing};
 #[derive(Clone, Debug)]
 pub(super) struct ContactEquation {
     /// Row t of the slip velocity γ = v − tᵀx.
-    pub(super) tangent: Entries,
+    pub(super) tangent: RowEntries,
     /// Row r of the load: k nᵀ over displacements and d nᵀ over velocities.
-    pub(super) approach: Entries,
+    pub(super) approach: RowEntries,
     /// Row s of the tilt.
-    pub(super) slope: Entries,
+    pub(super) slope: RowEntries,
     /// Columns g and h.
-    pub(super) along: Entries,
-    pub(super) across: Entries,
+    pub(super) along: RowEntries,
+    pub(super) across: RowEntries,
     /// N₀.
     pub(super) normal_load: f64,
     /// Velocity that scales slip for the law.
@@ -53,13 +53,13 @@ impl ContactEquation {
 
 /// The equations of a system.
 #[derive(Clone, Debug)]
-pub(super) struct Equations {
+pub(super) struct MotionEquations {
     /// Length of the state.
     pub(super) size: usize,
-    pub(super) matrix: SparseMatrix,
+    pub(super) matrix: StateMatrix,
     pub(super) constant: Vec<f64>,
     /// Columns b of the inputs that are forces.
-    pub(super) pushes: Vec<Entries>,
+    pub(super) pushes: Vec<RowEntries>,
     pub(super) contacts: Vec<ContactEquation>,
     /// Estimate of the fastest rate of the closed structure.
     pub(super) rate: f64,
@@ -159,26 +159,26 @@ fn is_push(target: &InputTarget) -> bool {
     matches!(target, InputTarget::Force(_))
 }
 
-impl Equations {
+impl MotionEquations {
     pub(super) fn new(system: &System) -> Result<Self, Immobile> {
         let rows = system.structure.size();
         let mass = system.structure.mechanical().map(Mechanical::mass);
         let offset = if mass.is_some() { rows } else { 0 };
-        let column = |row: &[f64]| -> Result<Entries, Immobile> {
-            let Some(mass) = mass else { return Ok(Entries::at(row, 0)) };
+        let column = |row: &[f64]| -> Result<RowEntries, Immobile> {
+            let Some(mass) = mass else { return Ok(RowEntries::at(row, 0)) };
             let right = Matrix::from_fn(rows, 1, |i, _| row[i]);
             let solved = mass.solve(&right).ok_or(Immobile::NoMass)?;
-            Ok(Entries::at(solved.as_slice(), offset))
+            Ok(RowEntries::at(solved.as_slice(), offset))
         };
         let matrix = state_matrix(&system.structure)?;
         let size = matrix.rows();
         let contacts = system.contacts.iter().map(|contact| {
             let optional = |row: &Option<Vec<f64>>| match row {
                 Some(row) => column(row),
-                None => Ok(Entries::default()),
+                None => Ok(RowEntries::default()),
             };
             let along = match &contact.force {
-                Some(force) => Entries::at(force, 0),
+                Some(force) => RowEntries::at(force, 0),
                 None => optional(&contact.tangent)?,
             };
             contact_equation(contact, offset, along, optional(&contact.normal)?)
@@ -191,14 +191,14 @@ impl Equations {
         let pushes = pushes.collect::<Result<_, _>>()?;
         let constant = column(system.structure.force())?.dense(size);
         let count = contacts.len();
-        let product = |of: fn(&ContactEquation) -> &Entries| {
+        let product = |of: fn(&ContactEquation) -> &RowEntries| {
             Matrix::from_fn(count, count, |c, d| contacts[c].tangent.product(of(&contacts[d])))
         };
         let coupling = product(|contact| &contact.along);
         let follower = product(|contact| &contact.across);
         let rate = fastest_rate(&matrix, &contacts);
         let follows = contacts.iter().any(|contact| !contact.slope.is_empty());
-        let matrix = SparseMatrix::of(&matrix);
+        let matrix = StateMatrix::of(&matrix);
         Ok(Self { size, matrix, constant, pushes, contacts, rate, coupling, follower, follows })
     }
 }
@@ -206,28 +206,28 @@ impl Equations {
 fn contact_equation(
     contact: &Contact,
     offset: usize,
-    along: Entries,
-    across: Entries,
+    along: RowEntries,
+    across: RowEntries,
 ) -> Result<ContactEquation, Immobile> {
     if let Some(why) = contact.friction.unsimulated() {
         return Err(Immobile::Law { contact: contact.name.clone(), why });
     }
     let row = |row: &Option<Vec<f64>>, offset| {
-        row.as_ref().map(|row| Entries::at(row, offset)).unwrap_or_default()
+        row.as_ref().map(|row| RowEntries::at(row, offset)).unwrap_or_default()
     };
-    let approach = if contact.normal_stiffness == 0.0 && contact.normal_damping == 0.0 {
-        Entries::default()
-    } else {
-        let spring = row(&contact.normal, 0).times(contact.normal_stiffness);
-        let damper = row(&contact.normal, offset).times(contact.normal_damping);
-        let nonzero = |entries: Entries, factor: f64| {
-            if factor == 0.0 { Entries::default() } else { entries }
-        };
-        nonzero(spring, contact.normal_stiffness).plus(nonzero(damper, contact.normal_damping))
-    };
+    let normal = contact.normal.as_deref().unwrap_or_default();
+    let mut loads = vec![0.0; offset + contact.normal.as_ref().map_or(0, Vec::len)];
+    for (place, entry) in normal.iter().enumerate() {
+        if contact.normal_stiffness != 0.0 {
+            loads[place] += contact.normal_stiffness * entry;
+        }
+        if contact.normal_damping != 0.0 {
+            loads[offset + place] += contact.normal_damping * entry;
+        }
+    }
     Ok(ContactEquation {
         tangent: row(&contact.tangent, offset),
-        approach,
+        approach: RowEntries::at(&loads, 0),
         slope: row(&contact.slope, 0),
         along,
         across,

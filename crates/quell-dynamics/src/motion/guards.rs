@@ -4,10 +4,10 @@ use quell_numerics::dispatch::Work;
 use quell_numerics::lane::horner;
 use quell_numerics::polynomial::{derivative, first_crossing_after, value};
 
-use super::equations::{Equations, Forcings};
+use super::contact_series::ContactSeries;
+use super::equations::{Forcings, MotionEquations};
 use super::observer::Trigger;
 use super::phase::{ContactNow, ContactPhase};
-use super::series::ContactSeries;
 use crate::simulation::{ORDER, Series};
 
 /// Guards that reach zero within this share of the time scale after the first one are simultaneous: their order is below the
@@ -25,7 +25,7 @@ pub(super) struct Guard {
 
 /// A guard that has reached zero.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Reached {
+pub(super) struct GuardReached {
     pub(super) what: Trigger,
     /// Time after the start of the step.
     pub(super) after: f64,
@@ -35,7 +35,7 @@ pub(super) struct Reached {
 
 /// The guards of a step.
 pub(super) struct Guards<'a> {
-    pub(super) equations: &'a Equations,
+    pub(super) equations: &'a MotionEquations,
     pub(super) forcings: &'a Forcings,
     pub(super) now: &'a [ContactNow],
     pub(super) contacts: &'a [ContactSeries],
@@ -48,18 +48,18 @@ pub(super) struct FirstGuard<'a> {
 }
 
 impl Work for FirstGuard<'_> {
-    type Output = Option<Reached>;
+    type Output = Option<GuardReached>;
 
     #[inline(always)]
-    fn run(self) -> Option<Reached> {
+    fn run(self) -> Option<GuardReached> {
         let mut length = self.length;
         let mut first = None;
         for contact in 0..self.guards.now.len() {
             self.guards.of(contact, |guard| {
                 if let Some(after) = guard.root(length) {
                     let rate = guard.rate(after);
-                    if first.is_none_or(|known: Reached| after < known.after) {
-                        first = Some(Reached { what: guard.what, after, rate });
+                    if first.is_none_or(|known: GuardReached| after < known.after) {
+                        first = Some(GuardReached { what: guard.what, after, rate });
                     }
                     length = after.max(f64::MIN_POSITIVE);
                 }
@@ -102,7 +102,7 @@ impl Guards<'_> {
     }
 
     /// Every guard that reaches zero together with the first one, at time `after` of the step.
-    pub(super) fn together(&self, first: &Reached, time_scale: f64) -> Vec<Reached> {
+    pub(super) fn together(&self, first: &GuardReached, time_scale: f64) -> Vec<GuardReached> {
         let mut found = Vec::new();
         for contact in 0..self.now.len() {
             self.of(contact, |guard| {
@@ -114,7 +114,7 @@ impl Guards<'_> {
                 let is_reached =
                     height <= 0.0 || rate > 0.0 && height <= rate * TOGETHER * time_scale;
                 if is_reached {
-                    found.push(Reached { what: guard.what, after: first.after, rate });
+                    found.push(GuardReached { what: guard.what, after: first.after, rate });
                 }
             });
         }

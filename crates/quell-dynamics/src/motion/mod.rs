@@ -12,37 +12,48 @@
 //! | file | contents |
 //! |---|---|
 //! | `equations`, `rows` | a system as the engine needs it |
-//! | `series`, `stuck` | the Taylor series of a step |
+//! | `series`, `contact_series`, `stuck` | the Taylor series of a step |
 //! | `guards`, `selection` | what ends a step, and what follows |
-//! | `engine` | the loop |
+//! | `engine`, `transitions` | the loop, and what the contacts do at its events |
 //! | `phase`, `state`, `observer`, `stopped` | what goes into a run and comes out of it |
+//! | `contact_meter`, `input_meter`, `row_meter` | integrals over a motion: what contacts do on average, the cost of inputs, a row |
 
+mod contact_meter;
+mod contact_series;
 mod engine;
 mod equations;
 mod guards;
+mod input_meter;
 mod least;
+mod lyapunov;
 mod observer;
 pub mod orbit;
 mod phase;
+mod row_meter;
 mod rows;
 mod selection;
 mod series;
 mod state;
 mod stopped;
 mod stuck;
+mod transitions;
 mod variation;
 
 use quell_model::System;
 
 use engine::MotionRun;
-use equations::Equations;
+use equations::MotionEquations;
 use selection::first_minor_not_positive;
 
+pub use contact_meter::{ContactMeans, ContactMeter};
+pub use input_meter::{InputCost, InputMeter, NoPower};
+pub use lyapunov::{LyapunovExponent, LyapunovExponents};
 pub use observer::{
     MotionEvent, MotionMoment, MotionObserver, MotionRecorder, MotionSampler, MotionSegment,
     RecordedEvent, Trigger,
 };
 pub use phase::ContactPhase;
+pub use row_meter::RowMeter;
 pub use state::{ContactEnd, MotionEnd, MotionStart};
 pub use stopped::{Immobile, MotionStopped, StopReason};
 pub use variation::{LeastDistance, MotionVariation};
@@ -54,7 +65,7 @@ pub const MOTION_TOLERANCE: f64 = 1e-13;
 #[derive(Clone, Debug)]
 pub struct Motion<'s> {
     system: &'s System,
-    equations: Equations,
+    equations: MotionEquations,
 }
 
 impl<'s> Motion<'s> {
@@ -63,7 +74,7 @@ impl<'s> Motion<'s> {
     /// # Errors
     /// [`Immobile`] with the contact and the reason.
     pub fn new(system: &'s System) -> Result<Self, Immobile> {
-        let equations = Equations::new(system)?;
+        let equations = MotionEquations::new(system)?;
         let name = |contact: usize| system.contacts[contact].name.clone();
         let mut able = Vec::new();
         for (index, contact) in equations.contacts.iter().enumerate() {

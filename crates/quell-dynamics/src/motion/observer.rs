@@ -3,8 +3,10 @@
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::lane::horner;
 
+use super::contact_series::ContactSeries;
 use super::phase::{ContactNow, ContactPhase};
-use super::series::{ContactSeries, horner_states};
+use super::series::horner_states;
+use super::state::MotionEnd;
 use crate::simulation::{Clock, EventKind, ORDER};
 
 /// One smooth piece of a motion: a Taylor step during which no contact changes.
@@ -262,6 +264,8 @@ pub struct MotionSampler {
     pub states: Vec<f64>,
     /// What the contacts do, one after the other.
     pub phases: Vec<ContactPhase>,
+    /// Slip velocities of the contacts, one after the other; 0 in stick.
+    pub slip_velocities: Vec<f64>,
     /// Friction forces of the contacts, one after the other.
     pub friction: Vec<f64>,
     /// Normal loads of the contacts, one after the other; 0 where open.
@@ -278,8 +282,23 @@ impl MotionSampler {
             times: Vec::with_capacity(count),
             states: Vec::new(),
             phases: Vec::new(),
+            slip_velocities: Vec::new(),
             friction: Vec::new(),
             normal_loads: Vec::new(),
+        }
+    }
+}
+
+impl MotionSampler {
+    /// Adds a sample at the end of a run, beyond those of the grid: its last point may round to just after the end.
+    pub fn push_end(&mut self, end: &MotionEnd) {
+        self.times.push(end.time);
+        self.states.extend(&end.state);
+        for contact in &end.contacts {
+            self.phases.push(contact.phase);
+            self.slip_velocities.push(contact.slip_velocity);
+            self.friction.push(contact.friction);
+            self.normal_loads.push(contact.normal_load);
         }
     }
 }
@@ -299,6 +318,8 @@ impl MotionObserver for MotionSampler {
             segment.state(since, &mut self.states[from..]);
             for (contact, now) in segment.now.iter().enumerate() {
                 self.phases.push(now.phase);
+                let slip_velocity = MotionSegment::value(segment.slip_velocity(contact), since);
+                self.slip_velocities.push(slip_velocity);
                 self.friction.push(MotionSegment::value(segment.friction(contact), since));
                 let load = MotionSegment::value(segment.normal_load(contact), since);
                 self.normal_loads.push(if now.is_open() { 0.0 } else { load });

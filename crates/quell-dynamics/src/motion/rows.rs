@@ -1,67 +1,81 @@
-//! Sparse rows and columns over the state: modal structures have few entries in a row, and a step of theirs costs O(n) per order.
+//! Rows and columns over the state, and the state matrix, each in the form that costs least: a step of a modal structure costs O(n)
+//! per order, a step of a small one a few vector instructions.
 
 use quell_numerics::matrix::Matrix;
 
-/// Entries of a row or of a column, with their places in the state.
+/// RowEntries of a row or of a column over the state.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Entries(Vec<(usize, f64)>);
+pub(super) struct RowEntries {
+    /// Place of the first value.
+    start: usize,
+    /// Values without gaps.
+    values: Vec<f64>,
+    /// RowEntries with gaps, instead of values.
+    scattered: Vec<(usize, f64)>,
+}
 
-impl Entries {
+/// Share of zeros in a range above which its entries are kept apart.
+const SCATTERED: usize = 4;
+
+impl RowEntries {
     /// The entries of `values` that are not zero, moved by `offset` places.
     pub(super) fn at(values: &[f64], offset: usize) -> Self {
-        let places = values.iter().enumerate().filter(|(_, value)| **value != 0.0);
-        Self(places.map(|(place, value)| (place + offset, *value)).collect())
-    }
-
-    /// The entries times a factor.
-    pub(super) fn times(mut self, factor: f64) -> Self {
-        self.0.iter_mut().for_each(|(_, value)| *value *= factor);
-        self
-    }
-
-    /// The sum of two rows.
-    pub(super) fn plus(mut self, other: Self) -> Self {
-        for (place, value) in other.0 {
-            match self.0.iter_mut().find(|(at, _)| *at == place) {
-                Some((_, own)) => *own += value,
-                None => self.0.push((place, value)),
-            }
+        let nonzero = |value: &f64| *value != 0.0;
+        let (Some(first), Some(last)) =
+            (values.iter().position(nonzero), values.iter().rposition(nonzero))
+        else {
+            return Self::default();
+        };
+        let count = values.iter().filter(|value| nonzero(value)).count();
+        if last + 1 - first > SCATTERED * count {
+            let places = values.iter().enumerate().filter(|(_, value)| nonzero(value));
+            let scattered = places.map(|(place, value)| (place + offset, *value)).collect();
+            return Self { start: 0, values: Vec::new(), scattered };
         }
-        self
+        let start = first + offset;
+        Self { start, values: values[first..=last].to_vec(), scattered: Vec::new() }
     }
 
     /// The row times a state.
     #[inline(always)]
     pub(super) fn dot(&self, state: &[f64]) -> f64 {
+        if self.scattered.is_empty() {
+            return dot(&self.values, &state[self.start..self.start + self.values.len()]);
+        }
         let mut sum = 0.0;
-        for &(place, value) in &self.0 {
+        for &(place, value) in &self.scattered {
             sum = f64::mul_add(value, state[place], sum);
         }
         sum
     }
 
-    /// Σ |rᵢxᵢ|, which bounds the rounding of [`Entries::dot`].
+    /// Σ |rᵢxᵢ|, which bounds the rounding of [`RowEntries::dot`].
     pub(super) fn size_at(&self, state: &[f64]) -> f64 {
-        self.0.iter().map(|(place, value)| (value * state[*place]).abs()).sum()
+        self.pairs().map(|(place, value)| (value * state[place]).abs()).sum()
     }
 
     /// Adds `factor` times the column to a state.
     #[inline(always)]
     pub(super) fn add_to(&self, factor: f64, state: &mut [f64]) {
-        for &(place, value) in &self.0 {
+        let range = &mut state[self.start..self.start + self.values.len()];
+        for (entry, value) in range.iter_mut().zip(&self.values) {
+            *entry = f64::mul_add(*value, factor, *entry);
+        }
+        for &(place, value) in &self.scattered {
             state[place] = f64::mul_add(value, factor, state[place]);
         }
     }
 
     /// The product of a row and a column.
     pub(super) fn product(&self, column: &Self) -> f64 {
-        let other = |place| column.0.iter().find(|(at, _)| *at == place).map_or(0.0, |(_, v)| *v);
-        self.0.iter().map(|(place, value)| value * other(*place)).sum()
+        let other = |place| column.pairs().find(|(at, _)| *at == place).map_or(0.0, |(_, v)| v);
+        self.pairs().map(|(place, value)| value * other(place)).sum()
     }
 
     /// Whether there is no entry.
+    #[inline(always)]
     pub(super) fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.values.is_empty() && self.scattered.is_empty()
     }
 
     /// All numbers, `size` of them.
@@ -70,36 +84,170 @@ impl Entries {
         self.add_to(1.0, &mut values);
         values
     }
+
+    fn pairs(&self) -> impl Iterator<Item = (usize, f64)> {
+        let values = self.values.iter().enumerate();
+        let values = values.map(|(place, value)| (self.start + place, *value));
+        values.chain(self.scattered.iter().copied())
+    }
 }
 
-/// A matrix by its rows, without zeros.
+/// Σ aᵢbᵢ in eight partial sums.
+#[inline(always)]
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    if let ([a], [b]) = (a, b) {
+        return a * b;
+    }
+    let mut sums = [0.0; 8];
+    let (heads, tail) = a.as_chunks::<8>();
+    let (others, rest) = b.as_chunks::<8>();
+    for (a, b) in heads.iter().zip(others) {
+        for lane in 0..8 {
+            sums[lane] = f64::mul_add(a[lane], b[lane], sums[lane]);
+        }
+    }
+    for (lane, (a, b)) in tail.iter().zip(rest).enumerate() {
+        sums[lane % 8] = f64::mul_add(*a, *b, sums[lane % 8]);
+    }
+    ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7]))
+}
+
+/// The state matrix without the contacts.
 #[derive(Clone, Debug)]
-pub(super) struct SparseMatrix {
-    /// Where each row begins in `entries`, and the end of the last.
-    starts: Vec<usize>,
-    entries: Vec<(usize, f64)>,
+pub(super) enum StateMatrix {
+    /// q̇ᵢ = vᵢ, v̇ᵢ = −kᵢqᵢ − cᵢvᵢ: the diagonals k and c.
+    Modal(Vec<f64>, Vec<f64>),
+    /// Few states: the columns, one after the other.
+    Small(Vec<f64>),
+    /// Where each row begins in the entries, and the end of the last.
+    Sparse(Vec<usize>, Vec<(usize, f64)>),
 }
 
-impl SparseMatrix {
+/// Largest number of states of [`StateMatrix::Small`].
+const SMALL: usize = 8;
+
+impl StateMatrix {
     pub(super) fn of(matrix: &Matrix) -> Self {
+        let size = matrix.rows();
+        if size <= SMALL {
+            let entries = (0..size * size).map(|at| matrix[(at % size, at / size)]);
+            return Self::Small(entries.collect());
+        }
+        if let Some((stiffness, damping)) = modal(matrix) {
+            return Self::Modal(stiffness, damping);
+        }
         let (mut starts, mut entries) = (vec![0], Vec::new());
-        for i in 0..matrix.rows() {
+        for i in 0..size {
             let row = matrix.row(i).iter().enumerate();
             entries.extend(row.filter(|(_, value)| **value != 0.0).map(|(j, value)| (j, *value)));
             starts.push(entries.len());
         }
-        Self { starts, entries }
+        Self::Sparse(starts, entries)
     }
 
     /// Writes the matrix times a state to `out`.
     #[inline(always)]
     pub(super) fn times(&self, state: &[f64], out: &mut [f64]) {
-        for (i, result) in out.iter_mut().enumerate() {
-            let mut sum = 0.0;
-            for &(place, value) in &self.entries[self.starts[i]..self.starts[i + 1]] {
-                sum = f64::mul_add(value, state[place], sum);
+        match self {
+            Self::Modal(stiffness, damping) => {
+                let (displacements, velocities) = state.split_at(stiffness.len());
+                let (upper, lower) = out.split_at_mut(stiffness.len());
+                upper.copy_from_slice(velocities);
+                let moving = displacements.iter().zip(velocities);
+                let numbers = stiffness.iter().zip(damping);
+                for ((out, (q, v)), (k, c)) in lower.iter_mut().zip(moving).zip(numbers) {
+                    *out = f64::mul_add(-k, *q, -(c * v));
+                }
             }
-            *result = sum;
+            Self::Small(columns) => match state.len() {
+                1 => small::<1>(columns, state, out),
+                2 => small::<2>(columns, state, out),
+                3 => small::<3>(columns, state, out),
+                4 => small::<4>(columns, state, out),
+                5 => small::<5>(columns, state, out),
+                6 => small::<6>(columns, state, out),
+                7 => small::<7>(columns, state, out),
+                _ => small::<8>(columns, state, out),
+            },
+            Self::Sparse(starts, entries) => {
+                for (i, result) in out.iter_mut().enumerate() {
+                    let mut sum = 0.0;
+                    for &(place, value) in &entries[starts[i]..starts[i + 1]] {
+                        sum = f64::mul_add(value, state[place], sum);
+                    }
+                    *result = sum;
+                }
+            }
+        }
+    }
+}
+
+/// Σ columns times entries, in registers.
+#[inline(always)]
+fn small<const N: usize>(columns: &[f64], state: &[f64], out: &mut [f64]) {
+    let mut sums = [0.0; N];
+    for (column, entry) in columns.as_chunks::<N>().0.iter().zip(state) {
+        for i in 0..N {
+            sums[i] = f64::mul_add(column[i], *entry, sums[i]);
+        }
+    }
+    out[..N].copy_from_slice(&sums);
+}
+
+/// The diagonals of a mechanical structure of modes, if the matrix is that of one.
+fn modal(matrix: &Matrix) -> Option<(Vec<f64>, Vec<f64>)> {
+    let size = matrix.rows();
+    let half = size / 2;
+    if !size.is_multiple_of(2) {
+        return None;
+    }
+    let is_modal = (0..size).all(|i| {
+        matrix.row(i).iter().enumerate().all(|(j, value)| match (i < half, j) {
+            (true, j) => *value == f64::from(u8::from(j == i + half)),
+            (false, j) => *value == 0.0 || j == i || j + half == i,
+        })
+    });
+    let diagonal = |shift: usize| (0..half).map(|i| -matrix[(half + i, shift + i)]).collect();
+    is_modal.then(|| (diagonal(0), diagonal(half)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_form_of_the_matrix_gives_its_product() {
+        for size in [1, 2, 3, 5, 8, 9, 12] {
+            let modal = size == 12;
+            let matrix = Matrix::from_fn(size, size, |i, j| match (modal, i < size / 2) {
+                (false, _) => (i as f64 - 0.7).mul_add(1.3, j as f64),
+                (true, true) => f64::from(u8::from(j == i + size / 2)),
+                (true, false) if j == i || j + size / 2 == i => -1.0 - (i + j) as f64,
+                (true, false) => 0.0,
+            });
+            let state: Vec<f64> = (0..size).map(|i| 0.3 * i as f64 - 1.0).collect();
+            let mut out = vec![0.0; size];
+            let form = StateMatrix::of(&matrix);
+            form.times(&state, &mut out);
+            assert_eq!(modal, matches!(form, StateMatrix::Modal(..)));
+            for (i, value) in out.iter().enumerate() {
+                let exact: f64 = matrix.row(i).iter().zip(&state).map(|(a, x)| a * x).sum();
+                assert!((value - exact).abs() < 1e-12, "{size}: {value} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn rows_with_and_without_gaps_are_the_same_rows() {
+        let mut wide = vec![0.0; 40];
+        (wide[3], wide[38]) = (2.0, -1.5);
+        let state: Vec<f64> = (0..44).map(|i| f64::from(i) - 7.0).collect();
+        for values in [&wide[..], &wide[2..5], &[1.0, 0.0, 3.0], &[0.0; 5], &wide[30..]] {
+            let row = RowEntries::at(values, 4);
+            let exact: f64 = values.iter().zip(&state[4..]).map(|(a, x)| a * x).sum();
+            assert_eq!(row.dot(&state), exact);
+            assert_eq!(row.dense(44)[4..4 + values.len()], *values);
+            assert_eq!(row.product(&row), values.iter().map(|value| value * value).sum::<f64>());
         }
     }
 }

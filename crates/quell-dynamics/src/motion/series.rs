@@ -8,45 +8,11 @@ use quell_model::friction::{BranchSeries, FrictionConstants, FrictionSeries};
 use quell_numerics::dispatch::Work;
 use quell_numerics::polynomial::step_length;
 
-use super::equations::{ContactEquation, Equations, Forcings};
+use super::contact_series::ContactSeries;
+use super::equations::{ContactEquation, Forcings, MotionEquations};
 use super::phase::{ContactNow, ContactPhase};
 use super::stuck::StuckForces;
 use crate::simulation::{Clock, ORDER, RECIPROCALS, Series};
-
-/// Series of one contact on a step.
-#[derive(Clone, Debug)]
-pub(super) struct ContactSeries {
-    /// γ.
-    pub(super) slip: Series,
-    /// N; where the contact is open the load that it would have, which is negative.
-    pub(super) load: Series,
-    /// N times its factor: what the coefficient of friction multiplies.
-    pub(super) pressed: Series,
-    /// T.
-    pub(super) friction: Series,
-    /// sᵀx.
-    pub(super) tilt: Series,
-    scaled: Series,
-    coefficient: Series,
-    surface: Series,
-    guided: Series,
-    factor: Series,
-}
-
-impl ContactSeries {
-    const ZERO: Self = Self {
-        slip: [0.0; ORDER + 1],
-        load: [0.0; ORDER + 1],
-        pressed: [0.0; ORDER + 1],
-        friction: [0.0; ORDER + 1],
-        tilt: [0.0; ORDER + 1],
-        scaled: [0.0; ORDER + 1],
-        coefficient: [0.0; ORDER + 1],
-        surface: [0.0; ORDER + 1],
-        guided: [0.0; ORDER + 1],
-        factor: [0.0; ORDER + 1],
-    };
-}
 
 /// Series of a step; the memory is kept from step to step.
 #[derive(Clone, Debug)]
@@ -75,14 +41,20 @@ pub(super) struct StepLimit {
 }
 
 impl StepSeries {
-    pub(super) fn new(equations: &Equations) -> Self {
+    pub(super) fn new(equations: &MotionEquations, forcings: &Forcings, clock: Clock) -> Self {
         let size = equations.size;
+        let contacts = forcings.contacts.iter().map(|forcing| ContactSeries {
+            surface: forcing.surface.series(clock),
+            given: forcing.load.series(clock),
+            guided: forcing.guided.series(clock),
+            ..ContactSeries::ZERO
+        });
         Self {
             size,
             states: vec![0.0; (ORDER + 2) * size],
             rates: vec![0.0; size],
             pushes: vec![[0.0; ORDER + 1]; equations.pushes.len()],
-            contacts: vec![ContactSeries::ZERO; equations.contacts.len()],
+            contacts: contacts.collect(),
             scales: vec![0.0; size],
         }
     }
@@ -117,8 +89,8 @@ pub(super) fn horner_states(states: &[f64], since: f64, out: &mut [f64]) {
 }
 
 /// Computes the series of a step and its length.
-pub(super) struct Expansion<'a> {
-    pub(super) equations: &'a Equations,
+pub(super) struct StepExpansion<'a> {
+    pub(super) equations: &'a MotionEquations,
     pub(super) forcings: &'a Forcings,
     pub(super) laws: &'a mut [FrictionConstants],
     pub(super) now: &'a [ContactNow],
@@ -128,7 +100,7 @@ pub(super) struct Expansion<'a> {
     pub(super) out: &'a mut StepSeries,
 }
 
-impl Work for Expansion<'_> {
+impl Work for StepExpansion<'_> {
     type Output = f64;
 
     #[inline(always)]
@@ -152,16 +124,20 @@ impl Work for Expansion<'_> {
 /// One recurrence for each slipping contact.
 type Branches<'c> = Vec<Option<FrictionSeries<'c, { ORDER + 1 }>>>;
 
-impl<'a> Expansion<'a> {
-    /// Series of what varies in time.
+impl<'a> StepExpansion<'a> {
+    /// Series of what varies in time; constant ones were written when the run began.
     #[inline(always)]
     fn forcings(&mut self) {
         for (series, forcing) in self.out.pushes.iter_mut().zip(&self.forcings.pushes) {
             *series = forcing.series(self.clock);
         }
         for (contact, forcing) in self.out.contacts.iter_mut().zip(&self.forcings.contacts) {
-            contact.surface = forcing.surface.series(self.clock);
-            contact.load = forcing.load.series(self.clock);
+            if !forcing.surface.is_constant() {
+                contact.surface = forcing.surface.series(self.clock);
+            }
+            if !forcing.load.is_constant() {
+                contact.given = forcing.load.series(self.clock);
+            }
             if !forcing.guided.is_constant() {
                 contact.guided = forcing.guided.series(self.clock);
             }
@@ -315,9 +291,11 @@ fn read(
 ) {
     let is_zero = now.sticks() || k < now.slip_zeros;
     series.slip[k] = if is_zero { 0.0 } else { series.surface[k] - contact.tangent.dot(state) };
-    if contact.is_compliant() {
-        series.load[k] += contact.approach.dot(state);
-    }
+    series.load[k] = if contact.is_compliant() {
+        series.given[k] + contact.approach.dot(state)
+    } else {
+        series.given[k]
+    };
     if !contact.across.is_empty() {
         let rest = if k == 0 { contact.normal_load } else { 0.0 };
         let carried = if guided { rest + series.guided[k] } else { rest };
@@ -350,12 +328,4 @@ fn convolution(a: &Series, b: &Series, k: usize, from: usize) -> f64 {
         sum = f64::mul_add(a[i], b[k - i], sum);
     }
     sum
-}
-
-impl ContactSeries {
-    /// Coefficient k of the velocity of the surface.
-    #[inline(always)]
-    pub(super) fn surface_at(&self, k: usize) -> f64 {
-        self.surface[k]
-    }
 }

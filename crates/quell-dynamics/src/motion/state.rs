@@ -39,6 +39,9 @@ pub struct MotionEnd {
     pub steps: u64,
     /// Releases at which the threshold was barely crossed: forward uniqueness is not guaranteed there, and our rule decided.
     pub near_tangential_releases: u64,
+    /// Contacts whose forces in stick were not unique, because their rows depend on each other: the least-norm forces were
+    /// taken. The motion is unique.
+    pub dependent: Vec<usize>,
 }
 
 impl MotionEnd {

@@ -7,10 +7,9 @@
 
 use quell_numerics::matrix::Matrix;
 
-use super::equations::Equations;
+use super::contact_series::ContactSeries;
+use super::equations::MotionEquations;
 use super::phase::ContactNow;
-use super::series::ContactSeries;
-use crate::simulation::ORDER;
 
 /// A row is dependent on others if they carry all but this share of it.
 const DEPENDENT: f64 = 1e-11;
@@ -31,7 +30,7 @@ pub(super) struct StuckForces {
 }
 
 /// G over a set of contacts, at their tilts.
-pub(super) fn coupling(equations: &Equations, members: &[usize], tilts: &[f64]) -> Matrix {
+pub(super) fn coupling(equations: &MotionEquations, members: &[usize], tilts: &[f64]) -> Matrix {
     Matrix::from_fn(members.len(), members.len(), |i, j| {
         let (c, d) = (members[i], members[j]);
         equations.follower[(c, d)].mul_add(tilts[d], equations.coupling[(c, d)])
@@ -47,6 +46,16 @@ pub(super) fn independent(matrix: &Matrix, among: &[usize]) -> Vec<usize> {
         }
     }
     chosen
+}
+
+/// The places of a matrix whose rows the others carry.
+pub(super) fn dependent(matrix: &Matrix) -> Vec<usize> {
+    let carried = |place: &usize| {
+        let others: Vec<usize> = (0..matrix.rows()).filter(|other| other != place).collect();
+        let others = independent(matrix, &others);
+        remainder(matrix, *place, &others).is_none_or(|rest| rest <= DEPENDENT)
+    };
+    (0..matrix.rows()).filter(carried).collect()
 }
 
 /// The part of a row that others do not carry, relative to it: its Schur complement.
@@ -65,7 +74,11 @@ pub(super) fn remainder(matrix: &Matrix, row: usize, others: &[usize]) -> Option
 
 impl StuckForces {
     /// For the contacts that stick now; `None` where their forces are not determined.
-    pub(super) fn of(equations: &Equations, now: &[ContactNow], tilts: &[f64]) -> Option<Self> {
+    pub(super) fn of(
+        equations: &MotionEquations,
+        now: &[ContactNow],
+        tilts: &[f64],
+    ) -> Option<Self> {
         let sticking: Vec<usize> = (0..now.len()).filter(|c| now[*c].sticks()).collect();
         if sticking.is_empty() {
             return Some(Self::default());
@@ -101,7 +114,7 @@ impl StuckForces {
     #[inline(always)]
     pub(super) fn hold(
         &self,
-        equations: &Equations,
+        equations: &MotionEquations,
         k: usize,
         contacts: &mut [ContactSeries],
         rates: &mut [f64],
@@ -131,7 +144,7 @@ impl StuckForces {
     /// Corrects a state in which the slip velocities of the sticking contacts have drifted from zero by rounding.
     pub(super) fn project(
         &self,
-        equations: &Equations,
+        equations: &MotionEquations,
         surfaces: impl Fn(usize) -> f64,
         state: &mut [f64],
     ) {
@@ -153,7 +166,7 @@ impl StuckForces {
     /// Adds the change of the forces that keeps the slip accelerations zero to the rates of a change.
     pub(super) fn hold_change(
         &self,
-        equations: &Equations,
+        equations: &MotionEquations,
         tilt: impl Fn(usize) -> f64,
         rates: &mut [f64],
     ) {
@@ -174,7 +187,7 @@ impl StuckForces {
     /// Change of the force of a sticking contact, from the rates of a change without these forces; 0 for other contacts.
     pub(super) fn change_of_force(
         &self,
-        equations: &Equations,
+        equations: &MotionEquations,
         contact: usize,
         rates: &[f64],
     ) -> f64 {
@@ -187,14 +200,5 @@ impl StuckForces {
     /// Whether nothing is held.
     pub(super) fn is_empty(&self) -> bool {
         self.free.is_empty()
-    }
-}
-
-impl ContactSeries {
-    /// γ̇ of order k without the forces that are sought: (k + 1) v_{k+1} − tᵀẋ.
-    #[inline(always)]
-    fn lost_slip(&self, k: usize, along: f64) -> f64 {
-        let surface = if k < ORDER { self.surface_at(k + 1) } else { 0.0 };
-        f64::mul_add((k + 1) as f64, surface, -along)
     }
 }

@@ -9,7 +9,7 @@
 //!
 //! with the rates f of the state on both sides, f⁺ after all decisions of that moment, and ḣ along the motion before. A smooth
 //! release, a separation and a landing have f⁺ = f⁻ and S = I; a stick projects onto γ = 0. A jump of the dither happens at
-//! a fixed time, whatever the state: S = I there.
+//! a fixed time, regardless of the state: S = I there.
 //!
 //! Where two independent guards reach zero together, S depends on the order in which a change separates them: the multipliers
 //! are one-sided, and [`MotionVariation::is_one_sided`] says so.
@@ -21,7 +21,7 @@ use quell_model::friction::{BranchSeries, FrictionConstants};
 use quell_numerics::extrapolation::integrate;
 use quell_numerics::matrix::Matrix;
 
-use super::equations::Equations;
+use super::equations::MotionEquations;
 use super::observer::{
     MotionEvent, MotionMoment, MotionObserver, MotionSegment, RecordedEvent, Trigger,
 };
@@ -35,7 +35,7 @@ const TOLERANCE: f64 = 3e-15;
 
 /// Friction of a contact linearised at one instant: δT = −a tᵀδx + b rᵀδx.
 #[derive(Clone, Copy, Debug, Default)]
-struct Instant {
+struct LinearFriction {
     /// a = μ′ N.
     by_slip: f64,
     /// b = μ.
@@ -62,7 +62,7 @@ pub struct LeastDistance {
 /// Integrates the matrix of changes along a run, and records its events.
 pub struct MotionVariation<'a> {
     system: &'a System,
-    equations: &'a Equations,
+    equations: &'a MotionEquations,
     laws: Vec<FrictionConstants>,
     /// Derivative of the state with respect to the initial one, column by column.
     columns: Vec<f64>,
@@ -80,11 +80,11 @@ pub struct MotionVariation<'a> {
     stuck: StuckForces,
     /// (∇h, ḣ) of an event whose f⁺ is not known yet.
     pending: Option<(Vec<f64>, f64)>,
-    last: Instants,
+    last: LinearFrictions,
     is_first: bool,
 }
 
-type Instants = Vec<Instant>;
+type LinearFrictions = Vec<LinearFriction>;
 
 impl<'a> MotionVariation<'a> {
     /// From the identity.
@@ -109,6 +109,11 @@ impl<'a> MotionVariation<'a> {
         }
     }
 
+    /// The changes, column by column: any number of them.
+    pub(super) fn columns_mut(&mut self) -> &mut Vec<f64> {
+        &mut self.columns
+    }
+
     /// Derivative of the state with respect to the initial one.
     pub fn matrix(&self) -> Matrix {
         let size = self.equations.size;
@@ -116,13 +121,13 @@ impl<'a> MotionVariation<'a> {
     }
 
     /// Friction of every contact linearised at a time after the start of a segment.
-    fn instants(&mut self, segment: &MotionSegment<'_>, since: f64, out: &mut Instants) {
+    fn instants(&mut self, segment: &MotionSegment<'_>, since: f64, out: &mut LinearFrictions) {
         out.clear();
         for index in 0..self.now.len() {
             let contact = &self.equations.contacts[index];
             let friction = MotionSegment::value(segment.friction(index), since);
             let tilt = MotionSegment::value(&segment.contacts[index].tilt, since);
-            let mut instant = Instant { friction, tilt, ..Instant::default() };
+            let mut instant = LinearFriction { friction, tilt, ..LinearFriction::default() };
             // T = μ N times the factor on friction: what multiplies μ is `pressed`.
             let pressed = MotionSegment::value(&segment.contacts[index].pressed, since);
             let load = MotionSegment::value(segment.normal_load(index), since);
@@ -146,7 +151,7 @@ impl<'a> MotionVariation<'a> {
     }
 
     /// Whether J is the same along the whole segment.
-    fn is_steady(&self, first: &Instants, last: &Instants) -> bool {
+    fn is_steady(&self, first: &LinearFrictions, last: &LinearFrictions) -> bool {
         let laws = self.system.contacts.iter();
         let linear = laws.zip(&self.now).all(|(contact, now)| match now.phase {
             ContactPhase::Slip(_) => {
@@ -161,7 +166,7 @@ impl<'a> MotionVariation<'a> {
     }
 
     /// J δx, with the forces of sticking contacts if `holds`.
-    fn rates_of(&self, instants: &Instants, change: &[f64], out: &mut [f64], holds: bool) {
+    fn rates_of(&self, instants: &LinearFrictions, change: &[f64], out: &mut [f64], holds: bool) {
         self.equations.matrix.times(change, out);
         for (index, contact) in self.equations.contacts.iter().enumerate() {
             let (now, instant) = (&self.now[index], &instants[index]);
@@ -217,7 +222,7 @@ impl<'a> MotionVariation<'a> {
     }
 
     /// exp(Jh) δx by its Taylor series: a step of the engine, so that the series converges in few terms.
-    fn exponential(&self, instants: &Instants, duration: f64, column: &mut [f64]) {
+    fn exponential(&self, instants: &LinearFrictions, duration: f64, column: &mut [f64]) {
         let mut term = column.to_vec();
         let mut next = vec![0.0; column.len()];
         for k in 1..400 {

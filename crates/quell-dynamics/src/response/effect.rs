@@ -9,15 +9,13 @@ use std::fmt;
 use quell_model::Belt;
 
 use super::measure::{Compared, Undefined};
+use super::record_lines::RecordLines;
 use crate::attractor::{Reached, StroboscopicSection, reached};
 use crate::orbit::NoOrbit;
 use crate::simulation::Start;
 
 /// A response with less than this fraction of the undithered vibration is quenched.
 pub const QUENCHED: f64 = 0.01;
-
-/// Slow vibration below this fraction of F is negligible: the distance within which a state counts as the base response.
-const NEGLIGIBLE: f64 = 1e-6;
 
 /// The effect of a dither on the vibration below 1.9 ω₀, from one start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,29 +146,54 @@ pub fn effect(belt: &Belt, compared: &Compared, ending: RunEnding) -> Effect {
     {
         return if quiet_without { Effect::Quiet } else { Effect::Quenches };
     }
-    let dithered = &compared.dithered;
-    let ratio = dithered.lines.whole / compared.undithered.lines.whole;
-    let negligible = if quiet_without {
-        dithered.lines.whole < NEGLIGIBLE * belt.normal_load()
-    } else {
-        ratio < QUENCHED
+    let vibrations = Vibrations {
+        dithered: compared.dithered.record(),
+        undithered: compared.undithered.record(),
+        quiet_without,
+        quiet_with: ending.is_quiet(),
     };
-    let nothing = if quiet_without { Effect::Quiet } else { Effect::Quenches };
-    if negligible {
-        // A vibration too small to be visible may still grow, unless the record is steady or the run is known to settle without
-        // one.
-        let decided = dithered.is_steady() || ending.is_quiet();
-        return if decided { nothing } else { Effect::Unknown(Uncertain::StillChanging) };
-    }
-    if !compared.settled() && !dithered.is_steady() {
-        return Effect::Unknown(Uncertain::StillChanging);
-    }
-    let within = dithered.unsteadiness().max(compared.undithered.unsteadiness());
-    match quiet_without {
-        true => Effect::Causes,
-        false if (ratio - 1.0).abs() <= within => Effect::Unknown(Uncertain::Unresolved { within }),
-        false if ratio < 1.0 => Effect::Reduces,
-        false => Effect::Increases,
+    vibrations.effect()
+}
+
+/// The vibrations with and without dither that decide an effect, of any structure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vibrations {
+    /// M with dither.
+    pub dithered: RecordLines,
+    /// M without dither, from the same start.
+    pub undithered: RecordLines,
+    /// Whether the undithered run settles without vibration.
+    pub quiet_without: bool,
+    /// Whether the dithered run is known to settle without slow vibration, or its vibration decays, so that a small one in its
+    /// record does not grow.
+    pub quiet_with: bool,
+}
+
+impl Vibrations {
+    /// The effect that the records show.
+    pub fn effect(&self) -> Effect {
+        let Self { dithered, undithered, quiet_without, quiet_with } = *self;
+        let ratio = dithered.whole() / undithered.whole();
+        let negligible = if quiet_without { dithered.is_negligible() } else { ratio < QUENCHED };
+        let nothing = if quiet_without { Effect::Quiet } else { Effect::Quenches };
+        if negligible {
+            // A vibration too small to be visible may still grow, unless the record is steady or the run is known to settle
+            // without one.
+            let decided = dithered.is_steady() || quiet_with;
+            return if decided { nothing } else { Effect::Unknown(Uncertain::StillChanging) };
+        }
+        if !dithered.is_settled(undithered.whole()) && !dithered.is_steady() {
+            return Effect::Unknown(Uncertain::StillChanging);
+        }
+        let within = dithered.unsteadiness().max(undithered.unsteadiness());
+        match quiet_without {
+            true => Effect::Causes,
+            false if (ratio - 1.0).abs() <= within => {
+                Effect::Unknown(Uncertain::Unresolved { within })
+            }
+            false if ratio < 1.0 => Effect::Reduces,
+            false => Effect::Increases,
+        }
     }
 }
 

@@ -8,6 +8,7 @@ use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::spectrum::low_band::LargestLines;
 
 use super::cost::{self, Meter};
+use super::record_lines::RecordLines;
 use super::solver::Solver;
 use super::spectral_meter::{Sampling, SpectralMeter};
 use crate::orbit::NoOrbit;
@@ -16,20 +17,6 @@ use crate::simulation::{
     Event, FinalState, InstructionSet, LargestSlip, Observer, Segment, SimulationRun, Stalled,
     Start, simulate_many_with,
 };
-
-/// Two halves of a record agree if their M differ by less than this fraction.
-pub const HALVES_AGREE: f64 = 0.01;
-
-/// … or by less than this fraction of the undithered M: E is then known to a thousandth. A
-/// quenched response is a remnant whose halves never agree relatively.
-pub const HALVES_NEGLIGIBLE: f64 = 1e-3;
-
-/// Amplitude, relative to F, that is only the engine's error and rounding: it need not settle.
-const NOTHING: f64 = 1e-9;
-
-/// Relative error of M due to the engine and to rounding, presumed if its halves agree by chance: a thousand times the
-/// tolerance of a step, as [`NOTHING`]. If it were smaller, noise would decide whether a dither increases or reduces.
-const ROUNDING: f64 = NOTHING;
 
 /// Why E is undefined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,26 +91,9 @@ pub struct MeasuredRecord {
 }
 
 impl MeasuredRecord {
-    /// Whether M of the halves agree, relatively or against `reference`.
-    pub(super) fn is_settled(&self, reference: f64) -> bool {
-        let [first, second] = self.lines.halves;
-        let difference = (first - second).abs();
-        difference <= HALVES_AGREE * first.max(second)
-            || difference <= HALVES_NEGLIGIBLE * reference
-            || first.max(second) <= NOTHING * self.load
-    }
-
-    /// The relative difference of M between the halves: the accuracy to which the record determines M.
-    pub(super) fn unsteadiness(&self) -> f64 {
-        let [first, second] = self.lines.halves;
-        let largest = first.max(second);
-        let difference = (first - second).abs();
-        if largest > 0.0 { (difference / largest).max(ROUNDING) } else { 0.0 }
-    }
-
-    /// Whether M of the halves agree relatively: the vibration does not change by more than a hundredth over half a record.
-    pub(super) fn is_steady(&self) -> bool {
-        self.is_settled(0.0)
+    /// M, with F as the length that scales it.
+    pub(super) fn record(&self) -> RecordLines {
+        RecordLines { lines: self.lines, scale: self.load }
     }
 }
 
@@ -150,12 +120,12 @@ impl Compared {
 
     /// Whether M of the halves of the dithered record agree.
     pub fn settled(&self) -> bool {
-        self.dithered.is_settled(self.undithered.lines.whole)
+        self.dithered.record().is_settled(self.undithered.lines.whole)
     }
 
     /// Whether M of the halves of the undithered record agree.
     pub fn undithered_settled(&self) -> bool {
-        self.undithered.is_settled(self.undithered.lines.whole)
+        self.undithered.record().is_settled(self.undithered.lines.whole)
     }
 }
 

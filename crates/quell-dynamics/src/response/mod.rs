@@ -19,21 +19,26 @@ mod effective;
 mod isocline;
 mod measure;
 mod record;
+mod record_lines;
 mod solver;
 mod spectral_meter;
 mod steady_response;
+mod system_response;
 
 pub use quell_numerics::spectrum::{Peak, Spectrum};
 
 pub use crate::band::BAND_END;
-pub use effect::{Effect, QUENCHED, RunEnding, Uncertain, effect};
+pub use effect::{Effect, QUENCHED, RunEnding, Uncertain, Vibrations, effect};
 pub use effective::{WindowMean, measured_effective_friction};
 pub use isocline::amplitude_at_efficiency;
 pub use measure::{
-    Compared, HALVES_AGREE, HALVES_NEGLIGIBLE, MeasuredRecord, Observables, ResponseCase,
-    Undefined, compare_many, measure_many,
+    Compared, MeasuredRecord, Observables, ResponseCase, Undefined, compare_many, measure_many,
 };
 pub use record::SettledRecord;
+pub use record_lines::{HALVES_AGREE, HALVES_NEGLIGIBLE, RecordLines};
 pub use solver::Solver;
 pub use spectral_meter::samples_per_slow_period;
 pub use steady_response::{PEAK_FLOOR, SteadyResponse, respond};
+pub use system_response::{
+    ResponsePlan, ResponseRefused, SystemRecord, SystemResponse, respond_system,
+};

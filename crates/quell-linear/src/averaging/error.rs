@@ -1,5 +1,6 @@
 //! Why an average has no value.
 
+use quell_model::digits::digits;
 use quell_numerics::quadrature::{Integral, QuadratureError};
 
 /// Why an average is not a number.
@@ -37,7 +38,8 @@ impl core::fmt::Display for AveragingError {
         match self {
             Self::SetValued { static_coefficient } => write!(
                 f,
-                "without slip and fast motion, the friction coefficient can take any value up to ±{static_coefficient}"
+                "without slip and fast motion, the friction coefficient can take any value up to ±{}",
+                digits(*static_coefficient, 6)
             ),
             Self::TooManyGroups { groups, largest } => write!(
                 f,
@@ -45,7 +47,8 @@ impl core::fmt::Display for AveragingError {
             ),
             Self::NotFast { frequency_ratio } => write!(
                 f,
-                "the oscillator's own response to the dither requires a frequency ratio above 1, not {frequency_ratio}"
+                "the oscillator's own response to the dither requires a frequency ratio above 1, not {}",
+                digits(*frequency_ratio, 6)
             ),
             Self::Quadrature(error) => write!(f, "averaging: {error}"),
         }

@@ -58,6 +58,16 @@ impl DitheredContact {
     pub fn opens(&self) -> bool {
         self.load_amplitude > self.normal_load
     }
+
+    /// The largest slip velocity, slow and fast.
+    pub fn largest_slip(&self, contact: &Contact) -> f64 {
+        contact.surface_velocity.mean().abs() + self.slip_amplitude
+    }
+
+    /// Whether the slip velocity exceeds the range of the friction law of its contact.
+    pub fn leaves_law(&self, contact: &Contact) -> bool {
+        contact.friction.range().is_some_and(|range| self.largest_slip(contact) > range.upper)
+    }
 }
 
 /// The response of the structure to one wave of an input, for unit amplitude.

@@ -79,7 +79,7 @@ pub use mean_friction::effective;
 pub use no_average::{MOST_FREQUENCIES, NoAverage};
 pub use periodic_motion::{LoadTerm, PeriodicMotion, SlipTerm};
 pub use sign_changes::CrossingKind;
-pub(crate) use sign_changes::sign_changes;
+pub(crate) use sign_changes::{SignChange, sign_changes};
 pub use single_wave::effective_by_quadrature;
 pub use sliding::{AveragedSliding, DitheredSystem};
 pub use sliding_critical::CriticalInput;

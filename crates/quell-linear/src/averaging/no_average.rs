@@ -1,5 +1,6 @@
 //! Why dithered sliding of a system has no average.
 
+use quell_model::digits::digits;
 use quell_numerics::eigen::EigenError;
 
 use super::error::AveragingError;
@@ -34,6 +35,7 @@ impl std::fmt::Display for NoAverage {
         match self {
             Self::NoSteadySliding(why) => write!(f, "no steady sliding: {why}"),
             Self::Resonance { frequency } => {
+                let frequency = digits(*frequency, 6);
                 write!(
                     f,
                     "the dither of angular frequency {frequency} excites an undamped resonance"

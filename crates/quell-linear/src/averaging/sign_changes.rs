@@ -31,6 +31,9 @@ pub(crate) struct SignChange {
 /// Relative distance from a corner at which its two sides are evaluated.
 const BESIDE: f64 = 8.0 * f64::EPSILON;
 
+/// Relative distances from a change of sign at which a root is distinguished from a jump.
+const NEAR: [f64; 3] = [1e-9, 1e-11, 1e-13];
+
 /// Sign changes of `f` over the ascending `points`, with `corners` among them.
 ///
 /// # Errors
@@ -119,13 +122,19 @@ fn locate<E>(
     let root = try_find_root(&mut *f, a, b, Closeness::default())?;
     let location = root.map_or(a.midpoint(b), |root| root.location);
     let error = root.map_or(b - a, |root| root.width.max(4.0 * f64::EPSILON * location.abs()));
-    // Near a root the difference of the values decreases with the distance; across a jump it does not.
-    let near = 1e-9 * location.abs();
-    let mut value = |x: f64| f(x.clamp(a, b));
-    let wide = value(location + 8.0 * near)? - value(location - 8.0 * near)?;
-    let narrow = value(location + near)? - value(location - near)?;
-    let crossing =
-        if narrow.abs() > 0.5 * wide.abs() { CrossingKind::Jump } else { CrossingKind::Root };
+    // Near a root the difference of the values decreases with the distance, near a branch point only close to the root;
+    // across a jump it never does.
+    let mut crossing = CrossingKind::Jump;
+    for share in NEAR {
+        let near = share * location.abs();
+        let mut value = |x: f64| f(x.clamp(a, b));
+        let wide = value(location + 8.0 * near)? - value(location - 8.0 * near)?;
+        let narrow = value(location + near)? - value(location - near)?;
+        if narrow.abs() <= 0.5 * wide.abs() {
+            crossing = CrossingKind::Root;
+            break;
+        }
+    }
     Ok(SignChange { location, error, crossing, becomes_positive })
 }
 

@@ -27,6 +27,8 @@ pub struct CriticalInput {
     pub becomes: Becomes,
     /// Whether every contact stays closed there.
     pub contacts_stay_closed: bool,
+    /// Whether the slip velocity of every contact is in the range of its friction law there.
+    pub within_laws: bool,
 }
 
 impl DitheredSystem<'_> {
@@ -58,12 +60,15 @@ impl DitheredSystem<'_> {
                 [_, Verdict::Undecided] => continue,
             };
             let there = self.average_with(Some((input, amplitude * (1.0 + BEYOND_A_CHANGE))))?;
+            let mut contacts = self.system().contacts.iter().zip(&there.contacts);
+            let within_laws = contacts.all(|(contact, found)| !found.leaves_law(contact));
             found.push(CriticalInput {
                 amplitude,
                 error: change.error,
                 crossing: change.crossing,
                 becomes,
                 contacts_stay_closed: !there.contacts.iter().any(DitheredContact::opens),
+                within_laws,
             });
         }
         Ok(found)

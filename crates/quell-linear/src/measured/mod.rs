@@ -127,12 +127,15 @@ impl<'a> MeasuredSystem<'a> {
                 self.fast.contacts(self.system, &self.undithered, Some((input, amplitude)))?;
             let corner =
                 corners.iter().find(|at| (**at - amplitude).abs() <= error.max(1e-9 * amplitude));
+            let mut contacts = self.system.contacts.iter().zip(&there);
+            let within_laws = contacts.all(|(contact, found)| !found.leaves_law(contact));
             found.push(CriticalInput {
                 amplitude: corner.copied().unwrap_or(amplitude),
                 error,
                 crossing: if corner.is_some() { CrossingKind::Jump } else { CrossingKind::Root },
                 becomes: if unstable { Becomes::Unstable } else { Becomes::Stable },
                 contacts_stay_closed: !there.iter().any(DitheredContact::opens),
+                within_laws,
             });
         }
         Ok(found)

@@ -1,5 +1,7 @@
 //! Why there is no verdict on a measured structure.
 
+use quell_model::digits::digits;
+
 use crate::averaging::NoAverage;
 use crate::steady::NoSteadySliding;
 
@@ -28,6 +30,7 @@ impl std::fmt::Display for NoMeasuredVerdict {
                 f.write_str("with a measured frequency response every dither must be a sine")
             }
             Self::OutsideBand { frequency } => {
+                let frequency = digits(*frequency, 6);
                 write!(
                     f,
                     "the dither of angular frequency {frequency} is outside the measured band"
@@ -77,8 +80,9 @@ impl std::fmt::Display for NoTurns {
         match self {
             Self::TooCoarse { frequency } => write!(
                 f,
-                "the measured frequencies are too far apart near the angular frequency {frequency:.6}: the determinant turns too far \
-                 between two of them, or sliding is marginal there"
+                "the measured frequencies are too far apart near the angular frequency {}: the determinant turns too far \
+                 between two of them, or sliding is marginal there",
+                digits(*frequency, 6)
             ),
             Self::BandTooShort { half_turns } => write!(
                 f,

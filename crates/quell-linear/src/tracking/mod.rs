@@ -2,14 +2,17 @@
 //!
 //! The eigenvalues at neighbouring values of the parameter are matched with a prediction from the last step. Where a match is not
 //! certain, the step is halved: near a close approach of two eigenvalues the steps are as short as the approach requires, down
-//! to a coalescence, where the two cannot be distinguished. Thresholds are located by root finding on the largest growth rate, not
+//! to a coalescence, where the two cannot be distinguished. Where two eigenvalues pass each other between two points, further
+//! points are inserted at the width of the range in which their coupling acts ([`approach`]). Thresholds are located by root finding on the largest growth rate, not
 //! on the grid.
 
+mod approach;
 mod coalescence;
 mod family;
 mod matching;
 mod thresholds;
 
+use approach::Search;
 use family::at;
 pub use family::{Family, TrackedPoint};
 pub use thresholds::{StabilityChange, ThresholdOfStability};
@@ -20,6 +23,9 @@ const SHORTEST: f64 = 1e-12;
 /// Most values of the parameter at which eigenvalues are computed, for each requested point: every close approach halves a
 /// step some forty times.
 const MOST_VALUES_PER_POINT: usize = 64;
+
+/// Passes over a piece in search of close approaches: the points of one pass can reveal further ones.
+const MOST_PASSES: usize = 3;
 
 /// A range of the parameter without an answer.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +47,8 @@ pub struct Tracked<E> {
     pub unknown: Vec<UnknownRange<E>>,
     /// Values at which the verdict changes or two eigenvalues coalesce, ascending.
     pub thresholds: Vec<ThresholdOfStability>,
+    /// Close approaches of two eigenvalues that were not examined, because there were too many: thresholds may be missing there.
+    pub unexamined: usize,
 }
 
 /// Follows the eigenvalues of a family over a window, on at least `points` values.
@@ -86,10 +94,22 @@ pub fn track<F: Family>(
     let most = count * MOST_VALUES_PER_POINT;
     let shortest = SHORTEST * (to - from).abs();
     let mut thresholds = Vec::new();
+    let mut unexamined = 0;
     for piece in &mut pieces {
+        let mut search = Search::new(family, shortest, most);
         *piece = matching::followed(family, std::mem::take(piece), shortest, most);
+        for _ in 0..MOST_PASSES {
+            let further = search.points(piece);
+            if further.is_empty() {
+                break;
+            }
+            piece.extend(further);
+            piece.sort_by(|a, b| a.value.total_cmp(&b.value));
+            *piece = matching::followed(family, std::mem::take(piece), shortest, most);
+        }
+        unexamined += search.unexamined;
         thresholds.extend(thresholds::of_piece(family, piece)?);
     }
     thresholds.sort_by(|a, b| a.value.total_cmp(&b.value));
-    Ok(Tracked { pieces, unknown, thresholds })
+    Ok(Tracked { pieces, unknown, thresholds, unexamined })
 }

@@ -4,7 +4,7 @@ use num_complex::Complex64;
 
 use super::coalescence::{self, Coalescence};
 use super::family::{Family, TrackedPoint, at};
-use crate::averaging::{CrossingKind, sign_changes};
+use crate::averaging::{CrossingKind, SignChange, sign_changes};
 use crate::growth::{Verdict, verdicts_around};
 
 /// Distance over the window within which a change of the verdict that is undecided on one side is that of a coalescence: growth
@@ -77,10 +77,12 @@ pub(super) fn of_piece<F: Family>(
     // next to it decide whether it is one.
     let rate = |value| Ok(at(family, value).as_ref().map_or(0.0, decided));
     let changes = sign_changes(rate, &values, &[])?;
+    let locations: Vec<f64> = changes.iter().map(|change| change.location).collect();
+    let sides = Sides { family, values: &values, locations: &locations };
     let mut merged = coalescence::of_piece(family, piece);
     let mut found = Vec::new();
     for change in changes {
-        let verdicts = beside(family, change.location, &values)?;
+        let verdicts = sides.of(change.location)?;
         if verdicts[0] == verdicts[1] {
             continue;
         }
@@ -95,42 +97,57 @@ pub(super) fn of_piece<F: Family>(
             found.push(ThresholdOfStability { value, error, change, eigenvalue, verdicts });
             continue;
         }
-        let (eigenvalue, size) = match at(family, change.location) {
-            Ok(point) => {
-                let size = |m: f64, z: &Complex64| m.max(z.re.abs() + z.im.abs());
-                let eigenvalue = Complex64::new(point.growth.rate, point.growth.frequency);
-                (eigenvalue, point.eigenvalues.iter().fold(0.0, size))
-            }
-            Err(_) => (Complex64::new(0.0, 0.0), 0.0),
-        };
-        let kind = match change.crossing {
-            CrossingKind::Jump => StabilityChange::Jump,
-            CrossingKind::Root if eigenvalue.im <= NO_FREQUENCY * size => {
-                StabilityChange::Divergence
-            }
-            CrossingKind::Root => StabilityChange::Hopf,
-        };
-        found.push(ThresholdOfStability {
-            value: change.location,
-            error: change.error,
-            change: kind,
-            eigenvalue,
-            verdicts,
-        });
+        found.push(described(family, change, verdicts));
     }
     for Coalescence { value, error, eigenvalue } in merged {
-        let verdicts = beside(family, value, &values)?;
+        let verdicts = sides.of(value)?;
         let change = StabilityChange::Coalescence;
         found.push(ThresholdOfStability { value, error, change, eigenvalue, verdicts });
     }
     Ok(found)
 }
 
-/// The verdicts below and beyond a value, as close to it as they are decided.
-fn beside<F: Family>(family: &F, value: f64, values: &[f64]) -> Result<[Verdict; 2], F::Error> {
-    let (first, last) = (values[0], values[values.len() - 1]);
-    verdicts_around(|distance| {
-        let there = (value + distance * (last - first)).clamp(first, last);
-        Ok(at(family, there)?.growth.verdict())
-    })
+/// A change of the verdict with its kind and eigenvalue.
+fn described<F: Family>(
+    family: &F,
+    change: SignChange,
+    verdicts: [Verdict; 2],
+) -> ThresholdOfStability {
+    let SignChange { location: value, error, crossing, .. } = change;
+    let (eigenvalue, size) = match at(family, value) {
+        Ok(point) => {
+            let size = |m: f64, z: &Complex64| m.max(z.re.abs() + z.im.abs());
+            let eigenvalue = Complex64::new(point.growth.rate, point.growth.frequency);
+            (eigenvalue, point.eigenvalues.iter().fold(0.0, size))
+        }
+        Err(_) => (Complex64::new(0.0, 0.0), 0.0),
+    };
+    let change = match crossing {
+        CrossingKind::Jump => StabilityChange::Jump,
+        CrossingKind::Root if eigenvalue.im <= NO_FREQUENCY * size => StabilityChange::Divergence,
+        CrossingKind::Root => StabilityChange::Hopf,
+    };
+    ThresholdOfStability { value, error, change, eigenvalue, verdicts }
+}
+
+/// The verdicts on the sides of values of a piece.
+struct Sides<'a, F> {
+    family: &'a F,
+    values: &'a [f64],
+    /// Where the verdict changes.
+    locations: &'a [f64],
+}
+
+impl<F: Family> Sides<'_, F> {
+    /// The verdicts below and beyond a value, as close to it as they are decided, and before any other change.
+    fn of(&self, value: f64) -> Result<[Verdict; 2], F::Error> {
+        let (first, last) = (self.values[0], self.values[self.values.len() - 1]);
+        let others = self.locations.iter().map(|other| (other - value).abs());
+        let gap = others.filter(|gap| *gap > 0.0).fold(f64::INFINITY, f64::min);
+        verdicts_around(|distance| {
+            let aside = (distance * (last - first)).clamp(-0.5 * gap, 0.5 * gap);
+            let there = (value + aside).clamp(first, last);
+            Ok(at(self.family, there)?.growth.verdict())
+        })
+    }
 }

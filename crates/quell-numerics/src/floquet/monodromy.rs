@@ -6,7 +6,7 @@
 
 use super::flow::ConstantFlow;
 use super::kick::kick;
-use super::steps::{Motion, Phase, Steps};
+use super::steps::{Phase, StepMotion, Steps};
 use crate::dispatch::{Work, with_fused_multiply_add};
 use crate::matrix::Matrix;
 
@@ -35,7 +35,7 @@ pub(super) fn monodromy(
         }
     }
     match &steps.motion {
-        Motion::Modal { chunk, rows, u, v, flow: end } => with_fused_multiply_add(Panels {
+        StepMotion::Modal { chunk, rows, u, v, flow: end } => with_fused_multiply_add(Panels {
             size: flow.size,
             rank: r,
             rows: *rows,
@@ -45,7 +45,7 @@ pub(super) fn monodromy(
             end,
             kicks: &kicks,
         }),
-        Motion::Dense { half, whole } => dense(flow, half, whole, &kicks),
+        StepMotion::Dense { half, whole } => dense(flow, half, whole, &kicks),
     }
 }
 

@@ -37,12 +37,12 @@ const CHUNK_GROWTH: f64 = 2.0;
 pub(super) struct Steps {
     pub(super) step: f64,
     pub(super) phases: Vec<Phase>,
-    pub(super) motion: Motion,
+    pub(super) motion: StepMotion,
 }
 
 /// The constant flow between kicks.
 #[derive(Clone, Debug)]
-pub(super) enum Motion {
+pub(super) enum StepMotion {
     /// Tables of one chunk and its flow.
     Modal {
         /// Number of kicks in a chunk.
@@ -104,14 +104,14 @@ impl Steps {
             Coordinates::Dense(a) => {
                 let half = exponential_of_matrix(a, 0.5 * step);
                 let whole = half.times(&half);
-                Motion::Dense { half, whole }
+                StepMotion::Dense { half, whole }
             }
         };
         Self { step, phases, motion }
     }
 }
 
-fn modal(flow: &ConstantFlow, values: &[Complex64], step: f64, count: usize) -> Motion {
+fn modal(flow: &ConstantFlow, values: &[Complex64], step: f64, count: usize) -> StepMotion {
     let mut chunk = count;
     while chunk > 1 && flow.strongest * step * chunk as f64 > CHUNK_GROWTH {
         chunk /= 2;
@@ -151,7 +151,7 @@ fn modal(flow: &ConstantFlow, values: &[Complex64], step: f64, count: usize) -> 
             (end.re, end.im, value.im != 0.0)
         })
         .collect();
-    Motion::Modal { chunk, rows, u, v, flow }
+    StepMotion::Modal { chunk, rows, u, v, flow }
 }
 
 /// e^{At} by the Taylor series of e^{At/2^s}, ‖At‖/2^s ≤ ½, squared s times.

@@ -72,6 +72,16 @@ class Arguments:
         ]
         return (texts[0], texts[1])
 
+    def named(self, name: str, given: object) -> list[tuple[str, str]]:
+        """Names with their values: numbers, or texts with units."""
+        if given is None:
+            return []
+        allowed = 'a dict of names and numbers, such as {"x": 0.1}'
+        if not isinstance(given, Mapping):
+            self.wrong.append(complaint(name, given, allowed))
+            return []
+        return [(self.text(name, key, allowed), self.quantity(name, value)) for key, value in given.items()]
+
     def path(self, name: str, given: object) -> str:
         """A path."""
         try:

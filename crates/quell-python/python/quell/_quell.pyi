@@ -46,9 +46,13 @@ class NativeStudy:
         self, parameter: str, range: tuple[str, str], along: tuple[str, tuple[str, str]] | None
     ) -> NativeAnswer: ...
     def simulate(
-        self, until: str, kept: tuple[bool, bool], sound: tuple[str | None, str | None] | None
+        self,
+        until: str | None,
+        kept: tuple[bool, bool],
+        start: list[tuple[str, str]],
+        sound: tuple[str | None, str | None] | None,
     ) -> NativeAnswer: ...
-    def response(self) -> NativeAnswer: ...
+    def response(self, settle: str | None, record: str | None) -> NativeAnswer: ...
     def orbit(
         self,
         near: tuple[str, str] | None,

@@ -219,25 +219,29 @@ class Study:
 
     def simulate(
         self,
-        until: Number,
+        until: Number | None = None,
         *,
         events: bool = True,
         samples: bool = True,
+        start: Mapping[str, Number] | None = None,
         sound: bool = False,
         transpose: Number | None = None,
         gain: Number | None = None,
     ) -> results.Simulation:
-        """Simulates one trajectory with the exact time of every event at the contact.
+        """Simulates one trajectory with the exact time of every event at the contacts.
 
         Parameters
         ----------
         until :
-            τ at the end; in a study in SI seconds, or a time with its unit such as ``"50ms"``.
+            Time at the end: τ of a belt; in a study in SI seconds, or a time with its unit such as ``"50ms"`` [default, for
+            systems: 100 periods of the slowest oscillation].
         events :
-            Whether to keep every event, in order, in ``events``.
+            Whether to keep every event, in order, in ``events``. Those of systems are always kept.
         samples :
-            Whether to sample the trajectory: displacement and velocity over ``time`` (n,). Sampling does not change
-            the run.
+            Whether to sample the trajectory over ``time`` (n,): displacement and velocity, of a system every number of the
+            state, and slip velocity, friction, load and phase of every contact. Sampling does not change the run.
+        start :
+            System: numbers that replace those of the study's start, such as ``{"x": 0.1, "velocity.x": -2}``.
         sound :
             Whether to describe in ``sound`` the file that ``save("run.wav")`` writes: the velocity as sound.
         transpose :
@@ -248,16 +252,32 @@ class Study:
             largest sample is 3 dB below full scale].
         """
         arguments = Arguments()
-        end = arguments.quantity("until", until, 'a finite number, or a time with its unit such as "0.5s"')
+        allowed = 'a finite number, or a time with its unit such as "0.5s"'
+        end = None if until is None else arguments.quantity("until", until, allowed)
+        numbers = arguments.named("start", start)
         factor = None if transpose is None else arguments.quantity("transpose", transpose, "a factor above 0, such as 0.5")
         level = None if gain is None else arguments.quantity("gain", gain)
         arguments.done()
         texts = (factor, level) if sound or factor is not None or level is not None else None
-        return results.Simulation(self, self._native.simulate(end, (bool(events), bool(samples)), texts))
+        return results.Simulation(self, self._native.simulate(end, (bool(events), bool(samples)), numbers, texts))
 
-    def response(self) -> results.Response:
-        """The steady response, the effect of the dither (``effect``; residual vibration E, equation (2.27)), and its cost."""
-        return results.Response(self, self._native.response())
+    def response(self, *, settle: Number | None = None, record: Number | None = None) -> results.Response:
+        """The steady response, the effect of the dither (``effect``; residual vibration E, equation (2.27)), and its cost.
+
+        Of a system, the response of ``observe`` in the band below the lowest dither frequency.
+
+        Parameters
+        ----------
+        settle, record :
+            System: time before the record and length of the record; in a study with units also a text such as ``"50ms"``
+            [default: 200 and 60 periods of the slowest oscillation]. A belt has them in its ``solver``.
+        """
+        arguments = Arguments()
+        allowed = 'a finite number, or a time with its unit such as "0.5s"'
+        before = None if settle is None else arguments.quantity("settle", settle, allowed)
+        length = None if record is None else arguments.quantity("record", record, allowed)
+        arguments.done()
+        return results.Response(self, self._native.response(before, length))
 
     def orbit(
         self,

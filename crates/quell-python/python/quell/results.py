@@ -356,14 +356,23 @@ class Simulation(Result):
 
     verb = "simulate"
     final: dict[str, Any]
-    """``time``, ``displacement``, ``velocity``, ``sticking``, ``slip_sign`` at the end."""
+    """``time``, ``displacement``, ``velocity``, ``sticking``, ``slip_sign`` at the end; of a system ``time``, ``state`` and
+    ``contacts``: ``name``, ``slip_velocity``, ``sticking``, ``open``, ``slip_sign``, ``friction``, ``normal``."""
     events: list[dict[str, Any]]
-    """``time``, ``kind`` ("stick", "release", "reversal"), ``slip_sign``, ``displacement`` of every event."""
+    """``time``, ``contact``, ``kind`` ("stick", "release", "reversal", of a system also "separation", "landing"), ``slip_sign``,
+    and ``displacement`` or ``state`` of every event."""
     event_count: int
     """Number of events, including those that were not kept."""
     sound: dict[str, Any]
     """With ``sound``: ``sample_rate``, ``duration_s``, ``transposition``, ``natural_frequency_hz`` (where ω₀ sounds),
     ``strongest_frequency_hz``, ``gain`` and ``clipped`` of the file that ``save("run.wav")`` writes."""
+    event_counts: dict[str, int]
+    """System: number of events of each kind."""
+    contacts: list[dict[str, Any]]
+    """System: ``name``, ``event_counts``, ``stick_fraction``, ``open_fraction``, ``mean_friction``, ``mean_normal``,
+    ``least_normal``, ``friction_power`` of every contact over the run."""
+    state_names: list[str]
+    """System: names of the numbers of ``state``."""
 
 
 class Response(Result):
@@ -412,6 +421,15 @@ class Response(Result):
     """Root mean square of the displacement in the band: a length; ``band_undithered_displacement_rms`` without dither."""
     band_velocity_rms: float | None
     """Root mean square of the velocity in the band: a length; ``band_undithered_velocity_rms`` without dither."""
+    half_peak_to_peak: float
+    """System: half of the peak-to-peak value of ``observe``; ``rms`` and ``mean`` likewise."""
+    band_end: float
+    """System: upper end of the band of ``amplitude`` and ``efficiency``, an angular frequency below the lowest dither."""
+    contacts: list[dict[str, Any]]
+    """System: ``name``, ``stick_fraction``, ``open_fraction``, ``mean_friction``, ``mean_normal``, ``friction_power`` and
+    ``friction_loss`` of every contact."""
+    dithers: list[dict[str, Any]]
+    """System: ``power`` that each dither feeds in, and its peak-to-peak ``stroke``."""
 
 
 class Orbit(Result):

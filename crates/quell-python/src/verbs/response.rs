@@ -1,11 +1,31 @@
 //! `response`: the steady response, the effect of the dither on it, and the cost of the dither.
 
 use quell::kind::verbs;
-use quell::{Failure, Study};
+use quell::run::system::response::ResponseRequest;
+use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
 
 use crate::answer::NativeAnswer;
 
-/// Runs the verb.
-pub(crate) fn run(study: &Study) -> Result<NativeAnswer, Failure> {
-    Ok(NativeAnswer::new(verbs(study).response()?))
+/// Runs the verb; `times`: the settling time and the length of the record of a system.
+pub(crate) fn run(
+    study: &Study,
+    times: (Option<&str>, Option<&str>),
+) -> Result<NativeAnswer, Failure> {
+    let Ok(system) = study.system() else {
+        for (option, text) in [("--settle", times.0), ("--record", times.1)] {
+            if let Some(text) = text {
+                let allowed = "left out: the solver of the study has settle and record_periods";
+                let origin = Origin::Argument(option);
+                return Err(Complaint::new(Fault::Conflict, option, origin, text, allowed).into());
+            }
+        }
+        return Ok(NativeAnswer::new(verbs(study).response()?));
+    };
+    let read = |option, text: Option<&str>| {
+        let read = |text| quantity::duration_of_system(text, system.units(), option);
+        text.map(read).transpose()
+    };
+    let request =
+        ResponseRequest { settle: read("--settle", times.0)?, record: read("--record", times.1)? };
+    Ok(NativeAnswer::new(verbs(study).response_after(request)?))
 }

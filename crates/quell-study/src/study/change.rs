@@ -38,11 +38,8 @@ impl Change {
     }
 
     /// A number for a path.
-    pub fn number(path: &str, value: f64, option: &'static str) -> Self {
-        Self {
-            path: path.to_owned(),
-            node: Node { value: Value::Number(value), origin: Origin::Argument(option) },
-        }
+    pub fn number(path: &str, value: f64, origin: Origin) -> Self {
+        Self { path: path.to_owned(), node: Node { value: Value::Number(value), origin } }
     }
 
     /// Makes the change.

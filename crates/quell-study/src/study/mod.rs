@@ -138,7 +138,7 @@ impl<K: StudyKind> StudyOf<K> {
     /// All complaints about the changed study.
     pub fn with(&self, path: &str, value: f64) -> Result<Self, Complaints> {
         let mut document = self.source.document.clone();
-        Change::number(path, value, "change").apply(&mut document)?;
+        Change::number(path, value, Origin::Whole).apply(&mut document)?;
         let mut changes = self.source.changes.clone();
         changes.push(format!("{path}={value:?}"));
         self.check_again(document, changes)
@@ -157,7 +157,7 @@ impl<K: StudyKind> StudyOf<K> {
         document.remove("sweep");
         let mut changes = self.source.changes.clone();
         for (path, value) in numbers {
-            let change = Change::number(path, value, "[[sweep]]");
+            let change = Change::number(path, value, Origin::Argument("[[sweep]]"));
             change.apply(&mut document)?;
             changes.push(change.to_string());
         }

@@ -12,6 +12,8 @@ use crate::run::disc::resonances;
 use crate::run::orbit::Wanted;
 use crate::run::system::basins::PlaneRequest;
 use crate::run::system::orbit::WantedMotion;
+use crate::run::system::response::ResponseRequest;
+use crate::run::system::simulate::MotionRequest;
 use crate::run::system::thresholds::MotionThresholdsRequest;
 use crate::run::system::tracked::TrackRequest;
 use crate::run::{basins, bifurcation, curves, simulate, thresholds};
@@ -32,6 +34,11 @@ pub trait Verbs: Send + Sync {
 
     /// Names of the verbs of the kind.
     fn names(&self) -> &'static [&'static str];
+
+    /// Whether the answer of a verb has a picture.
+    fn draws(&self, verb: &str) -> bool {
+        !["check", "cite"].contains(&verb)
+    }
 
     /// The values of the study.
     fn check(&self) -> Box<dyn Outcome>;
@@ -94,12 +101,30 @@ pub trait Verbs: Send + Sync {
         Err(self.lacks("simulate"))
     }
 
+    /// One motion of a system, from a start that may differ from that of the study.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::system::simulate::run`].
+    fn simulate_from(&self, request: &MotionRequest) -> Reply {
+        let _ = request;
+        Err(self.lacks("simulate --start"))
+    }
+
     /// The steady response.
     ///
     /// # Errors
     /// A kind without this verb; as [`crate::run::response::run`].
     fn response(&self) -> Reply {
         Err(self.lacks("response"))
+    }
+
+    /// The steady response of a system, with times of its own.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::system::response::run`].
+    fn response_after(&self, request: ResponseRequest) -> Reply {
+        let _ = request;
+        Err(self.lacks("response --settle"))
     }
 
     /// A periodic response and its multipliers.

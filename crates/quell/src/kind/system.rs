@@ -8,14 +8,18 @@ use crate::run::basins::BasinsRequest;
 use crate::run::bifurcation::SweepRequest;
 use crate::run::curves::CurvesRequest;
 use crate::run::orbit::Wanted;
+use crate::run::simulate::Options;
 use crate::run::system::basins::{PlaneRequest, default_plane};
 use crate::run::system::orbit::WantedMotion;
+use crate::run::system::response::ResponseRequest;
+use crate::run::system::simulate::MotionRequest;
 use crate::run::system::thresholds::{
     MotionThresholdsRequest, is_dithered_within, without_motions,
 };
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
-    basins, bifurcation, exact, measured, modes, orbit, reach, stability, thresholds, tracked,
+    basins, bifurcation, exact, measured, modes, orbit, reach, response, simulate, stability,
+    thresholds, tracked,
 };
 use crate::run::thresholds::ThresholdsRequest;
 use crate::study::{SystemSetup, SystemStudy};
@@ -32,6 +36,8 @@ impl Verbs for SystemStudy {
             "cite",
             "modes",
             "stability",
+            "simulate",
+            "response",
             "orbit",
             "thresholds",
             "bifurcation",
@@ -39,6 +45,14 @@ impl Verbs for SystemStudy {
             "resonances",
             "map",
         ]
+    }
+
+    fn draws(&self, verb: &str) -> bool {
+        match verb {
+            "check" | "cite" | "modes" | "stability --exact" => false,
+            "stability" => self.frequency_response().is_none(),
+            _ => true,
+        }
     }
 
     fn check(&self) -> Box<dyn Outcome> {
@@ -74,6 +88,24 @@ impl Verbs for SystemStudy {
 
     fn reach(&self, frequencies: Option<(f64, f64)>) -> Reply {
         answer(self, reach::run(self, frequencies))
+    }
+
+    fn simulate(&self, until: f64, options: Options) -> Reply {
+        let Options { events, samples, .. } = options;
+        let request = MotionRequest { until: Some(until), events, samples, ..Default::default() };
+        self.simulate_from(&request)
+    }
+
+    fn simulate_from(&self, request: &MotionRequest) -> Reply {
+        answer(self, simulate::run(self, request))
+    }
+
+    fn response(&self) -> Reply {
+        self.response_after(ResponseRequest::default())
+    }
+
+    fn response_after(&self, request: ResponseRequest) -> Reply {
+        answer(self, response::run(self, request))
     }
 
     fn orbit(&self, wanted: Wanted) -> Reply {

@@ -17,7 +17,7 @@ const HIDDEN: f64 = 0.15;
 const MARGIN: f64 = 0.1;
 
 /// The axis of an angular frequency, in hertz where the study has units, and the factor to it.
-fn frequency_axis(study: &SystemStudy, symbol: &str) -> (PlotAxis, f64) {
+pub(super) fn frequency_axis(study: &SystemStudy, symbol: &str) -> (PlotAxis, f64) {
     match study.units() {
         SystemUnits::None => (PlotAxis::new("angular frequency").symbol(symbol), 1.0),
         _ => (PlotAxis::new("frequency").unit("Hz"), 1.0 / std::f64::consts::TAU),

@@ -9,6 +9,7 @@ pub mod bifurcation;
 pub mod check;
 pub mod curves;
 pub mod disc;
+mod effect_words;
 pub mod friction;
 pub mod law;
 pub mod map;

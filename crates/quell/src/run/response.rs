@@ -9,6 +9,7 @@ use quell_dynamics::simulation::{Sample, Start};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::effect_words::{EffectWords, MOST_DECIBELS, level_of, percent, residual_in_words};
 use super::{failed, start};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::Dataset;
@@ -16,9 +17,6 @@ use crate::fields::Fields;
 use crate::range::SlipMet;
 use crate::study::BeltStudy;
 use crate::words::{capital, in_words, start_in_words};
-
-/// Levels beyond this are reported as "below" or "more than" it: the rest is integration error and rounding.
-const MOST_DECIBELS: f64 = 120.0;
 
 /// Largest number of samples of a record: with the undithered record and both spectra about a gigabyte. With more, a fast
 /// dither could exhaust the memory; with fewer, records would have to be shorter.
@@ -81,36 +79,15 @@ impl MeasuredResponse {
                 Err(why) => format!("The study has no dither. {}.", capital(&why.to_string())),
             };
         }
-        let residual = response.efficiency.map_or_else(
-            |_| String::new(),
-            |ratio| {
-                let level = self.level();
-                let in_brackets = |level: f64| {
-                    if level < -MOST_DECIBELS {
-                        format!(" (below −{MOST_DECIBELS} dB)")
-                    } else {
-                        format!(" ({level:.1} dB)")
-                    }
-                };
-                let level = level.map_or_else(String::new, in_brackets);
-                format!("the residual vibration E below {BAND_END} ω₀ is {}{level}", percent(ratio))
-            },
-        );
+        let residual = residual_in_words(response.efficiency.ok(), &format!("{BAND_END} ω₀"));
         let amplitude = in_words(study, Quantity::Displacement, response.amplitude);
-        let what = match response.effect {
-            Effect::Quenches => format!("this dither quenches the vibration: {residual}"),
-            Effect::Reduces => format!("this dither reduces the vibration: {residual}"),
-            Effect::Increases => format!("this dither increases the vibration: {residual}"),
-            Effect::Causes => format!(
-                "this dither causes vibration: the belt is quiet without it, and with it vibrates below \
-                 {BAND_END} ω₀ with an amplitude of {amplitude}"
-            ),
-            Effect::Quiet => {
-                "the belt is quiet with and without this dither: there is nothing to quench"
-                    .to_owned()
-            }
-            Effect::Unknown(why) => format!("the effect of this dither is unknown: {why}"),
+        let what = EffectWords {
+            body: "the belt",
+            band: &format!("{BAND_END} ω₀"),
+            amplitude: &amplitude,
+            residual: &residual,
         };
+        let what = what.sentence(response.effect);
         let left = match (response.effect, response.ending) {
             (Effect::Quenches, RunEnding::Reached(Reached::Elsewhere)) => {
                 " A slow vibration of that size remains: `thresholds`, `basins` and `bifurcation` classify this \
@@ -173,8 +150,7 @@ impl MeasuredResponse {
 
     /// 20 lg E, in dB; `None` if E is undefined or zero.
     pub fn level(&self) -> Option<f64> {
-        let ratio = self.response.efficiency.ok().filter(|ratio| *ratio > 0.0)?;
-        Some(20.0 * ratio.log10())
+        self.response.efficiency.ok().and_then(level_of)
     }
 
     /// The levels in the frequency band of the study.
@@ -424,17 +400,5 @@ fn why_end_unknown(ending: RunEnding) -> Option<String> {
             Some("the run had not settled within its number of periods".to_owned())
         }
         RunEnding::Reached(Reached::Base | Reached::Forced | Reached::Elsewhere) => None,
-    }
-}
-
-/// A share as a percentage with three digits.
-fn percent(ratio: f64) -> String {
-    let value = 100.0 * ratio;
-    if value >= 100.0 {
-        format!("{value:.0} %")
-    } else if value >= 0.1 {
-        format!("{value:.2} %")
-    } else {
-        format!("{value:.1e} %")
     }
 }

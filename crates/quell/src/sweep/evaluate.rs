@@ -50,17 +50,9 @@ pub enum Computation {
 }
 
 impl Computation {
-    /// Whether it applies to a belt, whose friction law may have a range.
+    /// Whether it applies to a belt or a system, whose friction laws may have a range.
     pub fn meets_friction(self) -> bool {
-        !matches!(
-            self,
-            Self::DiscGrowth
-                | Self::DiscGrowthUndithered
-                | Self::SystemGrowth
-                | Self::SystemGrowthUndithered
-                | Self::SystemCritical
-                | Self::SystemOrbit
-        )
+        !matches!(self, Self::DiscGrowth | Self::DiscGrowthUndithered)
     }
 
     /// Whether it integrates responses.
@@ -120,6 +112,22 @@ pub struct SystemPoint {
     pub growth: Growth,
     /// Largest fast slip velocity over the velocity of its surface, over all contacts.
     pub slip_ratio: f64,
+    /// Whether the fast motion opens a contact.
+    pub opens: bool,
+    /// Whether slip leaves the range of a friction law.
+    pub beyond_range: bool,
+}
+
+impl SystemPoint {
+    fn qualification(&self) -> Status {
+        if self.opens {
+            Status::Opens
+        } else if self.beyond_range {
+            Status::BeyondRange
+        } else {
+            Status::Known
+        }
+    }
 }
 
 /// What a map shows of the base response of one system.
@@ -151,7 +159,7 @@ pub struct Results {
     /// The largest growth rate of a system.
     pub system: Option<Result<SystemPoint, Status>>,
     /// The largest growth rate of a system without dither.
-    pub system_undithered: Option<Result<Growth, Status>>,
+    pub system_undithered: Option<Result<SystemPoint, Status>>,
     /// Every critical amplitude of the first dither of a system, in order.
     pub system_critical: Option<Result<Vec<CriticalInput>, Status>>,
     /// The base response of a dithered system.
@@ -194,8 +202,33 @@ impl Reach {
 }
 
 impl Results {
-    /// Whether slip leaves the range of the friction law in the computation of `value`.
-    pub(super) fn leaves_range(&self, computation: Computation, value: f64) -> bool {
+    /// The status of a known `value`: whether slip leaves the range of a friction law, or a contact opens, in its computation.
+    pub(super) fn qualification(&self, computation: Computation, value: f64) -> Status {
+        let of = |point: Option<Result<SystemPoint, Status>>| {
+            point.and_then(Result::ok).map_or(Status::Known, |point| point.qualification())
+        };
+        match computation {
+            Computation::SystemGrowth => of(self.system),
+            Computation::SystemGrowthUndithered => of(self.system_undithered),
+            Computation::SystemCritical => {
+                let found = self.system_critical.iter().flatten().flatten();
+                let mut found = found.filter(|critical| critical.amplitude == value);
+                found.next().map_or(Status::Known, |critical| {
+                    let (opens, beyond) = (!critical.contacts_stay_closed, !critical.within_laws);
+                    match (opens, beyond) {
+                        (true, _) => Status::Opens,
+                        (_, true) => Status::BeyondRange,
+                        _ => Status::Known,
+                    }
+                })
+            }
+            _ if self.leaves_range(computation, value) => Status::BeyondRange,
+            _ => Status::Known,
+        }
+    }
+
+    /// Whether slip leaves the range of the friction law of a belt in the computation of `value`.
+    fn leaves_range(&self, computation: Computation, value: f64) -> bool {
         let Some(reach) = self.reach else { return false };
         match computation {
             Computation::Response

@@ -5,13 +5,13 @@
 //! the code of the status, or the word for "unknown". The fill values (the plain NaN, 255) mean
 //! "missing" and nothing else.
 
-use quell_model::units::{self, Scales};
+use quell_model::units::{Quantity, Scales};
 
 use super::evaluate::{Computation, Results};
 use super::quantity::{MapQuantity, Variable, VariableKind};
 use super::status::Status;
 use crate::quantity::unit_of;
-use crate::study::Study;
+use crate::study::{Study, SystemUnits};
 
 /// Bits of the NaN for an unknown number, to which the code of its status is added.
 const UNKNOWN: u64 = 0x7ff8_0000_0000_0000;
@@ -115,6 +115,7 @@ impl Sheet {
     /// The arrays of `quantities` for a study.
     pub fn new(study: &Study, quantities: &[&MapQuantity]) -> Self {
         let si = study.scales().is_some();
+        let units = study.system().map_or(SystemUnits::None, |study| study.units());
         let mut sheet = Self { entries: Vec::new(), fields: Vec::new() };
         let variables = quantities.iter().flat_map(|quantity| {
             quantity.variables.iter().map(|variable| (variable, quantity.computation))
@@ -134,7 +135,7 @@ impl Sheet {
                 }
             };
             let state = Some(format!("{name}_status"));
-            let unit = unit(variable.kind, si);
+            let unit = unit(variable.kind, si, units);
             let value = sheet.add(name.to_owned(), variable.about, unit, content, state.clone());
             let twin = twin(variable.kind).filter(|_| si).map(|(unit, suffix)| {
                 let name = format!("{name}_{suffix}");
@@ -193,10 +194,8 @@ impl Sheet {
                 let (value, scales) = match point {
                     Some((scales, results)) => {
                         let value = entry.variable.read(results);
-                        let beyond =
-                            value.is_ok_and(|value| results.leaves_range(entry.computation, value));
-                        let known = if beyond { Status::BeyondRange } else { Status::Known };
-                        (value.map(|value| (value, known)), *scales)
+                        let known = |value: f64| results.qualification(entry.computation, value);
+                        (value.map(|value| (value, known(value))), *scales)
                     }
                     None => (Err(Status::InvalidStudy), None),
                 };
@@ -245,14 +244,17 @@ fn whole(value: f64) -> u8 {
     value as u8
 }
 
-/// Unit of a variable in the numbers of the equations; the lengths of a study in SI are metres.
-fn unit(kind: VariableKind, si: bool) -> String {
+/// Unit of a variable in the numbers of the equations; the lengths of a study in SI are metres, and systems have those of their
+/// file.
+fn unit(kind: VariableKind, si: bool, units: SystemUnits) -> String {
     match kind {
         VariableKind::Number(quantity) => unit_of(quantity, si),
         VariableKind::Rate => "ω₀".to_owned(),
         VariableKind::DiscRate => "ω_ref".to_owned(),
-        VariableKind::SystemRate => "1/time".to_owned(),
-        VariableKind::SystemForce => "force".to_owned(),
+        VariableKind::SystemRate if units == SystemUnits::None => "1/time".to_owned(),
+        // Both systems of units have the second.
+        VariableKind::SystemRate => "1/s".to_owned(),
+        VariableKind::SystemForce => units.unit(Quantity::Force).unwrap_or("force").to_owned(),
         VariableKind::Word { .. } => String::new(),
     }
 }
@@ -261,7 +263,7 @@ fn unit(kind: VariableKind, si: bool) -> String {
 fn twin(kind: VariableKind) -> Option<(&'static str, &'static str)> {
     match kind {
         // A displacement is already in metres.
-        VariableKind::Number(units::Quantity::Displacement)
+        VariableKind::Number(Quantity::Displacement)
         | VariableKind::DiscRate
         | VariableKind::SystemRate
         | VariableKind::SystemForce

@@ -58,8 +58,10 @@ pub enum Status {
     Resonance = 31,
     /// The structure is known by a measured frequency response alone.
     OnlyMeasured = 32,
+    /// The number is known, but the fast motion opens a contact, which averaging does not describe.
+    Opens = 33,
     /// A system has no base response, or it could not be followed.
-    NoBaseResponse = 33,
+    NoBaseResponse = 34,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -91,6 +93,7 @@ impl Status {
         Self::NoSteadySliding,
         Self::Resonance,
         Self::OnlyMeasured,
+        Self::Opens,
         Self::NoBaseResponse,
         Self::Missing,
     ];
@@ -102,7 +105,7 @@ impl Status {
 
     /// Whether the number is known.
     pub const fn has_number(self) -> bool {
-        matches!(self, Self::Known | Self::BeyondRange)
+        matches!(self, Self::Known | Self::BeyondRange | Self::Opens)
     }
 
     /// The status with a code.
@@ -137,6 +140,7 @@ impl Status {
             Self::NoSteadySliding => "no_steady_sliding",
             Self::Resonance => "resonance",
             Self::OnlyMeasured => "only_measured",
+            Self::Opens => "opens",
             Self::NoBaseResponse => "no_base_response",
             Self::Missing => "missing",
         }
@@ -189,6 +193,9 @@ impl Status {
             Self::Resonance => "a dither excites an undamped resonance of the structure",
             Self::OnlyMeasured => {
                 "the structure is known by a measured frequency response alone, which gives no growth rate"
+            }
+            Self::Opens => {
+                "the value is known, but the fast motion opens a contact, which averaging does not describe"
             }
             Self::NoBaseResponse => {
                 "the response that continues steady sliding ends before the dither reaches its amplitude, or could not be followed"

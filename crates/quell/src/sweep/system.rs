@@ -3,8 +3,7 @@
 use quell_dynamics::motion::orbit::family::NoImage;
 use quell_dynamics::motion::orbit::{NoMotionOrbit, base_motion};
 use quell_dynamics::orbit::OrbitVerdict;
-use quell_linear::averaging::{Becomes, CriticalInput, DitheredSystem, NoAverage};
-use quell_linear::growth::Growth;
+use quell_linear::averaging::{Becomes, CriticalInput, DitheredContact, DitheredSystem, NoAverage};
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
 use quell_model::System;
@@ -15,6 +14,7 @@ use super::grid::Grid;
 use super::mapped::{Mapped, PointResults};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, decided, variable};
 use super::status::Status;
+use crate::range::outside_of_laws;
 use crate::run::system::cycle::BASE_STEPS;
 use crate::study::{SystemSetup, SystemStudy};
 
@@ -93,9 +93,11 @@ fn evaluate(system: &System, wanted: &[Computation]) -> Results {
     results
 }
 
-fn undithered(system: &System) -> Result<Growth, Status> {
+fn undithered(system: &System) -> Result<SystemPoint, Status> {
     let linear = Linearised::new(system).map_err(|_| Status::NoSteadySliding)?;
-    spectrum::growth(&linear, &linear.friction()).map_err(|_| Status::NotFinite)
+    let growth = spectrum::growth(&linear, &linear.friction()).map_err(|_| Status::NotFinite)?;
+    let beyond_range = !outside_of_laws(system, None).is_empty();
+    Ok(SystemPoint { growth, slip_ratio: 0.0, opens: false, beyond_range })
 }
 
 fn growth(system: &System) -> Result<SystemPoint, Status> {
@@ -105,7 +107,12 @@ fn growth(system: &System) -> Result<SystemPoint, Status> {
     let contacts = system.contacts.iter().zip(&average.contacts);
     let ratios = contacts
         .map(|(contact, found)| found.slip_amplitude / contact.surface_velocity.mean().abs());
-    Ok(SystemPoint { growth, slip_ratio: ratios.fold(0.0, f64::max) })
+    Ok(SystemPoint {
+        growth,
+        slip_ratio: ratios.fold(0.0, f64::max),
+        opens: average.contacts.iter().any(DitheredContact::opens),
+        beyond_range: !outside_of_laws(system, Some(&average.contacts)).is_empty(),
+    })
 }
 
 fn critical(system: &System) -> Result<Vec<CriticalInput>, Status> {
@@ -149,6 +156,7 @@ const OF_AVERAGE: &[Status] = &[
     Status::NoSteadySliding,
     Status::Resonance,
     Status::OnlyMeasured,
+    Status::Opens,
 ];
 
 /// Statuses of verdicts other than known.
@@ -161,6 +169,7 @@ const OF_VERDICT: &[Status] = &[
     Status::NoSteadySliding,
     Status::Resonance,
     Status::OnlyMeasured,
+    Status::Opens,
 ];
 
 /// Statuses of critical amplitudes other than known.
@@ -174,6 +183,7 @@ const OF_CRITICAL: &[Status] = &[
     Status::NoSteadySliding,
     Status::Resonance,
     Status::OnlyMeasured,
+    Status::Opens,
 ];
 
 /// Statuses of base responses other than known.
@@ -213,8 +223,8 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
         variable(("slip_ratio", "|â|/v"), "largest fast slip over the velocity of its surface", RATIO, OF_AVERAGE, |r| Ok(grown(r)?.slip_ratio)),
     ]),
     system("growth-undithered", "largest growth rate without dither", Computation::SystemGrowthUndithered, &[
-        variable(("growth_undithered", "Re λ_0"), "largest growth rate without dither", RATE, &[Status::NoSteadySliding, Status::OnlyMeasured], |r| Ok(grown_undithered(r)?.rate)),
-        variable(("growth_undithered_error", ""), "bound on the error of the growth rate without dither", RATE, &[Status::NoSteadySliding, Status::OnlyMeasured], |r| Ok(grown_undithered(r)?.error)),
+        variable(("growth_undithered", "Re λ_0"), "largest growth rate without dither", RATE, &[Status::NoSteadySliding, Status::OnlyMeasured], |r| Ok(grown_undithered(r)?.growth.rate)),
+        variable(("growth_undithered_error", ""), "bound on the error of the growth rate without dither", RATE, &[Status::NoSteadySliding, Status::OnlyMeasured], |r| Ok(grown_undithered(r)?.growth.error)),
     ]),
     system("critical-amplitude", "smallest amplitude of the first dither that makes sliding stable, by averaging", Computation::SystemCritical, &[
         variable(("critical_amplitude", "A*"), "smallest amplitude that makes sliding stable", FORCE, OF_CRITICAL, |r| first(r, Becomes::Stable)),
@@ -243,7 +253,7 @@ fn grown(results: &Results) -> Result<SystemPoint, Status> {
     results.system.unwrap_or(Err(Status::Missing))
 }
 
-fn grown_undithered(results: &Results) -> Result<Growth, Status> {
+fn grown_undithered(results: &Results) -> Result<SystemPoint, Status> {
     results.system_undithered.unwrap_or(Err(Status::Missing))
 }
 

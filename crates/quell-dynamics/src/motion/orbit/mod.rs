@@ -19,5 +19,5 @@ mod thresholds;
 
 pub use free::{NoCycle, free_cycle};
 pub use periodic::{MotionOrbit, NoMotionOrbit, base_motion, motion_near, sliding_state};
-pub use settled::{Settled, settled};
+pub use settled::{SettledMotion, settled};
 pub use thresholds::{MotionThreshold, MotionThresholds, motion_thresholds};

@@ -20,7 +20,7 @@ const SAME: f64 = 0.2;
 
 /// Where a run ends.
 #[derive(Clone, Debug)]
-pub struct Settled {
+pub struct SettledMotion {
     /// The periodic motion.
     pub orbit: MotionOrbit,
     /// Common dither periods in its period.
@@ -36,7 +36,7 @@ pub struct Settled {
 ///
 /// # Errors
 /// [`NoMotionOrbit::Unsettled`] where no such orbit is found.
-pub fn settled(system: &System, start: &[f64], most: u32) -> Result<Settled, NoMotionOrbit> {
+pub fn settled(system: &System, start: &[f64], most: u32) -> Result<SettledMotion, NoMotionOrbit> {
     let motion = Motion::new(system).map_err(NoMotionOrbit::Immobile)?;
     let period = time_of(&motion, 1).map_err(NoMotionOrbit::NoImage)?;
     let mut states = vec![start.to_vec()];
@@ -53,7 +53,7 @@ pub fn settled(system: &System, start: &[f64], most: u32) -> Result<Settled, NoM
             continue;
         }
         if let Some((orbit, multiple)) = closed(system, &motion, &states) {
-            return Ok(Settled { orbit, multiple, periods: count });
+            return Ok(SettledMotion { orbit, multiple, periods: count });
         }
         next_try = count + (count / 3).max(8);
     }

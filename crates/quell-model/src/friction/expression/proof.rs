@@ -60,11 +60,9 @@ impl fmt::Display for Doubt {
     }
 }
 
-/// Nine digits without trailing zeros: enough to locate a narrow dip.
+/// Nine digits: enough to locate a narrow dip.
 fn digits(value: f64) -> String {
-    let text = format!("{value:.8e}");
-    text.parse::<f64>()
-        .map_or(text, |rounded| format!("{rounded:?}").trim_end_matches(".0").to_owned())
+    crate::digits::digits(value, 9)
 }
 
 /// Proves that a formula is finite, smooth and not negative from rest to `up_to`; `at` returns its coefficient and slope at

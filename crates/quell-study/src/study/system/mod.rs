@@ -25,6 +25,7 @@ mod rows;
 mod setup;
 mod structure;
 mod units;
+mod unused;
 mod walk;
 mod walk_entries;
 
@@ -146,7 +147,7 @@ impl SystemStudy {
         let mut document = self.source.document.clone();
         document.remove("sweep");
         for (path, value) in numbers {
-            let node = Node { value: Value::Number(*value), origin: Origin::Argument("change") };
+            let node = Node { value: Value::Number(*value), origin: Origin::Whole };
             set(&mut document, path, &node)?;
         }
         let mut reader = Reader::as_written();

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use quell_model::digits::digits;
 use quell_model::friction::expression::NumberFormula;
 use quell_model::parameter::{Bounds, Parameter};
 use quell_model::units::Quantity;
@@ -72,7 +73,7 @@ impl Numbers {
             Ok(value) if value.is_nan() && self.values.iter().any(|known| known.is_nan()) => None,
             Ok(value) => {
                 let is = match &node.value {
-                    Value::Text(_) => format!("; its value is {value}"),
+                    Value::Text(_) => format!("; its value is {}", digits(value, 6)),
                     _ => String::new(),
                 };
                 let unit = match self.unit(wanted) {

@@ -3,7 +3,9 @@
 use std::f64::consts::TAU;
 
 use quell_model::System;
+use quell_model::digits::digits;
 use quell_model::units::Quantity;
+use quell_numerics::matrix::Matrix;
 
 use super::units::SystemUnits;
 
@@ -44,8 +46,9 @@ pub(super) fn warnings(system: &System, units: SystemUnits, modal: bool) -> Vec<
         let load = system.contacts.iter().map(|contact| contact.normal_load).fold(0.0, f64::max);
         if !modal && load > HEAVIEST_LOAD * GRAVITY * kilograms {
             warnings.push(format!(
-                "A load of {load} N on masses of at most {kilograms:.3e} kg is {:.1e} times their weight. Check whether the \
+                "A load of {} N on masses of at most {kilograms:.3e} kg is {:.1e} times their weight. Check whether the \
                  masses are in {name} or in {other}.",
+                digits(load, 6),
                 load / (GRAVITY * kilograms)
             ));
         }
@@ -54,10 +57,33 @@ pub(super) fn warnings(system: &System, units: SystemUnits, modal: bool) -> Vec<
         let speed = contact.surface_velocity.mean().abs() * length;
         if speed > FASTEST {
             warnings.push(format!(
-                "The surface of contact {} moves at {speed} m/s. Check whether its velocity is in {name} or in {other}.",
-                contact.name
+                "The surface of contact {} moves at {} m/s. Check whether its velocity is in {name} or in {other}.",
+                contact.name,
+                digits(speed, 6)
             ));
         }
     }
     warnings
+}
+
+/// Warnings about stiffness and damping with one entry of a symmetric pair, once for each matrix.
+pub(super) fn half_symmetric(system: &System) -> Vec<String> {
+    let Some(mechanical) = system.structure.mechanical() else { return Vec::new() };
+    let matrices = [("damping", mechanical.damping()), ("stiffness", mechanical.stiffness())];
+    let found = matrices.into_iter().filter_map(|(name, matrix)| {
+        let (i, j) = half_pair(matrix)?;
+        let entry = digits(matrix[(i, j)], 6);
+        Some(format!(
+            "system.{name}[{i}][{j}] is {entry}, but system.{name}[{j}][{i}] is 0. Check whether the second entry of a \
+             symmetric pair is missing; a {name} that is unsymmetric on purpose is allowed."
+        ))
+    });
+    found.collect()
+}
+
+/// The first entry that is not zero while its mirror image is.
+fn half_pair(matrix: &Matrix) -> Option<(usize, usize)> {
+    let n = matrix.rows();
+    let mut pairs = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+    pairs.find(|&(i, j)| matrix[(i, j)] != 0.0 && matrix[(j, i)] == 0.0)
 }

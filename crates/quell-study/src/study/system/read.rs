@@ -15,7 +15,7 @@ use super::numbers::{Numbers, missing, unknown_keys};
 use super::setup::SystemSetup;
 use super::structure::{self, ReadStructure};
 use super::units::SystemUnits;
-use super::{initial, parameters, plausible};
+use super::{initial, parameters, plausible, unused};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::Table;
 use crate::study::reader::Reader;
@@ -79,11 +79,8 @@ pub(super) fn study(
         let System { contacts, inputs, .. } = &*system;
         frequency_response::check_pairs(reader, node, response, contacts, inputs);
     }
-    let modal = table.has("mode") || table.has("modes") || table.has("component");
-    let warnings = match &response {
-        Some(_) => Vec::new(),
-        None => plausible::warnings(&system, units, modal),
-    };
+    let known = KnownSystem { system: &system, measured: response.is_some() };
+    let warnings = warnings(document, table, &numbers, known);
     Some(SystemSetup {
         system,
         observe,
@@ -94,6 +91,28 @@ pub(super) fn study(
         modes: modes.into(),
         response,
     })
+}
+
+/// A system, and whether its structure is measured.
+#[derive(Clone, Copy)]
+struct KnownSystem<'a> {
+    system: &'a System,
+    measured: bool,
+}
+
+/// The warnings about a valid study.
+fn warnings(
+    document: &Table,
+    table: &Table,
+    numbers: &Numbers,
+    known: KnownSystem<'_>,
+) -> Vec<String> {
+    let KnownSystem { system, measured } = known;
+    let modal = table.has("mode") || table.has("modes") || table.has("component");
+    let plausible = (!measured).then(|| plausible::warnings(system, numbers.units, modal));
+    let half = table.has("coordinates").then(|| plausible::half_symmetric(system));
+    let listed = plausible.into_iter().chain(half).flatten();
+    listed.chain(unused::warning(document, numbers)).collect()
 }
 
 /// Reports tables of the other kinds.

@@ -7,6 +7,8 @@ mod measured;
 mod modes;
 mod orbit;
 mod reach;
+mod response;
+mod simulate;
 mod stability;
 mod thresholds;
 mod tracked;
@@ -40,7 +42,13 @@ fn motions<'a>(
 ) -> String {
     let hertz = units != SystemUnits::None;
     let all: Vec<&SmallMotion> = all.collect();
-    let mut text = format!("  {:>14}", if hertz { "frequency/Hz" } else { "frequency" });
+    let heading = match (listed, hertz) {
+        (ListedMotion::Damped, false) => "frequency |Im λ|",
+        (ListedMotion::Natural, false) => "frequency |λ|",
+        (ListedMotion::Damped, true) => "|Im λ|/2π in Hz",
+        (ListedMotion::Natural, true) => "|λ|/2π in Hz",
+    };
+    let mut text = format!("  {heading:>16}");
     let rate = if hertz { "rate/(1/s)" } else { "growth rate" };
     let _ = writeln!(text, "  {rate:>14}  {:>14}", "damping ratio");
     for motion in all.iter().take(MOST_MOTIONS) {
@@ -56,7 +64,7 @@ fn motions<'a>(
         };
         let _ = writeln!(
             text,
-            "  {:>14}  {:>14}  {:>14}",
+            "  {:>16}  {:>14}  {:>14}",
             figure(frequency),
             figure(rate),
             figure(ratio)

@@ -12,7 +12,7 @@ use crate::outcome::Presented;
 use crate::outcome::table::figure;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::system::reach::Reaches;
+use crate::run::system::reach::{Reaches, UNBOUNDED_RESONANCE};
 use crate::study::{SystemSetup, SystemStudy, SystemUnits};
 
 impl Presented<SystemSetup> for Reaches {
@@ -43,8 +43,11 @@ impl Presented<SystemSetup> for Reaches {
                     (false, false) => "minimum",
                     (false, true) => "antiresonance, out of reach",
                 };
-                let (frequency, slip) = (factor * at.frequency, at.slip_per_amplitude);
-                let _ = writeln!(text, "  {:>14}  {:>14}  {kind}", figure(frequency), figure(slip));
+                let frequency = figure(factor * at.frequency);
+                let _ = match at.slip_per_amplitude {
+                    Some(slip) => writeln!(text, "  {frequency:>14}  {:>14}  {kind}", figure(slip)),
+                    None => writeln!(text, "  {frequency:>14}  {UNBOUNDED_RESONANCE}"),
+                };
             }
         }
         text

@@ -66,11 +66,16 @@ fn table(study: &SystemStudy, done: &SystemStability) -> String {
                 for found in critical {
                     let _ = writeln!(
                         text,
-                        "  {} from the amplitude {} {}on ({})",
+                        "  {} from the amplitude {} {}on ({}){}",
                         becomes(found.becomes),
                         with(Quantity::Force, found.amplitude),
                         if study.system().inputs.len() > 1 { "of the first dither " } else { "" },
-                        kind(found.crossing)
+                        kind(found.crossing),
+                        if found.contacts_stay_closed {
+                            ""
+                        } else {
+                            ", if every contact stayed closed"
+                        }
                     );
                 }
             }

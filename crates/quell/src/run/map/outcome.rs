@@ -142,6 +142,7 @@ impl FinishedMap {
             }
         }
         warnings.extend(self.beyond_range());
+        warnings.extend(self.of_systems());
         if self.damaged > 0 {
             warnings.push(recomputed(self.damaged));
         }
@@ -168,6 +169,28 @@ impl FinishedMap {
             range.limit,
             Status::BeyondRange.name(),
         ))
+    }
+
+    /// Warnings about points of a system at which a value does not hold as stated.
+    fn of_systems(&self) -> Vec<String> {
+        if self.plan.grid().study().system().is_err() {
+            return Vec::new();
+        }
+        let entries = self.plan.sheet().entries();
+        let of = |status: Status| {
+            let at =
+                |point: &usize| entries.iter().any(|entry| self.status(entry, *point) == status);
+            let (all, count) =
+                (self.plan.grid().len(), (0..self.plan.grid().len()).filter(at).count());
+            (count > 0).then(|| {
+                format!(
+                    "{count} of {all} points: {}; the status there is {}",
+                    status.about(),
+                    status.name()
+                )
+            })
+        };
+        [Status::Opens, Status::BeyondRange].into_iter().filter_map(of).collect()
     }
 
     /// As JSON: arrays nested like the axes.

@@ -1,7 +1,7 @@
 //! The motion on which a run of a system ends, as `bifurcation` and `basins` report it.
 
 use quell_dynamics::motion::orbit::{
-    MotionOrbit, NoCycle, NoMotionOrbit, Settled, free_cycle, settled,
+    MotionOrbit, NoCycle, NoMotionOrbit, SettledMotion, free_cycle, settled,
 };
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart};
 use quell_linear::pure_slip::period;
@@ -86,7 +86,7 @@ pub fn end_of_run(
         return undithered(system, row, start);
     }
     let (kind, state, states, length, periods) = match settled(system, start, most) {
-        Ok(Settled { orbit, multiple, periods }) => {
+        Ok(SettledMotion { orbit, multiple, periods }) => {
             let states = at_periods(system, &orbit, multiple)?;
             let kind = MotionKind::Periodic { periods: multiple, radius: orbit.radius() };
             (kind, orbit.state, states, orbit.period, periods)

@@ -8,9 +8,11 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::stability::{SlidingContact, put_contact, put_critical};
+use super::validity::{condition, opened, opening};
 use super::{failed, is_dithered, oscillating};
 use crate::complaint::Failure;
 use crate::fields::Fields;
+use crate::range::outside_of_laws;
 use crate::study::{FrequencyResponse, SystemStudy};
 use crate::words::plural;
 
@@ -62,11 +64,15 @@ impl MeasuredStability {
         let turns = self.sliding.turns;
         let closest = oscillating(study.units(), turns.closest);
         let by = if self.dither.is_some() { "By averaging and the" } else { "By the" };
+        let (is, condition) = match condition(&opening(study.system(), &self.sliding.dithered)) {
+            Some(condition) => ("would be", format!(" {condition}")),
+            None => ("is", String::new()),
+        };
         let verdict = match turns.unstable {
-            0 => "steady sliding is stable".to_owned(),
+            0 => format!("steady sliding {is} stable{condition}"),
             count => {
                 format!(
-                    "steady sliding is unstable: {count} characteristic root{} with positive real part",
+                    "steady sliding {is} unstable{condition}: {count} characteristic root{} with positive real part",
                     plural(count)
                 )
             }
@@ -75,6 +81,14 @@ impl MeasuredStability {
             "{by} generalised Nyquist criterion of the measured response, {verdict}. The motion closest to \
              marginal is one {closest}."
         )
+    }
+
+    /// The warnings of the study, about contacts that open and about slip outside the range of a law.
+    fn warnings(&self, study: &SystemStudy) -> Vec<String> {
+        let (system, dithered) = (study.system(), self.sliding.dithered.as_slice());
+        let fast = (!dithered.is_empty()).then_some(dithered);
+        let listed = study.warnings().iter().cloned().chain(outside_of_laws(system, fast));
+        listed.chain(opened(study.units(), system, dithered)).collect()
     }
 
     /// As JSON.
@@ -119,7 +133,7 @@ impl MeasuredStability {
                 put_critical(&mut fields, units, critical);
             }
         }
-        fields.plain("warnings", study.warnings());
+        fields.plain("warnings", self.warnings(study));
         fields.finish()
     }
 }

@@ -9,18 +9,24 @@ pub mod check;
 pub mod cycle;
 pub mod cycle_samples;
 pub mod exact;
+pub mod history;
 pub mod measured;
 pub mod modes;
 pub mod orbit;
 pub mod orbit_answer;
 pub mod protocol;
 pub mod reach;
+pub mod response;
+pub mod simulate;
+mod sound;
 pub mod stability;
 pub mod start;
 pub mod switches;
 pub mod thresholds;
 pub mod thresholds_answer;
 pub mod tracked;
+mod trajectory;
+pub mod validity;
 
 use quell_linear::averaging::NoAverage;
 use quell_linear::spectrum::{MotionSpectrum, SmallMotion};
@@ -70,6 +76,20 @@ fn oscillating(units: SystemUnits, frequency: f64) -> String {
     }
 }
 
+/// A frequency with its unit: in hertz where the study has units.
+fn frequency_in_words(units: SystemUnits, frequency: f64) -> String {
+    match units {
+        SystemUnits::None => format!("the angular frequency {}", digits(frequency)),
+        _ => format!("{} Hz", digits(frequency / std::f64::consts::TAU)),
+    }
+}
+
+/// A quantity with its unit.
+fn in_units(units: SystemUnits, quantity: Quantity, value: f64) -> String {
+    let unit = units.unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
+    format!("{}{unit}", digits(value))
+}
+
 /// A growth rate with its unit.
 fn rate_of(units: SystemUnits, rate: f64) -> String {
     let unit = if units == SystemUnits::None { "" } else { " 1/s" };
@@ -78,8 +98,7 @@ fn rate_of(units: SystemUnits, rate: f64) -> String {
 
 /// A force with its unit.
 fn force(units: SystemUnits, value: f64) -> String {
-    let unit = units.unit(Quantity::Force).map_or(String::new(), |unit| format!(" {unit}"));
-    format!("{}{unit}", digits(value))
+    in_units(units, Quantity::Force, value)
 }
 
 /// One small motion.

@@ -2,7 +2,7 @@
 //! Floquet multipliers; without dither the limit cycle on which a run ends, or what was tried to find one.
 
 use quell_dynamics::motion::orbit::{
-    MotionOrbit, NoMotionOrbit, Settled, base_motion, motion_near, settled,
+    MotionOrbit, NoMotionOrbit, SettledMotion, base_motion, motion_near, settled,
 };
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
@@ -164,7 +164,7 @@ fn reached(
     let start = protocol.state(study, system)?;
     let words = protocol.words(study);
     match settled(system, &start, MOST_PERIODS) {
-        Ok(Settled { orbit, multiple, periods }) => {
+        Ok(SettledMotion { orbit, multiple, periods }) => {
             let instead = instead.map(|why| why.to_string());
             Ok((orbit, multiple, FoundBy::Run { start: words, periods, instead }))
         }

@@ -4,7 +4,8 @@
 //! dips at antiresonances, where the dither cannot reach the contact.
 
 use quell_linear::harmonic::response;
-use quell_linear::linearised::Linearised;
+use quell_linear::linearised::{FrictionSlopes, Linearised};
+use quell_linear::spectrum::{SmallMotion, spectrum};
 use quell_model::units::Quantity;
 use quell_numerics::continuation::modulus;
 use quell_numerics::roots::{Closeness, minimise};
@@ -24,13 +25,23 @@ const POINTS: usize = 801;
 /// A dip below this share of the mean response in its neighbourhood (an octave) is reported as out of reach.
 const OUT_OF_REACH: f64 = 1e-3;
 
+/// At an undamped resonance the response exceeds that at a relative distance of [`BESIDE`] by this factor: the inverse of the
+/// distance, limited by rounding.
+const UNBOUNDED: f64 = 1e3;
+
+/// Relative distance from a resonance.
+const BESIDE: f64 = 1e-6;
+
+/// Why a slip amplitude is unknown at an undamped resonance.
+pub(crate) const UNBOUNDED_RESONANCE: &str = "unbounded (undamped resonance)";
+
 /// A peak or dip of the response of a contact to a dither.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReachExtreme {
     /// Angular frequency.
     pub frequency: f64,
-    /// Slip amplitude per unit of dither.
-    pub slip_per_amplitude: f64,
+    /// Slip amplitude per unit of dither; `None` at an undamped resonance, where it is unbounded.
+    pub slip_per_amplitude: Option<f64>,
     /// Whether it is a peak.
     pub peak: bool,
     /// Whether the dither hardly reaches the contact there.
@@ -100,6 +111,7 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Fa
     let frequencies: Vec<f64> = (0..POINTS)
         .map(|k| from * libm::exp(libm::log(to / from) * k as f64 / (POINTS - 1) as f64))
         .collect();
+    let undamped = undamped(&linear);
     let mut pairs = Vec::new();
     for (dither, input) in system.inputs.iter().enumerate() {
         let slips = |frequency: f64| -> Option<Vec<f64>> {
@@ -114,15 +126,36 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Fa
                 .iter()
                 .map(|row| row.as_ref().map_or(f64::INFINITY, |row| row[contact]))
                 .collect();
-            let extremes = extremes(&frequencies, &slip, at);
+            let extremes = extremes(&frequencies, &slip, &undamped, at);
             pairs.push(ContactReach { dither, contact, slip, extremes });
         }
     }
     Ok(Reaches { frequencies, pairs })
 }
 
-/// Peaks and dips of a response, located between the sampled frequencies.
-fn extremes(frequencies: &[f64], slip: &[f64], at: impl Fn(f64) -> f64) -> Vec<ReachExtreme> {
+/// Angular frequencies of the motions without damping, with the friction that a harmonic response carries along.
+fn undamped(linear: &Linearised) -> Vec<f64> {
+    let frozen: Vec<FrictionSlopes> = linear
+        .friction()
+        .into_iter()
+        .map(|friction| FrictionSlopes { by_velocity: 0.0, ..friction })
+        .collect();
+    let Ok(found) = spectrum(linear, &frozen) else { return Vec::new() };
+    let undamped = found
+        .motions
+        .iter()
+        .filter(|motion| motion.eigenvalue.im > 0.0 && motion.eigenvalue.re.abs() <= motion.error);
+    undamped.map(SmallMotion::frequency).collect()
+}
+
+/// Peaks and dips of a response, located between the sampled frequencies; `undamped` has the frequencies at which a peak may be
+/// unbounded.
+fn extremes(
+    frequencies: &[f64],
+    slip: &[f64],
+    undamped: &[f64],
+    at: impl Fn(f64) -> f64,
+) -> Vec<ReachExtreme> {
     let mut found = Vec::new();
     for k in 1..slip.len().saturating_sub(1) {
         let (before, here, after) = (slip[k - 1], slip[k], slip[k + 1]);
@@ -137,6 +170,15 @@ fn extremes(frequencies: &[f64], slip: &[f64], at: impl Fn(f64) -> f64) -> Vec<R
             continue;
         };
         let value = sign * best.value;
+        let unbounded = |pole: &&f64| {
+            let inside = **pole >= ends.0 && **pole <= ends.1;
+            inside && at(**pole) >= UNBOUNDED * at(**pole * (1.0 + BESIDE))
+        };
+        if let Some(&frequency) = undamped.iter().find(unbounded).filter(|_| peak) {
+            let (slip_per_amplitude, out_of_reach) = (None, false);
+            found.push(ReachExtreme { frequency, slip_per_amplitude, peak, out_of_reach });
+            continue;
+        }
         let octave = frequencies.iter().zip(slip).filter(|(w, s)| {
             s.is_finite() && **w > 0.5 * best.location && **w < 2.0 * best.location
         });
@@ -144,7 +186,7 @@ fn extremes(frequencies: &[f64], slip: &[f64], at: impl Fn(f64) -> f64) -> Vec<R
         let out_of_reach = dip && value <= OUT_OF_REACH * sum / f64::max(count, 1.0);
         found.push(ReachExtreme {
             frequency: best.location,
-            slip_per_amplitude: value,
+            slip_per_amplitude: Some(value),
             peak,
             out_of_reach,
         });
@@ -198,11 +240,16 @@ impl Reaches {
                 let mut item = Fields::of_system(units);
                 item.plain("kind", if at.peak { "peak" } else { "dip" })
                     .number("frequency", Quantity::FrequencyRatio, at.frequency)
-                    .plain("slip_per_amplitude", at.slip_per_amplitude)
                     .plain("out_of_reach", at.out_of_reach);
-                let reversal = velocity / at.slip_per_amplitude;
-                let never = || "the dither does not reach the contact".to_owned();
-                let reversal = if reversal.is_finite() { Ok(reversal) } else { Err(never()) };
+                match at.slip_per_amplitude {
+                    Some(slip) => item.plain("slip_per_amplitude", slip),
+                    None => item.unknown("slip_per_amplitude", UNBOUNDED_RESONANCE),
+                };
+                let reversal = match at.slip_per_amplitude.map(|slip| velocity / slip) {
+                    Some(reversal) if reversal.is_finite() => Ok(reversal),
+                    Some(_) => Err("the dither does not reach the contact".to_owned()),
+                    None => Err(UNBOUNDED_RESONANCE.to_owned()),
+                };
                 item.known("reversal_amplitude", Quantity::Force, reversal);
                 item
             });

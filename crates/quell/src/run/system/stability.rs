@@ -8,12 +8,15 @@ use quell_model::System;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::modes::natural;
+use super::validity::{condition, opened, opening};
 use super::{
     failed, force, has_equations, is_dithered, not_averaged, oscillating, put_motion, rate_of,
     upper,
 };
 use crate::complaint::Failure;
 use crate::fields::Fields;
+use crate::range::outside_of_laws;
 use crate::run::stability::{becomes, kind};
 use crate::study::{SystemStudy, SystemUnits};
 use crate::words::digits;
@@ -91,63 +94,39 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
         })
         .collect();
     warnings.extend(outside_of_laws(system, Some(&average.contacts)));
-    warnings.extend(opened(study, &average.contacts));
+    warnings.extend(opened(study.units(), system, &average.contacts));
     warnings.extend(not_slow(study, &undithered));
     let dither = Some(UnderDither { undithered, critical });
     Ok(SystemStability { spectrum, contacts, dither, warnings })
 }
 
-/// Warnings about contacts that the fast load opens.
-fn opened(study: &SystemStudy, contacts: &[DitheredContact]) -> Vec<String> {
-    let units = study.units();
-    let contacts = study.system().contacts.iter().zip(contacts);
-    let opening = contacts.filter(|(_, found)| found.opens());
-    opening
-        .map(|(contact, found)| {
-            format!(
-                "contact {} opens: the fast part of its load, {}, exceeds the mean load, {}; averaging does not describe an open contact",
-                contact.name,
-                force(units, found.load_amplitude),
-                force(units, found.normal_load)
-            )
-        })
-        .collect()
-}
-
-/// The warning about eigenfrequencies that are not far below the dither.
+/// The warning about motions that are not much slower than the dither.
 fn not_slow(study: &SystemStudy, undithered: &MotionSpectrum) -> Option<String> {
     let waves = study.system().inputs.iter().flat_map(|input| input.profile.waves());
     let slowest = waves.map(|wave| wave.frequency).fold(f64::INFINITY, f64::min);
-    let near = upper(undithered).map(SmallMotion::frequency).filter(|own| *own * FAR > slowest);
-    let nearest = near.min_by(|a, b| (a - slowest).abs().total_cmp(&(b - slowest).abs()))?;
+    let near = upper(undithered).filter(|motion| natural(motion) * FAR > slowest);
+    let distance = |motion: &SmallMotion| (natural(motion) - slowest).abs();
+    let nearest = near.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    let own = natural(nearest);
+    let because = "averaging assumes that the dither is much faster than every motion";
+    if nearest.frequency() == 0.0 {
+        let units = study.units();
+        return Some(format!(
+            "a motion without oscillation has the rate |λ| = {}, which is not far below the angular frequency of the dither, {}: \
+             {because}",
+            rate_of(units, own),
+            rate_of(units, slowest)
+        ));
+    }
     let (factor, unit) = match study.units() {
         SystemUnits::None => (1.0, ""),
         _ => (1.0 / std::f64::consts::TAU, " Hz"),
     };
     Some(format!(
-        "the eigenfrequency {}{unit} is not far below the dither frequency {}{unit}: averaging assumes that the dither is much \
-         faster than every motion",
-        digits(factor * nearest),
+        "the eigenfrequency {}{unit} is not far below the dither frequency {}{unit}: {because}",
+        digits(factor * own),
         digits(factor * slowest)
     ))
-}
-
-/// Warnings about slip outside the range of a friction law.
-fn outside_of_laws(system: &System, dithered: Option<&[DitheredContact]>) -> Vec<String> {
-    let contacts = system.contacts.iter().enumerate();
-    contacts
-        .filter_map(|(index, contact)| {
-            let range = contact.friction.range()?;
-            let fast = dithered.map_or(0.0, |contacts| contacts[index].slip_amplitude);
-            let slip = contact.surface_velocity.mean().abs() + fast;
-            (slip > range.upper).then(|| {
-                format!(
-                    "the slip velocity at contact {} reaches {slip:.4}, beyond the range of its friction law, {:.4} ({})",
-                    contact.name, range.upper, range.limit
-                )
-            })
-        })
-        .collect()
 }
 
 impl SystemStability {
@@ -164,21 +143,38 @@ impl SystemStability {
             None => "By linearisation",
         };
         let units = study.units();
+        let (is, condition) = self.condition(study.system());
         let verdict = match self.spectrum.growth.verdict() {
             Verdict::Stable => format!(
-                "steady sliding is stable: every motion decays, the slowest at the rate {}",
+                "steady sliding {is} stable{condition}: every motion decays, the slowest at the rate {}",
                 rate_of(units, -rate)
             ),
             Verdict::Unstable => format!(
-                "steady sliding is unstable: a motion {} grows at the rate {}",
+                "steady sliding {is} unstable{condition}: a motion {} grows at the rate {}",
                 oscillating(units, frequency),
                 rate_of(units, rate)
             ),
+            Verdict::Undecided if !error.is_finite() => {
+                "the stability of steady sliding is undecided: the numbers are too large or too small to bound the error of the \
+                 growth rate"
+                    .to_owned()
+            }
             Verdict::Undecided => format!(
                 "the stability of steady sliding is undecided: the largest growth rate is zero within its error, {error:.1e}"
             ),
         };
         format!("{by}, {verdict}.{}", self.next(study))
+    }
+
+    /// The verb of the verdict, and the condition under which it would hold: "is" alone where every contact stays closed.
+    fn condition(&self, system: &System) -> (&'static str, String) {
+        let dithered: Option<Vec<DitheredContact>> =
+            self.contacts.iter().map(|contact| contact.dithered).collect();
+        let dithered = dithered.unwrap_or_default();
+        match condition(&opening(system, &dithered)) {
+            Some(condition) => ("would be", format!(" {condition}")),
+            None => ("is", String::new()),
+        }
     }
 
     /// The next amplitude at which the verdict changes.
@@ -196,14 +192,15 @@ impl SystemStability {
         let next = critical.iter().find(|found| found.amplitude > now && found.becomes == wanted);
         let more = next.map_or(String::new(), |found| {
             format!(
-                " {} makes it {} from the amplitude {} on.",
+                " {} makes it {} from the amplitude {} on{}.",
                 if study.system().inputs.len() > 1 {
                     "A larger first dither"
                 } else {
                     "More dither"
                 },
                 becomes(found.becomes),
-                force(study.units(), found.amplitude)
+                force(study.units(), found.amplitude),
+                if found.contacts_stay_closed { "" } else { ", if every contact stayed closed" }
             )
         });
         format!(" Without dither it is {without}.{more}")
@@ -272,7 +269,8 @@ pub(super) fn put_critical(
             .number("amplitude_error", Quantity::Force, found.error)
             .plain("kind", kind(found.crossing))
             .plain("becomes", becomes(found.becomes))
-            .plain("contacts_stay_closed", found.contacts_stay_closed);
+            .plain("contacts_stay_closed", found.contacts_stay_closed)
+            .plain("within_law_ranges", found.within_laws);
         inner
     });
     fields.list("critical_amplitudes", items.collect::<Vec<_>>());

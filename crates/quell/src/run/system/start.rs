@@ -78,12 +78,12 @@ pub fn start_with(study: &SystemStudy, numbers: &StateNumbers) -> Result<MotionS
 /// # Errors
 /// A complaint about every part.
 pub fn read_state(study: &SystemStudy, text: &str) -> Result<StateNumbers, Complaints> {
-    let parts = text.split(',').map(|part| match part.split_once('=') {
-        Some((name, value)) => Ok((name.trim(), value.trim())),
-        None => {
-            let allowed = "name=value pairs with commas between them, such as x=0.1,velocity.x=-2";
-            Err(Box::new(Complaint::option("--start", part.trim(), allowed)))
+    let parts = text.split(',').map(|part| {
+        if let Some((name, value)) = part.split_once('=') {
+            return Ok((name.trim(), value.trim()));
         }
+        let allowed = "name=value pairs with commas between them, such as x=0.1,velocity.x=-2";
+        Err(Box::new(Complaint::option("--start", part.trim(), allowed)))
     });
     named(study, parts)
 }
@@ -142,7 +142,12 @@ pub fn start_in_words(study: &SystemStudy, numbers: &StateNumbers) -> String {
         return from.to_owned();
     }
     let names = state_names(study.system());
-    let given = numbers.iter().map(|(place, value)| format!("{} = {value:?}", names[*place]));
+    let given = numbers.iter().map(|(place, value)| {
+        let quantity = state_quantity(study.system(), *place);
+        let unit = quantity.and_then(|quantity| study.units().unit(quantity));
+        let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+        format!("{} = {}{unit}", names[*place], digits(*value))
+    });
     format!("{from} with {}", given.collect::<Vec<_>>().join(", "))
 }
 

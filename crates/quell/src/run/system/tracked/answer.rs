@@ -1,196 +1,18 @@
-//! `stability --parameter`: eigenvalues of a system followed over a parameter, its thresholds, and their curves along a second one.
+//! Eigenvalues followed over a parameter as sentence, JSON and datasets.
 
 use std::fmt::Write as _;
 
-use quell_linear::averaging::DitheredSystem;
 use quell_linear::growth::Verdict;
-use quell_linear::linearised::Linearised;
-use quell_linear::tracking::{Family, StabilityChange, ThresholdOfStability, Tracked, track};
+use quell_linear::tracking::{StabilityChange, ThresholdOfStability};
 use quell_model::units::Quantity;
-use quell_numerics::eigen::EigenError;
-use quell_numerics::matrix::Matrix;
 use serde_json::{Value as Json, json};
 
-use super::{failed, has_equations, is_dithered, oscillating};
-use crate::complaint::{Complaint, Failure, Fault, Origin};
+use super::{StabilityCurve, TrackRequest, TrackedStability};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::run::system::oscillating;
 use crate::study::{SystemStudy, SystemUnits};
 use crate::words::{digits, plural};
-
-/// Values of the parameter at which eigenvalues are computed at least.
-const POINTS: usize = 129;
-
-/// Values of the first parameter on each line of a curve.
-const POINTS_OF_A_LINE: usize = 33;
-
-/// Lines across the second parameter.
-const LINES: usize = 81;
-
-/// Two thresholds of neighbouring lines belong to one curve if they are closer than this share of the window.
-const LINKED: f64 = 0.1;
-
-/// What to follow.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TrackRequest {
-    /// Path of the parameter.
-    pub parameter: String,
-    /// Its window in the unit of that key.
-    pub window: (f64, f64),
-    /// A second parameter and its window, along which thresholds are followed.
-    pub along: Option<(String, (f64, f64))>,
-}
-
-/// A curve of thresholds: (second parameter, threshold), ascending.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StabilityCurve {
-    /// Its points.
-    pub points: Vec<(f64, ThresholdOfStability)>,
-}
-
-/// Eigenvalues over a parameter.
-#[derive(Clone, Debug)]
-pub struct TrackedStability {
-    /// The request.
-    pub request: TrackRequest,
-    /// Whether the verdicts are those of averaging.
-    pub averaged: bool,
-    /// The eigenvalues and thresholds over the window.
-    pub tracked: Tracked<String>,
-    /// Curves along the second parameter; empty without one.
-    pub curves: Vec<StabilityCurve>,
-}
-
-/// The state matrices of a study over one of its numbers, others fixed.
-struct StudyFamily<'a> {
-    study: &'a SystemStudy,
-    path: &'a str,
-    fixed: Option<(&'a str, f64)>,
-}
-
-impl Family for StudyFamily<'_> {
-    type Error = String;
-
-    fn matrix(&self, value: f64) -> Result<Matrix, String> {
-        let numbers: Vec<(&str, f64)> =
-            self.fixed.into_iter().chain([(self.path, value)]).collect();
-        let system = self.study.system_at(&numbers).map_err(|why| why.to_string())?;
-        if is_dithered(&system) {
-            let prepared = DitheredSystem::new(&system).map_err(|why| why.to_string())?;
-            let average = prepared.average().map_err(|why| why.to_string())?;
-            return Ok(average.linear.state_matrix_with(&average.friction));
-        }
-        let linear = Linearised::new(&system).map_err(|why| why.to_string())?;
-        Ok(linear.state_matrix_with(&linear.friction()))
-    }
-
-    fn overflows(why: EigenError) -> String {
-        why.to_string()
-    }
-}
-
-/// Follows the eigenvalues of a study.
-///
-/// # Errors
-/// Complaints about the parameters and their windows; [`Failure::Failed`] if no value of the window has steady sliding.
-pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStability, Failure> {
-    has_equations(study, "stability")?;
-    understood(study, request)?;
-    let family = |fixed| StudyFamily { study, path: &request.parameter, fixed };
-    let tracked = track(&family(None), request.window, POINTS);
-    let tracked = tracked.map_err(|why| failed("stability", why))?;
-    let mut curves = Vec::new();
-    if let Some((along, (from, to))) = &request.along {
-        let width = request.window.1 - request.window.0;
-        for k in 0..LINES {
-            let value = from + (to - from) * k as f64 / (LINES - 1) as f64;
-            let line = track(&family(Some((along, value))), request.window, POINTS_OF_A_LINE);
-            let thresholds = line.map_or_else(|_| Vec::new(), |line| line.thresholds);
-            let step = (to - from) / (LINES - 1) as f64;
-            extend(&mut curves, (value, step), thresholds, width);
-        }
-    }
-    let averaged = is_dithered(study.system());
-    Ok(TrackedStability { request: request.clone(), averaged, tracked, curves })
-}
-
-/// Adds the thresholds of a line to the curves that end at the line before.
-fn extend(
-    curves: &mut Vec<StabilityCurve>,
-    (value, step): (f64, f64),
-    thresholds: Vec<ThresholdOfStability>,
-    width: f64,
-) {
-    let mut taken = vec![false; curves.len()];
-    for found in thresholds {
-        let distance = |curve: &StabilityCurve| {
-            let (at, last) = curve.points.last()?;
-            let follows = (value - at) <= 1.5 * step;
-            let same = last.change == found.change && last.verdicts == found.verdicts;
-            let distance = (last.value - found.value).abs();
-            (follows && same && distance <= LINKED * width).then_some(distance)
-        };
-        let open = taken.iter().enumerate().filter(|(_, taken)| !**taken);
-        let near = open.filter_map(|(index, _)| Some((distance(&curves[index])?, index)));
-        if let Some((_, index)) = near.min_by(|a, b| a.0.total_cmp(&b.0)) {
-            curves[index].points.push((value, found));
-            taken[index] = true;
-        } else {
-            curves.push(StabilityCurve { points: vec![(value, found)] });
-            taken.push(true);
-        }
-    }
-}
-
-/// The path of the study that is closest to a wrong one.
-fn nearest(study: &SystemStudy, path: &str) -> Option<String> {
-    let complaints = study.with(path, 0.0).err()?;
-    complaints.iter().find_map(|complaint| complaint.suggestion.clone())
-}
-
-/// Every complaint about a request.
-pub(super) fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<(), Failure> {
-    let mut wrong = Vec::new();
-    let along = request.along.as_ref();
-    let along = along.map(|(path, window)| (("--along", "--between", "--between"), path, *window));
-    let first = (("--parameter", "--from", "--to"), &request.parameter, request.window);
-    for ((option, from, to), path, window) in [Some(first), along].into_iter().flatten() {
-        if study.number(path).is_none() {
-            let allowed =
-                "the path of a number of the study, such as contact.pad.friction.coefficient";
-            let complaint = Complaint::option(option, path.as_str(), allowed);
-            wrong.push(complaint.suggesting(nearest(study, path)));
-            continue;
-        }
-        if window.0.is_nan() || window.1.is_nan() || window.0 >= window.1 {
-            let allowed = format!("a finite number above {from} {}", window.0);
-            wrong.push(Complaint::option(to, window.1, allowed));
-        }
-    }
-    if request.along.as_ref().is_some_and(|(path, _)| *path == request.parameter) {
-        let allowed = "a parameter other than --parameter";
-        wrong.push(Complaint::option("--along", request.parameter.as_str(), allowed));
-    }
-    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
-}
-
-/// The roots of `thresholds` of a system, which are those of `stability --parameter`.
-///
-/// # Errors
-/// As [`run`]; a system with dither, whose exact thresholds are those of its periodic motions.
-pub fn thresholds(
-    study: &SystemStudy,
-    request: &TrackRequest,
-) -> Result<TrackedStability, Failure> {
-    if is_dithered(study.system()) {
-        let allowed = "a study without dither: curves of thresholds of periodic motions are not implemented yet; `thresholds` \
-                       without --along gives the exact thresholds, and `stability --parameter --along` those of averaging";
-        return Err(
-            Complaint::new(Fault::NotBuilt, "dither", Origin::Whole, Json::Null, allowed).into()
-        );
-    }
-    run(study, request)
-}
 
 impl TrackedStability {
     /// The protocol of the verdicts.
@@ -222,6 +44,14 @@ impl TrackedStability {
             })
             .collect();
         let by = if self.averaged { "By averaging, steady" } else { "Steady" };
+        let opening = self.contacts[0].opening(study.system());
+        let condition = match opening.as_slice() {
+            [] => String::new(),
+            [name] => format!(" This holds only where contact {name} stays closed."),
+            names => {
+                format!(" This holds only where contacts {} stay closed.", names.join(" and "))
+            }
+        };
         let mut sentence = if changes.is_empty() {
             let known = self.verdicts().into_iter().map(|(verdict, from, to)| {
                 let to = self.value(study, to);
@@ -242,7 +72,7 @@ impl TrackedStability {
             let count = self.curves.len();
             let _ = write!(sentence, " Found {count} curve{} of thresholds.", plural(count));
         }
-        sentence
+        sentence + &condition
     }
 
     /// The verdicts over the window, each with its first and last value; a single value in between is not listed.
@@ -281,7 +111,7 @@ impl TrackedStability {
             .measured("to", unit, *to);
         let points: usize = self.tracked.pieces.iter().map(Vec::len).sum();
         fields.plain("points", points);
-        fields.plain("covered", self.tracked.unknown.is_empty()).plain("resumes", self.resumes());
+        fields.plain("covered", self.is_covered()).plain("resumes", self.resumes());
         fields.nested("at_from", self.at_from(study));
         let found = self.tracked.thresholds.iter().map(|found| put(study, unit, found));
         let found: Vec<Fields> = found.collect();
@@ -299,6 +129,11 @@ impl TrackedStability {
         fields.plain("unknown", unknown.collect::<Vec<Json>>());
         fields.plain("warnings", self.warnings(study));
         fields.finish()
+    }
+
+    /// Whether every value has an answer and every close approach of two eigenvalues was examined.
+    fn is_covered(&self) -> bool {
+        self.tracked.unknown.is_empty() && self.tracked.unexamined == 0
     }
 
     /// Whether there is an answer at the last value again, after a range without one.
@@ -327,7 +162,7 @@ impl TrackedStability {
         fields
     }
 
-    /// Warnings: those of the study, and ranges without an answer.
+    /// Warnings: those of the study, ranges without an answer, and approaches that were not examined.
     fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let unknown = self.tracked.unknown.iter().map(|range| {
             let parameter = &self.request.parameter;
@@ -339,7 +174,22 @@ impl TrackedStability {
                 format!("from {parameter} = {from} to {to} there is no answer: {}", range.why)
             }
         });
-        study.warnings().iter().cloned().chain(unknown).collect()
+        let unexamined = Some(self.tracked.unexamined).filter(|count| *count > 0).map(|count| {
+            format!(
+                "{count} close approach{} of two eigenvalues could not be examined, where pairs of thresholds may be missing: \
+                 try a narrower window",
+                if count == 1 { "" } else { "es" }
+            )
+        });
+        let TrackRequest { parameter, along, .. } = &self.request;
+        let [own, of_curves] = &self.contacts;
+        let own = own.warnings(study, |range| between(study, parameter, range));
+        let along = along.as_ref().map_or("", |(path, _)| path.as_str());
+        let of_curves = of_curves.warnings(study, |range| {
+            format!("on lines {} of the second parameter", between(study, along, range))
+        });
+        let listed = study.warnings().iter().cloned().chain(unknown).chain(unexamined);
+        listed.chain(own).chain(of_curves).collect()
     }
 
     /// Growth rate and frequency of every branch over the parameter.
@@ -391,6 +241,16 @@ impl TrackedStability {
             .with(Array::new(parameter.as_str(), unit(parameter), values));
         Some(dataset)
     }
+}
+
+/// A range of a parameter in words.
+fn between(study: &SystemStudy, path: &str, (from, to): (f64, f64)) -> String {
+    let unit = study.unit_of(path).filter(|unit| *unit != "1");
+    let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+    if from == to {
+        return format!("at {path} = {}{unit}", digits(from));
+    }
+    format!("from {path} = {} to {}{unit}", digits(from), digits(to))
 }
 
 /// One threshold; `unit` is that of the parameter.

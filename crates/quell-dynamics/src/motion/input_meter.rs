@@ -1,0 +1,155 @@
+//! The cost of the inputs of a motion: the power that each feeds into the structure, and its stroke.
+//!
+//! A force b u(t) feeds in u bᵀq̇. A modulation ΔN of a load, borne by the structure, pushes it away from the surface while the
+//! contact is closed: it feeds in −ΔN nᵀq̇. The means of both are taken out: what an input does on average is no dither.
+
+use quell_model::System;
+use quell_model::profile::Profile;
+use quell_model::system::{InputTarget, Structure};
+use quell_numerics::dispatch::{Work, with_fused_multiply_add};
+use quell_numerics::lane::horner;
+
+use super::contact_meter::RULE;
+use super::observer::{MotionObserver, MotionSegment};
+use super::phase::ContactPhase;
+use super::row_meter::{RowRange, series_of};
+use super::rows::RowEntries;
+use crate::simulation::Clock;
+
+/// Why the power and the stroke of an input are unknown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoPower {
+    /// First-order equations: where the input acts is no displacement.
+    FirstOrder,
+    /// Guides bear the modulation of the load.
+    Guided,
+    /// The input is a factor on friction, no force.
+    Factor,
+    /// The contact has no normal row: the model has no motion along which the load could do work.
+    NoNormal,
+}
+
+impl NoPower {
+    /// The reason in words.
+    pub fn why(self) -> &'static str {
+        match self {
+            Self::FirstOrder => {
+                "first-order equations do not give the displacement on which the input acts"
+            }
+            Self::Guided => {
+                "guides bear the modulation of the load, which does no work on the structure"
+            }
+            Self::Factor => "the input multiplies friction and is no force of its own",
+            Self::NoNormal => {
+                "the contact has no normal row: the model has no motion in the normal direction"
+            }
+        }
+    }
+}
+
+/// The cost of an input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InputCost {
+    /// Mean power that it feeds into the structure.
+    pub power: f64,
+    /// Peak-to-peak displacement along its row.
+    pub stroke: f64,
+}
+
+/// One input that does work.
+#[derive(Clone, Debug)]
+struct Worker<'s> {
+    /// Row over the displacements and over the velocities.
+    rows: [RowEntries; 2],
+    profile: &'s Profile,
+    sign: f64,
+    /// The contact without which it does no work.
+    contact: Option<usize>,
+    work: f64,
+    extremes: RowRange,
+}
+
+/// Measures every input of a motion.
+#[derive(Clone, Debug)]
+pub struct InputMeter<'s> {
+    length: f64,
+    inputs: Vec<Result<Worker<'s>, NoPower>>,
+}
+
+impl<'s> InputMeter<'s> {
+    /// For the inputs of a system.
+    pub fn new(system: &'s System) -> Self {
+        let inputs = system.inputs.iter().map(|input| {
+            let Structure::Mechanical(structure) = &system.structure else {
+                return Err(NoPower::FirstOrder);
+            };
+            let (row, sign, contact) = match &input.target {
+                InputTarget::Force(row) => (row, 1.0, None),
+                InputTarget::Friction { .. } => return Err(NoPower::Factor),
+                InputTarget::NormalLoad { reaction: false, .. } => return Err(NoPower::Guided),
+                InputTarget::NormalLoad { contact, .. } => {
+                    let normal = system.contacts[*contact].normal.as_ref();
+                    (normal.ok_or(NoPower::NoNormal)?, -1.0, Some(*contact))
+                }
+            };
+            let rows = [RowEntries::at(row, 0), RowEntries::at(row, structure.size())];
+            let (profile, extremes) = (&input.profile, RowRange::NONE);
+            Ok(Worker { rows, profile, sign, contact, work: 0.0, extremes })
+        });
+        Self { length: 0.0, inputs: inputs.collect() }
+    }
+
+    /// The cost of every input; `None` if no time has been measured.
+    pub fn costs(&self) -> Option<Vec<Result<InputCost, NoPower>>> {
+        let cost = |worker: &Worker<'_>| InputCost {
+            power: worker.work / self.length,
+            stroke: worker.extremes.width(),
+        };
+        let all = self.inputs.iter();
+        (self.length > 0.0)
+            .then(|| all.map(|input| input.as_ref().map(cost).map_err(|why| *why)).collect())
+    }
+}
+
+impl MotionObserver for InputMeter<'_> {
+    fn segment(&mut self, segment: &MotionSegment<'_>) {
+        self.length += segment.duration();
+        for worker in self.inputs.iter_mut().flatten() {
+            with_fused_multiply_add(InputOnSegment { worker, segment });
+        }
+    }
+}
+
+struct InputOnSegment<'a, 'b, 's> {
+    worker: &'a mut Worker<'s>,
+    segment: &'a MotionSegment<'b>,
+}
+
+impl Work for InputOnSegment<'_, '_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { worker, segment } = self;
+        let duration = segment.duration();
+        let [displacement, velocity] = [0, 1].map(|row| series_of(&worker.rows[row], segment));
+        worker.extremes.add(&displacement, duration);
+        let open = |contact: usize| segment.phase(contact) == ContactPhase::Open;
+        if worker.contact.is_some_and(open) {
+            return;
+        }
+        let [nodes, weights] = &*RULE;
+        let mut work = 0.0;
+        for (node, weight) in nodes.iter().zip(weights) {
+            let since = node * duration;
+            let force = wave_force(worker.profile, segment.clock(), since);
+            work = f64::mul_add(weight * duration, force * horner(&velocity, since), work);
+        }
+        worker.work = f64::mul_add(worker.sign, work, worker.work);
+    }
+}
+
+/// What a profile adds to its mean at a time after a moment.
+fn wave_force(profile: &Profile, clock: Clock, since: f64) -> f64 {
+    profile.value(clock.after(since).time()) - profile.mean()
+}

@@ -1,0 +1,182 @@
+//! What a row over the state does in a motion: its range, mean and root mean square from the Taylor series, and samples for a
+//! spectrum.
+
+use quell_numerics::dispatch::{Work, with_fused_multiply_add};
+use quell_numerics::lane::horner;
+use quell_numerics::polynomial::derivative;
+
+use super::contact_meter::{RULE, integral};
+use super::observer::{MotionObserver, MotionSegment};
+use super::rows::RowEntries;
+use crate::simulation::{ORDER, Series};
+
+/// Steps of the search for an extremum between two moments: it halves the interval at least every second step.
+const MOST_STEPS: usize = 40;
+
+/// The range of a quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct RowRange {
+    least: f64,
+    most: f64,
+}
+
+impl RowRange {
+    pub(super) const NONE: Self = Self { least: f64::INFINITY, most: f64::NEG_INFINITY };
+
+    /// Peak to peak; 0 if nothing was added.
+    pub(super) fn width(&self) -> f64 {
+        (self.most - self.least).max(0.0)
+    }
+
+    #[inline(always)]
+    fn take(&mut self, value: f64) {
+        self.least = self.least.min(value);
+        self.most = self.most.max(value);
+    }
+
+    /// Adds the values of a series from 0 to `duration`, the extrema between its ends included.
+    #[inline(always)]
+    pub(super) fn add(&mut self, series: &Series, duration: f64) {
+        let slope = derivative(series);
+        let (mut before, mut falls) = (0.0, horner(&slope, 0.0));
+        self.take(horner(series, 0.0));
+        for moment in RULE[0].iter().copied().chain([1.0]) {
+            let here = moment * duration;
+            let rate = horner(&slope, here);
+            self.take(horner(series, here));
+            // A value between two moments is beyond both by less than the larger rate times the distance.
+            let reach = falls.abs().max(rate.abs()) * (here - before);
+            let value = horner(series, here);
+            let matters = value + reach > self.most || value - reach < self.least;
+            if falls * rate < 0.0 && matters {
+                self.take(horner(series, zero_between(&slope, (before, falls), (here, rate))));
+            }
+            (before, falls) = (here, rate);
+        }
+    }
+}
+
+/// A zero of a series between two moments at which its signs differ.
+#[inline(always)]
+fn zero_between(series: &Series, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
+    for step in 0..MOST_STEPS {
+        let chord = a.0 - a.1 * (b.0 - a.0) / (b.1 - a.1);
+        let middle = if step % 2 == 0 { chord } else { 0.5 * (a.0 + b.0) };
+        let value = horner(series, middle);
+        if value == 0.0 || middle <= a.0 || middle >= b.0 {
+            return middle;
+        }
+        if (value > 0.0) == (a.1 > 0.0) { a = (middle, value) } else { b = (middle, value) }
+    }
+    0.5 * (a.0 + b.0)
+}
+
+/// Taylor coefficients of a row times the state.
+#[inline(always)]
+pub(super) fn series_of(row: &RowEntries, segment: &MotionSegment<'_>) -> Series {
+    let mut series = [0.0; ORDER + 1];
+    for (coefficient, state) in series.iter_mut().zip(segment.states().chunks(segment.size)) {
+        *coefficient = row.dot(state);
+    }
+    series
+}
+
+/// Measures a row over the state.
+#[derive(Clone, Debug)]
+pub struct RowMeter {
+    row: RowEntries,
+    first: f64,
+    step: f64,
+    count: usize,
+    length: f64,
+    extremes: RowRange,
+    sum: f64,
+    squares: f64,
+    /// The values at `first` + n · `step`.
+    pub samples: Vec<f64>,
+}
+
+impl RowMeter {
+    /// For a row over the displacements, or over the states of first-order equations, with `count` samples from `first`, `step`
+    /// apart.
+    pub fn new(row: &[f64], first: f64, step: f64, count: usize) -> Self {
+        Self {
+            row: RowEntries::at(row, 0),
+            first,
+            step,
+            count,
+            length: 0.0,
+            extremes: RowRange::NONE,
+            sum: 0.0,
+            squares: 0.0,
+            samples: Vec::with_capacity(count),
+        }
+    }
+
+    /// Adds samples that are missing at the end: the last one may round to just after it.
+    pub fn finish(&mut self, state: &[f64]) {
+        self.samples.resize(self.count, self.row.dot(state));
+    }
+
+    /// Mean over time.
+    pub fn mean(&self) -> f64 {
+        self.sum / self.length
+    }
+
+    /// Root mean square of the deviation from the mean.
+    pub fn deviation(&self) -> f64 {
+        (self.squares / self.length - self.mean() * self.mean()).max(0.0).sqrt()
+    }
+
+    /// Peak to peak.
+    pub fn range(&self) -> f64 {
+        self.extremes.width()
+    }
+
+    /// Largest magnitude; 0 if no time has been measured.
+    pub fn largest(&self) -> f64 {
+        if self.length > 0.0 {
+            self.extremes.least.abs().max(self.extremes.most.abs())
+        } else {
+            0.0
+        }
+    }
+}
+
+impl MotionObserver for RowMeter {
+    fn segment(&mut self, segment: &MotionSegment<'_>) {
+        with_fused_multiply_add(RowOnSegment { meter: self, segment });
+    }
+}
+
+struct RowOnSegment<'a, 'b> {
+    meter: &'a mut RowMeter,
+    segment: &'a MotionSegment<'b>,
+}
+
+impl Work for RowOnSegment<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { meter, segment } = self;
+        let series = series_of(&meter.row, segment);
+        let duration = segment.duration();
+        meter.length += duration;
+        meter.sum += integral(&series, duration);
+        meter.extremes.add(&series, duration);
+        let [nodes, weights] = &*RULE;
+        for (node, weight) in nodes.iter().zip(weights) {
+            let value = horner(&series, node * duration);
+            meter.squares = f64::mul_add(weight * duration, value * value, meter.squares);
+        }
+        while meter.samples.len() < meter.count {
+            let time = f64::mul_add(meter.samples.len() as f64, meter.step, meter.first);
+            let since = segment.clock().until(time);
+            if since > duration {
+                break;
+            }
+            meter.samples.push(horner(&series, since.max(0.0)));
+        }
+    }
+}

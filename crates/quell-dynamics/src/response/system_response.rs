@@ -1,0 +1,326 @@
+//! The steady response of any system: a settled record of one row, compared with the undithered run from the same start.
+//!
+//! The band of slow vibration ends below the lowest dither frequency. M is the largest spectral amplitude in it, as for a belt,
+//! and the same rules decide the effect ([`Vibrations`]). The tones of the dithers are subtracted first: near the end of the band
+//! the window would spread them into it.
+//!
+//! The undithered run keeps vibrating if its record does not decay, or shows a vibration while steady sliding is unstable.
+
+use std::f64::consts::TAU;
+use std::fmt;
+
+use quell_linear::growth::Verdict;
+use quell_linear::linearised::Linearised;
+use quell_linear::spectrum::spectrum;
+use quell_linear::steady::SteadySliding;
+use quell_model::System;
+use quell_model::profile::Profile;
+use quell_numerics::matrix::Matrix;
+use quell_numerics::spectrum::Spectrum;
+use quell_numerics::spectrum::low_band::LargestLines;
+
+use super::effect::{Effect, Uncertain, Vibrations};
+use super::measure::Undefined;
+use super::record_lines::RecordLines;
+use crate::motion::{
+    ContactMeans, ContactMeter, Immobile, InputCost, InputMeter, MOTION_TOLERANCE, Motion,
+    MotionEnd, MotionStart, MotionStopped, NoPower, RowMeter,
+};
+
+/// Samples per period of the fastest dither, at least: its seventh harmonic stays below the Nyquist frequency.
+const SAMPLES_PER_DITHER_PERIOD: f64 = 16.0;
+
+/// Samples per period of the fastest motion of the structure, at least.
+const SAMPLES_PER_PERIOD: f64 = 8.0;
+
+/// Largest number of samples of a record.
+const MOST_SAMPLES: f64 = 4_194_304.0;
+
+/// Least number of samples of a record.
+const LEAST_SAMPLES: f64 = 256.0;
+
+/// Lines of the unpadded record, or of its halves, between the line of a dither and the end of the band: the window spreads a
+/// tone over two on each side.
+const WINDOW_REACH: f64 = 4.0;
+
+/// How a response is measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResponsePlan {
+    /// The row that is observed.
+    pub row: Vec<f64>,
+    /// Time discarded before the record.
+    pub settle: f64,
+    /// Length of the record.
+    pub length: f64,
+}
+
+/// Why a response could not be measured.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ResponseRefused {
+    /// The motion cannot be computed.
+    Immobile(Immobile),
+    /// A run ended early.
+    Stopped(MotionStopped),
+    /// The record would have too many samples.
+    TooLong {
+        /// The longest record of this system.
+        most: f64,
+    },
+    /// The record is too short for its lowest line to lie below the dither.
+    TooShort {
+        /// The shortest record.
+        least: f64,
+    },
+}
+
+impl fmt::Display for ResponseRefused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Immobile(why) => why.fmt(f),
+            Self::Stopped(why) => why.fmt(f),
+            Self::TooLong { most } => {
+                write!(f, "a record of this system is at most {most:.6e} long")
+            }
+            Self::TooShort { least } => {
+                write!(f, "a record of this system is at least {least:.6e} long")
+            }
+        }
+    }
+}
+
+impl std::error::Error for ResponseRefused {}
+
+/// The settled record of one run.
+#[derive(Clone, Debug)]
+pub struct SystemRecord {
+    /// The row at equal steps.
+    pub row: RowMeter,
+    /// Step between the samples.
+    pub step: f64,
+    /// Spectrum of the samples.
+    pub spectrum: Spectrum,
+    /// M in the band of slow vibration.
+    pub lines: LargestLines,
+    /// The contacts over the record.
+    pub contacts: Vec<ContactMeans>,
+    /// The inputs over the record.
+    pub inputs: Vec<Result<InputCost, NoPower>>,
+    /// The contacts from the start to the end of the record, transient included.
+    pub whole: ContactMeter,
+    /// Largest magnitude of the row from the start to the end of the record.
+    pub largest: f64,
+    /// The end of the record.
+    pub end: MotionEnd,
+}
+
+/// The steady response of a system.
+#[derive(Clone, Debug)]
+pub struct SystemResponse {
+    /// With dither.
+    pub dithered: SystemRecord,
+    /// Without dither, from the same start.
+    pub undithered: SystemRecord,
+    /// M with and without dither.
+    pub vibrations: Vibrations,
+    /// Upper end of the band of slow vibration, an angular frequency.
+    pub band_end: f64,
+    /// The effect of the dither.
+    pub effect: Effect,
+    /// E = M₁/M₀, the residual vibration, or why it is undefined.
+    pub efficiency: Result<f64, Undefined>,
+    /// Friction of every contact in steady sliding without dither, if that exists.
+    pub steady_friction: Option<Vec<f64>>,
+}
+
+/// The sampling of both records.
+#[derive(Clone, Copy, Debug)]
+struct RecordGrid {
+    step: f64,
+    count: usize,
+    band_end: f64,
+}
+
+/// Integrates a system from a start with and without its dither, and measures both.
+///
+/// # Errors
+/// [`ResponseRefused`].
+pub fn respond_system(
+    system: &System,
+    start: &MotionStart,
+    plan: &ResponsePlan,
+) -> Result<SystemResponse, ResponseRefused> {
+    let still = undithered(system);
+    let motion = Motion::new(system).map_err(ResponseRefused::Immobile)?;
+    let without = Motion::new(&still).map_err(ResponseRefused::Immobile)?;
+    let grid = RecordGrid::of(&motion, plan)?;
+    let dithered = record(&motion, start, plan, grid).map_err(ResponseRefused::Stopped)?;
+    let has_dither = frequencies(system).next().is_some();
+    let undithered = if has_dither {
+        record(&without, start, plan, grid).map_err(ResponseRefused::Stopped)?
+    } else {
+        dithered.clone()
+    };
+    let scale = dithered.largest.max(undithered.largest);
+    let [with, without] =
+        [&dithered, &undithered].map(|record| RecordLines { lines: record.lines, scale });
+    let vibrates = if without.is_negligible() || without.whole() == 0.0 {
+        Err(Undefined::UnditheredSettles)
+    } else if without.is_steady() || cannot_settle(&still) {
+        Ok(())
+    } else {
+        Err(Undefined::UnditheredUnknown)
+    };
+    let vibrations = Vibrations {
+        dithered: with,
+        undithered: without,
+        quiet_without: vibrates == Err(Undefined::UnditheredSettles),
+        quiet_with: with.decays(),
+    };
+    let effect = match vibrates {
+        _ if !has_dither => Effect::Unknown(Uncertain::NoDither),
+        Err(why @ Undefined::UnditheredUnknown) => Effect::Unknown(Uncertain::Undithered(why)),
+        _ => vibrations.effect(),
+    };
+    let steady = SteadySliding::new(&still).ok();
+    Ok(SystemResponse {
+        efficiency: vibrates.map(|()| with.whole() / without.whole()),
+        band_end: grid.band_end,
+        steady_friction: steady
+            .map(|steady| steady.contacts.iter().map(|contact| contact.friction).collect()),
+        dithered,
+        undithered,
+        vibrations,
+        effect,
+    })
+}
+
+/// Whether steady sliding of a system is unstable, so that hardly any run can settle there.
+fn cannot_settle(system: &System) -> bool {
+    let Ok(linear) = Linearised::new(system) else { return false };
+    let found = spectrum(&linear, &linear.friction());
+    found.is_ok_and(|found| found.growth.verdict() == Verdict::Unstable)
+}
+
+/// The same system with every input at its mean.
+fn undithered(system: &System) -> System {
+    let mut still = system.clone();
+    for input in &mut still.inputs {
+        input.profile = Profile::constant(input.profile.mean());
+    }
+    still
+}
+
+/// Angular frequencies of the dithers that act.
+fn frequencies(system: &System) -> impl Iterator<Item = f64> {
+    let waves = system.inputs.iter().flat_map(|input| input.profile.waves());
+    waves.filter(|wave| wave.amplitude != 0.0).map(|wave| wave.frequency)
+}
+
+impl RecordGrid {
+    /// For a system with its dither.
+    fn of(motion: &Motion<'_>, plan: &ResponsePlan) -> Result<Self, ResponseRefused> {
+        let own = TAU * motion.time_scale() / SAMPLES_PER_PERIOD;
+        let system = motion.system();
+        let fastest = frequencies(system).fold(0.0, f64::max);
+        let slowest = frequencies(system).fold(f64::INFINITY, f64::min);
+        let longest = own.min(TAU / (SAMPLES_PER_DITHER_PERIOD * fastest));
+        let wanted = (plan.length / longest).max(LEAST_SAMPLES);
+        if wanted > MOST_SAMPLES {
+            return Err(ResponseRefused::TooLong { most: longest * MOST_SAMPLES });
+        }
+        // A small number times a power of two keeps the factors of a transform small.
+        let unit = libm::exp2(libm::log2(wanted / LEAST_SAMPLES).floor() + 1.0);
+        let count = (wanted / unit).ceil() * unit;
+        let step = plan.length / count;
+        // Above the Nyquist frequency there are no lines.
+        let band_end = (slowest - WINDOW_REACH * TAU / plan.length).min(0.5 * TAU / step);
+        if band_end <= 2.0 * TAU / plan.length {
+            let least = (WINDOW_REACH + 2.0) * TAU / slowest;
+            return Err(ResponseRefused::TooShort { least });
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let count = count as usize;
+        Ok(Self { step, count, band_end })
+    }
+}
+
+/// Settles a run and measures its record.
+fn record(
+    motion: &Motion<'_>,
+    start: &MotionStart,
+    plan: &ResponsePlan,
+    grid: RecordGrid,
+) -> Result<SystemRecord, MotionStopped> {
+    let contacts = motion.system().contacts.len();
+    let mut whole = ContactMeter::new(contacts);
+    let from = start.time + plan.settle;
+    let mut transient = RowMeter::new(&plan.row, start.time, grid.step, 0);
+    let settled = motion.run(start, from, MOTION_TOLERANCE, &mut (&mut whole, &mut transient))?;
+    let mut meter = ContactMeter::new(contacts);
+    let mut inputs = InputMeter::new(motion.system());
+    let mut row = RowMeter::new(&plan.row, from, grid.step, grid.count);
+    let mut observer = ((&mut whole, &mut meter), (&mut inputs, &mut row));
+    let until = from + plan.length;
+    let end = motion.run(&settled.restart(), until, MOTION_TOLERANCE, &mut observer)?;
+    row.finish(&end.state);
+    let lines = lines_of(&row.samples, motion.system(), grid);
+    let spectrum = spectrum_of(&row.samples, grid.step);
+    Ok(SystemRecord {
+        contacts: meter.means().unwrap_or_default(),
+        inputs: inputs.costs().unwrap_or_default(),
+        largest: transient.largest().max(row.largest()),
+        step: grid.step,
+        row,
+        spectrum,
+        lines,
+        whole,
+        end,
+    })
+}
+
+/// M of a record and of its halves, without the tones of the dithers.
+fn lines_of(samples: &[f64], system: &System, grid: RecordGrid) -> LargestLines {
+    let mut rest = samples.to_vec();
+    for frequency in frequencies(system) {
+        subtract_tone(&mut rest, frequency * grid.step);
+    }
+    let largest = |samples: &[f64]| {
+        let spectrum = spectrum_of(samples, grid.step);
+        let lines = spectrum.frequencies().zip(spectrum.amplitudes());
+        let low = lines.skip(1).take_while(|(frequency, _)| *frequency <= grid.band_end);
+        low.fold(0.0_f64, |most, (_, amplitude)| most.max(*amplitude))
+    };
+    let (first, second) = rest.split_at(rest.len() / 2);
+    LargestLines { whole: largest(&rest), halves: [largest(first), largest(second)] }
+}
+
+/// Subtracts the tone of an angular frequency per sample that fits best under the Hann window, and leaves the mean.
+fn subtract_tone(samples: &mut [f64], rate: f64) {
+    let count = samples.len() as f64;
+    let parts = |number: usize| {
+        let sine = libm::sin(std::f64::consts::PI * number as f64 / count);
+        let phase = rate * number as f64;
+        (sine * sine, [1.0, libm::cos(phase), libm::sin(phase)])
+    };
+    let mut matrix = Matrix::zeros(3, 3);
+    let mut right = Matrix::zeros(3, 1);
+    for (number, sample) in samples.iter().enumerate() {
+        let (weight, basis) = parts(number);
+        for (i, a) in basis.iter().enumerate() {
+            right[(i, 0)] += weight * a * sample;
+            for (j, b) in basis.iter().enumerate() {
+                matrix[(i, j)] += weight * a * b;
+            }
+        }
+    }
+    let Some(fit) = matrix.solve(&right) else { return };
+    for (number, sample) in samples.iter_mut().enumerate() {
+        let (_, [_, cosine, sine]) = parts(number);
+        *sample -= fit[(1, 0)] * cosine + fit[(2, 0)] * sine;
+    }
+}
+
+fn spectrum_of(samples: &[f64], step: f64) -> Spectrum {
+    // UNWRAP: a record has at least four samples, the step is positive, and a run whose state is not finite stops before.
+    Spectrum::of(samples, step).expect("a record of finite samples")
+}

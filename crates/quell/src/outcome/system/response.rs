@@ -1,0 +1,84 @@
+//! `response` of a system.
+
+use std::fmt::Write as _;
+
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::outcome::Presented;
+use crate::outcome::table::figure;
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::system::response::SettledSystem;
+use crate::study::{SystemSetup, SystemStudy};
+
+impl Presented<SystemSetup> for SettledSystem {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
+        self.json(study)
+    }
+
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
+        Some(self.sentence(study))
+    }
+
+    fn table(&self, study: &SystemStudy) -> String {
+        let with = |quantity: Quantity, value: f64| {
+            let unit =
+                study.units().unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
+            format!("{}{unit}", figure(value))
+        };
+        let mut text = String::new();
+        let records = [
+            ("with dither", &self.response.dithered),
+            ("without dither", &self.response.undithered),
+        ];
+        let first = usize::from(!self.has_dither());
+        for (name, record) in &records[first..] {
+            let length = |value| with(Quantity::Displacement, value);
+            let _ = writeln!(
+                text,
+                "  {name}: slow amplitude {}, half peak-to-peak {}, rms {}, mean {}",
+                length(record.lines.whole),
+                length(0.5 * record.row.range()),
+                length(record.row.deviation()),
+                length(record.row.mean())
+            );
+        }
+        for (contact, means) in study.system().contacts.iter().zip(&self.response.dithered.contacts)
+        {
+            let _ = writeln!(
+                text,
+                "  contact {}: mean friction {}, in stick {} of the time, open {}, friction power {}",
+                contact.name,
+                with(Quantity::Force, means.friction),
+                figure(means.stick_fraction),
+                figure(means.open_fraction),
+                with(Quantity::Power, means.friction_power)
+            );
+        }
+        for (index, cost) in self.response.dithered.inputs.iter().enumerate() {
+            let cost = match cost {
+                Ok(cost) => format!(
+                    "power {}, stroke {}",
+                    with(Quantity::Power, cost.power),
+                    with(Quantity::Displacement, cost.stroke)
+                ),
+                Err(why) => format!("power unknown: {}", why.why()),
+            };
+            let _ = writeln!(text, "  dither[{index}]: {cost}");
+        }
+        text
+    }
+
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
+        vec![("record", self.record(study)), ("spectrum", self.spectrum(study))]
+    }
+
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::system_motion::response(study, self)))
+    }
+}

@@ -1,0 +1,392 @@
+//! `simulate` of a system: one motion with every event of every contact.
+
+use std::f64::consts::TAU;
+
+use quell_dynamics::motion::{
+    ContactMeans, ContactMeter, ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionSampler,
+    MotionStart, MotionStopped,
+};
+use quell_model::System;
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::history::{EventHistory, KINDS};
+use super::sound::{self, MotionSoundTap};
+use super::start::{StateNumbers, start_in_words, start_with, state_in_words, state_names};
+use super::{failed, has_equations, in_units, modes};
+use crate::complaint::{Complaint, Failure};
+use crate::fields::Fields;
+use crate::range;
+use crate::sound::{Sound, SoundOptions};
+use crate::study::{SystemStudy, SystemUnits};
+use crate::words::{capital, plural};
+
+/// Periods of the slowest oscillation that a run lasts if no duration is given.
+pub const DEFAULT_PERIODS: f64 = 100.0;
+
+/// Samples per period of the fastest dither and of the fastest motion of the structure.
+const SAMPLES_PER_PERIOD: f64 = 64.0;
+
+/// Least number of intervals between samples.
+const LEAST_SAMPLES: f64 = 256.0;
+
+/// Largest number of numbers in all samples together, about 160 megabytes; a longer run is sampled more coarsely.
+const MOST_NUMBERS: f64 = 20_000_000.0;
+
+/// Contacts that a sentence describes one by one.
+const MOST_DESCRIBED: usize = 4;
+
+/// A run to be made.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MotionRequest {
+    /// Time at its end; `None` for [`DEFAULT_PERIODS`].
+    pub until: Option<f64>,
+    /// Numbers that replace those of the study's start.
+    pub start: StateNumbers,
+    /// Whether the text lists every event.
+    pub events: bool,
+    /// Whether the motion is sampled.
+    pub samples: bool,
+    /// The sound of the velocity of the observed row, if wanted.
+    pub sound: Option<SoundOptions>,
+}
+
+/// One motion of a system.
+#[derive(Clone, Debug)]
+pub struct SystemSimulation {
+    /// What was asked.
+    pub request: MotionRequest,
+    /// Initial state.
+    pub start: MotionStart,
+    /// Final state.
+    pub end: MotionEnd,
+    /// Events and intervals of stick and separation.
+    pub history: EventHistory,
+    /// What every contact did on average; `None` for a run without duration.
+    pub means: Option<Vec<ContactMeans>>,
+    /// Samples at equal steps, both ends included, if requested.
+    pub samples: Option<MotionSampler>,
+    /// Whether the samples are too coarse to resolve the fastest motion.
+    pub coarse: bool,
+    /// The sound of the velocity of the observed row, if requested.
+    pub sound: Option<Sound>,
+    /// Warnings about slip beyond the range of a law.
+    beyond: Vec<String>,
+}
+
+/// Integrates a study.
+///
+/// # Errors
+/// A complaint about the start or the end; [`Failure::Failed`] where the motion cannot be computed or the engine stops.
+pub fn run(study: &SystemStudy, request: &MotionRequest) -> Result<SystemSimulation, Failure> {
+    has_equations(study, "simulate")?;
+    let system = study.system();
+    let motion = Motion::new(system).map_err(|why| failed("simulate", why))?;
+    let start = start_with(study, &request.start)?;
+    let until = match request.until {
+        Some(until) => until,
+        None => start.time + DEFAULT_PERIODS * slowest_period(study, "--until")?,
+    };
+    let plan = request.sound.map(|options| sound::plan(study, until - start.time, options));
+    let plan = plan.transpose()?;
+    let (intervals, coarse) =
+        if request.samples { grid(&motion, until - start.time) } else { (0, false) };
+    let step = (until - start.time) / intervals.max(1) as f64;
+    let contacts = system.contacts.len();
+    let mut meter = ContactMeter::new(contacts);
+    let mut history = EventHistory::new(contacts, motion.size(), request.samples);
+    let mut sampler = MotionSampler::new(start.time, step, intervals);
+    let mut tap = MotionSoundTap::new(&start, &study.observe(), plan.as_ref());
+    let mut observer = (&mut meter, (&mut history, (&mut sampler, &mut tap)));
+    let end = motion
+        .run(&start, until, MOTION_TOLERANCE, &mut observer)
+        .map_err(|stopped| failed_run("simulate", system, &stopped))?;
+    sampler.push_end(&end);
+    let beyond = beyond_laws(system, &[&meter]);
+    Ok(SystemSimulation {
+        request: request.clone(),
+        start,
+        sound: tap.finish(&end),
+        end,
+        history,
+        means: meter.means(),
+        samples: request.samples.then_some(sampler),
+        coarse,
+        beyond,
+    })
+}
+
+/// The failure of a run that ended early: time, reason, and state.
+pub(super) fn failed_run(verb: &str, system: &System, stopped: &MotionStopped) -> Failure {
+    failed(
+        verb,
+        format!("{stopped}; the state there is {}", state_in_words(system, &stopped.state)),
+    )
+}
+
+/// Warnings about slip beyond the ranges of the laws, over several runs.
+pub(super) fn beyond_laws(system: &System, meters: &[&ContactMeter]) -> Vec<String> {
+    let contacts = system.contacts.iter().enumerate();
+    let largest =
+        |contact: usize| meters.iter().map(|meter| meter.largest_slip(contact)).fold(0.0, f64::max);
+    contacts.filter_map(|(index, contact)| range::at_contact(contact, largest(index))).collect()
+}
+
+/// Angular frequencies of the dithers that act.
+pub(super) fn dither_frequencies(system: &System) -> impl Iterator<Item = f64> {
+    let waves = system.inputs.iter().flat_map(|input| input.profile.waves());
+    waves.filter(|wave| wave.amplitude != 0.0).map(|wave| wave.frequency)
+}
+
+/// Period of the slowest oscillation of the structure, contacts closed and without friction, or of the dither.
+///
+/// # Errors
+/// A complaint about `option`, the missing duration, if nothing oscillates.
+pub(super) fn slowest_period(study: &SystemStudy, option: &'static str) -> Result<f64, Failure> {
+    let found = modes::run(study)?;
+    let oscillating = found.modes.iter().filter(|mode| mode.eigenvalue.im > mode.error);
+    let slowest = oscillating.map(modes::natural).chain(dither_frequencies(study.system()));
+    let slowest = slowest.fold(f64::INFINITY, f64::min);
+    if slowest.is_finite() {
+        return Ok(TAU / slowest);
+    }
+    let allowed = "given: no motion of this structure oscillates, so that it has no period";
+    Err(Complaint::option(option, Json::Null, allowed).into())
+}
+
+/// Number of intervals between samples, and whether it had to be limited.
+fn grid(motion: &Motion<'_>, length: f64) -> (usize, bool) {
+    let own = TAU * motion.time_scale();
+    let fastest = dither_frequencies(motion.system()).map(|rate| TAU / rate).fold(own, f64::min);
+    let wanted = (SAMPLES_PER_PERIOD * length / fastest).ceil().max(LEAST_SAMPLES);
+    let columns = motion.size() + 4 * motion.system().contacts.len() + 1;
+    let most = (MOST_NUMBERS / columns as f64).floor();
+    let coarse = wanted > most;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+    let count = wanted.min(most) as usize;
+    (count, coarse)
+}
+
+/// Word for what a contact does, as its verb.
+fn does(phase: ContactPhase) -> &'static str {
+    match phase {
+        ContactPhase::Slip(_) => "slips",
+        ContactPhase::Stick => "sticks",
+        ContactPhase::Open => "is open",
+    }
+}
+
+impl SystemSimulation {
+    /// Total number of events of each kind.
+    fn totals(&self) -> [u64; KINDS.len()] {
+        let mut totals = [0; KINDS.len()];
+        for counts in &self.history.counts {
+            totals.iter_mut().zip(counts).for_each(|(total, count)| *total += count);
+        }
+        totals
+    }
+
+    /// What the contacts do at the end.
+    fn contacts_in_words(&self, system: &System) -> String {
+        let ends = &self.end.contacts;
+        if ends.len() <= MOST_DESCRIBED {
+            let each = system.contacts.iter().zip(ends);
+            let each = each.map(|(contact, end)| format!("{} {}", contact.name, does(end.phase)));
+            return format!("contact {}", each.collect::<Vec<_>>().join(", contact "));
+        }
+        let count =
+            |holds: fn(ContactPhase) -> bool| ends.iter().filter(|end| holds(end.phase)).count();
+        format!(
+            "{} contacts slip, {} stick and {} are open",
+            count(|phase| matches!(phase, ContactPhase::Slip(_))),
+            count(|phase| phase == ContactPhase::Stick),
+            count(|phase| phase == ContactPhase::Open)
+        )
+    }
+
+    /// The outcome in one or two sentences.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let time = in_units(study.units(), Quantity::Time, self.end.time);
+        let totals = self.totals();
+        let each = KINDS.iter().zip(totals).filter(|(_, count)| *count > 0);
+        let each: Vec<String> =
+            each.map(|(kind, count)| format!("{count} {}{}", kind.name(), plural(count))).collect();
+        let events = match totals.iter().sum::<u64>() {
+            0 => "without any contact event".to_owned(),
+            _ => format!("after {}", listed(&each)),
+        };
+        let chosen = match self.request.until {
+            Some(_) => String::new(),
+            None => format!(
+                " The run lasts {DEFAULT_PERIODS} periods of the slowest oscillation; --until sets another time."
+            ),
+        };
+        let start = capital(&start_in_words(study, &self.request.start));
+        let contacts = match self.end.contacts.len() {
+            0 => format!("{start}: the run ends at t = {time}"),
+            _ => format!(
+                "{start}: at t = {time} {}, {events}",
+                self.contacts_in_words(study.system())
+            ),
+        };
+        let sound =
+            self.sound_sentence(study).map_or_else(String::new, |sound| format!(" {sound}"));
+        format!("{contacts}.{chosen}{sound}")
+    }
+
+    /// The sound in one sentence, if it was requested.
+    pub fn sound_sentence(&self, study: &SystemStudy) -> Option<String> {
+        let sound = self.sound.as_ref()?;
+        let units = study.units();
+        let in_real_time = units != SystemUnits::None && sound.transposition == 1.0;
+        Some(sound.sentence(in_real_time, |quantity, value| in_units(units, quantity, value)))
+    }
+
+    /// Warnings about the result.
+    pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
+        let mut warnings = study.warnings().to_vec();
+        warnings.extend(self.beyond.iter().cloned());
+        warnings.extend(of_engine(study.system(), &self.end));
+        if self.coarse {
+            let count = self.samples.as_ref().map_or(0, |samples| samples.times.len());
+            warnings.push(format!(
+                "only {count} samples are kept, too few to resolve the fastest motion"
+            ));
+        }
+        if let Some(sound) = &self.sound {
+            let units = study.units();
+            warnings.extend(sound.warnings(|quantity, value| in_units(units, quantity, value)));
+        }
+        if self.history.lost > 0 {
+            let kept = self.history.events.len();
+            warnings.push(format!("only the first {kept} events are kept; all are counted"));
+        }
+        warnings
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &SystemStudy) -> Json {
+        let (system, units) = (study.system(), study.units());
+        let mut fields = Fields::of_system(units);
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .plain("state_names", state_names(system));
+        let mut inner = Fields::of_system(units);
+        inner
+            .number("time", Quantity::Time, self.start.time)
+            .plain("state", self.start.state.clone());
+        fields.nested("start", inner);
+        fields.nested("final", self.put_end(system, units));
+        let events = self.history.events.iter().map(|event| {
+            let mut inner = Fields::of_system(units);
+            inner
+                .number("time", Quantity::Time, event.time)
+                .plain("contact", event.contact)
+                .plain("kind", event.kind.name())
+                .plain("slip_sign", event.slip_sign)
+                .plain("state", event.state.clone());
+            inner
+        });
+        fields.list("events", events);
+        fields.list("contacts", self.put_contacts(system, units));
+        if let Some(sound) = &self.sound {
+            let mut inner = Fields::of_system(units);
+            sound.state(&mut inner);
+            fields.nested("sound", inner);
+        }
+        fields
+            .plain("event_count", self.end.events)
+            .nested("event_counts", put_counts(units, &self.totals()))
+            .plain("steps", self.end.steps)
+            .plain("near_tangential_releases", self.end.near_tangential_releases)
+            .plain("tolerance", MOTION_TOLERANCE)
+            .plain("warnings", self.warnings(study));
+        fields.finish()
+    }
+
+    fn put_end(&self, system: &System, units: SystemUnits) -> Fields {
+        let mut fields = Fields::of_system(units);
+        fields.number("time", Quantity::Time, self.end.time).plain("state", self.end.state.clone());
+        let contacts = system.contacts.iter().zip(&self.end.contacts).map(|(contact, end)| {
+            let mut inner = Fields::of_system(units);
+            inner
+                .plain("name", contact.name.clone())
+                .number("slip_velocity", Quantity::Velocity, end.slip_velocity)
+                .plain("sticking", end.phase == ContactPhase::Stick)
+                .plain("open", end.phase == ContactPhase::Open)
+                .plain("slip_sign", end.phase.slip_sign())
+                .number("friction", Quantity::Force, end.friction)
+                .number("normal", Quantity::Force, end.normal_load);
+            inner
+        });
+        fields.list("contacts", contacts.collect::<Vec<_>>());
+        fields
+    }
+
+    /// Counts and means of every contact over the run.
+    fn put_contacts(&self, system: &System, units: SystemUnits) -> Vec<Fields> {
+        let contacts = system.contacts.iter().enumerate().map(|(index, contact)| {
+            let mut inner = Fields::of_system(units);
+            inner
+                .plain("name", contact.name.clone())
+                .nested("event_counts", put_counts(units, &self.history.counts[index]));
+            let means = self.means.as_ref().map(|means| means[index]);
+            put_means(&mut inner, means.ok_or("the run has no duration"));
+            inner
+        });
+        contacts.collect()
+    }
+}
+
+/// Adds the means of a contact.
+pub(super) fn put_means(fields: &mut Fields, means: Result<ContactMeans, &'static str>) {
+    let of = |pick: fn(&ContactMeans) -> f64| means.as_ref().map(pick).map_err(|why| (*why).into());
+    fields
+        .known("stick_fraction", Quantity::Ratio, of(|means| means.stick_fraction))
+        .known("open_fraction", Quantity::Ratio, of(|means| means.open_fraction))
+        .known("mean_friction", Quantity::Force, of(|means| means.friction))
+        .known("mean_normal", Quantity::Force, of(|means| means.normal_load))
+        .known("least_normal", Quantity::Force, of(|means| means.least_load))
+        .known("friction_power", Quantity::Power, of(|means| means.friction_power));
+}
+
+/// Counts kind by kind.
+fn put_counts(units: SystemUnits, counts: &[u64; KINDS.len()]) -> Fields {
+    let mut fields = Fields::of_system(units);
+    for (kind, count) in KINDS.iter().zip(counts) {
+        fields.plain(kind.name(), *count);
+    }
+    fields
+}
+
+/// Warnings of the engine about a run.
+pub(super) fn of_engine(system: &System, end: &MotionEnd) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let releases = end.near_tangential_releases;
+    if releases > 0 {
+        warnings.push(format!(
+            "{releases} release{} barely crossed the stiction threshold, where forward uniqueness is not guaranteed",
+            plural(releases)
+        ));
+    }
+    let dependent = end.dependent.iter().map(|contact| system.contacts[*contact].name.clone());
+    let dependent: Vec<String> = dependent.collect();
+    if !dependent.is_empty() {
+        warnings.push(format!(
+            "the friction forces in stick of contacts {} are not unique, because their tangents depend on each other: the \
+             least-norm forces within the bounds are given; the motion is unique",
+            listed(&dependent)
+        ));
+    }
+    warnings
+}
+
+/// A list in words: "a, b and c".
+pub(super) fn listed(parts: &[String]) -> String {
+    match parts {
+        [] => String::new(),
+        [only] => only.clone(),
+        [most @ .., last] => format!("{} and {last}", most.join(", ")),
+    }
+}

@@ -1,0 +1,225 @@
+//! `stability --parameter`: eigenvalues of a system followed over a parameter, its thresholds, and their curves along a second one.
+
+mod answer;
+
+use std::cell::RefCell;
+
+use quell_linear::averaging::DitheredSystem;
+use quell_linear::linearised::Linearised;
+use quell_linear::tracking::{Family, ThresholdOfStability, Tracked, track};
+use quell_numerics::eigen::EigenError;
+use quell_numerics::matrix::Matrix;
+use serde_json::Value as Json;
+
+use super::validity::ContactRanges;
+use super::{failed, has_equations, is_dithered};
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::run::protocol::Protocol;
+use crate::study::SystemStudy;
+
+/// Values of the parameter at which eigenvalues are computed at least.
+const POINTS: usize = 129;
+
+/// Values of the first parameter on each line of a curve.
+const POINTS_OF_A_LINE: usize = 33;
+
+/// Lines across the second parameter.
+const LINES: usize = 81;
+
+/// Two thresholds of neighbouring lines belong to one curve if they are closer than this share of the window.
+const LINKED: f64 = 0.1;
+
+/// What to follow.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrackRequest {
+    /// Path of the parameter.
+    pub parameter: String,
+    /// Its window in the unit of that key.
+    pub window: (f64, f64),
+    /// A second parameter and its window, along which thresholds are followed.
+    pub along: Option<(String, (f64, f64))>,
+}
+
+/// A curve of thresholds: (second parameter, threshold), ascending.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StabilityCurve {
+    /// Its points.
+    pub points: Vec<(f64, ThresholdOfStability)>,
+}
+
+/// Eigenvalues over a parameter.
+#[derive(Clone, Debug)]
+pub struct TrackedStability {
+    /// The request.
+    pub request: TrackRequest,
+    /// Whether the verdicts are those of averaging.
+    pub averaged: bool,
+    /// The eigenvalues and thresholds over the window.
+    pub tracked: Tracked<String>,
+    /// Curves along the second parameter; empty without one.
+    pub curves: Vec<StabilityCurve>,
+    /// Where contacts open or leave the range of their law: in the window, and over the second parameter.
+    pub contacts: [ContactRanges; 2],
+}
+
+/// The state matrices of a study over one of its numbers, others fixed.
+struct StudyFamily<'a> {
+    study: &'a SystemStudy,
+    path: &'a str,
+    fixed: Option<(&'a str, f64)>,
+    recorded: &'a RefCell<ContactRanges>,
+}
+
+impl Family for StudyFamily<'_> {
+    type Error = String;
+
+    fn matrix(&self, value: f64) -> Result<Matrix, String> {
+        let numbers: Vec<(&str, f64)> =
+            self.fixed.into_iter().chain([(self.path, value)]).collect();
+        let at = self.fixed.map_or(value, |(_, along)| along);
+        let system = self.study.system_at(&numbers).map_err(|why| why.to_string())?;
+        if is_dithered(&system) {
+            let prepared = DitheredSystem::new(&system).map_err(|why| why.to_string())?;
+            let average = prepared.average().map_err(|why| why.to_string())?;
+            ContactRanges::add(self.recorded, at, &system, Some(&average.contacts));
+            return Ok(average.linear.state_matrix_with(&average.friction));
+        }
+        let linear = Linearised::new(&system).map_err(|why| why.to_string())?;
+        ContactRanges::add(self.recorded, at, &system, None);
+        Ok(linear.state_matrix_with(&linear.friction()))
+    }
+
+    fn overflows(why: EigenError) -> String {
+        why.to_string()
+    }
+}
+
+/// Follows the eigenvalues of a study.
+///
+/// # Errors
+/// Complaints about the parameters and their windows; [`Failure::Failed`] if no value of the window has steady sliding.
+pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStability, Failure> {
+    has_equations(study, "stability")?;
+    understood(study, request)?;
+    let recorded = [RefCell::default(), RefCell::default()];
+    let family = |fixed: Option<_>| {
+        let recorded = &recorded[usize::from(fixed.is_some())];
+        StudyFamily { study, path: &request.parameter, fixed, recorded }
+    };
+    let tracked = track(&family(None), request.window, POINTS);
+    let tracked = tracked.map_err(|why| failed("stability", why))?;
+    let mut curves = Vec::new();
+    if let Some((along, (from, to))) = &request.along {
+        let width = request.window.1 - request.window.0;
+        for k in 0..LINES {
+            let value = from + (to - from) * k as f64 / (LINES - 1) as f64;
+            let line = track(&family(Some((along, value))), request.window, POINTS_OF_A_LINE);
+            let thresholds = line.map_or_else(|_| Vec::new(), |line| line.thresholds);
+            let step = (to - from) / (LINES - 1) as f64;
+            extend(&mut curves, (value, step), thresholds, width);
+        }
+    }
+    let averaged = is_dithered(study.system());
+    let contacts = recorded.map(RefCell::into_inner);
+    Ok(TrackedStability { request: request.clone(), averaged, tracked, curves, contacts })
+}
+
+/// Adds the thresholds of a line to the curves that end at the line before.
+fn extend(
+    curves: &mut Vec<StabilityCurve>,
+    (value, step): (f64, f64),
+    thresholds: Vec<ThresholdOfStability>,
+    width: f64,
+) {
+    let mut taken = vec![false; curves.len()];
+    for found in thresholds {
+        let distance = |curve: &StabilityCurve| {
+            let (at, last) = curve.points.last()?;
+            let follows = (value - at) <= 1.5 * step;
+            let same = last.change == found.change && last.verdicts == found.verdicts;
+            let distance = (last.value - found.value).abs();
+            (follows && same && distance <= LINKED * width).then_some(distance)
+        };
+        let open = taken.iter().enumerate().filter(|(_, taken)| !**taken);
+        let near = open.filter_map(|(index, _)| Some((distance(&curves[index])?, index)));
+        if let Some((_, index)) = near.min_by(|a, b| a.0.total_cmp(&b.0)) {
+            curves[index].points.push((value, found));
+            taken[index] = true;
+        } else {
+            curves.push(StabilityCurve { points: vec![(value, found)] });
+            taken.push(true);
+        }
+    }
+}
+
+/// The path of the study that is closest to a wrong one.
+fn nearest(study: &SystemStudy, path: &str) -> Option<String> {
+    let complaints = study.with(path, 0.0).err()?;
+    complaints.iter().find_map(|complaint| complaint.suggestion.clone())
+}
+
+/// Every complaint about a request.
+pub(super) fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<(), Failure> {
+    let mut wrong = Vec::new();
+    let along = request.along.as_ref();
+    let along = along.map(|(path, window)| (("--along", "--between", "--between"), path, *window));
+    let first = (("--parameter", "--from", "--to"), &request.parameter, request.window);
+    for ((option, from, to), path, window) in [Some(first), along].into_iter().flatten() {
+        if study.number(path).is_none() {
+            let allowed =
+                "the path of a number of the study, such as contact.pad.friction.coefficient";
+            let complaint = Complaint::option(option, path.as_str(), allowed);
+            wrong.push(complaint.suggesting(nearest(study, path)));
+            continue;
+        }
+        if window.0.is_nan() || window.1.is_nan() || window.0 >= window.1 {
+            let allowed = format!("a finite number above {from} {}", window.0);
+            wrong.push(Complaint::option(to, window.1, allowed));
+        }
+    }
+    if request.along.as_ref().is_some_and(|(path, _)| *path == request.parameter) {
+        let allowed = "a parameter other than --parameter";
+        wrong.push(Complaint::option("--along", request.parameter.as_str(), allowed));
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
+}
+
+/// Rejects thresholds of runs, which are not implemented for systems.
+///
+/// # Errors
+/// A complaint about each option that asks for runs.
+pub fn without_runs(protocols: &[Protocol], ramp: f64) -> Result<(), Failure> {
+    let options = protocols.iter().map(|protocol| match protocol {
+        Protocol::Rest => "--from-rest",
+        Protocol::Sliding => "--from-sliding",
+        Protocol::Squeal => "--from-squeal",
+        Protocol::From(..) => "--start",
+    });
+    let ramp = (ramp != 0.0).then_some("--ramp");
+    let wrong: Vec<Complaint> = options
+        .chain(ramp)
+        .map(|option| {
+            let allowed = "left out: thresholds of the runs of a system are not implemented yet";
+            Complaint::new(Fault::NotBuilt, option, Origin::Argument(option), Json::Null, allowed)
+        })
+        .collect();
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
+}
+
+/// The roots of `thresholds` of a system, which are those of `stability --parameter`.
+///
+/// # Errors
+/// As [`run`]; a system with dither, whose exact thresholds are those of its periodic motions.
+pub fn thresholds(
+    study: &SystemStudy,
+    request: &TrackRequest,
+) -> Result<TrackedStability, Failure> {
+    if is_dithered(study.system()) {
+        let allowed = "thresholds needs a study without dither, because the periodic motions of dithered systems are not \
+                       implemented yet. `stability --parameter` gives the thresholds of averaging.";
+        return Err(
+            Complaint::new(Fault::NotBuilt, "dither", Origin::Whole, Json::Null, allowed).into()
+        );
+    }
+    run(study, request)
+}

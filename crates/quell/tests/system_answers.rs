@@ -1,0 +1,247 @@
+//! What answers about systems say where a verdict does not hold as stated, where numbers overflow, and where input is unlikely.
+
+use std::sync::atomic::AtomicBool;
+
+use quell::kind::verbs;
+use quell::outcome::Outcome;
+use quell::run::curves::CurvesRequest;
+use quell::run::system::tracked::TrackRequest;
+use quell::run::thresholds::ThresholdsRequest;
+use quell::sweep::{MapQuantity, Plan, Running};
+use quell::{Failure, Study};
+use quell_linear::averaging::NoAverage;
+use quell_linear::linearised::NoSteadySliding;
+use serde_json::Value as Json;
+
+fn study(text: &str) -> Study {
+    Study::parse(text, &[]).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+fn tracked(text: &str, parameter: &str, window: (f64, f64)) -> Json {
+    let request = TrackRequest { parameter: parameter.to_owned(), window, along: None };
+    verbs(&study(text)).tracked_stability(&request).expect("an answer").json()
+}
+
+fn warnings(found: &Json) -> String {
+    found["warnings"].to_string()
+}
+
+fn sentence(found: &Json) -> &str {
+    found["sentence"].as_str().expect("a sentence")
+}
+
+/// One pad on two springs, and dither in the direction of its normal.
+fn pad(mass: &str, damping: &str, dither: f64, frequency: f64) -> String {
+    format!(
+        "[system]\ncoordinates = [\"x\", \"y\"]\nmass = {mass}\ndamping = {damping}\nstiffness = [[1, 0], [0, 1]]\n\
+         [[contact]]\nname = \"pad\"\ntangent = {{ x = 1 }}\nnormal = {{ y = 1 }}\nnormal_load = 1\nnormal_stiffness = 1\n\
+         belt_velocity = 1\n[contact.friction]\nlaw = \"coulomb\"\ncoefficient = 0.3\n\
+         [[dither]]\nat = {{ y = 1 }}\nwaveform = \"sine\"\namplitude = {dither}\nfrequency = {frequency}\n"
+    )
+}
+
+const LIGHT: &str = "[0.1, 0.1]";
+
+/// A fast load of 10·30/(30² − 2) is above the load of 1.
+#[test]
+fn a_verdict_about_an_opened_contact_is_conditional() {
+    let open = pad("[1, 1]", LIGHT, 1000.0, 20.0);
+    let found = verbs(&study(&open)).stability().expect("an answer").json();
+    assert_eq!(found["verdict"], "stable");
+    assert!(sentence(&found).contains("would be stable if contact pad stayed closed"), "{found}");
+    assert!(warnings(&found).contains("contact pad opens"), "{found}");
+
+    let closed = pad("[1, 1]", LIGHT, 1.0, 20.0);
+    let found = verbs(&study(&closed)).stability().expect("an answer").json();
+    assert!(sentence(&found).contains("steady sliding is stable: "), "{found}");
+
+    let found = tracked(&closed, "dither.amplitude", (1.0, 1000.0));
+    assert!(sentence(&found).contains("holds only where contact pad stays closed"), "{found}");
+    assert!(warnings(&found).contains("contact pad opens from dither.amplitude = "), "{found}");
+    let found = tracked(&closed, "dither.amplitude", (1.0, 2.0));
+    assert_eq!(warnings(&found), "[]");
+}
+
+fn map(text: &str, quantity: &str) -> Json {
+    let study = study(text);
+    let asked = MapQuantity::named_for("system", quantity, "--quantity").expect("a quantity");
+    let plan = Plan::new(&study, &[asked]).expect("a plan");
+    let never = AtomicBool::new(false);
+    let running = Running { threads: Some(1), stop: &never, progress: &() };
+    quell::run::map::run(plan, None, running).expect("a map").json()
+}
+
+#[test]
+fn maps_mark_opened_contacts_and_ranges_of_laws() {
+    let axis = "[[sweep]]\nparameter = \"dither.amplitude\"\nvalues = [1, 1000]\n";
+    let found = map(&(pad("[1, 1]", LIGHT, 1.0, 20.0) + axis), "verdict");
+    assert_eq!(found["verdict_status"], serde_json::json!(["known", "opens"]));
+    assert_eq!(found["verdict"][1], "stable");
+    assert!(warnings(&found).contains("1 of 2 points"), "{found}");
+
+    let law = "law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.3\nreference_velocity = 1\n";
+    let text =
+        pad("[1, 1]", LIGHT, 1.0, 20.0).replace("law = \"coulomb\"\ncoefficient = 0.3\n", law);
+    let axis = "[[sweep]]\nparameter = \"contact.pad.belt_velocity\"\nvalues = [1, 5]\n";
+    let found = map(&(text.clone() + axis), "growth-undithered");
+    let wanted = serde_json::json!(["known", "beyond_range"]);
+    assert_eq!(found["growth_undithered_status"], wanted, "{found}");
+    let found = tracked(&text, "contact.pad.belt_velocity", (1.0, 5.0));
+    assert!(warnings(&found).contains("leaves the range of its friction law, 1.73205"), "{found}");
+}
+
+/// The fast real root of an overdamped motion is as fast as the dither, though it does not oscillate.
+#[test]
+fn fast_motions_without_oscillation_are_warned_of() {
+    let found = verbs(&study(&pad("[1, 1]", "[20, 0.1]", 0.1, 20.0))).stability();
+    let found = found.expect("an answer").json();
+    assert!(
+        warnings(&found).contains("a motion without oscillation has the rate |λ| = 19.9"),
+        "{found}"
+    );
+}
+
+#[test]
+fn an_undamped_resonance_is_unbounded() {
+    let found = verbs(&study(&pad("[1, 1]", "[0, 0]", 0.1, 20.0))).reach(Some((0.5, 5.0)));
+    let found = found.expect("an answer");
+    let json = found.json();
+    let extremes = &json["responses"][0]["extremes"];
+    let peaks = extremes.as_array().expect("a list").iter().enumerate();
+    let (index, peak) = peaks.clone().find(|(_, at)| at["kind"] == "peak").expect("a peak");
+    assert!(peak["slip_per_amplitude"].is_null(), "{json}");
+    let path = format!("responses[0].extremes[{index}].slip_per_amplitude");
+    assert_eq!(json["why"][path.as_str()], "unbounded (undamped resonance)", "{json}");
+    assert!(found.text().contains("unbounded (undamped resonance)"));
+    // A little damping bounds it.
+    let found = verbs(&study(&pad("[1, 1]", "[1e-9, 1e-9]", 0.1, 20.0))).reach(Some((0.5, 5.0)));
+    let json = found.expect("an answer").json();
+    let extremes = json["responses"][0]["extremes"].as_array().expect("a list");
+    assert!(extremes.iter().all(|at| at["slip_per_amplitude"].is_number()), "{json}");
+}
+
+#[test]
+fn messages_have_short_numbers() {
+    let why = NoAverage::Resonance { frequency: 2f64.sqrt() * 1e300 }.to_string();
+    assert_eq!(why, "the dither of angular frequency 1.41421e300 excites an undamped resonance");
+    let why = NoSteadySliding::Open { contact: "pad".to_owned(), normal_load: -1e-300 / 3.0 };
+    assert!(why.to_string().ends_with("its normal load would be -3.33333e-301"), "{why}");
+}
+
+/// A value that the study does not allow is reported by its own key.
+#[test]
+fn ranges_without_an_answer_name_the_real_key() {
+    let text = pad("[1, 1]", LIGHT, 0.1, 20.0);
+    let found = tracked(&text, "contact.pad.normal_stiffness", (-1.0, 1.0));
+    let why = found["unknown"][0]["why"].as_str().expect("a reason");
+    assert!(why.starts_with("contact.normal_stiffness = -1: must be"), "{why}");
+}
+
+#[test]
+fn unlikely_input_is_warned_of() {
+    let check = |text: &str| warnings(&verbs(&study(text)).check().json());
+    let text = pad("[1, 1]", LIGHT, 0.1, 20.0);
+    assert_eq!(check(&text), "[]");
+    let used =
+        text.replace("coefficient = 0.3", "coefficient = \"mu\"") + "[parameters]\nmu = 0.3\n";
+    assert_eq!(check(&used), "[]");
+    let unused = used.replace("[parameters]\n", "[parameters]\nnu = \"2*mu\"\n");
+    assert!(check(&unused).contains("No formula uses parameters.nu. It has no effect."));
+    let half = text.replace("stiffness = [[1, 0], [0, 1]]", "stiffness = [[1, 0.5], [0, 1]]");
+    assert!(
+        check(&half).contains("system.stiffness[0][1] is 0.5, but system.stiffness[1][0] is 0.")
+    );
+    assert!(!check(&half).contains("damping"));
+    let gyroscopic = text.replace("damping = [0.1, 0.1]", "damping = [[0, 1], [-1, 0]]");
+    assert_eq!(check(&gyroscopic), "[]");
+}
+
+#[test]
+fn thresholds_of_dithered_systems_are_refused_in_a_sentence() {
+    let dithered = study(&pad("[1, 1]", LIGHT, 0.1, 20.0));
+    let parameter = "contact.pad.friction.coefficient".to_owned();
+    let request = ThresholdsRequest {
+        parameter: parameter.clone(),
+        from: 0.1,
+        to: 1.0,
+        protocols: Vec::new(),
+        ramp: 0.0,
+    };
+    let window = (0.1, 1.0);
+    let curves =
+        CurvesRequest { parameter, window, along: "dither.amplitude".to_owned(), between: window };
+    let all: [Option<Failure>; 2] = [
+        verbs(&dithered).thresholds(request).err(),
+        verbs(&dithered).threshold_curves(&curves).err(),
+    ];
+    for why in all {
+        let why = why.expect("refused").to_string();
+        assert!(
+            why.starts_with("dither: thresholds needs a study without dither, because"),
+            "{why}"
+        );
+    }
+}
+
+#[test]
+fn tables_and_maps_of_systems_name_their_units() {
+    let text = pad("[1, 1]", LIGHT, 0.1, 20.0);
+    let text_of = |found: &dyn Outcome| found.text();
+    let modes = verbs(&study(&text)).modes().expect("modes");
+    assert!(text_of(modes.as_ref()).contains("frequency |λ|"));
+    let stability = verbs(&study(&text)).stability().expect("an answer");
+    assert!(text_of(stability.as_ref()).contains("frequency |Im λ|"));
+    let axis = "[[sweep]]\nparameter = \"dither.amplitude\"\nvalues = [1, 2]\n";
+    let si = text.replace("[system]\n", "[system]\nunits = \"SI\"\n");
+    for (text, rate, force) in [(&text, "1/time", "force"), (&si, "1/s", "N")] {
+        let found = map(&(text.clone() + axis), "growth");
+        assert_eq!(found["units"]["growth"], rate);
+        let found = map(&(text.clone() + axis), "critical-amplitude");
+        assert_eq!(found["units"]["critical_amplitude"], force);
+    }
+}
+
+/// Every null has a reason, below the name of its array.
+#[test]
+fn numbers_that_overflow_are_null_with_a_reason() {
+    let text = pad("[1e-300, 1]", LIGHT, 0.1, 20.0);
+    let study = study(&text);
+    let verbs = verbs(&study);
+    for found in [verbs.stability(), verbs.modes()] {
+        let Ok(found) = found else { continue };
+        let json = found.json();
+        let mut nulls = Vec::new();
+        paths(&json, "", &mut nulls);
+        assert!(!nulls.is_empty(), "{json}");
+        for path in nulls {
+            let known = json["why"].as_object().is_some_and(|why| why.contains_key(&path));
+            assert!(known, "{path} of {json}");
+        }
+    }
+}
+
+fn paths(value: &Json, path: &str, nulls: &mut Vec<String>) {
+    let join =
+        |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
+    match value {
+        Json::Null => nulls.push(path.to_owned()),
+        Json::Object(object) => {
+            for (name, value) in object {
+                paths(value, &join(name), nulls);
+            }
+        }
+        Json::Array(items) if items.iter().any(Json::is_object) => {
+            for (index, item) in items.iter().enumerate() {
+                paths(item, &format!("{path}[{index}]"), nulls);
+            }
+        }
+        Json::Array(items) => {
+            let before = nulls.len();
+            for item in items {
+                paths(item, path, nulls);
+            }
+            nulls.truncate(before + usize::from(nulls.len() > before));
+        }
+        _ => {}
+    }
+}
