@@ -36,6 +36,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 &[
                     "quell thresholds quench.toml --parameter dither.amplitude --from 0.3 --to 0.7 --from-rest",
                     "quell thresholds drive.toml --parameter belt.belt_velocity_m_per_s --from 0.002 --to 0.04",
+                    "quell thresholds two-mass-drive.toml --parameter dither.amplitude --from 5 --to 6 --from-rest",
                 ],
             ),
             (
@@ -54,7 +55,11 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
             ),
             (
                 "orbit",
-                &["quell orbit quench.toml", "quell orbit driven-oscillator.toml --from-rest"],
+                &[
+                    "quell orbit quench.toml",
+                    "quell orbit driven-oscillator.toml --from-rest",
+                    "quell orbit two-mass-drive.toml --plot orbit.svg",
+                ],
             ),
             (
                 "simulate",
@@ -76,6 +81,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 &[
                     "quell basins every-start.toml --grid 4x3",
                     "quell basins every-start.toml --sample 10 --plot basins.svg",
+                    "quell basins two-mass-drive.toml --plane carriage,velocity.carriage --grid 3x3",
                 ],
             ),
         ],

@@ -320,3 +320,32 @@ fn responses_name_the_effect_of_a_dither() {
     let why = complaint(&["response", "stribeck-belt.toml", "--settle", "10"]);
     assert!(why.contains("[solver]"), "{why}");
 }
+
+/// The drive falls into step with its dither at the amplitude of `reference/motion.json`, a little above that of averaging.
+#[test]
+fn motions_of_the_drive_are_found_from_the_command_line() {
+    let drive = "two-mass-drive.toml";
+    let orbit = answer(&["orbit", drive]);
+    assert_eq!((&orbit["response"], &orbit["verdict"]), (&"base".into(), &"unstable".into()));
+    close(&orbit["period"], 0.628_318_530_717_958_8, 1e-12);
+    let range = ["--parameter", "dither.amplitude", "--from", "5.3", "--to", "5.5"];
+    let thresholds = answer(&[&["thresholds", drive][..], &range, &["--from-rest"]].concat());
+    for found in [&thresholds["thresholds"][0], &thresholds["from_rest"][0]] {
+        close(&found["value"], 5.396_532_388_527_742, 1e-6);
+        assert_eq!(found["kind"], "grazing");
+    }
+    let set = ["--set", "dither.amplitude=5.6"];
+    let state = ["--near", "motor=0.36,carriage=0.45,velocity.motor=-1.25,velocity.carriage=0.05"];
+    let near = answer(&[&["orbit", drive][..], &set, &state].concat());
+    let base = answer(&[&["orbit", drive][..], &set].concat());
+    close(&near["state"][0], base["state"][0].as_f64().expect("a number"), 1e-9);
+    let sweep = answer(&[&["bifurcation", drive][..], &range, &["--points", "3", "--up"]].concat());
+    assert_eq!(sweep["up"][2]["kind"], "period-1");
+    let plane = ["--plane", "carriage=0.2:0.6,velocity.carriage=-0.1:0.1", "--grid", "2x2"];
+    let basins = answer(&[&["basins", drive][..], &set, &plane].concat());
+    assert_eq!(basins["quiet_fraction"], 1.0);
+    let wrong = complaint(&["orbit", drive, "--start", "0.1,0.2"]);
+    assert!(wrong.contains("--start") && wrong.contains("name=value"), "{wrong}");
+    let wrong = complaint(&["basins", drive, "--plane", "carriage,nothing"]);
+    assert!(wrong.contains("--plane"), "{wrong}");
+}

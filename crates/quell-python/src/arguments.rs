@@ -6,6 +6,9 @@ use quell_model::units::{Quantity, Scales};
 /// Two numbers in the system of the study, or with units.
 pub(crate) type Pair = (String, String);
 
+/// Names of a state with their values.
+pub(crate) type NamedNumbers = Vec<(String, String)>;
+
 /// Two quantities as dimensionless numbers of the equations.
 pub(crate) fn both(
     (first, second): &Pair,

@@ -13,7 +13,7 @@ use quell::{Change, Complaints, Failure, Study};
 use quell_model::units::Quantity;
 
 use crate::answer::NativeAnswer;
-use crate::arguments::{Pair, both, ends};
+use crate::arguments::{NamedNumbers, Pair, both, ends};
 use crate::verbs::map::Asked;
 use crate::verbs::simulate::SoundTexts;
 use crate::verbs::{
@@ -235,6 +235,19 @@ impl NativeStudy {
         call::run(py, move || orbit::run(&study, near.as_ref(), periods, &after, start.as_ref()))
     }
 
+    /// Of a system: `near` and `start` are names of its state with their values.
+    #[pyo3(signature = (near, periods, start))]
+    fn orbit_of_system(
+        &self,
+        py: Python<'_>,
+        near: Option<NamedNumbers>,
+        periods: u32,
+        start: Option<NamedNumbers>,
+    ) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || orbit::run_of_system(&study, near.as_ref(), periods, start.as_ref()))
+    }
+
     /// `protocols`: names of starts; `start`: a further start as a state.
     #[pyo3(signature = (parameter, range, protocols, start, ramp))]
     fn thresholds(
@@ -249,6 +262,25 @@ impl NativeStudy {
         let study = self.study();
         call::run(py, move || {
             thresholds::run(&study, parameter, &range, (&protocols, start.as_ref()), &ramp)
+        })
+    }
+
+    /// Of a system: `start` and `near`, with its number of periods, are names of its state with their values.
+    #[pyo3(signature = (parameter, range, protocols, start, near))]
+    fn thresholds_of_system(
+        &self,
+        py: Python<'_>,
+        parameter: String,
+        range: Pair,
+        protocols: Vec<String>,
+        start: Option<NamedNumbers>,
+        near: Option<(NamedNumbers, u32)>,
+    ) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || {
+            let near = near.as_ref().map(|(pairs, periods)| (pairs, *periods));
+            let starts = (protocols.as_slice(), start.as_ref());
+            thresholds::run_of_system(&study, parameter, &range, starts, near)
         })
     }
 
@@ -320,6 +352,19 @@ impl NativeStudy {
         };
         let request = BasinsRequest { displacement, velocity, layout, over };
         basins::run(py, self.study(), request, threads, progress)
+    }
+
+    /// Of a system: `plane` names two numbers of its state; `grid`: numbers of values.
+    #[pyo3(signature = (plane, grid, threads, progress))]
+    fn basins_in_plane(
+        &self,
+        py: Python<'_>,
+        plane: String,
+        grid: Option<(usize, usize)>,
+        threads: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<NativeAnswer> {
+        basins::run_in_plane(py, self.study(), (plane, grid), threads, progress)
     }
 
     fn modes(&self, py: Python<'_>) -> PyResult<NativeAnswer> {

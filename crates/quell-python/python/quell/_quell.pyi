@@ -60,6 +60,24 @@ class NativeStudy:
         after: list[str],
         start: tuple[str, str] | None,
     ) -> NativeAnswer: ...
+    def orbit_of_system(
+        self, near: list[tuple[str, str]] | None, periods: int, start: list[tuple[str, str]] | None
+    ) -> NativeAnswer: ...
+    def thresholds_of_system(
+        self,
+        parameter: str,
+        range: tuple[str, str],
+        protocols: list[str],
+        start: list[tuple[str, str]] | None,
+        near: tuple[list[tuple[str, str]], int] | None,
+    ) -> NativeAnswer: ...
+    def basins_in_plane(
+        self,
+        plane: str,
+        grid: tuple[int, int] | None,
+        threads: int | None,
+        progress: Callable[[int, int], object] | None,
+    ) -> NativeAnswer: ...
     def thresholds(
         self,
         parameter: str,

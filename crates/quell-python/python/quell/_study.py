@@ -282,12 +282,12 @@ class Study:
     def orbit(
         self,
         *,
-        near: State | None = None,
+        near: State | Mapping[str, Number] | None = None,
         periods: int = 1,
         from_rest: bool = False,
         from_sliding: bool = False,
         from_squeal: bool = False,
-        start: State | None = None,
+        start: State | Mapping[str, Number] | None = None,
     ) -> results.Orbit:
         """The periodic response to dither and its Floquet multipliers, through stick and slip; limit cycles without it.
 
@@ -300,8 +300,12 @@ class Study:
             Number of common periods of the dithers in one period of the response.
         from_rest, from_sliding, from_squeal, start :
             At most one of them: finds the response, of any number of periods, on which a run from this start ends.
+
+        Of a system, ``near`` and ``start`` are numbers that replace those of its start, such as ``{"x": 0.1, "velocity.x": -2}``.
         """
         arguments = Arguments()
+        if isinstance(near, Mapping) or isinstance(start, Mapping):
+            return self._orbit_of_system(near, periods, from_rest or from_sliding or from_squeal, start)
         state = None if near is None else arguments.quantities("near", near, "two finite numbers (x, x′)")
         count = arguments.whole("periods", periods, 1, 1000)
         begin = None if start is None else arguments.quantities("start", start, "two finite numbers (x, x′)")
@@ -317,6 +321,21 @@ class Study:
         arguments.done()
         return results.Orbit(self, self._native.orbit(state, count, asked, begin))
 
+    def _orbit_of_system(self, near: object, periods: int, flagged: bool, start: object) -> results.Orbit:
+        """The motion of a system near a state, or on which a run from a start ends, whose numbers have names."""
+        arguments = Arguments()
+        count = arguments.whole("periods", periods, 1, 1000)
+        state, begin = arguments.named("near", near), arguments.named("start", start)
+        if start is not None and (flagged or near is not None or count != 1):
+            arguments.wrong.append(complaint("start", start, "given without near, periods and other starts", "conflict"))
+        if near is not None and flagged:
+            arguments.wrong.append(complaint("near", near, "given without a start", "conflict"))
+        arguments.done()
+        native = self._native.orbit_of_system(
+            None if near is None else state, count, None if start is None else begin
+        )
+        return results.Orbit(self, native)
+
     @overload
     def thresholds(
         self,
@@ -327,8 +346,10 @@ class Study:
         from_rest: bool = False,
         from_sliding: bool = False,
         from_squeal: bool = False,
-        start: State | None = None,
+        start: State | Mapping[str, Number] | None = None,
         ramp: Number = 0.0,
+        near: Mapping[str, Number] | None = None,
+        periods: int = 1,
     ) -> results.Thresholds: ...
 
     @overload
@@ -345,10 +366,12 @@ class Study:
         from_rest: bool = False,
         from_sliding: bool = False,
         from_squeal: bool = False,
-        start: State | None = None,
+        start: State | Mapping[str, Number] | None = None,
         ramp: Number = 0.0,
         along: str | None = None,
         between: State | None = None,
+        near: Mapping[str, Number] | None = None,
+        periods: int = 1,
     ) -> results.Thresholds | results.ThresholdCurves:
         """Exact values of a parameter at which dither starts or stops quenching, or their curves in two parameters.
 
@@ -369,8 +392,28 @@ class Study:
             Time over which the dither of these runs grows [default: it is switched on]: τ, in a study in SI seconds.
         along, between :
             A second parameter, given like the first, and its range: each local threshold is continued as a curve.
+        near, periods :
+            System: numbers of a state near which the periodic motion to follow is searched at the first value, such as
+            ``{"x": 0.1, "velocity.x": -2}``, and its number of dither periods [default: the base response]. ``start`` is
+            given in the same way.
         """
         arguments = Arguments()
+        if near is not None or isinstance(start, Mapping):
+            flags = {"from_rest": from_rest, "from_sliding": from_sliding, "from_squeal": from_squeal}
+            asked = [name for name, wanted in flags.items() if wanted]
+            path = arguments.text("parameter", parameter, A_NUMBER_OF_A_SYSTEM)
+            ends = (arguments.quantity("from_", from_), arguments.quantity("to", to))
+            count = arguments.whole("periods", periods, 1, 1000)
+            pairs, begin = arguments.named("near", near), arguments.named("start", start)
+            if along is not None or between is not None or ramp != 0.0:
+                arguments.wrong.append(complaint("along", along, "given without near, named starts and ramp", "conflict"))
+            if near is not None and (asked or start is not None):
+                arguments.wrong.append(complaint("near", near, "given without starts", "conflict"))
+            arguments.done()
+            native = self._native.thresholds_of_system(
+                path, ends, asked, None if start is None else begin, None if near is None else (pairs, count)
+            )
+            return results.Thresholds(self, native)
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
         ends = (arguments.quantity("from_", from_), arguments.quantity("to", to))
         state = None if start is None else arguments.quantities("start", start, "two finite numbers (x, x′)")
@@ -522,6 +565,7 @@ class Study:
         *,
         displacement: State | None = None,
         velocity: State | None = None,
+        plane: str | None = None,
         grid: tuple[int, int] | None = None,
         sample: int | None = None,
         seed: int | None = None,
@@ -538,8 +582,11 @@ class Study:
         ----------
         displacement, velocity :
             Ranges of x and x′, in m and m/s or as texts with units in a study in SI [default: around steady sliding].
+        plane :
+            System: the two numbers of the state that are varied, such as ``"x,velocity.x"``, or with their windows
+            ``"x=-1:1,velocity.x=-2:2"`` [default: the first displacement and its velocity].
         grid :
-            Number of displacements and velocities, including the edges [default: (41, 31)].
+            Number of displacements and velocities, including the edges [default: (41, 31); of a system (21, 15)].
         sample, seed :
             Number of random states instead of a grid, and the seed of the generator [default: 1].
         over, from_, to, points :
@@ -576,6 +623,15 @@ class Study:
             arguments.wrong.append(complaint("over", None, "given together with from_, to and points", "conflict"))
         workers = None if threads is None else arguments.whole("threads", threads, 1, 1024)
         arguments.done()
+        if plane is not None:
+            given = (displacement, velocity, sample, over)
+            if any(other is not None for other in given):
+                allowed = "given without displacement, velocity, sample and over"
+                raise StudyError([complaint("plane", plane, allowed, "conflict")])
+            text = arguments.text("plane", plane, "two names, such as x,velocity.x")
+            arguments.done()
+            size = None if grid is None else (sides[0], sides[1])
+            return results.Basins(self, self._native.basins_in_plane(text, size, workers, progress))
         drawn = None if states is None else (states, which)
         native = self._native.basins(window, ((sides[0], sides[1]), drawn), along, workers, progress)
         return results.Basins(self, native)

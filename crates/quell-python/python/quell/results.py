@@ -433,7 +433,11 @@ class Response(Result):
 
 
 class Orbit(Result):
-    """A periodic response and its Floquet multipliers."""
+    """A periodic response and its Floquet multipliers.
+
+    Of a system: ``response`` ("base", "near", "reached", "limit-cycle"), ``period``, ``state`` at t = 0 with ``state_names``,
+    ``multipliers``, ``radius``, ``verdict``, ``events``, ``contacts``; where no limit cycle was found ``tried``, the starts.
+    """
 
     verb = "orbit"
     free_phase: bool | None
@@ -484,7 +488,8 @@ class Thresholds(Result):
     """``value`` with its ``error``, ``kind``, ``was``, ``becomes``, and of a belt the state ``displacement``, ``velocity``.
 
     Kinds are "neimark-sacker", "hopf", "flip", "fold", "grazing", "branching", "signature", and of a system without dither
-    "hopf", "divergence", "coalescence", with ``frequency``; see :class:`TrackedStability`.
+    "hopf", "divergence", "coalescence", with ``frequency``; see :class:`TrackedStability`. Under dither a system also has
+    "separation", and ``state``, ``radius_below`` and ``radius_above``.
     """
     signature_changes: list[dict[str, Any]]
     """Belt: ``value`` at which the events of a period change, and the events ``below`` and ``above``."""

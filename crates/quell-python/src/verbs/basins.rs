@@ -5,7 +5,8 @@ use std::sync::Arc;
 use pyo3::prelude::*;
 use quell::Study;
 use quell::kind::verbs;
-use quell::run::basins::BasinsRequest;
+use quell::run::basins::{BasinsRequest, StartLayout};
+use quell::run::system::basins::{PlaneRequest, read_plane};
 
 use super::map::{Counter, Watched};
 use crate::answer::NativeAnswer;
@@ -23,5 +24,25 @@ pub(crate) fn run(
     let watched = Watched::new(&counter, progress);
     let work =
         move || Ok(NativeAnswer::new(verbs(&study).basins(&request, counter.running(threads))?));
+    call::watched(py, work, watched)
+}
+
+/// Runs the verb on a system in a plane of two numbers of its state.
+pub(crate) fn run_in_plane(
+    py: Python<'_>,
+    study: Arc<Study>,
+    (plane, grid): (String, Option<(usize, usize)>),
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<NativeAnswer> {
+    let counter = Arc::new(Counter::default());
+    let watched = Watched::new(&counter, progress);
+    let work = move || {
+        let axes = read_plane(&study.system()?, &plane)?;
+        let given = |(columns, rows)| StartLayout::Grid { columns, rows };
+        let request = PlaneRequest::of(axes, grid.map_or_else(StartLayout::default, given))?;
+        let done = verbs(&study).basins_of_system(&request, counter.running(threads))?;
+        Ok(NativeAnswer::new(done))
+    };
     call::watched(py, work, watched)
 }

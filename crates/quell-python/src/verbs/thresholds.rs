@@ -3,11 +3,13 @@
 use quell::kind::verbs;
 use quell::run::curves::CurvesRequest;
 use quell::run::protocol::Protocol;
+use quell::run::system::protocol::{SystemProtocol, numbers_of};
+use quell::run::system::thresholds::MotionThresholdsRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::{Failure, Study, quantity};
 
 use crate::answer::NativeAnswer;
-use crate::arguments::{Pair, ends, state};
+use crate::arguments::{NamedNumbers, Pair, ends, state};
 
 /// Initial-condition protocols by the names of their fields, and one from a state.
 pub(crate) fn protocols(names: &[String], start: Option<(f64, f64)>) -> Vec<Protocol> {
@@ -48,4 +50,27 @@ pub(crate) fn run_along(
     let between = (value(&between.0)?, value(&between.1)?);
     let request = CurvesRequest { parameter, window, along, between };
     Ok(NativeAnswer::new(verbs.threshold_curves(&request)?))
+}
+
+/// Runs the verb on a system, along the motion near a state, or with runs from a start, whose numbers have names.
+pub(crate) fn run_of_system(
+    study: &Study,
+    parameter: String,
+    range: &Pair,
+    (names, start): (&[String], Option<&NamedNumbers>),
+    near: Option<(&NamedNumbers, u32)>,
+) -> Result<NativeAnswer, Failure> {
+    let system = study.system()?;
+    let window = ends(&parameter, range)?;
+    let protocols = protocols(names, None).into_iter().map(SystemProtocol::of);
+    let mut protocols = protocols.collect::<Result<Vec<_>, _>>()?;
+    if let Some(pairs) = start {
+        protocols.push(SystemProtocol::From(numbers_of(&system, "--start", pairs)?));
+    }
+    let near = match near {
+        Some((pairs, periods)) => Some((numbers_of(&system, "--near", pairs)?, periods)),
+        None => None,
+    };
+    let request = MotionThresholdsRequest { parameter, window, near, protocols };
+    Ok(NativeAnswer::new(verbs(study).thresholds_of_system(&request)?))
 }

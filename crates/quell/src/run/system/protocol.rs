@@ -4,7 +4,7 @@ use quell_dynamics::motion::orbit::sliding_state;
 use quell_model::System;
 
 use super::cycle::squealing_state;
-use super::start::{StateNumbers, read_state, start_in_words, start_with};
+use super::start::{StateNumbers, named, read_state, start_in_words, start_with};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::run::protocol::Protocol;
 use crate::study::{SystemStart, SystemStudy};
@@ -94,6 +94,29 @@ pub(crate) fn unnamed(option: &'static str, (x, v): (f64, f64)) -> Complaint {
     Complaint::option(option, format!("{x},{v}"), allowed)
 }
 
+/// Numbers of a state by name, as an option gives them.
+///
+/// # Errors
+/// A complaint about every pair.
+pub fn numbers_of(
+    study: &SystemStudy,
+    option: &'static str,
+    pairs: &[(String, String)],
+) -> Result<StateNumbers, Complaints> {
+    let pairs = pairs.iter().map(|(name, value)| Ok((name.as_str(), value.as_str())));
+    named(study, pairs).map_err(|wrong| renamed(&wrong, option))
+}
+
+/// Complaints about a state as those about an option.
+fn renamed(wrong: &Complaints, option: &'static str) -> Complaints {
+    let renamed = |complaint: &Complaint| Complaint {
+        key: option.to_owned(),
+        origin: Origin::Argument(option),
+        ..complaint.clone()
+    };
+    wrong.iter().map(renamed).collect::<Vec<Complaint>>().into()
+}
+
 /// Reads `name=value,…` given by an option.
 ///
 /// # Errors
@@ -103,11 +126,5 @@ pub fn read_state_of(
     option: &'static str,
     text: &str,
 ) -> Result<StateNumbers, Complaints> {
-    let renamed = |complaint: &Complaint| Complaint {
-        key: option.to_owned(),
-        origin: Origin::Argument(option),
-        ..complaint.clone()
-    };
-    read_state(study, text)
-        .map_err(|wrong| wrong.iter().map(renamed).collect::<Vec<Complaint>>().into())
+    read_state(study, text).map_err(|wrong| renamed(&wrong, option))
 }

@@ -14,7 +14,6 @@ use serde_json::Value as Json;
 use super::validity::ContactRanges;
 use super::{failed, has_equations, is_dithered};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::run::protocol::Protocol;
 use crate::study::SystemStudy;
 
 /// Values of the parameter at which eigenvalues are computed at least.
@@ -184,29 +183,7 @@ pub(super) fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<
     if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
 }
 
-/// Rejects thresholds of runs, which are not implemented for systems.
-///
-/// # Errors
-/// A complaint about each option that asks for runs.
-pub fn without_runs(protocols: &[Protocol], ramp: f64) -> Result<(), Failure> {
-    let options = protocols.iter().map(|protocol| match protocol {
-        Protocol::Rest => "--from-rest",
-        Protocol::Sliding => "--from-sliding",
-        Protocol::Squeal => "--from-squeal",
-        Protocol::From(..) => "--start",
-    });
-    let ramp = (ramp != 0.0).then_some("--ramp");
-    let wrong: Vec<Complaint> = options
-        .chain(ramp)
-        .map(|option| {
-            let allowed = "left out: thresholds of the runs of a system are not implemented yet";
-            Complaint::new(Fault::NotBuilt, option, Origin::Argument(option), Json::Null, allowed)
-        })
-        .collect();
-    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
-}
-
-/// The roots of `thresholds` of a system, which are those of `stability --parameter`.
+/// The curves of `thresholds --along` of a system, which are those of `stability --parameter --along`.
 ///
 /// # Errors
 /// As [`run`]; a system with dither, whose exact thresholds are those of its periodic motions.
@@ -215,11 +192,16 @@ pub fn thresholds(
     request: &TrackRequest,
 ) -> Result<TrackedStability, Failure> {
     if is_dithered(study.system()) {
-        let allowed = "thresholds needs a study without dither, because the periodic motions of dithered systems are not \
-                       implemented yet. `stability --parameter` gives the thresholds of averaging.";
-        return Err(
-            Complaint::new(Fault::NotBuilt, "dither", Origin::Whole, Json::Null, allowed).into()
-        );
+        let allowed = "left out: thresholds of the periodic motions of a dithered system are not followed along a second parameter \
+                       yet. `stability --parameter --along` follows those of averaging.";
+        return Err(Complaint::new(
+            Fault::NotBuilt,
+            "--along",
+            Origin::Argument("--along"),
+            Json::Null,
+            allowed,
+        )
+        .into());
     }
     run(study, request)
 }
