@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
-use quell::kind::verbs;
+use quell::kind::{moving_system, verbs};
 use quell::run::simulate::Options;
 use quell::run::system::simulate::MotionRequest;
-use quell::run::system::start::read_state;
+use quell::run::system::start::{duration as duration_of_motion, read_state};
 use quell::sound::SoundOptions;
 use quell::study::SystemStudy;
-use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
+use quell::{Complaint, Failure, Fault, Origin, Study};
 use serde_json::Value as Json;
 
 use super::numbers::{duration, scales};
@@ -23,11 +23,12 @@ use crate::arguments::{
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Duration: τ of a belt, or time in the units of a system; in a study in SI in seconds, or a time such as 50ms [default, for
-    /// systems: 100 periods of the slowest oscillation]
+    /// Duration: τ of a belt, time in the units of a system, or in 1/ω_ref of a disc; in a study in SI in seconds, or a time such as
+    /// 50ms [default: 100 periods of the slowest oscillation of a system; of a disc, until a small motion has grown]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: Option<String>,
-    /// Start of a system: numbers that replace those of the study's start, such as x=0.1,velocity.x=-2
+    /// Start of a system: numbers that replace those of the study's start, such as x=0.1,velocity.x=-2; of a disc, numbers that
+    /// replace those of rest, such as A2=0.1
     #[arg(long, value_name = "NAME=VALUE,…", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     start: Option<String>,
     /// Lists every event; with --save FILE.csv also writes them to a second file, such as run_events.csv next to run.csv
@@ -81,10 +82,10 @@ fn needs_sound(option: &'static str, text: &str, saved: bool, complaints: &mut G
 }
 
 impl Arguments {
-    /// The run of a system.
+    /// The run of a system or a disc.
     fn request(&self, study: &SystemStudy, samples: bool) -> Result<MotionRequest, Failure> {
         let mut complaints = Gathered::default();
-        let read = |text: &str| quantity::duration_of_system(text, study.units(), "--until");
+        let read = |text: &str| duration_of_motion(study, text, "--until");
         let until = complaints.take(self.until.as_deref().map(read).transpose());
         let start = self.start.as_deref().map(|text| read_state(study, text));
         let start = complaints.take(start.transpose());
@@ -136,13 +137,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let parts: &[&str] = if arguments.events && !is_sound { &["events"] } else { &[] };
     let outputs = complaints.take(Outputs::prepare(save, &["csv", WAV], parts, &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
-    if let Some(Ok(system)) = study.as_ref().map(Study::system) {
+    if let Some((study, system)) =
+        study.as_ref().and_then(|study| Some((study, moving_system(study)?)))
+    {
         let sampled = save.is_some() && !is_sound || plot.as_ref().is_some_and(Plot::wanted);
         let request = complaints.take(arguments.request(&system, sampled));
         let ((request, sound), (outputs, plot)) =
             complaints.finish(request.zip(sound).zip(outputs.zip(plot)))?;
         let request = MotionRequest { sound, ..request };
-        let done = verbs(&(&system).into()).simulate_from(&request)?;
+        let done = verbs(study).simulate_from(&request)?;
         return answer(arguments.study.json, done.as_ref(), outputs, plot);
     }
     let until = complaints.take(arguments.until_of_belt(study.as_ref()));

@@ -58,7 +58,9 @@ impl Disc {
     ///
     /// The follower force of the dissertation depends neither on the speed nor on the load: it is a Coulomb contact of unit
     /// load with μ = |f| on a surface that moves, at unit speed, in the direction of f. Its dither is a factor on the
-    /// friction force. A load over a patch is a contact at every quadrature point.
+    /// friction force. A load over a patch is a contact at every quadrature point, which has its share of the load.
+    /// In large motions friction follows the load, and a contact with a spring or damper opens where its load vanishes; lengths
+    /// are then in N/(M_pω_ref²), N the normal load of every load.
     pub fn system_of(&self, parts: Contributions) -> System {
         let (mut damping, mut stiffness) = self.plate(parts);
         let mut mass = self.masses();
@@ -99,16 +101,16 @@ impl Disc {
 
     /// Friction at a point of a load: as a given follower force, or by the law.
     fn sliding(&self, load: &Load, point: &PatchPoint<'_>, slope: Vec<f64>) -> Sliding {
-        let share = point.weight * point.lever;
         let Some(law) = self.law() else {
             return Sliding {
                 tangent: None,
                 slope,
-                normal_load: 1.0,
+                normal_load: point.weight,
                 velocity: 1f64.copysign(load.friction),
-                law: Friction::Coulomb(Coulomb::constant(share * load.friction.abs())),
+                law: Friction::Coulomb(Coulomb::constant(point.lever * load.friction.abs())),
             };
         };
+        let share = point.weight * point.lever;
         // Radius of the point over that of the first load.
         let radius = self.radius_over_first(load) / point.lever;
         let lever = load.half_thickness * point.lever;

@@ -1,6 +1,6 @@
 //! `simulate`: one trajectory with its events.
 
-use quell::kind::verbs;
+use quell::kind::{moving_system, verbs};
 use quell::run::simulate::Options;
 use quell::run::system::simulate::MotionRequest;
 use quell::run::system::start;
@@ -21,7 +21,7 @@ pub(crate) fn run(
     start: &[(String, String)],
     sound: Option<&SoundTexts>,
 ) -> Result<NativeAnswer, Failure> {
-    if let Ok(system) = study.system() {
+    if let Some(system) = moving_system(study) {
         let sound = sound.map(|sound| options(study, sound)).transpose()?;
         let request = of_system(&system, until, kept, start, sound)?;
         return Ok(NativeAnswer::new(verbs(study).simulate_from(&request)?));
@@ -57,11 +57,11 @@ fn of_system(
     study: &SystemStudy,
     until: Option<&str>,
     (events, samples): (bool, bool),
-    start: &[(String, String)],
+    given: &[(String, String)],
     sound: Option<SoundOptions>,
 ) -> Result<MotionRequest, Failure> {
-    let read = |text| quantity::duration_of_system(text, study.units(), "--until");
+    let read = |text| start::duration(study, text, "--until");
     let until = until.map(read).transpose()?;
-    let pairs = start.iter().map(|(name, value)| Ok((name.as_str(), value.as_str())));
+    let pairs = given.iter().map(|(name, value)| Ok((name.as_str(), value.as_str())));
     Ok(MotionRequest { until, start: start::named(study, pairs)?, events, samples, sound })
 }

@@ -40,7 +40,8 @@ pub use quell_dynamics::start::InitialState;
 pub use study_kind::{Given, StudyKind, not_available};
 pub use sweep::{Axis, AxisTarget, Sweep};
 pub use system::{
-    FrequencyResponse, SystemAddress, SystemSetup, SystemStart, SystemStudy, SystemUnits,
+    DescribedSystem, FrequencyResponse, ScaledTime, SystemAddress, SystemSetup, SystemStart,
+    SystemStudy, SystemUnits,
 };
 
 /// A checked study of the kind `K`: of any kind ([`Study`]), of a belt ([`BeltStudy`]), of a disc ([`DiscStudy`]),

@@ -4,7 +4,9 @@ use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
-use crate::run::disc::{modes, resonances, stability};
+use crate::run::disc::{modes, motion, resonances, stability};
+use crate::run::simulate::Options;
+use crate::run::system::simulate::MotionRequest;
 use crate::study::{DiscSetup, DiscStudy};
 
 impl Verbs for DiscStudy {
@@ -13,7 +15,7 @@ impl Verbs for DiscStudy {
     }
 
     fn names(&self) -> &'static [&'static str] {
-        &["check", "cite", "modes", "stability", "resonances", "map"]
+        &["check", "cite", "modes", "stability", "simulate", "resonances", "map"]
     }
 
     fn check(&self) -> Box<dyn Outcome> {
@@ -30,6 +32,16 @@ impl Verbs for DiscStudy {
 
     fn stability(&self) -> Reply {
         answer(self, stability::run(self))
+    }
+
+    fn simulate(&self, until: f64, options: Options) -> Reply {
+        let Options { events, samples, sound, .. } = options;
+        let until = Some(until);
+        self.simulate_from(&MotionRequest { until, events, samples, sound, ..Default::default() })
+    }
+
+    fn simulate_from(&self, request: &MotionRequest) -> Reply {
+        answer(self, motion::run(self, request))
     }
 
     fn modes(&self) -> Reply {

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use crate::cite::Sources;
 use crate::complaint::{Failure, Origin};
 use crate::outcome::{Answered, Outcome, Presented};
-use crate::run::disc::resonances;
+use crate::run::disc::{motion, resonances};
 use crate::run::orbit::Wanted;
 use crate::run::system::basins::PlaneRequest;
 use crate::run::system::orbit::WantedMotion;
@@ -17,7 +17,7 @@ use crate::run::system::simulate::MotionRequest;
 use crate::run::system::thresholds::MotionThresholdsRequest;
 use crate::run::system::tracked::TrackRequest;
 use crate::run::{basins, bifurcation, curves, simulate, thresholds};
-use crate::study::{Kind, Study, StudyKind, StudyOf, not_available};
+use crate::study::{Kind, Study, StudyKind, StudyOf, SystemStudy, not_available};
 use crate::sweep::Running;
 
 mod belt;
@@ -230,6 +230,16 @@ pub fn verbs(study: &Study) -> Box<dyn Verbs> {
         Kind::Belt(setup) => Box::new(study.narrowed(setup.as_ref())),
         Kind::Disc(setup) => Box::new(study.narrowed(setup.as_ref())),
         Kind::System(setup) => Box::new(study.narrowed(setup.as_ref())),
+    }
+}
+
+/// The system whose motion `simulate` computes from a start with names, of a study that has one: of a system itself, of a disc
+/// the system of its modes.
+pub fn moving_system(study: &Study) -> Option<SystemStudy> {
+    match study.kind() {
+        Kind::Belt(_) => None,
+        Kind::Disc(setup) => Some(motion::at_rest(&study.narrowed(setup.as_ref()))),
+        Kind::System(setup) => Some(study.narrowed(setup.as_ref())),
     }
 }
 

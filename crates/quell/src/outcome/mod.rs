@@ -15,6 +15,7 @@ mod basins;
 mod bifurcation;
 pub mod check;
 mod cite;
+mod disc_motion;
 mod friction;
 mod map;
 mod modes;

@@ -31,6 +31,7 @@ use super::StudyOf;
 use super::document::{Table, Value};
 use super::reader::{Found, Reader};
 use super::study_kind::{Given, StudyKind};
+use super::system::{DescribedSystem, SystemStudy};
 use super::vocabulary::{self, Choice, Role, join};
 use crate::complaint::{Complaint, Fault, Origin};
 
@@ -191,6 +192,11 @@ impl DiscStudy {
     /// The disc in the numbers of the equations, whole.
     pub fn disc(&self) -> &Disc {
         &self.kind().disc
+    }
+
+    /// The disc as a system of its own modes, with the given row, start and unit of time.
+    pub fn as_system(&self, described: DescribedSystem) -> SystemStudy {
+        self.map_kind(described.into())
     }
 
     /// The contributions that are switched on.

@@ -25,6 +25,13 @@ pub enum SystemStart {
     Base,
     /// The whole state: displacements, then velocities, or the states of first-order equations.
     Values(Vec<f64>),
+    /// A whole state that the study determines without giving its numbers, such as a small motion.
+    Described {
+        /// The state.
+        state: Vec<f64>,
+        /// What it is, after "from".
+        words: String,
+    },
 }
 
 const PREFIX: &str = "system.initial";

@@ -43,7 +43,7 @@ use crate::complaint::{Complaint, Complaints, Origin};
 pub use frequency_response::FrequencyResponse;
 pub use initial::SystemStart;
 pub use path::{SystemAddress, resolve_in};
-pub use setup::SystemSetup;
+pub use setup::{DescribedSystem, ScaledTime, SystemSetup};
 pub use units::SystemUnits;
 
 use path::set;
@@ -102,6 +102,20 @@ impl SystemStudy {
     /// The units of the bare numbers of the file.
     pub fn units(&self) -> SystemUnits {
         self.kind().numbers.units
+    }
+
+    /// The unit of time in seconds, where the study determines it although its numbers have no units.
+    pub fn scaled_time(&self) -> Option<ScaledTime> {
+        self.kind().time
+    }
+
+    /// Units of time in one second; `None` for a study without seconds.
+    pub fn time_per_second(&self) -> Option<f64> {
+        match self.units() {
+            SystemUnits::None => self.kind().time.map(|time| time.per_second),
+            // Both systems of units have the second.
+            SystemUnits::Si | SystemUnits::MmTonneSecond => Some(1.0),
+        }
     }
 
     /// The measured receptance of a study with `frequency_response`.

@@ -90,6 +90,7 @@ pub(super) fn study(
         measured: measured.into(),
         modes: modes.into(),
         response,
+        time: None,
     })
 }
 

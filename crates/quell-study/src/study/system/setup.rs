@@ -24,6 +24,49 @@ pub struct SystemSetup {
     /// Files of modes.
     pub(super) modes: Arc<[Arc<ModeList>]>,
     pub(super) response: Option<Arc<FrequencyResponse>>,
+    /// Time of numbers without units in seconds; `None` where the study does not determine it.
+    pub(super) time: Option<ScaledTime>,
+}
+
+/// The unit of time of a study whose other numbers have no units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScaledTime {
+    /// Units of time in one second.
+    pub per_second: f64,
+    /// Whether plain times of options are in seconds.
+    pub plain_in_seconds: bool,
+}
+
+/// A system that a study of another kind describes, with what a run of it needs.
+#[derive(Clone, Debug)]
+pub struct DescribedSystem {
+    /// The system, in numbers without units.
+    pub system: System,
+    /// The row that is observed, over the coordinates.
+    pub observe: Vec<f64>,
+    /// Where a run begins.
+    pub initial: SystemStart,
+    /// What is valid but unlikely, in sentences.
+    pub warnings: Vec<String>,
+    /// Its unit of time, if it is known.
+    pub time: Option<ScaledTime>,
+}
+
+impl From<DescribedSystem> for SystemSetup {
+    fn from(described: DescribedSystem) -> Self {
+        let DescribedSystem { system, observe, initial, warnings, time } = described;
+        Self {
+            system: Arc::new(system),
+            observe,
+            initial,
+            numbers: Numbers::default(),
+            warnings,
+            measured: Arc::default(),
+            modes: Arc::default(),
+            response: None,
+            time,
+        }
+    }
 }
 
 impl SystemSetup {

@@ -3,10 +3,13 @@
 pub mod campbell;
 pub mod check;
 pub mod critical;
+pub mod kick;
 pub mod modes;
+pub mod motion;
 pub mod resonances;
 pub mod stability;
 mod tangential;
+mod watch;
 
 use crate::complaint::Failure;
 

@@ -97,6 +97,6 @@ fn initial(start: &SystemStart) -> Json {
         SystemStart::Sliding => "sliding".into(),
         SystemStart::Squealing => "squealing".into(),
         SystemStart::Base => "base".into(),
-        SystemStart::Values(values) => values.clone().into(),
+        SystemStart::Values(state) | SystemStart::Described { state, .. } => state.clone().into(),
     }
 }

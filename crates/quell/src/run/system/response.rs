@@ -8,7 +8,7 @@ use quell_dynamics::response::{
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::simulate::{beyond_laws, failed_run, listed, of_engine, put_means, slowest_period};
+use super::simulate::{beyond_laws, failed_run, of_engine, put_means, slowest_period};
 use super::start::{start_in_words, start_of};
 use super::{failed, frequency_in_words, has_equations, in_units};
 use crate::complaint::{Complaint, Failure};
@@ -16,6 +16,7 @@ use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::effect_words::{EffectWords, level_of, percent, residual_in_words};
 use crate::study::{SystemStudy, SystemUnits};
+use crate::words::listed;
 
 /// Periods of the slowest oscillation that are discarded before the record.
 pub const SETTLE_PERIODS: f64 = 200.0;

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use quell_dynamics::motion::{
-    ContactMeans, ContactMeter, ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionSampler,
-    MotionStart, MotionStopped,
+    ContactMeans, ContactMeter, ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver,
+    MotionSampler, MotionStart, MotionStopped,
 };
 use quell_model::System;
 use quell_model::units::Quantity;
@@ -19,7 +19,7 @@ use crate::fields::Fields;
 use crate::range;
 use crate::sound::{Sound, SoundOptions};
 use crate::study::{SystemStudy, SystemUnits};
-use crate::words::{capital, plural};
+use crate::words::{capital, listed, plural};
 
 /// Periods of the slowest oscillation that a run lasts if no duration is given.
 pub const DEFAULT_PERIODS: f64 = 100.0;
@@ -79,6 +79,18 @@ pub struct SystemSimulation {
 /// # Errors
 /// A complaint about the start or the end; [`Failure::Failed`] where the motion cannot be computed or the engine stops.
 pub fn run(study: &SystemStudy, request: &MotionRequest) -> Result<SystemSimulation, Failure> {
+    run_observed(study, request, &mut ())
+}
+
+/// [`run`] with one more observer.
+///
+/// # Errors
+/// As [`run`].
+pub(crate) fn run_observed(
+    study: &SystemStudy,
+    request: &MotionRequest,
+    watch: &mut impl MotionObserver,
+) -> Result<SystemSimulation, Failure> {
     has_equations(study, "simulate")?;
     let system = study.system();
     let motion = Motion::new(system).map_err(|why| failed("simulate", why))?;
@@ -97,7 +109,7 @@ pub fn run(study: &SystemStudy, request: &MotionRequest) -> Result<SystemSimulat
     let mut history = EventHistory::new(contacts, motion.size(), request.samples);
     let mut sampler = MotionSampler::new(start.time, step, intervals);
     let mut tap = MotionSoundTap::new(&start, &study.observe(), plan.as_ref());
-    let mut observer = (&mut meter, (&mut history, (&mut sampler, &mut tap)));
+    let mut observer = (&mut meter, (&mut history, (&mut sampler, (&mut tap, watch))));
     let end = motion
         .run(&start, until, MOTION_TOLERANCE, &mut observer)
         .map_err(|stopped| failed_run("simulate", system, &stopped))?;
@@ -142,7 +154,7 @@ pub(super) fn dither_frequencies(system: &System) -> impl Iterator<Item = f64> {
 ///
 /// # Errors
 /// A complaint about `option`, the missing duration, if nothing oscillates.
-pub(super) fn slowest_period(study: &SystemStudy, option: &'static str) -> Result<f64, Failure> {
+pub(crate) fn slowest_period(study: &SystemStudy, option: &'static str) -> Result<f64, Failure> {
     let found = modes::run(study)?;
     let oscillating = found.modes.iter().filter(|mode| mode.eigenvalue.im > mode.error);
     let slowest = oscillating.map(modes::natural).chain(dither_frequencies(study.system()));
@@ -238,7 +250,7 @@ impl SystemSimulation {
     pub fn sound_sentence(&self, study: &SystemStudy) -> Option<String> {
         let sound = self.sound.as_ref()?;
         let units = study.units();
-        let in_real_time = units != SystemUnits::None && sound.transposition == 1.0;
+        let in_real_time = study.time_per_second().is_some() && sound.transposition == 1.0;
         Some(sound.sentence(in_real_time, |quantity, value| in_units(units, quantity, value)))
     }
 
@@ -380,13 +392,4 @@ pub(super) fn of_engine(system: &System, end: &MotionEnd) -> Vec<String> {
         ));
     }
     warnings
-}
-
-/// A list in words: "a, b and c".
-pub(super) fn listed(parts: &[String]) -> String {
-    match parts {
-        [] => String::new(),
-        [only] => only.clone(),
-        [most @ .., last] => format!("{} and {last}", most.join(", ")),
-    }
 }

@@ -6,7 +6,7 @@ use quell_dynamics::motion::{MotionEnd, MotionObserver, MotionSegment, MotionSta
 
 use crate::complaint::Complaint;
 use crate::sound::{RecordedMotion, Sound, SoundOptions, SoundPlan, SoundRecorder};
-use crate::study::{SystemStudy, SystemUnits};
+use crate::study::SystemStudy;
 
 /// The plan for the sound of a run of some duration.
 ///
@@ -21,10 +21,7 @@ pub(super) fn plan(
     let acting = waves.filter(|wave| wave.amplitude != 0.0);
     let motion = RecordedMotion {
         duration,
-        time_per_second: match study.units() {
-            SystemUnits::None => RecordedMotion::AUDIBLE,
-            SystemUnits::Si | SystemUnits::MmTonneSecond => 1.0,
-        },
+        time_per_second: study.time_per_second().unwrap_or(RecordedMotion::AUDIBLE),
         natural_frequency: None,
         fastest_forcing: acting.map(|wave| wave.frequency).reduce(f64::max),
     };

@@ -3,12 +3,12 @@
 use quell_dynamics::motion::MotionStart;
 use quell_linear::steady::SteadySliding;
 use quell_model::System;
-use quell_model::units::Quantity;
+use quell_model::units::{Quantity, measure};
 
 use super::cycle::{base_state, squealing_state};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::quantity;
-use crate::study::{SystemStart, SystemStudy, suggest};
+use crate::study::{SystemStart, SystemStudy, SystemUnits, suggest};
 use crate::words::digits;
 
 /// Numbers of a state by their places in it.
@@ -45,7 +45,7 @@ pub fn start_of(study: &SystemStudy) -> Result<MotionStart, Failure> {
     };
     let state = match study.initial() {
         SystemStart::Rest => vec![0.0; size],
-        SystemStart::Values(values) => values.clone(),
+        SystemStart::Values(state) | SystemStart::Described { state, .. } => state.clone(),
         SystemStart::Sliding => {
             let steady = SteadySliding::new(system)
                 .map_err(|why| refused("sliding", format!("another state: {why}")))?;
@@ -118,6 +118,24 @@ pub fn named<'a>(
     if wrong.is_empty() { Ok(numbers) } else { Err(wrong.into()) }
 }
 
+/// Reads how long a run lasts, in the units of the study: a plain number, or a time with its unit where the study has seconds.
+///
+/// # Errors
+/// A complaint about `option`.
+pub fn duration(
+    study: &SystemStudy,
+    text: &str,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    match study.scaled_time() {
+        Some(time) if time.plain_in_seconds || measure::has_unit(text) => {
+            let seconds = quantity::duration_of_system(text, SystemUnits::Si, option)?;
+            Ok(time.per_second * seconds)
+        }
+        _ => quantity::duration_of_system(text, study.units(), option),
+    }
+}
+
 /// The place of a name in a state.
 fn place_of(names: &[String], name: &str) -> Result<usize, Box<Complaint>> {
     names.iter().position(|known| known == name).ok_or_else(|| {
@@ -137,6 +155,7 @@ pub fn start_in_words(study: &SystemStudy, numbers: &StateNumbers) -> String {
         SystemStart::Squealing => "from the undithered limit cycle",
         SystemStart::Base => "from the base response",
         SystemStart::Values(_) => "from the initial state of the study",
+        SystemStart::Described { words, .. } => &format!("from {words}"),
     };
     if numbers.is_empty() {
         return from.to_owned();

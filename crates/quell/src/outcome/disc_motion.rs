@@ -1,0 +1,38 @@
+//! `simulate` of a disc: the answer about its system, with amplitude and growth.
+
+use serde_json::Value as Json;
+
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::outcome::Presented;
+use crate::plot::Figure;
+use crate::run::disc::motion::DiscSimulation;
+use crate::study::{DiscSetup, DiscStudy};
+
+impl Presented<DiscSetup> for DiscSimulation {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &DiscStudy) -> Json {
+        self.json(study)
+    }
+
+    fn sentence(&self, study: &DiscStudy) -> Option<String> {
+        Some(self.sentence(study))
+    }
+
+    fn table(&self, _: &DiscStudy) -> String {
+        self.motion.table(&self.system)
+    }
+
+    fn datasets(&self, _: &DiscStudy) -> Vec<(&'static str, Dataset)> {
+        self.motion.datasets(&self.system)
+    }
+
+    fn sound(&self, _: &DiscStudy) -> Option<Result<Vec<u8>, Failure>> {
+        self.motion.sound(&self.system)
+    }
+
+    fn figure(&self, _: &DiscStudy) -> Option<Result<Figure, Failure>> {
+        self.motion.figure(&self.system)
+    }
+}

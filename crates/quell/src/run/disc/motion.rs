@@ -1,0 +1,253 @@
+//! `simulate` of a disc: its motion as a system, from a small motion, and what becomes of the growth.
+
+use std::f64::consts::TAU;
+
+use quell_model::{Contact, System};
+use serde_json::{Map, Value as Json};
+
+use super::kick::{self, KICK, Kick};
+use super::watch::RowWatch;
+use crate::complaint::Failure;
+use crate::run::system::simulate::{MotionRequest, SystemSimulation, run_observed, slowest_period};
+use crate::study::{DescribedSystem, DiscStudy, ScaledTime, SystemStart, SystemStudy};
+use crate::words::{capital, digits};
+
+/// Least number of periods of the leading small motion that a run lasts if no duration is given.
+pub const LEAST_PERIODS: f64 = 100.0;
+
+/// Largest number of them, unless the motion does not oscillate.
+pub const MOST_PERIODS: f64 = 2000.0;
+
+/// Part of the run over which the amplitude is measured.
+const TAIL: f64 = 0.1;
+
+/// The unit of a friction force.
+const FORCE: &str = "r₀M_pω_ref²";
+
+/// One motion of a disc.
+#[derive(Clone, Debug)]
+pub struct DiscSimulation {
+    /// The disc as a system, with its start.
+    pub system: SystemStudy,
+    /// The motion of that system.
+    pub motion: SystemSimulation,
+    /// The leading small motion without dither.
+    pub kick: Kick,
+    /// Half the peak-to-peak deflection under the first load over the last tenth of the run; `None` for a run without duration.
+    pub amplitude: Option<f64>,
+    /// Growth rate of the extremes of that deflection while the motion was small; or why it is unknown.
+    pub growth: Result<f64, String>,
+    /// Whether the duration was chosen here.
+    pub chosen: bool,
+}
+
+/// The row of the deflection under the first load; of the first coordinate where there is no load.
+fn observed_row(study: &DiscStudy) -> Vec<f64> {
+    let disc = study.disc();
+    if disc.loads().is_empty() {
+        return (0..disc.coordinates()).map(|index| f64::from(index == 0)).collect();
+    }
+    disc.surface_row(0)
+}
+
+/// The disc as a system with this start.
+fn described(study: &DiscStudy, system: System, initial: SystemStart) -> SystemStudy {
+    let time = study
+        .reference_hz()
+        .map(|hertz| ScaledTime { per_second: TAU * hertz, plain_in_seconds: study.is_si() });
+    study.as_system(DescribedSystem {
+        system,
+        observe: observed_row(study),
+        initial,
+        warnings: study.warnings().to_vec(),
+        time,
+    })
+}
+
+/// The disc as a system at rest: the names of its state and its unit of time.
+pub fn at_rest(study: &DiscStudy) -> SystemStudy {
+    let system = study.disc().system_of(study.parts());
+    described(study, system, SystemStart::Rest)
+}
+
+/// Integrates the disc from its leading small motion, or from rest with the given numbers.
+///
+/// # Errors
+/// As [`run_observed`]; [`Failure::Failed`] without steady sliding.
+pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation, Failure> {
+    let system = study.disc().system_of(study.parts());
+    let kick = kick::of(&system, &observed_row(study))?;
+    let initial = if request.start.is_empty() {
+        let words = "the leading small motion".to_owned();
+        SystemStart::Described { state: kick.state.clone(), words }
+    } else {
+        SystemStart::Rest
+    };
+    let system = described(study, system, initial);
+    let until = match request.until {
+        Some(until) => until,
+        None => usual_duration(&system, &kick)?,
+    };
+    let request_of_system = MotionRequest { until: Some(until), ..request.clone() };
+    let from = until - TAIL * until;
+    let mut watch = RowWatch::new(observed_row(study), kick.middle, kick.levels.clone(), from);
+    let motion = run_observed(&system, &request_of_system, &mut watch)?;
+    Ok(DiscSimulation {
+        system,
+        motion,
+        kick,
+        amplitude: (until > 0.0).then(|| watch.amplitude()),
+        growth: watch.growth(),
+        chosen: request.until.is_none(),
+    })
+}
+
+/// Twice the time in which the leading motion grows from [`KICK`] to 1, between [`LEAST_PERIODS`] and [`MOST_PERIODS`].
+fn usual_duration(system: &SystemStudy, kick: &Kick) -> Result<f64, Failure> {
+    let (growth, frequency) = (kick.eigenvalue.re, kick.eigenvalue.im.abs());
+    let period = if frequency > 0.0 { TAU / frequency } else { slowest_period(system, "--until")? };
+    let growing = -2.0 * libm::log(KICK) / growth;
+    let wanted = if growth > 0.0 { growing } else { 0.0 };
+    Ok(wanted.clamp(LEAST_PERIODS * period, MOST_PERIODS * period))
+}
+
+impl DiscSimulation {
+    /// The unit of a deflection: the radius of the first load under a friction law, else a length that the load defines.
+    pub fn length_unit(study: &DiscStudy) -> &'static str {
+        if study.disc().law().is_some() { "r₀" } else { "N/(M_pω_ref²)" }
+    }
+
+    /// The outcome in a few sentences.
+    pub fn sentence(&self, study: &DiscStudy) -> String {
+        let mut text = self.motion.sentence(&self.system);
+        let unit = Self::length_unit(study);
+        if self.motion.request.start.is_empty() {
+            let words = match (self.kick.changes_contacts, self.kick.amplitude) {
+                (true, deflection) => format!(
+                    "loads and slip velocities change by at most {KICK} of their values, and the deflection under load 0 by {} {unit}",
+                    digits(deflection)
+                ),
+                (false, deflection) => {
+                    format!("its deflection under load 0 is {} {unit}", digits(deflection))
+                }
+            };
+            text += &format!(" {}.", capital(&format!("in the small motion at the start {words}")));
+        }
+        if let Some(amplitude) = self.amplitude {
+            text += &format!(
+                " Over the last tenth of the run the amplitude of the deflection under load 0 is {} {unit}.",
+                digits(amplitude)
+            );
+        }
+        if self.chosen {
+            let until = digits(self.motion.end.time);
+            text += &format!(" The duration {until} was chosen; --until sets another.");
+        }
+        text
+    }
+
+    /// Warnings about the result.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = self.motion.warnings(&self.system);
+        let contacts = &self.system.system().contacts;
+        let is_prescribed = |contact: &Contact| {
+            let is_rigid = contact.normal_stiffness == 0.0 && contact.normal_damping == 0.0;
+            is_rigid && contact.tangent.is_none()
+        };
+        if !contacts.is_empty() && contacts.iter().all(is_prescribed) {
+            let bounded = "the load is prescribed: nothing bounds the growth of an unstable motion";
+            warnings
+                .push(format!("{bounded}; a spring or damper of the load lets its contact open"));
+        }
+        warnings
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &DiscStudy) -> Json {
+        let mut object = self.motion.json(&self.system);
+        object["sentence"] = self.sentence(study).into();
+        object["warnings"] = self.warnings().into();
+        object["leading_growth_rate"] = self.kick.eigenvalue.re.into();
+        object["leading_frequency"] = self.kick.eigenvalue.im.abs().into();
+        object["start"]["amplitude"] = self.kick.amplitude.into();
+        let mut why = Map::new();
+        put(
+            &mut object,
+            &mut why,
+            "amplitude",
+            &self.amplitude.ok_or("the run has no duration".to_owned()),
+        );
+        put(&mut object, &mut why, "growth_observed", &self.growth);
+        if !self.motion.request.start.is_empty() {
+            object["start"]["amplitude"] = Json::Null;
+            why.insert("start.amplitude".to_owned(), "the start is given".into());
+        }
+        let radius = study.scales(0).and_then(|scales| scales.load_radius_m);
+        if let Some(radius) = radius.filter(|_| study.disc().law().is_some()) {
+            object["amplitude_m"] = self.amplitude.map(|amplitude| amplitude * radius).into();
+        }
+        put_seconds(&mut object, study);
+        put_units(&mut object, study);
+        if let Some(known) = object["why"].as_object_mut() {
+            known.append(&mut why);
+        } else if !why.is_empty() {
+            object["why"] = Json::Object(why);
+        }
+        object
+    }
+}
+
+/// Adds a number, or null with the reason.
+fn put(object: &mut Json, why: &mut Map<String, Json>, name: &str, value: &Result<f64, String>) {
+    match value {
+        Ok(value) => object[name] = (*value).into(),
+        Err(reason) => {
+            object[name] = Json::Null;
+            why.insert(name.to_owned(), reason.clone().into());
+        }
+    }
+}
+
+/// Adds times in seconds, and growth per second, where ω_ref is known in hertz.
+fn put_seconds(object: &mut Json, study: &DiscStudy) {
+    let Some(hertz) = study.reference_hz() else { return };
+    let in_seconds = |moment: &mut Json| {
+        if let Some(time) = moment["time"].as_f64() {
+            moment["time_s"] = (time / (TAU * hertz)).into();
+        }
+    };
+    for name in ["start", "final"] {
+        in_seconds(&mut object[name]);
+    }
+    object["events"].as_array_mut().into_iter().flatten().for_each(in_seconds);
+    for (name, twin, factor) in [
+        ("growth_observed", "growth_observed_per_s", TAU * hertz),
+        ("leading_growth_rate", "leading_growth_rate_per_s", TAU * hertz),
+        ("leading_frequency", "leading_frequency_hz", hertz),
+    ] {
+        object[twin] = object[name].as_f64().map(|value| factor * value).into();
+    }
+}
+
+/// Names the units of a disc.
+fn put_units(object: &mut Json, study: &DiscStudy) {
+    let under_law = study.disc().law().is_some();
+    // Without a law every contact slips at the constant velocity 1, and its load is that of the study.
+    let (normal, velocity) = if under_law { (FORCE, "r₀ω_ref") } else { ("N", "1") };
+    let units = [
+        ("time", "1/ω_ref"),
+        ("amplitude", DiscSimulation::length_unit(study)),
+        ("slip_velocity", velocity),
+        ("friction", FORCE),
+        ("mean_friction", FORCE),
+        ("normal", normal),
+        ("mean_normal", normal),
+        ("least_normal", normal),
+        ("growth_observed", "ω_ref"),
+        ("leading_growth_rate", "ω_ref"),
+        ("leading_frequency", "ω_ref"),
+    ];
+    for (name, unit) in units {
+        object["units"][name] = unit.into();
+    }
+}
