@@ -23,9 +23,13 @@ pub(super) struct StepSeries {
     rates: Vec<f64>,
     pushes: Vec<Series>,
     pub(super) contacts: Vec<ContactSeries>,
-    /// Largest magnitude so far of every number of the state, over the time scale of the system.
+    /// Magnitude of every number of the state in the last steps, over the time scale of the system.
     scales: Vec<f64>,
 }
+
+/// Share of the magnitude of a number that counts in the next step: a large transient is forgotten after some steps, so that it
+/// does not loosen the tolerance of the motion that remains.
+const FORGOTTEN: f64 = 0.8;
 
 /// Limits on the length of a step.
 #[derive(Clone, Copy, Debug)]
@@ -248,7 +252,7 @@ impl<'a> StepExpansion<'a> {
             for k in (0..4).rev() {
                 scale = (scale * time).max(at(k));
             }
-            scale = scale.max(self.out.scales[i]);
+            scale = scale.max(FORGOTTEN * self.out.scales[i]);
             self.out.scales[i] = scale;
             if scale > 0.0 {
                 last = last.max(at(ORDER) / scale);

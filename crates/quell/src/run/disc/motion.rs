@@ -1,5 +1,7 @@
 //! `simulate` of a disc: its motion as a system, from a small motion, and what becomes of the growth.
 
+use std::fmt::Write as _;
+
 use std::f64::consts::TAU;
 
 use quell_model::{Contact, System};
@@ -10,7 +12,7 @@ use super::watch::RowWatch;
 use crate::complaint::Failure;
 use crate::run::system::simulate::{MotionRequest, SystemSimulation, run_observed, slowest_period};
 use crate::study::{DescribedSystem, DiscStudy, ScaledTime, SystemStart, SystemStudy};
-use crate::words::{capital, digits};
+use crate::words::digits;
 
 /// Least number of periods of the leading small motion that a run lasts if no duration is given.
 pub const LEAST_PERIODS: f64 = 100.0;
@@ -131,17 +133,18 @@ impl DiscSimulation {
                     format!("its deflection under load 0 is {} {unit}", digits(deflection))
                 }
             };
-            text += &format!(" {}.", capital(&format!("in the small motion at the start {words}")));
+            let _ = write!(text, " In the small motion at the start {words}.");
         }
         if let Some(amplitude) = self.amplitude {
-            text += &format!(
+            let _ = write!(
+                text,
                 " Over the last tenth of the run the amplitude of the deflection under load 0 is {} {unit}.",
                 digits(amplitude)
             );
         }
         if self.chosen {
             let until = digits(self.motion.end.time);
-            text += &format!(" The duration {until} was chosen; --until sets another.");
+            let _ = write!(text, " The duration {until} was chosen; --until sets another.");
         }
         text
     }

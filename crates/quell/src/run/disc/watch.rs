@@ -20,7 +20,7 @@ const PARTS: u32 = 8;
 const HALVINGS: usize = 50;
 
 /// Taylor coefficients over a step.
-type Coefficients = [f64; ORDER + 1];
+type RowCoefficients = [f64; ORDER + 1];
 
 /// Load and slip velocity of a contact in steady sliding.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,7 +95,7 @@ impl RowWatch {
     }
 
     /// Taylor coefficients of the row times the part of the state from a place on.
-    fn series(&self, segment: &MotionSegment<'_>, from: usize) -> Coefficients {
+    fn series(&self, segment: &MotionSegment<'_>, from: usize) -> RowCoefficients {
         let mut series = [0.0; ORDER + 1];
         let states = segment.states();
         let orders = states.chunks(states.len() / (ORDER + 1));
@@ -126,7 +126,7 @@ impl RowWatch {
 }
 
 /// The zero of a series between two moments at which its signs differ.
-fn zero_between(series: &Coefficients, mut low: f64, mut high: f64) -> f64 {
+fn zero_between(series: &RowCoefficients, mut low: f64, mut high: f64) -> f64 {
     let rises = MotionSegment::value(series, high) > 0.0;
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
