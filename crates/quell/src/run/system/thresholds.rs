@@ -64,7 +64,7 @@ impl MotionThresholdsRequest {
 pub struct MotionThresholdsFound {
     /// The request.
     pub request: MotionThresholdsRequest,
-    /// The branch of motions and its changes of stability, or why there is none.
+    /// The branch of motions and its changes of stability, or why no such motion exists at the first value.
     pub local: Result<Local, NoMotionOrbit>,
     /// Whether a base response exists at the last value although the branch ends before it.
     pub resumes: bool,
