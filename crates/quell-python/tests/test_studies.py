@@ -307,6 +307,6 @@ def test_axes_of_a_map_take_the_place_of_the_study_s_own() -> None:
 
 
 def test_a_verb_about_the_other_kind_of_study_says_so(belt: quell.Belt, disc: quell.Disc) -> None:
-    for refused in (disc.response, disc.friction, disc.orbit, lambda: disc.simulate(1.0), belt.modes, belt.resonances):
+    for refused in (disc.response, disc.friction, disc.orbit, belt.modes, belt.resonances):
         with pytest.raises(quell.StudyError, match="is not available for a"):
             refused()

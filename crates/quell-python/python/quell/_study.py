@@ -233,15 +233,16 @@ class Study:
         Parameters
         ----------
         until :
-            Time at the end: τ of a belt; in a study in SI seconds, or a time with its unit such as ``"50ms"`` [default, for
-            systems: 100 periods of the slowest oscillation].
+            Time at the end: τ of a belt, 1/ω_ref of a disc; in a study in SI seconds, or a time with its unit such as ``"50ms"``
+            [default: 100 periods of the slowest oscillation of a system; of a disc, until a small motion has grown].
         events :
             Whether to keep every event, in order, in ``events``. Those of systems are always kept.
         samples :
             Whether to sample the trajectory over ``time`` (n,): displacement and velocity, of a system every number of the
             state, and slip velocity, friction, load and phase of every contact. Sampling does not change the run.
         start :
-            System: numbers that replace those of the study's start, such as ``{"x": 0.1, "velocity.x": -2}``.
+            System: numbers that replace those of the study's start, such as ``{"x": 0.1, "velocity.x": -2}``; disc: numbers
+            that replace those of rest, such as ``{"A2": 0.1}`` [default: the leading small motion].
         sound :
             Whether to describe in ``sound`` the file that ``save("run.wav")`` writes: the velocity as sound.
         transpose :

@@ -373,6 +373,10 @@ class Simulation(Result):
     ``least_normal``, ``friction_power`` of every contact over the run."""
     state_names: list[str]
     """System: names of the numbers of ``state``."""
+    amplitude: float | None
+    """Disc: half the peak-to-peak deflection under the first load over the last tenth of the run."""
+    growth_observed: float | None
+    """Disc: growth rate of the extremes of that deflection while the motion is small, in ω_ref."""
 
 
 class Response(Result):

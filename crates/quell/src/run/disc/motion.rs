@@ -8,6 +8,7 @@ use quell_model::{Contact, System};
 use serde_json::{Map, Value as Json};
 
 use super::kick::{self, KICK, Kick};
+use super::overflowed;
 use super::watch::RowWatch;
 use crate::complaint::Failure;
 use crate::run::system::simulate::{MotionRequest, SystemSimulation, run_observed, slowest_period};
@@ -22,6 +23,13 @@ pub const MOST_PERIODS: f64 = 2000.0;
 
 /// Part of the run over which the amplitude is measured.
 const TAIL: f64 = 0.1;
+
+/// Deflection, over that of the small motion at the start, beyond which no physical motion is.
+pub const RUNAWAY: f64 = 1e6;
+
+/// What a motion beyond [`RUNAWAY`] shows.
+const GROWS: &str = "the motion grows without bound: in this model friction follows the load, and the loads of the springs follow \
+                     the deflection";
 
 /// The unit of a friction force.
 const FORCE: &str = "r₀M_pω_ref²";
@@ -41,6 +49,8 @@ pub struct DiscSimulation {
     pub growth: Result<f64, String>,
     /// Whether the duration was chosen here.
     pub chosen: bool,
+    /// Whether the deflection grew to [`RUNAWAY`] times that of the leading small motion at the start.
+    pub ran_away: bool,
 }
 
 /// The row of the deflection under the first load; of the first coordinate where there is no load.
@@ -93,7 +103,9 @@ pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation,
     let request_of_system = MotionRequest { until: Some(until), ..request.clone() };
     let from = until - TAIL * until;
     let mut watch = RowWatch::new(observed_row(study), kick.middle, kick.levels.clone(), from);
-    let motion = run_observed(&system, &request_of_system, &mut watch)?;
+    let done = run_observed(&system, &request_of_system, &mut watch);
+    let ran_away = watch.largest() > RUNAWAY * kick.amplitude.max(f64::MIN_POSITIVE);
+    let motion = done.map_err(|failure| if ran_away { unbounded(&failure) } else { failure })?;
     Ok(DiscSimulation {
         system,
         motion,
@@ -101,7 +113,13 @@ pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation,
         amplitude: (until > 0.0).then(|| watch.amplitude()),
         growth: watch.growth(),
         chosen: request.until.is_none(),
+        ran_away,
     })
+}
+
+/// The failure of a run whose deflection has grown beyond any physical size.
+fn unbounded(failure: &Failure) -> Failure {
+    overflowed("simulate", format!("{GROWS}; {failure}"))
 }
 
 /// Twice the time in which the leading motion grows from [`KICK`] to 1, between [`LEAST_PERIODS`] and [`MOST_PERIODS`].
@@ -157,6 +175,9 @@ impl DiscSimulation {
             let is_rigid = contact.normal_stiffness == 0.0 && contact.normal_damping == 0.0;
             is_rigid && contact.tangent.is_none()
         };
+        if self.ran_away && !contacts.iter().all(is_prescribed) {
+            warnings.push(GROWS.to_owned());
+        }
         if !contacts.is_empty() && contacts.iter().all(is_prescribed) {
             let bounded = "the load is prescribed: nothing bounds the growth of an unstable motion";
             warnings

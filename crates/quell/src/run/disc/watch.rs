@@ -65,6 +65,8 @@ pub(super) struct RowWatch {
     from: f64,
     least: f64,
     most: f64,
+    /// Largest distance from steady sliding in the whole run.
+    largest: f64,
     is_small: bool,
     line: LineSums,
 }
@@ -74,12 +76,17 @@ impl RowWatch {
     pub(super) fn new(row: Vec<f64>, middle: f64, levels: Vec<SteadyLevel>, from: f64) -> Self {
         let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
         let line = LineSums::default();
-        Self { row, middle, levels, from, least, most, is_small: true, line }
+        Self { row, middle, levels, from, least, most, largest: 0.0, is_small: true, line }
     }
 
     /// Half the difference between the largest and the least value from the given time on.
     pub(super) fn amplitude(&self) -> f64 {
         (0.5 * (self.most - self.least)).max(0.0)
+    }
+
+    /// Largest distance from steady sliding in the whole run.
+    pub(super) fn largest(&self) -> f64 {
+        self.largest
     }
 
     /// The growth rate, or why it is unknown.
@@ -118,6 +125,7 @@ impl RowWatch {
     }
 
     fn take(&mut self, time: f64, value: f64) {
+        self.largest = self.largest.max((value - self.middle).abs());
         if time >= self.from {
             self.least = self.least.min(value);
             self.most = self.most.max(value);
@@ -154,7 +162,7 @@ impl MotionObserver for RowWatch {
                 self.take(time, extreme);
                 let size = (extreme - self.middle).abs();
                 if self.is_small && size > 0.0 {
-                    self.line.add(time, size.ln());
+                    self.line.add(time, libm::log(size));
                 }
             }
             self.take(segment.clock().after(high).time(), MotionSegment::value(&value, high));
