@@ -266,3 +266,13 @@ fn starts_of_a_plane_end_on_their_motions() {
     );
     println!("{}", free["sentence"]);
 }
+
+/// A start whose transient sticks and whose limit cycle does not, because the pad opens, ends on that cycle all the same.
+#[test]
+fn a_transient_that_sticks_does_not_hide_the_cycle() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/mode-coupling.toml");
+    let text = fs::read_to_string(path).expect("a study");
+    let found = basins(&text, "x,velocity.x", (4, 3));
+    assert_eq!(found["unknown_starts"], 0, "{}", found["sentence"]);
+    assert_eq!(found["attractors"][0]["kind"], "limit-cycle");
+}
