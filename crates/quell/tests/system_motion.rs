@@ -231,7 +231,15 @@ fn sweeps_change_at_the_threshold() {
         assert_eq!(point["kind"], kind, "{point}");
         assert_eq!(point["local_verdict"], if value > 5.39 { "stable" } else { "unstable" });
     }
-    assert_eq!(list(&found["hysteresis"]).len(), 0, "{}", found["hysteresis"]);
+    let differs = |value: f64| {
+        let inside = |range: &Json| number(&range[0]) <= value && value <= number(&range[1]);
+        list(&found["hysteresis"]).iter().any(inside)
+    };
+    let size = |point: &Json| number(&point["peak_to_peak"]);
+    for (up, down) in list(&found["up"]).iter().zip(list(&found["down"]).iter().rev()) {
+        let ratio = size(up) / size(down);
+        assert!(differs(number(&up["value"])) || (0.79..1.27).contains(&ratio), "{up} {down}");
+    }
 }
 
 fn basins(text: &str, plane: &str, grid: (usize, usize)) -> Json {
