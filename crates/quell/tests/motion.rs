@@ -366,8 +366,8 @@ fn starts_are_those_of_the_study() {
     let at_rest = text.replace("belt_velocity = 1.0", "belt_velocity = 0.0");
     assert!(end(&at_rest, "x=0").expect_err("no sliding").contains("does not move"));
     for state in ["squealing", "base"] {
-        let why = end(&text.replace("sliding", state), "x=0").expect_err("not yet");
-        assert!(why.contains("system.initial.state") && why.contains("periodic motion"), "{why}");
+        let why = end(&text.replace("sliding", state), "x=0").expect_err("no such motion");
+        assert!(why.contains("system.initial.state") && why.contains("another state"), "{why}");
     }
     for (start, part) in [
         ("velocty.x=1", "did you mean velocity.x"),

@@ -8,7 +8,7 @@ use quell_model::units::Quantity;
 use super::caption::caption_of_system;
 use crate::complaint::Failure;
 use crate::plot::{Figure, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, Size};
-use crate::run::system::orbit::{FoundMotion, SystemOrbit};
+use crate::run::system::orbit::{FoundMotion, OrbitOfSystem};
 use crate::run::system::orbit_answer::sentence;
 use crate::study::SystemStudy;
 
@@ -30,7 +30,7 @@ pub(super) fn axis(study: &SystemStudy, name: &str, quantity: Quantity) -> PlotA
 ///
 /// # Errors
 /// [`Failure::Failed`] if no periodic motion was found.
-pub fn orbit(study: &SystemStudy, done: &SystemOrbit) -> Result<Figure, Failure> {
+pub fn orbit(study: &SystemStudy, done: &OrbitOfSystem) -> Result<Figure, Failure> {
     let why = || Failure::Failed { key: "--plot".to_owned(), why: done.sentence(study) };
     let found = done.found.as_ref().ok_or_else(why)?;
     Ok(Figure::grid(2, [plane(study, found), multipliers(found)])

@@ -40,6 +40,9 @@ const EQUILIBRIUM: f64 = 1e-7;
 /// Number of spans over which a run is watched, each [`SPAN`] times the slowest time scale.
 const SPANS: u32 = 60;
 
+/// Spans without a passage after which the section is chosen anew.
+const IDLE: u32 = 8;
+
 /// Length of a span over the time scale of the system.
 const SPAN: f64 = 200.0;
 
@@ -214,6 +217,7 @@ pub fn free_cycle(system: &System, start: &[f64]) -> Result<MotionOrbit, NoCycle
     let mut from = MotionStart { time: 0.0, state: start.to_vec() };
     let mut least = None;
     let mut seen = 0;
+    let mut idle = 0;
     for span in 1..=SPANS {
         let until = f64::from(span) * SPAN * motion.time_scale();
         let end: MotionEnd =
@@ -224,9 +228,15 @@ pub fn free_cycle(system: &System, start: &[f64]) -> Result<MotionOrbit, NoCycle
         }
         from = end.restart();
         if passages.events.len() == seen {
+            idle += 1;
+            if idle == IDLE {
+                // The releases so far belonged to a transient.
+                passages = Passages { rates: passages.rates, ..Passages::new(motion.size()) };
+                (seen, idle) = (0, 0);
+            }
             continue;
         }
-        seen = passages.events.len();
+        (seen, idle) = (passages.events.len(), 0);
         if let Some(cycle) = repeated(&motion, &passages, &mut least) {
             return Ok(cycle);
         }

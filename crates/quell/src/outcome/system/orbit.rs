@@ -12,14 +12,14 @@ use crate::outcome::table::figure;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::system::cycle_samples::CycleSamples;
-use crate::run::system::orbit::{FoundMotion, SystemOrbit};
+use crate::run::system::orbit::{FoundMotion, OrbitOfSystem};
 use crate::run::system::start::{state_names, state_quantity};
 use crate::study::{SystemSetup, SystemStudy};
 
 /// Numbers of a state, multipliers and contacts that a table lists.
 const MOST_LISTED: usize = 12;
 
-impl Presented<SystemSetup> for SystemOrbit {
+impl Presented<SystemSetup> for OrbitOfSystem {
     const TITLED: bool = true;
 
     fn json(&self, study: &SystemStudy) -> Json {

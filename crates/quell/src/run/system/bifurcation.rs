@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering;
 use quell_dynamics::motion::orbit::base_motion;
 use quell_model::System;
 
-use super::attractor::{EndOfRun, SystemAttractor, end_of_run};
+use super::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run};
 use super::cycle::BASE_STEPS;
 use super::protocol::SystemProtocol;
 use super::thresholds::{MotionThresholdsRequest, is_dithered_within};
@@ -23,6 +23,9 @@ pub const MOST_PERIODS_OF_A_VALUE: u32 = 1000;
 
 /// Relative difference of size beyond which the two directions show different motions.
 const APART: f64 = 0.02;
+
+/// The same where a motion is not periodic: a record shows only a part of it.
+const APART_IN_RECORDS: f64 = 0.2;
 
 /// The motion at one value.
 #[derive(Clone, Debug, PartialEq)]
@@ -164,8 +167,11 @@ fn hysteresis(branches: &[SystemBranch]) -> Vec<(f64, f64)> {
     for (one, other) in up.points.iter().zip(down.points.iter().rev()) {
         let apart = one.attractor().zip(other.attractor()).is_some_and(|(one, other)| {
             let most = one.size().max(other.size());
-            one.is_quiet() != other.is_quiet()
-                || one.is_quiet() && (one.size() - other.size()).abs() > APART * most
+            let repeats = |attractor: &SystemAttractor| {
+                !matches!(attractor.kind, MotionKind::NotPeriodic { .. })
+            };
+            let apart = if repeats(one) && repeats(other) { APART } else { APART_IN_RECORDS };
+            one.is_quiet() != other.is_quiet() || (one.size() - other.size()).abs() > apart * most
         });
         match (apart, ranges.last_mut()) {
             (true, Some(last)) if open => last.1 = one.value,

@@ -61,7 +61,7 @@ impl SystemBifurcation {
             });
             let ranges: Vec<String> = ranges.collect();
             sentences.push(if ranges.is_empty() {
-                "Both directions show the same motions: no hysteresis.".to_owned()
+                "Both directions show motions of the same size: no hysteresis.".to_owned()
             } else {
                 format!(
                     "The two directions differ {}, where motions coexist.",

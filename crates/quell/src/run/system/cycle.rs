@@ -42,7 +42,7 @@ pub fn search(system: &System, starts: Vec<NamedStart>) -> CycleSearch {
     let mut unstable = None;
     for (start, state) in starts {
         match free_cycle(system, &state) {
-            Ok(cycle) if cycle.verdict() == OrbitVerdict::Unstable => {
+            Ok(cycle) if cycle.verdict() != OrbitVerdict::Stable => {
                 unstable.get_or_insert((cycle, start));
             }
             Ok(cycle) => return CycleSearch { found: Some((cycle, start)), tried },
@@ -90,7 +90,7 @@ pub fn undithered(system: &System) -> System {
     system
 }
 
-/// A state of the limit cycle without dither.
+/// A state of the stable limit cycle without dither.
 ///
 /// # Errors
 /// What was tried.
@@ -98,7 +98,13 @@ pub fn squealing_state(system: &System) -> Result<Vec<f64>, String> {
     let system = undithered(system);
     let search = search(&system, usual_starts(&system));
     match search.found {
-        Some((cycle, _)) => Ok(cycle.state),
+        Some((cycle, _)) if cycle.verdict() == OrbitVerdict::Stable => Ok(cycle.state),
+        Some((cycle, _)) => {
+            let verdict = cycle.verdict().name();
+            Err(format!(
+                "another state: the only periodic motion without dither that was found is {verdict}"
+            ))
+        }
         None => Err(format!("another state: {}", without_cycle(&search.tried))),
     }
 }

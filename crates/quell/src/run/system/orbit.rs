@@ -96,7 +96,7 @@ pub struct FoundMotion {
 
 /// The answer of `orbit`.
 #[derive(Clone, Debug)]
-pub struct SystemOrbit {
+pub struct OrbitOfSystem {
     /// The motion; `None` where no limit cycle was found.
     pub found: Option<FoundMotion>,
     /// Starts from which no limit cycle was reached.
@@ -109,7 +109,7 @@ pub struct SystemOrbit {
 ///
 /// # Errors
 /// Complaints about the request and the start; [`Failure::Failed`] if a motion under dither was not found.
-pub fn run(study: &SystemStudy, wanted: &WantedMotion) -> Result<SystemOrbit, Failure> {
+pub fn run(study: &SystemStudy, wanted: &WantedMotion) -> Result<OrbitOfSystem, Failure> {
     has_equations(study, "orbit")?;
     if !is_dithered(study.system()) {
         return undithered(study, wanted);
@@ -133,7 +133,7 @@ pub fn run(study: &SystemStudy, wanted: &WantedMotion) -> Result<SystemOrbit, Fa
             Err(why) => reached(study, &SystemProtocol::Study, Some(why))?,
         },
     };
-    Ok(SystemOrbit {
+    Ok(OrbitOfSystem {
         found: Some(with_samples(study, orbit, multiple, by)),
         tried: Vec::new(),
         sliding: None,
@@ -179,7 +179,7 @@ fn reached(
 }
 
 /// The limit cycle of an undithered system.
-fn undithered(study: &SystemStudy, wanted: &WantedMotion) -> Result<SystemOrbit, Failure> {
+fn undithered(study: &SystemStudy, wanted: &WantedMotion) -> Result<OrbitOfSystem, Failure> {
     let system = study.system();
     if let WantedMotion::Base { periods } | WantedMotion::Near { periods, .. } = wanted
         && *periods > 1
@@ -214,5 +214,5 @@ fn undithered(study: &SystemStudy, wanted: &WantedMotion) -> Result<SystemOrbit,
             spectrum::growth(&linear, &linear.friction()).map_err(|why| why.to_string())?;
         Ok(growth.verdict().name())
     });
-    Ok(SystemOrbit { found, tried, sliding: Some(sliding) })
+    Ok(OrbitOfSystem { found, tried, sliding: Some(sliding) })
 }

@@ -10,7 +10,7 @@ use serde_json::{Value as Json, json};
 
 use super::cycle::without_cycle;
 use super::cycle_samples::CycleSamples;
-use super::orbit::{FoundBy, FoundMotion, SystemOrbit};
+use super::orbit::{FoundBy, FoundMotion, OrbitOfSystem};
 use super::start::{state_names, state_quantity};
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
@@ -186,7 +186,7 @@ fn put_error(fields: &mut Fields, name: &str, error: f64) {
     }
 }
 
-impl SystemOrbit {
+impl OrbitOfSystem {
     /// The answer in a few sentences.
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let Some(found) = &self.found else {
