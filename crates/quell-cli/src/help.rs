@@ -28,7 +28,6 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 &[
                     "quell response quench.toml --plot response.svg",
                     "quell response brake-si.toml --set dither.amplitude_n=4000",
-                    "quell response two-mass-drive.toml --plot response.svg",
                 ],
             ),
             (

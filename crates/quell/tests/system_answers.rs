@@ -2,13 +2,12 @@
 
 use std::sync::atomic::AtomicBool;
 
+use quell::Study;
 use quell::kind::verbs;
 use quell::outcome::Outcome;
 use quell::run::curves::CurvesRequest;
 use quell::run::system::tracked::TrackRequest;
-use quell::run::thresholds::ThresholdsRequest;
 use quell::sweep::{MapQuantity, Plan, Running};
-use quell::{Failure, Study};
 use quell_linear::averaging::NoAverage;
 use quell_linear::linearised::NoSteadySliding;
 use serde_json::Value as Json;
@@ -157,30 +156,15 @@ fn unlikely_input_is_warned_of() {
 }
 
 #[test]
-fn thresholds_of_dithered_systems_are_refused_in_a_sentence() {
+fn curves_of_dithered_systems_are_refused_in_a_sentence() {
     let dithered = study(&pad("[1, 1]", LIGHT, 0.1, 20.0));
     let parameter = "contact.pad.friction.coefficient".to_owned();
-    let request = ThresholdsRequest {
-        parameter: parameter.clone(),
-        from: 0.1,
-        to: 1.0,
-        protocols: Vec::new(),
-        ramp: 0.0,
-    };
     let window = (0.1, 1.0);
     let curves =
         CurvesRequest { parameter, window, along: "dither.amplitude".to_owned(), between: window };
-    let all: [Option<Failure>; 2] = [
-        verbs(&dithered).thresholds(request).err(),
-        verbs(&dithered).threshold_curves(&curves).err(),
-    ];
-    for why in all {
-        let why = why.expect("refused").to_string();
-        assert!(
-            why.starts_with("dither: thresholds needs a study without dither, because"),
-            "{why}"
-        );
-    }
+    let why = verbs(&dithered).threshold_curves(&curves).err().expect("refused").to_string();
+    let expected = "--along: left out: thresholds of the periodic motions of a dithered system are not followed along";
+    assert!(why.starts_with(expected), "{why}");
 }
 
 #[test]
