@@ -67,7 +67,7 @@ def test_annotated_facts_are_there(belt: quell.Belt, disc: quell.Disc) -> None:
         "disc stability": systems | {"critical_amplitudes", "criterion"},
         "modes": systems,
         "resonances": {"responses"},
-        "simulate": {"event_counts", "contacts", "state_names"},
+        "simulate": {"event_counts", "contacts", "state_names", "amplitude", "growth_observed"},
         "response": {"half_peak_to_peak", "band_end", "contacts", "dithers"},
     }
     for name, result in every(belt, disc).items():

@@ -156,22 +156,8 @@ impl<'a> MotionRun<'a> {
         let stop = self.forcings.next_break().min(self.until);
         let room = self.clock.until(stop);
         let holds = self.now.iter().any(|now| now.held);
-        let limit = StepLimit {
-            tolerance: self.tolerance,
-            time_scale: self.time_scale,
-            longest: if holds { self.longest.min(HOLD * self.time_scale) } else { self.longest },
-            room,
-        };
-        let length = with_fused_multiply_add(StepExpansion {
-            equations: self.equations,
-            forcings: &self.forcings,
-            laws: &mut self.laws,
-            now: &self.now,
-            stuck: &self.stuck,
-            clock: self.clock,
-            limit,
-            out: &mut self.series,
-        });
+        let longest = if holds { self.longest.min(HOLD * self.time_scale) } else { self.longest };
+        let length = self.expand(longest, room);
         let reached = if self.is_guarded {
             with_fused_multiply_add(FirstGuard { guards: self.guards(), length })
         } else {
@@ -189,6 +175,21 @@ impl<'a> MotionRun<'a> {
             self.moment(first, &triggers)?;
         }
         self.check_progress(before)
+    }
+
+    /// Computes the series of a step from here; returns its length, at most `longest` and `room`.
+    fn expand(&mut self, longest: f64, room: f64) -> f64 {
+        let Self { tolerance, time_scale, .. } = *self;
+        with_fused_multiply_add(StepExpansion {
+            equations: self.equations,
+            forcings: &self.forcings,
+            laws: &mut self.laws,
+            now: &self.now,
+            stuck: &self.stuck,
+            clock: self.clock,
+            limit: StepLimit { tolerance, time_scale, longest, room },
+            out: &mut self.series,
+        })
     }
 
     fn guards(&self) -> Guards<'_> {
@@ -326,22 +327,7 @@ impl<'a> MotionRun<'a> {
     /// The state at the end of the run.
     fn end(mut self) -> Result<MotionEnd, MotionStopped> {
         self.refresh()?;
-        let limit = StepLimit {
-            tolerance: self.tolerance,
-            time_scale: self.time_scale,
-            longest: self.longest,
-            room: self.time_scale,
-        };
-        with_fused_multiply_add(StepExpansion {
-            equations: self.equations,
-            forcings: &self.forcings,
-            laws: &mut self.laws,
-            now: &self.now,
-            stuck: &self.stuck,
-            clock: self.clock,
-            limit,
-            out: &mut self.series,
-        });
+        self.expand(self.longest, self.time_scale);
         let contacts = self.now.iter().zip(&self.series.contacts).map(|(now, series)| ContactEnd {
             phase: now.phase,
             slip_velocity: series.slip[0],

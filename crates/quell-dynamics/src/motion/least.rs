@@ -3,7 +3,7 @@
 use quell_numerics::lane::horner;
 use quell_numerics::polynomial::{derivative, first_crossing_after, value};
 
-use crate::simulation::ORDER;
+use crate::simulation::{ORDER, shift};
 
 /// Least value of a polynomial on [0, `duration`], and where: at an end or at a root of the derivative, all of which are isolated.
 pub(super) fn least(series: &[f64; ORDER + 1], duration: f64) -> (f64, f64) {
@@ -35,15 +35,6 @@ pub(super) fn least(series: &[f64; ORDER + 1], duration: f64) -> (f64, f64) {
         slope[0] = f64::MIN_POSITIVE.copysign(rising);
     }
     lowest
-}
-
-/// Re-expands Σ cₖtᵏ about `by`.
-fn shift(c: &mut [f64; ORDER + 1], by: f64) {
-    for start in 0..c.len() {
-        for k in (start..c.len() - 1).rev() {
-            c[k] = f64::mul_add(c[k + 1], by, c[k]);
-        }
-    }
 }
 
 #[cfg(test)]

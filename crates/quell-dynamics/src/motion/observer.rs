@@ -114,6 +114,19 @@ pub struct MotionEvent<'a> {
     pub state: &'a [f64],
 }
 
+impl MotionEvent<'_> {
+    /// The event with a state of its own.
+    pub fn recorded(&self) -> RecordedEvent {
+        RecordedEvent {
+            time: self.time,
+            contact: self.contact,
+            kind: self.kind,
+            slip_sign: self.slip_sign,
+            state: self.state.to_vec(),
+        }
+    }
+}
+
 /// All events of one moment, which are one decision.
 #[derive(Clone, Copy)]
 pub struct MotionMoment<'a> {
@@ -238,13 +251,7 @@ pub struct MotionRecorder {
 
 impl MotionObserver for MotionRecorder {
     fn event(&mut self, event: &MotionEvent<'_>) {
-        self.events.push(RecordedEvent {
-            time: event.time,
-            contact: event.contact,
-            kind: event.kind,
-            slip_sign: event.slip_sign,
-            state: event.state.to_vec(),
-        });
+        self.events.push(event.recorded());
     }
 
     fn watches(&self) -> bool {

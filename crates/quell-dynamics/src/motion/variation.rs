@@ -343,13 +343,7 @@ impl MotionObserver for MotionVariation<'_> {
     }
 
     fn event(&mut self, event: &MotionEvent<'_>) {
-        self.events.push(RecordedEvent {
-            time: event.time,
-            contact: event.contact,
-            kind: event.kind,
-            slip_sign: event.slip_sign,
-            state: event.state.to_vec(),
-        });
+        self.events.push(event.recorded());
     }
 
     fn moment(&mut self, moment: &MotionMoment<'_>) {

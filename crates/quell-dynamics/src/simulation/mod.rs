@@ -61,6 +61,7 @@ pub use event::{Event, EventKind};
 pub use extremes::Extremes;
 pub(crate) use forcing::Forcing;
 pub use largest_slip::LargestSlip;
+pub(crate) use observer::shift;
 pub use observer::{EventRecorder, Observer, Sample, Sampler, Segment, VelocitySection};
 pub use run::SimulationRun;
 pub use simulate::{DEFAULT_TOLERANCE, simulate, simulate_many, simulate_many_with};

@@ -345,7 +345,7 @@ pub(super) fn each_crossing(
 
 /// Re-expands Σ cₖtᵏ about `by`.
 #[inline(always)]
-fn shift(c: &mut [f64], by: f64) {
+pub(crate) fn shift(c: &mut [f64], by: f64) {
     for start in 0..c.len() {
         for k in (start..c.len() - 1).rev() {
             c[k] = f64::mul_add(c[k + 1], by, c[k]);

@@ -3,7 +3,7 @@
 //! The eigenvalues at neighbouring values of the parameter are matched with a prediction from the last step. Where a match is not
 //! certain, the step is halved: near a close approach of two eigenvalues the steps are as short as the approach requires, down
 //! to a coalescence, where the two cannot be distinguished. Where two eigenvalues pass each other between two points, further
-//! points are inserted at the width of the range in which their coupling acts ([`approach`]). Thresholds are located by root finding on the largest growth rate, not
+//! points are inserted at the width of the range in which their coupling acts (`approach.rs`). Thresholds are located by root finding on the largest growth rate, not
 //! on the grid.
 
 mod approach;

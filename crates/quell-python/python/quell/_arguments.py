@@ -77,7 +77,7 @@ class Arguments:
         if given is None:
             return []
         allowed = 'a dict of names and numbers, such as {"x": 0.1}'
-        if not isinstance(given, Mapping):
+        if not isinstance(given, Mapping) or not all(isinstance(key, str) for key in given):
             self.wrong.append(complaint(name, given, allowed))
             return []
         return [(self.text(name, key, allowed), self.quantity(name, value)) for key, value in given.items()]

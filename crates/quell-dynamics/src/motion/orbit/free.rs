@@ -165,13 +165,7 @@ impl MotionObserver for Passages {
             self.events.clear();
             self.quiet = vec![(0.0, Vec::new(), 0.0)];
         }
-        self.pass(RecordedEvent {
-            time: event.time,
-            contact: event.contact,
-            kind: event.kind,
-            slip_sign: event.slip_sign,
-            state: event.state.to_vec(),
-        });
+        self.pass(event.recorded());
     }
 }
 

@@ -85,7 +85,7 @@ pub fn at_rest(study: &DiscStudy) -> SystemStudy {
 /// Integrates the disc from its leading small motion, or from rest with the given numbers.
 ///
 /// # Errors
-/// As [`run_observed`]; [`Failure::Failed`] without steady sliding.
+/// As [`simulate::run`](crate::run::system::simulate::run); [`Failure::Failed`] without steady sliding.
 pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation, Failure> {
     let system = study.disc().system_of(study.parts());
     let kick = kick::of(&system, &observed_row(study))?;

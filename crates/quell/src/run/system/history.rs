@@ -81,13 +81,7 @@ impl MotionObserver for EventHistory {
             self.lost += 1;
             return;
         }
-        self.events.push(RecordedEvent {
-            time: event.time,
-            contact: event.contact,
-            kind: event.kind,
-            slip_sign: event.slip_sign,
-            state: event.state.to_vec(),
-        });
+        self.events.push(event.recorded());
     }
 
     fn watches(&self) -> bool {

@@ -170,7 +170,7 @@ pub fn start_in_words(study: &SystemStudy, numbers: &StateNumbers) -> String {
     format!("{from} with {}", given.collect::<Vec<_>>().join(", "))
 }
 
-/// A state in words, at most [`MOST_LISTED`] of its numbers.
+/// A state in words, at most a few of its numbers.
 pub fn state_in_words(system: &System, state: &[f64]) -> String {
     let names = state_names(system);
     let listed = names.iter().zip(state).take(MOST_LISTED);
