@@ -163,7 +163,8 @@ mod tests {
         existing.sort_unstable();
         assert_eq!(grouped, existing);
         for (verb, examples) in GROUPS.iter().flat_map(|(_, verbs)| *verbs) {
-            assert!((1..=2).contains(&examples.len()), "{verb}");
+            // One for each kind of study at most.
+            assert!((1..=3).contains(&examples.len()), "{verb}");
             for example in *examples {
                 let words: Vec<&str> = example.split_whitespace().collect();
                 assert_eq!(words[..2], ["quell", verb]);
