@@ -29,7 +29,7 @@ pub(super) struct GuardReached {
     pub(super) what: Trigger,
     /// Time after the start of the step.
     pub(super) after: f64,
-    /// Rate at which it falls there; infinite at the start of a step.
+    /// Rate at which it falls there.
     pub(super) rate: f64,
 }
 

@@ -23,7 +23,7 @@ pub(super) struct StuckForces {
     independent: Vec<usize>,
     /// T of the free contacts per w of the independent ones, row by row.
     gain: Vec<f64>,
-    /// σ of the free contacts at the start of the step.
+    /// σ of the free contacts at the moment for which the gain holds.
     tilts: Vec<f64>,
     /// Whether the rows of the sticking contacts, saturated ones included, are dependent.
     pub(super) is_dependent: bool,
@@ -164,22 +164,17 @@ impl StuckForces {
     }
 
     /// Adds the change of the forces that keeps the slip accelerations zero to the rates of a change.
-    pub(super) fn hold_change(
-        &self,
-        equations: &MotionEquations,
-        tilt: impl Fn(usize) -> f64,
-        rates: &mut [f64],
-    ) {
+    pub(super) fn hold_change(&self, equations: &MotionEquations, rates: &mut [f64]) {
         if self.free.is_empty() {
             return;
         }
         let forces: Vec<f64> =
             self.free.iter().map(|index| self.change_of_force(equations, *index, rates)).collect();
-        for (&index, force) in self.free.iter().zip(forces) {
+        for (place, (&index, force)) in self.free.iter().zip(forces).enumerate() {
             let contact = &equations.contacts[index];
             contact.along.add_to(force, rates);
             if !contact.slope.is_empty() {
-                contact.across.add_to(tilt(index) * force, rates);
+                contact.across.add_to(self.tilts[place] * force, rates);
             }
         }
     }

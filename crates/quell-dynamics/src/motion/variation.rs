@@ -38,8 +38,10 @@ const TOLERANCE: f64 = 3e-15;
 struct LinearFriction {
     /// a = μ′ N.
     by_slip: f64,
-    /// b = μ.
+    /// b = μ, times the factor on friction.
     by_load: f64,
+    /// The factor on friction.
+    factor: f64,
     /// T.
     friction: f64,
     /// sᵀx.
@@ -132,6 +134,7 @@ impl<'a> MotionVariation<'a> {
             let pressed = MotionSegment::value(&segment.contacts[index].pressed, since);
             let load = MotionSegment::value(segment.normal_load(index), since);
             let factor = if load == 0.0 { 1.0 } else { pressed / load };
+            instant.factor = factor;
             match self.now[index].phase {
                 ContactPhase::Slip(sign) => {
                     let slip = MotionSegment::value(segment.slip_velocity(index), since);
@@ -147,6 +150,18 @@ impl<'a> MotionVariation<'a> {
                 ContactPhase::Open => {}
             }
             out.push(instant);
+        }
+        if self.equations.follows {
+            let tilts: Vec<f64> = out.iter().map(|instant| instant.tilt).collect();
+            self.hold_at(&tilts);
+        }
+    }
+
+    /// The forces of the sticking contacts at these tilts, with which they vary along a step.
+    fn hold_at(&mut self, tilts: &[f64]) {
+        match StuckForces::of(self.equations, &self.now, tilts) {
+            Some(stuck) => self.stuck = stuck,
+            None => self.has_failed = true,
         }
     }
 
@@ -187,8 +202,7 @@ impl<'a> MotionVariation<'a> {
             }
         }
         if holds {
-            let tilt = |index: usize| instants[index].tilt;
-            self.stuck.hold_change(self.equations, tilt, out);
+            self.stuck.hold_change(self.equations, out);
         }
     }
 
@@ -218,6 +232,8 @@ impl<'a> MotionVariation<'a> {
             self.has_failed |= done.is_err();
         }
         self.columns = columns;
+        // Again, for the forces of tilted contacts are now those of another moment.
+        self.instants(segment, duration, &mut last);
         self.last = last;
     }
 
@@ -283,7 +299,8 @@ impl<'a> MotionVariation<'a> {
                     change[j] = 1.0;
                     self.rates_of(&self.last, &change, &mut out, false);
                     let force = self.stuck.change_of_force(self.equations, contact, &out);
-                    let load = equation.static_coefficient * equation.approach.dot(&change);
+                    let level = equation.static_coefficient * self.last[contact].factor;
+                    let load = level * equation.approach.dot(&change);
                     gradient[j] = load - f64::from(side) * force;
                 }
                 Some(gradient)
@@ -323,10 +340,7 @@ impl MotionObserver for MotionVariation<'_> {
         if self.now != segment.now || self.equations.follows {
             self.now = segment.now.to_vec();
             let tilts: Vec<f64> = segment.contacts.iter().map(|contact| contact.tilt[0]).collect();
-            match StuckForces::of(self.equations, &self.now, &tilts) {
-                Some(stuck) => self.stuck = stuck,
-                None => self.has_failed = true,
-            }
+            self.hold_at(&tilts);
         }
         self.jump(&segment.states[size..2 * size]);
         if std::mem::take(&mut self.is_first) {
