@@ -17,6 +17,13 @@ PEERS = ROOT / "benches" / "peers"
 SPEED = ["cargo", "run", "--quiet", "--release", "--package", "quell-dynamics", "--example", "speed"]
 
 
+def prepare():
+    """Creates the environment of the peers if it does not exist."""
+    if not PYTHON.exists():
+        venv.create(ENVIRONMENT, with_pip=True)
+        subprocess.run([PYTHON, "-m", "pip", "install", "--quiet", "scipy", "heyoka", "solve-nivp"], check=True)
+
+
 def last_line(command):
     done = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True)
     return json.loads(done.stdout.strip().splitlines()[-1])
@@ -44,9 +51,7 @@ def peer(name):
 
 def main():
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 5
-    if not PYTHON.exists():
-        venv.create(ENVIRONMENT, with_pip=True)
-        subprocess.run([PYTHON, "-m", "pip", "install", "--quiet", "scipy", "heyoka"], check=True)
+    prepare()
     times = {}
     for measure in ([ours, lambda: peer("heyoka")] * rounds) + [lambda: peer("scipy")]:
         try:
