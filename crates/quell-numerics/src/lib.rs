@@ -18,6 +18,7 @@ pub mod elementary;
 pub mod extrapolation;
 pub mod floquet;
 pub mod gauss_legendre;
+mod groups;
 pub mod interval;
 pub mod lane;
 pub mod least_squares;

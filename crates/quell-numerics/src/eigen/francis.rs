@@ -9,7 +9,7 @@
 
 use num_complex::Complex64;
 
-use super::hessenberg::LANES;
+use crate::groups::LANES;
 
 /// Maximum number of iterations for one eigenvalue; three or four are usual.
 const ITERATIONS: usize = 90;

@@ -5,8 +5,8 @@
 //! runs over whole groups, and a sum over a row has one accumulator per lane, added in a fixed order.
 //! Backward stable: the eigenvalues are those of A + E with ‖E‖ of the order of n ε ‖A‖.
 
-/// Numbers in a group of a row.
-pub(crate) const LANES: usize = 4;
+use crate::dispatch::{Work, with_fused_multiply_add};
+use crate::groups::{LANES, add_scaled, dot};
 
 /// Length of a padded row.
 pub(crate) const fn stride_of(n: usize) -> usize {
@@ -25,46 +25,42 @@ pub(crate) struct Reflectors {
 impl Reflectors {
     /// x ← Qᵀ x.
     pub(crate) fn reduce_vector(&self, x: &mut [f64]) {
-        for k in 0..self.factors.len() {
-            self.apply(k, x);
-        }
+        let all = 0..self.factors.len();
+        with_fused_multiply_add(Applied { reflectors: self, order: all, x });
     }
 
     /// x ← Q x.
     pub(crate) fn out_of_reduced(&self, x: &mut [f64]) {
-        for k in (0..self.factors.len()).rev() {
-            self.apply(k, x);
-        }
+        let all = (0..self.factors.len()).rev();
+        with_fused_multiply_add(Applied { reflectors: self, order: all, x });
     }
 
+    #[inline(always)]
     fn apply(&self, k: usize, x: &mut [f64]) {
-        let v = &self.vectors[k * self.stride..k * self.stride + self.n];
-        let along: f64 = v[k + 1..].iter().zip(&x[k + 1..]).map(|(v, x)| v * x).sum();
-        let factor = self.factors[k] * along;
-        for (x, v) in x[k + 1..].iter_mut().zip(&v[k + 1..]) {
-            *x -= factor * v;
-        }
+        // From the group that contains entry k + 1; v is zero before.
+        let from = (k + 1) / LANES * LANES;
+        let v = &self.vectors[k * self.stride + from..k * self.stride + self.n];
+        let x = &mut x[from..self.n];
+        let along = dot(v, x);
+        add_scaled(x, -self.factors[k] * along, v);
     }
 }
 
-/// Σ aⱼ bⱼ over whole groups: one accumulator per lane, then (0+1)+(2+3).
-#[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0f64; LANES];
-    for (a, b) in a.chunks_exact(LANES).zip(b.chunks_exact(LANES)) {
-        for lane in 0..LANES {
-            sums[lane] = a[lane].mul_add(b[lane], sums[lane]);
-        }
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
+/// Reflectors applied to a vector in an order.
+struct Applied<'a, O> {
+    reflectors: &'a Reflectors,
+    order: O,
+    x: &'a mut [f64],
 }
 
-/// a ← a + f b over whole groups.
-#[inline(always)]
-fn add_scaled(a: &mut [f64], f: f64, b: &[f64]) {
-    for (a, b) in a.chunks_exact_mut(LANES).zip(b.chunks_exact(LANES)) {
-        for lane in 0..LANES {
-            a[lane] = f.mul_add(b[lane], a[lane]);
+impl<O: Iterator<Item = usize>> Work for Applied<'_, O> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { reflectors, order, x } = self;
+        for k in order {
+            reflectors.apply(k, x);
         }
     }
 }

@@ -20,7 +20,6 @@ use num_complex::Complex64;
 
 use crate::dispatch::{Work, with_fused_multiply_add};
 use crate::matrix::Matrix;
-pub(crate) use hessenberg::LANES;
 use hessenberg::{Reflectors, stride_of};
 pub use rightmost::Rightmost;
 pub(crate) use shifted::{Shifted, Split};

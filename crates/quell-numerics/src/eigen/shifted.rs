@@ -8,7 +8,7 @@
 
 use num_complex::Complex64;
 
-use super::hessenberg::LANES;
+use crate::groups::LANES;
 
 /// Complex numbers with separate real and imaginary parts, in whole groups of lanes.
 #[derive(Clone, Debug, Default)]

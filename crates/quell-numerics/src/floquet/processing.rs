@@ -7,6 +7,8 @@
 
 use super::flow::ConstantFlow;
 use super::steps::Phase;
+use crate::dispatch::{Work, with_fused_multiply_add};
+use crate::groups::{add_scaled, dot};
 use crate::matrix::Matrix;
 
 /// Increment, in periods, of the finite difference for Φ′(0). Its accuracy affects the agreement of the vectors, but not the
@@ -56,8 +58,52 @@ impl Generator {
         let mut small = Matrix::identity(self.inner.rows());
         small.add_scaled(epsilon, &self.inner);
         let Some(inverse) = small.solve(&Matrix::identity(self.inner.rows())) else { return map };
-        map.add_scaled(epsilon, &map.times(&self.left).times(&self.right));
-        map.add_scaled(-epsilon, &self.left.times(&inverse.times(&self.right.times(&map))));
+        // (1 + ε L R)⁻¹ = 1 − ε L (1 + ε R L)⁻¹ R.
+        let outer = self.left.times(&inverse);
+        with_fused_multiply_add(Similar { generator: self, outer, epsilon, map: &mut map });
         map
+    }
+}
+
+/// The two updates of rank 2r of a map.
+struct Similar<'a> {
+    generator: &'a Generator,
+    /// left · (1 + ε right · left)⁻¹.
+    outer: Matrix,
+    epsilon: f64,
+    map: &'a mut Matrix,
+}
+
+impl Work for Similar<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { generator: Generator { left, right, .. }, outer, epsilon, map } = self;
+        let (n, rank) = (map.rows(), right.rows());
+        // The columns of `left` as rows, so that every loop runs along rows.
+        let columns = left.transpose();
+        let mut factors = vec![0.0; rank];
+        for i in 0..n {
+            let row = map.row_mut(i);
+            for (factor, column) in factors.iter_mut().zip(0..rank) {
+                *factor = epsilon * dot(row, columns.row(column));
+            }
+            for (c, &factor) in factors.iter().enumerate() {
+                add_scaled(row, factor, right.row(c));
+            }
+        }
+        // right · map after the first update.
+        let mut along = Matrix::zeros(rank, n);
+        for i in 0..n {
+            for c in 0..rank {
+                add_scaled(along.row_mut(c), right[(c, i)], map.row(i));
+            }
+        }
+        for i in 0..n {
+            for c in 0..rank {
+                add_scaled(map.row_mut(i), -epsilon * outer[(i, c)], along.row(c));
+            }
+        }
     }
 }

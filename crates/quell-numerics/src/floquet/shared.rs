@@ -8,7 +8,8 @@
 use num_complex::Complex64;
 
 use crate::dispatch::{Work, with_fused_multiply_add};
-use crate::eigen::{Decomposition, LANES, Shifted, Split, modulus, product_without_conjugation};
+use crate::eigen::{Decomposition, Shifted, Split, modulus, product_without_conjugation};
+use crate::groups::dot;
 use crate::matrix::Matrix;
 
 /// Maximum number of iterations; two or three are usual.
@@ -68,22 +69,8 @@ impl Work for Apply<'_> {
         let n = map.rows();
         let mut product = Split::zeros(x.re.len());
         for i in 0..n {
-            let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
-            let row = map.row(i).chunks_exact(LANES);
-            let rest = row.remainder();
-            let done = n - rest.len();
-            for ((m, a), b) in row.zip(x.re.chunks_exact(LANES)).zip(x.im.chunks_exact(LANES)) {
-                for lane in 0..LANES {
-                    re[lane] = m[lane].mul_add(a[lane], re[lane]);
-                    im[lane] = m[lane].mul_add(b[lane], im[lane]);
-                }
-            }
-            for (lane, &m) in rest.iter().enumerate() {
-                re[lane] = m.mul_add(x.re[done + lane], re[lane]);
-                im[lane] = m.mul_add(x.im[done + lane], im[lane]);
-            }
-            product.re[i] = (re[0] + re[1]) + (re[2] + re[3]);
-            product.im[i] = (im[0] + im[1]) + (im[2] + im[3]);
+            product.re[i] = dot(map.row(i), &x.re[..n]);
+            product.im[i] = dot(map.row(i), &x.im[..n]);
         }
         product
     }
