@@ -65,7 +65,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     let request = match study.as_ref().map(Study::system) {
         Some(Ok(system)) => complaints.take(arguments.request(&system)).map(Some),
-        _ => complaints.take(arguments.without_times()).map(|()| None),
+        Some(Err(_)) => complaints.take(arguments.without_times()).map(|()| None),
+        // Which options apply depends on the kind of the study, which is unknown.
+        None => Some(None),
     };
     let ((study, request), (outputs, plot)) =
         complaints.finish(study.zip(request).zip(outputs.zip(plot)))?;

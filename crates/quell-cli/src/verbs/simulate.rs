@@ -100,7 +100,7 @@ impl Arguments {
     }
 
     /// The duration of the run of a study of another kind, which must be given.
-    fn until_of_belt(&self, study: Option<&Study>) -> Result<f64, Failure> {
+    fn until_of_belt(&self, study: &Study) -> Result<f64, Failure> {
         let mut complaints = Gathered::default();
         if let Some(text) = &self.start {
             let origin = Origin::Argument("--start");
@@ -111,7 +111,7 @@ impl Arguments {
             complaints.take::<()>(Err(complaint));
         }
         let until = match &self.until {
-            Some(text) => duration("--until", text, study),
+            Some(text) => duration("--until", text, Some(study)),
             None => Err(Box::new(Complaint::new(
                 Fault::Missing,
                 "--until",
@@ -148,7 +148,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         let done = verbs(study).simulate_from(&request)?;
         return answer(arguments.study.json, done.as_ref(), outputs, plot);
     }
-    let until = complaints.take(arguments.until_of_belt(study.as_ref()));
+    // Which options apply depends on the kind of the study: with an invalid study they are not examined.
+    let until =
+        study.as_ref().map_or(Some(0.0), |study| complaints.take(arguments.until_of_belt(study)));
     let ((study, until), (sound, (outputs, plot))) =
         complaints.finish(study.zip(until).zip(sound.zip(outputs.zip(plot))))?;
 

@@ -56,7 +56,9 @@ pub(crate) fn level_of(ratio: f64) -> Option<f64> {
 /// A share as a percentage with three digits.
 pub(crate) fn percent(ratio: f64) -> String {
     let value = 100.0 * ratio;
-    if value >= 100.0 {
+    if value >= 1e5 {
+        format!("{value:.2e} %")
+    } else if value >= 100.0 {
         format!("{value:.0} %")
     } else if value >= 0.1 {
         format!("{value:.2} %")

@@ -44,9 +44,25 @@ pub(super) fn names(reader: &mut Reader, table: &Table, key: &str) -> Option<Vec
 }
 
 /// What a name of a coordinate, a component or a contact must be.
-pub(super) const NAME: &str = "a name in quotes without the characters . [ ] = ,";
+pub(super) const NAME: &str = "a name in quotes without the characters . [ ] = , and on one line";
 
 /// Whether a name can be part of a path.
 pub(super) fn is_plain_name(name: &str) -> bool {
-    !name.trim().is_empty() && name.trim() == name && !name.contains(['.', '[', ']', '=', ','])
+    let is_special = |c: char| ".[]=,".contains(c) || c.is_control();
+    !name.trim().is_empty() && name.trim() == name && !name.contains(is_special)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_plain_name;
+
+    #[test]
+    fn names_fit_into_a_path_and_a_line() {
+        for name in ["x", "pad x", "µ_1", "b-2"] {
+            assert!(is_plain_name(name), "{name:?}");
+        }
+        for name in ["", " ", "a ", "a.b", "a[0]", "a=1", "a,b", "a\nb", "a\tb", "a\u{1b}[31m"] {
+            assert!(!is_plain_name(name), "{name:?}");
+        }
+    }
 }
