@@ -44,6 +44,7 @@ pub struct MotionOrbit {
     pub is_free: bool,
     /// Whether independent events coincide, so that the multipliers are one-sided.
     pub is_one_sided: bool,
+    judged: OrbitVerdict,
 }
 
 impl MotionOrbit {
@@ -52,9 +53,10 @@ impl MotionOrbit {
         spectral_radius(&deciding(&self.multipliers, self.is_free))
     }
 
-    /// The verdict of the multipliers.
+    /// The verdict of the multipliers: undecided where two integrations of different tolerance disagree about it. They need not agree
+    /// about the multipliers, which nearly simultaneous events of an unstable motion make very sensitive.
     pub fn verdict(&self) -> OrbitVerdict {
-        OrbitVerdict::of(self.radius(), self.multiplier_error)
+        self.judged
     }
 }
 
@@ -174,22 +176,22 @@ pub(crate) fn orbit_at(
     let by_state = noise / size / slowness;
     let radius = spectral_radius(&others);
     let coarse = shot_within(motion, state, period, None, COARSE_TOLERANCE).ok();
-    // Where the order of events differs, as in a motion with simultaneous ones, the multipliers belong to another sequence.
-    let coarse = coarse.filter(|(coarse, _)| coarse.signature == image.signature);
     let coarse = coarse.and_then(|(image, _)| multipliers(&image.derivative));
-    let by_steps =
-        coarse.map_or(0.0, |coarse| (spectral_radius(&deciding(&coarse, is_free)) - radius).abs());
+    let coarse = coarse.map_or(radius, |coarse| spectral_radius(&deciding(&coarse, is_free)));
+    let verdicts = [radius, coarse].map(|radius| OrbitVerdict::of(radius, by_state));
+    let judged = if verdicts[0] == verdicts[1] { verdicts[0] } else { OrbitVerdict::Undecided };
     Ok(MotionOrbit {
         state: state.to_vec(),
         period,
         residual,
         state_error: noise / slowness,
-        multiplier_error: by_state + by_steps,
+        multiplier_error: by_state + (coarse - radius).abs(),
         multipliers: found,
         events: met.events,
         signature: image.signature,
         is_free,
         is_one_sided: met.is_one_sided,
+        judged,
     })
 }
 

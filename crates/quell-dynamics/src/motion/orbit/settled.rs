@@ -15,6 +15,9 @@ pub const MOST_PERIODS: u32 = 4000;
 /// Common periods in a motion's own period that are tried.
 const MOST_MULTIPLES: usize = 12;
 
+/// Share of its earlier distance to which a run must come nearer to the orbit on which it ends. Slower runs are given more periods.
+const NEARER: f64 = 0.9;
+
 /// States kept of a run that does not settle.
 const KEPT: usize = 100;
 
@@ -73,11 +76,22 @@ fn closed(system: &System, motion: &Motion<'_>, states: &[Vec<f64>]) -> Option<(
     let scale = scale_of(motion, last);
     let earlier = states.iter().rev().skip(1).take(MOST_MULTIPLES);
     let (multiple, mismatch) = nearest_return(last, earlier.map(Vec::as_slice))?;
-    if mismatch > NEAR * scale {
+    if mismatch > SAME * scale {
         return None;
     }
-    let multiple = u32::try_from(multiple).ok()?;
-    let orbit = motion_near(system, last, multiple).ok()?;
-    let is_near = distance(&orbit.state, last) <= SAME * scale;
-    (is_near && orbit.verdict() == OrbitVerdict::Stable).then_some((orbit, multiple))
+    let count = u32::try_from(multiple).ok()?;
+    let orbit = motion_near(system, last, count).ok()?;
+    let is_near = distance(&orbit.state, last) <= SAME * scale
+        && (mismatch <= NEAR * scale || approaches(states, &orbit.state, multiple));
+    (is_near && orbit.verdict() == OrbitVerdict::Stable).then_some((orbit, count))
+}
+
+/// Whether a run comes nearer to an orbit of `multiple` periods: its largest distance over the last third of the states is less than
+/// over the third before. A run that circles about an orbit at a constant distance ends on another motion.
+fn approaches(states: &[Vec<f64>], orbit: &[f64], multiple: usize) -> bool {
+    let distances = states.iter().rev().step_by(multiple).map(|state| distance(state, orbit));
+    let distances: Vec<f64> = distances.collect();
+    let third = distances.len() / 3;
+    let largest = |part: &[f64]| part.iter().fold(0.0, |most: f64, value| most.max(*value));
+    third > 0 && largest(&distances[..third]) < NEARER * largest(&distances[third..2 * third])
 }
