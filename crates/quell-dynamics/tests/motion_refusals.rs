@@ -1,7 +1,7 @@
 //! Systems and runs that are refused, with time, contact and reason.
 
 use quell_dynamics::motion::{
-    Immobile, MOTION_TOLERANCE, Motion, MotionStart, MotionStopped, StopReason,
+    ContactPhase, Immobile, MOTION_TOLERANCE, Motion, MotionStart, MotionStopped, StopReason,
 };
 use quell_model::friction::{Coulomb, Friction};
 use quell_model::profile::{Profile, Wave};
@@ -78,4 +78,54 @@ fn a_prescribed_load_that_vanishes_ends_the_run_there() {
     assert!((time - vanishes).abs() < 1e-12, "{time} {vanishes}");
     assert_eq!(reason, StopReason::LoadVanishes { contact: "pad".to_owned() });
     assert!(state.len() == 2 && state.iter().all(|value| value.is_finite()));
+}
+
+/// Two relays that drive each other: G = [[1, −a], [a, 1]] is a P-matrix, so that every decision is unique. With w = 0 slip velocities
+/// spiral into (0, 0): from (s, 0) they reach (0, −s(a − 1)/(a + 1)) after s/(1 + a), in units of the friction force, and so on.
+/// Events accumulate at the sum of that geometric series. (The example is Filippov's.)
+fn relays(a: f64) -> System {
+    let mut system = first_order([[1.0, a], [-a, 1.0]]);
+    // Surfaces at rest make the origin the end of the spiral; the relaxation of the states, at the rate 1, is slow beside it.
+    for contact in &mut system.contacts {
+        contact.surface_velocity = Profile::constant(0.0);
+    }
+    system
+}
+
+/// Time at which the events of [`relays`] accumulate from slip velocities (s, 0), without the relaxation.
+fn accumulates_at(a: f64, s: f64) -> f64 {
+    let (force, shrinks) = (0.3, (a - 1.0) / (a + 1.0));
+    s / (force * (1.0 + a)) / (1.0 - shrinks)
+}
+
+#[test]
+fn events_that_accumulate_end_a_run_with_time_contact_and_state() {
+    let (a, s) = (60.0, 1e-3);
+    let system = relays(a);
+    let motion = Motion::new(&system).expect("a P-matrix");
+    let start = MotionStart { time: 0.0, state: vec![-s, 0.0] };
+    let stopped = motion.run(&start, 1.0, MOTION_TOLERANCE, &mut ()).expect_err("accumulates");
+    println!("{stopped}");
+    let wanted = accumulates_at(a, s);
+    assert!((stopped.time - wanted).abs() < 1e-3 * wanted, "{} {wanted}", stopped.time);
+    assert!(stopped.state.iter().all(|value| value.abs() < 1e-3 * s), "{:?}", stopped.state);
+    assert!(
+        matches!(&stopped.reason, StopReason::Zeno { contact } if contact == "left" || contact == "right")
+    );
+    let words = stopped.to_string();
+    assert!(words.contains("infinitely many in a finite time") && words.contains("contact"));
+}
+
+#[test]
+fn fast_accumulation_is_one_moment_and_the_run_goes_on_in_stick() {
+    let (a, s) = (2.0, 1e-3);
+    let system = relays(a);
+    let motion = Motion::new(&system).expect("a P-matrix");
+    let start = MotionStart { time: 0.0, state: vec![-s, 0.0] };
+    let end = motion.run(&start, 1.0, MOTION_TOLERANCE, &mut ()).expect("goes on");
+    assert!(end.contacts.iter().all(|contact| contact.phase == ContactPhase::Stick), "{end:?}");
+    assert!(end.events > 8 && end.state.iter().all(|value| value.abs() < 1e-12), "{end:?}");
+    let before = 0.99 * accumulates_at(a, s);
+    let slips = motion.run(&start, before, MOTION_TOLERANCE, &mut ()).expect("slips");
+    assert!(slips.contacts.iter().any(|contact| contact.phase != ContactPhase::Stick));
 }

@@ -7,7 +7,9 @@
 //! * What follows is decided for all contacts of that moment together (`selection`), by the selection declared there.
 //! * Contacts that stick are held by the forces that keep their slip velocities at zero (`stuck`).
 //! * Events that accumulate (Zeno behaviour), prescribed loads that vanish and decisions that are not unique end a run with
-//!   time, state and contact ([`MotionStopped`]).
+//!   time, state and contact ([`MotionStopped`]). With symmetric t_cᵀg_d events do not accumulate: friction dissipates, and a slipping
+//!   contact under a load above some bound needs a finite change of force between two events. A P-matrix that is not symmetric does
+//!   not exclude it (Filippov's relays, in the tests).
 //!
 //! | file | contents |
 //! |---|---|
@@ -16,15 +18,16 @@
 //! | `guards`, `selection` | what ends a step, and what follows |
 //! | `engine`, `transitions` | the loop, and what the contacts do at its events |
 //! | `phase`, `state`, `observer`, `stopped` | what goes into a run and comes out of it |
+//! | `extremes` | extremes of a series on a step |
 //! | `contact_meter`, `input_meter`, `row_meter` | integrals over a motion: what contacts do on average, the cost of inputs, a row |
 
 mod contact_meter;
 mod contact_series;
 mod engine;
 mod equations;
+mod extremes;
 mod guards;
 mod input_meter;
-mod least;
 mod lyapunov;
 mod observer;
 pub mod orbit;

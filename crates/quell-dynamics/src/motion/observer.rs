@@ -4,7 +4,10 @@ use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::lane::horner;
 
 use super::contact_series::ContactSeries;
+use super::extremes::turning_points;
 use super::phase::{ContactNow, ContactPhase};
+use super::row_meter::series_of;
+use super::rows::RowEntries;
 use super::series::horner_states;
 use super::state::MotionEnd;
 use crate::simulation::{Clock, EventKind, ORDER};
@@ -60,6 +63,19 @@ impl<'a> MotionSegment<'a> {
     /// negative.
     pub fn normal_load(&self, contact: usize) -> &'a [f64; ORDER + 1] {
         &self.contacts[contact].load
+    }
+
+    /// Taylor coefficients of a row times the part of the state that begins at `from`: 0 for displacements or the states of
+    /// first-order equations, the number of coordinates for velocities.
+    pub fn row(&self, row: &[f64], from: usize) -> [f64; ORDER + 1] {
+        series_of(&RowEntries::at(row, from), self)
+    }
+
+    /// Times after the start at which the slope of a series on the segment changes its sign, in order; none is missed.
+    pub fn turning_points(&self, series: &[f64; ORDER + 1]) -> Vec<f64> {
+        let mut found = Vec::new();
+        turning_points(series, self.duration, |since| found.push(since));
+        found
     }
 
     /// Value of a series of [`MotionSegment::slip_velocity`] and its neighbours at a time after the start.

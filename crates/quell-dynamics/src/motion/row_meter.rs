@@ -3,15 +3,12 @@
 
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::lane::horner;
-use quell_numerics::polynomial::derivative;
 
 use super::contact_meter::{RULE, integral};
+use super::extremes::turning_points;
 use super::observer::{MotionObserver, MotionSegment};
 use super::rows::RowEntries;
 use crate::simulation::{ORDER, Series};
-
-/// Steps of the search for an extremum between two moments: it halves the interval at least every second step.
-const MOST_STEPS: usize = 40;
 
 /// The range of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,38 +34,15 @@ impl RowRange {
     /// Adds the values of a series from 0 to `duration`, the extrema between its ends included.
     #[inline(always)]
     pub(super) fn add(&mut self, series: &Series, duration: f64) {
-        let slope = derivative(series);
-        let (mut before, mut falls) = (0.0, horner(&slope, 0.0));
         self.take(horner(series, 0.0));
-        for moment in RULE[0].iter().copied().chain([1.0]) {
-            let here = moment * duration;
-            let rate = horner(&slope, here);
-            self.take(horner(series, here));
-            // A value between two moments is beyond both by less than the larger rate times the distance.
-            let reach = falls.abs().max(rate.abs()) * (here - before);
-            let value = horner(series, here);
-            let matters = value + reach > self.most || value - reach < self.least;
-            if falls * rate < 0.0 && matters {
-                self.take(horner(series, zero_between(&slope, (before, falls), (here, rate))));
-            }
-            (before, falls) = (here, rate);
+        self.take(horner(series, duration));
+        // A bound on the distance from the first value: most steps stay within the range so far.
+        let terms = series[1..].iter().rev();
+        let reach = terms.fold(0.0, |sum: f64, c| f64::mul_add(sum, duration, c.abs())) * duration;
+        if series[0] + reach > self.most || series[0] - reach < self.least {
+            turning_points(series, duration, |since| self.take(horner(series, since)));
         }
     }
-}
-
-/// A zero of a series between two moments at which its signs differ.
-#[inline(always)]
-fn zero_between(series: &Series, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
-    for step in 0..MOST_STEPS {
-        let chord = a.0 - a.1 * (b.0 - a.0) / (b.1 - a.1);
-        let middle = if step % 2 == 0 { chord } else { 0.5 * (a.0 + b.0) };
-        let value = horner(series, middle);
-        if value == 0.0 || middle <= a.0 || middle >= b.0 {
-            return middle;
-        }
-        if (value > 0.0) == (a.1 > 0.0) { a = (middle, value) } else { b = (middle, value) }
-    }
-    0.5 * (a.0 + b.0)
 }
 
 /// Taylor coefficients of a row times the state.

@@ -16,22 +16,22 @@
 
 use quell_numerics::matrix::Matrix;
 
-use super::stuck::remainder;
+use super::stuck::{DEPENDENT, remainder};
 
-/// Share of the diagonal that is added where rows are dependent.
+/// Share of the diagonal that is added where rows are dependent: above rounding, so that the matrix can be inverted, and below
+/// [`AT_BOUND`], so that no force changes its place by it.
 const LEAST_NORM: f64 = 1e-13;
 
-/// Slip accelerations below this share of their terms are zero to rounding.
+/// Slip accelerations below this share of their terms are zero to rounding: they are differences of forces solved to about 10⁻¹³,
+/// with a margin for the condition of G. A release taken for smooth divides a zero out in vain, which the search of roots survives.
 const AT_REST: f64 = 1e-9;
 
-/// A force within this share of its bound is at it.
+/// A force within this share of its bound is at it: the accuracy of solved forces with a margin. A contact released too early by it
+/// has reached its bound within the time that this share of the force takes.
 const AT_BOUND: f64 = 1e-10;
 
 /// A force whose margin has a root at this moment is within this share of its bound unless other events have relieved it.
 const NEAR_BOUND: f64 = 1e-7;
-
-/// A row that others carry all but for this share is dependent on them.
-const DEPENDENT: f64 = 1e-10;
 
 /// The contacts whose slip velocity is zero.
 #[derive(Clone, Debug)]

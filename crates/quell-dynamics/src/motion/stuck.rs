@@ -11,8 +11,9 @@ use super::contact_series::ContactSeries;
 use super::equations::MotionEquations;
 use super::phase::ContactNow;
 
-/// A row is dependent on others if they carry all but this share of it.
-const DEPENDENT: f64 = 1e-11;
+/// A row is dependent on others if they carry all but this share of it: the rounding of a Schur complement of rows whose condition
+/// is up to 10⁵. Rows that differ by less share their forces by least norm, and the motion changes by as little.
+pub(super) const DEPENDENT: f64 = 1e-10;
 
 /// Forces of the sticking contacts that are not saturated.
 #[derive(Clone, Debug, Default)]

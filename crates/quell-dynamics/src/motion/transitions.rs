@@ -18,13 +18,18 @@ const AT_REST: f64 = 32.0 * f64::EPSILON;
 /// Time over the time scale within which a slip velocity is negligible at the start of a run if friction can stop it.
 const NEGLIGIBLE: f64 = 1e-13;
 
-/// A load beyond zero by this share of N₀ has jumped there.
+/// A load beyond zero by this share of N₀ has jumped there: a root of a series leaves 10⁻¹², a jump of a square wave its amplitude. A
+/// smaller jump is taken for a root, and its contact closes or opens at the next step.
 const JUMP: f64 = 1e-9;
 
-/// So many events within [`ACCUMULATED`] of the time scale are Zeno behaviour.
-const MOST_EVENTS: u64 = 96;
+/// So many moments with events per contact within [`ACCUMULATED`] of the time scale are Zeno behaviour. A contact that slips needs a
+/// finite change of force between two events, so that motions without accumulation have few in a time so short; if one had more, it
+/// would end with this reason.
+const MOST_EVENTS_OF_A_CONTACT: u64 = 48;
 
-/// Time within which events accumulate, over the time scale.
+/// Time within which events accumulate, over the time scale. Guards within 10⁻¹² of it are one moment: events whose distances shrink
+/// by a third or more pass from here to there in fewer than [`MOST_EVENTS_OF_A_CONTACT`], and the run goes on from the point of
+/// accumulation.
 const ACCUMULATED: f64 = 1e-6;
 
 impl MotionRun<'_> {
@@ -260,7 +265,7 @@ impl MotionRun<'_> {
         }
         self.window.1 += 1;
         match last {
-            Some(contact) if self.window.1 > MOST_EVENTS => {
+            Some(contact) if self.window.1 > MOST_EVENTS_OF_A_CONTACT * before.len() as u64 => {
                 let contact = self.name(contact);
                 Err(self.stopped(StopReason::Zeno { contact }))
             }

@@ -21,13 +21,14 @@ use quell_model::friction::{BranchSeries, FrictionConstants};
 use quell_numerics::extrapolation::integrate;
 use quell_numerics::matrix::Matrix;
 
+use super::Motion;
 use super::equations::MotionEquations;
+use super::extremes::least;
 use super::observer::{
     MotionEvent, MotionMoment, MotionObserver, MotionSegment, RecordedEvent, Trigger,
 };
 use super::phase::{ContactNow, ContactPhase};
 use super::stuck::StuckForces;
-use super::{Motion, least};
 use crate::simulation::ORDER;
 
 /// Error of the integration over a step.
@@ -48,7 +49,8 @@ struct LinearFriction {
     tilt: f64,
 }
 
-/// Least distance of the slip velocities and loads from zero, relative to the velocity of the surface and to N₀.
+/// Least distance of the slip velocities and loads from zero, relative to the velocity of the surface and to N₀. At a surface at rest
+/// slip is relative to the velocity that scales the friction law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeastDistance {
     /// The distance.
@@ -314,7 +316,7 @@ impl<'a> MotionVariation<'a> {
             let equation = &self.equations.contacts[index];
             let contact = &self.system.contacts[index];
             let mut nearer = |series: &[f64; ORDER + 1], scale: f64, is_load: bool| {
-                let (lowest, since) = least::least(series, segment.duration);
+                let (lowest, since) = least(series, segment.duration);
                 let distance = scale * lowest;
                 if self.least.is_none_or(|known| distance < known.distance) {
                     let time = segment.clock.time() + since;
@@ -323,7 +325,7 @@ impl<'a> MotionVariation<'a> {
             };
             if equation.can_stick() {
                 let speed = contact.surface_velocity.mean().abs();
-                let scale = 1.0 / if speed > 0.0 { speed } else { 1.0 };
+                let scale = 1.0 / if speed > 0.0 { speed } else { equation.scale };
                 let slip = segment.slip_velocity(index).map(|c| f64::from(sign) * c);
                 nearer(&slip, scale, false);
             }

@@ -23,6 +23,7 @@ mod record_lines;
 mod solver;
 mod spectral_meter;
 mod steady_response;
+mod system_ending;
 mod system_response;
 
 pub use quell_numerics::spectrum::{Peak, Spectrum};
@@ -39,6 +40,7 @@ pub use record_lines::{HALVES_AGREE, HALVES_NEGLIGIBLE, RecordLines};
 pub use solver::Solver;
 pub use spectral_meter::samples_per_slow_period;
 pub use steady_response::{PEAK_FLOOR, SteadyResponse, respond};
+pub use system_ending::SystemEnding;
 pub use system_response::{
     ResponsePlan, ResponseRefused, SystemRecord, SystemResponse, respond_system,
 };

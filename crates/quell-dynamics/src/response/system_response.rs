@@ -1,10 +1,14 @@
 //! The steady response of any system: a settled record of one row, compared with the undithered run from the same start.
 //!
+//! Where a run ends on a stable periodic motion, the record begins on it, and means over time are those of one period exactly
+//! ([`SystemEnding`]). Where no such motion is found, the record of the run itself is judged, after the settling time.
+//!
 //! The band of slow vibration ends below the lowest dither frequency. M is the largest spectral amplitude in it, as for a belt,
 //! and the same rules decide the effect ([`Vibrations`]). The tones of the dithers are subtracted first: near the end of the band
 //! the window would spread them into it.
 //!
-//! The undithered run keeps vibrating if its record does not decay, or shows a vibration while steady sliding is unstable.
+//! An undithered run on no known motion keeps vibrating if its record does not decay, or shows a vibration while steady sliding is
+//! unstable.
 
 use std::f64::consts::TAU;
 use std::fmt;
@@ -14,7 +18,6 @@ use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::spectrum;
 use quell_linear::steady::SteadySliding;
 use quell_model::System;
-use quell_model::profile::Profile;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::spectrum::Spectrum;
 use quell_numerics::spectrum::low_band::LargestLines;
@@ -22,9 +25,10 @@ use quell_numerics::spectrum::low_band::LargestLines;
 use super::effect::{Effect, Uncertain, Vibrations};
 use super::measure::Undefined;
 use super::record_lines::RecordLines;
+use super::system_ending::SystemEnding;
 use crate::motion::{
     ContactMeans, ContactMeter, Immobile, InputCost, InputMeter, MOTION_TOLERANCE, Motion,
-    MotionEnd, MotionStart, MotionStopped, NoPower, RowMeter,
+    MotionEnd, MotionObserver, MotionSegment, MotionStart, MotionStopped, NoPower, RowMeter,
 };
 
 /// Samples per period of the fastest dither, at least: its seventh harmonic stays below the Nyquist frequency.
@@ -93,6 +97,10 @@ impl std::error::Error for ResponseRefused {}
 /// The settled record of one run.
 #[derive(Clone, Debug)]
 pub struct SystemRecord {
+    /// Where the run ends.
+    pub ending: SystemEnding,
+    /// Range, mean and deviation of the row: over one period of the orbit, or over the record.
+    pub observed: RowMeter,
     /// The row at equal steps.
     pub row: RowMeter,
     /// Step between the samples.
@@ -101,9 +109,9 @@ pub struct SystemRecord {
     pub spectrum: Spectrum,
     /// M in the band of slow vibration.
     pub lines: LargestLines,
-    /// The contacts over the record.
+    /// The contacts over one period of the orbit, or over the record.
     pub contacts: Vec<ContactMeans>,
-    /// The inputs over the record.
+    /// The inputs over one period of the orbit, or over the record.
     pub inputs: Vec<Result<InputCost, NoPower>>,
     /// The contacts from the start to the end of the record, transient included.
     pub whole: ContactMeter,
@@ -149,12 +157,12 @@ pub fn respond_system(
     start: &MotionStart,
     plan: &ResponsePlan,
 ) -> Result<SystemResponse, ResponseRefused> {
-    let still = undithered(system);
+    let still = system.undithered();
     let motion = Motion::new(system).map_err(ResponseRefused::Immobile)?;
     let without = Motion::new(&still).map_err(ResponseRefused::Immobile)?;
     let grid = RecordGrid::of(&motion, plan)?;
     let dithered = record(&motion, start, plan, grid).map_err(ResponseRefused::Stopped)?;
-    let has_dither = frequencies(system).next().is_some();
+    let has_dither = system.is_dithered();
     let undithered = if has_dither {
         record(&without, start, plan, grid).map_err(ResponseRefused::Stopped)?
     } else {
@@ -163,7 +171,12 @@ pub fn respond_system(
     let scale = dithered.largest.max(undithered.largest);
     let [with, without] =
         [&dithered, &undithered].map(|record| RecordLines { lines: record.lines, scale });
-    let vibrates = if without.is_negligible() || without.whole() == 0.0 {
+    let vibrates = if undithered.ending.period().is_some() {
+        Ok(())
+    } else if undithered.ending == SystemEnding::Rest
+        || without.is_negligible()
+        || without.whole() == 0.0
+    {
         Err(Undefined::UnditheredSettles)
     } else if without.is_steady() || cannot_settle(&still) {
         Ok(())
@@ -179,6 +192,8 @@ pub fn respond_system(
     let effect = match vibrates {
         _ if !has_dither => Effect::Unknown(Uncertain::NoDither),
         Err(why @ Undefined::UnditheredUnknown) => Effect::Unknown(Uncertain::Undithered(why)),
+        Ok(()) if dithered.ending.is_faster_than(grid.band_end) => Effect::Quenches,
+        Err(_) if dithered.ending.is_faster_than(grid.band_end) => Effect::Quiet,
         _ => vibrations.effect(),
     };
     let steady = SteadySliding::new(&still).ok();
@@ -201,28 +216,13 @@ fn cannot_settle(system: &System) -> bool {
     found.is_ok_and(|found| found.growth.verdict() == Verdict::Unstable)
 }
 
-/// The same system with every input at its mean.
-fn undithered(system: &System) -> System {
-    let mut still = system.clone();
-    for input in &mut still.inputs {
-        input.profile = Profile::constant(input.profile.mean());
-    }
-    still
-}
-
-/// Angular frequencies of the dithers that act.
-fn frequencies(system: &System) -> impl Iterator<Item = f64> {
-    let waves = system.inputs.iter().flat_map(|input| input.profile.waves());
-    waves.filter(|wave| wave.amplitude != 0.0).map(|wave| wave.frequency)
-}
-
 impl RecordGrid {
     /// For a system with its dither.
     fn of(motion: &Motion<'_>, plan: &ResponsePlan) -> Result<Self, ResponseRefused> {
         let own = TAU * motion.time_scale() / SAMPLES_PER_PERIOD;
         let system = motion.system();
-        let fastest = frequencies(system).fold(0.0, f64::max);
-        let slowest = frequencies(system).fold(f64::INFINITY, f64::min);
+        let fastest = system.acting_frequencies().fold(0.0, f64::max);
+        let slowest = system.acting_frequencies().fold(f64::INFINITY, f64::min);
         let longest = own.min(TAU / (SAMPLES_PER_DITHER_PERIOD * fastest));
         let wanted = (plan.length / longest).max(LEAST_SAMPLES);
         if wanted > MOST_SAMPLES {
@@ -253,23 +253,38 @@ fn record(
 ) -> Result<SystemRecord, MotionStopped> {
     let contacts = motion.system().contacts.len();
     let mut whole = ContactMeter::new(contacts);
-    let from = start.time + plan.settle;
     let mut transient = RowMeter::new(&plan.row, start.time, grid.step, 0);
-    let settled = motion.run(start, from, MOTION_TOLERANCE, &mut (&mut whole, &mut transient))?;
-    let mut meter = ContactMeter::new(contacts);
-    let mut inputs = InputMeter::new(motion.system());
-    let mut row = RowMeter::new(&plan.row, from, grid.step, grid.count);
-    let mut observer = ((&mut whole, &mut meter), (&mut inputs, &mut row));
-    let until = from + plan.length;
-    let end = motion.run(&settled.restart(), until, MOTION_TOLERANCE, &mut observer)?;
+    let settled = start.time + plan.settle;
+    let end = motion.run(start, settled, MOTION_TOLERANCE, &mut (&mut whole, &mut transient))?;
+    let ending = SystemEnding::of(motion.system(), start);
+    let from = match &ending {
+        SystemEnding::Orbit { state, period } => {
+            // The phase of the dither is that of the run at the end of the settling time.
+            let begin = MotionStart { time: 0.0, state: state.clone() };
+            motion.run(&begin, libm::fmod(settled, *period), MOTION_TOLERANCE, &mut ())?.restart()
+        }
+        SystemEnding::Rest | SystemEnding::Record => end.restart(),
+    };
+    let mut row = RowMeter::new(&plan.row, from.time, grid.step, grid.count);
+    let mut meters = RunMeters::new(motion, &plan.row);
+    let mut observer = ((&mut whole, &mut meters), &mut row);
+    let end = motion.run(&from, from.time + plan.length, MOTION_TOLERANCE, &mut observer)?;
     row.finish(&end.state);
-    let lines = lines_of(&row.samples, motion.system(), grid);
+    let mut lines = lines_of(&row.samples, motion.system(), grid);
+    if let Some(period) = ending.period() {
+        // The halves of a periodic motion differ by where the window cuts it.
+        lines.halves = [lines.whole; 2];
+        meters = RunMeters::new(motion, &plan.row);
+        motion.run(&from, from.time + period, MOTION_TOLERANCE, &mut meters)?;
+    }
     let spectrum = spectrum_of(&row.samples, grid.step);
     Ok(SystemRecord {
-        contacts: meter.means().unwrap_or_default(),
-        inputs: inputs.costs().unwrap_or_default(),
+        ending,
+        contacts: meters.contacts.means().unwrap_or_default(),
+        inputs: meters.inputs.costs().unwrap_or_default(),
         largest: transient.largest().max(row.largest()),
         step: grid.step,
+        observed: meters.row,
         row,
         spectrum,
         lines,
@@ -278,10 +293,36 @@ fn record(
     })
 }
 
+/// What is measured over a period or a record.
+struct RunMeters<'s> {
+    contacts: ContactMeter,
+    inputs: InputMeter<'s>,
+    row: RowMeter,
+}
+
+impl<'s> RunMeters<'s> {
+    fn new(motion: &Motion<'s>, row: &[f64]) -> Self {
+        let system = motion.system();
+        Self {
+            contacts: ContactMeter::new(system.contacts.len()),
+            inputs: InputMeter::new(system),
+            row: RowMeter::new(row, 0.0, 0.0, 0),
+        }
+    }
+}
+
+impl MotionObserver for RunMeters<'_> {
+    fn segment(&mut self, segment: &MotionSegment<'_>) {
+        self.contacts.segment(segment);
+        self.inputs.segment(segment);
+        self.row.segment(segment);
+    }
+}
+
 /// M of a record and of its halves, without the tones of the dithers.
 fn lines_of(samples: &[f64], system: &System, grid: RecordGrid) -> LargestLines {
     let mut rest = samples.to_vec();
-    for frequency in frequencies(system) {
+    for frequency in system.acting_frequencies() {
         subtract_tone(&mut rest, frequency * grid.step);
     }
     let largest = |samples: &[f64]| {

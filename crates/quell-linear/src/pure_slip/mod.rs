@@ -146,7 +146,7 @@ impl SlipOrbit {
 
 /// The common period of the inputs of a system; `None` without dither or without a common period.
 pub fn period(system: &System) -> Option<f64> {
-    let waves = system.inputs.iter().flat_map(|input| input.profile.waves());
+    let waves = system.waves();
     let frequencies: Vec<f64> = waves.map(|wave| wave.frequency).collect();
     let groups = commensurate_groups(&frequencies);
     let [members] = groups.as_slice() else { return None };
@@ -275,7 +275,7 @@ fn turn(
 /// Times in [0, T] at which a wave has a kink or a jump, both ends included.
 fn breaks(system: &System, period: f64) -> Vec<f64> {
     let mut breaks = vec![0.0, period];
-    for wave in system.inputs.iter().flat_map(|input| input.profile.waves()) {
+    for wave in system.waves() {
         for phase in wave.waveform.breaks() {
             let cycle = TAU / wave.frequency;
             let mut time = ((phase - wave.phase) / wave.frequency).rem_euclid(cycle);

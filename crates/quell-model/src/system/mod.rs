@@ -21,6 +21,8 @@ pub use input::{Input, InputTarget};
 pub use mass::MassMatrix;
 pub use structure::{Mechanical, StateSpace, Structure};
 
+use crate::profile::{Profile, Wave};
+
 /// A structure, its contacts and its inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct System {
@@ -30,4 +32,71 @@ pub struct System {
     pub contacts: Vec<Contact>,
     /// What enters from outside.
     pub inputs: Vec<Input>,
+}
+
+impl System {
+    /// The waves of all inputs in order, those of amplitude 0 included.
+    pub fn waves(&self) -> impl Iterator<Item = &Wave> {
+        self.inputs.iter().flat_map(|input| input.profile.waves())
+    }
+
+    /// Whether an input has a wave, of any amplitude. The frequencies of the waves give a system its period, also where a family of
+    /// systems reaches the amplitude 0. Whether a dither acts is [`System::is_dithered`].
+    pub fn has_waves(&self) -> bool {
+        self.waves().next().is_some()
+    }
+
+    /// Whether a dither acts: a wave whose amplitude is not 0.
+    pub fn is_dithered(&self) -> bool {
+        self.acting_frequencies().next().is_some()
+    }
+
+    /// Angular frequencies of the waves that act, in the order of the inputs.
+    pub fn acting_frequencies(&self) -> impl Iterator<Item = f64> {
+        self.waves().filter(|wave| wave.amplitude != 0.0).map(|wave| wave.frequency)
+    }
+
+    /// The same system with every input at its mean.
+    #[must_use]
+    pub fn undithered(&self) -> Self {
+        let mut system = self.clone();
+        for input in &mut system.inputs {
+            input.profile = Profile::constant(input.profile.mean());
+        }
+        system
+    }
+
+    /// The same system with the amplitudes of all waves multiplied by a factor. With the factor 0 no dither acts, but the waves
+    /// keep their frequencies ([`System::has_waves`]).
+    ///
+    /// ```
+    /// use quell_model::profile::{Profile, Wave};
+    /// use quell_model::system::InputTarget;
+    /// use quell_model::{Belt, Coulomb, Friction, Input, Parametrisation, Waveform};
+    ///
+    /// let law = Friction::Coulomb(Coulomb::constant(0.4));
+    /// let mut system = Belt::new(0.05, 1.0, 0.5, law, Vec::new())?.system();
+    /// let wave = Wave { waveform: Waveform::Sine, amplitude: 0.5, frequency: 10.0, phase: 0.0 };
+    /// let profile = Profile::constant(2.0).with(wave);
+    /// system.inputs = vec![Input { target: InputTarget::Force(vec![1.0]), profile }];
+    ///
+    /// let half = system.with_amplitudes_scaled(0.5);
+    /// assert_eq!(half.waves().next().map(|wave| wave.amplitude), Some(0.25));
+    /// assert_eq!(half.inputs[0].profile.mean(), 2.0);
+    /// assert!(half.is_dithered() && !half.undithered().has_waves());
+    /// let still = system.with_amplitudes_scaled(0.0);
+    /// assert!(!still.is_dithered() && still.has_waves());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_amplitudes_scaled(&self, factor: f64) -> Self {
+        let mut system = self.clone();
+        for input in &mut system.inputs {
+            let mean = Profile::constant(input.profile.mean());
+            input.profile = input.profile.waves().iter().fold(mean, |profile, wave| {
+                profile.with(Wave { amplitude: factor * wave.amplitude, ..*wave })
+            });
+        }
+        system
+    }
 }

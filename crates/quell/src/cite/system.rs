@@ -20,7 +20,7 @@ pub(super) fn citations(study: &SystemStudy) -> Vec<Citation> {
             cite(task, HOFFMANN_2002, "mode coupling: two frequencies merge under friction");
         }
     }
-    if is_dithered(system) {
+    if system.is_dithered() {
         let task = Task::Stability;
         cite(task, THOMSEN_1999, "averaging over the fast motion; effective friction");
         cite(task, MICHAUX_2005, "effective friction (2.21), here of each contact");
@@ -48,12 +48,6 @@ fn friction(system: &System, mut cite: impl FnMut(Source, &'static str)) {
     if system.contacts.iter().any(|contact| contact.slope.is_some()) {
         cite(CHAN_1994, "friction as a follower force");
     }
-}
-
-/// Whether some dither acts.
-fn is_dithered(system: &System) -> bool {
-    let mut waves = system.inputs.iter().flat_map(|input| input.profile.waves());
-    waves.any(|wave| wave.amplitude != 0.0)
 }
 
 #[cfg(test)]

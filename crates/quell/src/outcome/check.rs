@@ -120,7 +120,7 @@ fn table_of_system(study: &SystemStudy) -> String {
         );
         table.word("contact", &words);
     }
-    for wave in system.inputs.iter().flat_map(|input| input.profile.waves()) {
+    for wave in system.waves() {
         let words = format!(
             "{}, amplitude {}, {}",
             wave.waveform.name(),

@@ -20,6 +20,7 @@
 mod decimator;
 mod recorder;
 mod statement;
+mod tap;
 mod wave;
 
 use std::f64::consts::TAU;
@@ -31,6 +32,7 @@ use crate::quantity;
 use crate::words::digits;
 
 pub use recorder::SoundRecorder;
+pub(crate) use tap::VelocityTap;
 
 /// Samples per second of a sound, Hz: that of compact discs, which every player accepts.
 pub const SAMPLE_RATE: u32 = 44_100;

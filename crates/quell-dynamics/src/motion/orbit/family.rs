@@ -96,11 +96,10 @@ pub struct MotionFamily<'a> {
     pub scale: f64,
 }
 
-/// The time over which the states of a system are mapped. Without dither, where only steady sliding is followed, it is a time
+/// The time over which the states of a system are mapped. Without waves, where only steady sliding is followed, it is a time
 /// scale of the system that no motion of it is expected to have as its period.
 pub(crate) fn time_of(motion: &Motion<'_>, periods: u32) -> Result<f64, NoImage> {
-    let inputs = &motion.system().inputs;
-    if inputs.iter().all(|input| input.profile.waves().is_empty()) {
+    if !motion.system().has_waves() {
         return Ok(motion.time_scale());
     }
     period(motion.system()).map(|period| f64::from(periods) * period).ok_or(NoImage::NoPeriod)
@@ -112,6 +111,17 @@ pub(crate) fn shot(
     state: &[f64],
     time: f64,
     held: Option<&MotionSignature>,
+) -> Result<(Image<MotionSignature>, Shot), NoImage> {
+    shot_within(motion, state, time, held, MOTION_TOLERANCE)
+}
+
+/// The same with another tolerance, which contacts that keep their phases do not take.
+pub(super) fn shot_within(
+    motion: &Motion<'_>,
+    state: &[f64],
+    time: f64,
+    held: Option<&MotionSignature>,
+    tolerance: f64,
 ) -> Result<(Image<MotionSignature>, Shot), NoImage> {
     let start = MotionStart { time: 0.0, state: state.to_vec() };
     let mut variation = MotionVariation::new(motion);
@@ -125,7 +135,7 @@ pub(crate) fn shot(
     };
     let end = match kept {
         Some(phases) => motion.continued(&start, phases, time, &mut variation),
-        None => motion.run(&start, time, MOTION_TOLERANCE, &mut variation),
+        None => motion.run(&start, time, tolerance, &mut variation),
     }
     .map_err(NoImage::Stopped)?;
     if variation.has_failed {

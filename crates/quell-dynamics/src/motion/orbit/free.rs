@@ -15,36 +15,51 @@ use quell_model::System;
 use quell_numerics::matrix::Matrix;
 
 use super::super::{
-    Immobile, MOTION_TOLERANCE, Motion, MotionEnd, MotionEvent, MotionObserver, MotionSegment,
-    MotionStart, MotionStopped, RecordedEvent,
+    Immobile, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver, MotionSegment, MotionStart,
+    MotionStopped,
 };
 use super::family::{MotionSignature, shot};
+use super::passages::Passages;
 use super::periodic::{MotionOrbit, orbit_at, scale_of};
-use crate::simulation::EventKind;
-
-/// Mismatch of two passages, relative to the state, below which Newton's method is tried.
-const NEAR: f64 = 2e-2;
+use super::recurrence::{NEAR, SAME, distance, nearest_return};
+use super::watch::{MOST_STEPS, PASSAGES, WatchLengths};
+use crate::orbit::OrbitVerdict;
 
 /// Passages in a period that are tried.
 const MOST_PASSAGES: usize = 8;
 
-/// Mismatch, relative to the state, of a closed cycle.
-const CLOSED: f64 = 1e-12;
+/// Mismatch, relative to the state, of a closed cycle: the tolerance of a step with a margin for the steps of a period.
+const CLOSED: f64 = 10.0 * MOTION_TOLERANCE;
 
-/// Mismatch, relative to the state, of a cycle after a part of its period that is itself a period.
-const PART: f64 = 1e-7;
+/// Mismatch, relative to the state, of a cycle whose residual no longer shrinks: an unstable or stiff cycle amplifies the error of a
+/// step, and a thousandfold is accepted. If that is wrong the residual, which is reported, shows it.
+const STAGNANT: f64 = 1e3 * MOTION_TOLERANCE;
 
-/// Rate times period, relative to the state, of an equilibrium.
-const EQUILIBRIUM: f64 = 1e-7;
+/// A step of Newton's method that leaves more than this share of the residual no longer converges.
+const SHRINKS: f64 = 0.3;
 
-/// Number of spans over which a run is watched, each [`SPAN`] times the slowest time scale.
-const SPANS: u32 = 60;
+/// Mismatch, relative to the state, that a state known to [`STAGNANT`] may have after a period with multipliers up to a thousand:
+/// a part of a period that closes to it is a period, and a state that moves by less in a period is an equilibrium.
+const COARSE: f64 = 1e3 * STAGNANT;
 
-/// Spans without a passage after which the section is chosen anew.
+/// Mismatch of passages, relative to the state, of a run that is on a cycle. On an unstable one only a symmetric run remains; others
+/// pass it, and end elsewhere.
+const ON_IT: f64 = 1e-6;
+
+/// Steps of Newton's method. It converges in five to eight from [`NEAR`](super::recurrence::NEAR) where it does.
+const NEWTON_STEPS: u32 = 30;
+
+/// Largest change of the state in a step of Newton's method, relative to the state: beyond it the events of the cycle change.
+const LONGEST_STEP: f64 = 0.3;
+
+/// Times of the first run of which a velocity is taken, over the time scale: no motion changes in it.
+const MOMENT: f64 = 1e-6;
+
+/// Growth per span of the mismatch at which Newton's method is tried again after a failure, which halves it.
+const RELAXED: f64 = 1.5;
+
+/// Spans without a passage after which the section is first chosen anew; then twice as many, and so on.
 const IDLE: u32 = 8;
-
-/// Length of a span over the time scale of the system.
-const SPAN: f64 = 200.0;
 
 /// Velocity, relative to the fastest so far, below which a motion has come to rest.
 const AT_REST: f64 = 1e-9;
@@ -73,6 +88,10 @@ pub enum NoCycle {
         passages: usize,
         /// Least mismatch of two passages, relative to the state.
         mismatch: Option<f64>,
+        /// Steps of the run.
+        steps: u64,
+        /// Period of an unstable cycle that the run came near and left, if it did.
+        unstable: Option<f64>,
     },
 }
 
@@ -88,16 +107,20 @@ impl fmt::Display for NoCycle {
                     "no limit cycle was found: by t = {time:.6} the motion has come to rest or to steady sliding"
                 )
             }
-            Self::NotFound { time, passages, mismatch } => {
+            Self::NotFound { time, passages, mismatch, steps, unstable } => {
                 write!(
                     f,
-                    "no limit cycle was found: tried a run to t = {time:.6} with {passages} passages through its section"
+                    "no limit cycle was found: tried a run to t = {time:.6} of {steps} steps with {passages} passages through \
+                     its section"
                 )?;
-                match mismatch {
-                    Some(mismatch) => {
+                if let Some(mismatch) = mismatch {
+                    write!(f, ", whose states repeat within {mismatch:.1e} of their size at best")?;
+                }
+                match unstable {
+                    Some(period) => {
                         write!(
                             f,
-                            ", whose states repeat within {mismatch:.1e} of their size at best"
+                            "; it came near an unstable cycle of period {period:.6} and left it"
                         )
                     }
                     None => Ok(()),
@@ -109,170 +132,119 @@ impl fmt::Display for NoCycle {
 
 impl std::error::Error for NoCycle {}
 
-/// Watches a run: passages through the section, and states between events.
-struct Passages {
-    events: Vec<RecordedEvent>,
-    /// State in the middle of the longest segment since the last passage, with its time and the segment's length.
-    quiet: Vec<(f64, Vec<f64>, f64)>,
-    /// Largest and latest rate of the state.
-    rates: (f64, f64),
-    size: usize,
-    contact: Option<usize>,
-}
-
-impl Passages {
-    fn new(size: usize) -> Self {
-        Self {
-            events: Vec::new(),
-            quiet: vec![(0.0, Vec::new(), 0.0)],
-            rates: (0.0, 0.0),
-            size,
-            contact: None,
-        }
-    }
-
-    fn pass(&mut self, passage: RecordedEvent) {
-        self.events.push(passage);
-        self.quiet.push((0.0, Vec::new(), 0.0));
-    }
-}
-
-impl MotionObserver for Passages {
-    fn segment(&mut self, segment: &MotionSegment<'_>) {
-        let middle = 0.5 * segment.duration();
-        if let Some(quiet) = self.quiet.last_mut()
-            && segment.duration() > quiet.2
-        {
-            let mut state = vec![0.0; self.size];
-            segment.state(middle, &mut state);
-            *quiet = (segment.clock().time() + middle, state, segment.duration());
-        }
-        let rates = &segment.states()[self.size..2 * self.size];
-        let latest = rates.iter().fold(0.0, |m: f64, rate| m.max(rate.abs()));
-        self.rates = (self.rates.0.max(latest), latest);
-        if self.contact.is_none() {
-            self.least_displacement(segment);
-        }
-    }
-
-    fn event(&mut self, event: &MotionEvent<'_>) {
-        if event.kind != EventKind::Release || self.contact.is_some_and(|c| event.contact > c) {
-            return;
-        }
-        if self.contact != Some(event.contact) {
-            // A lower contact that releases: the section of the others no longer counts.
-            self.contact = Some(event.contact);
-            self.events.clear();
-            self.quiet = vec![(0.0, Vec::new(), 0.0)];
-        }
-        self.pass(event.recorded());
-    }
-}
-
-impl Passages {
-    /// Without a release the section is where the first number of the state is least.
-    fn least_displacement(&mut self, segment: &MotionSegment<'_>) {
-        let series: Vec<f64> = segment.states().chunks(self.size).map(|order| order[0]).collect();
-        let slope = |since: f64| {
-            let terms = series.iter().enumerate().skip(1).rev();
-            terms.fold(0.0, |sum, (k, c)| sum * since + k as f64 * c)
-        };
-        let (mut low, mut high) = (0.0, segment.duration());
-        if !(slope(low) < 0.0 && slope(high) >= 0.0) {
-            return;
-        }
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if slope(middle) < 0.0 { low = middle } else { high = middle }
-        }
-        let mut state = vec![0.0; self.size];
-        segment.state(high, &mut state);
-        let time = segment.clock().after(high).time();
-        self.pass(RecordedEvent {
-            time,
-            contact: 0,
-            kind: EventKind::Release,
-            slip_sign: 0,
-            state,
-        });
-    }
-}
-
 /// The limit cycle on which a run of an undithered system from a state ends.
+///
+/// The run is watched until the slowest motion of the structure has settled and the section has been passed a hundred times, within
+/// four million steps. A cycle that is unstable is returned only if the run is on it to 10⁻⁶ of its state.
 ///
 /// # Errors
 /// [`NoCycle`], with what was tried.
 pub fn free_cycle(system: &System, start: &[f64]) -> Result<MotionOrbit, NoCycle> {
-    if system.inputs.iter().any(|input| !input.profile.waves().is_empty()) {
+    if system.is_dithered() {
         return Err(NoCycle::Dithered);
     }
     let motion = Motion::new(system).map_err(NoCycle::Immobile)?;
+    let lengths = WatchLengths::of(&motion);
     let mut passages = Passages::new(motion.size());
+    let mut returns = Returns { allowed: NEAR, least: None, unstable: None };
     let mut from = MotionStart { time: 0.0, state: start.to_vec() };
-    let mut least = None;
-    let mut seen = 0;
-    let mut idle = 0;
-    for span in 1..=SPANS {
-        let until = f64::from(span) * SPAN * motion.time_scale();
+    let (mut seen, mut passed, mut steps) = (0, 0, 0);
+    let (mut idle, mut patience) = (0, IDLE);
+    let mut spans = 0_u32;
+    loop {
+        spans += 1;
+        let until = f64::from(spans) * lengths.span;
         let end: MotionEnd =
             motion.run(&from, until, MOTION_TOLERANCE, &mut passages).map_err(NoCycle::Stopped)?;
-        let is_at_rest = passages.rates.1 <= AT_REST * passages.rates.0;
-        if is_at_rest {
+        steps += end.steps;
+        if passages.rates.1 <= AT_REST * passages.rates.0 {
             return Err(NoCycle::Rest { time: end.time, state: end.state });
         }
         from = end.restart();
-        if passages.events.len() == seen {
+        let count = passages.events.len();
+        if count == seen {
             idle += 1;
-            if idle == IDLE {
-                // The releases so far belonged to a transient.
-                passages = Passages { rates: passages.rates, ..Passages::new(motion.size()) };
-                (seen, idle) = (0, 0);
+            if idle == patience {
+                // The releases so far belonged to a transient, or the motion is slower.
+                passages.forget();
+                (seen, idle, patience) = (0, 0, 2 * patience);
             }
-            continue;
+        } else {
+            passed += count.saturating_sub(seen);
+            (seen, idle) = (count, 0);
+            if let Some(cycle) = returns.cycle(&motion, &passages) {
+                return Ok(cycle);
+            }
         }
-        (seen, idle) = (passages.events.len(), 0);
-        if let Some(cycle) = repeated(&motion, &passages, &mut least) {
-            return Ok(cycle);
+        let is_enough = until >= lengths.enough && passed >= PASSAGES;
+        if is_enough || until >= lengths.most || steps >= MOST_STEPS {
+            let Returns { least: mismatch, unstable, .. } = returns;
+            let time = from.time;
+            return Err(NoCycle::NotFound { time, passages: passed, mismatch, steps, unstable });
         }
     }
-    let passages = passages.events.len();
-    Err(NoCycle::NotFound { time: from.time, passages, mismatch: least })
 }
 
-/// The cycle near passages that nearly repeat.
-fn repeated(
+/// The attempts to close a cycle where a run comes back near its own states.
+struct Returns {
+    /// Mismatch at which Newton's method is tried.
+    allowed: f64,
+    /// Least mismatch so far.
+    least: Option<f64>,
+    /// Period of an unstable cycle nearby.
+    unstable: Option<f64>,
+}
+
+impl Returns {
+    /// The cycle near passages that nearly repeat, if the run ends on it.
+    fn cycle(&mut self, motion: &Motion<'_>, passages: &Passages) -> Option<MotionOrbit> {
+        self.allowed = NEAR.min(RELAXED * self.allowed);
+        let (last, before) = passages.events.split_last()?;
+        let scale = scale_of(motion, &last.state);
+        let earlier = before.iter().rev().take(MOST_PASSAGES);
+        let earlier = earlier.map(|passage| passage.state.as_slice());
+        let (back, distance) = nearest_return(&last.state, earlier)?;
+        let mismatch = distance / scale;
+        self.least = Some(self.least.map_or(mismatch, |known| known.min(mismatch)));
+        if mismatch > self.allowed {
+            return None;
+        }
+        let found = closed(motion, passages, back, scale);
+        self.allowed = 0.5 * mismatch;
+        let cycle = found?;
+        if cycle.verdict() != OrbitVerdict::Unstable || mismatch <= ON_IT {
+            return Some(cycle);
+        }
+        self.unstable = Some(cycle.period);
+        None
+    }
+}
+
+/// The cycle near the last passages, which come back after `back` of them.
+fn closed(
     motion: &Motion<'_>,
     passages: &Passages,
-    least: &mut Option<f64>,
+    back: usize,
+    scale: f64,
 ) -> Option<MotionOrbit> {
     let all = &passages.events;
-    let last = all.last()?;
-    let scale = scale_of(motion, &last.state);
-    for back in 1..=MOST_PASSAGES.min(all.len().saturating_sub(1)) {
-        let before = &all[all.len() - 1 - back];
-        let pairs = before.state.iter().zip(&last.state);
-        let mismatch = pairs.fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())) / scale;
-        *least = Some(least.map_or(mismatch, |known| known.min(mismatch)));
-        if mismatch > NEAR {
-            continue;
-        }
-        // The longest quiet interval between the two passages.
-        let quiet = &passages.quiet[all.len() - back..all.len()];
-        let longest = quiet.iter().max_by(|a, b| a.2.total_cmp(&b.2))?;
-        let period = last.time - before.time;
-        let closed = close(motion, &longest.1, period, scale);
-        if let Some((state, period)) = closed.filter(|closed| moves(motion, closed, scale)) {
-            let (state, period) = least_period(motion, (state, period), back, scale);
-            return reported(motion, &state, period);
-        }
+    let first = all.len().checked_sub(back + 1)?;
+    // The longest quiet interval of the period.
+    let quiet = passages.quiet[first + 1..all.len()].iter();
+    let longest = quiet.max_by(|a, b| a.2.total_cmp(&b.2))?;
+    let period = all.last()?.time - all[first].time;
+    let cycle = close(motion, &longest.1, period, scale)?;
+    if !moves(motion, &cycle, scale) {
+        return None;
     }
-    None
+    let (state, period) = least_period(motion, cycle, back, scale);
+    reported(motion, &state, period)
 }
 
 /// Whether the state moves: an equilibrium closes after any time, and is no cycle.
 fn moves(motion: &Motion<'_>, (state, period): &(Vec<f64>, f64), scale: f64) -> bool {
     rates(motion, state)
-        .is_some_and(|rates| rates.iter().any(|rate| rate.abs() * period > EQUILIBRIUM * scale))
+        .is_some_and(|rates| rates.iter().any(|rate| rate.abs() * period > COARSE * scale))
 }
 
 /// The least period of a cycle closed after several passages.
@@ -285,7 +257,7 @@ fn least_period(
     for parts in (2..=passages).rev() {
         let part = period / parts as f64;
         let is_near = shot(motion, &state, part, None).is_ok_and(|(image, _)| {
-            image.state.iter().zip(&state).all(|(a, b)| (a - b).abs() <= PART * scale)
+            image.state.iter().zip(&state).all(|(a, b)| (a - b).abs() <= COARSE * scale)
         });
         if is_near && let Some(found) = close(motion, &state, part, scale) {
             return found;
@@ -299,12 +271,14 @@ fn close(motion: &Motion<'_>, guess: &[f64], period: f64, scale: f64) -> Option<
     let n = guess.len();
     let (mut state, mut time) = (guess.to_vec(), period);
     let mut best = f64::INFINITY;
-    for _ in 0..30 {
+    for _ in 0..NEWTON_STEPS {
         let (image, _) = shot(motion, &state, time, None).ok()?;
         let mismatch: Vec<f64> = image.state.iter().zip(&state).map(|(a, b)| a - b).collect();
         let residual = mismatch.iter().fold(0.0, |m: f64, r| m.max(r.abs()));
-        if residual <= CLOSED * scale || residual <= 1e-10 * scale && residual > 0.3 * best {
-            let is_same = (time - period).abs() < 0.2 * period;
+        let is_stagnant = residual <= STAGNANT * scale && residual > SHRINKS * best;
+        if residual <= CLOSED * scale || is_stagnant {
+            let is_same =
+                (time - period).abs() < SAME * period && distance(&state, guess) <= SAME * scale;
             return is_same.then_some((state, time));
         }
         best = best.min(residual);
@@ -319,14 +293,15 @@ fn close(motion: &Motion<'_>, guess: &[f64], period: f64, scale: f64) -> Option<
         });
         let right = Matrix::from_fn(n + 1, 1, |i, _| if i < n { -mismatch[i] } else { 0.0 });
         let step = system.solve(&right).filter(Matrix::is_finite)?;
-        let share = (0.3 * scale
+        let share = (LONGEST_STEP * scale
             / step.as_slice()[..n].iter().fold(0.0, |m: f64, s| m.max(s.abs())))
         .min(1.0);
         for (value, step) in state.iter_mut().zip(step.as_slice()) {
             *value += share * step;
         }
         time += share * step.as_slice()[n];
-        if !(time > 0.3 * period && time < 3.0 * period) {
+        // A shot over another time costs in vain: the cycle would not be the one that the run repeats.
+        if (time - period).abs() > 2.0 * SAME * period {
             return None;
         }
     }
@@ -345,7 +320,7 @@ fn rates(motion: &Motion<'_>, state: &[f64]) -> Option<Vec<f64>> {
     }
     let mut first = First(None, state.len());
     let start = MotionStart { time: 0.0, state: state.to_vec() };
-    motion.run(&start, 1e-6 * motion.time_scale(), MOTION_TOLERANCE, &mut first).ok()?;
+    motion.run(&start, MOMENT * motion.time_scale(), MOTION_TOLERANCE, &mut first).ok()?;
     first.0
 }
 

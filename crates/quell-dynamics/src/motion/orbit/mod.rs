@@ -7,17 +7,21 @@
 //! |---|---|
 //! | `family` | one period with its derivative and its signature |
 //! | `periodic` | a periodic motion, its multipliers and verdict; found near a state, or continued from steady sliding |
-//! | `free` | limit cycles without dither |
+//! | `free`, `passages`, `watch` | limit cycles without dither: the search, its section, and its length |
+//! | `recurrence` | when a run comes back near its own states |
 //! | `settled` | the periodic motion on which a run ends |
 //! | `thresholds` | values of a parameter at which the base response gains or loses stability |
 
 pub mod family;
 mod free;
+mod passages;
 mod periodic;
+mod recurrence;
 mod settled;
 mod thresholds;
+mod watch;
 
 pub use free::{NoCycle, free_cycle};
 pub use periodic::{MotionOrbit, NoMotionOrbit, base_motion, motion_near, sliding_state};
-pub use settled::{SettledMotion, settled};
+pub use settled::{MOST_PERIODS, SettledMotion, settled};
 pub use thresholds::{MotionThreshold, MotionThresholds, motion_thresholds};

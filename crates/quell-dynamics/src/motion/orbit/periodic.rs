@@ -5,17 +5,20 @@ use std::fmt;
 use num_complex::Complex64;
 use quell_linear::steady::{NoSteadySliding, SteadySliding};
 use quell_model::System;
-use quell_model::profile::Profile;
 use quell_numerics::continuation::branch::{End, Follow, follow};
 use quell_numerics::continuation::shooting::{NotClosed, Shooting, fixed_point};
 use quell_numerics::continuation::{modulus, multipliers, spectral_radius};
 
-use super::super::{Immobile, Motion, RecordedEvent};
-use super::family::{MotionFamily, MotionSignature, NoImage, shot, time_of};
+use super::super::{Immobile, MOTION_TOLERANCE, Motion, RecordedEvent};
+use super::family::{MotionFamily, MotionSignature, NoImage, shot, shot_within, time_of};
 use crate::orbit::OrbitVerdict;
 
 /// Accuracy of an image, relative to the size of the state.
-const NOISE: f64 = 1e-13;
+const NOISE: f64 = MOTION_TOLERANCE;
+
+/// Tolerance of a second integration, whose multipliers are compared: their difference bounds the error of the first, which is
+/// smaller by a factor of up to a thousand.
+const COARSE_TOLERANCE: f64 = 1e3 * MOTION_TOLERANCE;
 
 /// A periodic motion.
 #[derive(Clone, Debug)]
@@ -30,7 +33,8 @@ pub struct MotionOrbit {
     pub state_error: f64,
     /// Multipliers, the largest modulus first; of a limit cycle the 1 of its phase included.
     pub multipliers: Vec<Complex64>,
-    /// Estimated error of the modulus of the deciding multiplier.
+    /// Estimated error of the modulus of the deciding multiplier: its difference from an integration with a thousand times the
+    /// tolerance, and an estimate of what the error of the state adds.
     pub multiplier_error: f64,
     /// Events over the period.
     pub events: Vec<RecordedEvent>,
@@ -40,30 +44,31 @@ pub struct MotionOrbit {
     pub is_free: bool,
     /// Whether independent events coincide, so that the multipliers are one-sided.
     pub is_one_sided: bool,
+    judged: OrbitVerdict,
 }
 
 impl MotionOrbit {
     /// Modulus of the multiplier that decides: the largest, without the 1 of a free phase.
     pub fn radius(&self) -> f64 {
-        if !self.is_free {
-            return spectral_radius(&self.multipliers);
-        }
-        let distance = |z: &&Complex64| modulus(**z - 1.0);
-        let trivial = self.multipliers.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        let trivial = trivial.copied();
-        let mut skipped = false;
-        let others = self.multipliers.iter().filter(|z| {
-            let is_trivial = !skipped && Some(**z) == trivial;
-            skipped |= is_trivial;
-            !is_trivial
-        });
-        others.fold(0.0, |m: f64, z| m.max(modulus(*z)))
+        spectral_radius(&deciding(&self.multipliers, self.is_free))
     }
 
-    /// The verdict of the multipliers.
+    /// The verdict of the multipliers: undecided where two integrations of different tolerance disagree about it. They need not agree
+    /// about the multipliers, which nearly simultaneous events of an unstable motion make very sensitive.
     pub fn verdict(&self) -> OrbitVerdict {
-        OrbitVerdict::of(self.radius(), self.multiplier_error)
+        self.judged
     }
+}
+
+/// The multipliers without that of a free phase: the one nearest to 1.
+fn deciding(multipliers: &[Complex64], is_free: bool) -> Vec<Complex64> {
+    let mut others = multipliers.to_vec();
+    if is_free {
+        let distance = |place: &usize| modulus(multipliers[*place] - 1.0);
+        let phase = (0..others.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        phase.map(|place| others.remove(place));
+    }
+    others
 }
 
 /// Why no periodic motion was found.
@@ -161,22 +166,32 @@ pub(crate) fn orbit_at(
     let residual = largest(&mismatch);
     let found =
         multipliers(&image.derivative).ok_or(NoMotionOrbit::NotConverged { steps: 0, residual })?;
-    let noise = residual + NOISE * largest(state);
-    let slowness = found.iter().fold(f64::INFINITY, |m: f64, z| {
-        let distance = modulus(*z - 1.0);
-        if is_free && distance < 1e-6 { m } else { m.min(distance) }
-    });
+    let size = largest(state).max(f64::MIN_POSITIVE);
+    let noise = residual + NOISE * size;
+    let others = deciding(&found, is_free);
+    let distances = others.iter().map(|z| modulus(*z - 1.0));
+    let slowness = distances.fold(1.0, f64::min);
+    // How the multiplier varies with the state is not known: it is taken to vary by itself over the size of the state. What the
+    // integration leaves is measured.
+    let by_state = noise / size / slowness;
+    let radius = spectral_radius(&others);
+    let coarse = shot_within(motion, state, period, None, COARSE_TOLERANCE).ok();
+    let coarse = coarse.and_then(|(image, _)| multipliers(&image.derivative));
+    let coarse = coarse.map_or(radius, |coarse| spectral_radius(&deciding(&coarse, is_free)));
+    let verdicts = [radius, coarse].map(|radius| OrbitVerdict::of(radius, by_state));
+    let judged = if verdicts[0] == verdicts[1] { verdicts[0] } else { OrbitVerdict::Undecided };
     Ok(MotionOrbit {
         state: state.to_vec(),
         period,
         residual,
-        state_error: noise / slowness.min(1.0),
-        multiplier_error: noise / largest(state).max(f64::MIN_POSITIVE) / slowness.min(1.0),
+        state_error: noise / slowness,
+        multiplier_error: by_state + (coarse - radius).abs(),
         multipliers: found,
         events: met.events,
         signature: image.signature,
         is_free,
         is_one_sided: met.is_one_sided,
+        judged,
     })
 }
 
@@ -208,8 +223,7 @@ pub fn motion_near(
 
 /// The common period, of a system that has one.
 fn period_of(motion: &Motion<'_>, periods: u32) -> Result<f64, NoMotionOrbit> {
-    let waves = motion.system().inputs.iter().any(|input| !input.profile.waves().is_empty());
-    if !waves {
+    if !motion.system().has_waves() {
         return Err(NoMotionOrbit::NoDither);
     }
     time_of(motion, periods.max(1)).map_err(NoMotionOrbit::NoImage)
@@ -224,7 +238,7 @@ pub fn base_motion(system: &System, steps: u32) -> Result<MotionOrbit, NoMotionO
     let motion = Motion::new(system).map_err(NoMotionOrbit::Immobile)?;
     let period = period_of(&motion, 1)?;
     let sliding = sliding_state(system).map_err(NoMotionOrbit::NoSliding)?;
-    let at = |factor: &[f64]| Ok(amplified(system, factor[0]));
+    let at = |factor: &[f64]| Ok(system.with_amplitudes_scaled(factor[0]));
     let scale = scale_of(&motion, &sliding);
     let family = MotionFamily { at: &at, periods: 1, size: sliding.len(), scale };
     let branch = follow(&family, &sliding, 0.0, true, Follow::window(0.0, 1.0, steps))?;
@@ -251,19 +265,4 @@ pub fn sliding_state(system: &System) -> Result<Vec<f64>, NoSteadySliding> {
     let mut state = SteadySliding::new(system)?.position;
     state.resize(system.structure.state_size(), 0.0);
     Ok(state)
-}
-
-/// The system with the waves of its inputs multiplied by a factor.
-fn amplified(system: &System, factor: f64) -> System {
-    let mut system = system.clone();
-    for input in &mut system.inputs {
-        let waves = input.profile.waves().iter();
-        let mean = Profile::constant(input.profile.mean());
-        input.profile = waves.fold(mean, |profile, wave| {
-            let mut wave = *wave;
-            wave.amplitude *= factor;
-            profile.with(wave)
-        });
-    }
-    system
 }

@@ -5,18 +5,27 @@ use quell_model::System;
 use super::super::{MOTION_TOLERANCE, Motion, MotionStart};
 use super::family::{NoImage, time_of};
 use super::periodic::{MotionOrbit, NoMotionOrbit, motion_near, scale_of};
+use super::recurrence::{NEAR, SAME, distance, nearest_return};
+use crate::orbit::OrbitVerdict;
+
+/// Common periods within which a run must settle, where its caller has no reason for another number: `orbit` and `response` thus give
+/// one verdict on one run.
+pub const MOST_PERIODS: u32 = 4000;
 
 /// Common periods in a motion's own period that are tried.
 const MOST_MULTIPLES: usize = 12;
 
+/// Share of its earlier distance to which a run must come nearer to the orbit on which it ends. Slower runs are given more periods.
+const NEARER: f64 = 0.9;
+
 /// States kept of a run that does not settle.
 const KEPT: usize = 100;
 
-/// Mismatch, relative to the state, below which Newton's method is tried.
-const NEAR: f64 = 3e-2;
+/// Periods before the first attempt, and between attempts at first.
+const FIRST_ATTEMPT: u32 = 8;
 
-/// Distance, relative to the state, between an orbit and a run that is on its way to it.
-const SAME: f64 = 0.2;
+/// Attempts are repeated after this part of the periods so far: their number grows with the logarithm of the run's length.
+const ATTEMPTS_APART: u32 = 3;
 
 /// Where a run ends.
 #[derive(Clone, Debug)]
@@ -41,7 +50,7 @@ pub fn settled(system: &System, start: &[f64], most: u32) -> Result<SettledMotio
     let period = time_of(&motion, 1).map_err(NoMotionOrbit::NoImage)?;
     let mut states = vec![start.to_vec()];
     let mut from = MotionStart { time: 0.0, state: start.to_vec() };
-    let mut next_try = 8;
+    let mut next_try = FIRST_ATTEMPT;
     for count in 1..=most {
         let until = f64::from(count) * period;
         let end = motion
@@ -55,7 +64,7 @@ pub fn settled(system: &System, start: &[f64], most: u32) -> Result<SettledMotio
         if let Some((orbit, multiple)) = closed(system, &motion, &states) {
             return Ok(SettledMotion { orbit, multiple, periods: count });
         }
-        next_try = count + (count / 3).max(8);
+        next_try = count + (count / ATTEMPTS_APART).max(FIRST_ATTEMPT);
     }
     let last = states.split_off(states.len().saturating_sub(KEPT));
     Err(NoMotionOrbit::Unsettled { periods: most, last })
@@ -65,17 +74,24 @@ pub fn settled(system: &System, start: &[f64], most: u32) -> Result<SettledMotio
 fn closed(system: &System, motion: &Motion<'_>, states: &[Vec<f64>]) -> Option<(MotionOrbit, u32)> {
     let last = states.last()?;
     let scale = scale_of(motion, last);
-    let distance =
-        |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-    let most = MOST_MULTIPLES.min(states.len() - 1);
-    let (multiple, mismatch) = (1..=most)
-        .map(|back| (back, distance(last, &states[states.len() - 1 - back])))
-        .reduce(|best, next| if next.1 < 0.3 * best.1 { next } else { best })?;
-    if mismatch > NEAR * scale {
+    let earlier = states.iter().rev().skip(1).take(MOST_MULTIPLES);
+    let (multiple, mismatch) = nearest_return(last, earlier.map(Vec::as_slice))?;
+    if mismatch > SAME * scale {
         return None;
     }
-    let multiple = u32::try_from(multiple).ok()?;
-    let orbit = motion_near(system, last, multiple).ok()?;
-    let is_near = distance(&orbit.state, last) <= SAME * scale;
-    (is_near && orbit.radius() < 1.0).then_some((orbit, multiple))
+    let count = u32::try_from(multiple).ok()?;
+    let orbit = motion_near(system, last, count).ok()?;
+    let is_near = distance(&orbit.state, last) <= SAME * scale
+        && (mismatch <= NEAR * scale || approaches(states, &orbit.state, multiple));
+    (is_near && orbit.verdict() == OrbitVerdict::Stable).then_some((orbit, count))
+}
+
+/// Whether a run comes nearer to an orbit of `multiple` periods: its largest distance over the last third of the states is less than
+/// over the third before. A run that circles about an orbit at a constant distance ends on another motion.
+fn approaches(states: &[Vec<f64>], orbit: &[f64], multiple: usize) -> bool {
+    let distances = states.iter().rev().step_by(multiple).map(|state| distance(state, orbit));
+    let distances: Vec<f64> = distances.collect();
+    let third = distances.len() / 3;
+    let largest = |part: &[f64]| part.iter().fold(0.0, |most: f64, value| most.max(*value));
+    third > 0 && largest(&distances[..third]) < NEARER * largest(&distances[third..2 * third])
 }

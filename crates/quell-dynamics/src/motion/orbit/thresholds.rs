@@ -83,7 +83,6 @@ pub fn motion_thresholds(
     let scale = scale_of(&motion, &state);
     let family = MotionFamily { at, periods, size: state.len(), scale };
     let branch = follow(&family, &state, from, to > from, Follow::window(from, to, steps))?;
-    let is_undithered = first.inputs.iter().all(|input| input.profile.waves().is_empty());
     let mut thresholds = Vec::new();
     for point in &branch.special_points {
         let (was, becomes) = (verdict(point.below.as_ref()), verdict(point.above.as_ref()));
@@ -91,7 +90,7 @@ pub fn motion_thresholds(
             continue;
         }
         let kind = match kind_of(&family, point) {
-            ThresholdKind::NeimarkSacker if is_undithered => ThresholdKind::Hopf,
+            ThresholdKind::NeimarkSacker if !first.has_waves() => ThresholdKind::Hopf,
             kind => kind,
         };
         thresholds.push(MotionThreshold {

@@ -5,7 +5,6 @@
 //! extremes is a straight line of slope σ over their times. The slope of the least-squares line is the observed growth rate.
 
 use quell_dynamics::motion::{ContactPhase, MotionObserver, MotionSegment};
-use quell_dynamics::simulation::ORDER;
 
 /// Largest relative change of load and slip velocity of a small motion.
 const SMALL: f64 = 0.01;
@@ -13,14 +12,8 @@ const SMALL: f64 = 0.01;
 /// Fewest extremes that give a growth rate.
 const LEAST_EXTREMES: u64 = 6;
 
-/// Parts of a step in which an extreme is searched: a step is shorter than the period of the fastest motion.
+/// Parts of a step at whose ends loads and slip velocities are looked at: a step is shorter than the period of the fastest motion.
 const PARTS: u32 = 8;
-
-/// Halvings of the interval that contains an extreme.
-const HALVINGS: usize = 50;
-
-/// Taylor coefficients over a step.
-type RowCoefficients = [f64; ORDER + 1];
 
 /// Load and slip velocity of a contact in steady sliding.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,17 +94,6 @@ impl RowWatch {
         ))
     }
 
-    /// Taylor coefficients of the row times the part of the state from a place on.
-    fn series(&self, segment: &MotionSegment<'_>, from: usize) -> RowCoefficients {
-        let mut series = [0.0; ORDER + 1];
-        let states = segment.states();
-        let orders = states.chunks(states.len() / (ORDER + 1));
-        for (coefficient, state) in series.iter_mut().zip(orders) {
-            *coefficient = self.row.iter().zip(&state[from..]).map(|(weight, x)| weight * x).sum();
-        }
-        series
-    }
-
     /// Whether every contact slips near its steady load and slip velocity at a moment of a step.
     fn stays_small(&self, segment: &MotionSegment<'_>, since: f64) -> bool {
         self.levels.iter().enumerate().all(|(contact, level)| {
@@ -133,39 +115,24 @@ impl RowWatch {
     }
 }
 
-/// The zero of a series between two moments at which its signs differ.
-fn zero_between(series: &RowCoefficients, mut low: f64, mut high: f64) -> f64 {
-    let rises = MotionSegment::value(series, high) > 0.0;
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if (MotionSegment::value(series, middle) > 0.0) == rises {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    0.5 * (low + high)
-}
-
 impl MotionObserver for RowWatch {
     fn segment(&mut self, segment: &MotionSegment<'_>) {
-        let (value, rate) = (self.series(segment, 0), self.series(segment, self.row.len()));
+        let series = segment.row(&self.row, 0);
+        let mut turns = segment.turning_points(&series).into_iter().peekable();
         let part = segment.duration() / f64::from(PARTS);
-        for number in 0..PARTS {
-            let (low, high) = (f64::from(number) * part, f64::from(number + 1) * part);
+        for number in 1..=PARTS {
+            let high = f64::from(number) * part;
             self.is_small = self.is_small && self.stays_small(segment, high);
-            let falls = MotionSegment::value(&rate, low);
-            if falls * MotionSegment::value(&rate, high) < 0.0 {
-                let since = zero_between(&rate, low, high);
-                let (time, extreme) =
-                    (segment.clock().after(since).time(), MotionSegment::value(&value, since));
+            while let Some(since) = turns.next_if(|since| *since <= high || number == PARTS) {
+                let time = segment.clock().after(since).time();
+                let extreme = MotionSegment::value(&series, since);
                 self.take(time, extreme);
                 let size = (extreme - self.middle).abs();
                 if self.is_small && size > 0.0 {
                     self.line.add(time, libm::log(size));
                 }
             }
-            self.take(segment.clock().after(high).time(), MotionSegment::value(&value, high));
+            self.take(segment.clock().after(high).time(), MotionSegment::value(&series, high));
         }
     }
 }

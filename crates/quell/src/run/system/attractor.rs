@@ -9,7 +9,6 @@ use quell_model::System;
 use quell_model::units::Quantity;
 
 use super::cycle_samples::CycleSamples;
-use super::is_dithered;
 use crate::fields::Fields;
 use crate::study::SystemStudy;
 use crate::words::{digits, plural};
@@ -82,7 +81,7 @@ pub fn end_of_run(
     start: &[f64],
     most: u32,
 ) -> Result<EndOfRun, String> {
-    if !is_dithered(system) && period(system).is_none() {
+    if !system.is_dithered() && period(system).is_none() {
         return undithered(system, row, start);
     }
     let (kind, state, states, length, periods) = match settled(system, start, most) {

@@ -8,9 +8,9 @@ use rayon::prelude::*;
 
 use super::attractor::{EndOfRun, SystemAttractor, end_of_run};
 use super::cycle::BASE_STEPS;
+use super::has_equations;
 use super::protocol::SystemProtocol;
 use super::start::{state_names, state_quantity};
-use super::{has_equations, is_dithered};
 use crate::complaint::{Complaint, Complaints, Failure};
 use crate::quantity;
 use crate::run::basins::{BasinsRequest, MOST_STARTS, Share, StartLayout};
@@ -184,7 +184,7 @@ pub fn run(
     });
     running.progress.end();
     let gathered = gathered(ends?, request.grid);
-    let local = if is_dithered(system) {
+    let local = if system.is_dithered() {
         let base = base_motion(system, BASE_STEPS);
         base.map(|orbit| orbit.verdict().name()).map_err(|why| why.to_string())
     } else {

@@ -3,13 +3,18 @@
 use quell_dynamics::motion::orbit::{MotionOrbit, base_motion, free_cycle, sliding_state};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::System;
-use quell_model::profile::Profile;
 
 /// Velocities of kicked starts, over that of the surface: at 1 the contact moves with it.
 const KICKS: [f64; 3] = [1.0, 0.5, 2.0];
 
 /// Share of a kick by which those of the contacts differ.
 const UNEQUAL: f64 = 0.3;
+
+/// Disturbances of an unstable cycle from which further runs start. They are pseudo-random, the same in every run of the program.
+const DISTURBANCES: u64 = 3;
+
+/// Largest disturbance of a number of the state, relative to the largest.
+const DISTURBED: f64 = 1e-2;
 
 /// Steps in which the base response is continued from steady sliding.
 pub(crate) const BASE_STEPS: u32 = 8;
@@ -36,20 +41,58 @@ pub struct CycleSearch {
 pub type NamedStart = (String, Vec<f64>);
 
 /// The limit cycle that a run from the first successful start reaches. A cycle that is not stable, on which only symmetric
-/// runs end, is kept for the case that no other is found.
+/// runs end, is kept for the case that no other is found, neither from the other starts nor from small disturbances of it.
 pub fn search(system: &System, starts: Vec<NamedStart>) -> CycleSearch {
-    let mut tried = Vec::new();
-    let mut unstable = None;
-    for (start, state) in starts {
-        match free_cycle(system, &state) {
-            Ok(cycle) if cycle.verdict() != OrbitVerdict::Stable => {
-                unstable.get_or_insert((cycle, start));
-            }
-            Ok(cycle) => return CycleSearch { found: Some((cycle, start)), tried },
-            Err(why) => tried.push(TriedStart { start, outcome: why.to_string() }),
+    let mut search = CycleSearch { found: None, tried: Vec::new() };
+    for start in starts {
+        if search.is_stable_from(system, start) {
+            return search;
         }
     }
-    CycleSearch { found: unstable, tried }
+    let unstable = search.found.as_ref().filter(|(c, _)| c.verdict() == OrbitVerdict::Unstable);
+    let Some(state) = unstable.map(|(cycle, _)| cycle.state.clone()) else { return search };
+    for number in 1..=DISTURBANCES {
+        let start = format!("from the unstable cycle with disturbance {number}");
+        if search.is_stable_from(system, (start, disturbed(&state, number))) {
+            return search;
+        }
+    }
+    search
+}
+
+impl CycleSearch {
+    /// Whether the run from a start reaches a stable cycle, which is then the one found.
+    fn is_stable_from(&mut self, system: &System, (start, state): NamedStart) -> bool {
+        let outcome = match free_cycle(system, &state) {
+            Ok(cycle) if cycle.verdict() == OrbitVerdict::Stable => {
+                self.found = Some((cycle, start));
+                return true;
+            }
+            Ok(cycle) if self.found.is_none() => {
+                self.found = Some((cycle, start));
+                return false;
+            }
+            Ok(cycle) => {
+                format!("a cycle of period {:.6}, {}", cycle.period, cycle.verdict().name())
+            }
+            Err(why) => why.to_string(),
+        };
+        self.tried.push(TriedStart { start, outcome });
+        false
+    }
+}
+
+/// A state with pseudo-random disturbances of its numbers (xorshift64, Marsaglia 2003).
+fn disturbed(state: &[f64], number: u64) -> Vec<f64> {
+    let size = state.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let mut bits = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(2 * number + 1);
+    let mut random = || {
+        bits ^= bits << 13;
+        bits ^= bits >> 7;
+        bits ^= bits << 17;
+        (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    state.iter().map(|value| f64::mul_add(DISTURBED * size, random(), *value)).collect()
 }
 
 /// Steady sliding with velocities towards those of the surfaces; empty without steady sliding.
@@ -81,21 +124,12 @@ pub fn usual_starts(system: &System) -> Vec<NamedStart> {
     kicked(system).into_iter().chain([("from rest".to_owned(), rest)]).collect()
 }
 
-/// The system without the waves of its dithers.
-pub fn undithered(system: &System) -> System {
-    let mut system = system.clone();
-    for input in &mut system.inputs {
-        input.profile = Profile::constant(input.profile.mean());
-    }
-    system
-}
-
 /// A state of the stable limit cycle without dither.
 ///
 /// # Errors
 /// What was tried.
 pub fn squealing_state(system: &System) -> Result<Vec<f64>, String> {
-    let system = undithered(system);
+    let system = system.undithered();
     let search = search(&system, usual_starts(&system));
     match search.found {
         Some((cycle, _)) if cycle.verdict() == OrbitVerdict::Stable => Ok(cycle.state),

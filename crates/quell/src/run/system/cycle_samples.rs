@@ -100,9 +100,7 @@ impl MotionObserver for CycleSamples {
             }
         }
         // The series of the observed displacement.
-        let orders = segment.states().chunks(self.size);
-        let series: Vec<f64> =
-            orders.map(|order| self.row.iter().zip(order).map(|(w, x)| w * x).sum()).collect();
+        let series = segment.row(&self.row, 0);
         while self.times.len() <= SAMPLES {
             let time = self.times.len() as f64 * self.step;
             let since = segment.clock().until(time);

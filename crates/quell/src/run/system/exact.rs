@@ -5,7 +5,7 @@ use quell_linear::pure_slip::{SlipExponent, SlipOrbit, orbit};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::{failed, has_equations, is_dithered, oscillating, rate_of};
+use super::{failed, has_equations, oscillating, rate_of};
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::study::SystemStudy;
@@ -23,7 +23,7 @@ pub struct ExactStability {
 /// [`Failure::Failed`] without dither, and where the dithered motion is not pure slip, with the contact and the reason.
 pub fn run(study: &SystemStudy) -> Result<ExactStability, Failure> {
     has_equations(study, "stability --exact")?;
-    if !is_dithered(study.system()) {
+    if !study.system().is_dithered() {
         let why = "the study has no dither: the eigenvalues of `stability` are exact";
         return Err(failed("stability", why));
     }

@@ -9,7 +9,7 @@ use serde_json::Value as Json;
 
 use super::stability::{SlidingContact, put_contact, put_critical};
 use super::validity::{condition, opened, opening};
-use super::{failed, is_dithered, oscillating};
+use super::{failed, oscillating};
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::range::outside_of_laws;
@@ -50,7 +50,7 @@ pub fn run(
     let no_verdict = |why| failed("stability", why);
     let prepared = MeasuredSystem::new(study.system(), &receptance).map_err(no_verdict)?;
     let undithered = prepared.sliding().map_err(no_verdict)?;
-    if !is_dithered(study.system()) {
+    if !study.system().is_dithered() {
         return Ok(MeasuredStability { sliding: undithered, dither: None });
     }
     let sliding = prepared.average(None).map_err(no_verdict)?;

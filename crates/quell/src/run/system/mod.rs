@@ -61,12 +61,6 @@ fn has_equations(study: &SystemStudy, verb: &str) -> Result<(), Failure> {
     Err(Complaint::new(Fault::Conflict, key, Origin::Whole, Json::Null, allowed).into())
 }
 
-/// Whether some dither acts.
-fn is_dithered(system: &System) -> bool {
-    let mut waves = system.inputs.iter().flat_map(|input| input.profile.waves());
-    waves.any(|wave| wave.amplitude != 0.0)
-}
-
 /// A frequency after the noun: in hertz where the study has units.
 fn oscillating(units: SystemUnits, frequency: f64) -> String {
     match units {

@@ -2,7 +2,7 @@
 //! Floquet multipliers; without dither the limit cycle on which a run ends, or what was tried to find one.
 
 use quell_dynamics::motion::orbit::{
-    MotionOrbit, NoMotionOrbit, SettledMotion, base_motion, motion_near, settled,
+    MOST_PERIODS, MotionOrbit, NoMotionOrbit, SettledMotion, base_motion, motion_near, settled,
 };
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
@@ -11,13 +11,10 @@ use super::cycle::{self, BASE_STEPS, CycleSearch, TriedStart};
 use super::cycle_samples::CycleSamples;
 use super::protocol::{SystemProtocol, unnamed};
 use super::start::{StateNumbers, start_with};
-use super::{failed, has_equations, is_dithered};
+use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
 use crate::run::orbit::Wanted;
 use crate::study::SystemStudy;
-
-/// Periods of the dither within which a run must settle.
-pub const MOST_PERIODS: u32 = 4000;
 
 /// The periodic motion to find.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,7 +108,7 @@ pub struct OrbitOfSystem {
 /// Complaints about the request and the start; [`Failure::Failed`] if a motion under dither was not found.
 pub fn run(study: &SystemStudy, wanted: &WantedMotion) -> Result<OrbitOfSystem, Failure> {
     has_equations(study, "orbit")?;
-    if !is_dithered(study.system()) {
+    if !study.system().is_dithered() {
         return undithered(study, wanted);
     }
     let system = study.system();
@@ -147,7 +144,7 @@ fn with_samples(
     by: FoundBy,
 ) -> FoundMotion {
     let samples = if orbit.is_free {
-        CycleSamples::of(&cycle::undithered(study.system()), &study.observe(), &orbit)
+        CycleSamples::of(&study.system().undithered(), &study.observe(), &orbit)
     } else {
         CycleSamples::of(study.system(), &study.observe(), &orbit)
     };
@@ -187,7 +184,7 @@ fn undithered(study: &SystemStudy, wanted: &WantedMotion) -> Result<OrbitOfSyste
         let allowed = "1: without dither there is no dither period to count";
         return Err(Complaint::option("--periods", *periods, allowed).into());
     }
-    let free = cycle::undithered(system);
+    let free = system.undithered();
     let given = |protocol: &SystemProtocol| -> Result<cycle::NamedStart, Failure> {
         Ok((protocol.words(study), protocol.state(study, &free)?))
     };

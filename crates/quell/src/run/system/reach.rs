@@ -100,7 +100,7 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Fa
         return Err(failed("resonances", "the study has no dither whose reach could be computed"));
     }
     let linear = Linearised::new(system).map_err(|why| failed("resonances", why))?;
-    let waves = system.inputs.iter().flat_map(|input| input.profile.waves());
+    let waves = system.waves();
     let own = waves.map(|wave| wave.frequency).fold(0.0, f64::max);
     let (from, to) = range.unwrap_or((0.1 * own, 10.0 * own));
     if !(from > 0.0 && to > from && to.is_finite()) {

@@ -98,7 +98,7 @@ impl SettledSystem {
         self.response.effect != Effect::Unknown(Uncertain::NoDither)
     }
 
-    /// Whether M of the halves of the record with dither agree.
+    /// Whether the run with dither ends on an orbit, or M of the halves of its record agree.
     fn settled(&self) -> bool {
         let vibrations = &self.response.vibrations;
         vibrations.dithered.is_settled(vibrations.undithered.whole())
@@ -219,7 +219,14 @@ impl SettledSystem {
         fields
             .number("band_end", Quantity::FrequencyRatio, response.band_end)
             .plain("settled", self.settled())
-            .plain("undithered_settled", self.undithered_settled());
+            .plain("settled_on", with.ending.name())
+            .plain("undithered_settled", self.undithered_settled())
+            .plain("undithered_settled_on", without.ending.name());
+        for (name, record) in [("period", with), ("undithered_period", without)] {
+            let why = "the run was not found to end on a periodic motion";
+            let period = record.ending.period().ok_or_else(|| why.to_owned());
+            fields.known(name, Quantity::Time, period);
+        }
         let peaks = with.spectrum.peaks(PEAK_FLOOR).into_iter().map(|peak| {
             let mut inner = Fields::of_system(units);
             inner.number("frequency", Quantity::FrequencyRatio, peak.frequency).number(
@@ -286,9 +293,9 @@ impl SettledSystem {
 fn put_record(fields: &mut Fields, prefix: &str, record: &SystemRecord) {
     let lengths = [
         ("amplitude", record.lines.whole),
-        ("half_peak_to_peak", 0.5 * record.row.range()),
-        ("rms", record.row.deviation()),
-        ("mean", record.row.mean()),
+        ("half_peak_to_peak", 0.5 * record.observed.range()),
+        ("rms", record.observed.deviation()),
+        ("mean", record.observed.mean()),
     ];
     for (name, value) in lengths {
         fields.number(&format!("{prefix}{name}"), Quantity::Displacement, value);

@@ -144,12 +144,6 @@ pub(super) fn beyond_laws(system: &System, meters: &[&ContactMeter]) -> Vec<Stri
     contacts.filter_map(|(index, contact)| range::at_contact(contact, largest(index))).collect()
 }
 
-/// Angular frequencies of the dithers that act.
-pub(super) fn dither_frequencies(system: &System) -> impl Iterator<Item = f64> {
-    let waves = system.inputs.iter().flat_map(|input| input.profile.waves());
-    waves.filter(|wave| wave.amplitude != 0.0).map(|wave| wave.frequency)
-}
-
 /// Period of the slowest oscillation of the structure, contacts closed and without friction, or of the dither.
 ///
 /// # Errors
@@ -157,7 +151,7 @@ pub(super) fn dither_frequencies(system: &System) -> impl Iterator<Item = f64> {
 pub(crate) fn slowest_period(study: &SystemStudy, option: &'static str) -> Result<f64, Failure> {
     let found = modes::run(study)?;
     let oscillating = found.modes.iter().filter(|mode| mode.eigenvalue.im > mode.error);
-    let slowest = oscillating.map(modes::natural).chain(dither_frequencies(study.system()));
+    let slowest = oscillating.map(modes::natural).chain(study.system().acting_frequencies());
     let slowest = slowest.fold(f64::INFINITY, f64::min);
     if slowest.is_finite() {
         return Ok(TAU / slowest);
@@ -169,7 +163,7 @@ pub(crate) fn slowest_period(study: &SystemStudy, option: &'static str) -> Resul
 /// Number of intervals between samples, and whether it had to be limited.
 fn grid(motion: &Motion<'_>, length: f64) -> (usize, bool) {
     let own = TAU * motion.time_scale();
-    let fastest = dither_frequencies(motion.system()).map(|rate| TAU / rate).fold(own, f64::min);
+    let fastest = motion.system().acting_frequencies().map(|rate| TAU / rate).fold(own, f64::min);
     let wanted = (SAMPLES_PER_PERIOD * length / fastest).ceil().max(LEAST_SAMPLES);
     let columns = motion.size() + 4 * motion.system().contacts.len() + 1;
     let most = (MOST_NUMBERS / columns as f64).floor();

@@ -10,10 +10,7 @@ use serde_json::Value as Json;
 
 use super::modes::natural;
 use super::validity::{condition, opened, opening};
-use super::{
-    failed, force, has_equations, is_dithered, not_averaged, oscillating, put_motion, rate_of,
-    upper,
-};
+use super::{failed, force, has_equations, not_averaged, oscillating, put_motion, rate_of, upper};
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::range::outside_of_laws;
@@ -69,7 +66,7 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
         spectrum(&linear, &linear.friction()).map_err(|why| failed("stability", why))?;
     let mut warnings = study.warnings().to_vec();
     warnings.extend(outside_of_laws(system, None));
-    if !is_dithered(system) {
+    if !system.is_dithered() {
         let contacts = linear.contacts().iter().zip(linear.friction());
         let contacts = contacts
             .map(|(contact, friction)| SlidingContact {
@@ -102,7 +99,7 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
 
 /// The warning about motions that are not much slower than the dither.
 fn not_slow(study: &SystemStudy, undithered: &MotionSpectrum) -> Option<String> {
-    let waves = study.system().inputs.iter().flat_map(|input| input.profile.waves());
+    let waves = study.system().waves();
     let slowest = waves.map(|wave| wave.frequency).fold(f64::INFINITY, f64::min);
     let near = upper(undithered).filter(|motion| natural(motion) * FAR > slowest);
     let distance = |motion: &SmallMotion| (natural(motion) - slowest).abs();

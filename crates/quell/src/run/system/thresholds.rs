@@ -11,12 +11,12 @@ use quell_linear::spectrum;
 use quell_model::System;
 use serde_json::Value as Json;
 
-use super::cycle::{BASE_STEPS, undithered};
+use super::cycle::BASE_STEPS;
 use super::protocol::SystemProtocol;
 use super::start::{StateNumbers, start_with};
 use super::switches::{RunSwitches, run_switches};
 use super::tracked::{TrackRequest, understood};
-use super::{failed, has_equations, is_dithered};
+use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::run::thresholds::ThresholdsRequest;
 use crate::study::SystemStudy;
@@ -77,10 +77,10 @@ pub struct MotionThresholdsFound {
 /// Whether some dither acts at an end of the window.
 pub fn is_dithered_within(study: &SystemStudy, request: &MotionThresholdsRequest) -> bool {
     let (from, to) = request.window;
-    is_dithered(study.system())
+    study.system().is_dithered()
         || [from, to].iter().any(|value| {
             let numbers = [(request.parameter.as_str(), *value)];
-            study.system_at(&numbers).is_ok_and(|system| is_dithered(&system))
+            study.system_at(&numbers).is_ok_and(|system| system.is_dithered())
         })
 }
 
@@ -143,10 +143,10 @@ pub fn run(
 
 /// Whether a dither is not fast in comparison with the fastest growing motion.
 fn reaches_the_band(system: &System) -> bool {
-    let free = undithered(system);
+    let free = system.undithered();
     let Ok(linear) = Linearised::new(&free) else { return false };
     let Ok(growth) = spectrum::growth(&linear, &linear.friction()) else { return false };
-    let waves = system.inputs.iter().flat_map(|input| input.profile.waves());
+    let waves = system.waves();
     let lowest = waves.map(|wave| wave.frequency).fold(f64::INFINITY, f64::min);
     lowest <= BAND_END * growth.frequency
 }

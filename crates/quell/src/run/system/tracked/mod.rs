@@ -12,7 +12,7 @@ use quell_numerics::matrix::Matrix;
 use serde_json::Value as Json;
 
 use super::validity::ContactRanges;
-use super::{failed, has_equations, is_dithered};
+use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::study::SystemStudy;
 
@@ -77,7 +77,7 @@ impl Family for StudyFamily<'_> {
             self.fixed.into_iter().chain([(self.path, value)]).collect();
         let at = self.fixed.map_or(value, |(_, along)| along);
         let system = self.study.system_at(&numbers).map_err(|why| why.to_string())?;
-        if is_dithered(&system) {
+        if system.is_dithered() {
             let prepared = DitheredSystem::new(&system).map_err(|why| why.to_string())?;
             let average = prepared.average().map_err(|why| why.to_string())?;
             ContactRanges::add(self.recorded, at, &system, Some(&average.contacts));
@@ -118,7 +118,7 @@ pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStabili
             extend(&mut curves, (value, step), thresholds, width);
         }
     }
-    let averaged = is_dithered(study.system());
+    let averaged = study.system().is_dithered();
     let contacts = recorded.map(RefCell::into_inner);
     Ok(TrackedStability { request: request.clone(), averaged, tracked, curves, contacts })
 }
@@ -191,7 +191,7 @@ pub fn thresholds(
     study: &SystemStudy,
     request: &TrackRequest,
 ) -> Result<TrackedStability, Failure> {
-    if is_dithered(study.system()) {
+    if study.system().is_dithered() {
         let allowed = "left out: thresholds of the periodic motions of a dithered system are not followed along a second parameter \
                        yet. `stability --parameter --along` follows those of averaging.";
         return Err(Complaint::new(

@@ -1,0 +1,43 @@
+//! Runs that come back near one of their own states: when Newton's method may close an orbit there, and whether the orbit is the
+//! one on which the run ends.
+
+/// Mismatch of two states, relative to their size, below which Newton's method is tried. A larger value costs attempts that fail,
+/// a smaller one only time until the run is nearer.
+pub(super) const NEAR: f64 = 3e-2;
+
+/// Distance, relative to the state, between an orbit and a run that is on its way to it. An orbit further away is another one.
+pub(super) const SAME: f64 = 0.2;
+
+/// A run repeats itself after several periods, not one, if its states are nearer to each other by this factor. Errors cost one
+/// attempt: a multiple of the least period is reduced later.
+const MUCH_NEARER: f64 = 0.3;
+
+/// Largest difference of the numbers of two states.
+pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+}
+
+/// After how many of the earlier states, the latest first and counted from 1, a state comes back, and its distance then.
+pub(super) fn nearest_return<'a>(
+    last: &[f64],
+    earlier: impl Iterator<Item = &'a [f64]>,
+) -> Option<(usize, f64)> {
+    let distances = earlier.enumerate().map(|(place, state)| (place + 1, distance(last, state)));
+    distances.reduce(|best, next| if next.1 < MUCH_NEARER * best.1 { next } else { best })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_state_comes_back_after_the_fewest_that_are_about_as_near() {
+        let states = [[0.02], [0.001], [0.5], [0.0009], [1e-5]];
+        let after =
+            |count: usize| nearest_return(&[0.0], states[..count].iter().map(<[f64; 1]>::as_slice));
+        assert_eq!(after(0), None);
+        assert_eq!(after(1), Some((1, 0.02)));
+        assert_eq!(after(4), Some((2, 0.001)));
+        assert_eq!(after(5), Some((5, 1e-5)));
+    }
+}
