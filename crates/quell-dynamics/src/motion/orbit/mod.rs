@@ -10,13 +10,16 @@
 //! | `free` | limit cycles without dither |
 //! | `settled` | the periodic motion on which a run ends |
 //! | `thresholds` | values of a parameter at which the base response gains or loses stability |
+//! | `curves` | their curves over a second parameter |
 
+mod curves;
 pub mod family;
 mod free;
 mod periodic;
 mod settled;
 mod thresholds;
 
+pub use curves::{MotionCurve, MotionCurves, MotionPlane, motion_curves};
 pub use free::{NoCycle, free_cycle};
 pub use periodic::{MotionOrbit, NoMotionOrbit, base_motion, motion_near, sliding_state};
 pub use settled::{SettledMotion, settled};
