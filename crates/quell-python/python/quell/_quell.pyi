@@ -74,7 +74,8 @@ class NativeStudy:
     def basins_in_plane(
         self,
         plane: str,
-        grid: tuple[int, int] | None,
+        layout: tuple[tuple[int, int] | None, tuple[int, int] | None],
+        over: tuple[str, tuple[str, str], int] | None,
         threads: int | None,
         progress: Callable[[int, int], object] | None,
     ) -> NativeAnswer: ...
