@@ -266,7 +266,7 @@ impl NativeStudy {
     }
 
     /// Of a system: `start` and `near`, with its number of periods, are names of its state with their values.
-    #[pyo3(signature = (parameter, range, protocols, start, near))]
+    #[pyo3(signature = (parameter, range, protocols, start, near, ramp))]
     fn thresholds_of_system(
         &self,
         py: Python<'_>,
@@ -275,12 +275,13 @@ impl NativeStudy {
         protocols: Vec<String>,
         start: Option<NamedNumbers>,
         near: Option<(NamedNumbers, u32)>,
+        ramp: String,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
         call::run(py, move || {
             let near = near.as_ref().map(|(pairs, periods)| (pairs, *periods));
             let starts = (protocols.as_slice(), start.as_ref());
-            thresholds::run_of_system(&study, parameter, &range, starts, near)
+            thresholds::run_of_system(&study, parameter, &range, starts, (near, &ramp))
         })
     }
 

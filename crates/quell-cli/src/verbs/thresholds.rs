@@ -5,6 +5,7 @@ use quell::kind::verbs;
 use quell::run::curves::CurvesRequest;
 use quell::run::protocol::Protocol;
 use quell::run::system::protocol::{SystemProtocol, read_state_of};
+use quell::run::system::start;
 use quell::run::system::thresholds::MotionThresholdsRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::study::SystemStudy;
@@ -113,7 +114,7 @@ fn run_of_system(
         complaints.take(text.as_deref().map(read).transpose())
     };
     let (near, start) = (read("--near", &arguments.near), read("--start", &arguments.start));
-    let ramp = complaints.take(duration("--ramp", &arguments.ramp, Some(&study)));
+    let ramp = complaints.take(start::duration(system, &arguments.ramp, "--ramp"));
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     let ((range, ramp), ((near, start), (outputs, plot))) =

@@ -70,6 +70,7 @@ class NativeStudy:
         protocols: list[str],
         start: list[tuple[str, str]] | None,
         near: tuple[list[tuple[str, str]], int] | None,
+        ramp: str,
     ) -> NativeAnswer: ...
     def basins_in_plane(
         self,

@@ -407,13 +407,14 @@ class Study:
             ends = (arguments.quantity("from_", from_), arguments.quantity("to", to))
             count = arguments.whole("periods", periods, 1, 1000)
             pairs, begin = arguments.named("near", near), arguments.named("start", start)
-            if along is not None or between is not None or ramp != 0.0:
-                arguments.wrong.append(complaint("along", along, "given without near, named starts and ramp", "conflict"))
-            if near is not None and (asked or start is not None):
-                arguments.wrong.append(complaint("near", near, "given without starts", "conflict"))
+            time = arguments.quantity("ramp", ramp, "a time ≥ 0")
+            if along is not None or between is not None:
+                arguments.wrong.append(complaint("along", along, "given without near, starts and ramp", "conflict"))
+            if near is not None and (asked or start is not None or time != repr(0.0)):
+                arguments.wrong.append(complaint("near", near, "given without starts and ramp", "conflict"))
             arguments.done()
             native = self._native.thresholds_of_system(
-                path, ends, asked, None if start is None else begin, None if near is None else (pairs, count)
+                path, ends, asked, None if start is None else begin, None if near is None else (pairs, count), time
             )
             return results.Thresholds(self, native)
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")

@@ -8,6 +8,7 @@
 //! | `family` | one period with its derivative and its signature |
 //! | `periodic` | a periodic motion, its multipliers and verdict; found near a state, or continued from steady sliding |
 //! | `free` | limit cycles without dither |
+//! | `ramp` | a run whose dither grows from zero |
 //! | `settled` | the periodic motion on which a run ends |
 //! | `thresholds` | values of a parameter at which the base response gains or loses stability |
 //! | `curves` | their curves over a second parameter |
@@ -16,11 +17,13 @@ mod curves;
 pub mod family;
 mod free;
 mod periodic;
+mod ramp;
 mod settled;
 mod thresholds;
 
 pub use curves::{MotionCurve, MotionCurves, MotionPlane, motion_curves};
 pub use free::{NoCycle, free_cycle};
 pub use periodic::{MotionOrbit, NoMotionOrbit, base_motion, motion_near, sliding_state};
+pub use ramp::ramped_motion;
 pub use settled::{SettledMotion, settled};
 pub use thresholds::{MotionThreshold, MotionThresholds, motion_thresholds};

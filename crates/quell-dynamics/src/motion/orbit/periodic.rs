@@ -207,7 +207,7 @@ pub fn motion_near(
 }
 
 /// The common period, of a system that has one.
-fn period_of(motion: &Motion<'_>, periods: u32) -> Result<f64, NoMotionOrbit> {
+pub(super) fn period_of(motion: &Motion<'_>, periods: u32) -> Result<f64, NoMotionOrbit> {
     let waves = motion.system().inputs.iter().any(|input| !input.profile.waves().is_empty());
     if !waves {
         return Err(NoMotionOrbit::NoDither);
@@ -254,7 +254,7 @@ pub fn sliding_state(system: &System) -> Result<Vec<f64>, NoSteadySliding> {
 }
 
 /// The system with the waves of its inputs multiplied by a factor.
-fn amplified(system: &System, factor: f64) -> System {
+pub(super) fn amplified(system: &System, factor: f64) -> System {
     let mut system = system.clone();
     for input in &mut system.inputs {
         let waves = input.profile.waves().iter();
