@@ -185,6 +185,10 @@ fn sweeps_without_dither_are_those_of_the_belt() {
     assert_eq!(own["jumps"], other["jumps"]);
     assert_eq!(list(&own["jumps"]).len(), 2);
     assert_eq!(own["hysteresis"], other["hysteresis"]);
+    // A dither of amplitude 0 changes nothing.
+    let silent = sweep(&system("stribeck", 0.05, &dither(0.0)), "contact.belt.belt_velocity");
+    assert_eq!(silent["up"], other["up"]);
+    assert_eq!(silent["down"], other["down"]);
     for direction in ["up", "down"] {
         for (one, two) in list(&own[direction]).iter().zip(list(&other[direction])) {
             assert_eq!(one["quiet"], two["quiet"], "{one} {two}");

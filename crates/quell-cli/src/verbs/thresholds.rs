@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", requires = "near", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     periods: u32,
     /// Ramps the dither of these runs up over this time τ, in steps of its period, instead of switching it on; in a study in SI
-    /// in seconds, or a time such as 50ms
+    /// in seconds, or a time such as 50ms; of a system in its own unit of time
     #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
     ramp: String,
     /// Follows each local threshold as a curve along a second parameter, such as belt.belt_velocity

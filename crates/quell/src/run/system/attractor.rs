@@ -11,7 +11,7 @@ use quell_linear::spectrum;
 use quell_model::System;
 use quell_model::units::Quantity;
 
-use super::cycle::{BASE_STEPS, kicked_by};
+use super::cycle::{BASE_STEPS, kicked_by, undithered};
 use super::cycle_samples::CycleSamples;
 use super::is_dithered;
 use crate::fields::Fields;
@@ -93,8 +93,9 @@ pub fn end_of_run(
     start: &[f64],
     most: u32,
 ) -> Result<EndOfRun, String> {
-    if !is_dithered(system) && period(system).is_none() {
-        return undithered(system, row, start);
+    if !is_dithered(system) {
+        // A dither of amplitude 0 gives the motion no period.
+        return on_free_motion(&undithered(system), row, start);
     }
     let (kind, state, states, length, periods) = match settled(system, start, most) {
         Ok(SettledMotion { orbit, multiple, periods }) => {
@@ -144,7 +145,7 @@ fn displaced(system: &System, start: &[f64]) -> Vec<f64> {
     kicked_by(system, NUDGE).unwrap_or_else(|| start.to_vec())
 }
 
-fn undithered(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRun, String> {
+fn on_free_motion(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRun, String> {
     let (kind, state, length) = match free_cycle(system, &displaced(system, start)) {
         Ok(cycle) => {
             let kind = MotionKind::Cycle { period: cycle.period, radius: cycle.radius() };
