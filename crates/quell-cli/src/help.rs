@@ -36,6 +36,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                     "quell thresholds quench.toml --parameter dither.amplitude --from 0.3 --to 0.7 --from-rest",
                     "quell thresholds drive.toml --parameter belt.belt_velocity_m_per_s --from 0.002 --to 0.04",
                     "quell thresholds two-mass-drive.toml --parameter dither.amplitude --from 5 --to 6 --from-rest",
+                    "quell thresholds two-mass-drive.toml --parameter dither.amplitude --from 3 --to 9 --along contact.guide.belt_velocity --between 0.04:0.06",
                 ],
             ),
             (
@@ -73,6 +74,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 &[
                     "quell bifurcation every-start.toml --parameter dither.amplitude --from 1 --to 2 --points 3",
                     "quell bifurcation every-start.toml --parameter dither.amplitude --from 1 --to 2 --points 3 --up",
+                    "quell bifurcation two-mass-drive.toml --set dither.amplitude=0 --parameter contact.guide.belt_velocity --from 0.05 --to 0.15 --points 3",
                 ],
             ),
             (

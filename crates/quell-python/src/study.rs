@@ -266,7 +266,7 @@ impl NativeStudy {
     }
 
     /// Of a system: `start` and `near`, with its number of periods, are names of its state with their values.
-    #[pyo3(signature = (parameter, range, protocols, start, near))]
+    #[pyo3(signature = (parameter, range, protocols, start, near, ramp))]
     fn thresholds_of_system(
         &self,
         py: Python<'_>,
@@ -275,12 +275,13 @@ impl NativeStudy {
         protocols: Vec<String>,
         start: Option<NamedNumbers>,
         near: Option<(NamedNumbers, u32)>,
+        ramp: String,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
         call::run(py, move || {
             let near = near.as_ref().map(|(pairs, periods)| (pairs, *periods));
             let starts = (protocols.as_slice(), start.as_ref());
-            thresholds::run_of_system(&study, parameter, &range, starts, near)
+            thresholds::run_of_system(&study, parameter, &range, starts, (near, &ramp))
         })
     }
 
@@ -336,14 +337,10 @@ impl NativeStudy {
             let read = |pair: Option<Pair>, quantity, option| {
                 pair.map(|pair| both(&pair, quantity, scales, option)).transpose()
             };
-            let over = over.map(|(parameter, range, points)| {
-                let (from, to) = ends(&parameter, &range)?;
-                Ok::<_, Failure>(Range { parameter, from, to, points })
-            });
             Ok((
                 read(displacement, Quantity::Displacement, "--displacement")?,
                 read(velocity, Quantity::Velocity, "--velocity")?,
-                over.transpose()?,
+                range_over(over)?,
             ))
         })?;
         let layout = match layout {
@@ -354,17 +351,24 @@ impl NativeStudy {
         basins::run(py, self.study(), request, threads, progress)
     }
 
-    /// Of a system: `plane` names two numbers of its state; `grid`: numbers of values.
-    #[pyo3(signature = (plane, grid, threads, progress))]
+    /// Of a system: `plane` names two numbers of its state; `layout` and `over` as in `basins`.
+    #[pyo3(signature = (plane, layout, over, threads, progress))]
     fn basins_in_plane(
         &self,
         py: Python<'_>,
         plane: String,
-        grid: Option<(usize, usize)>,
+        layout: (Option<(usize, usize)>, Option<(usize, u64)>),
+        over: Option<(String, Pair, usize)>,
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<NativeAnswer> {
-        basins::run_in_plane(py, self.study(), (plane, grid), threads, progress)
+        let over = call::here(py, move || range_over(over))?;
+        let layout = match layout {
+            (_, Some((count, seed))) => StartLayout::Sample { count, seed },
+            (Some((columns, rows)), None) => StartLayout::Grid { columns, rows },
+            (None, None) => StartLayout::default(),
+        };
+        basins::run_in_plane(py, self.study(), (plane, layout, over), threads, progress)
     }
 
     fn modes(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
@@ -405,4 +409,11 @@ impl NativeStudy {
     fn changes(&self) -> Vec<String> {
         self.inner.changes().to_vec()
     }
+}
+
+/// The parameter of `over` with its range.
+fn range_over(over: Option<(String, Pair, usize)>) -> Result<Option<Range>, Failure> {
+    let Some((parameter, range, points)) = over else { return Ok(None) };
+    let (from, to) = ends(&parameter, &range)?;
+    Ok(Some(Range { parameter, from, to, points }))
 }

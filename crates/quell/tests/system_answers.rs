@@ -5,7 +5,6 @@ use std::sync::atomic::AtomicBool;
 use quell::Study;
 use quell::kind::verbs;
 use quell::outcome::Outcome;
-use quell::run::curves::CurvesRequest;
 use quell::run::system::tracked::TrackRequest;
 use quell::sweep::{MapQuantity, Plan, Running};
 use quell_linear::averaging::NoAverage;
@@ -153,18 +152,6 @@ fn unlikely_input_is_warned_of() {
     assert!(!check(&half).contains("damping"));
     let gyroscopic = text.replace("damping = [0.1, 0.1]", "damping = [[0, 1], [-1, 0]]");
     assert_eq!(check(&gyroscopic), "[]");
-}
-
-#[test]
-fn curves_of_dithered_systems_are_refused_in_a_sentence() {
-    let dithered = study(&pad("[1, 1]", LIGHT, 0.1, 20.0));
-    let parameter = "contact.pad.friction.coefficient".to_owned();
-    let window = (0.1, 1.0);
-    let curves =
-        CurvesRequest { parameter, window, along: "dither.amplitude".to_owned(), between: window };
-    let why = verbs(&dithered).threshold_curves(&curves).err().expect("refused").to_string();
-    let expected = "--along: left out: thresholds of the periodic motions of a dithered system are not followed along";
-    assert!(why.starts_with(expected), "{why}");
 }
 
 #[test]

@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use quell::Study;
 use quell::kind::verbs;
+use quell::run::basins::StartLayout;
 use quell::run::bifurcation::SweepRequest;
 use quell::run::system::basins::{PlaneRequest, read_plane};
 use quell::run::system::orbit::WantedMotion;
@@ -248,7 +249,9 @@ fn basins(text: &str, plane: &str, grid: (usize, usize)) -> Json {
     let axes = read_plane(&system, plane).unwrap_or_else(|why| panic!("{why}"));
     let stop = AtomicBool::new(false);
     let running = Running { threads: Some(2), stop: &stop, progress: &() };
-    let found = verbs(&study).basins_of_system(&PlaneRequest { axes, grid }, running);
+    let layout = StartLayout::Grid { columns: grid.0, rows: grid.1 };
+    let request = PlaneRequest::of(axes, layout, None);
+    let found = verbs(&study).basins_of_system(&request, running);
     found.unwrap_or_else(|why| panic!("{why:?}")).json()
 }
 

@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     velocity: Option<String>,
     /// System: the two numbers of the state that are varied, such as x,velocity.x or x=-1:1,velocity.x=-2:2 with their windows;
     /// the others are those of the study's start [default: the first displacement and its velocity]
-    #[arg(long, value_name = "NAME,NAME", conflicts_with_all = ["displacement", "velocity", "sample", "over"], allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME,NAME", conflicts_with_all = ["displacement", "velocity"], allow_hyphen_values = true)]
     plane: Option<String>,
     /// Numbers of displacements and velocities of the grid, edges included [default: 41x31; of a system 21x15]
     #[arg(long, value_name = "NxM", conflicts_with = "sample")]
@@ -103,12 +103,13 @@ fn run_in_plane(
     let inputs = inputs(Some(&study));
     let axes = complaints.take(read_plane(system, plane));
     let layout = complaints.take(layout(arguments));
+    let over = over(arguments, Some(&study), &mut complaints);
     let threads = complaints.take(threads(arguments.threads.as_deref()));
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
-    let ((axes, layout), (threads, (outputs, plot))) =
-        complaints.finish(axes.zip(layout).zip(threads.zip(outputs.zip(plot))))?;
-    let request = PlaneRequest::of(axes, layout)?;
+    let ((axes, (layout, over)), (threads, (outputs, plot))) =
+        complaints.finish(axes.zip(layout.zip(over)).zip(threads.zip(outputs.zip(plot))))?;
+    let request = PlaneRequest::of(axes, layout, over);
     let bar = Bar::new();
     let running = Running { threads, stop: interrupt::flag(), progress: &bar };
     let done = verbs(&study).basins_of_system(&request, running)?;
@@ -128,27 +129,30 @@ fn request(
     let displacement = window("--displacement", &arguments.displacement, Quantity::Displacement);
     let velocity = window("--velocity", &arguments.velocity, Quantity::Velocity);
     let layout = complaints.take(layout(arguments));
-    let over = match &arguments.over {
-        None => Some(None),
-        Some(parameter) => {
-            let end = |option, text: &Option<String>| {
-                number(option, text.as_deref().unwrap_or_default(), parameter, study)
-            };
-            let from = complaints.take(end("--from", &arguments.from));
-            let to = complaints.take(end("--to", &arguments.to));
-            let points = complaints.take(count("--points", &arguments.points));
-            let parameter = parameter.clone();
-            from.zip(to)
-                .zip(points)
-                .map(|((from, to), points)| Some(Range { parameter, from, to, points }))
-        }
-    };
+    let over = over(arguments, study, complaints);
     Some(BasinsRequest {
         displacement: displacement?,
         velocity: velocity?,
         layout: layout?,
         over: over?,
     })
+}
+
+/// The parameter of --over and its values; `Some(None)` without one.
+fn over(
+    arguments: &Arguments,
+    study: Option<&Study>,
+    complaints: &mut Gathered,
+) -> Option<Option<Range>> {
+    let Some(parameter) = &arguments.over else { return Some(None) };
+    let end = |option, text: &Option<String>| {
+        number(option, text.as_deref().unwrap_or_default(), parameter, study)
+    };
+    let from = complaints.take(end("--from", &arguments.from));
+    let to = complaints.take(end("--to", &arguments.to));
+    let points = complaints.take(count("--points", &arguments.points));
+    let ((from, to), points) = from.zip(to).zip(points)?;
+    Some(Some(Range { parameter: parameter.clone(), from, to, points }))
 }
 
 fn layout(arguments: &Arguments) -> Result<StartLayout, Box<Complaint>> {

@@ -5,6 +5,7 @@ use quell::kind::verbs;
 use quell::run::curves::CurvesRequest;
 use quell::run::protocol::Protocol;
 use quell::run::system::protocol::{SystemProtocol, read_state_of};
+use quell::run::system::start;
 use quell::run::system::thresholds::MotionThresholdsRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::study::SystemStudy;
@@ -41,7 +42,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", requires = "near", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     periods: u32,
     /// Ramps the dither of these runs up over this time τ, in steps of its period, instead of switching it on; in a study in SI
-    /// in seconds, or a time such as 50ms
+    /// in seconds, or a time such as 50ms; of a system in its own unit of time
     #[arg(long, value_name = "T", default_value = "0", allow_hyphen_values = true)]
     ramp: String,
     /// Follows each local threshold as a curve along a second parameter, such as belt.belt_velocity
@@ -113,7 +114,7 @@ fn run_of_system(
         complaints.take(text.as_deref().map(read).transpose())
     };
     let (near, start) = (read("--near", &arguments.near), read("--start", &arguments.start));
-    let ramp = complaints.take(duration("--ramp", &arguments.ramp, Some(&study)));
+    let ramp = complaints.take(start::duration(system, &arguments.ramp, "--ramp"));
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     let ((range, ramp), ((near, start), (outputs, plot))) =

@@ -74,6 +74,8 @@ pub struct MotionVariation<'a> {
     pub events: Vec<RecordedEvent>,
     /// Nearest approach to an event of a contact that slips.
     pub least: Option<LeastDistance>,
+    /// The least distance of each contact: of its slip velocity and of its load; infinite where it has no such event.
+    pub approaches: Vec<[f64; 2]>,
     /// Whether independent guards reached zero together.
     pub is_one_sided: bool,
     /// Whether the integration of changes failed.
@@ -100,6 +102,7 @@ impl<'a> MotionVariation<'a> {
             columns: Matrix::identity(size).as_slice().to_vec(),
             events: Vec::new(),
             least: None,
+            approaches: vec![[f64::INFINITY; 2]; system.contacts.len()],
             is_one_sided: false,
             has_failed: false,
             rates: vec![0.0; size],
@@ -318,6 +321,8 @@ impl<'a> MotionVariation<'a> {
             let mut nearer = |series: &[f64; ORDER + 1], scale: f64, is_load: bool| {
                 let (lowest, since) = least(series, segment.duration);
                 let distance = scale * lowest;
+                let known = &mut self.approaches[index][usize::from(is_load)];
+                *known = known.min(distance);
                 if self.least.is_none_or(|known| distance < known.distance) {
                     let time = segment.clock.time() + since;
                     self.least = Some(LeastDistance { distance, time, contact: index, is_load });

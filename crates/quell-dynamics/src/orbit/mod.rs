@@ -19,6 +19,7 @@
 //! | `period_map` | one period with its derivative, and the multipliers |
 //! | `periodic_orbit`, `verdict`, `no_orbit` | a periodic response, its stability, and why none was found |
 //! | `accuracy` | the errors of an orbit and of its multipliers |
+//! | `threshold_curve`, `curve` | thresholds followed over a second parameter |
 //! | `shooting` | an orbit near a state, or continued from steady sliding |
 
 mod accuracy;
@@ -32,6 +33,7 @@ mod period_map;
 mod periodic_orbit;
 mod shooting;
 pub mod threshold;
+pub(crate) mod threshold_curve;
 mod variation;
 mod verdict;
 

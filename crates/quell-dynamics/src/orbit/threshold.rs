@@ -85,7 +85,7 @@ impl ThresholdKind {
     }
 
     /// The event whose test function is zero on a curve of this kind; `None` if no test function is zero along it.
-    pub(super) fn event(self) -> Option<Event> {
+    pub(crate) fn event(self) -> Option<Event> {
         Some(match self {
             Self::Fold => Event::Fold,
             Self::Branching | Self::Signature | Self::Separation => return None,

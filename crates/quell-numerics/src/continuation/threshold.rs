@@ -11,7 +11,7 @@ use num_complex::Complex64;
 use super::{Image, modulus, multipliers};
 
 /// Largest distance of the pair of a Neimark–Sacker bifurcation from the unit circle.
-const ON_THE_CIRCLE: f64 = 1e-5;
+pub(super) const ON_THE_CIRCLE: f64 = 1e-5;
 
 /// Bifurcation of a fixed point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -70,11 +70,13 @@ class NativeStudy:
         protocols: list[str],
         start: list[tuple[str, str]] | None,
         near: tuple[list[tuple[str, str]], int] | None,
+        ramp: str,
     ) -> NativeAnswer: ...
     def basins_in_plane(
         self,
         plane: str,
-        grid: tuple[int, int] | None,
+        layout: tuple[tuple[int, int] | None, tuple[int, int] | None],
+        over: tuple[str, tuple[str, str], int] | None,
         threads: int | None,
         progress: Callable[[int, int], object] | None,
     ) -> NativeAnswer: ...

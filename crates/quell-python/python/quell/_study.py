@@ -390,7 +390,8 @@ class Study:
             Also find thresholds of runs from rest, from steady sliding, from full squeal, or from a state (x, x′), which is
             in m and m/s in a study in SI.
         ramp :
-            Time over which the dither of these runs grows [default: it is switched on]: τ, in a study in SI seconds.
+            Time over which the dither of these runs grows [default: it is switched on]: τ, in a study in SI seconds, of a
+            system in its own unit of time.
         along, between :
             A second parameter, given like the first, and its range: each local threshold is continued as a curve.
         near, periods :
@@ -406,13 +407,14 @@ class Study:
             ends = (arguments.quantity("from_", from_), arguments.quantity("to", to))
             count = arguments.whole("periods", periods, 1, 1000)
             pairs, begin = arguments.named("near", near), arguments.named("start", start)
-            if along is not None or between is not None or ramp != 0.0:
-                arguments.wrong.append(complaint("along", along, "given without near, named starts and ramp", "conflict"))
-            if near is not None and (asked or start is not None):
-                arguments.wrong.append(complaint("near", near, "given without starts", "conflict"))
+            time = arguments.quantity("ramp", ramp, "a time ≥ 0")
+            if along is not None or between is not None:
+                arguments.wrong.append(complaint("along", along, "given without near, starts and ramp", "conflict"))
+            if near is not None and (asked or start is not None or time != repr(0.0)):
+                arguments.wrong.append(complaint("near", near, "given without starts and ramp", "conflict"))
             arguments.done()
             native = self._native.thresholds_of_system(
-                path, ends, asked, None if start is None else begin, None if near is None else (pairs, count)
+                path, ends, asked, None if start is None else begin, None if near is None else (pairs, count), time
             )
             return results.Thresholds(self, native)
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
@@ -542,6 +544,8 @@ class Study:
     ) -> results.Bifurcation:
         """The response over a parameter, swept up and down with the state carried over.
 
+        Without dither it is a limit cycle, steady sliding or rest.
+
         Parameters
         ----------
         parameter :
@@ -624,16 +628,16 @@ class Study:
             arguments.wrong.append(complaint("over", None, "given together with from_, to and points", "conflict"))
         workers = None if threads is None else arguments.whole("threads", threads, 1, 1024)
         arguments.done()
+        drawn = None if states is None else (states, which)
         if plane is not None:
-            given = (displacement, velocity, sample, over)
-            if any(other is not None for other in given):
-                allowed = "given without displacement, velocity, sample and over"
+            if displacement is not None or velocity is not None:
+                allowed = "given without displacement and velocity: windows are in the plane, such as x=-1:1"
                 raise StudyError([complaint("plane", plane, allowed, "conflict")])
             text = arguments.text("plane", plane, "two names, such as x,velocity.x")
             arguments.done()
             size = None if grid is None else (sides[0], sides[1])
-            return results.Basins(self, self._native.basins_in_plane(text, size, workers, progress))
-        drawn = None if states is None else (states, which)
+            native = self._native.basins_in_plane(text, (size, drawn), along, workers, progress)
+            return results.Basins(self, native)
         native = self._native.basins(window, ((sides[0], sides[1]), drawn), along, workers, progress)
         return results.Basins(self, native)
 

@@ -515,9 +515,10 @@ class ThresholdCurves(Result):
     along: str
     """Path of the second parameter."""
     curves: list[dict[str, Any]]
-    """``kind``, ``value`` (n,), ``along`` (n,) of each curve, and of a belt ``multiplier_modulus`` (n,) and ``ends``."""
+    """``kind``, ``value`` (n,), ``along`` (n,) of each curve, and with dither ``multiplier_modulus`` (n,) and ``ends``; of a
+    system also ``state`` (n, m) and the ``contact`` that grazes or opens."""
     averaged: list[dict[str, Any]]
-    """Belt: boundaries of averaging: ``sharper``, ``along`` (n,), ``value`` (n,), and both as pairs, ``points``."""
+    """With dither: boundaries of averaging: ``sharper``, ``along`` (n,), ``value`` (n,), and both as pairs, ``points``."""
 
 
 class Bifurcation(Result):
@@ -549,7 +550,8 @@ class Basins(Result):
     window_displacement: list[float]
     """Least and largest x of the starts: lengths."""
     window_velocity: list[float]
-    """Least and largest x′ of the starts: lengths per τ."""
+    """Least and largest x′ of the starts: lengths per τ. Of a system ``plane`` names the axes, and ``window_across`` and
+    ``window_up`` are their windows."""
     layout: dict[str, Any]
     """``grid``: displacements and velocities; or ``sample`` and ``seed``."""
     error_meaning: str

@@ -7,6 +7,7 @@ use quell::Study;
 use quell::kind::verbs;
 use quell::run::basins::{BasinsRequest, StartLayout};
 use quell::run::system::basins::{PlaneRequest, read_plane};
+use quell::run::varied::Range;
 
 use super::map::{Counter, Watched};
 use crate::answer::NativeAnswer;
@@ -31,7 +32,7 @@ pub(crate) fn run(
 pub(crate) fn run_in_plane(
     py: Python<'_>,
     study: Arc<Study>,
-    (plane, grid): (String, Option<(usize, usize)>),
+    (plane, layout, over): (String, StartLayout, Option<Range>),
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<NativeAnswer> {
@@ -39,8 +40,7 @@ pub(crate) fn run_in_plane(
     let watched = Watched::new(&counter, progress);
     let work = move || {
         let axes = read_plane(&study.system()?, &plane)?;
-        let given = |(columns, rows)| StartLayout::Grid { columns, rows };
-        let request = PlaneRequest::of(axes, grid.map_or_else(StartLayout::default, given))?;
+        let request = PlaneRequest::of(axes, layout, over);
         let done = verbs(&study).basins_of_system(&request, counter.running(threads))?;
         Ok(NativeAnswer::new(done))
     };

@@ -4,6 +4,7 @@ use quell::kind::verbs;
 use quell::run::curves::CurvesRequest;
 use quell::run::protocol::Protocol;
 use quell::run::system::protocol::{SystemProtocol, numbers_of};
+use quell::run::system::start;
 use quell::run::system::thresholds::MotionThresholdsRequest;
 use quell::run::thresholds::ThresholdsRequest;
 use quell::{Failure, Study, quantity};
@@ -29,9 +30,12 @@ pub(crate) fn run(
     let verbs = verbs(study);
     let scales = study.scales();
     let (from, to) = ends(&parameter, range)?;
-    let start = start.map(|pair| state(pair, scales, "--start")).transpose()?;
-    let ramp = quantity::duration(ramp, scales, "--ramp")?;
-    let protocols = protocols(names, start);
+    let begin = start.map(|pair| state(pair, scales, "--start")).transpose()?;
+    let ramp = match study.system() {
+        Ok(system) => start::duration(&system, ramp, "--ramp")?,
+        Err(_) => quantity::duration(ramp, scales, "--ramp")?,
+    };
+    let protocols = protocols(names, begin);
     let request = ThresholdsRequest { parameter, from, to, protocols, ramp };
     Ok(NativeAnswer::new(verbs.thresholds(request)?))
 }
@@ -57,20 +61,21 @@ pub(crate) fn run_of_system(
     study: &Study,
     parameter: String,
     range: &Pair,
-    (names, start): (&[String], Option<&NamedNumbers>),
-    near: Option<(&NamedNumbers, u32)>,
+    (names, begin): (&[String], Option<&NamedNumbers>),
+    (near, ramp): (Option<(&NamedNumbers, u32)>, &str),
 ) -> Result<NativeAnswer, Failure> {
     let system = study.system()?;
     let window = ends(&parameter, range)?;
     let protocols = protocols(names, None).into_iter().map(SystemProtocol::of);
     let mut protocols = protocols.collect::<Result<Vec<_>, _>>()?;
-    if let Some(pairs) = start {
+    if let Some(pairs) = begin {
         protocols.push(SystemProtocol::From(numbers_of(&system, "--start", pairs)?));
     }
+    let ramp = start::duration(&system, ramp, "--ramp")?;
     let near = match near {
         Some((pairs, periods)) => Some((numbers_of(&system, "--near", pairs)?, periods)),
         None => None,
     };
-    let request = MotionThresholdsRequest { parameter, window, near, protocols };
+    let request = MotionThresholdsRequest { parameter, window, near, protocols, ramp };
     Ok(NativeAnswer::new(verbs(study).thresholds_of_system(&request)?))
 }

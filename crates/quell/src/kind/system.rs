@@ -18,8 +18,8 @@ use crate::run::system::thresholds::{
 };
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
-    basins, bifurcation, exact, measured, modes, orbit, reach, response, simulate, stability,
-    thresholds, tracked,
+    basins, bifurcation, curves, exact, measured, modes, orbit, reach, response, simulate,
+    stability, thresholds, tracked,
 };
 use crate::run::thresholds::ThresholdsRequest;
 use crate::study::{SystemSetup, SystemStudy};
@@ -141,8 +141,10 @@ impl Verbs for SystemStudy {
     }
 
     fn threshold_curves(&self, request: &CurvesRequest) -> Reply {
-        let CurvesRequest { parameter, window, along, between } = request.clone();
-        let request = TrackRequest { parameter, window, along: Some((along, between)) };
-        answer(self, tracked::thresholds(self, &request))
+        if curves::is_dithered_in(self, request) {
+            return answer(self, curves::run(self, request));
+        }
+        // Without dither the thresholds are those of steady sliding.
+        answer(self, tracked::run(self, &curves::tracked(request)))
     }
 }

@@ -10,7 +10,7 @@ use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::curves::{Curves, ThresholdCurveEnd};
+use crate::run::curves::{Curves, ThresholdCurve, ThresholdCurveEnd};
 use crate::run::thresholds::{
     Signature, TRIED, Thresholds, becomes, path_in_words, quantity_of, side, value_in_words,
 };
@@ -57,24 +57,30 @@ impl Presented<BeltSetup> for Curves {
 }
 
 fn table_of_curves(study: &BeltStudy, done: &Curves) -> String {
-    let mut text = String::new();
     let (parameter, across) = (&done.question.parameter, &done.question.along);
-    for curve in &done.curves {
+    let names = [across, parameter].map(|path| path_in_words(study, path));
+    let figures: [&dyn Fn(f64) -> String; 2] =
+        [&|along| figure_at(study, across, along), &|value| figure_at(study, parameter, value)];
+    let curves = done.curves.iter().map(|curve| (curve.kind.name().to_owned(), curve));
+    rows_of_curves(curves, &names, figures)
+}
+
+/// Curves with their kinds in words, some points of each, in the columns of the second and of the first parameter.
+pub(super) fn rows_of_curves<'a, S: 'a>(
+    curves: impl Iterator<Item = (String, &'a ThresholdCurve<S>)>,
+    [x, y]: &[String; 2],
+    [along, value]: [&dyn Fn(f64) -> String; 2],
+) -> String {
+    let mut text = String::new();
+    for (kind, curve) in curves {
         let [first, last] = curve.ends.map(ThresholdCurveEnd::name);
-        let _ = writeln!(
-            text,
-            "\n{}, from one end ({first}) to the other ({last}):",
-            curve.kind.name()
-        );
-        let [x, y] = [across, parameter].map(|path| path_in_words(study, path));
+        let _ = writeln!(text, "\n{kind}, from one end ({first}) to the other ({last}):");
         let _ = writeln!(text, "  {x:<14}  {y:<14}");
         let every = curve.points.len().div_ceil(12).max(1);
         let last = curve.points.len().saturating_sub(1);
         for (number, point) in curve.points.iter().enumerate() {
             if number % every == 0 || number == last {
-                let along = figure_at(study, across, point.along);
-                let value = figure_at(study, parameter, point.value);
-                let _ = writeln!(text, "  {along:<14}  {value:<14}");
+                let _ = writeln!(text, "  {:<14}  {:<14}", along(point.along), value(point.value));
             }
         }
     }

@@ -126,36 +126,41 @@ fn role(basins: &[Basin], place: usize) -> PlotRole {
 /// The share of starts that reach a quiescent response over the parameter.
 fn shares(done: &Basins) -> Panel {
     let Some(varied) = &done.varied else { return Panel::default() };
-    let up = PlotAxis::new("share of starts that fall quiet").between(0.0, 1.0);
-    // The curve has a gap where no outcome is known.
-    let pieces: Vec<Vec<(f64, Share)>> = done
-        .portraits
-        .split(|portrait| portrait.quiet.is_none())
-        .map(|piece| {
-            piece.iter().filter_map(|portrait| Some((portrait.value?, portrait.quiet?))).collect()
-        })
+    let local = done.portraits.iter().filter_map(|portrait| {
+        Some((portrait.value?, portrait.local == Ok(OrbitVerdict::Unstable)))
+    });
+    let local: Vec<(f64, bool)> = local.collect();
+    let shares =
+        done.portraits.iter().filter_map(|portrait| Some((portrait.value?, portrait.quiet)));
+    let label = "starts that fall quiet";
+    panel_of_shares((axis(varied), label), &local, &shares.collect::<Vec<_>>())
+}
+
+/// Shares of starts over a parameter, where the response is locally unstable or not; the curve has a gap where no share is known.
+pub(super) fn panel_of_shares(
+    (across, label): (PlotAxis, &str),
+    unstable: &[(f64, bool)],
+    shares: &[(f64, Option<Share>)],
+) -> Panel {
+    let up = PlotAxis::new(format!("share of {label}")).between(0.0, 1.0);
+    let pieces: Vec<Vec<(f64, Share)>> = shares
+        .split(|(_, share)| share.is_none())
+        .map(|piece| piece.iter().filter_map(|(value, share)| Some((*value, (*share)?))).collect())
         .filter(|piece: &Vec<_>| !piece.is_empty())
         .collect();
     let points = |piece: &[(f64, Share)], which: fn(Share) -> f64| -> Vec<(f64, f64)> {
         piece.iter().map(|(value, share)| (*value, which(*share))).collect()
     };
-    let shares: Vec<Vec<(f64, f64)>> =
+    let fractions: Vec<Vec<(f64, f64)>> =
         pieces.iter().map(|piece| points(piece, |share| share.fraction)).collect();
-    let local: Vec<(f64, bool)> = done
-        .portraits
-        .iter()
-        .filter_map(|portrait| {
-            Some((portrait.value?, portrait.local == Ok(OrbitVerdict::Unstable)))
-        })
-        .collect();
-    let mut panel = with_unstable(Panel::new(axis(varied), up), intervals(&local));
+    let mut panel = with_unstable(Panel::new(across, up), intervals(unstable));
     for (number, piece) in pieces.iter().enumerate() {
         let (low, high) = (points(piece, |share| share.low), points(piece, |share| share.high));
         let label = if number == 0 { "bounds" } else { "" };
         panel = panel.with(Region::between(PlotRole::Dithered, low, high).label(label));
     }
-    let dots = shares.concat();
+    let dots = fractions.concat();
     panel
-        .with(Polyline::pieces(PlotRole::Dithered, shares).label("starts that fall quiet"))
+        .with(Polyline::pieces(PlotRole::Dithered, fractions).label(label))
         .with(Points::new(PlotRole::Dithered, dots).size(3.5))
 }

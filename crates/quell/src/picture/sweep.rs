@@ -83,7 +83,7 @@ fn picture(done: &FinishedMap, entry: &VariableArrays) -> MappedQuantity {
         }
         VariableKind::DiscRate
         | VariableKind::SystemRate
-        | VariableKind::SystemForce
+        | VariableKind::SystemNumber(_)
         | VariableKind::Number(_) => MapKind::Number(Spread::Linear),
     };
     let name = match kind {

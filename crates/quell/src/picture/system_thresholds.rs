@@ -1,12 +1,14 @@
-//! The modulus of the deciding multiplier of a system's periodic motion over a parameter, with its thresholds.
+//! The modulus of the deciding multiplier of a system's periodic motion over a parameter, with its thresholds; and threshold
+//! curves in two parameters.
 
 use super::caption::caption_of_system;
 use super::system::axis_of;
-use super::thresholds::words;
+use super::thresholds::{with_curves, words};
 use crate::plot::{
     Figure, Legend, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
-    Region,
+    Region, Size,
 };
+use crate::run::system::curves::SystemCurves;
 use crate::run::system::thresholds::MotionThresholdsFound;
 use crate::study::SystemStudy;
 use quell_dynamics::orbit::threshold::ThresholdKind;
@@ -63,6 +65,19 @@ pub fn thresholds(study: &SystemStudy, done: &MotionThresholdsFound) -> Figure {
         }
     }
     Figure::single(panel.legend(Legend::Above))
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{} {}", done.sentence(study), caption_of_system(study)))
+}
+
+/// The picture of threshold curves.
+pub fn curves(study: &SystemStudy, done: &SystemCurves) -> Figure {
+    let request = &done.request;
+    let axis = |path: &str, (from, to): (f64, f64)| axis_of(study, path).between(from, to);
+    let panel =
+        Panel::new(axis(&request.along, request.between), axis(&request.parameter, request.window));
+    let panel = with_curves(panel, &done.averaged, &done.found.curves, |point| point);
+    Figure::single(panel.legend(Legend::Above))
+        .size(Size::Frame(380.0, 300.0))
         .title(study.title().unwrap_or_default())
         .caption(format!("{} {}", done.sentence(study), caption_of_system(study)))
 }

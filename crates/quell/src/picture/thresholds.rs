@@ -10,7 +10,7 @@ use crate::plot::{
     Figure, Legend, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
     Region, Size,
 };
-use crate::run::curves::Curves;
+use crate::run::curves::{AveragedBoundary, Curves, ThresholdCurve};
 use crate::run::thresholds::{Thresholds, becomes};
 use crate::study::BeltStudy;
 
@@ -109,14 +109,27 @@ pub fn curves(study: &BeltStudy, done: &Curves) -> Figure {
     let (x, across) = axis_of(study, &question.along, question.between);
     let (y, up) = axis_of(study, &question.parameter, question.window);
     let place = |(along, value): (f64, f64)| (across.place(along), up.place(value));
-    let mut panel = Panel::new(x, y);
-    for averaged in &done.averaged {
-        let (label, style) = if averaged.sharper {
+    let panel = with_curves(Panel::new(x, y), &done.averaged, &done.curves, place);
+    Figure::single(panel.legend(Legend::Above))
+        .size(Size::Frame(380.0, 300.0))
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{} {}.", done.sentence(study), caption(study)))
+}
+
+/// A panel with the boundaries of averaging and the curves of each kind.
+pub(super) fn with_curves<S>(
+    mut panel: Panel,
+    averaged: &[AveragedBoundary],
+    curves: &[ThresholdCurve<S>],
+    place: impl Fn((f64, f64)) -> (f64, f64),
+) -> Panel {
+    for boundary in averaged {
+        let (label, style) = if boundary.sharper {
             ("averaged at finite R, with the oscillator's own response", LineStyle::Dashed)
         } else {
             ("averaged", LineStyle::Solid)
         };
-        let pieces = averaged.pieces.iter().map(|piece| piece.iter().copied().map(place));
+        let pieces = boundary.pieces.iter().map(|piece| piece.iter().copied().map(&place));
         let pieces: Vec<Vec<(f64, f64)>> = pieces.map(Iterator::collect).collect();
         if !pieces.is_empty() {
             panel =
@@ -124,8 +137,7 @@ pub fn curves(study: &BeltStudy, done: &Curves) -> Figure {
         }
     }
     for (number, kind) in ThresholdKind::ALL.into_iter().enumerate() {
-        let pieces: Vec<Vec<(f64, f64)>> = done
-            .curves
+        let pieces: Vec<Vec<(f64, f64)>> = curves
             .iter()
             .filter(|curve| curve.kind == kind)
             .map(|curve| {
@@ -143,8 +155,5 @@ pub fn curves(study: &BeltStudy, done: &Curves) -> Figure {
                 panel.with(Polyline::pieces(role, pieces).label(format!("exact: {}", words(kind))));
         }
     }
-    Figure::single(panel.legend(Legend::Above))
-        .size(Size::Frame(380.0, 300.0))
-        .title(study.title().unwrap_or_default())
-        .caption(format!("{} {}.", done.sentence(study), caption(study)))
+    panel
 }

@@ -4,7 +4,7 @@ use quell_dynamics::orbit::curve::{CurvesFound, Open, OpenLine, ParameterPlane, 
 pub use quell_dynamics::orbit::curve::{ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint};
 use quell_dynamics::simulation::within;
 use quell_linear::averaging::{
-    AveragingOptions, CriticalAmplitude, FastResponse, critical_amplitudes,
+    AveragingOptions, Becomes, CriticalAmplitude, FastResponse, critical_amplitudes,
 };
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
@@ -20,10 +20,10 @@ use crate::study::BeltStudy;
 use crate::words::plural;
 
 /// Lines across the second parameter on which the search for curves starts.
-const LINES: u32 = 5;
+pub(super) const LINES: u32 = 5;
 
 /// Minimum number of points of a curve across a window.
-const POINTS: u32 = 100;
+pub(super) const POINTS: u32 = 100;
 
 /// Intervals of the second parameter between evaluations of averaging.
 const AVERAGED: u32 = 120;
@@ -48,6 +48,48 @@ pub struct AveragedBoundary {
     pub sharper: bool,
     /// Points; a boundary is broken where it does not exist.
     pub pieces: Vec<Vec<(f64, f64)>>,
+}
+
+impl AveragedBoundary {
+    /// The critical amplitudes over a window of the second parameter at `steps` intervals, one boundary after another: those
+    /// towards stability and towards instability are separate curves.
+    pub(super) fn along(
+        sharper: bool,
+        (first, last): (f64, f64),
+        steps: u32,
+        boundaries: &[&dyn Fn(f64) -> Option<f64>],
+    ) -> Self {
+        let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
+        for amplitude in boundaries {
+            let mut piece = Vec::new();
+            for k in 0..=steps {
+                let along = first + (last - first) * f64::from(k) / f64::from(steps);
+                match amplitude(along) {
+                    Some(amplitude) => piece.push((along, amplitude)),
+                    None if piece.is_empty() => {}
+                    None => pieces.push(std::mem::take(&mut piece)),
+                }
+            }
+            if !piece.is_empty() {
+                pieces.push(piece);
+            }
+        }
+        Self { sharper, pieces }
+    }
+}
+
+/// Why a curve ends inside its windows, in words; `None` if it does not.
+pub(super) fn why_it_ends(end: ThresholdCurveEnd) -> Option<&'static str> {
+    match end {
+        ThresholdCurveEnd::Window | ThresholdCurveEnd::Closed => None,
+        ThresholdCurveEnd::Grazing => Some("beyond it the response grazes or changes its events"),
+        ThresholdCurveEnd::Resonance => {
+            Some("its pair of multipliers becomes real (a resonance 1 : 1 or 1 : 2)")
+        }
+        ThresholdCurveEnd::SameVerdict => Some("beyond it the grazing changes no verdict"),
+        ThresholdCurveEnd::Crossing => Some("another threshold crosses it, and comes first beyond"),
+        ThresholdCurveEnd::Lost => Some("it was lost"),
+    }
 }
 
 /// Curves of thresholds.
@@ -142,7 +184,6 @@ fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<AveragedBoundary
     if !amplitude.contains(&question.parameter.as_str()) {
         return Vec::new();
     }
-    let (first, last) = question.between;
     let inside = |critical: &CriticalAmplitude| {
         critical.amplitude >= question.window.0 && critical.amplitude <= question.window.1
     };
@@ -150,31 +191,16 @@ fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<AveragedBoundary
         .into_iter()
         .map(|(sharper, response)| {
             let options = AveragingOptions { response, ..AveragingOptions::default() };
-            let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
-            // Boundaries towards stability and towards instability are separate curves.
-            for index in 0..2 {
-                let mut piece = Vec::new();
-                for k in 0..=AVERAGED {
-                    let along = first + (last - first) * f64::from(k) / f64::from(AVERAGED);
-                    let found = belt.with(&question.along, along).ok().and_then(|belt| {
-                        let found = critical_amplitudes(&belt, options).ok()?;
-                        let of_kind = |critical: &&CriticalAmplitude| {
-                            (critical.becomes == quell_linear::averaging::Becomes::Stable)
-                                == (index == 0)
-                        };
-                        found.iter().find(of_kind).copied().filter(inside)
-                    });
-                    match found {
-                        Some(found) => piece.push((along, found.amplitude)),
-                        None if piece.is_empty() => {}
-                        None => pieces.push(std::mem::take(&mut piece)),
-                    }
+            let boundary = |becomes: Becomes| {
+                move |along: f64| {
+                    let belt = belt.with(&question.along, along).ok()?;
+                    let found = critical_amplitudes(&belt, options).ok()?;
+                    let first = found.iter().find(|critical| critical.becomes == becomes)?;
+                    Some(*first).filter(inside).map(|critical| critical.amplitude)
                 }
-                if !piece.is_empty() {
-                    pieces.push(piece);
-                }
-            }
-            AveragedBoundary { sharper, pieces }
+            };
+            let [stable, unstable] = [boundary(Becomes::Stable), boundary(Becomes::Unstable)];
+            AveragedBoundary::along(sharper, question.between, AVERAGED, &[&stable, &unstable])
         })
         .collect()
 }

@@ -158,7 +158,8 @@ fn references(plan: &Plan) -> String {
         plan.computations().iter().any(|computation| match computation {
             Computation::Response
             | Computation::ResponseWithCost
-            | Computation::ResponseWithEffect => task == Task::Response,
+            | Computation::ResponseWithEffect
+            | Computation::SystemResponse => task == Task::Response,
             Computation::Criterion
             | Computation::CriterionSharper
             | Computation::CriticalAmplitudes
@@ -167,7 +168,8 @@ fn references(plan: &Plan) -> String {
             | Computation::SystemGrowth
             | Computation::SystemGrowthUndithered
             | Computation::SystemCritical
-            | Computation::SystemOrbit => task == Task::Stability,
+            | Computation::SystemOrbit
+            | Computation::SystemEnd => task == Task::Stability,
         })
     };
     let citations = sources_of(plan.grid().study()).citations;

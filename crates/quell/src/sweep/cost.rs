@@ -61,7 +61,9 @@ pub(super) fn of_belt(study: &BeltStudy, wanted: &[Computation]) -> f64 {
         | Computation::SystemGrowth
         | Computation::SystemGrowthUndithered
         | Computation::SystemCritical
-        | Computation::SystemOrbit => 0.0,
+        | Computation::SystemOrbit
+        | Computation::SystemEnd
+        | Computation::SystemResponse => 0.0,
     });
     POINT + each.sum::<f64>()
 }

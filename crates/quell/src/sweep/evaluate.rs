@@ -47,12 +47,19 @@ pub enum Computation {
     SystemCritical,
     /// The base response of a dithered system and its multipliers.
     SystemOrbit,
+    /// The motion on which the run of a system ends.
+    SystemEnd,
+    /// The steady response of a system with and without dither.
+    SystemResponse,
 }
 
 impl Computation {
     /// Whether it applies to a belt or a system, whose friction laws may have a range.
     pub fn meets_friction(self) -> bool {
-        !matches!(self, Self::DiscGrowth | Self::DiscGrowthUndithered | Self::SystemOrbit)
+        !matches!(
+            self,
+            Self::DiscGrowth | Self::DiscGrowthUndithered | Self::SystemOrbit | Self::SystemEnd
+        )
     }
 
     /// Whether it integrates responses.
@@ -139,6 +146,32 @@ pub struct SystemOrbitPoint {
     pub verdict: OrbitVerdict,
 }
 
+/// What a map shows of the motion on which the run of one system ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SystemEndPoint {
+    /// Its kind, in the order of the words of bifurcation diagrams.
+    pub kind: u8,
+    /// Peak-to-peak of the observed displacement.
+    pub peak_to_peak: f64,
+    /// Largest share of the time that a contact sticks.
+    pub stick_fraction: f64,
+}
+
+/// What a map shows of the steady response of one system.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SystemResponsePoint {
+    /// Residual vibration E.
+    pub efficiency: Result<f64, Undefined>,
+    /// The effect of the dither.
+    pub effect: Effect,
+    /// Spectral amplitude of the slow vibration.
+    pub amplitude: f64,
+    /// The same without dither.
+    pub undithered_amplitude: f64,
+    /// Whether slip leaves the range of a friction law.
+    pub beyond_range: bool,
+}
+
 /// Results at one point; `None` for computations that were not requested.
 #[derive(Clone, Debug, Default)]
 pub struct Results {
@@ -164,6 +197,10 @@ pub struct Results {
     pub system_critical: Option<Result<Vec<CriticalInput>, Status>>,
     /// The base response of a dithered system.
     pub system_orbit: Option<Result<SystemOrbitPoint, Status>>,
+    /// The motion on which the run of a system ends.
+    pub system_end: Option<Result<SystemEndPoint, Status>>,
+    /// The steady response of a system.
+    pub system_response: Option<Result<SystemResponsePoint, Status>>,
     /// The range of the friction law and the slip that averages reach, if the law has a range.
     pub reach: Option<Reach>,
 }
@@ -210,6 +247,13 @@ impl Results {
         match computation {
             Computation::SystemGrowth => of(self.system),
             Computation::SystemGrowthUndithered => of(self.system_undithered),
+            Computation::SystemResponse
+                if self
+                    .system_response
+                    .is_some_and(|found| found.is_ok_and(|at| at.beyond_range)) =>
+            {
+                Status::BeyondRange
+            }
             Computation::SystemCritical => {
                 let found = self.system_critical.iter().flatten().flatten();
                 let mut found = found.filter(|critical| critical.amplitude == value);
@@ -245,7 +289,9 @@ impl Results {
             | Computation::SystemGrowth
             | Computation::SystemGrowthUndithered
             | Computation::SystemCritical
-            | Computation::SystemOrbit => false,
+            | Computation::SystemOrbit
+            | Computation::SystemEnd
+            | Computation::SystemResponse => false,
         }
     }
 }
@@ -326,7 +372,9 @@ fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
             | Computation::SystemGrowth
             | Computation::SystemGrowthUndithered
             | Computation::SystemCritical
-            | Computation::SystemOrbit => {}
+            | Computation::SystemOrbit
+            | Computation::SystemEnd
+            | Computation::SystemResponse => {}
             Computation::Criterion => {
                 let found = criterion(belt, AveragingOptions::default());
                 results.criterion = Some(found.map_err(status));

@@ -20,8 +20,8 @@ pub enum VariableKind {
     DiscRate,
     /// Rates and angular frequencies of a system, in the units of its file.
     SystemRate,
-    /// Forces of a system, in the units of its file.
-    SystemForce,
+    /// Numbers of a quantity of a system, in the units of its file.
+    SystemNumber(units::Quantity),
     /// One of these words, stored as its index in the list.
     Word {
         /// The words.

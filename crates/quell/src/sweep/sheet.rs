@@ -127,7 +127,7 @@ impl Sheet {
                 | VariableKind::Rate
                 | VariableKind::DiscRate
                 | VariableKind::SystemRate
-                | VariableKind::SystemForce => Content::Numbers,
+                | VariableKind::SystemNumber(_) => Content::Numbers,
                 VariableKind::Word { words, unknown } => {
                     let words = words.iter().chain([&unknown]).zip(0..);
                     let words = words.map(|(word, code)| (code, *word));
@@ -230,7 +230,7 @@ fn unknown_word(kind: VariableKind) -> u8 {
         | VariableKind::Rate
         | VariableKind::DiscRate
         | VariableKind::SystemRate
-        | VariableKind::SystemForce => MISSING,
+        | VariableKind::SystemNumber(_) => MISSING,
     }
 }
 
@@ -254,7 +254,10 @@ fn unit(kind: VariableKind, si: bool, units: SystemUnits) -> String {
         VariableKind::SystemRate if units == SystemUnits::None => "1/time".to_owned(),
         // Both systems of units have the second.
         VariableKind::SystemRate => "1/s".to_owned(),
-        VariableKind::SystemForce => units.unit(Quantity::Force).unwrap_or("force").to_owned(),
+        VariableKind::SystemNumber(quantity) => {
+            let name = if quantity == Quantity::Force { "force" } else { "length" };
+            units.unit(quantity).unwrap_or(name).to_owned()
+        }
         VariableKind::Word { .. } => String::new(),
     }
 }
@@ -266,7 +269,7 @@ fn twin(kind: VariableKind) -> Option<(&'static str, &'static str)> {
         VariableKind::Number(Quantity::Displacement)
         | VariableKind::DiscRate
         | VariableKind::SystemRate
-        | VariableKind::SystemForce
+        | VariableKind::SystemNumber(_)
         | VariableKind::Word { .. } => None,
         VariableKind::Number(quantity) => quantity.si_unit(),
         VariableKind::Rate => Some(("1/s", "per_s")),
@@ -280,7 +283,7 @@ fn factor(kind: VariableKind, scales: Scales) -> f64 {
         VariableKind::Rate => scales.angular_frequency(),
         VariableKind::DiscRate
         | VariableKind::SystemRate
-        | VariableKind::SystemForce
+        | VariableKind::SystemNumber(_)
         | VariableKind::Word { .. } => 1.0,
     }
 }

@@ -1,21 +1,31 @@
-//! Maps of systems: growth rates without dither and by averaging, critical amplitudes, and the quantities read from them.
+//! Maps of systems: growth rates without dither and by averaging, critical amplitudes, base responses, the motions on which runs
+//! end, steady responses, and the quantities read from them.
 
 use quell_dynamics::motion::orbit::family::NoImage;
 use quell_dynamics::motion::orbit::{NoMotionOrbit, base_motion};
 use quell_dynamics::orbit::OrbitVerdict;
+use quell_dynamics::response::Effect;
 use quell_linear::averaging::{Becomes, CriticalInput, DitheredContact, DitheredSystem, NoAverage};
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
 use quell_model::System;
 use quell_model::units;
 
-use super::evaluate::{Computation, Results, SystemOrbitPoint, SystemPoint};
+use super::evaluate::{
+    Computation, Results, SystemEndPoint, SystemOrbitPoint, SystemPoint, SystemResponsePoint,
+};
 use super::grid::Grid;
 use super::mapped::{Mapped, PointResults};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, decided, variable};
 use super::status::Status;
+use crate::complaint::Failure;
 use crate::range::outside_of_laws;
+use crate::run::system::attractor::end_of_run;
+use crate::run::system::basins::MOST_PERIODS_OF_A_START;
 use crate::run::system::cycle::BASE_STEPS;
+use crate::run::system::protocol::SystemProtocol;
+use crate::run::system::response::{self, ResponseRequest};
+use crate::run::system::simulate::beyond_laws;
 use crate::study::{SystemSetup, SystemStudy};
 
 /// Seconds of one growth rate of ten states, and how often a search of critical amplitudes computes one.
@@ -24,6 +34,10 @@ const SEARCH: f64 = 300.0;
 
 /// Seconds in which the base response of four states is followed.
 const ORBIT: f64 = 3e-2;
+
+/// Seconds of a run of four states to the motion on which it ends, and of a steady response with and without dither.
+const END: f64 = 2e-2;
+const RESPONSE: f64 = 1e-1;
 
 /// Maps of studies of systems.
 pub(super) struct SystemPoints(SystemStudy);
@@ -45,6 +59,8 @@ impl Mapped for SystemPoints {
         let each = wanted.iter().map(|computation| match computation {
             Computation::SystemCritical => SEARCH * growth,
             Computation::SystemOrbit => ORBIT * (states / 4.0).powi(2).max(0.1),
+            Computation::SystemEnd => END * (states / 4.0).powi(2).max(0.1),
+            Computation::SystemResponse => RESPONSE * (states / 4.0).powi(2).max(0.1),
             _ => growth,
         });
         each.sum()
@@ -57,9 +73,24 @@ impl Mapped for SystemPoints {
         wanted: &[Computation],
     ) -> Vec<Option<PointResults>> {
         let point = |index: &usize| {
-            let system = self.0.system_at(&grid.numbers_at(*index)).ok()?;
-            let measured = self.0.frequency_response().is_some();
-            Some((None, if measured { unmeasured() } else { evaluate(&system, wanted) }))
+            let numbers = grid.numbers_at(*index);
+            let system = self.0.system_at(&numbers).ok()?;
+            if self.0.frequency_response().is_some() {
+                return Some((None, unmeasured()));
+            }
+            let mut results = evaluate(&system, wanted);
+            // Runs have a start, which a study gives.
+            let runs = [Computation::SystemEnd, Computation::SystemResponse];
+            if wanted.iter().any(|computation| runs.contains(computation)) {
+                let study = self.0.at(numbers).ok()?;
+                if wanted.contains(&Computation::SystemEnd) {
+                    results.system_end = Some(end(&study, &system));
+                }
+                if wanted.contains(&Computation::SystemResponse) {
+                    results.system_response = Some(steady_response(&study));
+                }
+            }
+            Some((None, results))
         };
         indices.iter().map(point).collect()
     }
@@ -72,6 +103,8 @@ fn unmeasured() -> Results {
         system_undithered: Some(Err(Status::OnlyMeasured)),
         system_critical: Some(Err(Status::OnlyMeasured)),
         system_orbit: Some(Err(Status::OnlyMeasured)),
+        system_end: Some(Err(Status::OnlyMeasured)),
+        system_response: Some(Err(Status::OnlyMeasured)),
         ..Results::default()
     }
 }
@@ -86,7 +119,6 @@ fn evaluate(system: &System, wanted: &[Computation]) -> Results {
             }
             Computation::SystemCritical => results.system_critical = Some(critical(system)),
             Computation::SystemOrbit => results.system_orbit = Some(base_response(system)),
-            // A quantity of the steady response gets its computation here.
             _ => {}
         }
     }
@@ -133,6 +165,35 @@ fn base_response(system: &System) -> Result<SystemOrbitPoint, Status> {
     }
 }
 
+/// The motion on which the run from the start of a study ends.
+fn end(study: &SystemStudy, system: &System) -> Result<SystemEndPoint, Status> {
+    let start = SystemProtocol::Study.state(study, system).map_err(|_| Status::NoSquealingStart)?;
+    let end = end_of_run(system, &study.observe(), &start, MOST_PERIODS_OF_A_START);
+    let attractor = end.map_err(|_| Status::Stalled)?.attractor;
+    Ok(SystemEndPoint {
+        kind: attractor.kind_code(),
+        peak_to_peak: attractor.size(),
+        stick_fraction: attractor.stick.iter().copied().fold(0.0, f64::max),
+    })
+}
+
+/// The steady response of a study, as `response` measures it.
+fn steady_response(study: &SystemStudy) -> Result<SystemResponsePoint, Status> {
+    let found = response::run(study, ResponseRequest::default()).map_err(|why| match why {
+        Failure::Wrong(_) => Status::InvalidStudy,
+        Failure::Failed { .. } => Status::Stalled,
+    })?;
+    let response = &found.response;
+    let records = [&response.dithered, &response.undithered].map(|record| &record.whole);
+    Ok(SystemResponsePoint {
+        efficiency: response.efficiency,
+        effect: response.effect,
+        amplitude: response.dithered.lines.whole,
+        undithered_amplitude: response.undithered.lines.whole,
+        beyond_range: !beyond_laws(study.system(), &records).is_empty(),
+    })
+}
+
 fn status(why: &NoAverage) -> Status {
     match why {
         NoAverage::NoSteadySliding(_) => Status::NoSteadySliding,
@@ -144,7 +205,7 @@ fn status(why: &NoAverage) -> Status {
 }
 
 const RATE: VariableKind = VariableKind::SystemRate;
-const FORCE: VariableKind = VariableKind::SystemForce;
+const FORCE: VariableKind = VariableKind::SystemNumber(units::Quantity::Force);
 const RATIO: VariableKind = VariableKind::Number(units::Quantity::Ratio);
 
 /// Statuses of averages other than known.
@@ -205,6 +266,44 @@ const OF_ORBIT_VERDICT: &[Status] = &[
     Status::NoBaseResponse,
 ];
 
+/// Statuses of the motions on which runs end, other than known.
+const OF_END: &[Status] = &[Status::Stalled, Status::NoSquealingStart, Status::OnlyMeasured];
+
+/// Statuses of steady responses other than known.
+const OF_RESPONSE: &[Status] = &[Status::Stalled, Status::OnlyMeasured];
+
+/// Statuses of E other than known.
+const OF_EFFICIENCY: &[Status] = &[
+    Status::Stalled,
+    Status::UnditheredSettles,
+    Status::UnditheredAtRest,
+    Status::UnditheredUnknown,
+    Status::OnlyMeasured,
+];
+
+/// Statuses of an effect other than known.
+const OF_EFFECT: &[Status] = &[
+    Status::Stalled,
+    Status::UnditheredSettles,
+    Status::UnditheredAtRest,
+    Status::UnditheredUnknown,
+    Status::StillChanging,
+    Status::Unresolved,
+    Status::NoDither,
+    Status::OnlyMeasured,
+];
+
+const LENGTH: VariableKind = VariableKind::SystemNumber(units::Quantity::Displacement);
+
+/// Words of an effect.
+const EFFECTS: VariableKind = VariableKind::Word { words: &Effect::NAMES, unknown: "unknown" };
+
+/// Words of the motions on which runs end, in the order of their codes.
+const MOTIONS: VariableKind = VariableKind::Word {
+    words: &["period-1", "locked", "not-periodic", "limit-cycle", "rest"],
+    unknown: "unknown",
+};
+
 /// The quantities of a map of systems.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[MapQuantity] = &[
@@ -238,6 +337,27 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
     system("orbit-radius", "modulus of the deciding multiplier of the base response: stable below 1", Computation::SystemOrbit, &[
         variable(("orbit_radius", "|λ|"), "modulus of the deciding multiplier", RATIO, OF_ORBIT, |r| Ok(orbit(r)?.radius)),
     ]),
+    system("ends-on", "the motion on which the run of the study ends: period-1 (in step with the dither), locked, not-periodic, limit-cycle, rest", Computation::SystemEnd, &[
+        variable(("ends_on", ""), "motion on which the run ends", MOTIONS, OF_END, |r| Ok(f64::from(ended(r)?.kind))),
+    ]),
+    system("peak-to-peak", "peak-to-peak of the observed displacement of the motion on which the run ends", Computation::SystemEnd, &[
+        variable(("peak_to_peak", ""), "peak-to-peak of the observed displacement", LENGTH, OF_END, |r| Ok(ended(r)?.peak_to_peak)),
+    ]),
+    system("stick-fraction", "largest fraction of the time that a contact sticks, on the motion on which the run ends", Computation::SystemEnd, &[
+        variable(("stick_fraction", ""), "largest fraction of the time that a contact sticks", RATIO, OF_END, |r| Ok(ended(r)?.stick_fraction)),
+    ]),
+    system("effect", "effect of the dither on the vibration: quenches, reduces, increases, causes, or quiet with and without it", Computation::SystemResponse, &[
+        variable(("effect", ""), "effect of the dither", EFFECTS, OF_EFFECT, effect),
+    ]),
+    system("efficiency", "residual vibration E = M₁/M₀, the share that remains under dither; 0 if quenched", Computation::SystemResponse, &[
+        variable(("efficiency", "E"), "residual vibration E = M₁/M₀", RATIO, OF_EFFICIENCY, |r| responded(r)?.efficiency.map_err(Status::from)),
+    ]),
+    system("amplitude", "largest spectral amplitude M of the observed displacement below the dither", Computation::SystemResponse, &[
+        variable(("amplitude", "M"), "spectral amplitude of the slow vibration", LENGTH, OF_RESPONSE, |r| Ok(responded(r)?.amplitude)),
+    ]),
+    system("undithered-amplitude", "spectral amplitude M₀ of the run without dither", Computation::SystemResponse, &[
+        variable(("undithered_amplitude", "M_0"), "spectral amplitude without dither", LENGTH, OF_RESPONSE, |r| Ok(responded(r)?.undithered_amplitude)),
+    ]),
 ];
 
 const fn system(
@@ -259,6 +379,19 @@ fn grown_undithered(results: &Results) -> Result<SystemPoint, Status> {
 
 fn orbit(results: &Results) -> Result<SystemOrbitPoint, Status> {
     results.system_orbit.unwrap_or(Err(Status::Missing))
+}
+
+fn ended(results: &Results) -> Result<SystemEndPoint, Status> {
+    results.system_end.unwrap_or(Err(Status::Missing))
+}
+
+fn responded(results: &Results) -> Result<SystemResponsePoint, Status> {
+    results.system_response.unwrap_or(Err(Status::Missing))
+}
+
+#[expect(clippy::cast_precision_loss, reason = "one of five words")]
+fn effect(results: &Results) -> Result<f64, Status> {
+    Ok(responded(results)?.effect.place()? as f64)
 }
 
 fn judged(results: &Results) -> Result<f64, Status> {

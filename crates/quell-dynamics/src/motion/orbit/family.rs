@@ -11,7 +11,8 @@ use quell_model::System;
 use quell_numerics::continuation::{Image, PeriodMap};
 
 use super::super::{
-    ContactPhase, Immobile, MOTION_TOLERANCE, Motion, MotionStart, MotionStopped, MotionVariation,
+    ContactPhase, Immobile, LeastDistance, MOTION_TOLERANCE, Motion, MotionStart, MotionStopped,
+    MotionVariation,
 };
 use crate::simulation::EventKind;
 
@@ -153,17 +154,18 @@ pub(super) fn shot_within(
         _ => f64::INFINITY,
     };
     let image = Image { state: end.state, derivative: variation.matrix(), distance, signature };
-    let MotionVariation { events, is_one_sided, least, .. } = variation;
-    let is_separation = least.is_some_and(|least| least.is_load);
-    Ok((image, Shot { events, is_one_sided, is_separation }))
+    let MotionVariation { events, is_one_sided, least, approaches, .. } = variation;
+    Ok((image, Shot { events, is_one_sided, least, approaches }))
 }
 
 /// What a shot met on its way.
 pub(crate) struct Shot {
     pub(crate) events: Vec<super::super::RecordedEvent>,
     pub(crate) is_one_sided: bool,
-    /// Whether the nearest event is a separation.
-    pub(crate) is_separation: bool,
+    /// The nearest event of a contact that slips.
+    pub(crate) least: Option<LeastDistance>,
+    /// The least distance of each contact from its events: of its slip velocity and of its load.
+    pub(crate) approaches: Vec<[f64; 2]>,
 }
 
 impl PeriodMap for MotionFamily<'_> {

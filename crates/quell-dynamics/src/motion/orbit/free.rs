@@ -64,6 +64,9 @@ const IDLE: u32 = 8;
 /// Velocity, relative to the fastest so far, below which a motion has come to rest.
 const AT_REST: f64 = 1e-9;
 
+/// Rate times time scale, relative to the state and the velocities of the surfaces, of a run that has not moved at all.
+const STILL: f64 = 1e-14;
+
 /// Why no limit cycle was found.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoCycle {
@@ -157,7 +160,10 @@ pub fn free_cycle(system: &System, start: &[f64]) -> Result<MotionOrbit, NoCycle
         let end: MotionEnd =
             motion.run(&from, until, MOTION_TOLERANCE, &mut passages).map_err(NoCycle::Stopped)?;
         steps += end.steps;
-        if passages.rates.1 <= AT_REST * passages.rates.0 {
+        let still = STILL * scale_of(&motion, &end.state);
+        let is_at_rest = passages.rates.1 <= AT_REST * passages.rates.0
+            || passages.rates.1 * motion.time_scale() <= still;
+        if is_at_rest {
             return Err(NoCycle::Rest { time: end.time, state: end.state });
         }
         from = end.restart();

@@ -9,19 +9,25 @@
 //! | `periodic` | a periodic motion, its multipliers and verdict; found near a state, or continued from steady sliding |
 //! | `free`, `passages`, `watch` | limit cycles without dither: the search, its section, and its length |
 //! | `recurrence` | when a run comes back near its own states |
+//! | `ramp` | a run whose dither grows from zero |
 //! | `settled` | the periodic motion on which a run ends |
 //! | `thresholds` | values of a parameter at which the base response gains or loses stability |
+//! | `curves` | their curves over a second parameter |
 
+mod curves;
 pub mod family;
 mod free;
 mod passages;
 mod periodic;
+mod ramp;
 mod recurrence;
 mod settled;
 mod thresholds;
 mod watch;
 
+pub use curves::{MotionCurve, MotionCurves, MotionPlane, motion_curves};
 pub use free::{NoCycle, free_cycle};
 pub use periodic::{MotionOrbit, NoMotionOrbit, base_motion, motion_near, sliding_state};
+pub use ramp::ramped_motion;
 pub use settled::{MOST_PERIODS, SettledMotion, settled};
 pub use thresholds::{MotionThreshold, MotionThresholds, motion_thresholds};

@@ -222,7 +222,7 @@ pub fn motion_near(
 }
 
 /// The common period, of a system that has one.
-fn period_of(motion: &Motion<'_>, periods: u32) -> Result<f64, NoMotionOrbit> {
+pub(super) fn period_of(motion: &Motion<'_>, periods: u32) -> Result<f64, NoMotionOrbit> {
     if !motion.system().has_waves() {
         return Err(NoMotionOrbit::NoDither);
     }

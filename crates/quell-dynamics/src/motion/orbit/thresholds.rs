@@ -151,5 +151,5 @@ fn nearest_is_load(family: &MotionFamily<'_>, point: &SpecialPoint<MotionSignatu
         .find(|signature| signature.is_pure_slip());
     let time = time_of(&motion, family.periods);
     time.and_then(|time| shot(&motion, &point.state, time, slips))
-        .is_ok_and(|(_, met)| met.is_separation)
+        .is_ok_and(|(_, met)| met.least.is_some_and(|least| least.is_load))
 }

@@ -1,14 +1,17 @@
 //! Special points between two solutions on a branch: smooth thresholds, grazing, borders of signatures.
 
-use super::super::PeriodMap;
 use super::super::arc::{distance, normalised};
-use super::super::threshold::{BifurcationKind, SMOOTH, Tests, confirmed};
+use super::super::threshold::{BifurcationKind, ON_THE_CIRCLE, SMOOTH, Tests, confirmed};
+use super::super::{PeriodMap, modulus, spectral_radius};
 use super::points::{BranchSide, SpecialPoint};
 use super::run::{BranchSolution, ContinuationRun, MaybeSolution};
 use crate::roots::{Closeness, find_root, minimise};
 
 /// First and last distance beyond a grazing point at which the branch is searched for, in the scaled parameter.
 const BEYOND: (f64, f64) = (1e-7, 2e-2);
+
+/// Distance from the first of two solutions, kind, solution and error of a threshold between them.
+type FoundThreshold<S> = (f64, BifurcationKind, BranchSolution<S>, f64);
 
 impl<F: PeriodMap> ContinuationRun<'_, F> {
     /// The solution at which a test function changes sign between two solutions of one piece, and the error of its parameter.
@@ -47,7 +50,7 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
     ) {
         let (at_a, at_b) = (Tests::of(&a.multipliers), Tests::of(&b.multipliers));
         let held = Some(&a.image.signature);
-        let mut found: Vec<(f64, BifurcationKind, BranchSolution<F::Signature>, f64)> = Vec::new();
+        let mut found: Vec<FoundThreshold<F::Signature>> = Vec::new();
         for (index, kind) in SMOOTH.into_iter().enumerate() {
             let (before, after) = (at_a.values[index], at_b.values[index]);
             if before == 0.0 || before * after > 0.0 {
@@ -72,6 +75,9 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
             };
             found.push((distance(&a.unknowns, &solution.unknowns), kind, solution, error));
         }
+        if found.is_empty() {
+            found.extend(self.even_crossing(a, b));
+        }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut before = a.clone();
         for number in 0..found.len() {
@@ -85,6 +91,30 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
             out.push(self.special_point(*kind, solution, *error, &before, Some(&after)));
             before = after;
         }
+    }
+
+    /// Several equal multipliers that cross the unit circle together, as those of equal parts of a structure do: the test functions
+    /// keep their sign there, and the root is that of the largest modulus.
+    fn even_crossing(
+        &self,
+        a: &BranchSolution<F::Signature>,
+        b: &BranchSolution<F::Signature>,
+    ) -> Option<FoundThreshold<F::Signature>> {
+        let outside =
+            |solution: &BranchSolution<F::Signature>| spectral_radius(&solution.multipliers) - 1.0;
+        if outside(a) == 0.0 || outside(a) * outside(b) > 0.0 {
+            return None;
+        }
+        let held = Some(&a.image.signature);
+        let (solution, error) = self.root(a, b, held, outside)?;
+        let largest = solution.multipliers.first()?;
+        let kind = match () {
+            () if (modulus(*largest) - 1.0).abs() > ON_THE_CIRCLE => return None,
+            () if largest.im != 0.0 => BifurcationKind::NeimarkSacker,
+            () if largest.re < 0.0 => BifurcationKind::Flip,
+            () => BifurcationKind::Branching,
+        };
+        Some((distance(&a.unknowns, &solution.unknowns), kind, solution, error))
     }
 
     /// A special point with its sides in the order of the parameter.

@@ -7,8 +7,10 @@ use serde_json::Value as Json;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::outcome::Presented;
+use crate::outcome::table::figure;
 use crate::picture;
 use crate::plot::Figure;
+use crate::run::basins::Share;
 use crate::run::system::basins::SystemBasins;
 use crate::study::{SystemSetup, SystemStudy};
 
@@ -25,13 +27,27 @@ impl Presented<SystemSetup> for SystemBasins {
 
     fn table(&self, _: &SystemStudy) -> String {
         let mut text = String::new();
-        for basin in &self.basins {
-            let share = format!("{:.1} %", 100.0 * basin.share.fraction);
-            let _ = writeln!(text, "  {share:<10}{}", basin.attractor.words());
+        let percent = |fraction: f64| format!("{:.1} %", 100.0 * fraction);
+        if let (None, [portrait]) = (&self.over, self.portraits.as_slice()) {
+            for basin in &portrait.basins {
+                let share = percent(basin.share.fraction);
+                let _ = writeln!(text, "  {share:<10}{}", basin.attractor.words());
+            }
+            if portrait.unknown.starts > 0 {
+                let share = percent(portrait.unknown.fraction);
+                let _ = writeln!(text, "  {share:<10}outcome unknown");
+            }
+            return text;
         }
-        if self.unknown.0 > 0 {
-            let share = 100.0 * self.unknown.0 as f64 / self.ends.len() as f64;
-            let _ = writeln!(text, "  {:<10}outcome unknown", format!("{share:.1} %"));
+        let path = self.over.as_ref().map_or("", |over| over.parameter.as_str());
+        let width = path.len().max(14) + 2;
+        let _ = writeln!(text, "\n  {path:<width$}{:<26}{:<12}motions", "quiet", "unknown");
+        for portrait in &self.portraits {
+            let value = portrait.value.map_or_else(String::new, figure);
+            let quiet = portrait.quiet.map_or_else(|| "unknown".to_owned(), Share::percent);
+            let unknown = percent(portrait.unknown.fraction);
+            let count = portrait.basins.len();
+            let _ = writeln!(text, "  {value:<width$}{quiet:<26}{unknown:<12}{count}");
         }
         text
     }

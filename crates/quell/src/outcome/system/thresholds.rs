@@ -1,4 +1,4 @@
-//! `thresholds` of a dithered system.
+//! `thresholds` of a dithered system, and curves of thresholds in two parameters.
 
 use std::fmt::Write as _;
 
@@ -8,8 +8,10 @@ use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::outcome::Presented;
 use crate::outcome::table::figure;
+use crate::outcome::thresholds::rows_of_curves;
 use crate::picture;
 use crate::plot::Figure;
+use crate::run::system::curves::SystemCurves;
 use crate::run::system::switches::STEPS_TRIED;
 use crate::run::system::thresholds::MotionThresholdsFound;
 use crate::run::thresholds::side;
@@ -63,5 +65,34 @@ impl Presented<SystemSetup> for MotionThresholdsFound {
 
     fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
         Some(Ok(picture::system_thresholds::thresholds(study, self)))
+    }
+}
+
+impl Presented<SystemSetup> for SystemCurves {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
+        self.json(study)
+    }
+
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
+        Some(self.sentence(study))
+    }
+
+    fn table(&self, study: &SystemStudy) -> String {
+        let curves = self.found.curves.iter().map(|curve| (self.kind(study, curve), curve));
+        let names = [&self.request.along, &self.request.parameter].map(|path| {
+            let unit = study.unit_of(path).filter(|unit| *unit != "1");
+            unit.map_or_else(|| path.clone(), |unit| format!("{path} ({unit})"))
+        });
+        rows_of_curves(curves, &names, [&figure, &figure])
+    }
+
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
+        vec![("curves", self.dataset(study))]
+    }
+
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::system_thresholds::curves(study, self)))
     }
 }

@@ -5,23 +5,14 @@ use std::fmt::Write as _;
 use quell_dynamics::attractor::{Attractor, BasinLabel};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::units::Quantity;
-use serde_json::{Value as Json, json};
+use serde_json::Value as Json;
 
 use super::super::attractor::{VERDICTS, number, put, put_section, verdict_code, words};
-use super::{Basins, Portrait, Share, StartLayout};
+use super::{Basins, Portrait, Share};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::study::BeltStudy;
 use crate::words::{capital, in_words, plural};
-
-/// A share as a percentage with its bounds.
-fn percent(share: Share) -> String {
-    let digits = |value: f64| {
-        let text = format!("{:.1}", 100.0 * value);
-        text.trim_end_matches(".0").to_owned()
-    };
-    format!("{} % ({} to {} %)", digits(share.fraction), digits(share.low), digits(share.high))
-}
 
 /// The verb for a start that ends without slow motion, singular and plural. Under a dither in the band of the vibration
 /// itself no response is quiet.
@@ -65,7 +56,7 @@ impl Portrait {
             },
             Some(share) => {
                 let elsewhere = self.elsewhere();
-                format!("Only {} of {count} starts {fall}{elsewhere}.", percent(share))
+                format!("Only {} of {count} starts {fall}{elsewhere}.", share.percent())
             }
             None => {
                 let basins = self.gathered.basins.len();
@@ -119,29 +110,10 @@ impl Portrait {
     }
 }
 
-fn put_share(fields: &mut Fields, share: Share) {
-    fields
-        .plain("starts", share.starts)
-        .number("fraction", Quantity::Ratio, share.fraction)
-        .number("fraction_low", Quantity::Ratio, share.low)
-        .number("fraction_high", Quantity::Ratio, share.high)
-        .number("fraction_error", Quantity::Ratio, share.error());
-}
-
 impl Basins {
     /// The meaning of the shares and their bounds.
     pub fn meaning(&self) -> &'static str {
-        match self.starts.layout() {
-            StartLayout::Grid { .. } => {
-                "each start represents its cell of the window; the bounds add or subtract half of each cell next to a basin boundary, \
-                 and miss parts of a basin smaller than a cell; starts of unknown outcome count only towards the upper bound of the quiet \
-                 fraction"
-            }
-            StartLayout::Sample { .. } => {
-                "the starts are a uniform random sample of the window, and the bounds are Wilson's 95 % interval; starts of unknown \
-                 outcome count only towards the upper bound of the quiet fraction"
-            }
-        }
+        self.starts.layout().meaning()
     }
 
     /// The window and its starts as text.
@@ -149,10 +121,7 @@ impl Basins {
         let window = self.starts.window();
         let x = |value| in_words(study, Quantity::Displacement, value);
         let v = |value| in_words(study, Quantity::Velocity, value);
-        let layout = match self.starts.layout() {
-            StartLayout::Grid { columns, rows } => format!("A grid of {columns} × {rows} starts"),
-            StartLayout::Sample { count, seed } => format!("{count} random starts (seed {seed})"),
-        };
+        let layout = self.starts.layout().words();
         let (from, to) = (window.displacement, window.velocity);
         format!(
             "{layout}, x from {} to {}, x′ from {} to {}",
@@ -268,11 +237,7 @@ impl Basins {
             .numbers("window_displacement", Quantity::Displacement, &pair(window.displacement))
             .numbers("window_velocity", Quantity::Velocity, &pair(window.velocity))
             .plain("starts", self.starts.states().len());
-        let layout = match self.starts.layout() {
-            StartLayout::Grid { columns, rows } => json!({ "grid": [columns, rows] }),
-            StartLayout::Sample { count, seed } => json!({ "sample": count, "seed": seed }),
-        };
-        fields.plain("layout", layout);
+        fields.plain("layout", self.starts.layout().json());
         if let Some(varied) = &self.varied {
             fields.plain("parameter", varied.path.as_str()).plain("unit", varied.unit);
             let portraits = self.portraits.iter().map(|portrait| {
@@ -405,7 +370,7 @@ fn put_portrait(fields: &mut Fields, portrait: &Portrait, section: bool) {
     let attractors = portrait.gathered.basins.iter().zip(&portrait.shares).map(|(basin, share)| {
         let mut inner = Fields::new(scales);
         inner.plain("words", words(portrait.scales, &basin.attractor, portrait.period));
-        put_share(&mut inner, *share);
+        share.put(&mut inner);
         put(&mut inner, &basin.attractor, portrait.period);
         if section {
             put_section(&mut inner, &basin.attractor);
@@ -415,6 +380,6 @@ fn put_portrait(fields: &mut Fields, portrait: &Portrait, section: bool) {
     let attractors: Vec<Fields> = attractors.collect();
     fields.list("attractors", attractors);
     let mut unknown = Fields::new(scales);
-    put_share(&mut unknown, portrait.unknown);
+    portrait.unknown.put(&mut unknown);
     fields.nested("unknown", unknown);
 }

@@ -5,7 +5,10 @@
 //! neighbour outside. A cell next to the boundary may lose or gain up to half of itself, and the bounds are the sums of
 //! these halves. A part of the basin that is smaller than a cell is missed, and not covered by the bounds.
 
+use quell_model::units::Quantity;
+
 use super::starts::StartLayout;
+use crate::fields::Fields;
 
 /// z of a two-sided 95 %.
 const Z: f64 = 1.959_963_984_540_054;
@@ -40,9 +43,28 @@ impl Share {
     }
 
     /// The share of the starts that are `surely` inside; the upper bound also counts those that are `perhaps` inside.
-    pub(super) fn between(layout: StartLayout, surely: &[bool], perhaps: &[bool]) -> Self {
+    pub(crate) fn between(layout: StartLayout, surely: &[bool], perhaps: &[bool]) -> Self {
         let all: Vec<bool> = surely.iter().zip(perhaps).map(|(a, b)| *a || *b).collect();
         Self { high: Self::of(layout, &all).high, ..Self::of(layout, surely) }
+    }
+
+    /// As a percentage with its bounds.
+    pub fn percent(self) -> String {
+        let digits = |value: f64| {
+            let text = format!("{:.1}", 100.0 * value);
+            text.trim_end_matches(".0").to_owned()
+        };
+        format!("{} % ({} to {} %)", digits(self.fraction), digits(self.low), digits(self.high))
+    }
+
+    /// Adds its fields to an object.
+    pub(in crate::run) fn put(self, fields: &mut Fields) {
+        fields
+            .plain("starts", self.starts)
+            .number("fraction", Quantity::Ratio, self.fraction)
+            .number("fraction_low", Quantity::Ratio, self.low)
+            .number("fraction_high", Quantity::Ratio, self.high)
+            .number("fraction_error", Quantity::Ratio, self.error());
     }
 
     /// Half the distance between the bounds.

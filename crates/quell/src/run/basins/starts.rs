@@ -2,6 +2,7 @@
 
 use quell_dynamics::simulation::Start;
 use quell_model::Belt;
+use serde_json::{Value as Json, json};
 
 use super::super::evenly;
 use crate::complaint::{Complaint, Complaints};
@@ -82,27 +83,7 @@ impl Starts {
                 complaints.push(Complaint::option(option, format!("{from}:{to}"), allowed));
             }
         }
-        match layout {
-            StartLayout::Grid { columns, rows } => {
-                let count = columns.checked_mul(rows);
-                if columns < 2 || rows < 2 || count.is_none_or(|count| count > MOST_STARTS) {
-                    let allowed = format!(
-                        "NxM, two whole numbers of at least 2 and at most {MOST_STARTS} starts in total, such as 41x31"
-                    );
-                    complaints.push(Complaint::option(
-                        "--grid",
-                        format!("{columns}x{rows}"),
-                        allowed,
-                    ));
-                }
-            }
-            StartLayout::Sample { count, .. } => {
-                if !(1..=MOST_STARTS).contains(&count) {
-                    let allowed = format!("a whole number from 1 to {MOST_STARTS}");
-                    complaints.push(Complaint::option("--sample", count, allowed));
-                }
-            }
-        }
+        complaints.extend(layout.refused("41x31"));
         if !complaints.is_empty() {
             return Err(complaints.into());
         }
@@ -131,28 +112,91 @@ impl Starts {
 
     /// The displacements and the velocities of a grid.
     pub fn axes(&self) -> Option<(Vec<f64>, Vec<f64>)> {
-        match self.layout {
-            StartLayout::Grid { columns, rows } => Some((
-                evenly(self.window.displacement, columns),
-                evenly(self.window.velocity, rows),
-            )),
-            StartLayout::Sample { .. } => None,
-        }
+        let [across, upwards] =
+            self.layout.axes([self.window.displacement, self.window.velocity])?;
+        Some((across, upwards))
     }
 }
 
 fn states(window: Window, layout: StartLayout) -> Vec<Start> {
-    let at = |displacement: f64, velocity: f64| Start { time: 0.0, displacement, velocity };
-    match layout {
-        StartLayout::Grid { columns, rows } => {
-            let across = evenly(window.displacement, columns);
-            let upwards = evenly(window.velocity, rows);
-            upwards.iter().flat_map(|v| across.iter().map(|x| at(*x, *v))).collect()
+    let places = layout.places([window.displacement, window.velocity]);
+    let start = |[displacement, velocity]: [f64; 2]| Start { time: 0.0, displacement, velocity };
+    places.into_iter().map(start).collect()
+}
+
+impl StartLayout {
+    /// A complaint about numbers of starts that are not allowed, with an example of a grid.
+    pub(in crate::run) fn refused(self, example: &str) -> Option<Complaint> {
+        match self {
+            Self::Grid { columns, rows } => {
+                let count = columns.checked_mul(rows);
+                let wrong =
+                    columns < 2 || rows < 2 || count.is_none_or(|count| count > MOST_STARTS);
+                let allowed = format!(
+                    "NxM, two whole numbers of at least 2 and at most {MOST_STARTS} starts in total, such as {example}"
+                );
+                wrong.then(|| Complaint::option("--grid", format!("{columns}x{rows}"), allowed))
+            }
+            Self::Sample { count, .. } => {
+                let allowed = format!("a whole number from 1 to {MOST_STARTS}");
+                let wrong = !(1..=MOST_STARTS).contains(&count);
+                wrong.then(|| Complaint::option("--sample", count, allowed))
+            }
         }
-        StartLayout::Sample { count, seed } => {
-            let mut state = seed;
-            let mut between = |(from, to): (f64, f64)| from + (to - from) * uniform(&mut state);
-            (0..count).map(|_| at(between(window.displacement), between(window.velocity))).collect()
+    }
+
+    /// The starts in a window of two numbers; on a grid the first number runs fastest.
+    pub(in crate::run) fn places(self, [across, upwards]: [(f64, f64); 2]) -> Vec<[f64; 2]> {
+        match self {
+            Self::Grid { columns, rows } => {
+                let across = evenly(across, columns);
+                let upwards = evenly(upwards, rows);
+                upwards.iter().flat_map(|v| across.iter().map(|x| [*x, *v])).collect()
+            }
+            Self::Sample { count, seed } => {
+                let mut state = seed;
+                let mut between = |(from, to): (f64, f64)| from + (to - from) * uniform(&mut state);
+                (0..count).map(|_| [between(across), between(upwards)]).collect()
+            }
+        }
+    }
+
+    /// The values of both axes of a grid.
+    pub(crate) fn axes(self, [across, upwards]: [(f64, f64); 2]) -> Option<[Vec<f64>; 2]> {
+        match self {
+            Self::Grid { columns, rows } => Some([evenly(across, columns), evenly(upwards, rows)]),
+            Self::Sample { .. } => None,
+        }
+    }
+
+    /// As words, such as "A grid of 21 × 15 starts".
+    pub(in crate::run) fn words(self) -> String {
+        match self {
+            Self::Grid { columns, rows } => format!("A grid of {columns} × {rows} starts"),
+            Self::Sample { count, seed } => format!("{count} random starts (seed {seed})"),
+        }
+    }
+
+    /// The meaning of the shares and their bounds.
+    pub(in crate::run) fn meaning(self) -> &'static str {
+        match self {
+            Self::Grid { .. } => {
+                "each start represents its cell of the window; the bounds add or subtract half of each cell next to a basin boundary, \
+                 and miss parts of a basin smaller than a cell; starts of unknown outcome count only towards the upper bound of the quiet \
+                 fraction"
+            }
+            Self::Sample { .. } => {
+                "the starts are a uniform random sample of the window, and the bounds are Wilson's 95 % interval; starts of unknown \
+                 outcome count only towards the upper bound of the quiet fraction"
+            }
+        }
+    }
+
+    /// As JSON.
+    pub(in crate::run) fn json(self) -> Json {
+        match self {
+            Self::Grid { columns, rows } => json!({ "grid": [columns, rows] }),
+            Self::Sample { count, seed } => json!({ "sample": count, "seed": seed }),
         }
     }
 }

@@ -7,6 +7,7 @@ use serde_json::Value as Json;
 use super::super::attractor::{
     KINDS, VERDICTS, kind_code, number, put, put_section, verdict_code, words,
 };
+use super::shared::{hysteresis_sentence, jump, put_comparison};
 use super::{Bifurcation, SweepDirection, SweepPoint};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
@@ -57,40 +58,21 @@ impl Bifurcation {
             sentences.push(format!("{parts}, and is {} at {end}.", quiet(last)));
         }
         if self.branches.len() == 2 {
-            sentences.push(match self.hysteresis.as_slice() {
-                [] if self.has_settled() => {
-                    "Both directions show responses of the same size: no hysteresis.".to_owned()
-                }
-                [] if self.both_settle() => {
-                    "Both directions show responses of the same size wherever both have settled."
-                        .to_owned()
-                }
-                [] => "The two directions have not both settled at any value.".to_owned(),
-                ranges => {
-                    let parts: Vec<String> = ranges
-                        .iter()
-                        .map(|(from, to)| format!("from {} to {}", value(*from), value(*to)))
-                        .collect();
-                    format!(
-                        "The two directions differ {}, where responses coexist.",
-                        parts.join(" and ")
-                    )
-                }
-            });
+            sentences.push(hysteresis_sentence(
+                &self.hysteresis,
+                &self.both_settle(),
+                "responses",
+                value,
+            ));
         }
         sentences.join(" ")
     }
 
-    /// Whether every point has settled.
-    fn has_settled(&self) -> bool {
-        self.branches.iter().flat_map(|branch| &branch.points).all(|point| point.response.is_ok())
-    }
-
-    /// Whether both directions have settled at any one value.
-    fn both_settle(&self) -> bool {
-        let [up, down] = self.branches.as_slice() else { return false };
-        let mut pairs = up.points.iter().zip(down.points.iter().rev());
-        pairs.any(|(one, other)| one.response.is_ok() && other.response.is_ok())
+    /// Whether both directions have settled, at each value.
+    fn both_settle(&self) -> Vec<bool> {
+        let [up, down] = self.branches.as_slice() else { return Vec::new() };
+        let pairs = up.points.iter().zip(down.points.iter().rev());
+        pairs.map(|(one, other)| one.response.is_ok() && other.response.is_ok()).collect()
     }
 
     /// Warnings about points that have not settled.
@@ -150,24 +132,14 @@ impl Bifurcation {
             fields.list(branch.direction.name(), points);
         }
         let jumps = self.branches.iter().flat_map(|branch| {
-            branch.jumps().into_iter().map(|jump| {
-                let mut inner = Fields::new(scales);
-                inner
-                    .plain("direction", branch.direction.name())
-                    .plain("before", jump.before)
-                    .plain("after", jump.after)
-                    .plain("becomes", if jump.to_quiet { "quiet" } else { "not quiet" });
-                inner
+            let own = branch.jumps().into_iter();
+            own.map(|own| {
+                let ends = (own.before, own.after);
+                jump(Fields::new(scales), branch.direction, ends, own.to_quiet)
             })
         });
-        fields.list("jumps", jumps);
-        if self.branches.len() == 2 {
-            let pairs: Vec<Json> =
-                self.hysteresis.iter().map(|(from, to)| vec![*from, *to].into()).collect();
-            fields.plain("hysteresis", pairs);
-        } else {
-            fields.unknown("hysteresis", "hysteresis requires sweeps in both directions");
-        }
+        let hysteresis = (self.branches.len() == 2).then_some(self.hysteresis.as_slice());
+        put_comparison(&mut fields, jumps.collect(), hysteresis);
         fields.plain("warnings", self.warnings(study));
         fields.finish()
     }

@@ -4,6 +4,7 @@
 //! shows that it has settled. The downward sweep begins where the upward sweep ended. Where the two differ, responses coexist.
 
 mod answer;
+pub(in crate::run) mod shared;
 
 use std::sync::atomic::Ordering;
 
@@ -126,13 +127,8 @@ pub fn run(
     running: Running<'_>,
 ) -> Result<Bifurcation, Failure> {
     let varied = Varied::new(study, "--parameter", &question.range)?;
-    // Both directions by default.
-    let (up, down) =
-        if question.up || question.down { (question.up, question.down) } else { (true, true) };
     let count = varied.values.len();
-    let asked =
-        [(up, SweepDirection::Up), (down, SweepDirection::Down)].into_iter().filter(|(on, _)| *on);
-    let directions: Vec<SweepDirection> = asked.map(|(_, direction)| direction).collect();
+    let directions = shared::directions(question);
     running.progress.begin(count * directions.len(), 0);
     let mut branches: Vec<Branch> = Vec::new();
     let mut state: Option<Start> = None;
@@ -189,9 +185,8 @@ fn point(study: &BeltStudy, value: f64, begun: Start) -> Result<(SweepPoint, Sta
 fn hysteresis(study: &BeltStudy, branches: &[Branch]) -> Vec<(f64, f64)> {
     let [up, down] = branches else { return Vec::new() };
     let scale = study.belt().normal_load();
-    let mut ranges: Vec<(f64, f64)> = Vec::new();
-    let mut open = false;
-    for (one, other) in up.points.iter().zip(down.points.iter().rev()) {
+    let pairs = up.points.iter().zip(down.points.iter().rev());
+    shared::ranges(pairs.map(|(one, other)| {
         let apart = match (&one.response, &other.response) {
             (Ok(one), Ok(other)) if is_one_torus(one, other) => one.quiet != other.quiet,
             (Ok(one), Ok(other)) => {
@@ -201,14 +196,8 @@ fn hysteresis(study: &BeltStudy, branches: &[Branch]) -> Vec<(f64, f64)> {
             }
             _ => false,
         };
-        match (apart, ranges.last_mut()) {
-            (true, Some(last)) if open => last.1 = one.value,
-            (true, _) => ranges.push((one.value, one.value)),
-            (false, _) => {}
-        }
-        open = apart;
-    }
-    ranges
+        (one.value, apart)
+    }))
 }
 
 /// Whether two responses may be the same although their records differ in size: closed curves with the same rotation, or
@@ -235,15 +224,12 @@ impl SweepPoint {
 impl Branch {
     /// The jumps at which the sweep leaves or reaches quiescence.
     pub fn jumps(&self) -> Vec<Jump> {
-        let known: Vec<(&SweepPoint, bool)> =
-            self.points.iter().filter_map(|point| Some((point, point.quiet()?))).collect();
-        let changes = known.windows(2).filter(|pair| pair[0].1 != pair[1].1);
-        changes
-            .map(|pair| {
-                let ((before, _), (after, to_quiet)) = (pair[0], pair[1]);
-                let in_band = after.in_band;
-                Jump { before: before.value, after: after.value, to_quiet, in_band }
-            })
-            .collect()
+        let changes = shared::changes(self.points.iter().map(SweepPoint::quiet));
+        let jump = |(before, after): (usize, usize)| {
+            let (before, after) = (&self.points[before], &self.points[after]);
+            let (to_quiet, in_band) = (after.quiet() == Some(true), after.in_band);
+            Jump { before: before.value, after: after.value, to_quiet, in_band }
+        };
+        changes.into_iter().map(jump).collect()
     }
 }

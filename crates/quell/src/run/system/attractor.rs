@@ -1,13 +1,17 @@
 //! The motion on which a run of a system ends, as `bifurcation` and `basins` report it.
 
 use quell_dynamics::motion::orbit::{
-    MotionOrbit, NoCycle, NoMotionOrbit, SettledMotion, free_cycle, settled,
+    MotionOrbit, NoCycle, NoMotionOrbit, SettledMotion, base_motion, free_cycle, settled,
+    sliding_state,
 };
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart};
+use quell_linear::linearised::Linearised;
 use quell_linear::pure_slip::period;
+use quell_linear::spectrum;
 use quell_model::System;
 use quell_model::units::Quantity;
 
+use super::cycle::{BASE_STEPS, kicked_by};
 use super::cycle_samples::CycleSamples;
 use crate::fields::Fields;
 use crate::study::SystemStudy;
@@ -18,6 +22,13 @@ const MEASURED: f64 = 20.0;
 
 /// Mismatch of states, relative to their size, of one motion.
 const SAME: f64 = 1e-5;
+
+/// Distance from steady sliding, relative to its state and the velocities of the surfaces, of a start that is on it.
+const ON_SLIDING: f64 = 1e-6;
+
+/// Velocity of the displacement of a start on unstable steady sliding, over that of the surface: far above rounding, so that the
+/// run leaves in time, and far below that of a limit cycle.
+const NUDGE: f64 = 1e-4;
 
 /// The kind of a motion on which a run ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,8 +92,9 @@ pub fn end_of_run(
     start: &[f64],
     most: u32,
 ) -> Result<EndOfRun, String> {
-    if !system.is_dithered() && period(system).is_none() {
-        return undithered(system, row, start);
+    if !system.is_dithered() {
+        // A dither of amplitude 0 gives the motion no period.
+        return on_free_motion(&system.undithered(), row, start);
     }
     let (kind, state, states, length, periods) = match settled(system, start, most) {
         Ok(SettledMotion { orbit, multiple, periods }) => {
@@ -102,8 +114,38 @@ pub fn end_of_run(
     Ok(EndOfRun { attractor: SystemAttractor::new(kind, row, states, &samples), periods })
 }
 
-fn undithered(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRun, String> {
-    let (kind, state, length) = match free_cycle(system, start) {
+/// Verdict on the base response of a dithered system, or on steady sliding without dither.
+///
+/// # Errors
+/// Why it is unknown.
+pub fn local_verdict(system: &System) -> Result<&'static str, String> {
+    if system.is_dithered() {
+        let base = base_motion(system, BASE_STEPS).map_err(|why| why.to_string())?;
+        return Ok(base.verdict().name());
+    }
+    let linear = Linearised::new(system).map_err(|why| why.to_string())?;
+    let growth = spectrum::growth(&linear, &linear.friction()).map_err(|why| why.to_string())?;
+    Ok(growth.verdict().name())
+}
+
+/// A start without dither. A run from unstable steady sliding would stay there until rounding displaces it: such a start is
+/// displaced first, by [`NUDGE`] times the velocity of the surface.
+fn displaced(system: &System, start: &[f64]) -> Vec<f64> {
+    let Ok(sliding) = sliding_state(system) else { return start.to_vec() };
+    let speeds = system.contacts.iter().map(|contact| contact.surface_velocity.mean().abs());
+    let size = sliding.iter().map(|value| value.abs()).chain(speeds).fold(0.0, f64::max);
+    let pairs = sliding.iter().zip(start);
+    let distance = pairs.fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+    if distance > ON_SLIDING * size
+        || local_verdict(system).as_ref().is_ok_and(|verdict| *verdict == "stable")
+    {
+        return start.to_vec();
+    }
+    kicked_by(system, NUDGE).unwrap_or_else(|| start.to_vec())
+}
+
+fn on_free_motion(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRun, String> {
+    let (kind, state, length) = match free_cycle(system, &displaced(system, start)) {
         Ok(cycle) => {
             let kind = MotionKind::Cycle { period: cycle.period, radius: cycle.radius() };
             (kind, cycle.state, cycle.period)
@@ -259,3 +301,13 @@ pub(super) const KINDS: [(u8, &str); 6] = [
     (4, "rest"),
     (5, "unknown"),
 ];
+
+/// Words of the column `local_verdict`.
+pub(super) const VERDICTS: [(u8, &str); 4] =
+    [(0, "stable"), (1, "unstable"), (2, "undecided"), (3, "unknown")];
+
+/// The code of a verdict in datasets.
+pub(super) fn verdict_code(local: &Result<&'static str, String>) -> u8 {
+    let word = local.as_ref().map_or("unknown", |word| *word);
+    VERDICTS.iter().find(|(_, known)| *known == word).map_or(3, |(code, _)| *code)
+}

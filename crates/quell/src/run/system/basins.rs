@@ -1,19 +1,21 @@
-//! `basins` of a system: the motions on which starts in a plane of two numbers of the state end, and the share of each.
+//! `basins` of a system: the motions on which starts in a plane of two numbers of the state end, the share of each, and the shares
+//! over a parameter.
 
 use std::sync::atomic::Ordering;
 
-use quell_dynamics::motion::orbit::{base_motion, sliding_state};
+use quell_dynamics::motion::orbit::sliding_state;
 use quell_model::System;
 use rayon::prelude::*;
 
-use super::attractor::{EndOfRun, SystemAttractor, end_of_run};
-use super::cycle::BASE_STEPS;
-use super::has_equations;
+use super::attractor::{EndOfRun, SystemAttractor, end_of_run, local_verdict};
 use super::protocol::SystemProtocol;
 use super::start::{state_names, state_quantity};
-use crate::complaint::{Complaint, Complaints, Failure};
+use super::tracked::{TrackRequest, understood};
+use super::{failed, has_equations};
+use crate::complaint::{Complaint, Complaints, Failure, Origin};
 use crate::quantity;
 use crate::run::basins::{BasinsRequest, MOST_STARTS, Share, StartLayout};
+use crate::run::varied::{MOST_VALUES, Range};
 use crate::run::{evenly, stopped};
 use crate::study::{SystemStudy, suggest};
 use crate::sweep::Running;
@@ -38,25 +40,21 @@ pub struct PlaneAxis {
 pub struct PlaneRequest {
     /// The two axes.
     pub axes: [PlaneAxis; 2],
-    /// Numbers of values on each axis, edges included.
-    pub grid: (usize, usize),
+    /// Layout of the starts; a grid of [`GRID`] if it is that of a belt by default.
+    pub layout: StartLayout,
+    /// A parameter to vary.
+    pub over: Option<Range>,
 }
 
 impl PlaneRequest {
     /// A request with the layout of a belt's starts.
-    ///
-    /// # Errors
-    /// Random starts.
-    pub fn of(axes: [PlaneAxis; 2], layout: StartLayout) -> Result<Self, Failure> {
-        let grid = match layout {
-            layout if layout == StartLayout::default() => GRID,
-            StartLayout::Grid { columns, rows } => (columns, rows),
-            StartLayout::Sample { count, .. } => {
-                let allowed = "left out: starts of a system are on a grid (--grid)";
-                return Err(Complaint::option("--sample", count, allowed).into());
-            }
+    pub fn of(axes: [PlaneAxis; 2], layout: StartLayout, over: Option<Range>) -> Self {
+        let layout = if layout == StartLayout::default() {
+            StartLayout::Grid { columns: GRID.0, rows: GRID.1 }
+        } else {
+            layout
         };
-        Ok(Self { axes, grid })
+        Self { axes, layout, over }
     }
 }
 
@@ -71,25 +69,45 @@ pub struct SystemBasin {
     pub periods: u32,
 }
 
+/// The basins at one value of the parameter, or of the study as it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SystemPortrait {
+    /// Value of the parameter, if one is varied.
+    pub value: Option<f64>,
+    /// Whether some dither acts.
+    pub is_dithered: bool,
+    /// Verdict on the base response, without dither on steady sliding; or why it is unknown.
+    pub local: Result<&'static str, String>,
+    /// The motions, quiescent ones first, then the largest share first.
+    pub basins: Vec<SystemBasin>,
+    /// The motion of each start; `None` if its outcome is unknown.
+    pub ends: Vec<Option<usize>>,
+    /// The share of starts that end in step with the dither, or at rest. Starts of unknown outcome count only towards its upper
+    /// bound; `None` if no outcome is known.
+    pub quiet: Option<Share>,
+    /// The share of starts of unknown outcome.
+    pub unknown: Share,
+    /// Why the first of them is unknown.
+    pub why: Option<String>,
+}
+
 /// The basins of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SystemBasins {
     /// Names of the axes.
     pub names: [String; 2],
-    /// Values along the first and the second axis.
-    pub values: [Vec<f64>; 2],
+    /// Least and largest value of each axis.
+    pub windows: [(f64, f64); 2],
+    /// Layout of the starts.
+    pub layout: StartLayout,
+    /// The values of both axes at each start; on a grid the first axis runs fastest.
+    pub starts: Vec<[f64; 2]>,
     /// The start of all other numbers of the state in words.
     pub start: String,
-    /// The motions, quiescent ones first, then the largest share first.
-    pub basins: Vec<SystemBasin>,
-    /// The motion of each start, the first axis fastest; `None` if its outcome is unknown.
-    pub ends: Vec<Option<usize>>,
-    /// The share of starts that end in step with the dither, or at rest.
-    pub quiet: Share,
-    /// Number of starts of unknown outcome, and why the first of them is unknown.
-    pub unknown: (usize, Option<String>),
-    /// Verdict on the base response, or why it is unknown.
-    pub local: Result<&'static str, String>,
+    /// The varied parameter.
+    pub over: Option<Range>,
+    /// One portrait for each value; a single one without a parameter.
+    pub portraits: Vec<SystemPortrait>,
 }
 
 /// The places of the axes in the state.
@@ -117,13 +135,7 @@ fn places(study: &SystemStudy, request: &PlaneRequest) -> Result<[usize; 2], Fai
         let allowed = "two different names of the state";
         wrong.push(Complaint::option("--plane", request.axes[1].name.as_str(), allowed));
     }
-    let (columns, rows) = request.grid;
-    if columns < 2 || rows < 2 || columns.checked_mul(rows).is_none_or(|all| all > MOST_STARTS) {
-        let allowed = format!(
-            "NxM, two whole numbers of at least 2 and at most {MOST_STARTS} starts in total, such as 21x15"
-        );
-        wrong.push(Complaint::option("--grid", format!("{columns}x{rows}"), allowed));
-    }
+    wrong.extend(request.layout.refused("21x15"));
     if wrong.is_empty() { Ok(places) } else { Err(wrong.into()) }
 }
 
@@ -141,6 +153,43 @@ fn window(system: &System, start: &[f64], place: usize) -> (f64, f64) {
     (state[place] - reach, state[place] + reach)
 }
 
+/// The values of the varied parameter; a single `None` without one.
+fn values(
+    study: &SystemStudy,
+    over: Option<&Range>,
+    starts: usize,
+) -> Result<Vec<Option<f64>>, Failure> {
+    let Some(Range { parameter, from, to, points }) = over else { return Ok(vec![None]) };
+    understood(
+        study,
+        &TrackRequest { parameter: parameter.clone(), window: (*from, *to), along: None },
+    )
+    .map_err(|why| renamed(why, "--parameter", "--over"))?;
+    if !(2..=MOST_VALUES).contains(points) {
+        let allowed = format!("a whole number from 2 to {MOST_VALUES}");
+        return Err(Complaint::option("--points", *points, allowed).into());
+    }
+    if points.checked_mul(starts).is_none_or(|all| all > MOST_STARTS) {
+        let allowed = format!(
+            "such that the number of values times the number of starts ({starts}) is at most {MOST_STARTS}"
+        );
+        return Err(Complaint::option("--points", *points, allowed).into());
+    }
+    Ok(evenly((*from, *to), *points).into_iter().map(Some).collect())
+}
+
+/// Complaints about one option as those about another.
+fn renamed(why: Failure, from: &str, to: &'static str) -> Failure {
+    let Failure::Wrong(complaints) = why else { return why };
+    let renamed = |complaint: &Complaint| {
+        if complaint.key != from {
+            return complaint.clone();
+        }
+        Complaint { key: to.to_owned(), origin: Origin::Argument(to), ..complaint.clone() }
+    };
+    Failure::Wrong(complaints.iter().map(renamed).collect::<Vec<Complaint>>().into())
+}
+
 /// Settles every start and groups the starts by motion.
 ///
 /// # Errors
@@ -152,113 +201,119 @@ pub fn run(
 ) -> Result<SystemBasins, Failure> {
     has_equations(study, "basins")?;
     let places = places(study, request)?;
-    let system = study.system();
-    let start = SystemProtocol::Study.state(study, system)?;
-    let (columns, rows) = request.grid;
-    let axis = |number: usize, count: usize| {
-        let given = request.axes[number].window;
-        evenly(given.unwrap_or_else(|| window(system, &start, places[number])), count)
+    let start = SystemProtocol::Study.state(study, study.system())?;
+    let given = [0, 1].map(|number| request.axes[number].window);
+    let window_of = |number: usize| {
+        given[number].unwrap_or_else(|| window(study.system(), &start, places[number]))
     };
-    let values = [axis(0, columns), axis(1, rows)];
+    let windows = [window_of(0), window_of(1)];
+    let starts = request.layout.places(windows);
+    let values = values(study, request.over.as_ref(), starts.len())?;
+    let path = request.over.as_ref().map_or("", |over| over.parameter.as_str());
+    let systems = values.iter().map(|value| {
+        let numbers: Vec<(&str, f64)> = value.iter().map(|value| (path, *value)).collect();
+        let system: System = study.system_at(&numbers).map_err(|why| failed("basins", why))?;
+        let start = SystemProtocol::Study.state(study, &system)?;
+        Ok((system, start))
+    });
+    let systems = systems.collect::<Result<Vec<_>, Failure>>()?;
     let row = study.observe();
-    let begin = |index: usize| {
-        let mut state = start.clone();
-        state[places[0]] = values[0][index % columns];
-        state[places[1]] = values[1][index / columns];
-        state
-    };
-    running.progress.begin(columns * rows, 0);
+    let count = starts.len();
+    running.progress.begin(systems.len() * count, 0);
     let ends = running.pool()?.install(|| {
-        (0..columns * rows)
+        (0..systems.len() * count)
             .into_par_iter()
             .with_max_len(1)
             .map(|index| {
                 if running.stop.load(Ordering::Relaxed) {
                     return Err(stopped("basins"));
                 }
-                let end = end_of_run(system, &row, &begin(index), MOST_PERIODS_OF_A_START);
+                let (system, begun) = &systems[index / count];
+                let mut state = begun.clone();
+                for (place, value) in places.iter().zip(starts[index % count]) {
+                    state[*place] = value;
+                }
+                let end = end_of_run(system, &row, &state, MOST_PERIODS_OF_A_START);
                 running.progress.advance(1);
                 Ok(end)
             })
             .collect::<Result<Vec<_>, Failure>>()
     });
     running.progress.end();
-    let gathered = gathered(ends?, request.grid);
-    let local = if system.is_dithered() {
-        let base = base_motion(system, BASE_STEPS);
-        base.map(|orbit| orbit.verdict().name()).map_err(|why| why.to_string())
-    } else {
-        Err("without dither there is no base response".to_owned())
-    };
+    let mut ends = ends?.into_iter();
+    let portraits = values.into_iter().zip(&systems).map(|(value, (system, _))| {
+        let own: Vec<_> = ends.by_ref().take(count).collect();
+        SystemPortrait::of(value, system, own, request.layout)
+    });
+    let portraits = portraits.collect();
     let names = request.axes.each_ref().map(|axis| axis.name.clone());
     let start = SystemProtocol::Study.words(study);
-    let (basins, ends, quiet, unknown) = gathered;
-    Ok(SystemBasins { names, values, start, basins, ends, quiet, unknown, local })
+    let (layout, over) = (request.layout, request.over.clone());
+    Ok(SystemBasins { names, windows, layout, starts, start, over, portraits })
 }
 
-/// Basins, the motion of each start, the quiescent share, and the starts of unknown outcome.
-type GatheredStarts = (Vec<SystemBasin>, Vec<Option<usize>>, Share, (usize, Option<String>));
-
-/// The starts grouped by motion.
-fn gathered(
-    found: Vec<Result<EndOfRun, String>>,
-    (columns, rows): (usize, usize),
-) -> GatheredStarts {
-    let layout = StartLayout::Grid { columns, rows };
-    let mut motions: Vec<(SystemAttractor, u32)> = Vec::new();
-    let mut ends: Vec<Option<usize>> = Vec::with_capacity(found.len());
-    let mut unknown = (0, None);
-    for end in found {
-        match end {
-            Ok(EndOfRun { attractor, periods }) => {
-                let place = motions.iter().position(|(known, _)| attractor.is(known));
-                let place = place.unwrap_or_else(|| {
-                    motions.push((attractor, 0));
-                    motions.len() - 1
-                });
-                motions[place].1 = motions[place].1.max(periods);
-                ends.push(Some(place));
-            }
-            Err(why) => {
-                unknown = (unknown.0 + 1, unknown.1.or(Some(why)));
-                ends.push(None);
+impl SystemPortrait {
+    /// The starts grouped by motion.
+    fn of(
+        value: Option<f64>,
+        system: &System,
+        found: Vec<Result<EndOfRun, String>>,
+        layout: StartLayout,
+    ) -> Self {
+        let mut motions: Vec<(SystemAttractor, u32)> = Vec::new();
+        let mut ends: Vec<Option<usize>> = Vec::with_capacity(found.len());
+        let mut first = None;
+        for end in found {
+            match end {
+                Ok(EndOfRun { attractor, periods }) => {
+                    let place = motions.iter().position(|(known, _)| attractor.is(known));
+                    let place = place.unwrap_or_else(|| {
+                        motions.push((attractor, 0));
+                        motions.len() - 1
+                    });
+                    motions[place].1 = motions[place].1.max(periods);
+                    ends.push(Some(place));
+                }
+                Err(why) => {
+                    first = first.or(Some(why));
+                    ends.push(None);
+                }
             }
         }
+        let count = |place: usize| ends.iter().filter(|end| **end == Some(place)).count();
+        let mut order: Vec<usize> = (0..motions.len()).collect();
+        order.sort_by_key(|place| (!motions[*place].0.is_quiet(), usize::MAX - count(*place)));
+        let rank = |place: usize| order.iter().position(|other| *other == place);
+        let ends: Vec<Option<usize>> = ends.iter().map(|end| end.and_then(rank)).collect();
+        let inside = |holds: &dyn Fn(usize) -> bool| -> Vec<bool> {
+            ends.iter().map(|end| end.is_some_and(holds)).collect()
+        };
+        let basins: Vec<SystemBasin> = order
+            .iter()
+            .enumerate()
+            .map(|(number, place)| SystemBasin {
+                attractor: motions[*place].0.clone(),
+                share: Share::of(layout, &inside(&|end| end == number)),
+                periods: motions[*place].1,
+            })
+            .collect();
+        let open: Vec<bool> = ends.iter().map(Option::is_none).collect();
+        let ends_quiet = inside(&|end| basins[end].attractor.is_quiet());
+        let quiet = open.contains(&false).then(|| Share::between(layout, &ends_quiet, &open));
+        let (is_dithered, local) = (system.is_dithered(), local_verdict(system));
+        let unknown = Share::of(layout, &open);
+        Self { value, is_dithered, local, basins, ends, quiet, unknown, why: first }
     }
-    let count = |place: usize| ends.iter().filter(|end| **end == Some(place)).count();
-    let mut order: Vec<usize> = (0..motions.len()).collect();
-    order.sort_by_key(|place| (!motions[*place].0.is_quiet(), usize::MAX - count(*place)));
-    let rank = |place: usize| order.iter().position(|other| *other == place);
-    let ends: Vec<Option<usize>> = ends.iter().map(|end| end.and_then(rank)).collect();
-    let share = |holds: &dyn Fn(usize) -> bool| {
-        let inside: Vec<bool> = ends.iter().map(|end| end.is_some_and(holds)).collect();
-        Share::of(layout, &inside)
-    };
-    let basins: Vec<SystemBasin> = order
-        .iter()
-        .enumerate()
-        .map(|(number, place)| SystemBasin {
-            attractor: motions[*place].0.clone(),
-            share: share(&|end| end == number),
-            periods: motions[*place].1,
-        })
-        .collect();
-    let quiet = share(&|end| basins[end].attractor.is_quiet());
-    (basins, ends, quiet, unknown)
 }
 
 /// The plane of the first displacement and its velocity, for a request without a plane.
 ///
 /// # Errors
-/// Random starts and a varied parameter, which basins of systems do not have; first-order equations, which need a plane.
+/// First-order equations with a single number, which have no plane.
 pub fn default_plane(
     study: &SystemStudy,
     request: &BasinsRequest,
 ) -> Result<PlaneRequest, Failure> {
-    if let Some(over) = &request.over {
-        let allowed = "left out: basins of a system are those of the study as it is";
-        return Err(Complaint::option("--over", over.parameter.as_str(), allowed).into());
-    }
     let names = state_names(study.system());
     let size = study.system().structure.size();
     let second = if study.system().structure.mechanical().is_some() { size } else { 1 };
@@ -268,7 +323,7 @@ pub fn default_plane(
     };
     let axis = |name: &String, window| PlaneAxis { name: name.clone(), window };
     let axes = [axis(first, request.displacement), axis(second, request.velocity)];
-    PlaneRequest::of(axes, request.layout)
+    Ok(PlaneRequest::of(axes, request.layout, request.over.clone()))
 }
 
 /// Reads a plane: `x,velocity.x`, or with windows `x=-1:1,velocity.x=-2:2`.

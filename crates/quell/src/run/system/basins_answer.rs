@@ -1,47 +1,78 @@
 //! Basins of a system in sentences, JSON and a dataset.
 
+use std::fmt::Write as _;
+
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::attractor::SystemAttractor;
-use super::basins::{MOST_PERIODS_OF_A_START, SystemBasins};
+use super::attractor::{VERDICTS, verdict_code};
+use super::basins::{MOST_PERIODS_OF_A_START, SystemBasins, SystemPortrait};
 use super::start::{state_names, state_quantity};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::basins::Share;
 use crate::study::SystemStudy;
-use crate::words::plural;
+use crate::words::{digits, plural};
 
-/// A share as a percentage with its bounds.
-fn percent(share: Share) -> String {
-    let digits = |value: f64| {
-        let text = format!("{:.1}", 100.0 * value);
-        text.trim_end_matches(".0").to_owned()
-    };
-    format!("{} % ({} to {} %)", digits(share.fraction), digits(share.low), digits(share.high))
-}
+impl SystemPortrait {
+    /// The shares of the motions in a few sentences.
+    fn sentences(&self) -> Vec<String> {
+        let count = self.ends.len();
+        let parts = self.basins.iter().map(|basin| {
+            let (share, motion) = (basin.share.percent(), basin.attractor.words());
+            format!("{share} of {count} starts end on: {motion}.")
+        });
+        parts.collect()
+    }
 
-fn put_share(fields: &mut Fields, share: Share) {
-    fields
-        .plain("starts", share.starts)
-        .number("fraction", Quantity::Ratio, share.fraction)
-        .number("fraction_low", Quantity::Ratio, share.low)
-        .number("fraction_high", Quantity::Ratio, share.high)
-        .number("fraction_error", Quantity::Ratio, share.error());
+    /// The verdict, as a sentence.
+    fn local_sentence(&self) -> Option<String> {
+        let subject = if self.is_dithered { "The base response" } else { "Steady sliding" };
+        self.local.as_ref().ok().map(|verdict| format!("{subject} is {verdict}."))
+    }
+
+    /// The starts of unknown outcome, as a sentence.
+    fn unknown_sentence(&self) -> Option<String> {
+        let (unknown, why) = (self.unknown.starts, self.why.as_ref()?);
+        Some(format!("The outcome of {unknown} start{} is unknown: {why}.", plural(unknown)))
+    }
+
+    fn put(&self, fields: &mut Fields, study: &SystemStudy) {
+        match &self.local {
+            Ok(verdict) => fields.plain("local_verdict", *verdict),
+            Err(why) => fields.unknown("local_verdict", why.as_str()),
+        };
+        let shares: [(&str, fn(Share) -> f64); 3] = [
+            ("quiet_fraction", |share| share.fraction),
+            ("quiet_fraction_low", |share| share.low),
+            ("quiet_fraction_high", |share| share.high),
+        ];
+        for (name, which) in shares {
+            let unknown = || "the outcome of every start is unknown".to_owned();
+            fields.known(name, Quantity::Ratio, self.quiet.map(which).ok_or_else(unknown));
+        }
+        let attractors = self.basins.iter().map(|basin| {
+            let mut inner = Fields::of_system(study.units());
+            basin.share.put(&mut inner);
+            inner.plain("periods_to_settle", basin.periods);
+            basin.attractor.put(&mut inner, study);
+            inner
+        });
+        let attractors: Vec<Fields> = attractors.collect();
+        fields.list("attractors", attractors).plain("unknown_starts", self.unknown.starts);
+        let mut unknown = Fields::of_system(study.units());
+        self.unknown.put(&mut unknown);
+        fields.nested("unknown", unknown);
+    }
 }
 
 impl SystemBasins {
-    /// The shares of the motions in a few sentences.
+    /// The shares of the motions, or their range over the parameter, in a few sentences.
     pub fn sentence(&self, study: &SystemStudy) -> String {
-        let count = self.ends.len();
-        let parts = self.basins.iter().map(|basin| {
-            format!(
-                "{} of {count} starts end on: {}",
-                percent(basin.share),
-                basin.attractor.words()
-            )
-        });
-        let mut sentences: Vec<String> = parts.map(|part| part + ".").collect();
+        let mut sentences = match (&self.over, self.portraits.as_slice()) {
+            (None, [portrait]) => portrait.sentences(),
+            _ => self.over_parameter(study),
+        };
         let other = state_names(study.system()).len() - 2;
         let [first, second] = &self.names;
         sentences.push(match other {
@@ -52,16 +83,79 @@ impl SystemBasins {
                 self.start
             ),
         });
-        if let (unknown @ 1.., Some(why)) = &self.unknown {
-            sentences.push(format!(
-                "The outcome of {unknown} start{} is unknown: {why}.",
-                plural(*unknown)
-            ));
-        }
-        if let Ok(verdict) = &self.local {
-            sentences.push(format!("The base response is {verdict}."));
+        if let (None, [portrait]) = (&self.over, self.portraits.as_slice()) {
+            sentences.extend(portrait.unknown_sentence());
+            sentences.extend(portrait.local_sentence());
         }
         sentences.join(" ")
+    }
+
+    /// A value of the parameter with its unit.
+    fn value(&self, study: &SystemStudy, value: f64) -> String {
+        let path = self.over.as_ref().map_or("", |over| over.parameter.as_str());
+        let unit = study.unit_of(path).filter(|unit| *unit != "1");
+        format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
+    }
+
+    fn over_parameter(&self, study: &SystemStudy) -> Vec<String> {
+        let Some(over) = &self.over else { return Vec::new() };
+        let (from, to) = (self.value(study, over.from), self.value(study, over.to));
+        let mut text = format!("Over {} from {from} to {to}", over.parameter);
+        let known = || {
+            let portraits = self.portraits.iter();
+            portraits.filter_map(|portrait| Some((portrait.value?, portrait.quiet?.fraction)))
+        };
+        let least = known().min_by(|a, b| a.1.total_cmp(&b.1));
+        let most = known().max_by(|a, b| a.1.total_cmp(&b.1));
+        let fall = match self.portraits.iter().any(|portrait| portrait.is_dithered) {
+            true => "end in step with the dither",
+            false => "end at rest or in steady sliding",
+        };
+        match least.zip(most) {
+            Some(((at, low), (other, high))) => {
+                let (at, other) = (self.value(study, at), self.value(study, other));
+                let (low, high) = (100.0 * low, 100.0 * high);
+                let _ = write!(
+                    text,
+                    ", the share of starts that {fall} ranges from {low:.1} % (at {at}) to {high:.1} % (at {other})."
+                );
+            }
+            None => text.push_str(", the outcome of every start is unknown."),
+        }
+        let mut sentences = vec![text];
+        let count = self.portraits.len();
+        let open = self.portraits.iter().filter(|portrait| portrait.unknown.starts > 0).count();
+        if open > 0 && least.is_some() {
+            sentences.push(format!("Some outcomes are unknown at {open} of {count} values."));
+        }
+        let only_local = self.portraits.iter().filter(|portrait| {
+            let all = portrait.ends.len() - portrait.unknown.starts;
+            let stable = portrait.local.as_ref().is_ok_and(|verdict| *verdict == "stable");
+            stable && portrait.quiet.is_some_and(|share| share.starts < all)
+        });
+        let only_local = only_local.count();
+        if only_local > 0 {
+            sentences.push(format!(
+                "At {only_local} of {count} values the response is locally stable, but not every start reaches it."
+            ));
+        }
+        sentences
+    }
+
+    /// The starts in words.
+    pub fn starts_in_words(&self, study: &SystemStudy) -> String {
+        let axes = [0, 1].map(|axis| {
+            let unit = Some(self.unit(study, axis)).filter(|unit| *unit != "1");
+            let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+            let (from, to) = self.windows[axis];
+            format!("{} from {} to {}{unit}", self.names[axis], digits(from), digits(to))
+        });
+        format!("{}, {}", self.layout.words(), axes.join(", "))
+    }
+
+    /// The meaning of the shares and their bounds.
+    pub fn meaning(&self) -> &'static str {
+        self.layout.meaning()
     }
 
     /// The unit of an axis.
@@ -72,62 +166,122 @@ impl SystemBasins {
         quantity.and_then(|quantity| study.units().unit(quantity)).unwrap_or("1")
     }
 
-    /// As JSON.
+    /// Warnings: those of the study, and starts of unknown outcome.
+    pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
+        let unknown = self.portraits.iter().filter_map(|portrait| {
+            let (count, why) = (portrait.unknown.starts, portrait.why.as_ref()?);
+            let at = match (portrait.value, &self.over) {
+                (Some(value), Some(over)) => {
+                    format!(" at {} = {}", over.parameter, self.value(study, value))
+                }
+                _ => String::new(),
+            };
+            Some(format!("the outcome of {count} start{}{at} is unknown: {why}", plural(count)))
+        });
+        study.warnings().iter().cloned().chain(unknown).collect()
+    }
+
+    /// As JSON: the fields of a single portrait, or a list of portraits.
     pub fn json(&self, study: &SystemStudy) -> Json {
         let mut fields = Fields::of_system(study.units());
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
+            .plain("error_meaning", self.meaning())
             .plain("plane", self.names.to_vec())
             .plain("start", self.start.clone())
+            .plain("starts", self.starts.len())
+            .plain("layout", self.layout.json())
             .plain("most_periods", MOST_PERIODS_OF_A_START);
-        for (axis, name) in ["across", "up"].into_iter().enumerate() {
-            fields.measured(name, self.unit(study, axis), self.values[axis].clone());
-        }
-        match &self.local {
-            Ok(verdict) => fields.plain("local_verdict", *verdict),
-            Err(why) => fields.unknown("local_verdict", why.as_str()),
-        };
-        fields
-            .number("quiet_fraction", Quantity::Ratio, self.quiet.fraction)
-            .number("quiet_fraction_low", Quantity::Ratio, self.quiet.low)
-            .number("quiet_fraction_high", Quantity::Ratio, self.quiet.high);
-        let attractors = self.basins.iter().map(|basin| {
-            let mut inner = Fields::of_system(study.units());
-            put_share(&mut inner, basin.share);
-            inner.plain("periods_to_settle", basin.periods);
-            basin.attractor.put(&mut inner, study);
-            inner
+        // Of a grid the values of each axis, of a sample those of each start.
+        let columns = self.layout.axes(self.windows).unwrap_or_else(|| {
+            [0, 1].map(|axis| self.starts.iter().map(|start| start[axis]).collect())
         });
-        let attractors: Vec<Fields> = attractors.collect();
-        fields.list("attractors", attractors);
-        let ends: Vec<Json> = self.ends.iter().map(|end| Json::from(*end)).collect();
-        fields.plain("ends", ends).plain("unknown_starts", self.unknown.0);
-        fields.plain("warnings", study.warnings().to_vec());
+        for (axis, (name, values)) in ["across", "up"].into_iter().zip(columns).enumerate() {
+            let (unit, (from, to)) = (self.unit(study, axis), self.windows[axis]);
+            fields.measured(name, unit, values);
+            let window = ["window_across", "window_up"][axis];
+            fields.measured(window, unit, vec![from, to]);
+        }
+        match (&self.over, self.portraits.as_slice()) {
+            (None, [portrait]) => {
+                portrait.put(&mut fields, study);
+                let ends: Vec<Json> = portrait.ends.iter().map(|end| Json::from(*end)).collect();
+                fields.plain("ends", ends);
+            }
+            (over, portraits) => {
+                let path = over.as_ref().map_or("", |over| over.parameter.as_str());
+                fields.plain("parameter", path).plain("unit", study.unit_of(path).unwrap_or("1"));
+                let portraits = portraits.iter().map(|portrait| {
+                    let mut inner = Fields::of_system(study.units());
+                    inner.plain("value", portrait.value);
+                    portrait.put(&mut inner, study);
+                    inner
+                });
+                fields.list("portraits", portraits);
+            }
+        }
+        fields.plain("warnings", self.warnings(study));
         fields.finish()
     }
 
-    /// The motion of each start over the plane.
+    /// The motion of each start; with a parameter, the shares over the parameter.
     pub fn dataset(&self, study: &SystemStudy) -> Dataset {
-        let ends = self.ends.iter().map(|end| end.map_or(f64::NAN, |place| place as f64));
-        let is_quiet = |place: usize| self.basins[place].attractor.is_quiet();
-        let quiet = self.ends.iter().map(|end| end.map_or(2, |place| u8::from(is_quiet(place))));
-        let quiet: Vec<u8> = quiet.collect();
+        let facts = format!("{}; {}", self.starts_in_words(study), self.meaning());
+        match (&self.over, self.portraits.as_slice()) {
+            (None, [portrait]) => self.dataset_of(study, portrait).fact(facts),
+            _ => self.dataset_of_shares(study).fact(facts),
+        }
+    }
+
+    /// Over the grid, or one row per start.
+    fn dataset_of(&self, study: &SystemStudy, portrait: &SystemPortrait) -> Dataset {
+        let ends = portrait.ends.iter().map(|end| end.map_or(f64::NAN, |place| place as f64));
+        let is_quiet = |place: usize| u8::from(portrait.basins[place].attractor.is_quiet());
+        let quiet: Vec<u8> = portrait.ends.iter().map(|end| end.map_or(2, is_quiet)).collect();
         let mut dataset = Dataset::of(&study.into(), "basins");
-        for (place, words) in
-            self.basins.iter().map(|basin| &basin.attractor).map(SystemAttractor::words).enumerate()
-        {
+        let words = portrait.basins.iter().map(|basin| basin.attractor.words());
+        for (place, words) in words.enumerate() {
             dataset = dataset.fact(format!("attractor {place}: {words}"));
         }
-        let axis = |number: usize| {
-            let values = self.values[number].clone();
+        let axis = |number: usize, values: Vec<f64>| {
             Array::new(self.names[number].as_str(), self.unit(study, number), values)
         };
-        // The last axis runs fastest.
-        dataset
-            .with_axis(axis(1))
-            .with_axis(axis(0))
-            .with(Array::new("attractor", "1", ends.collect()))
-            .with(Array::of_words("quiet", vec![(0, "no"), (1, "yes"), (2, "unknown")], &quiet))
+        let dataset = match self.layout.axes(self.windows) {
+            // The last axis runs fastest.
+            Some([across, up]) => dataset.with_axis(axis(1, up)).with_axis(axis(0, across)),
+            None => {
+                let rows = (0..self.starts.len()).map(|row| row as f64).collect();
+                let column = |number: usize| {
+                    axis(number, self.starts.iter().map(|start| start[number]).collect())
+                };
+                dataset.with_axis(Array::new("start", "1", rows)).with(column(0)).with(column(1))
+            }
+        };
+        dataset.with(Array::new("attractor", "1", ends.collect())).with(Array::of_words(
+            "quiet",
+            vec![(0, "no"), (1, "yes"), (2, "unknown")],
+            &quiet,
+        ))
+    }
+
+    fn dataset_of_shares(&self, study: &SystemStudy) -> Dataset {
+        let path = self.over.as_ref().map_or("", |over| over.parameter.as_str());
+        let of = |value: &dyn Fn(&SystemPortrait) -> f64| -> Vec<f64> {
+            self.portraits.iter().map(value).collect()
+        };
+        let quiet =
+            |which: fn(Share) -> f64| of(&|portrait| portrait.quiet.map_or(f64::NAN, which));
+        let verdicts: Vec<u8> =
+            self.portraits.iter().map(|portrait| verdict_code(&portrait.local)).collect();
+        let values = of(&|portrait| portrait.value.unwrap_or(f64::NAN));
+        Dataset::of(&study.into(), "basins")
+            .with_axis(Array::new(path, study.unit_of(path).unwrap_or("1"), values))
+            .with(Array::of_words("local_verdict", VERDICTS.to_vec(), &verdicts))
+            .with(Array::new("quiet_fraction", "1", quiet(|share| share.fraction)))
+            .with(Array::new("quiet_fraction_low", "1", quiet(|share| share.low)))
+            .with(Array::new("quiet_fraction_high", "1", quiet(|share| share.high)))
+            .with(Array::new("unknown_fraction", "1", of(&|portrait| portrait.unknown.fraction)))
+            .with(Array::new("attractors", "1", of(&|portrait| portrait.basins.len() as f64)))
     }
 }

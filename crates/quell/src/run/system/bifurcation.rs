@@ -1,17 +1,16 @@
-//! `bifurcation` of a dithered system: the motion along a parameter, swept up and down with the state carried over.
+//! `bifurcation` of a system: the motion along a parameter, swept up and down with the state carried over. With dither it is a
+//! periodic motion, locked or not; without dither a limit cycle, steady sliding or rest.
 
 use std::sync::atomic::Ordering;
 
-use quell_dynamics::motion::orbit::base_motion;
 use quell_model::System;
 
-use super::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run};
-use super::cycle::BASE_STEPS;
+use super::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run, local_verdict};
 use super::protocol::SystemProtocol;
-use super::thresholds::{MotionThresholdsRequest, is_dithered_within};
-use super::tracked::understood;
+use super::tracked::{TrackRequest, understood};
 use super::{failed, has_equations};
-use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::complaint::{Complaint, Failure};
+use crate::run::bifurcation::shared::{directions, ranges};
 use crate::run::bifurcation::{SweepDirection, SweepRequest};
 use crate::run::varied::{MOST_VALUES, Range};
 use crate::run::{evenly, stopped};
@@ -32,8 +31,10 @@ const APART_IN_RECORDS: f64 = 0.2;
 pub struct SystemSweepPoint {
     /// The parameter.
     pub value: f64,
-    /// Verdict on the base response, or why it is unknown.
+    /// Verdict on the base response, without dither on steady sliding; or why it is unknown.
     pub local: Result<&'static str, String>,
+    /// Whether some dither acts here.
+    pub is_dithered: bool,
     /// The motion that the sweep is on, or why it cannot be computed.
     pub end: Result<EndOfRun, String>,
 }
@@ -72,23 +73,10 @@ fn checked(study: &SystemStudy, range: &Range) -> Result<(), Failure> {
     has_equations(study, "bifurcation")?;
     let window = (range.from, range.to);
     let parameter = range.parameter.clone();
-    let request = MotionThresholdsRequest { parameter, window, ..Default::default() };
-    understood(study, &request.tracked())?;
+    understood(study, &TrackRequest { parameter, window, along: None })?;
     if !(2..=MOST_VALUES).contains(&range.points) {
         let allowed = format!("a whole number from 2 to {MOST_VALUES}");
         return Err(Complaint::option("--points", range.points, allowed).into());
-    }
-    if !is_dithered_within(study, &request) {
-        let allowed = "a study with dither: `stability --parameter` follows the eigenvalues of steady sliding, and `orbit` \
-                       finds the limit cycle at one value";
-        let complaint = Complaint::new(
-            Fault::Conflict,
-            "dither",
-            Origin::Whole,
-            serde_json::Value::Null,
-            allowed,
-        );
-        return Err(complaint.into());
     }
     Ok(())
 }
@@ -104,12 +92,7 @@ pub fn run(
 ) -> Result<SystemBifurcation, Failure> {
     let range = &request.range;
     checked(study, range)?;
-    // Both directions by default.
-    let (up, down) =
-        if request.up || request.down { (request.up, request.down) } else { (true, true) };
-    let asked =
-        [(up, SweepDirection::Up), (down, SweepDirection::Down)].into_iter().filter(|(on, _)| *on);
-    let directions: Vec<SweepDirection> = asked.map(|(_, direction)| direction).collect();
+    let directions = directions(request);
     let values = evenly((range.from, range.to), range.points);
     running.progress.begin(values.len() * directions.len(), 0);
     let mut state: Option<Vec<f64>> = None;
@@ -154,17 +137,16 @@ fn point(
     };
     let end = end_of_run(&system, &study.observe(), &begun, MOST_PERIODS_OF_A_VALUE);
     let state = end.as_ref().map_or(begun, |end| end.attractor.state.clone());
-    let local = base_motion(&system, BASE_STEPS);
-    let local = local.map(|orbit| orbit.verdict().name()).map_err(|why| why.to_string());
-    Ok((SystemSweepPoint { value, local, end }, state))
+    let local = local_verdict(&system);
+    let is_dithered = system.is_dithered();
+    Ok((SystemSweepPoint { value, local, is_dithered, end }, state))
 }
 
 /// Ranges in which both directions were swept and show different motions.
 fn hysteresis(branches: &[SystemBranch]) -> Vec<(f64, f64)> {
     let [up, down] = branches else { return Vec::new() };
-    let mut ranges: Vec<(f64, f64)> = Vec::new();
-    let mut open = false;
-    for (one, other) in up.points.iter().zip(down.points.iter().rev()) {
+    let pairs = up.points.iter().zip(down.points.iter().rev());
+    ranges(pairs.map(|(one, other)| {
         let apart = one.attractor().zip(other.attractor()).is_some_and(|(one, other)| {
             let most = one.size().max(other.size());
             let repeats = |attractor: &SystemAttractor| {
@@ -173,12 +155,13 @@ fn hysteresis(branches: &[SystemBranch]) -> Vec<(f64, f64)> {
             let apart = if repeats(one) && repeats(other) { APART } else { APART_IN_RECORDS };
             one.is_quiet() != other.is_quiet() || (one.size() - other.size()).abs() > apart * most
         });
-        match (apart, ranges.last_mut()) {
-            (true, Some(last)) if open => last.1 = one.value,
-            (true, _) => ranges.push((one.value, one.value)),
-            (false, _) => {}
-        }
-        open = apart;
+        (one.value, apart)
+    }))
+}
+
+impl SystemSweepPoint {
+    /// Whether the motion is quiet; `None` if it is unknown.
+    pub fn quiet(&self) -> Option<bool> {
+        self.attractor().map(SystemAttractor::is_quiet)
     }
-    ranges
 }

@@ -3,17 +3,14 @@
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::attractor::{KINDS, SystemAttractor};
+use super::attractor::{KINDS, SystemAttractor, VERDICTS, verdict_code};
 use super::bifurcation::{MOST_PERIODS_OF_A_VALUE, SystemBifurcation, SystemSweepPoint};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::bifurcation::SweepDirection;
+use crate::run::bifurcation::shared::{changes, hysteresis_sentence, jump, put_comparison};
 use crate::study::SystemStudy;
 use crate::words::digits;
-
-/// Words of the column `local_verdict`.
-const VERDICTS: [(u8, &str); 4] =
-    [(0, "stable"), (1, "unstable"), (2, "undecided"), (3, "unknown")];
 
 /// The motion of a point in words.
 pub fn words(point: &SystemSweepPoint) -> String {
@@ -41,35 +38,33 @@ impl SystemBifurcation {
                 words(first),
                 self.value(study, first.value)
             )];
-            let quiet = |point: &SystemSweepPoint| point.attractor().map(SystemAttractor::is_quiet);
-            for pair in branch.points.windows(2) {
-                let (Some(before), Some(after)) = (quiet(&pair[0]), quiet(&pair[1])) else {
-                    continue;
+            for (before, after) in changes(branch.points.iter().map(SystemSweepPoint::quiet)) {
+                let (before, after) = (&branch.points[before], &branch.points[after]);
+                let verb = match (after.quiet() == Some(true), after.is_dithered) {
+                    (true, true) => "falls into step with the dither",
+                    (true, false) => "comes to rest or to steady sliding",
+                    (false, true) if before.is_dithered => "leaves it",
+                    (false, _) => "begins to vibrate",
                 };
-                if before != after {
-                    let verb = if after { "falls into step with the dither" } else { "leaves it" };
-                    let ends = [&pair[0], &pair[1]].map(|point| self.value(study, point.value));
-                    parts.push(format!("{verb} between {} and {}", ends[0], ends[1]));
-                }
+                let ends = [before, after].map(|point| self.value(study, point.value));
+                parts.push(format!("{verb} between {} and {}", ends[0], ends[1]));
             }
             let end = self.value(study, last.value);
             sentences.push(format!("{}, and is {} at {end}.", parts.join(", "), words(last)));
         }
         if self.branches.len() == 2 {
-            let ranges = self.hysteresis.iter().map(|(from, to)| {
-                format!("from {} to {}", self.value(study, *from), self.value(study, *to))
-            });
-            let ranges: Vec<String> = ranges.collect();
-            sentences.push(if ranges.is_empty() {
-                "Both directions show motions of the same size: no hysteresis.".to_owned()
-            } else {
-                format!(
-                    "The two directions differ {}, where motions coexist.",
-                    ranges.join(" and ")
-                )
-            });
+            let value = |value| self.value(study, value);
+            let known = self.both_known();
+            sentences.push(hysteresis_sentence(&self.hysteresis, &known, "motions", value));
         }
         sentences.join(" ")
+    }
+
+    /// Whether the motion of both directions is known, at each value.
+    fn both_known(&self) -> Vec<bool> {
+        let [up, down] = self.branches.as_slice() else { return Vec::new() };
+        let pairs = up.points.iter().zip(down.points.iter().rev());
+        pairs.map(|(one, other)| one.end.is_ok() && other.end.is_ok()).collect()
     }
 
     /// Warnings: those of the study, and values at which the motion is unknown.
@@ -104,13 +99,17 @@ impl SystemBifurcation {
             let points = branch.points.iter().map(|point| put(study, point));
             fields.list(branch.direction.name(), points);
         }
-        if self.branches.len() == 2 {
-            let pairs: Vec<Json> =
-                self.hysteresis.iter().map(|(from, to)| vec![*from, *to].into()).collect();
-            fields.plain("hysteresis", pairs);
-        } else {
-            fields.unknown("hysteresis", "hysteresis requires sweeps in both directions");
-        }
+        let jumps = self.branches.iter().flat_map(|branch| {
+            let points = &branch.points;
+            let all = changes(points.iter().map(SystemSweepPoint::quiet)).into_iter();
+            all.map(|(before, after)| {
+                let ends = (points[before].value, points[after].value);
+                let to_quiet = points[after].quiet() == Some(true);
+                jump(Fields::of_system(study.units()), branch.direction, ends, to_quiet)
+            })
+        });
+        let hysteresis = (self.branches.len() == 2).then_some(self.hysteresis.as_slice());
+        put_comparison(&mut fields, jumps.collect(), hysteresis);
         fields.plain("warnings", self.warnings(study));
         fields.finish()
     }
@@ -157,11 +156,6 @@ impl SystemBifurcation {
             .with(Array::new("peak_to_peak", length, size))
             .with(Array::new("periods_to_settle", "1", settle))
     }
-}
-
-fn verdict_code(local: &Result<&'static str, String>) -> u8 {
-    let word = local.as_ref().map_or("unknown", |word| *word);
-    VERDICTS.iter().find(|(_, known)| *known == word).map_or(3, |(code, _)| *code)
 }
 
 fn put(study: &SystemStudy, point: &SystemSweepPoint) -> Fields {

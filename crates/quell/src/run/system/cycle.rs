@@ -97,25 +97,29 @@ fn disturbed(state: &[f64], number: u64) -> Vec<f64> {
 
 /// Steady sliding with velocities towards those of the surfaces; empty without steady sliding.
 pub fn kicked(system: &System) -> Vec<NamedStart> {
-    let Ok(sliding) = sliding_state(system) else { return Vec::new() };
+    let kick = |factor: f64| {
+        let start = format!("from steady sliding kicked by {factor} times the surface velocity");
+        Some((start, kicked_by(system, factor)?))
+    };
+    KICKS.into_iter().filter_map(kick).collect()
+}
+
+/// Steady sliding with this share of the velocities of the surfaces; `None` without steady sliding.
+pub(super) fn kicked_by(system: &System, factor: f64) -> Option<Vec<f64>> {
+    let mut state = sliding_state(system).ok()?;
     let size = system.structure.size();
     let offset = if system.structure.mechanical().is_some() { size } else { 0 };
-    let kick = |factor: f64| {
-        let mut state = sliding.clone();
-        for (number, contact) in system.contacts.iter().enumerate() {
-            let Some(row) = &contact.tangent else { continue };
-            let length: f64 = row.iter().map(|weight| weight * weight).sum();
-            // Equal contacts are not kicked equally: a run from a symmetric start remains symmetric.
-            let share = 1.0 - UNEQUAL * number as f64 / system.contacts.len() as f64;
-            let velocity = share * factor * contact.surface_velocity.mean();
-            for (place, weight) in row.iter().enumerate() {
-                state[offset + place] += velocity * weight / length;
-            }
+    for (number, contact) in system.contacts.iter().enumerate() {
+        let Some(row) = &contact.tangent else { continue };
+        let length: f64 = row.iter().map(|weight| weight * weight).sum();
+        // Equal contacts are not kicked equally: a run from a symmetric start remains symmetric.
+        let share = 1.0 - UNEQUAL * number as f64 / system.contacts.len() as f64;
+        let velocity = share * factor * contact.surface_velocity.mean();
+        for (place, weight) in row.iter().enumerate() {
+            state[offset + place] += velocity * weight / length;
         }
-        let start = format!("from steady sliding kicked by {factor} times the surface velocity");
-        (start, state)
-    };
-    KICKS.into_iter().map(kick).collect()
+    }
+    Some(state)
 }
 
 /// The starts of a search without a given start: kicked steady sliding, then rest.

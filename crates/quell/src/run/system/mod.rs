@@ -6,6 +6,7 @@ pub mod basins_answer;
 pub mod bifurcation;
 pub mod bifurcation_answer;
 pub mod check;
+pub mod curves;
 pub mod cycle;
 pub mod cycle_samples;
 pub mod exact;

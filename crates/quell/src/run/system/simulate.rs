@@ -137,7 +137,7 @@ pub(super) fn failed_run(verb: &str, system: &System, stopped: &MotionStopped) -
 }
 
 /// Warnings about slip beyond the ranges of the laws, over several runs.
-pub(super) fn beyond_laws(system: &System, meters: &[&ContactMeter]) -> Vec<String> {
+pub(crate) fn beyond_laws(system: &System, meters: &[&ContactMeter]) -> Vec<String> {
     let contacts = system.contacts.iter().enumerate();
     let largest =
         |contact: usize| meters.iter().map(|meter| meter.largest_slip(contact)).fold(0.0, f64::max);

@@ -5,7 +5,7 @@
 //! continued; where it loses its stability, and runs on both sides confirm it, is the value. Elsewhere, at the border of a basin
 //! of attraction, the interval is halved.
 
-use quell_dynamics::motion::orbit::{NoMotionOrbit, motion_thresholds, settled};
+use quell_dynamics::motion::orbit::{NoMotionOrbit, motion_thresholds, ramped_motion, settled};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::orbit::threshold::ThresholdKind;
 use quell_model::System;
@@ -79,10 +79,15 @@ pub struct RunSwitches {
 }
 
 /// A run over a parameter.
-struct VariedRun<'a> {
-    study: &'a SystemStudy,
-    protocol: &'a SystemProtocol,
-    at: &'a (dyn Fn(&[f64]) -> Result<System, String> + Sync),
+pub struct VariedRun<'a> {
+    /// The study.
+    pub study: &'a SystemStudy,
+    /// Its start.
+    pub protocol: &'a SystemProtocol,
+    /// Time over which its dither is ramped up; 0 switches it on at once.
+    pub ramp: f64,
+    /// The system at a value of the parameter.
+    pub at: &'a (dyn Fn(&[f64]) -> Result<System, String> + Sync),
 }
 
 impl VariedRun<'_> {
@@ -91,6 +96,11 @@ impl VariedRun<'_> {
         let settle = || -> Result<RunOutcome, String> {
             let system = (self.at)(&[value])?;
             let start = self.protocol.state(self.study, &system).map_err(|why| why_of(&why))?;
+            // Without dither there is nothing to ramp up.
+            let start = match ramped_motion(&system, &start, self.ramp) {
+                Err(NoMotionOrbit::NoDither) => start,
+                ramped => ramped.map_err(|why| why.to_string())?,
+            };
             match settled(&system, &start, MOST_PERIODS_OF_A_RUN) {
                 Ok(found) if found.multiple == 1 => Ok(RunOutcome::InStep(found.orbit.state)),
                 Ok(found) => Ok(RunOutcome::Locked(found.multiple)),
@@ -178,13 +188,7 @@ fn why_of(why: &Failure) -> String {
 }
 
 /// The changes of a run over a window of a parameter.
-pub fn run_switches(
-    study: &SystemStudy,
-    protocol: &SystemProtocol,
-    at: &(dyn Fn(&[f64]) -> Result<System, String> + Sync),
-    (from, to): (f64, f64),
-) -> RunSwitches {
-    let run = VariedRun { study, protocol, at };
+pub fn run_switches(run: &VariedRun<'_>, (from, to): (f64, f64)) -> RunSwitches {
     let value = |k: u32| match k {
         STEPS_TRIED => to,
         k => from + (to - from) * f64::from(k) / f64::from(STEPS_TRIED),

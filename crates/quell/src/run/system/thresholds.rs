@@ -14,11 +14,11 @@ use serde_json::Value as Json;
 use super::cycle::BASE_STEPS;
 use super::protocol::SystemProtocol;
 use super::start::{StateNumbers, start_with};
-use super::switches::{RunSwitches, run_switches};
+use super::switches::{RunSwitches, VariedRun, run_switches};
 use super::tracked::{TrackRequest, understood};
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::run::thresholds::ThresholdsRequest;
+use crate::run::thresholds::{ThresholdsRequest, can_ramp};
 use crate::study::SystemStudy;
 
 /// Minimum number of continuation steps over the range.
@@ -36,21 +36,19 @@ pub struct MotionThresholdsRequest {
     pub near: Option<(StateNumbers, u32)>,
     /// Runs to follow in addition.
     pub protocols: Vec<SystemProtocol>,
+    /// Time over which the dither of a run is ramped up from zero, in steps of its period; 0 switches it on at once.
+    pub ramp: f64,
 }
 
 impl MotionThresholdsRequest {
     /// The request about a belt for a system.
     ///
     /// # Errors
-    /// A state given by two numbers; a ramp, which runs of systems do not have.
+    /// A state given by two numbers.
     pub fn of(request: ThresholdsRequest) -> Result<Self, Failure> {
         let ThresholdsRequest { parameter, from, to, protocols, ramp } = request;
-        if ramp != 0.0 {
-            let allowed = "0: the dither of a system's run is switched on at once";
-            return Err(Complaint::option("--ramp", ramp, allowed).into());
-        }
         let protocols = protocols.into_iter().map(SystemProtocol::of).collect::<Result<_, _>>()?;
-        Ok(Self { parameter, window: (from, to), near: None, protocols })
+        Ok(Self { parameter, window: (from, to), near: None, protocols, ramp })
     }
 
     /// The same parameter and window for eigenvalues.
@@ -94,6 +92,7 @@ pub fn run(
 ) -> Result<MotionThresholdsFound, Failure> {
     has_equations(study, "thresholds")?;
     understood(study, &request.tracked())?;
+    can_ramp(request.ramp, request.protocols.is_empty())?;
     let path = request.parameter.as_str();
     let at = |values: &[f64]| -> Result<System, String> {
         study.system_at(&[(path, values[0])]).map_err(|why| why.to_string())
@@ -127,10 +126,10 @@ pub fn run(
     let resumes = (local.is_err() || ends)
         && request.near.is_none()
         && at(&[to]).is_ok_and(|system| base_motion(&system, BASE_STEPS).is_ok());
-    let runs = request
-        .protocols
-        .iter()
-        .map(|protocol| (protocol.clone(), run_switches(study, protocol, &at, request.window)));
+    let runs = request.protocols.iter().map(|protocol| {
+        let run = VariedRun { study, protocol, ramp: request.ramp, at: &at };
+        (protocol.clone(), run_switches(&run, request.window))
+    });
     let runs = runs.collect();
     Ok(MotionThresholdsFound {
         request: request.clone(),
@@ -151,7 +150,7 @@ fn reaches_the_band(system: &System) -> bool {
     lowest <= BAND_END * growth.frequency
 }
 
-/// Rejects `--near` where no dither acts.
+/// Rejects `--near`, `--ramp` and runs where no dither acts.
 ///
 /// # Errors
 /// A complaint about each option that is about motions.
@@ -163,8 +162,10 @@ pub fn without_motions(request: &MotionThresholdsRequest) -> Result<(), Failure>
         SystemProtocol::Study | SystemProtocol::From(_) => "--start",
     });
     let near = request.near.as_ref().map(|_| "--near");
+    let ramp = (request.ramp != 0.0).then_some("--ramp");
     let wrong: Vec<Complaint> = options
         .chain(near)
+        .chain(ramp)
         .map(|option| {
             let allowed = "left out: without dither the thresholds are those of steady sliding, and its limit cycles are not \
                            followed over a parameter; `orbit` finds them at one value";

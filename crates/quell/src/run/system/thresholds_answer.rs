@@ -3,8 +3,10 @@
 use quell_dynamics::motion::orbit::{MotionThreshold, MotionThresholds as Local};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind};
+use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::in_units;
 use super::start::{state_names, state_quantity};
 use super::switches::{MOST_PERIODS_OF_A_RUN, RunOutcome, RunSwitches, STEPS_TRIED};
 use super::thresholds::MotionThresholdsFound;
@@ -132,6 +134,14 @@ impl MotionThresholdsFound {
         let path = &self.request.parameter;
         let (from, to) = self.request.window;
         let first = self.words(&switches.first);
+        let ramp = match self.request.ramp {
+            0.0 => String::new(),
+            ramp => {
+                let time = in_units(study.units(), Quantity::Time, ramp);
+                format!(" with the dither ramped up over {time}")
+            }
+        };
+        let start = &format!("{start}{ramp}");
         if switches.changes.is_empty() {
             let to = self.value(study, to);
             return format!(
@@ -233,6 +243,9 @@ impl MotionThresholdsFound {
             fields
                 .plain("values_tried", STEPS_TRIED + 1)
                 .plain("most_periods", MOST_PERIODS_OF_A_RUN);
+            if self.request.ramp > 0.0 {
+                fields.number("ramp", Quantity::Time, self.request.ramp);
+            }
         }
     }
 }

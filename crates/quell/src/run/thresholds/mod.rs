@@ -20,7 +20,7 @@ use super::attractor::unknown;
 use super::orbit;
 use super::protocol::Protocol;
 use super::varied::{Named, ascending, key_of};
-use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
 use crate::quantity::bearable;
@@ -138,18 +138,25 @@ fn understood(
     let mut wrong: Vec<Complaint> =
         ends.into_iter().flat_map(|end| named.unable(study, end)).collect();
     wrong.extend(ascending(from, to).err().map(|complaint| *complaint));
-    wrong.extend(bearable(ramp, given_number(ramp), "--ramp").err().map(|complaint| *complaint));
-    if ramp > 0.0 && question.protocols.is_empty() {
-        let allowed = "requires --from-rest, --from-sliding, --from-squeal or --start: it ramps up the dither of those runs";
-        let origin = Origin::Argument("--ramp");
-        wrong.push(Complaint::new(Fault::Conflict, "--ramp", origin, ramp, allowed));
-    }
+    wrong.extend(can_ramp(ramp, question.protocols.is_empty()).err().into_iter().flatten());
     if !wrong.is_empty() {
         return Err(wrong.into());
     }
     slides(study, &named, from)?;
     let (from, to) = (named.of(from), named.of(to));
     Ok(ThresholdsRequest { parameter: named.path, from, to, ..question })
+}
+
+/// Rejects a time over which a dither cannot be ramped up, or that belongs to no run.
+pub(in crate::run) fn can_ramp(ramp: f64, without_runs: bool) -> Result<(), Complaints> {
+    let mut wrong: Vec<Complaint> = Vec::new();
+    wrong.extend(bearable(ramp, given_number(ramp), "--ramp").err().map(|complaint| *complaint));
+    if ramp > 0.0 && without_runs {
+        let allowed = "requires --from-rest, --from-sliding, --from-squeal or --start: it ramps up the dither of those runs";
+        let origin = Origin::Argument("--ramp");
+        wrong.push(Complaint::new(Fault::Conflict, "--ramp", origin, ramp, allowed));
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
 }
 
 /// Rejects a first value at which the belt is at rest: no steady sliding exists to continue from.

@@ -9,11 +9,10 @@ use quell_linear::linearised::Linearised;
 use quell_linear::tracking::{Family, ThresholdOfStability, Tracked, track};
 use quell_numerics::eigen::EigenError;
 use quell_numerics::matrix::Matrix;
-use serde_json::Value as Json;
 
 use super::validity::ContactRanges;
 use super::{failed, has_equations};
-use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::complaint::{Complaint, Failure};
 use crate::study::SystemStudy;
 
 /// Values of the parameter at which eigenvalues are computed at least.
@@ -181,27 +180,4 @@ pub(super) fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<
         wrong.push(Complaint::option("--along", request.parameter.as_str(), allowed));
     }
     if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
-}
-
-/// The curves of `thresholds --along` of a system, which are those of `stability --parameter --along`.
-///
-/// # Errors
-/// As [`run`]; a system with dither, whose exact thresholds are those of its periodic motions.
-pub fn thresholds(
-    study: &SystemStudy,
-    request: &TrackRequest,
-) -> Result<TrackedStability, Failure> {
-    if study.system().is_dithered() {
-        let allowed = "left out: thresholds of the periodic motions of a dithered system are not followed along a second parameter \
-                       yet. `stability --parameter --along` follows those of averaging.";
-        return Err(Complaint::new(
-            Fault::NotBuilt,
-            "--along",
-            Origin::Argument("--along"),
-            Json::Null,
-            allowed,
-        )
-        .into());
-    }
-    run(study, request)
 }

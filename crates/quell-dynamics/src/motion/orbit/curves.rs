@@ -1,0 +1,231 @@
+//! Curves of the thresholds of a system in two parameters: the scheme of [`crate::orbit::curve`] for belts.
+//!
+//! The curve of a grazing or a separation is that of one contact, whose least slip velocity or load is zero along it. It ends where
+//! another contact grazes or opens first. A curve of multipliers ends where another multiplier leaves the unit circle.
+
+use quell_model::System;
+use quell_numerics::continuation::curve::{BifurcationCurvePoint, Trace, trace};
+use quell_numerics::continuation::threshold::BifurcationKind;
+use quell_numerics::continuation::{Image, PeriodMap, modulus};
+
+use super::super::Motion;
+use super::family::{MotionFamily, MotionSignature, NoImage, Shot, SystemAt, shot, time_of};
+use super::periodic::{NoMotionOrbit, motion_near, scale_of};
+use super::thresholds::{MotionThreshold, motion_thresholds};
+use crate::orbit::OrbitVerdict;
+use crate::orbit::threshold::ThresholdKind;
+use crate::orbit::threshold_curve::{
+    CurvesFound, LineSearched, Open, OpenLine, ResponsePlane, ThresholdCurve, ThresholdCurveEnd,
+    curves_of, part, threshold_curve,
+};
+
+/// Steps of the continuation runs that find the first points.
+const STEPS: u32 = 40;
+
+/// Modulus of a multiplier that counts as outside the unit circle: the critical one is on it up to its error.
+const OUTSIDE: f64 = 1.0 + 1e-5;
+
+/// Modulus of a further multiplier at the end of a curve from which on that multiplier ends it.
+const ABOUT_TO_LEAVE: f64 = 0.99;
+
+/// Distance of another contact from its event, relative to its velocity or load, below which that event comes first.
+const FIRST: f64 = -1e-9;
+
+/// A curve of thresholds of a system.
+pub type MotionCurve = ThresholdCurve<Vec<f64>>;
+
+/// The curves of a system, and where curves may be missing.
+pub type MotionCurves = CurvesFound<Vec<f64>, NoMotionOrbit>;
+
+/// A system over a plane of two parameters, the first of which has thresholds.
+pub struct MotionPlane<'a> {
+    /// The system at both parameters.
+    pub at: &'a SystemAt<'a>,
+    /// Window of the first parameter.
+    pub window: (f64, f64),
+    /// Window of the second parameter.
+    pub between: (f64, f64),
+    /// Minimum number of points of a curve across either window.
+    pub points: u32,
+}
+
+/// Every curve of thresholds of a system's base response that crosses one of `lines` lines across the second parameter.
+///
+/// # Errors
+/// The last line, if no line has a base response to start from.
+pub fn motion_curves(
+    plane: &MotionPlane<'_>,
+    lines: u32,
+) -> Result<MotionCurves, OpenLine<NoMotionOrbit>> {
+    curves_of(plane, lines)
+}
+
+/// A threshold on a line.
+pub(crate) struct MotionFound {
+    threshold: MotionThreshold,
+    /// The signature of the responses in pure slip on that line, if there are any.
+    pure_slip: Option<MotionSignature>,
+}
+
+impl MotionPlane<'_> {
+    fn system(&self, value: f64, along: f64) -> Option<System> {
+        (self.at)(&[value, along]).ok()
+    }
+
+    fn family(&self, system: &System, state: &[f64]) -> Option<MotionFamily<'_>> {
+        let scale = scale_of(&Motion::new(system).ok()?, state);
+        Some(MotionFamily { at: self.at, periods: 1, size: state.len(), scale })
+    }
+
+    fn trace_options(&self) -> Trace {
+        Trace::windows(self.window, self.between, self.points)
+    }
+
+    /// The curve of a multiplier.
+    fn of_multiplier(
+        &self,
+        found: &MotionFound,
+        kind: BifurcationKind,
+        along: f64,
+    ) -> Option<MotionCurve> {
+        let MotionThreshold { value, state, kind: name, .. } = &found.threshold;
+        let system = self.system(*value, along)?;
+        let near = motion_near(&system, state, 1).ok().map(|orbit| orbit.signature);
+        let signature = near.or_else(|| found.pure_slip.clone())?;
+        let family = self.family(&system, state)?;
+        let at = [*value, along];
+        let traced = trace(&family, kind, &signature, state, at, self.trace_options())?;
+        let mut curve = threshold_curve(*name, &traced, <[f64]>::to_vec);
+        // Where two thresholds cross, the test function has a double root, at which the trace may end.
+        let critical = if kind == BifurcationKind::NeimarkSacker { 2 } else { 1 };
+        for (end, point) in curve.ends.iter_mut().zip([traced.points.first(), traced.points.last()])
+        {
+            let near = |point: &BifurcationCurvePoint| {
+                point.multipliers.iter().filter(|z| modulus(**z) > ABOUT_TO_LEAVE).count()
+                    > critical
+            };
+            if *end == ThresholdCurveEnd::Lost && point.is_some_and(near) {
+                *end = ThresholdCurveEnd::Crossing;
+            }
+        }
+        let kept = curve.points.iter().map(|point| point.radius <= OUTSIDE).collect();
+        Some(part(curve, kept, along, ThresholdCurveEnd::Crossing))
+    }
+
+    /// The curve on which one contact grazes or opens.
+    fn of_contact(&self, found: &MotionFound, along: f64) -> Option<MotionCurve> {
+        let MotionThreshold { value, state, kind, .. } = &found.threshold;
+        let signature = found.pure_slip.clone()?;
+        let system = self.system(*value, along)?;
+        let family = self.family(&system, state)?;
+        let least = shot_of(&family, state, &[*value, along], &signature).ok()?.1.least?;
+        let guarded = GuardedFamily { family, contact: least.contact, is_load: least.is_load };
+        let options = self.trace_options();
+        let grazing = BifurcationKind::Grazing;
+        let traced = trace(&guarded, grazing, &signature, state, [*value, along], options)?;
+        let mut curve = threshold_curve(*kind, &traced, <[f64]>::to_vec);
+        curve.contact = Some(least.contact);
+        let kept = curve.points.iter().map(|point| {
+            let at = [point.value, point.along];
+            let met = shot_of(&guarded.family, &point.state, &at, &signature);
+            met.is_ok_and(|(_, met)| guarded.is_first(&met))
+        });
+        let kept = kept.collect();
+        Some(part(curve, kept, along, ThresholdCurveEnd::Crossing))
+    }
+}
+
+/// The image of a state on the branch of a signature in pure slip.
+fn shot_of(
+    family: &MotionFamily<'_>,
+    state: &[f64],
+    parameters: &[f64],
+    signature: &MotionSignature,
+) -> Result<(Image<MotionSignature>, Shot), NoImage> {
+    let system = (family.at)(parameters).map_err(NoImage::Invalid)?;
+    let motion = Motion::new(&system).map_err(NoImage::Immobile)?;
+    let time = time_of(&motion, family.periods)?;
+    shot(&motion, state, time, Some(signature))
+}
+
+impl ResponsePlane for MotionPlane<'_> {
+    type State = Vec<f64>;
+    type Found = MotionFound;
+    type Why = NoMotionOrbit;
+
+    fn windows(&self) -> [(f64, f64); 2] {
+        [self.window, self.between]
+    }
+
+    fn on_line(&self, along: f64) -> Result<LineSearched<MotionFound>, Open<NoMotionOrbit>> {
+        let at = |values: &[f64]| (self.at)(&[values[0], along]);
+        let found = motion_thresholds(&at, self.window, STEPS, None).map_err(Open::Begin)?;
+        let thresholds = found.thresholds.into_iter().map(|threshold| {
+            let distance = |value: f64| (value - threshold.value).abs();
+            let pure = found.branch.iter().filter(|point| point.signature.is_pure_slip());
+            let nearest = pure.min_by(|a, b| distance(a.value).total_cmp(&distance(b.value)));
+            MotionFound { pure_slip: nearest.map(|point| point.signature.clone()), threshold }
+        });
+        Ok(LineSearched::new(thresholds.collect(), found.ending))
+    }
+
+    fn place(found: &MotionFound) -> (f64, ThresholdKind) {
+        (found.threshold.value, found.threshold.kind)
+    }
+
+    fn through(&self, found: &MotionFound, along: f64) -> Option<MotionCurve> {
+        match found.threshold.kind {
+            ThresholdKind::Grazing | ThresholdKind::Separation => self.of_contact(found, along),
+            kind => self.of_multiplier(found, kind.event()?, along),
+        }
+    }
+
+    fn with_events(&self, value: f64, along: f64, state: &Vec<f64>) -> Option<OrbitVerdict> {
+        let orbit = motion_near(&self.system(value, along)?, state, 1).ok()?;
+        (!orbit.signature.is_pure_slip()).then(|| orbit.verdict())
+    }
+}
+
+/// A family whose distance is that of one contact from one of its events.
+struct GuardedFamily<'a> {
+    family: MotionFamily<'a>,
+    contact: usize,
+    is_load: bool,
+}
+
+impl GuardedFamily<'_> {
+    /// Whether no other event comes before this one.
+    fn is_first(&self, met: &Shot) -> bool {
+        let others = met.approaches.iter().enumerate().flat_map(|(contact, distances)| {
+            let own = move |is_load: bool| contact == self.contact && is_load == self.is_load;
+            [false, true].into_iter().zip(distances).filter(move |(is_load, _)| !own(*is_load))
+        });
+        others.fold(f64::INFINITY, |least, (_, distance)| least.min(*distance)) >= FIRST
+    }
+}
+
+impl PeriodMap for GuardedFamily<'_> {
+    type Signature = MotionSignature;
+    type Error = NoImage;
+
+    fn dimension(&self) -> usize {
+        self.family.dimension()
+    }
+
+    fn scale(&self) -> f64 {
+        self.family.scale()
+    }
+
+    fn image(
+        &self,
+        state: &[f64],
+        parameters: &[f64],
+        held: Option<&MotionSignature>,
+    ) -> Result<Image<MotionSignature>, NoImage> {
+        let Some(held) = held else { return self.family.image(state, parameters, held) };
+        let (image, met) = shot_of(&self.family, state, parameters, held)?;
+        // Distances are relative, and a family's distance is a length.
+        let distance = met.approaches[self.contact][usize::from(self.is_load)] * self.scale();
+        Ok(Image { distance, ..image })
+    }
+}

@@ -1,0 +1,282 @@
+//! `thresholds --along` of a dithered system: curves of the thresholds of its base response in two parameters, and the boundaries
+//! of averaging.
+
+use quell_dynamics::motion::orbit::{
+    MotionCurve, MotionCurves, MotionPlane, NoMotionOrbit, motion_curves,
+};
+use quell_dynamics::orbit::curve::{OpenLine, ThresholdCurveEnd};
+use quell_linear::averaging::{Becomes, DitheredSystem};
+use quell_model::System;
+use quell_model::units::Quantity;
+use serde_json::{Value as Json, json};
+
+use super::start::{state_names, state_quantity};
+use super::tracked::{TrackRequest, understood};
+use super::{failed, has_equations};
+use crate::complaint::{Complaint, Failure};
+use crate::dataset::{Array, Dataset};
+use crate::fields::Fields;
+use crate::run::curves::{AveragedBoundary, CurvesRequest, LINES, POINTS, why_it_ends};
+use crate::run::thresholds::ThresholdKind;
+use crate::study::SystemStudy;
+use crate::words::{digits, plural};
+
+/// Intervals of the second parameter between evaluations of averaging.
+const AVERAGED: u32 = 60;
+
+/// Curves of thresholds of a dithered system.
+#[derive(Clone, Debug)]
+pub struct SystemCurves {
+    /// The request, in the numbers of the study.
+    pub request: CurvesRequest,
+    /// The curves, and lines across the second parameter on which curves may be missing.
+    pub found: MotionCurves,
+    /// Boundaries of averaging, if the first parameter is the amplitude of the first dither.
+    pub averaged: Vec<AveragedBoundary>,
+}
+
+/// The same parameters and windows for eigenvalues.
+pub fn tracked(request: &CurvesRequest) -> TrackRequest {
+    let CurvesRequest { parameter, window, along, between } = request.clone();
+    TrackRequest { parameter, window, along: Some((along, between)) }
+}
+
+/// Whether some dither acts somewhere in the plane.
+pub fn is_dithered_in(study: &SystemStudy, request: &CurvesRequest) -> bool {
+    let (first, last) = request.window;
+    let (begin, end) = request.between;
+    let corners = [(first, begin), (first, end), (last, begin), (last, end)];
+    study.system().is_dithered()
+        || corners.iter().any(|(value, along)| {
+            let at = [(request.parameter.as_str(), *value), (request.along.as_str(), *along)];
+            study.system_at(&at).is_ok_and(|system| system.is_dithered())
+        })
+}
+
+/// The curves of a study whose dither acts somewhere in the plane.
+///
+/// # Errors
+/// Complaints about the request; [`Failure::Failed`] if no line has a base response to start from.
+pub fn run(study: &SystemStudy, request: &CurvesRequest) -> Result<SystemCurves, Failure> {
+    has_equations(study, "thresholds")?;
+    understood(study, &tracked(request))?;
+    let (parameter, along) = (request.parameter.as_str(), request.along.as_str());
+    let at = |values: &[f64]| -> Result<System, String> {
+        let numbers = [(parameter, values[0]), (along, values[1])];
+        study.system_at(&numbers).map_err(|why| why.to_string())
+    };
+    let middle = |(from, to): (f64, f64)| 0.5 * (from + to);
+    let ends = [
+        ("--from", request.window.0, true),
+        ("--to", request.window.1, true),
+        ("--between", request.between.0, false),
+        ("--between", request.between.1, false),
+    ];
+    for (option, value, is_first) in ends {
+        let values = if is_first {
+            [value, middle(request.between)]
+        } else {
+            [middle(request.window), value]
+        };
+        at(&values).map_err(|why| {
+            let path = if is_first { parameter } else { along };
+            let allowed = format!("a value that {path} can take: {why}");
+            Complaint::option(option, value, allowed)
+        })?;
+    }
+    let (window, between) = (request.window, request.between);
+    let plane = MotionPlane { at: &at, window, between, points: POINTS };
+    let found = motion_curves(&plane, LINES)
+        .map_err(|line| failed("thresholds", line_in_words(study, request, &line)))?;
+    let averaged = averaged(request, &at);
+    Ok(SystemCurves { request: request.clone(), found, averaged })
+}
+
+/// The boundaries of averaging; none if the first parameter is not the amplitude of the first dither.
+fn averaged(
+    request: &CurvesRequest,
+    at: &dyn Fn(&[f64]) -> Result<System, String>,
+) -> Vec<AveragedBoundary> {
+    let (least, most) = request.window;
+    if !["dither.amplitude", "dither[0].amplitude"].contains(&request.parameter.as_str()) {
+        return Vec::new();
+    }
+    let boundary = |becomes: Becomes| {
+        move |along: f64| {
+            let system = at(&[most, along]).ok()?;
+            let found = DitheredSystem::new(&system).ok()?.critical_amplitudes(0).ok()?;
+            let first = found.iter().find(|critical| critical.becomes == becomes)?;
+            Some(first.amplitude).filter(|amplitude| (least..=most).contains(amplitude))
+        }
+    };
+    let [stable, unstable] = [boundary(Becomes::Stable), boundary(Becomes::Unstable)];
+    // Averaging of systems has the fast motion of the structure itself.
+    let found = AveragedBoundary::along(true, request.between, AVERAGED, &[&stable, &unstable]);
+    vec![found]
+}
+
+fn with_unit(study: &SystemStudy, path: &str, value: f64) -> String {
+    let unit = study.unit_of(path).filter(|unit| *unit != "1");
+    format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
+}
+
+fn line_in_words(
+    study: &SystemStudy,
+    request: &CurvesRequest,
+    line: &OpenLine<NoMotionOrbit>,
+) -> String {
+    let place = with_unit(study, &request.along, line.along);
+    let why = line.why.words(|value| with_unit(study, &request.parameter, value));
+    format!("on the line {} = {place}: {why}", request.along)
+}
+
+impl SystemCurves {
+    /// Total number of points.
+    pub fn points(&self) -> usize {
+        self.found.curves.iter().map(|curve| curve.points.len()).sum()
+    }
+
+    /// The kind of a curve in words, with its contact if there are several.
+    pub fn kind(&self, study: &SystemStudy, curve: &MotionCurve) -> String {
+        let contacts = &study.system().contacts;
+        match curve.contact.and_then(|contact| contacts.get(contact)) {
+            Some(contact) if contacts.len() > 1 => {
+                format!("{} ({})", curve.kind.name(), contact.name)
+            }
+            _ => curve.kind.name().to_owned(),
+        }
+    }
+
+    /// The curves and where they end inside the windows, in a few sentences.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let CurvesRequest { parameter, along, between: (first, last), .. } = &self.request;
+        let (from, to) = (with_unit(study, along, *first), with_unit(study, along, *last));
+        let count = self.found.curves.len();
+        if count == 0 {
+            return format!(
+                "No threshold of {parameter} was found on {LINES} lines across {along} from {from} to {to}."
+            );
+        }
+        let mut sentences = vec![format!(
+            "Found {count} threshold curve{} of {parameter} along {along} from {from} to {to}, with {} point{} in total.",
+            plural(count),
+            self.points(),
+            plural(self.points())
+        )];
+        for curve in &self.found.curves {
+            let ends =
+                [(curve.points.first(), curve.ends[0]), (curve.points.last(), curve.ends[1])];
+            for (point, end) in ends {
+                if let (Some(point), Some(why)) = (point, why_it_ends(end)) {
+                    let along = format!("{along} = {}", with_unit(study, along, point.along));
+                    let kind = self.kind(study, curve);
+                    sentences.push(format!("The {kind} curve ends at {along}: {why}."));
+                }
+            }
+        }
+        sentences.join(" ")
+    }
+
+    /// Warnings: those of the study, and lines on which curves may be missing.
+    pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
+        let missing = self.found.open.iter().map(|line| {
+            format!("curves may be missing {}", line_in_words(study, &self.request, line))
+        });
+        study.warnings().iter().cloned().chain(missing).collect()
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &SystemStudy) -> Json {
+        let CurvesRequest { parameter, along, window, between } = &self.request;
+        let [unit, across] = [parameter, along].map(|path| study.unit_of(path).unwrap_or("1"));
+        let object = || Fields::of_system(study.units());
+        let curves = self.found.curves.iter().map(|curve| {
+            let points = || curve.points.iter();
+            let moduli: Vec<f64> = points().map(|point| point.radius).collect();
+            let mut inner = object();
+            inner.plain("kind", curve.kind.name());
+            if let Some(contact) = curve.contact {
+                inner.plain("contact", study.system().contacts[contact].name.clone());
+            }
+            inner
+                .measured("value", unit, points().map(|point| point.value).collect::<Vec<_>>())
+                .measured("along", across, points().map(|point| point.along).collect::<Vec<_>>())
+                .plain("state", points().map(|point| point.state.clone()).collect::<Vec<_>>())
+                .numbers("multiplier_modulus", Quantity::Ratio, &moduli)
+                .plain("ends", curve.ends.map(ThresholdCurveEnd::name).to_vec());
+            inner
+        });
+        let averaged = self.averaged.iter().map(|boundary| {
+            let points = || boundary.pieces.iter().flatten();
+            let pairs: Vec<Json> = points().map(|(along, value)| json!([along, value])).collect();
+            let mut inner = object();
+            inner
+                .plain("sharper", boundary.sharper)
+                .plain("points", pairs)
+                .measured("along", across, points().map(|point| point.0).collect::<Vec<_>>())
+                .measured("value", unit, points().map(|point| point.1).collect::<Vec<_>>());
+            inner
+        });
+        let mut fields = object();
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .plain("protocol", "local: Floquet multipliers of the periodic motion")
+            .plain("parameter", parameter.as_str())
+            .measured("from", unit, window.0)
+            .measured("to", unit, window.1)
+            .plain("along", along.as_str())
+            .measured("between", across, vec![between.0, between.1])
+            .plain("state_names", state_names(study.system()))
+            .list("curves", curves)
+            .list("averaged", averaged)
+            .plain("warnings", self.warnings(study));
+        fields.finish()
+    }
+
+    /// The points of all curves, one after another.
+    pub fn dataset(&self, study: &SystemStudy) -> Dataset {
+        let numbered = || (0_u8..).zip(ThresholdKind::ALL);
+        let points = || {
+            let curves = self.found.curves.iter().enumerate();
+            curves.flat_map(|(number, curve)| {
+                curve.points.iter().map(move |point| (number, curve.kind, point))
+            })
+        };
+        let codes: Vec<u8> = points()
+            .filter_map(|(_, kind, _)| numbered().find(|(_, other)| *other == kind))
+            .map(|(code, _)| code)
+            .collect();
+        let names = numbered().map(|(code, kind)| (code, kind.name())).collect();
+        let CurvesRequest { parameter, along, .. } = &self.request;
+        let unit = |path: &str| study.unit_of(path).unwrap_or("1");
+        let rows = (0..self.points()).map(|row| row as f64).collect();
+        let dataset = Dataset::of(&study.into(), "thresholds")
+            .fact(self.sentence(study))
+            .with_axis(Array::new("point", "1", rows))
+            .with(Array::new("curve", "1", points().map(|(number, ..)| number as f64).collect()))
+            .with(Array::of_words("kind", names, &codes))
+            .with(Array::new(
+                along.as_str(),
+                unit(along),
+                points().map(|(.., point)| point.along).collect(),
+            ))
+            .with(Array::new(
+                parameter.as_str(),
+                unit(parameter),
+                points().map(|(.., point)| point.value).collect(),
+            ))
+            .with(Array::new(
+                "multiplier_modulus",
+                "1",
+                points().map(|(.., point)| point.radius).collect(),
+            ));
+        let names = state_names(study.system()).into_iter().enumerate();
+        names.fold(dataset, |dataset, (place, name)| {
+            let quantity = state_quantity(study.system(), place);
+            let unit = quantity.and_then(|quantity| study.units().unit(quantity)).unwrap_or("1");
+            let values = points().map(|(.., point)| point.state[place]).collect();
+            dataset.with(Array::new(format!("state.{name}"), unit, values))
+        })
+    }
+}
