@@ -17,13 +17,28 @@ pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
 }
 
-/// After how many of the earlier states, the latest first and counted from 1, a state comes back, and its distance then.
+/// The returns of a state that are much nearer than every earlier one: after how many of the earlier states, the latest first and
+/// counted from 1, and its distance then. The nearest is last.
+pub(super) fn returns<'a>(
+    last: &[f64],
+    earlier: impl Iterator<Item = &'a [f64]>,
+) -> Vec<(usize, f64)> {
+    let mut found: Vec<(usize, f64)> = Vec::new();
+    for (place, state) in earlier.enumerate() {
+        let now = distance(last, state);
+        if found.last().is_none_or(|(_, best)| now < MUCH_NEARER * best) {
+            found.push((place + 1, now));
+        }
+    }
+    found
+}
+
+/// The nearest of the [`returns`].
 pub(super) fn nearest_return<'a>(
     last: &[f64],
     earlier: impl Iterator<Item = &'a [f64]>,
 ) -> Option<(usize, f64)> {
-    let distances = earlier.enumerate().map(|(place, state)| (place + 1, distance(last, state)));
-    distances.reduce(|best, next| if next.1 < MUCH_NEARER * best.1 { next } else { best })
+    returns(last, earlier).pop()
 }
 
 #[cfg(test)]

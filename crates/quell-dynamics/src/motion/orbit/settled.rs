@@ -1,22 +1,31 @@
 //! The periodic motion on which a run ends.
+//!
+//! A run is watched at whole common periods of its dithers. Where its states come back, Newton's method closes a periodic motion
+//! there. That alone does not show where the run ends: near a slowly attracting motion the states come back after any number of
+//! periods, and next to the motion of the run there may be another stable one. So
+//!
+//! 1. the motion is reduced to its least period, and
+//! 2. the run goes on, and must reach the motion, or approach it at the rate of the motion's multipliers in two windows
+//!    one after the other. If it does neither, it goes on.
 
+use num_complex::Complex64;
 use quell_model::System;
+use quell_numerics::continuation::modulus;
+use quell_numerics::eigen::Decomposition;
 
 use super::super::{MOTION_TOLERANCE, Motion, MotionStart};
-use super::family::{NoImage, time_of};
-use super::periodic::{MotionOrbit, NoMotionOrbit, motion_near, scale_of};
-use super::recurrence::{NEAR, SAME, distance, nearest_return};
+use super::family::{NoImage, shot, time_of};
+use super::periodic::{MotionOrbit, NoMotionOrbit, motion_near, orbit_at, scale_of};
+use super::recurrence::{NEAR, SAME, distance, returns};
 use crate::orbit::OrbitVerdict;
 
 /// Common periods within which a run must settle, where its caller has no reason for another number: `orbit` and `response` thus give
 /// one verdict on one run.
 pub const MOST_PERIODS: u32 = 4000;
 
-/// Common periods in a motion's own period that are tried.
-const MOST_MULTIPLES: usize = 12;
-
-/// Share of its earlier distance to which a run must come nearer to the orbit on which it ends. Slower runs are given more periods.
-const NEARER: f64 = 0.9;
+/// Common periods in a motion's own period that are tried, as for the belt: a longer one is not distinguished from a motion that
+/// does not repeat.
+const MOST_MULTIPLES: usize = 200;
 
 /// States kept of a run that does not settle.
 const KEPT: usize = 100;
@@ -26,6 +35,28 @@ const FIRST_ATTEMPT: u32 = 8;
 
 /// Attempts are repeated after this part of the periods so far: their number grows with the logarithm of the run's length.
 const ATTEMPTS_APART: u32 = 3;
+
+/// Numbers of periods for which Newton's method is tried in one attempt, the nearest return first, then the shortest. More of
+/// them only cost time on motions that do not repeat.
+const MOST_SHOTS: usize = 3;
+
+/// Distance from a motion, relative to the state, within which a run is on it: far below any difference that matters, far above the
+/// error of a run. Another motion nearer than this would be missed.
+const ON_IT: f64 = 1e-6;
+
+/// Distance, relative to the state, within which a state repeats itself to rounding: on a motion with a multiplier of 1, such as rest
+/// in friction, a run that repeats itself to rounding is on it.
+const REPEATS: f64 = 1e-10;
+
+/// Own periods of the motion in a window over which the approach is measured. In a shorter one a motion that passes by could shrink
+/// at the rate by chance; a longer one only takes longer.
+const WINDOW: u32 = 16;
+
+/// Largest difference of the measured rate of approach from that of the multipliers, relative to it: as for the belt.
+const RATE_TOLERANCE: f64 = 0.05;
+
+/// Mismatch after a part of the period, relative to the state, of a motion that repeats after that part.
+const PART: f64 = 1e-8;
 
 /// Where a run ends.
 #[derive(Clone, Debug)]
@@ -40,58 +71,170 @@ pub struct SettledMotion {
 
 /// The periodic motion on which a run from a state at t = 0 ends, within `most` common periods.
 ///
-/// The run goes on until its states repeat nearly, after one or several periods; then Newton's method closes the orbit. An orbit
-/// that is unstable, or far from the run, is not where it ends, and the run goes on.
-///
 /// # Errors
-/// [`NoMotionOrbit::Unsettled`] where no such orbit is found.
+/// [`NoMotionOrbit::Unsettled`] where no such motion is found.
 pub fn settled(system: &System, start: &[f64], most: u32) -> Result<SettledMotion, NoMotionOrbit> {
     let motion = Motion::new(system).map_err(NoMotionOrbit::Immobile)?;
     let period = time_of(&motion, 1).map_err(NoMotionOrbit::NoImage)?;
-    let mut states = vec![start.to_vec()];
-    let mut from = MotionStart { time: 0.0, state: start.to_vec() };
-    let mut next_try = FIRST_ATTEMPT;
-    for count in 1..=most {
-        let until = f64::from(count) * period;
-        let end = motion
-            .run(&from, until, MOTION_TOLERANCE, &mut ())
-            .map_err(|why| NoMotionOrbit::NoImage(NoImage::Stopped(why)))?;
-        from = end.restart();
-        states.push(end.state);
-        if count < next_try {
-            continue;
+    let mut run = Strobed { motion: &motion, period, states: vec![start.to_vec()] };
+    let mut next = FIRST_ATTEMPT;
+    while run.periods() < most {
+        run.go_to(next.min(most))?;
+        let periods = run.periods();
+        if let Some((orbit, multiple)) = run.ends_on()? {
+            return Ok(SettledMotion { orbit, multiple, periods });
         }
-        if let Some((orbit, multiple)) = closed(system, &motion, &states) {
-            return Ok(SettledMotion { orbit, multiple, periods: count });
-        }
-        next_try = count + (count / ATTEMPTS_APART).max(FIRST_ATTEMPT);
+        let count = run.periods();
+        next = count + (count / ATTEMPTS_APART).max(FIRST_ATTEMPT);
     }
-    let last = states.split_off(states.len().saturating_sub(KEPT));
-    Err(NoMotionOrbit::Unsettled { periods: most, last })
+    let periods = run.periods();
+    let last = run.states.split_off(run.states.len().saturating_sub(KEPT));
+    Err(NoMotionOrbit::Unsettled { periods, last })
 }
 
-/// A stable orbit near the last states.
-fn closed(system: &System, motion: &Motion<'_>, states: &[Vec<f64>]) -> Option<(MotionOrbit, u32)> {
-    let last = states.last()?;
-    let scale = scale_of(motion, last);
-    let earlier = states.iter().rev().skip(1).take(MOST_MULTIPLES);
-    let (multiple, mismatch) = nearest_return(last, earlier.map(Vec::as_slice))?;
-    if mismatch > SAME * scale {
-        return None;
-    }
-    let count = u32::try_from(multiple).ok()?;
-    let orbit = motion_near(system, last, count).ok()?;
-    let is_near = distance(&orbit.state, last) <= SAME * scale
-        && (mismatch <= NEAR * scale || approaches(states, &orbit.state, multiple));
-    (is_near && orbit.verdict() == OrbitVerdict::Stable).then_some((orbit, count))
+/// A run and its states at whole periods, from t = 0 on.
+struct Strobed<'a, 's> {
+    motion: &'a Motion<'s>,
+    period: f64,
+    states: Vec<Vec<f64>>,
 }
 
-/// Whether a run comes nearer to an orbit of `multiple` periods: its largest distance over the last third of the states is less than
-/// over the third before. A run that circles about an orbit at a constant distance ends on another motion.
-fn approaches(states: &[Vec<f64>], orbit: &[f64], multiple: usize) -> bool {
-    let distances = states.iter().rev().step_by(multiple).map(|state| distance(state, orbit));
-    let distances: Vec<f64> = distances.collect();
-    let third = distances.len() / 3;
-    let largest = |part: &[f64]| part.iter().fold(0.0, |most: f64, value| most.max(*value));
-    third > 0 && largest(&distances[..third]) < NEARER * largest(&distances[third..2 * third])
+impl Strobed<'_, '_> {
+    /// Periods so far.
+    fn periods(&self) -> u32 {
+        u32::try_from(self.states.len() - 1).unwrap_or(u32::MAX)
+    }
+
+    fn last(&self) -> &[f64] {
+        self.states.last().map_or(&[], Vec::as_slice)
+    }
+
+    /// Continues to a number of periods.
+    fn go_to(&mut self, periods: u32) -> Result<(), NoMotionOrbit> {
+        let mut from = MotionStart {
+            time: f64::from(self.periods()) * self.period,
+            state: self.last().to_vec(),
+        };
+        for count in self.periods() + 1..=periods {
+            let until = f64::from(count) * self.period;
+            let end = self.motion.run(&from, until, MOTION_TOLERANCE, &mut ());
+            let end = end.map_err(|why| NoMotionOrbit::NoImage(NoImage::Stopped(why)))?;
+            from = end.restart();
+            self.states.push(end.state);
+        }
+        Ok(())
+    }
+
+    /// The motion near the last states on which the run ends, and its common periods. Looking for it continues the run.
+    fn ends_on(&mut self) -> Result<Option<(MotionOrbit, u32)>, NoMotionOrbit> {
+        let scale = scale_of(self.motion, self.last());
+        let earlier = self.states.iter().rev().skip(1).take(MOST_MULTIPLES);
+        let found = returns(self.last(), earlier.map(Vec::as_slice));
+        let near = found.into_iter().filter(|(_, mismatch)| *mismatch <= NEAR * scale);
+        let mut near: Vec<(usize, f64)> = near.collect();
+        let nearest = near.pop();
+        near.truncate(MOST_SHOTS - 1);
+        let near = nearest.into_iter().chain(near);
+        for (multiple, mismatch) in near {
+            let Ok(multiple) = u32::try_from(multiple) else { continue };
+            let guess = self.last().to_vec();
+            let Some((orbit, multiple)) = self.closed(&guess, multiple, mismatch, scale) else {
+                continue;
+            };
+            if self.approaches(&orbit, multiple, scale)? {
+                return Ok(Some((orbit, multiple)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The motion near a state that comes back after a number of periods, with its least number of periods.
+    fn closed(
+        &self,
+        guess: &[f64],
+        multiple: u32,
+        mismatch: f64,
+        scale: f64,
+    ) -> Option<(MotionOrbit, u32)> {
+        let system = self.motion.system();
+        let near = |guess: &[f64], multiple| {
+            let orbit = motion_near(system, guess, multiple).ok()?;
+            (distance(&orbit.state, guess) <= SAME * scale).then_some(orbit)
+        };
+        let found = near(guess, multiple).or_else(|| {
+            // Newton's method fails where states next to the motion repeat themselves too.
+            let time = f64::from(multiple) * self.period;
+            let repeats = mismatch <= REPEATS * scale;
+            repeats.then(|| orbit_at(self.motion, guess, time, false).ok()).flatten()
+        })?;
+        let parts = (1..multiple).filter(|part| multiple.is_multiple_of(*part));
+        for part in parts {
+            let until = f64::from(part) * self.period;
+            let start = MotionStart { time: 0.0, state: found.state.clone() };
+            let end = self.motion.run(&start, until, MOTION_TOLERANCE, &mut ()).ok()?;
+            if distance(&end.state, &found.state) <= PART * scale
+                && let Some(shorter) = near(&found.state, part)
+            {
+                return Some((shorter, part));
+            }
+        }
+        Some((found, multiple))
+    }
+
+    /// Whether the run, which goes on, reaches a motion near its last state, or approaches it at the rate of its multipliers.
+    fn approaches(
+        &mut self,
+        orbit: &MotionOrbit,
+        multiple: u32,
+        scale: f64,
+    ) -> Result<bool, NoMotionOrbit> {
+        let is_stable = match orbit.verdict() {
+            OrbitVerdict::Stable => true,
+            OrbitVerdict::Unstable => return Ok(false),
+            OrbitVerdict::Undecided => false,
+        };
+        let slowest = slowest_direction(self.motion, orbit);
+        let expected = libm::log(orbit.radius());
+        // Size of the slowest part at the start of the window.
+        let mut before = None;
+        let mut agreed = 0;
+        for place in 0..=2 * WINDOW {
+            let off: Vec<f64> = self.last().iter().zip(&orbit.state).map(|(a, b)| a - b).collect();
+            let distance = off.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
+            if is_stable && distance <= ON_IT * scale {
+                return Ok(true);
+            }
+            if !is_stable && distance > REPEATS * scale {
+                return Ok(false);
+            }
+            if is_stable && place % WINDOW == 0 {
+                let Some(slowest) = &slowest else { return Ok(false) };
+                let now = modulus(slowest.iter().zip(&off).map(|(y, d)| y * d).sum());
+                if let Some(before) = before {
+                    let measured = libm::log(now / before) / f64::from(WINDOW);
+                    if (measured - expected).abs() > RATE_TOLERANCE * expected.abs() {
+                        return Ok(false);
+                    }
+                    agreed += 1;
+                }
+                before = Some(now);
+            }
+            if place < 2 * WINDOW {
+                self.go_to(self.periods() + multiple)?;
+            }
+        }
+        Ok(!is_stable || agreed == 2)
+    }
+}
+
+/// The left vector of the largest multiplier: the product with it of the distance from the motion shrinks by that multiplier in each
+/// period, without the fluctuation that the other multipliers and a rotation cause in the distance itself.
+fn slowest_direction(motion: &Motion<'_>, orbit: &MotionOrbit) -> Option<Vec<Complex64>> {
+    let (image, _) = shot(motion, &orbit.state, orbit.period, None).ok()?;
+    let decomposition = Decomposition::new(&image.derivative).ok()?;
+    let values = decomposition.values();
+    let largest =
+        (0..values.len()).max_by(|a, b| modulus(values[*a]).total_cmp(&modulus(values[*b])))?;
+    let pair = decomposition.pair(largest);
+    pair.condition.is_finite().then_some(pair.left)
 }
