@@ -2,10 +2,12 @@
 //!
 //! * [`linearised`]: steady sliding of any system and the equations of small motions about it;
 //! * [`eigenvalues`], [`floquet`]: growth rates with bounds, without and with dither of the friction forces;
+//! * [`criticality`]: whether the vibration beyond a Hopf bifurcation of steady sliding grows from zero, or jumps;
 //! * [`growth`]: growth rate, its error and the verdict that they allow;
 //! * [`averaging`]: effective friction under fast dither, stability of steady sliding, critical amplitudes, of one mass.
 
 pub mod averaging;
+pub mod criticality;
 pub mod eigenvalues;
 pub mod floquet;
 pub mod growth;

@@ -271,6 +271,16 @@ impl LinearContact {
         self.slope_row.as_deref()
     }
 
+    /// M⁻¹(t + nσ), or g.
+    pub(crate) fn along(&self) -> &[f64] {
+        &self.along
+    }
+
+    /// M⁻¹n.
+    pub(crate) fn across(&self) -> &[f64] {
+        &self.across
+    }
+
     /// Normal stiffness k and damping d.
     pub fn normal_spring(&self) -> (f64, f64) {
         (self.stiffness, self.damping)

@@ -8,6 +8,7 @@
 //! * [`extrapolation`]: smooth ordinary differential equations to full accuracy;
 //! * [`symmetric`], [`least_squares`]: eigenvalues of symmetric pencils, fits of a few columns;
 //! * [`interval`]: bounds of functions over intervals with outward rounding, for proofs;
+//! * [`normal_form`]: coefficients that decide whether a bifurcation is supercritical;
 //! * [`continuation`]: fixed points of period maps by shooting, their branches, thresholds and curves of thresholds.
 
 pub mod bessel;
@@ -23,6 +24,7 @@ pub mod interval;
 pub mod lane;
 pub mod least_squares;
 pub mod matrix;
+pub mod normal_form;
 pub mod polynomial;
 pub mod quadrature;
 pub mod roots;

@@ -235,7 +235,7 @@ fn lyapunov_exponents_of_periodic_motions_are_those_of_their_multipliers() {
         let period = number(&case["period"]);
         let start = MotionStart { time: 0.0, state };
         let periods = 400.0;
-        let found = motion.lyapunov_exponents(&start, periods * period, motion.size());
+        let found = motion.lyapunov_exponents(&start, (0.0, periods * period), motion.size());
         let found = found.unwrap_or_else(|why| panic!("{name}: {why}"));
         let sizes = list(&case["multipliers"]).iter().map(|z| number(&z[0]).hypot(number(&z[1])));
         let mut rates: Vec<f64> = sizes.map(|size| size.ln() / period).collect();

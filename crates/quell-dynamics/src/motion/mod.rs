@@ -50,7 +50,7 @@ use selection::first_minor_not_positive;
 
 pub use contact_meter::{ContactMeans, ContactMeter};
 pub use input_meter::{InputCost, InputMeter, NoPower};
-pub use lyapunov::{LyapunovExponent, LyapunovExponents};
+pub use lyapunov::{LyapunovExponent, LyapunovExponents, LyapunovVerdict, NoExponents};
 pub use observer::{
     MotionEvent, MotionMoment, MotionObserver, MotionRecorder, MotionSampler, MotionSegment,
     RecordedEvent, Trigger,

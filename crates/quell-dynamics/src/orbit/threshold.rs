@@ -9,10 +9,12 @@
 
 use std::fmt;
 
-use quell_model::Belt;
+use quell_linear::criticality::of_steady_sliding;
+use quell_model::{Belt, Parametrisation};
 use quell_numerics::continuation::branch::{
     BranchSide, End, FixedPointBranch, Follow, SpecialPoint, follow,
 };
+use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov, first_lyapunov};
 use quell_numerics::continuation::spectral_radius;
 use quell_numerics::continuation::threshold::BifurcationKind as Event;
 
@@ -111,6 +113,9 @@ pub struct Threshold {
     pub was: Option<OrbitVerdict>,
     /// State of the response at the threshold.
     pub state: Start,
+    /// Whether the vibration beyond it grows from zero, by the coefficient of its normal form: per period of the map, and of a
+    /// Hopf bifurcation as [`quell_linear::criticality`] gives it. The critical vector has displacement 1.
+    pub first_lyapunov: Result<FirstLyapunov, NoFirstLyapunov>,
 }
 
 /// A value at which the signature changes.
@@ -274,14 +279,28 @@ pub fn along(
     let branch = follow(&forced, &state, from, to > from, window)
         .map_err(|why| NoThresholds::Start(why.into()))?;
     let mut found = local_thresholds_of(&branch, from, to);
-    if belt.dithers().is_empty() {
-        for threshold in &mut found.thresholds {
-            if threshold.kind == ThresholdKind::NeimarkSacker {
-                threshold.kind = ThresholdKind::Hopf;
-            }
+    for threshold in &mut found.thresholds {
+        if belt.dithers().is_empty() && threshold.kind == ThresholdKind::NeimarkSacker {
+            threshold.kind = ThresholdKind::Hopf;
         }
+        threshold.first_lyapunov = criticality(&forced, threshold);
     }
     Ok(found)
+}
+
+/// The coefficient that decides whether a bifurcation is supercritical.
+fn criticality(
+    forced: &Forced<'_>,
+    threshold: &Threshold,
+) -> Result<FirstLyapunov, NoFirstLyapunov> {
+    let parameters = [threshold.value];
+    let event = threshold.kind.event().ok_or(NoFirstLyapunov::OtherKind)?;
+    if threshold.kind == ThresholdKind::Hopf {
+        let belt = forced.belt_at(&parameters).map_err(|_| NoFirstLyapunov::NotCritical)?;
+        return of_steady_sliding(&belt.system());
+    }
+    let state = [threshold.state.displacement, threshold.state.velocity];
+    first_lyapunov(forced, &state, &parameters, event, 1)
 }
 
 /// Translates a branch into the terms of the belt.
@@ -294,7 +313,8 @@ fn local_thresholds_of(branch: &FixedPointBranch<Signature>, from: f64, to: f64)
         if was != becomes {
             let state = Start::of_state(&point.state);
             let (value, error) = (point.parameter, point.error);
-            thresholds.push(Threshold { value, error, kind, becomes, was, state });
+            let first_lyapunov = Err(NoFirstLyapunov::OtherKind);
+            thresholds.push(Threshold { value, error, kind, becomes, was, state, first_lyapunov });
         }
         changes.extend(signature_change(point));
     }

@@ -11,6 +11,7 @@
 
 mod coulomb;
 mod decreasing;
+mod derivatives;
 pub mod expression;
 mod kinds;
 mod law;

@@ -3,8 +3,10 @@
 //! The response is followed by pseudo-arclength continuation, around folds and through grazings of γ = 0 and N = 0
 //! ([`quell_numerics::continuation::branch`]), as for the belt ([`crate::orbit::threshold`]).
 
+use quell_linear::criticality::of_steady_sliding;
 use quell_model::System;
 use quell_numerics::continuation::branch::{BranchSide, Follow, SpecialPoint, follow};
+use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov, first_lyapunov};
 use quell_numerics::continuation::spectral_radius;
 use quell_numerics::continuation::threshold::BifurcationKind;
 
@@ -35,6 +37,9 @@ pub struct MotionThreshold {
     pub radii: [Option<f64>; 2],
     /// State of the response there.
     pub state: Vec<f64>,
+    /// Whether the vibration beyond it grows from zero, by the coefficient of its normal form: per period of the map, and of a
+    /// Hopf bifurcation as [`quell_linear::criticality`] gives it. The critical vector has norm 1 over the coordinates.
+    pub first_lyapunov: Result<FirstLyapunov, NoFirstLyapunov>,
 }
 
 /// A response on the branch.
@@ -101,6 +106,7 @@ pub fn motion_thresholds(
             was,
             radii: [&point.below, &point.above].map(|side| side.as_ref().map(|side| side.radius)),
             state: point.state.clone(),
+            first_lyapunov: criticality(&family, point, kind),
         });
     }
     let ending = BranchEnding::of(&branch, from, to);
@@ -123,6 +129,20 @@ fn first_state(system: &System) -> Result<Vec<f64>, NoMotionOrbit> {
 
 fn verdict(side: Option<&BranchSide<MotionSignature>>) -> Option<OrbitVerdict> {
     side.map(|side| OrbitVerdict::of(side.radius, 0.0))
+}
+
+/// The coefficient that decides whether the bifurcation is supercritical.
+fn criticality(
+    family: &MotionFamily<'_>,
+    point: &SpecialPoint<MotionSignature>,
+    kind: ThresholdKind,
+) -> Result<FirstLyapunov, NoFirstLyapunov> {
+    let parameters = [point.parameter];
+    let system = (family.at)(&parameters).map_err(|_| NoFirstLyapunov::NotCritical)?;
+    if kind == ThresholdKind::Hopf {
+        return of_steady_sliding(&system);
+    }
+    first_lyapunov(family, &point.state, &parameters, point.kind, system.structure.size())
 }
 
 /// The kind of a special point: where a contact opens, a separation.
