@@ -7,6 +7,7 @@ pub mod attractor;
 pub mod basins;
 pub mod bifurcation;
 pub mod check;
+pub mod criticality;
 pub mod curves;
 pub mod disc;
 mod effect_words;
