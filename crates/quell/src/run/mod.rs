@@ -11,6 +11,8 @@ pub mod criticality;
 pub mod curves;
 pub mod disc;
 mod effect_words;
+pub mod exponents;
+pub mod found_attractor;
 pub mod friction;
 pub mod law;
 pub mod map;
