@@ -100,7 +100,7 @@ fn growth_of_a_difference(
 #[test]
 fn a_chaotic_motion_has_one_exponent_by_two_methods() {
     let law = LawKind::Decreasing.build(&[0.5, 0.2, 0.15]).expect("valid");
-    let (amplitude, frequency) = (0.6, 1.3);
+    let (amplitude, frequency) = (0.3, 1.7);
     let wave = Wave { waveform: Waveform::Sine, amplitude, frequency, phase: 0.0 };
     let target = InputTarget::Force(vec![1.0, 0.0]);
     let input = Input { target, profile: Profile::constant(0.0).with(wave) };
