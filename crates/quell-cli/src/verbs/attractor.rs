@@ -38,12 +38,12 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// The times of the exponents, if these are requested; `read` reads a duration.
+    /// The times of the exponents; `read` reads a duration.
     fn times(
         &self,
         complaints: &mut Gathered,
         read: impl Fn(&'static str, &str) -> Result<f64, Box<Complaint>>,
-    ) -> Option<Option<ExponentTimes>> {
+    ) -> Option<ExponentTimes> {
         let mut time = |option, text: &Option<String>| {
             let found = text.as_deref().map(|text| read(option, text)).transpose();
             complaints.take(found)
@@ -51,7 +51,7 @@ impl Arguments {
         let settle = time("--settle", &self.settle);
         let record = time("--record", &self.record);
         let (settle, record) = settle.zip(record)?;
-        Some(self.lyapunov.then_some(ExponentTimes { settle, record }))
+        Some(ExponentTimes { settle, record })
     }
 }
 
@@ -71,7 +71,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     let ((study, times), (start, (outputs, plot))) =
         complaints.finish(study.zip(times).zip(start.zip(outputs.zip(plot))))?;
-    let done = verbs(&study).attractor(&AttractorRequest { start, lyapunov: times })?;
+    let done = verbs(&study)
+        .attractor(&AttractorRequest { start, lyapunov: arguments.lyapunov.then_some(times) })?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }
 
@@ -92,7 +93,10 @@ fn run_on_system(
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     let ((times, start), (outputs, plot)) =
         complaints.finish(times.zip(start).zip(outputs.zip(plot)))?;
-    let request = MotionAttractorRequest { start: start.unwrap_or_default(), lyapunov: times };
+    let request = MotionAttractorRequest {
+        start: start.unwrap_or_default(),
+        lyapunov: arguments.lyapunov.then_some(times),
+    };
     let done = verbs(&study).attractor_of_system(&request)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }

@@ -39,10 +39,10 @@ impl ExponentTimes {
     /// # Errors
     /// A complaint about a time below 0 and a record of no length; that of `slowest`.
     pub fn over(self, slowest: impl Fn() -> Result<f64, Failure>) -> Result<(f64, f64), Failure> {
-        if let Some(settle) = self.settle.filter(|settle| !(*settle >= 0.0)) {
+        if let Some(settle) = self.settle.filter(|settle| settle.is_nan() || *settle < 0.0) {
             return Err(Complaint::option("--settle", settle, "0 or above").into());
         }
-        if let Some(record) = self.record.filter(|record| !(*record > 0.0)) {
+        if let Some(record) = self.record.filter(|record| record.is_nan() || *record <= 0.0) {
             let allowed = "above 0: exponents are means over the record";
             return Err(Complaint::option("--record", record, allowed).into());
         }
