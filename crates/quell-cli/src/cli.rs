@@ -12,8 +12,8 @@ use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
 use crate::verbs::{
-    basins, bifurcation, check, cite, completions, friction, map, modes, new, orbit, reproduce,
-    resonances, response, schema, simulate, stability, thresholds,
+    attractor, basins, bifurcation, check, cite, completions, friction, map, modes, new, orbit,
+    reproduce, resonances, response, schema, simulate, stability, thresholds,
 };
 use crate::{answer, help};
 
@@ -40,6 +40,7 @@ enum Verb {
     Simulate(simulate::Arguments),
     Response(response::Arguments),
     Orbit(orbit::Arguments),
+    Attractor(attractor::Arguments),
     Thresholds(thresholds::Arguments),
     Bifurcation(bifurcation::Arguments),
     Basins(basins::Arguments),
@@ -77,6 +78,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Simulate(arguments) => simulate::run(arguments),
         Verb::Response(arguments) => response::run(arguments),
         Verb::Orbit(arguments) => orbit::run(arguments),
+        Verb::Attractor(arguments) => attractor::run(arguments),
         Verb::Thresholds(arguments) => thresholds::run(arguments),
         Verb::Bifurcation(arguments) => bifurcation::run(arguments),
         Verb::Basins(arguments) => basins::run(arguments),

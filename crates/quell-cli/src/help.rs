@@ -62,6 +62,14 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 ],
             ),
             (
+                "attractor",
+                &[
+                    "quell attractor every-start.toml --start 1.5,0",
+                    "quell attractor driven-oscillator.toml --lyapunov",
+                    "quell attractor two-mass-drive.toml --lyapunov --plot exponents.svg",
+                ],
+            ),
+            (
                 "simulate",
                 &[
                     "quell simulate quench.toml --until 50 --events",

@@ -184,7 +184,8 @@ fn thresholds_answer_with_the_number() {
             ["0.5", "10.5"],
             &with(&["--from-rest", "--from-squeal"])
         ),
-        "The base response is stable up to D = 4.32239 (neimark-sacker) and from D = 9.90021 on (grazing). \
+        "The base response is stable up to D = 4.32239 (neimark-sacker, subcritical: the motion jumps) and from D = 9.90021 on \
+         (grazing). \
          For runs started from rest, the dither quenches up to D = 2.86785 and from D = 9.90024 on. \
          For runs started in full squeal, the dither quenches from D = 9.90024 on."
     );
@@ -200,7 +201,9 @@ fn thresholds_answer_with_the_number() {
     let drive = sentence("drive.toml", "belt.belt_velocity_m_per_s", ["0.005", "0.04"], &[]);
     assert!(
         drive.starts_with("Steady sliding is stable from v₀ = 0.02")
-            && drive.contains(" m/s on (hopf) and unstable below"),
+            && drive.contains(
+                " m/s on (hopf, supercritical: the vibration grows from zero) and unstable below"
+            ),
         "{drive}"
     );
 }

@@ -57,9 +57,9 @@ pub fn first_lyapunov(
     if found.rounding == 0.0 {
         return Err(NoFirstLyapunov::Linear);
     }
-    // A pair beside the axis changes the coefficient in proportion, like an error of the matrix of that size.
-    let beside = value.re.abs() / value.im / f64::EPSILON;
-    let error = found.rounding * (1.0 + beside);
+    // A pair off the axis changes the coefficient in proportion, like an error of the matrix of that size.
+    let off_axis = value.re.abs() / value.im / f64::EPSILON;
+    let error = found.rounding * (1.0 + off_axis);
     Ok(FirstLyapunov { value: found.value / value.im, error: error / value.im })
 }
 

@@ -63,7 +63,7 @@ impl CriticalPair {
     /// The pair with a vector q whose first `leading` numbers have the Euclidean norm 1. `None` if they vanish, or if the
     /// eigenvalue is defective.
     pub fn new(pair: &EigenPair, leading: usize) -> Option<Self> {
-        let squares: f64 = pair.right.iter().take(leading).map(|z| z.norm_sqr()).sum();
+        let squares: f64 = pair.right.iter().take(leading).map(Complex64::norm_sqr).sum();
         let length = libm::sqrt(squares);
         let largest = pair.right.iter().fold(0.0, |m: f64, z| m.max(modulus(*z)));
         let vanishes = length.is_nan() || length <= 1e-12 * largest;
@@ -182,7 +182,7 @@ impl Resolved {
         }
         let values = solved.as_slice();
         let vector = (0..n).map(|i| Complex64::new(values[i], values[n + i])).collect();
-        let length: f64 = right.iter().map(|z| z.norm_sqr()).sum::<f64>().sqrt();
+        let length: f64 = right.iter().map(Complex64::norm_sqr).sum::<f64>().sqrt();
         let condition = solved.frobenius_norm() * doubled.frobenius_norm() / length;
         Some(Self { vector, condition: condition.max(1.0) })
     }

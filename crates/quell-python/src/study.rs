@@ -14,11 +14,12 @@ use quell_model::units::Quantity;
 
 use crate::answer::NativeAnswer;
 use crate::arguments::{NamedNumbers, Pair, both, ends};
+use crate::verbs::attractor::TimeTexts;
 use crate::verbs::map::Asked;
 use crate::verbs::simulate::SoundTexts;
 use crate::verbs::{
-    basins, bifurcation, check, cite, friction, map, modes, orbit, resonances, response, simulate,
-    stability, thresholds,
+    attractor, basins, bifurcation, check, cite, friction, map, modes, orbit, resonances, response,
+    simulate, stability, thresholds,
 };
 use crate::{call, errors};
 
@@ -246,6 +247,30 @@ impl NativeStudy {
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
         call::run(py, move || orbit::run_of_system(&study, near.as_ref(), periods, start.as_ref()))
+    }
+
+    /// `times`: before the record of the exponents and its length, if they are requested.
+    #[pyo3(signature = (start, times))]
+    fn attractor(
+        &self,
+        py: Python<'_>,
+        start: Option<Pair>,
+        times: Option<TimeTexts>,
+    ) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || attractor::run(&study, start.as_ref(), times.as_ref()))
+    }
+
+    /// Of a system: `start` are names of its state with their values.
+    #[pyo3(signature = (start, times))]
+    fn attractor_of_system(
+        &self,
+        py: Python<'_>,
+        start: NamedNumbers,
+        times: Option<TimeTexts>,
+    ) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || attractor::run_of_system(&study, &start, times.as_ref()))
     }
 
     /// `protocols`: names of starts; `start`: a further start as a state.

@@ -28,6 +28,7 @@ def every(belt: quell.Belt, disc: quell.Disc) -> dict[str, results.Result]:
         "simulate": belt.simulate(20.0, sound=True),
         "response": belt.response(),
         "orbit": belt.orbit(),
+        "attractor": belt.attractor(lyapunov=True, settle=50, record=500),
         "thresholds": belt.thresholds("dither.amplitude", 0.3, 0.6),
         "map": belt.map(["growth", "verdict"], {"dither.amplitude": [0.1, 0.5], "belt.belt_velocity": [0.05, 0.1, 0.2]}),
         "bifurcation": belt.bifurcation("dither.amplitude", 0.45, 0.55, points=3, up=True),

@@ -126,15 +126,42 @@ impl Fields {
         self
     }
 
-    /// Adds a growth rate per unit τ, in SI per second; or null with the reason.
-    pub fn rate(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
-        let (unit, per_second) = match self.si {
+    /// Adds rates per unit τ, in SI per second; null with the reason for a missing value.
+    pub fn rates(&mut self, name: &str, values: &[Option<f64>], why: &str) -> &mut Self {
+        let (unit, per_second) = self.unit_of_rates();
+        self.measured(name, unit, values);
+        let twin = per_second.map(|omega| (format!("{name}_per_s"), omega));
+        if let Some((key, omega)) = &twin {
+            let values: Vec<Option<f64>> =
+                values.iter().map(|value| value.map(|value| value * omega)).collect();
+            self.measured(key, "1/s", values);
+        }
+        let names = std::iter::once(name.to_owned()).chain(twin.map(|(key, _)| key));
+        for name in names {
+            if values.contains(&None) {
+                self.why(&name, why);
+            }
+            for (index, _) in values.iter().enumerate().filter(|(_, value)| value.is_none()) {
+                self.why(&format!("{name}[{index}]"), why);
+            }
+        }
+        self
+    }
+
+    /// The unit of rates, and how many of them are one per second in a study in SI.
+    fn unit_of_rates(&self) -> (&'static str, Option<f64>) {
+        match self.si {
             None => ("ω₀", None),
             Some(SiValues::Scaled(scales)) => ("ω₀", Some(scales.angular_frequency())),
             Some(SiValues::System(SystemUnits::None)) => ("1 (per unit of time)", None),
             // Both systems of units have the second.
             Some(SiValues::System(_)) => ("1/s", None),
-        };
+        }
+    }
+
+    /// Adds a growth rate per unit τ, in SI per second; or null with the reason.
+    pub fn rate(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
+        let (unit, per_second) = self.unit_of_rates();
         self.units.insert(name.to_owned(), unit.into());
         let twin = per_second.map(|factor| (format!("{name}_per_s"), factor));
         if let Some((key, _)) = &twin {

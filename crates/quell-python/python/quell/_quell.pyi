@@ -63,6 +63,12 @@ class NativeStudy:
     def orbit_of_system(
         self, near: list[tuple[str, str]] | None, periods: int, start: list[tuple[str, str]] | None
     ) -> NativeAnswer: ...
+    def attractor(
+        self, start: tuple[str, str] | None, times: tuple[str | None, str | None] | None
+    ) -> NativeAnswer: ...
+    def attractor_of_system(
+        self, start: list[tuple[str, str]], times: tuple[str | None, str | None] | None
+    ) -> NativeAnswer: ...
     def thresholds_of_system(
         self,
         parameter: str,

@@ -337,6 +337,43 @@ class Study:
         )
         return results.Orbit(self, native)
 
+    def attractor(
+        self,
+        *,
+        start: State | Mapping[str, Number] | None = None,
+        lyapunov: bool = False,
+        settle: Number | None = None,
+        record: Number | None = None,
+    ) -> results.Attractor:
+        """The motion on which a run ends and, on request, its Lyapunov exponents.
+
+        Parameters
+        ----------
+        start :
+            State (x, x′) at τ = 0, in m and m/s or as texts with units in a study in SI; of a system, numbers that replace those
+            of its start, such as ``{"x": 0.1, "velocity.x": -2}`` [default: the start of the study].
+        lyapunov :
+            Whether to measure the exponents: mean rates at which small changes of the motion grow.
+        settle, record :
+            Time before the record of the exponents and its length; in a study with units also a text such as ``"50ms"``
+            [default: 50 and 1000 periods of the slowest oscillation].
+        """
+        arguments = Arguments()
+        allowed = 'a finite number, or a time with its unit such as "0.5s"'
+        before = None if settle is None else arguments.quantity("settle", settle, allowed)
+        length = None if record is None else arguments.quantity("record", record, allowed)
+        for name, given in (("settle", settle), ("record", record)):
+            if given is not None and not lyapunov:
+                arguments.wrong.append(complaint(name, given, "given with lyapunov=True", "conflict"))
+        times = (before, length) if lyapunov else None
+        if isinstance(start, Mapping):
+            named = arguments.named("start", start)
+            arguments.done()
+            return results.Attractor(self, self._native.attractor_of_system(named, times))
+        begin = None if start is None else arguments.quantities("start", start, "two finite numbers (x, x′)")
+        arguments.done()
+        return results.Attractor(self, self._native.attractor(begin, times))
+
     @overload
     def thresholds(
         self,

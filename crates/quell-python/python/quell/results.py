@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Arrays",
+    "Attractor",
     "Basins",
     "Bifurcation",
     "Check",
@@ -482,6 +483,25 @@ class Orbit(Result):
         return numbers_of(self.facts["multipliers"] or [])
 
 
+class Attractor(Result):
+    """The motion on which a run ends, and its Lyapunov exponents."""
+
+    verb = "attractor"
+    start: str
+    """The start in words."""
+    attractor: dict[str, Any] | None
+    """``kind``, ``quiet``, ``periods``, ``multiplier``, ``lowest``, ``highest``, …; ``None`` if the run did not settle."""
+    periods_until_settled: int | None
+    """Periods of the dither until the run was near the motion.
+
+    With ``lyapunov=True`` also ``lyapunov``, or ``None`` with the reason in ``why``: ``exponents`` (largest first; ``None`` where a
+    stick erases the direction, −∞) with their standard ``errors``, per unit of time; ``time`` of the record and ``settle`` before
+    it; ``verdict`` ("regular", "irregular (chaotic)", "unknown"); ``deciding``, the largest exponent apart from the 0 of a shift in
+    time, whose place is ``shift_in_time``; ``kaplan_yorke_dimension``; ``of_multiplier``, the same rate by the multipliers of a
+    periodic motion, and ``agrees_with_multipliers``.
+    """
+
+
 class Thresholds(Result):
     """Values of a parameter at which the response changes."""
 
@@ -494,6 +514,12 @@ class Thresholds(Result):
     Kinds are "neimark-sacker", "hopf", "flip", "fold", "grazing", "branching", "signature", and of a system without dither
     "hopf", "divergence", "coalescence", with ``frequency``; see :class:`TrackedStability`. Under dither a system also has
     "separation", and ``state``, ``radius_below`` and ``radius_above``.
+
+    ``criticality`` of a Hopf, Neimark–Sacker or flip bifurcation is "supercritical" (beyond the threshold the vibration is stable
+    and grows from zero), "subcritical" (the motion jumps, with hysteresis) or ``None`` with ``criticality_reason``. It is the sign
+    of ``first_lyapunov_coefficient`` with its ``first_lyapunov_coefficient_error``: below zero is supercritical. The critical
+    shape has norm 1 over the coordinates, so that its unit is 1/displacement²; of a Hopf bifurcation it is divided by the angular
+    frequency, of the others it is per period.
     """
     signature_changes: list[dict[str, Any]]
     """Belt: ``value`` at which the events of a period change, and the events ``below`` and ``above``."""

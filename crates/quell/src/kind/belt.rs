@@ -4,8 +4,10 @@ use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
+use crate::run::found_attractor::AttractorRequest;
 use crate::run::{
-    basins, bifurcation, curves, friction, orbit, response, simulate, stability, thresholds,
+    basins, bifurcation, curves, found_attractor, friction, orbit, response, simulate, stability,
+    thresholds,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -24,6 +26,7 @@ impl Verbs for BeltStudy {
             "simulate",
             "response",
             "orbit",
+            "attractor",
             "thresholds",
             "bifurcation",
             "basins",
@@ -58,6 +61,10 @@ impl Verbs for BeltStudy {
 
     fn response(&self) -> Reply {
         answer(self, response::run(self))
+    }
+
+    fn attractor(&self, request: &AttractorRequest) -> Reply {
+        answer(self, found_attractor::run(self, request))
     }
 
     fn orbit(&self, wanted: orbit::Wanted) -> Reply {

@@ -9,8 +9,10 @@ use crate::cite::Sources;
 use crate::complaint::{Failure, Origin};
 use crate::outcome::{Answered, Outcome, Presented};
 use crate::run::disc::{motion, resonances};
+use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
 use crate::run::system::basins::PlaneRequest;
+use crate::run::system::found_attractor::MotionAttractorRequest;
 use crate::run::system::orbit::WantedMotion;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
@@ -143,6 +145,24 @@ pub trait Verbs: Send + Sync {
     fn orbit_of_system(&self, wanted: &WantedMotion) -> Reply {
         let _ = wanted;
         Err(self.lacks("orbit with named states"))
+    }
+
+    /// The motion on which a run ends, and its Lyapunov exponents.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::found_attractor::run`].
+    fn attractor(&self, request: &AttractorRequest) -> Reply {
+        let _ = request;
+        Err(self.lacks("attractor"))
+    }
+
+    /// The motion on which a run of a system ends, and its Lyapunov exponents.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::system::found_attractor::run`].
+    fn attractor_of_system(&self, request: &MotionAttractorRequest) -> Reply {
+        let _ = request;
+        Err(self.lacks("attractor with named states"))
     }
 
     /// Thresholds of one parameter.

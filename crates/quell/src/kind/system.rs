@@ -7,10 +7,13 @@ use crate::outcome::{Answered, Outcome};
 use crate::run::basins::BasinsRequest;
 use crate::run::bifurcation::SweepRequest;
 use crate::run::curves::CurvesRequest;
+use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
 use crate::run::simulate::Options;
 use crate::run::system::basins::{PlaneRequest, default_plane};
+use crate::run::system::found_attractor::MotionAttractorRequest;
 use crate::run::system::orbit::WantedMotion;
+use crate::run::system::protocol::unnamed;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
 use crate::run::system::thresholds::{
@@ -18,7 +21,7 @@ use crate::run::system::thresholds::{
 };
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
-    basins, bifurcation, curves, exact, measured, modes, orbit, reach, response, simulate,
+    basins, bifurcation, curves, exact, found_attractor, measured, modes, orbit, reach, response, simulate,
     stability, thresholds, tracked,
 };
 use crate::run::thresholds::ThresholdsRequest;
@@ -39,6 +42,7 @@ impl Verbs for SystemStudy {
             "simulate",
             "response",
             "orbit",
+            "attractor",
             "thresholds",
             "bifurcation",
             "basins",
@@ -114,6 +118,18 @@ impl Verbs for SystemStudy {
 
     fn orbit_of_system(&self, wanted: &WantedMotion) -> Reply {
         answer(self, orbit::run(self, wanted))
+    }
+
+    fn attractor(&self, request: &AttractorRequest) -> Reply {
+        let AttractorRequest { start, lyapunov } = *request;
+        if let Some(start) = start {
+            return Err(unnamed("--start", start).into());
+        }
+        self.attractor_of_system(&MotionAttractorRequest { start: Vec::new(), lyapunov })
+    }
+
+    fn attractor_of_system(&self, request: &MotionAttractorRequest) -> Reply {
+        answer(self, found_attractor::run(self, request))
     }
 
     fn thresholds(&self, request: ThresholdsRequest) -> Reply {

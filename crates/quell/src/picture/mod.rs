@@ -7,6 +7,7 @@ mod basins;
 mod bifurcation;
 mod caption;
 pub mod disc;
+pub mod exponents;
 mod friction;
 mod map;
 mod orbit;

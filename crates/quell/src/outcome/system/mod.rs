@@ -1,5 +1,6 @@
 //! Answers of a study of a system, one file per verb.
 
+mod attractor;
 mod basins;
 mod bifurcation;
 mod exact;

@@ -10,6 +10,7 @@ pub mod curves;
 pub mod cycle;
 pub mod cycle_samples;
 pub mod exact;
+pub mod found_attractor;
 pub mod history;
 pub mod measured;
 pub mod modes;
@@ -86,7 +87,7 @@ fn in_units(units: SystemUnits, quantity: Quantity, value: f64) -> String {
 }
 
 /// A growth rate with its unit.
-fn rate_of(units: SystemUnits, rate: f64) -> String {
+pub(crate) fn rate_of(units: SystemUnits, rate: f64) -> String {
     let unit = if units == SystemUnits::None { "" } else { " 1/s" };
     format!("{}{unit}", digits(rate))
 }

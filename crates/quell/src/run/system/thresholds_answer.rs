@@ -12,6 +12,7 @@ use super::switches::{MOST_PERIODS_OF_A_RUN, RunOutcome, RunSwitches, STEPS_TRIE
 use super::thresholds::MotionThresholdsFound;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::run::criticality;
 use crate::run::thresholds::side;
 use crate::study::SystemStudy;
 use crate::words::{capital, digits, plural};
@@ -94,7 +95,9 @@ impl MotionThresholdsFound {
             .map_or("unknown", |point| OrbitVerdict::of(point.radius, 0.0).name());
         let furthest = end_of(local.ending);
         let change = |threshold: &MotionThreshold| {
-            let kind = threshold.kind.name();
+            let criticality = threshold.first_lyapunov.map_err(|why| why.to_string());
+            let kind =
+                format!("{}{}", threshold.kind.name(), criticality::clause(&criticality, ", ", ""));
             let at = format!("at {path} = {} ({kind})", self.value(study, threshold.value));
             match (threshold.was, threshold.becomes) {
                 (Some(_), Some(verdict)) => format!("becomes {} {at}", verdict.name()),
@@ -267,6 +270,9 @@ fn put(study: &SystemStudy, unit: &str, found: &MotionThreshold) -> Fields {
             None => fields.unknown(name, "the motion does not exist on this side"),
         };
     }
+    let length = study.units().unit(Quantity::Displacement).unwrap_or("1");
+    let found = found.first_lyapunov.map_err(|why| why.to_string());
+    criticality::put(&mut fields, length, &found);
     fields
 }
 

@@ -4,9 +4,11 @@ use quell_dynamics::attractor::{Switch, Switches};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::Dither;
 use quell_model::units::Quantity;
+use quell_numerics::continuation::criticality::Criticality;
 
 use super::{BranchEnding, Threshold, ThresholdKind, Thresholds, path_in_words, quantity_of};
 use crate::run::attractor::unknown;
+use crate::run::criticality;
 use crate::run::protocol::Protocol;
 use crate::study::BeltStudy;
 use crate::words::{capital, in_words};
@@ -19,6 +21,8 @@ struct Limit {
     error: Option<f64>,
     /// The kind of threshold; `None` at an end of the range.
     kind: Option<ThresholdKind>,
+    /// Whether it is supercritical, where that is decided.
+    criticality: Option<Criticality>,
     /// Whether it is an end of the requested range, or of the part that could be answered.
     of_range: bool,
 }
@@ -33,7 +37,7 @@ struct Interval<T> {
 
 impl Limit {
     fn of_range(value: f64) -> Self {
-        Self { value, error: None, kind: None, of_range: true }
+        Self { value, error: None, kind: None, criticality: None, of_range: true }
     }
 }
 
@@ -85,7 +89,9 @@ impl<'a> NamedParameter<'a> {
     fn interval<T>(&self, interval: &Interval<T>) -> String {
         let Interval { from, to, .. } = *interval;
         let kind = |limit: Limit| {
-            limit.kind.map_or_else(String::new, |kind| format!(" ({})", kind.name()))
+            let words = limit.criticality.map(criticality::words);
+            let clause = words.map_or(String::new(), |words| format!(", {words}"));
+            limit.kind.map_or_else(String::new, |kind| format!(" ({}{clause})", kind.name()))
         };
         match (from.of_range, to.of_range) {
             (true, true) => {
@@ -147,7 +153,10 @@ impl Thresholds {
         let mut answer = OrbitVerdict::of(first.radius, 0.0);
         for threshold in &self.local.thresholds {
             let Threshold { value, kind, becomes, was, .. } = *threshold;
-            let limit = Limit { value, error: None, kind: Some(kind), of_range: false };
+            let found = threshold.first_lyapunov.map_err(|why| why.to_string());
+            let criticality = criticality::decided(&found).ok();
+            let limit =
+                Limit { value, error: None, kind: Some(kind), criticality, of_range: false };
             intervals.push(Interval { from, to: limit, answer });
             // No response on one side: the branch ends or turns back there.
             let (Some(_), Some(next)) = (was, becomes) else {
@@ -342,6 +351,7 @@ fn runs(from: f64, to: f64, switches: &Switches) -> Vec<Interval<Option<bool>>> 
         value: switch.value,
         error: (!switch.is_close()).then_some(switch.error),
         kind: None,
+        criticality: None,
         of_range: false,
     };
     let begins = std::iter::once((Limit::of_range(from), switches.first))

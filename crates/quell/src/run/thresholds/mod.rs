@@ -17,6 +17,7 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::attractor::unknown;
+use super::criticality;
 use super::orbit;
 use super::protocol::Protocol;
 use super::varied::{Named, ascending, key_of};
@@ -308,6 +309,9 @@ impl Thresholds {
                 .plain("becomes", side(threshold.becomes))
                 .number("displacement", Quantity::Displacement, threshold.state.displacement)
                 .number("velocity", Quantity::Velocity, threshold.state.velocity);
+            let length = if study.scales().is_some() { "m" } else { "length" };
+            let found = threshold.first_lyapunov.map_err(|why| why.to_string());
+            criticality::put(&mut inner, length, &found);
             inner
         });
         let words = |signature: Option<&Signature>| {

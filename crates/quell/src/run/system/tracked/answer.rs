@@ -5,11 +5,13 @@ use std::fmt::Write as _;
 use quell_linear::growth::Verdict;
 use quell_linear::tracking::{StabilityChange, ThresholdOfStability};
 use quell_model::units::Quantity;
+use quell_numerics::continuation::criticality::FirstLyapunov;
 use serde_json::{Value as Json, json};
 
 use super::{StabilityCurve, TrackRequest, TrackedStability};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::run::criticality;
 use crate::run::system::oscillating;
 use crate::study::{SystemStudy, SystemUnits};
 use crate::words::{digits, plural};
@@ -27,8 +29,9 @@ impl TrackedStability {
             .tracked
             .thresholds
             .iter()
-            .filter(|found| found.verdicts[0] != found.verdicts[1])
-            .map(|found| {
+            .zip(&self.first_lyapunov)
+            .filter(|(found, _)| found.verdicts[0] != found.verdicts[1])
+            .map(|(found, first_lyapunov)| {
                 let motion = oscillating(study.units(), found.eigenvalue.im.abs());
                 let how = match found.change {
                     StabilityChange::Hopf if found.verdicts[1] == Verdict::Stable => {
@@ -40,7 +43,8 @@ impl TrackedStability {
                     StabilityChange::Jump => "by a jump".to_owned(),
                 };
                 let at = self.value(study, found.value);
-                format!("{} at {parameter} = {at}, {how}", found.verdicts[1].name())
+                let clause = criticality::clause(first_lyapunov, " (", ")");
+                format!("{} at {parameter} = {at}, {how}{clause}", found.verdicts[1].name())
             })
             .collect();
         let by = if self.averaged { "By averaging, steady" } else { "Steady" };
@@ -113,7 +117,8 @@ impl TrackedStability {
         fields.plain("points", points);
         fields.plain("covered", self.is_covered()).plain("resumes", self.resumes());
         fields.nested("at_from", self.at_from(study));
-        let found = self.tracked.thresholds.iter().map(|found| put(study, unit, found));
+        let found = self.tracked.thresholds.iter().zip(&self.first_lyapunov);
+        let found = found.map(|(found, first_lyapunov)| put(study, unit, found, first_lyapunov));
         let found: Vec<Fields> = found.collect();
         // The name of the list in the answer about a belt, and that of a system.
         fields.list("local", found.clone()).list("thresholds", found);
@@ -254,7 +259,12 @@ fn between(study: &SystemStudy, path: &str, (from, to): (f64, f64)) -> String {
 }
 
 /// One threshold; `unit` is that of the parameter.
-fn put(study: &SystemStudy, unit: &str, found: &ThresholdOfStability) -> Fields {
+fn put(
+    study: &SystemStudy,
+    unit: &str,
+    found: &ThresholdOfStability,
+    first_lyapunov: &Result<FirstLyapunov, String>,
+) -> Fields {
     let mut fields = Fields::of_system(study.units());
     fields
         .measured("value", unit, found.value)
@@ -263,6 +273,8 @@ fn put(study: &SystemStudy, unit: &str, found: &ThresholdOfStability) -> Fields 
         .number("frequency", Quantity::FrequencyRatio, found.eigenvalue.im.abs())
         .plain("was", found.verdicts[0].name())
         .plain("becomes", found.verdicts[1].name());
+    let length = study.units().unit(Quantity::Displacement).unwrap_or("1");
+    criticality::put(&mut fields, length, first_lyapunov);
     fields
 }
 

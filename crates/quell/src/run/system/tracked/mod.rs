@@ -5,8 +5,10 @@ mod answer;
 use std::cell::RefCell;
 
 use quell_linear::averaging::DitheredSystem;
+use quell_linear::criticality::first_lyapunov;
 use quell_linear::linearised::Linearised;
-use quell_linear::tracking::{Family, ThresholdOfStability, Tracked, track};
+use quell_linear::tracking::{Family, StabilityChange, ThresholdOfStability, Tracked, track};
+use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov};
 use quell_numerics::eigen::EigenError;
 use quell_numerics::matrix::Matrix;
 
@@ -54,6 +56,8 @@ pub struct TrackedStability {
     pub averaged: bool,
     /// The eigenvalues and thresholds over the window.
     pub tracked: Tracked<String>,
+    /// For each threshold of the window the first Lyapunov coefficient, or the reason why it is unknown.
+    pub first_lyapunov: Vec<Result<FirstLyapunov, String>>,
     /// Curves along the second parameter; empty without one.
     pub curves: Vec<StabilityCurve>,
     /// Where contacts open or leave the range of their law: in the window, and over the second parameter.
@@ -119,7 +123,31 @@ pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStabili
     }
     let averaged = study.system().is_dithered();
     let contacts = recorded.map(RefCell::into_inner);
-    Ok(TrackedStability { request: request.clone(), averaged, tracked, curves, contacts })
+    let first_lyapunov =
+        tracked.thresholds.iter().map(|found| criticality(study, &request.parameter, found));
+    let first_lyapunov = first_lyapunov.collect();
+    let request = request.clone();
+    Ok(TrackedStability { request, averaged, tracked, first_lyapunov, curves, contacts })
+}
+
+/// The first Lyapunov coefficient at a threshold of steady sliding without dither.
+fn criticality(
+    study: &SystemStudy,
+    path: &str,
+    found: &ThresholdOfStability,
+) -> Result<FirstLyapunov, String> {
+    let text = |why: NoFirstLyapunov| why.to_string();
+    if found.change != StabilityChange::Hopf {
+        return Err(text(NoFirstLyapunov::OtherKind));
+    }
+    let system = study.system_at(&[(path, found.value)]).map_err(|why| why.to_string())?;
+    if is_dithered(&system) {
+        let why =
+            "not computed for averaged motion: `thresholds` gives that of the dithered response";
+        return Err(why.to_owned());
+    }
+    let linear = Linearised::new(&system).map_err(|why| why.to_string())?;
+    first_lyapunov(&system, &linear, found.eigenvalue.im.abs()).map_err(text)
 }
 
 /// Adds the thresholds of a line to the curves that end at the line before.

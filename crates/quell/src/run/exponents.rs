@@ -1,0 +1,295 @@
+//! Lyapunov exponents of the motion on which a run ends, as `attractor` reports them.
+
+use quell_dynamics::motion::{
+    LyapunovExponent, LyapunovExponents, LyapunovVerdict, Motion, MotionStart,
+};
+use quell_model::System;
+use quell_model::units::Quantity;
+
+use crate::complaint::{Complaint, Failure};
+use crate::dataset::{Array, Dataset};
+use crate::fields::Fields;
+use crate::words::digits;
+
+/// Exponents that are computed at most: the largest of a large system.
+const MOST_EXPONENTS: usize = 12;
+
+/// A multiplier below this modulus may be rounding of 0.
+const ERASED: f64 = 1e-9;
+
+/// Difference between an exponent and the multiplier's beyond three standard errors that is allowed, over the record: the
+/// logarithm of a length that is not the same at both of its ends.
+const ENDS: f64 = 5.0;
+
+/// Why an exponent is null.
+const STICK: &str = "−∞: a stick erases changes of its slip velocity";
+
+/// Times of a record of exponents.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ExponentTimes {
+    /// Time before the record; `None` for the usual one.
+    pub settle: Option<f64>,
+    /// Length of the record; `None` for the usual one.
+    pub record: Option<f64>,
+}
+
+impl ExponentTimes {
+    /// The times, of a motion whose slowest oscillation has this period.
+    ///
+    /// # Errors
+    /// A complaint about a time below 0 and a record of no length; that of `slowest`.
+    pub fn over(self, slowest: impl Fn() -> Result<f64, Failure>) -> Result<(f64, f64), Failure> {
+        if let Some(settle) = self.settle.filter(|settle| settle.is_nan() || *settle < 0.0) {
+            return Err(Complaint::option("--settle", settle, "0 or above").into());
+        }
+        if let Some(record) = self.record.filter(|record| record.is_nan() || *record <= 0.0) {
+            let allowed = "above 0: exponents are means over the record";
+            return Err(Complaint::option("--record", record, allowed).into());
+        }
+        let time = |given: Option<f64>, periods: f64| match given {
+            Some(time) => Ok(time),
+            None => slowest().map(|slowest| periods * slowest),
+        };
+        Ok((time(self.settle, SETTLE_PERIODS)?, time(self.record, RECORD_PERIODS)?))
+    }
+}
+
+/// Periods of the slowest oscillation before the record: the changes turn into their directions.
+pub const SETTLE_PERIODS: f64 = 50.0;
+
+/// Periods of the slowest oscillation in the record.
+pub const RECORD_PERIODS: f64 = 1000.0;
+
+/// What the judge of where a run ends says about the motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JudgedMotion {
+    /// It is periodic.
+    Periodic {
+        /// Modulus of the deciding multiplier.
+        radius: f64,
+        /// Period.
+        period: f64,
+    },
+    /// It is on a torus: the largest exponent is exactly 0.
+    QuasiPeriodic,
+    /// It is not periodic, as far as it was followed.
+    NotPeriodic,
+    /// It is at rest, or nothing is known.
+    Other,
+}
+
+/// The motion that is measured.
+#[derive(Clone, Copy, Debug)]
+pub struct MeasuredMotion<'a> {
+    /// The system that moves.
+    pub system: &'a System,
+    /// A state of the motion at t = 0.
+    pub state: &'a [f64],
+    /// Whether it moves without dither, so that it may be shifted in time.
+    pub moves_freely: bool,
+    /// What is known about it.
+    pub judged: JudgedMotion,
+}
+
+/// Lyapunov exponents with what they are compared with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredExponents {
+    /// The exponents.
+    pub found: LyapunovExponents,
+    /// Time before the record.
+    pub settle: f64,
+    /// Whether the motion may be shifted in time.
+    pub moves_freely: bool,
+    /// What is known about the motion.
+    pub judged: JudgedMotion,
+    /// Number of exponents that were not computed.
+    pub left_out: usize,
+}
+
+impl MeasuredExponents {
+    /// Measures the exponents of a motion.
+    ///
+    /// # Errors
+    /// Why they are not known.
+    pub fn of(motion: &MeasuredMotion<'_>, times: (f64, f64)) -> Result<Self, String> {
+        let MeasuredMotion { system, state, moves_freely, judged } = *motion;
+        let engine = Motion::new(system).map_err(|why| why.to_string())?;
+        let count = engine.size().min(MOST_EXPONENTS);
+        let start = MotionStart { time: 0.0, state: state.to_vec() };
+        let found = engine.lyapunov_exponents(&start, times, count);
+        let found = found.map_err(|why| why.to_string())?;
+        let left_out = engine.size() - count;
+        Ok(Self { found, settle: times.0, moves_freely, judged, left_out })
+    }
+
+    /// What they say about the motion.
+    pub fn verdict(&self) -> LyapunovVerdict {
+        self.found.verdict(self.moves_freely)
+    }
+
+    /// Whether the deciding exponent is ln|λ|/T of the deciding multiplier; `None` of a motion that is not periodic.
+    pub fn agrees(&self) -> Option<bool> {
+        let JudgedMotion::Periodic { radius, period } = self.judged else { return None };
+        let rate = libm::log(radius) / period;
+        Some(match self.found.deciding(self.moves_freely)? {
+            LyapunovExponent::Erased => radius <= ERASED,
+            LyapunovExponent::Rate { value, .. } if radius <= ERASED => {
+                value * period <= libm::log(ERASED)
+            }
+            LyapunovExponent::Rate { value, error } => {
+                (value - rate).abs() <= 3.0 * error + ENDS / self.found.time
+            }
+        })
+    }
+
+    /// How the verdict contradicts what the judge of where the run ends says; `None` if it does not.
+    pub fn contradiction(&self) -> Option<&'static str> {
+        match (self.judged, self.verdict()) {
+            (JudgedMotion::Periodic { .. }, _) if self.agrees() == Some(false) => Some(
+                "the Lyapunov exponents contradict the multipliers of the motion: the record left the motion, or it is too short; \
+                 try another --settle or --record",
+            ),
+            (JudgedMotion::QuasiPeriodic | JudgedMotion::NotPeriodic, LyapunovVerdict::Regular) => {
+                Some(
+                    "every Lyapunov exponent is below 0, as of a stable periodic motion, but the run was not found to end on one: \
+                     its period may be longer than those tried, or the record may be too short",
+                )
+            }
+            (JudgedMotion::QuasiPeriodic, LyapunovVerdict::Irregular) => Some(
+                "the section of the motion looks quasi-periodic, but its largest Lyapunov exponent is above 0: lengthen the record",
+            ),
+            _ => None,
+        }
+    }
+
+    /// The answer in a sentence; `rate` writes a rate with its unit.
+    pub fn sentence(&self, rate: impl Fn(f64) -> String) -> String {
+        let which = if self.moves_freely {
+            "Apart from the exponent 0 of a shift in time, its largest Lyapunov exponent"
+        } else {
+            "Its largest Lyapunov exponent"
+        };
+        let verdict = match self.verdict() {
+            LyapunovVerdict::Regular => "the motion is regular",
+            LyapunovVerdict::Irregular => "the motion is irregular (chaotic)",
+            LyapunovVerdict::Unknown => {
+                "whether the motion is regular is unknown, because 0 is within three standard errors"
+            }
+        };
+        match self.found.deciding(self.moves_freely) {
+            Some(LyapunovExponent::Rate { value, error }) => {
+                let (value, error) = (rate(value), rate(error));
+                format!("{which} is {value} (standard error {error}): {verdict}.")
+            }
+            Some(LyapunovExponent::Erased) => {
+                format!("{which} is −∞, because sticks erase every small change: {verdict}.")
+            }
+            None => format!("It has no further exponent: {verdict}."),
+        }
+    }
+
+    /// Warnings, among them a contradiction to the multipliers.
+    pub fn warnings(&self) -> Vec<String> {
+        let contradiction = self.contradiction().map(str::to_owned);
+        let left_out = (self.left_out > 0)
+            .then(|| format!("only the {MOST_EXPONENTS} largest Lyapunov exponents were computed"));
+        contradiction.into_iter().chain(left_out).collect()
+    }
+
+    /// Adds the fields to an object.
+    pub(super) fn put(&self, fields: &mut Fields) {
+        let exponents = &self.found.exponents;
+        let part = |pick: fn(f64, f64) -> f64| -> Vec<Option<f64>> {
+            let known = |exponent: &LyapunovExponent| match exponent {
+                LyapunovExponent::Rate { value, error } => Some(pick(*value, *error)),
+                LyapunovExponent::Erased => None,
+            };
+            exponents.iter().map(known).collect()
+        };
+        fields
+            .rates("exponents", &part(|value, _| value), STICK)
+            .rates("errors", &part(|_, error| error), STICK)
+            .number("time", Quantity::Time, self.found.time)
+            .number("settle", Quantity::Time, self.settle)
+            .plain("verdict", self.verdict().name());
+        if self.verdict() == LyapunovVerdict::Unknown {
+            fields.why(
+                "verdict",
+                "0 is within three standard errors of the deciding exponent: a quasi-periodic motion has exactly 0, and a longer \
+                 record narrows the error",
+            );
+        }
+        let shift = self.found.shift_in_time(self.moves_freely);
+        match shift {
+            Some(place) => fields.plain("shift_in_time", place),
+            None => fields
+                .unknown("shift_in_time", "dither fixes the phase of the motion, or it is at rest"),
+        };
+        let deciding = self.found.deciding(self.moves_freely).map(|exponent| exponent.rate());
+        let deciding = deciding.filter(|rate| rate.is_finite()).ok_or_else(|| STICK.to_owned());
+        fields.rate("deciding", deciding);
+        let dimension = self.found.kaplan_yorke_dimension(self.moves_freely);
+        let dimension = dimension.ok_or_else(|| {
+            "the errors of the exponents, or those that were not computed, leave it open".to_owned()
+        });
+        fields.known("kaplan_yorke_dimension", Quantity::Ratio, dimension);
+        let not_periodic = || "no periodic motion was found, and so no multiplier".to_owned();
+        let expected = match self.judged {
+            JudgedMotion::Periodic { radius, period } => {
+                let rate = libm::log(radius) / period;
+                if rate.is_finite() { Ok(rate) } else { Err(STICK.to_owned()) }
+            }
+            _ => Err(not_periodic()),
+        };
+        fields.rate("of_multiplier", expected);
+        match self.agrees() {
+            Some(agrees) => fields.plain("agrees_with_multipliers", agrees),
+            None => fields.unknown("agrees_with_multipliers", not_periodic()),
+        };
+        match self.contradiction() {
+            Some(why) => fields.plain("contradiction", why),
+            None => {
+                fields.unknown("contradiction", "the exponents and the kind of the motion agree")
+            }
+        };
+    }
+
+    /// The exponents over the time up to which they are averaged; `time` and `rate` are the units with their values in a unit of
+    /// the equations.
+    pub fn dataset(&self, dataset: Dataset, time: (&str, f64), rate: (&str, f64)) -> Dataset {
+        let times = self.times().map(|value| time.1 * value).collect();
+        let dataset = dataset.with_axis(Array::new("time", time.0, times));
+        let kept = self.found.means.iter().enumerate().filter(|(_, means)| !means.is_empty());
+        kept.fold(dataset, |dataset, (index, means)| {
+            let values = means.iter().map(|value| rate.1 * value).collect();
+            dataset.with(Array::new(format!("exponent_{}", index + 1), rate.0, values))
+        })
+    }
+
+    /// Ends of the blocks of the record.
+    pub fn times(&self) -> impl Iterator<Item = f64> {
+        let blocks = self.found.means.iter().map(Vec::len).max().unwrap_or(0);
+        let time = self.found.time;
+        (1..=blocks).map(move |block| time * block as f64 / blocks as f64)
+    }
+
+    /// The table of exponents for people.
+    pub fn table(&self, rate: impl Fn(f64) -> String) -> String {
+        let rows = self.found.exponents.iter().enumerate().map(|(index, exponent)| {
+            let value = match exponent {
+                LyapunovExponent::Rate { value, error } => {
+                    format!("{} ± {}", rate(*value), rate(*error))
+                }
+                LyapunovExponent::Erased => "−∞ (erased by sticks)".to_owned(),
+            };
+            format!("  exponent {:<27}{value}\n", index + 1)
+        });
+        let rows: String = rows.collect();
+        match self.found.kaplan_yorke_dimension(self.moves_freely) {
+            Some(dimension) => {
+                format!("{rows}  {:<36}{}\n", "Kaplan–Yorke dimension", digits(dimension))
+            }
+            None => rows,
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! `attractor` of a system: the motion on which a run ends, and its Lyapunov exponents.
+
+use quell_linear::pure_slip::period;
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::attractor::{EndOfRun, MotionKind, end_of_run};
+use super::orbit::MOST_PERIODS;
+use super::simulate::slowest_period;
+use super::start::{StateNumbers, start_in_words, start_with};
+use super::{has_equations, is_dithered, rate_of};
+use crate::complaint::Failure;
+use crate::dataset::Dataset;
+use crate::fields::Fields;
+use crate::run::exponents::{ExponentTimes, JudgedMotion, MeasuredExponents, MeasuredMotion};
+use crate::study::{SystemStudy, SystemUnits};
+
+/// What to find.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MotionAttractorRequest {
+    /// Numbers that replace those of the study's start.
+    pub start: StateNumbers,
+    /// Whether the Lyapunov exponents are measured, and over which times.
+    pub lyapunov: Option<ExponentTimes>,
+}
+
+/// The motion on which a run of a system ends.
+#[derive(Clone, Debug)]
+pub struct AttractorOfSystem {
+    /// The start in words.
+    pub start: String,
+    /// The motion, or why it is not known.
+    pub end: Result<EndOfRun, String>,
+    /// Its exponents, if they were requested, or why they are not known.
+    pub exponents: Option<Result<MeasuredExponents, String>>,
+}
+
+/// The motion on which the run of a study ends.
+///
+/// # Errors
+/// Complaints about the start and the times.
+pub fn run(
+    study: &SystemStudy,
+    request: &MotionAttractorRequest,
+) -> Result<AttractorOfSystem, Failure> {
+    has_equations(study, "attractor")?;
+    let system = study.system();
+    let start = start_with(study, &request.start)?.state;
+    let end = end_of_run(system, &study.observe(), &start, MOST_PERIODS);
+    let exponents = request.lyapunov.map(|times| {
+        let times = times.over(|| slowest_period(study, "--record"))?;
+        let attractor = end.as_ref().ok().map(|end| &end.attractor);
+        let kind = attractor.map(|attractor| &attractor.kind);
+        let judged = match kind {
+            Some(MotionKind::Periodic { periods, radius }) => {
+                period(system).map_or(JudgedMotion::Other, |period| JudgedMotion::Periodic {
+                    radius: *radius,
+                    period: f64::from(*periods) * period,
+                })
+            }
+            Some(MotionKind::Cycle { period, radius }) => {
+                JudgedMotion::Periodic { radius: *radius, period: *period }
+            }
+            Some(MotionKind::NotPeriodic { .. }) => JudgedMotion::NotPeriodic,
+            Some(MotionKind::Rest) | None => JudgedMotion::Other,
+        };
+        let motion = MeasuredMotion {
+            system,
+            state: attractor.map_or(&start, |attractor| &attractor.state),
+            moves_freely: !is_dithered(system) && kind != Some(&MotionKind::Rest),
+            judged,
+        };
+        Ok::<_, Failure>(MeasuredExponents::of(&motion, times))
+    });
+    let start = start_in_words(study, &request.start);
+    Ok(AttractorOfSystem { start, end, exponents: exponents.transpose()? })
+}
+
+impl AttractorOfSystem {
+    /// The exponents, if they are known.
+    pub fn measured(&self) -> Option<&MeasuredExponents> {
+        self.exponents.as_ref()?.as_ref().ok()
+    }
+
+    /// The answer in one or two sentences.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let start = &self.start;
+        let end = match &self.end {
+            Ok(end) => format!("The run {start} ends on this motion: {}.", end.attractor.words()),
+            Err(why) => format!("Where the run {start} ends is unknown: {why}."),
+        };
+        let exponents = match &self.exponents {
+            None => return end,
+            Some(Ok(measured)) => measured.sentence(|rate| rate_of(study.units(), rate)),
+            Some(Err(why)) => format!("Its Lyapunov exponents are unknown: {why}."),
+        };
+        format!("{end} {exponents}")
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &SystemStudy) -> Json {
+        let mut fields = Fields::of_system(study.units());
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .plain("start", self.start.clone());
+        match &self.end {
+            Ok(end) => {
+                let mut inner = Fields::of_system(study.units());
+                end.attractor.put(&mut inner, study);
+                fields.nested("attractor", inner);
+                fields.plain("periods_until_settled", end.periods);
+            }
+            Err(why) => {
+                fields.unknown("attractor", why.clone());
+                fields.unknown("periods_until_settled", why.clone());
+            }
+        }
+        match &self.exponents {
+            Some(Ok(measured)) => {
+                let mut inner = Fields::of_system(study.units());
+                measured.put(&mut inner);
+                fields.nested("lyapunov", inner);
+            }
+            Some(Err(why)) => {
+                fields.unknown("lyapunov", why.clone());
+            }
+            None => {}
+        }
+        let warnings = study.warnings().iter().cloned();
+        let found = self.measured().map(MeasuredExponents::warnings).unwrap_or_default();
+        fields.plain("warnings", warnings.chain(found).collect::<Vec<String>>());
+        fields.finish()
+    }
+
+    /// The exponents over the time up to which they are averaged.
+    pub fn dataset(&self, study: &SystemStudy) -> Option<Dataset> {
+        let dataset = Dataset::of(&study.into(), "attractor").fact(self.sentence(study));
+        let time = study.units().unit(Quantity::Time).unwrap_or("1");
+        Some(self.measured()?.dataset(dataset, (time, 1.0), (unit_of_rates(study), 1.0)))
+    }
+}
+
+/// The unit of rates in datasets.
+pub fn unit_of_rates(study: &SystemStudy) -> &'static str {
+    if study.units() == SystemUnits::None { "1" } else { "1/s" }
+}
