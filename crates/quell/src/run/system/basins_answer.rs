@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
-use super::attractor::{VERDICTS, verdict_code};
-use super::basins::{MOST_PERIODS_OF_A_START, SystemBasins, SystemPortrait};
+use super::attractor::{MOST_PERIODS_OF_A_START, VERDICTS, verdict_code};
+use super::basins::{SystemBasins, SystemPortrait};
 use super::start::{state_names, state_quantity};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
