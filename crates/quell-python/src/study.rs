@@ -290,20 +290,20 @@ impl NativeStudy {
         })
     }
 
-    /// Of a system: `start` and `near`, with its number of periods, are names of its state with their values.
-    #[pyo3(signature = (parameter, range, protocols, start, near, ramp))]
+    /// Of a system: `runs` are names of starts and the time of their ramp; `start` and `near`, with its number of periods, are names of its state with their values.
+    #[pyo3(signature = (parameter, range, runs, start, near))]
     fn thresholds_of_system(
         &self,
         py: Python<'_>,
         parameter: String,
         range: Pair,
-        protocols: Vec<String>,
+        runs: (Vec<String>, String),
         start: Option<NamedNumbers>,
         near: Option<(NamedNumbers, u32)>,
-        ramp: String,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
         call::run(py, move || {
+            let (protocols, ramp) = runs;
             let near = near.as_ref().map(|(pairs, periods)| (pairs, *periods));
             let starts = (protocols.as_slice(), start.as_ref());
             thresholds::run_of_system(&study, parameter, &range, starts, (near, &ramp))
@@ -382,7 +382,7 @@ impl NativeStudy {
         &self,
         py: Python<'_>,
         plane: String,
-        layout: (Option<(usize, usize)>, Option<(usize, u64)>),
+        layout: GivenLayout,
         over: Option<(String, Pair, usize)>,
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
@@ -442,3 +442,6 @@ fn range_over(over: Option<(String, Pair, usize)>) -> Result<Option<Range>, Fail
     let (from, to) = ends(&parameter, &range)?;
     Ok(Some(Range { parameter, from, to, points }))
 }
+
+/// A grid of starts, or a number of random ones and a seed.
+type GivenLayout = (Option<(usize, usize)>, Option<(usize, u64)>);

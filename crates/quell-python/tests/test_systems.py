@@ -364,3 +364,24 @@ def test_a_study_with_units_has_them_everywhere() -> None:
     assert reach["frequency"].attrs["units"] == "rad/s"
     assert float(reach["frequency"][0]) == pytest.approx(2 * np.pi)
     assert reach["slip_of_guide_per_dither_0"].attrs["units"] == "m/s/N"
+
+
+def test_planes_of_systems_take_random_starts_and_parameters(drive: quell.System) -> None:
+    """Curves, sweeps without dither, random starts and shares over a parameter, as on the command line."""
+    curves = drive.thresholds("dither.amplitude", 3, 9, along="contact.guide.belt_velocity", between=(0.045, 0.055))
+    assert [curve["kind"] for curve in curves.curves] == ["grazing"]
+    assert np.asarray(curves.curves[0]["state"]).shape[1] == 4
+    silent = drive.set({"dither.amplitude": 0.0})
+    sweep = silent.bifurcation("contact.guide.belt_velocity", 0.05, 0.25, points=3)
+    assert {jump["becomes"] for jump in sweep.jumps} == {"quiet", "not quiet"}
+    shares = silent.basins(
+        plane="carriage=0:0.6,velocity.carriage=-0.2:0.2",
+        sample=4,
+        seed=3,
+        over="contact.guide.belt_velocity",
+        from_=0.05,
+        to=0.25,
+        points=2,
+    )
+    assert shares.layout == {"sample": 4, "seed": 3}
+    assert [portrait["quiet_fraction"] for portrait in shares.portraits] == [0.0, 1.0]

@@ -99,7 +99,9 @@ fn a_belt_as_a_system_has_the_same_curves() {
         };
         let (one, two) = (of(&own), of(&other));
         let mut ends = [&one, &two].map(|curve| list(&curve["ends"]).to_vec());
-        ends.iter_mut().for_each(|ends| ends.sort_by_key(Json::to_string));
+        for ends in &mut ends {
+            ends.sort_by_key(Json::to_string);
+        }
         assert_eq!(ends[0], ends[1]);
         for velocity in [0.88, 0.95, 1.0, 1.07, 1.15] {
             let (a, b) =

@@ -109,7 +109,7 @@ fn run_in_plane(
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     let ((axes, (layout, over)), (threads, (outputs, plot))) =
         complaints.finish(axes.zip(layout.zip(over)).zip(threads.zip(outputs.zip(plot))))?;
-    let request = PlaneRequest::of(axes, layout, over);
+    let request = PlaneRequest::of(axes, layout, over.0);
     let bar = Bar::new();
     let running = Running { threads, stop: interrupt::flag(), progress: &bar };
     let done = verbs(&study).basins_of_system(&request, running)?;
@@ -134,17 +134,16 @@ fn request(
         displacement: displacement?,
         velocity: velocity?,
         layout: layout?,
-        over: over?,
+        over: over?.0,
     })
 }
 
-/// The parameter of --over and its values; `Some(None)` without one.
-fn over(
-    arguments: &Arguments,
-    study: Option<&Study>,
-    complaints: &mut Gathered,
-) -> Option<Option<Range>> {
-    let Some(parameter) = &arguments.over else { return Some(None) };
+/// The parameter of --over and its values, if it is given.
+struct Over(Option<Range>);
+
+/// The parameter of --over; `None` after a complaint.
+fn over(arguments: &Arguments, study: Option<&Study>, complaints: &mut Gathered) -> Option<Over> {
+    let Some(parameter) = &arguments.over else { return Some(Over(None)) };
     let end = |option, text: &Option<String>| {
         number(option, text.as_deref().unwrap_or_default(), parameter, study)
     };
@@ -152,7 +151,7 @@ fn over(
     let to = complaints.take(end("--to", &arguments.to));
     let points = complaints.take(count("--points", &arguments.points));
     let ((from, to), points) = from.zip(to).zip(points)?;
-    Some(Some(Range { parameter: parameter.clone(), from, to, points }))
+    Some(Over(Some(Range { parameter: parameter.clone(), from, to, points })))
 }
 
 fn layout(arguments: &Arguments) -> Result<StartLayout, Box<Complaint>> {

@@ -1,4 +1,4 @@
-//! Curves of a belt's local thresholds in two parameters ([`threshold_curve`](super::threshold_curve) has the scheme).
+//! Curves of a belt's local thresholds in two parameters; `threshold_curve` has the scheme.
 
 use quell_model::Belt;
 use quell_numerics::continuation::curve::{Trace, trace};

@@ -188,14 +188,17 @@ pub(crate) trait ResponsePlane {
     fn with_events(&self, value: f64, along: f64, state: &Self::State) -> Option<OrbitVerdict>;
 }
 
+/// The curves of a plane, or the last line if no line has a base response to start from.
+type Searched<P> = Result<
+    CurvesFound<<P as ResponsePlane>::State, <P as ResponsePlane>::Why>,
+    OpenLine<<P as ResponsePlane>::Why>,
+>;
+
 /// Every curve of thresholds that crosses one of `lines` lines across the second parameter.
 ///
 /// # Errors
 /// The last line, if no line has a base response to start from.
-pub(crate) fn curves_of<P: ResponsePlane>(
-    plane: &P,
-    lines: u32,
-) -> Result<CurvesFound<P::State, P::Why>, OpenLine<P::Why>> {
+pub(crate) fn curves_of<P: ResponsePlane>(plane: &P, lines: u32) -> Searched<P> {
     let [window, (first, last)] = plane.windows();
     let lines = lines.max(1);
     let mut found: Vec<ThresholdCurve<P::State>> = Vec::new();
@@ -272,14 +275,14 @@ fn deciding_part<P: ResponsePlane>(
         };
         beyond(1.0).or_else(|| beyond(-1.0)) != Some(OrbitVerdict::of(point.radius, 0.0))
     };
-    let kept = curve.points.iter().map(decides).collect();
-    part(curve, kept, along, ThresholdCurveEnd::SameVerdict)
+    let kept: Vec<bool> = curve.points.iter().map(decides).collect();
+    part(curve, &kept, along, ThresholdCurveEnd::SameVerdict)
 }
 
 /// The part of a curve around a line on which every point is `kept`, with this end where it is cut.
 pub(crate) fn part<S>(
     mut curve: ThresholdCurve<S>,
-    kept: Vec<bool>,
+    kept: &[bool],
     along: f64,
     end: ThresholdCurveEnd,
 ) -> ThresholdCurve<S> {

@@ -73,10 +73,9 @@ class NativeStudy:
         self,
         parameter: str,
         range: tuple[str, str],
-        protocols: list[str],
+        runs: tuple[list[str], str],
         start: list[tuple[str, str]] | None,
         near: tuple[list[tuple[str, str]], int] | None,
-        ramp: str,
     ) -> NativeAnswer: ...
     def basins_in_plane(
         self,

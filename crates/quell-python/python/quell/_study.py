@@ -451,7 +451,7 @@ class Study:
                 arguments.wrong.append(complaint("near", near, "given without starts and ramp", "conflict"))
             arguments.done()
             native = self._native.thresholds_of_system(
-                path, ends, asked, None if start is None else begin, None if near is None else (pairs, count), time
+                path, ends, (asked, time), None if start is None else begin, None if near is None else (pairs, count)
             )
             return results.Thresholds(self, native)
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")

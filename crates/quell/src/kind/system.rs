@@ -2,6 +2,7 @@
 
 use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
+use crate::complaint::{Complaint, Failure};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::basins::BasinsRequest;
@@ -69,6 +70,20 @@ impl Verbs for SystemStudy {
 
     fn cite(&self) -> Box<dyn Outcome> {
         Box::new(Answered::new(self, self.sources()))
+    }
+
+    fn friction(&self, _: Option<Vec<f64>>) -> Reply {
+        let instead = "; `stability` gives the friction of every contact, under dither its average";
+        match self.lacks("friction") {
+            Failure::Wrong(complaints) => {
+                let explained = complaints.iter().map(|complaint| Complaint {
+                    allowed: format!("{}{instead}", complaint.allowed),
+                    ..complaint.clone()
+                });
+                Err(Failure::Wrong(explained.collect::<Vec<Complaint>>().into()))
+            }
+            failed @ Failure::Failed { .. } => Err(failed),
+        }
     }
 
     fn modes(&self) -> Reply {

@@ -20,8 +20,7 @@ use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, decided, va
 use super::status::Status;
 use crate::complaint::Failure;
 use crate::range::outside_of_laws;
-use crate::run::system::attractor::end_of_run;
-use crate::run::system::basins::MOST_PERIODS_OF_A_START;
+use crate::run::system::attractor::{MOST_PERIODS_OF_A_START, end_of_run};
 use crate::run::system::cycle::BASE_STEPS;
 use crate::run::system::protocol::SystemProtocol;
 use crate::run::system::response::{self, ResponseRequest};

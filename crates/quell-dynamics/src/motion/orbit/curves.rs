@@ -108,8 +108,8 @@ impl MotionPlane<'_> {
                 *end = ThresholdCurveEnd::Crossing;
             }
         }
-        let kept = curve.points.iter().map(|point| point.radius <= OUTSIDE).collect();
-        Some(part(curve, kept, along, ThresholdCurveEnd::Crossing))
+        let kept: Vec<bool> = curve.points.iter().map(|point| point.radius <= OUTSIDE).collect();
+        Some(part(curve, &kept, along, ThresholdCurveEnd::Crossing))
     }
 
     /// The curve on which one contact grazes or opens.
@@ -130,8 +130,8 @@ impl MotionPlane<'_> {
             let met = shot_of(&guarded.family, &point.state, &at, &signature);
             met.is_ok_and(|(_, met)| guarded.is_first(&met))
         });
-        let kept = kept.collect();
-        Some(part(curve, kept, along, ThresholdCurveEnd::Crossing))
+        let kept: Vec<bool> = kept.collect();
+        Some(part(curve, &kept, along, ThresholdCurveEnd::Crossing))
     }
 }
 

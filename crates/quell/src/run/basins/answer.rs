@@ -349,23 +349,12 @@ impl Basins {
     }
 }
 
-/// One of the numbers of a share.
-type PartOfShare = fn(Share) -> f64;
-
 fn put_portrait(fields: &mut Fields, portrait: &Portrait, section: bool) {
     match &portrait.local {
         Ok(verdict) => fields.plain("local_verdict", verdict.name()),
         Err(why) => fields.unknown("local_verdict", why.as_str()),
     };
-    let shares: [(&str, PartOfShare); 3] = [
-        ("quiet_fraction", |share| share.fraction),
-        ("quiet_fraction_low", |share| share.low),
-        ("quiet_fraction_high", |share| share.high),
-    ];
-    for (name, which) in shares {
-        let unknown = || "the outcome of every start is unknown".to_owned();
-        fields.known(name, Quantity::Ratio, portrait.quiet.map(which).ok_or_else(unknown));
-    }
+    Share::put_quiet(fields, portrait.quiet);
     let scales = portrait.scales;
     let attractors = portrait.gathered.basins.iter().zip(&portrait.shares).map(|(basin, share)| {
         let mut inner = Fields::new(scales);

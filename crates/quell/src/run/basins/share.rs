@@ -67,6 +67,20 @@ impl Share {
             .number("fraction_error", Quantity::Ratio, self.error());
     }
 
+    /// Adds the share of quiet starts to an object; `None` if the outcome of every start is unknown.
+    pub(in crate::run) fn put_quiet(fields: &mut Fields, quiet: Option<Self>) {
+        let parts = quiet.map(|share| [share.fraction, share.low, share.high]);
+        let names = ["quiet_fraction", "quiet_fraction_low", "quiet_fraction_high"];
+        for (place, name) in names.into_iter().enumerate() {
+            let unknown = || "the outcome of every start is unknown".to_owned();
+            fields.known(
+                name,
+                Quantity::Ratio,
+                parts.map(|parts| parts[place]).ok_or_else(unknown),
+            );
+        }
+    }
+
     /// Half the distance between the bounds.
     pub fn error(self) -> f64 {
         0.5 * (self.high - self.low)

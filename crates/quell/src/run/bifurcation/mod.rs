@@ -14,13 +14,14 @@ use quell_dynamics::simulation::{Start, within};
 use quell_model::units::Scales;
 
 use super::attractor::{settings, unknown};
-use super::varied::{Range, Varied};
+use super::varied::Varied;
 use super::{failed, start, stopped};
 use crate::complaint::Failure;
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::range::SlipMet;
 use crate::study::BeltStudy;
 use crate::sweep::Running;
+pub use shared::{SweepDirection, SweepRequest};
 
 /// Relative difference of size beyond which the two directions show different responses.
 const APART: f64 = 0.02;
@@ -31,36 +32,6 @@ const APART_AT_LEAST: f64 = 1e-4;
 /// Largest difference of rotation numbers (revolutions per period) of two closed curves that count as one: ten times the
 /// tolerance within a steady record.
 const TURN_ALIKE: f64 = 1e-4;
-
-/// Options of a sweep.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SweepRequest {
-    /// The parameter and its values.
-    pub range: Range,
-    /// Whether it is swept up.
-    pub up: bool,
-    /// Whether it is swept down.
-    pub down: bool,
-}
-
-/// Direction of a sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum SweepDirection {
-    /// To larger values.
-    Up,
-    /// To smaller values.
-    Down,
-}
-
-impl SweepDirection {
-    /// Word in outputs.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Up => "up",
-            Self::Down => "down",
-        }
-    }
-}
 
 /// The response at one value.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,8 +2,38 @@
 
 use serde_json::Value as Json;
 
-use super::{SweepDirection, SweepRequest};
 use crate::fields::Fields;
+use crate::run::varied::Range;
+
+/// Options of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepRequest {
+    /// The parameter and its values.
+    pub range: Range,
+    /// Whether it is swept up.
+    pub up: bool,
+    /// Whether it is swept down.
+    pub down: bool,
+}
+
+/// Direction of a sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SweepDirection {
+    /// To larger values.
+    Up,
+    /// To smaller values.
+    Down,
+}
+
+impl SweepDirection {
+    /// Word in outputs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Up => "up",
+            Self::Down => "down",
+        }
+    }
+}
 
 /// The requested directions in the order of the sweeps; both by default.
 pub(in crate::run) fn directions(request: &SweepRequest) -> Vec<SweepDirection> {

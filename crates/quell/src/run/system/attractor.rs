@@ -20,6 +20,9 @@ use crate::words::{digits, plural};
 /// Periods of the dither over which a motion that is not periodic is measured.
 const MEASURED: f64 = 20.0;
 
+/// Periods of the dither within which a run must settle.
+pub const MOST_PERIODS_OF_A_START: u32 = 500;
+
 /// Mismatch of states, relative to their size, of one motion.
 const SAME: f64 = 1e-5;
 

@@ -7,7 +7,9 @@ use quell_dynamics::motion::orbit::sliding_state;
 use quell_model::System;
 use rayon::prelude::*;
 
-use super::attractor::{EndOfRun, SystemAttractor, end_of_run, local_verdict};
+use super::attractor::{
+    EndOfRun, MOST_PERIODS_OF_A_START, SystemAttractor, end_of_run, local_verdict,
+};
 use super::protocol::SystemProtocol;
 use super::start::{state_names, state_quantity};
 use super::tracked::{TrackRequest, understood};
@@ -19,9 +21,6 @@ use crate::run::varied::{MOST_VALUES, Range};
 use crate::run::{evenly, stopped};
 use crate::study::{SystemStudy, suggest};
 use crate::sweep::Running;
-
-/// Periods of the dither within which a run must settle.
-pub const MOST_PERIODS_OF_A_START: u32 = 500;
 
 /// The grid of starts by default.
 pub const GRID: (usize, usize) = (21, 15);

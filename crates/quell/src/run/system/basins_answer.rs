@@ -2,11 +2,10 @@
 
 use std::fmt::Write as _;
 
-use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::attractor::{VERDICTS, verdict_code};
-use super::basins::{MOST_PERIODS_OF_A_START, SystemBasins, SystemPortrait};
+use super::attractor::{MOST_PERIODS_OF_A_START, VERDICTS, verdict_code};
+use super::basins::{SystemBasins, SystemPortrait};
 use super::start::{state_names, state_quantity};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
@@ -42,15 +41,7 @@ impl SystemPortrait {
             Ok(verdict) => fields.plain("local_verdict", *verdict),
             Err(why) => fields.unknown("local_verdict", why.as_str()),
         };
-        let shares: [(&str, fn(Share) -> f64); 3] = [
-            ("quiet_fraction", |share| share.fraction),
-            ("quiet_fraction_low", |share| share.low),
-            ("quiet_fraction_high", |share| share.high),
-        ];
-        for (name, which) in shares {
-            let unknown = || "the outcome of every start is unknown".to_owned();
-            fields.known(name, Quantity::Ratio, self.quiet.map(which).ok_or_else(unknown));
-        }
+        Share::put_quiet(fields, self.quiet);
         let attractors = self.basins.iter().map(|basin| {
             let mut inner = Fields::of_system(study.units());
             basin.share.put(&mut inner);
@@ -107,9 +98,10 @@ impl SystemBasins {
         };
         let least = known().min_by(|a, b| a.1.total_cmp(&b.1));
         let most = known().max_by(|a, b| a.1.total_cmp(&b.1));
-        let fall = match self.portraits.iter().any(|portrait| portrait.is_dithered) {
-            true => "end in step with the dither",
-            false => "end at rest or in steady sliding",
+        let fall = if self.portraits.iter().any(|portrait| portrait.is_dithered) {
+            "end in step with the dither"
+        } else {
+            "end at rest or in steady sliding"
         };
         match least.zip(most) {
             Some(((at, low), (other, high))) => {
@@ -247,16 +239,15 @@ impl SystemBasins {
         let axis = |number: usize, values: Vec<f64>| {
             Array::new(self.names[number].as_str(), self.unit(study, number), values)
         };
-        let dataset = match self.layout.axes(self.windows) {
-            // The last axis runs fastest.
-            Some([across, up]) => dataset.with_axis(axis(1, up)).with_axis(axis(0, across)),
-            None => {
-                let rows = (0..self.starts.len()).map(|row| row as f64).collect();
-                let column = |number: usize| {
-                    axis(number, self.starts.iter().map(|start| start[number]).collect())
-                };
-                dataset.with_axis(Array::new("start", "1", rows)).with(column(0)).with(column(1))
-            }
+        // The last axis runs fastest.
+        let dataset = if let Some([across, up]) = self.layout.axes(self.windows) {
+            dataset.with_axis(axis(1, up)).with_axis(axis(0, across))
+        } else {
+            let rows = (0..self.starts.len()).map(|row| row as f64).collect();
+            let column = |number: usize| {
+                axis(number, self.starts.iter().map(|start| start[number]).collect())
+            };
+            dataset.with_axis(Array::new("start", "1", rows)).with(column(0)).with(column(1))
         };
         dataset.with(Array::new("attractor", "1", ends.collect())).with(Array::of_words(
             "quiet",

@@ -167,8 +167,8 @@ pub fn without_motions(request: &MotionThresholdsRequest) -> Result<(), Failure>
         .chain(near)
         .chain(ramp)
         .map(|option| {
-            let allowed = "left out: without dither the thresholds are those of steady sliding, and its limit cycles are not \
-                           followed over a parameter; `orbit` finds them at one value";
+            let allowed = "left out: without dither the thresholds are those of steady sliding; `bifurcation` follows its limit \
+                           cycles over a parameter";
             Complaint::new(Fault::Conflict, option, Origin::Argument(option), Json::Null, allowed)
         })
         .collect();
