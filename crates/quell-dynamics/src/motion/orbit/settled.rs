@@ -3,9 +3,9 @@
 use quell_model::System;
 
 use super::super::{MOTION_TOLERANCE, Motion, MotionStart};
-use super::family::{NoImage, time_of};
+use super::family::{NoImage, shot, time_of};
 use super::periodic::{MotionOrbit, NoMotionOrbit, motion_near, scale_of};
-use super::recurrence::{NEAR, SAME, distance, nearest_return};
+use super::recurrence::{COARSE, NEAR, SAME, distance, nearest_return};
 use crate::orbit::OrbitVerdict;
 
 /// Common periods within which a run must settle, where its caller has no reason for another number: `orbit` and `response` thus give
@@ -81,9 +81,29 @@ fn closed(system: &System, motion: &Motion<'_>, states: &[Vec<f64>]) -> Option<(
     }
     let count = u32::try_from(multiple).ok()?;
     let orbit = motion_near(system, last, count).ok()?;
+    let (orbit, count) = of_least_period(system, motion, orbit, count, scale);
     let is_near = distance(&orbit.state, last) <= SAME * scale
         && (mismatch <= NEAR * scale || approaches(states, &orbit.state, multiple));
     (is_near && orbit.verdict() == OrbitVerdict::Stable).then_some((orbit, count))
+}
+
+/// An orbit with the least number of periods after which it closes.
+fn of_least_period(
+    system: &System,
+    motion: &Motion<'_>,
+    orbit: MotionOrbit,
+    count: u32,
+    scale: f64,
+) -> (MotionOrbit, u32) {
+    for part in (1..count).filter(|part| count.is_multiple_of(*part)) {
+        let time = f64::from(part) * orbit.period / f64::from(count);
+        let closes = shot(motion, &orbit.state, time, None)
+            .is_ok_and(|(image, _)| distance(&image.state, &orbit.state) <= COARSE * scale);
+        if closes && let Ok(shorter) = motion_near(system, &orbit.state, part) {
+            return (shorter, part);
+        }
+    }
+    (orbit, count)
 }
 
 /// Whether a run comes nearer to an orbit of `multiple` periods: its largest distance over the last third of the states is less than
