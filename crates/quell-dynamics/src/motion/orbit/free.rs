@@ -292,7 +292,7 @@ fn close(motion: &Motion<'_>, guess: &[f64], period: f64, scale: f64) -> Option<
             *value += share * step;
         }
         time += share * step.as_slice()[n];
-        // A shot over another time costs in vain: the cycle would not be the one that the run repeats.
+        // The cycle would not be the one that the run repeats.
         if (time - period).abs() > 2.0 * SAME * period {
             return None;
         }
