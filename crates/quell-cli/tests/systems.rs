@@ -349,3 +349,65 @@ fn motions_of_the_drive_are_found_from_the_command_line() {
     let wrong = complaint(&["basins", drive, "--plane", "carriage,nothing"]);
     assert!(wrong.contains("--plane"), "{wrong}");
 }
+
+/// `orbit`, `thresholds` and `response` judge one motion alike, also between the averaged thresholds (5.378463 and 20.60202) and the
+/// exact ones (5.396532 and 20.71309), and where a response is approached slowly.
+#[test]
+fn verbs_agree_about_where_a_run_ends() {
+    for (study, below, above) in
+        [("two-mass-drive.toml", "5.385", "5.42"), ("mode-coupling-dither.toml", "20.65", "20.8")]
+    {
+        let range = ["--parameter", "dither.amplitude", "--from", below, "--to", above];
+        let found = answer(&[&["thresholds", study][..], &range].concat());
+        let threshold = &found["thresholds"][0];
+        assert_eq!(threshold["was"], "unstable");
+        assert_eq!(threshold["becomes"], "stable");
+        for (amplitude, verdict) in [(below, "unstable"), (above, "stable")] {
+            let set = format!("dither.amplitude={amplitude}");
+            let orbit = answer(&["orbit", study, "--set", &set]);
+            assert_eq!(orbit["verdict"], verdict, "{study} {amplitude}");
+            let response = answer(&["response", study, "--set", &set]);
+            let at = format!("{study} {amplitude}: {}", response["sentence"]);
+            let rest = response["efficiency"].as_f64().expect("a ratio");
+            if verdict == "stable" {
+                assert_eq!(response["settled_on"], "orbit", "{at}");
+                assert_eq!(response["effect"], "quenches", "{at}");
+                close(&response["period"], orbit["period"].as_f64().expect("a period"), 1e-12);
+                assert!(rest < 1e-5, "{at}");
+            } else {
+                // A vibration remains, however small, and the base response is not where the run ends.
+                assert!(rest > 1e-3 && response["period"] != orbit["period"], "{at}");
+            }
+        }
+    }
+    // The undithered vibration of the response is the limit cycle of `orbit`.
+    let study = "mode-coupling-dither.toml";
+    let free = answer(&["orbit", study, "--set", "dither.amplitude=0"]);
+    let response = answer(&["response", study, "--set", "dither.amplitude=21"]);
+    assert_eq!(response["undithered_settled_on"], "orbit");
+    close(&response["undithered_period"], free["period"].as_f64().expect("a period"), 1e-9);
+}
+
+/// The string ends on Helmholtz motion, whose period and shares of stick are those of the study's comments.
+#[test]
+fn the_bowed_string_sings() {
+    let found = answer(&["orbit", "bowed-string.toml"]);
+    assert_eq!(found["verdict"], "stable", "{}", found["sentence"]);
+    close(&found["period_s"], 0.015_234_04, 1e-8);
+    // The pitch is that of the lowest mode within a fiftieth of a semitone's frequency ratio, and the modes are inharmonic.
+    let pitch = 1.0 / found["period_s"].as_f64().expect("a period");
+    assert!((pitch / 65.43011 - 1.0).abs() < 0.004, "{pitch}");
+    assert_eq!(found["events"].as_array().map(Vec::len), Some(2), "one stick and one release");
+}
+
+/// Without a stable cycle the unstable one is reported, with every start that was tried, disturbances of it included.
+#[test]
+fn a_chain_of_blocks_has_an_unstable_cycle_alone() {
+    let found = answer(&["orbit", "burridge-knopoff.toml"]);
+    close(&found["period"], 147.828_224_4, 1e-6);
+    assert_eq!(found["verdict"], "unstable");
+    let tried = found["tried"].as_array().expect("starts");
+    let disturbed =
+        |start: &&Json| start["start"].as_str().is_some_and(|s| s.contains("disturbance"));
+    assert_eq!(tried.iter().filter(disturbed).count(), 3, "{tried:?}");
+}

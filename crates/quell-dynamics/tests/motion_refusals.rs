@@ -85,7 +85,7 @@ fn a_prescribed_load_that_vanishes_ends_the_run_there() {
 /// Events accumulate at the sum of that geometric series. (The example is Filippov's.)
 fn relays(a: f64) -> System {
     let mut system = first_order([[1.0, a], [-a, 1.0]]);
-    // Surfaces at rest make the origin the end of the spiral; the relaxation of the states, at the rate 1, is slow beside it.
+    // Surfaces at rest make the origin the end of the spiral; the relaxation of the states, at the rate 1, is slow in comparison.
     for contact in &mut system.contacts {
         contact.surface_velocity = Profile::constant(0.0);
     }

@@ -23,7 +23,8 @@ use super::stuck::{DEPENDENT, remainder};
 const LEAST_NORM: f64 = 1e-13;
 
 /// Slip accelerations below this share of their terms are zero to rounding: they are differences of forces solved to about 10⁻¹³,
-/// with a margin for the condition of G. A release taken for smooth divides a zero out in vain, which the search of roots survives.
+/// with a margin for the condition of G. A release with less is treated as smooth, with a double zero of γ at its
+/// start.
 const AT_REST: f64 = 1e-9;
 
 /// A force within this share of its bound is at it: the accuracy of solved forces with a margin. A contact released too early by it

@@ -21,7 +21,7 @@ use super::super::{
 use super::family::{MotionSignature, shot};
 use super::passages::Passages;
 use super::periodic::{MotionOrbit, orbit_at, scale_of};
-use super::recurrence::{NEAR, SAME, distance, nearest_return};
+use super::recurrence::{COARSE, NEAR, SAME, STAGNANT, distance, nearest_return};
 use super::watch::{MOST_STEPS, PASSAGES, WatchLengths};
 use crate::orbit::OrbitVerdict;
 
@@ -31,16 +31,8 @@ const MOST_PASSAGES: usize = 8;
 /// Mismatch, relative to the state, of a closed cycle: the tolerance of a step with a margin for the steps of a period.
 const CLOSED: f64 = 10.0 * MOTION_TOLERANCE;
 
-/// Mismatch, relative to the state, of a cycle whose residual no longer shrinks: an unstable or stiff cycle amplifies the error of a
-/// step, and a thousandfold is accepted. If that is wrong the residual, which is reported, shows it.
-const STAGNANT: f64 = 1e3 * MOTION_TOLERANCE;
-
 /// A step of Newton's method that leaves more than this share of the residual no longer converges.
 const SHRINKS: f64 = 0.3;
-
-/// Mismatch, relative to the state, that a state known to [`STAGNANT`] may have after a period with multipliers up to a thousand:
-/// a part of a period that closes to it is a period, and a state that moves by less in a period is an equilibrium.
-const COARSE: f64 = 1e3 * STAGNANT;
 
 /// Mismatch of passages, relative to the state, of a run that is on a cycle. On an unstable one only a symmetric run remains; others
 /// pass it, and end elsewhere.
@@ -306,7 +298,7 @@ fn close(motion: &Motion<'_>, guess: &[f64], period: f64, scale: f64) -> Option<
             *value += share * step;
         }
         time += share * step.as_slice()[n];
-        // A shot over another time costs in vain: the cycle would not be the one that the run repeats.
+        // The cycle would not be the one that the run repeats.
         if (time - period).abs() > 2.0 * SAME * period {
             return None;
         }

@@ -1,6 +1,8 @@
 //! Runs that come back near one of their own states: when Newton's method may close an orbit there, and whether the orbit is the
 //! one on which the run ends.
 
+use super::super::MOTION_TOLERANCE;
+
 /// Mismatch of two states, relative to their size, below which Newton's method is tried. A larger value costs attempts that fail,
 /// a smaller one only time until the run is nearer.
 pub(super) const NEAR: f64 = 3e-2;
@@ -11,6 +13,14 @@ pub(super) const SAME: f64 = 0.2;
 /// A run repeats itself after several periods, not one, if its states are nearer to each other by this factor. Errors cost one
 /// attempt: a multiple of the least period is reduced later.
 const MUCH_NEARER: f64 = 0.3;
+
+/// Mismatch, relative to the state, of a cycle whose residual no longer shrinks: an unstable or stiff cycle amplifies the error of a
+/// step, and a thousandfold is accepted. If that is wrong the residual, which is reported, shows it.
+pub(super) const STAGNANT: f64 = 1e3 * MOTION_TOLERANCE;
+
+/// Mismatch, relative to the state, that a state known to [`STAGNANT`] may have after a period with multipliers up to a thousand:
+/// a part of a period that closes to it is a period, and a state that moves by less in a period is an equilibrium.
+pub(super) const COARSE: f64 = 1e3 * STAGNANT;
 
 /// Largest difference of the numbers of two states.
 pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
