@@ -2,14 +2,15 @@
 
 use quell_model::System;
 use quell_model::friction::FrictionConstants;
-use quell_numerics::dispatch::{Work, with_fused_multiply_add};
+use quell_numerics::dispatch::with_fused_multiply_add;
 
 use super::equations::{Forcings, MotionEquations};
-use super::guards::{FirstGuard, Guards};
+use super::expansion::{ExpandedStep, StepExpansion, StepLimit};
+use super::guards::Guards;
 use super::observer::{MotionObserver, MotionSegment};
 use super::phase::{ContactNow, ContactPhase};
 use super::selection::first_minor_not_positive;
-use super::series::{StepExpansion, StepLimit, StepSeries};
+use super::series::StepSeries;
 use super::state::{ContactEnd, MotionEnd, MotionStart};
 use super::stopped::{MotionStopped, StopReason};
 use super::stuck::{StuckForces, coupling, dependent};
@@ -53,6 +54,7 @@ pub(super) struct MotionRun<'a> {
     pub(super) watched: bool,
     /// Whether guards end steps; otherwise every contact keeps its phase, regardless of its slip velocity and load.
     pub(super) is_guarded: bool,
+    /// The state at the end of a step.
     pub(super) scratch: Vec<f64>,
 }
 
@@ -157,13 +159,7 @@ impl<'a> MotionRun<'a> {
         let room = self.clock.until(stop);
         let holds = self.now.iter().any(|now| now.held);
         let longest = if holds { self.longest.min(HOLD * self.time_scale) } else { self.longest };
-        let length = self.expand(longest, room);
-        let reached = if self.is_guarded {
-            with_fused_multiply_add(FirstGuard { guards: self.guards(), length })
-        } else {
-            None
-        };
-        let duration = reached.map_or(length, |reached| reached.after);
+        let ExpandedStep { duration, reached } = self.expand(longest, room);
         let triggers = match &reached {
             Some(first) => self.guards().together(first, self.time_scale),
             None => Vec::new(),
@@ -177,8 +173,8 @@ impl<'a> MotionRun<'a> {
         self.check_progress(before)
     }
 
-    /// Computes the series of a step from here; returns its length, at most `longest` and `room`.
-    fn expand(&mut self, longest: f64, room: f64) -> f64 {
+    /// Computes a step from here, at most `longest` and `room` long.
+    fn expand(&mut self, longest: f64, room: f64) -> ExpandedStep {
         let Self { tolerance, time_scale, .. } = *self;
         with_fused_multiply_add(StepExpansion {
             equations: self.equations,
@@ -188,7 +184,9 @@ impl<'a> MotionRun<'a> {
             stuck: &self.stuck,
             clock: self.clock,
             limit: StepLimit { tolerance, time_scale, longest, room },
+            is_guarded: self.is_guarded,
             out: &mut self.series,
+            end: &mut self.scratch,
         })
     }
 
@@ -284,11 +282,6 @@ impl<'a> MotionRun<'a> {
                 now: &self.now,
             });
         }
-        with_fused_multiply_add(EndState {
-            series: &self.series,
-            since: duration,
-            out: &mut self.scratch,
-        });
         let reaches_stop = duration >= room || self.clock.after(duration).time() == stop;
         if reaches_stop {
             self.last_break = stop;
@@ -343,20 +336,5 @@ impl<'a> MotionRun<'a> {
             near_tangential_releases: self.near_tangential_releases,
             dependent: (0..self.dependent.len()).filter(|c| self.dependent[*c]).collect(),
         })
-    }
-}
-
-struct EndState<'a> {
-    series: &'a StepSeries,
-    since: f64,
-    out: &'a mut [f64],
-}
-
-impl Work for EndState<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        self.series.state_at(self.since, self.out);
     }
 }

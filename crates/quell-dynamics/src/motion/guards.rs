@@ -1,6 +1,5 @@
 //! The guards of a step: the polynomials whose first root ends it.
 
-use quell_numerics::dispatch::Work;
 use quell_numerics::lane::horner;
 use quell_numerics::polynomial::{derivative, first_crossing_after, value};
 
@@ -41,63 +40,57 @@ pub(super) struct Guards<'a> {
     pub(super) contacts: &'a [ContactSeries],
 }
 
-/// The search for the first root of all guards.
-pub(super) struct FirstGuard<'a> {
-    pub(super) guards: Guards<'a>,
-    pub(super) length: f64,
-}
+/// Most guards of one contact: the load, and the margins on both sides.
+const GUARDS: usize = 3;
 
-impl Work for FirstGuard<'_> {
-    type Output = Option<GuardReached>;
-
+impl Guards<'_> {
+    /// The first guard that reaches zero within `length`.
     #[inline(always)]
-    fn run(self) -> Option<GuardReached> {
-        let mut length = self.length;
-        let mut first = None;
-        for contact in 0..self.guards.now.len() {
-            self.guards.of(contact, |guard| {
-                if let Some(after) = guard.root(length) {
+    pub(super) fn first(&self, mut length: f64) -> Option<GuardReached> {
+        let mut first: Option<GuardReached> = None;
+        for contact in 0..self.now.len() {
+            for place in 0..GUARDS {
+                let Some(guard) = self.at(contact, place) else { continue };
+                let Some(after) = guard.root(length) else { continue };
+                if first.is_none_or(|known| after < known.after) {
                     let rate = guard.rate(after);
-                    if first.is_none_or(|known: GuardReached| after < known.after) {
-                        first = Some(GuardReached { what: guard.what, after, rate });
-                    }
-                    length = after.max(f64::MIN_POSITIVE);
+                    first = Some(GuardReached { what: guard.what, after, rate });
                 }
-            });
+                length = after.max(f64::MIN_POSITIVE);
+            }
         }
         first
     }
-}
 
-impl Guards<'_> {
-    /// Passes every guard of a contact to `visit`.
+    /// A guard of a contact: its load, then its slip velocity or its margins.
     #[inline(always)]
-    fn of(&self, contact: usize, mut visit: impl FnMut(&Guard)) {
+    fn at(&self, contact: usize, place: usize) -> Option<Guard> {
         let (now, series) = (&self.now[contact], &self.contacts[contact]);
         let equation = &self.equations.contacts[contact];
-        let forcing = &self.forcings.contacts[contact];
-        if equation.is_compliant() || !forcing.load.is_constant() {
-            let sign = if now.is_open() { -1.0 } else { 1.0 };
-            let guard = signed(Trigger::Load(contact), &series.load, sign, now.load_zeros);
-            visit(&guard);
-        }
-        match now.phase {
-            ContactPhase::Slip(sign) if equation.can_stick() => {
-                let what = Trigger::Slip(contact);
-                visit(&signed(what, &series.slip, f64::from(sign), now.slip_zeros));
-            }
-            ContactPhase::Stick if now.saturated == 0 && !now.held => {
-                for side in [1_i8, -1] {
-                    let level = equation.static_coefficient;
-                    let mut margin = series.pressed;
-                    for (margin, force) in margin.iter_mut().zip(&series.friction) {
-                        *margin = f64::mul_add(level, *margin, -f64::from(side) * force);
-                    }
-                    let what = Trigger::Margin(contact, side);
-                    visit(&Guard { what, series: margin, zeros: 0 });
+        match (place, now.phase) {
+            (0, _) => {
+                let varies =
+                    equation.is_compliant() || !self.forcings.contacts[contact].load.is_constant();
+                let sign = if now.is_open() { -1.0 } else { 1.0 };
+                if !varies {
+                    return None;
                 }
+                Some(signed(Trigger::Load(contact), &series.load, sign, now.load_zeros))
             }
-            _ => {}
+            (1, ContactPhase::Slip(sign)) if equation.can_stick() => {
+                let what = Trigger::Slip(contact);
+                Some(signed(what, &series.slip, f64::from(sign), now.slip_zeros))
+            }
+            (1 | 2, ContactPhase::Stick) if now.saturated == 0 && !now.held => {
+                let side = if place == 1 { 1 } else { -1 };
+                let level = equation.static_coefficient;
+                let mut margin = series.pressed;
+                for (margin, force) in margin.iter_mut().zip(&series.friction) {
+                    *margin = f64::mul_add(level, *margin, -f64::from(side) * force);
+                }
+                Some(Guard { what: Trigger::Margin(contact, side), series: margin, zeros: 0 })
+            }
+            _ => None,
         }
     }
 
@@ -105,10 +98,11 @@ impl Guards<'_> {
     pub(super) fn together(&self, first: &GuardReached, time_scale: f64) -> Vec<GuardReached> {
         let mut found = Vec::new();
         for contact in 0..self.now.len() {
-            self.of(contact, |guard| {
+            for place in 0..GUARDS {
+                let Some(guard) = self.at(contact, place) else { continue };
                 if guard.what == first.what {
                     found.push(*first);
-                    return;
+                    continue;
                 }
                 let (height, rate) = (guard.height(first.after), guard.rate(first.after));
                 let is_reached =
@@ -116,7 +110,7 @@ impl Guards<'_> {
                 if is_reached {
                     found.push(GuardReached { what: guard.what, after: first.after, rate });
                 }
-            });
+            }
         }
         found
     }
@@ -124,7 +118,11 @@ impl Guards<'_> {
 
 #[inline(always)]
 fn signed(what: Trigger, series: &Series, sign: f64, zeros: usize) -> Guard {
-    Guard { what, series: series.map(|coefficient| sign * coefficient), zeros }
+    let mut signed = *series;
+    for coefficient in &mut signed {
+        *coefficient *= sign;
+    }
+    Guard { what, series: signed, zeros }
 }
 
 impl Guard {
@@ -145,12 +143,14 @@ impl Guard {
     }
 
     /// Without the zero at its start.
+    #[inline(always)]
     fn quotient(&self) -> Series {
         let mut quotient = [0.0; ORDER + 1];
         quotient[..=ORDER - self.zeros].copy_from_slice(&self.series[self.zeros..]);
         quotient
     }
 
+    #[inline(always)]
     fn height(&self, after: f64) -> f64 {
         if self.zeros == 0 { horner(&self.series, after) } else { horner(&self.quotient(), after) }
     }
