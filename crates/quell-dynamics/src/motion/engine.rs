@@ -41,6 +41,8 @@ pub(super) struct MotionRun<'a> {
     pub(super) time_scale: f64,
     pub(super) budget: StepBudget,
     pub(super) idle: u32,
+    /// Time of the next kink or jump of a forcing.
+    pub(super) next_break: f64,
     /// Time of the last kink or jump of a forcing.
     pub(super) last_break: f64,
     pub(super) events: u64,
@@ -87,6 +89,7 @@ impl<'a> MotionRun<'a> {
             time_scale: 1.0 / fastest,
             budget: StepBudget::new(start.time, until, fastest),
             idle: 0,
+            next_break: forcings.next_break(),
             last_break: f64::NEG_INFINITY,
             events: 0,
             steps: 0,
@@ -155,7 +158,7 @@ impl<'a> MotionRun<'a> {
     fn step(&mut self) -> MotionProgress {
         let before = self.clock;
         self.refresh()?;
-        let stop = self.forcings.next_break().min(self.until);
+        let stop = self.next_break.min(self.until);
         let room = self.clock.until(stop);
         let holds = self.now.iter().any(|now| now.held);
         let longest = if holds { self.longest.min(HOLD * self.time_scale) } else { self.longest };
@@ -287,6 +290,7 @@ impl<'a> MotionRun<'a> {
             self.last_break = stop;
             self.clock = Clock::at(stop);
             self.forcings.pass_breaks(self.clock);
+            self.next_break = self.forcings.next_break();
         } else {
             self.clock = self.clock.after(duration);
         }

@@ -94,7 +94,7 @@ impl<'a> StepExpansion<'a> {
     /// The step of a system with few states and contacts: with constant loops, and no memory but the stack.
     #[inline(always)]
     fn few<const N: usize>(self, storage: FewStates<'a, N>) -> ExpandedStep {
-        let mut branches: [Branch<'_>; FEW_CONTACTS] = [const { None }; FEW_CONTACTS];
+        let mut branches: [Branch<'_>; FEW_CONTACTS] = [None, None, None, None];
         let count = self.now.len();
         self.whole(storage, &mut branches[..count])
     }
@@ -189,7 +189,10 @@ impl<'a> StepExpansion<'a> {
                 self.out.contacts[index].surface[0] - contact.tangent.dot(self.out.start())
             };
             let scaled = slip * contact.inverse_scale;
-            *branch = Some(law.series::<{ ORDER + 1 }>(f64::from(sign), scaled));
+            let series = law.series::<{ ORDER + 1 }>(f64::from(sign), scaled);
+            let load = self.out.contacts[index].pressed[0];
+            self.out.contacts[index].drag = series.slope() * contact.inverse_scale * load;
+            *branch = Some(series);
         }
     }
 
@@ -327,14 +330,16 @@ fn friction<S: StateStorage>(
         (ContactPhase::Slip(_), Some(branch)) => {
             let w = series.slip[k] * contact.inverse_scale;
             series.scaled[k] = w;
-            series.coefficient[k] = if k == 0 {
-                branch.first()
+            if series.is_plain && k > 0 {
+                // The newest coefficient of γ waits for one operation only.
+                let lower = branch.lower(k, &series.scaled) * series.pressed[0];
+                f64::mul_add(series.drag, series.slip[k], lower)
             } else {
-                f64::mul_add(branch.slope(), w, branch.lower(k, &series.scaled))
-            };
-            if series.is_plain {
-                series.coefficient[k] * series.pressed[0]
-            } else {
+                series.coefficient[k] = if k == 0 {
+                    branch.first()
+                } else {
+                    f64::mul_add(branch.slope(), w, branch.lower(k, &series.scaled))
+                };
                 partial_product(&series.coefficient, &series.pressed, k, 0, k)
             }
         }

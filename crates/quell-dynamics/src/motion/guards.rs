@@ -13,11 +13,12 @@ use crate::simulation::{ORDER, Series};
 /// accuracy of a step.
 const TOGETHER: f64 = 1e-12;
 
-/// A guard, positive until its event.
+/// A guard, of the given sign until its event.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Guard {
-    pub(super) what: Trigger,
-    series: Series,
+struct Guard<'a> {
+    what: Trigger,
+    series: &'a Series,
+    sign: f64,
     /// Multiplicity of its zero at the start, which is divided out.
     zeros: usize,
 }
@@ -43,14 +44,15 @@ pub(super) struct Guards<'a> {
 /// Most guards of one contact: the load, and the margins on both sides.
 const GUARDS: usize = 3;
 
-impl Guards<'_> {
+impl<'a> Guards<'a> {
     /// The first guard that reaches zero within `length`.
     #[inline(always)]
     pub(super) fn first(&self, mut length: f64) -> Option<GuardReached> {
         let mut first: Option<GuardReached> = None;
+        let mut margin = [0.0; ORDER + 1];
         for contact in 0..self.now.len() {
             for place in 0..GUARDS {
-                let Some(guard) = self.at(contact, place) else { continue };
+                let Some(guard) = self.at(contact, place, &mut margin) else { continue };
                 let Some(after) = guard.root(length) else { continue };
                 if first.is_none_or(|known| after < known.after) {
                     let rate = guard.rate(after);
@@ -62,33 +64,41 @@ impl Guards<'_> {
         first
     }
 
-    /// A guard of a contact: its load, then its slip velocity or its margins.
+    /// A guard of a contact: its load, then its slip velocity or its margins, which are written to `margin`.
     #[inline(always)]
-    fn at(&self, contact: usize, place: usize) -> Option<Guard> {
+    fn at<'m>(&self, contact: usize, place: usize, margin: &'m mut Series) -> Option<Guard<'m>>
+    where
+        'a: 'm,
+    {
         let (now, series) = (&self.now[contact], &self.contacts[contact]);
         let equation = &self.equations.contacts[contact];
         match (place, now.phase) {
-            (0, _) => {
+            (0, _) if !series.is_plain => {
                 let varies =
                     equation.is_compliant() || !self.forcings.contacts[contact].load.is_constant();
-                let sign = if now.is_open() { -1.0 } else { 1.0 };
                 if !varies {
                     return None;
                 }
-                Some(signed(Trigger::Load(contact), &series.load, sign, now.load_zeros))
+                let (what, sign) = (Trigger::Load(contact), if now.is_open() { -1.0 } else { 1.0 });
+                Some(Guard { what, series: &series.load, sign, zeros: now.load_zeros })
             }
             (1, ContactPhase::Slip(sign)) if equation.can_stick() => {
-                let what = Trigger::Slip(contact);
-                Some(signed(what, &series.slip, f64::from(sign), now.slip_zeros))
+                let (what, sign) = (Trigger::Slip(contact), f64::from(sign));
+                Some(Guard { what, series: &series.slip, sign, zeros: now.slip_zeros })
             }
             (1 | 2, ContactPhase::Stick) if now.saturated == 0 && !now.held => {
                 let side = if place == 1 { 1 } else { -1 };
                 let level = equation.static_coefficient;
-                let mut margin = series.pressed;
-                for (margin, force) in margin.iter_mut().zip(&series.friction) {
-                    *margin = f64::mul_add(level, *margin, -f64::from(side) * force);
+                let sides = series.pressed.iter().zip(&series.friction);
+                for (margin, (pressed, force)) in margin.iter_mut().zip(sides) {
+                    *margin = f64::mul_add(level, *pressed, -f64::from(side) * force);
                 }
-                Some(Guard { what: Trigger::Margin(contact, side), series: margin, zeros: 0 })
+                Some(Guard {
+                    what: Trigger::Margin(contact, side),
+                    series: margin,
+                    sign: 1.0,
+                    zeros: 0,
+                })
             }
             _ => None,
         }
@@ -97,9 +107,10 @@ impl Guards<'_> {
     /// Every guard that reaches zero together with the first one, at time `after` of the step.
     pub(super) fn together(&self, first: &GuardReached, time_scale: f64) -> Vec<GuardReached> {
         let mut found = Vec::new();
+        let mut margin = [0.0; ORDER + 1];
         for contact in 0..self.now.len() {
             for place in 0..GUARDS {
-                let Some(guard) = self.at(contact, place) else { continue };
+                let Some(guard) = self.at(contact, place, &mut margin) else { continue };
                 if guard.what == first.what {
                     found.push(*first);
                     continue;
@@ -116,16 +127,7 @@ impl Guards<'_> {
     }
 }
 
-#[inline(always)]
-fn signed(what: Trigger, series: &Series, sign: f64, zeros: usize) -> Guard {
-    let mut signed = *series;
-    for coefficient in &mut signed {
-        *coefficient *= sign;
-    }
-    Guard { what, series: signed, zeros }
-}
-
-impl Guard {
+impl Guard<'_> {
     /// First root within `length`.
     #[inline(always)]
     fn root(&self, length: f64) -> Option<f64> {
@@ -136,10 +138,10 @@ impl Guard {
         if zeros > ORDER {
             return None;
         }
-        if self.series[zeros] < 0.0 {
+        if self.sign * self.series[zeros] < 0.0 {
             return Some(0.0);
         }
-        first_crossing_after(&self.series, zeros, length)
+        first_crossing_after(self.series, zeros, length)
     }
 
     /// Without the zero at its start.
@@ -152,12 +154,17 @@ impl Guard {
 
     #[inline(always)]
     fn height(&self, after: f64) -> f64 {
-        if self.zeros == 0 { horner(&self.series, after) } else { horner(&self.quotient(), after) }
+        self.sign
+            * if self.zeros == 0 {
+                horner(self.series, after)
+            } else {
+                horner(&self.quotient(), after)
+            }
     }
 
     /// Rate at which it falls.
     #[inline(always)]
     fn rate(&self, after: f64) -> f64 {
-        -value(&derivative(&self.series), after)
+        -self.sign * value(&derivative(self.series), after)
     }
 }

@@ -287,7 +287,7 @@ impl<'a, const N: usize> FewStates<'a, N> {
     /// The storage of a matrix; `None` if it has another size.
     #[inline(always)]
     pub(super) fn of(matrix: &'a StateMatrix) -> Option<Self> {
-        const { assert!(N <= SMALL) };
+        const { assert!(2 <= N && N <= SMALL) };
         let StateMatrix::Small(columns) = matrix else { return None };
         if columns.len() != N * N {
             return None;
@@ -299,7 +299,7 @@ impl<'a, const N: usize> FewStates<'a, N> {
 impl<const N: usize> StateStorage for FewStates<'_, N> {
     type Buffer = [f64; N];
 
-    const IS_UNROLLED: bool = N <= 4;
+    const IS_UNROLLED: bool = N <= 2;
 
     #[inline(always)]
     fn size(self) -> usize {
@@ -314,23 +314,25 @@ impl<const N: usize> StateStorage for FewStates<'_, N> {
     #[inline(always)]
     fn keep(self, _: [f64; N], _: &mut Vec<f64>) {}
 
-    /// In up to four partial sums.
+    /// In two partial sums.
     #[inline(always)]
     fn dot(self, row: &RowEntries, state: &[f64]) -> f64 {
-        let state = &state[..N];
-        let mut sums = [0.0; 4];
-        for i in 0..N {
-            let at = i * 4 / N.max(4);
-            sums[at] = f64::mul_add(row.dense[i], state[i], sums[at]);
+        let (upper, lower) = row.dense[..N].split_at(N / 2);
+        let (displacements, velocities) = state[..N].split_at(N / 2);
+        let mut sums = [upper[0] * displacements[0], lower[0] * velocities[0]];
+        for (value, entry) in upper[1..].iter().zip(&displacements[1..]) {
+            sums[0] = f64::mul_add(*value, *entry, sums[0]);
         }
-        (sums[0] + sums[1]) + (sums[2] + sums[3])
+        for (value, entry) in lower[1..].iter().zip(&velocities[1..]) {
+            sums[1] = f64::mul_add(*value, *entry, sums[1]);
+        }
+        sums[0] + sums[1]
     }
 
     #[inline(always)]
     fn add(self, column: &RowEntries, factor: f64, state: &mut [f64]) {
-        let state = &mut state[..N];
-        for i in 0..N {
-            state[i] = f64::mul_add(column.dense[i], factor, state[i]);
+        for (entry, value) in state[..N].iter_mut().zip(&column.dense[..N]) {
+            *entry = f64::mul_add(*value, factor, *entry);
         }
     }
 
@@ -381,6 +383,36 @@ mod tests {
                 assert!((value - exact).abs() < 1e-12, "{size}: {value} {exact}");
             }
         }
+    }
+
+    /// A row, a column and the matrix in the storage of `N` states against the form for any number of states.
+    fn agrees<const N: usize>() {
+        let matrix = Matrix::from_fn(N, N, |i, j| (i as f64 - 0.7).mul_add(1.3, 0.9 * j as f64));
+        let form = StateMatrix::of(&matrix);
+        let few = FewStates::<N>::of(&form).expect("a small matrix");
+        let many = ManyStates { size: N, matrix: &form };
+        let state: [f64; N] = std::array::from_fn(|i| 0.3 * i as f64 - 1.0);
+        let values: Vec<f64> = (0..N / 2).map(|i| 1.7 - i as f64).collect();
+        for row in [RowEntries::at(&values, N / 2), RowEntries::at(&values, 0)] {
+            assert!((few.dot(&row, &state) - many.dot(&row, &state)).abs() < 1e-14);
+            let (mut left, mut right) = (state, state);
+            few.add(&row, 0.6, &mut left);
+            many.add(&row, 0.6, &mut right);
+            assert_eq!(left, right);
+        }
+        let (mut left, mut right) = ([0.0; N], [0.0; N]);
+        few.times(&state, &mut left);
+        many.times(&state, &mut right);
+        assert_eq!(left, right);
+        assert!(FewStates::<2>::of(&form).is_some() == (N == 2));
+    }
+
+    #[test]
+    fn the_storage_of_few_states_agrees_with_that_of_many() {
+        agrees::<2>();
+        agrees::<4>();
+        agrees::<6>();
+        agrees::<8>();
     }
 
     #[test]

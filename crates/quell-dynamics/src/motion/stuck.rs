@@ -92,12 +92,16 @@ impl StuckForces {
         if free.is_empty() {
             return Some(Self { is_dependent, ..Self::default() });
         }
-        let matrix = coupling(equations, &free, tilts);
-        let places: Vec<usize> = (0..free.len()).collect();
-        let chosen = independent(&matrix, &places);
-        let block =
-            Matrix::from_fn(chosen.len(), chosen.len(), |i, j| matrix[(chosen[i], chosen[j])]);
-        let inverse = block.solve(&Matrix::identity(chosen.len()))?;
+        let matrix =
+            if free.len() == sticking.len() { all } else { coupling(equations, &free, tilts) };
+        let chosen = independent(&matrix, &places[..free.len()]);
+        let identity = Matrix::identity(chosen.len());
+        let inverse = if chosen.len() == free.len() {
+            matrix.solve(&identity)?
+        } else {
+            let entry = |i: usize, j: usize| matrix[(chosen[i], chosen[j])];
+            Matrix::from_fn(chosen.len(), chosen.len(), entry).solve(&identity)?
+        };
         let gain = if chosen.len() == free.len() {
             inverse
         } else {
