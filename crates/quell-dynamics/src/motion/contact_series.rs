@@ -5,6 +5,11 @@ use crate::simulation::{ORDER, Series};
 /// Series of one contact on a step.
 #[derive(Clone, Debug)]
 pub(super) struct ContactSeries {
+    /// Whether load and factor are constant and without reaction on the structure, and friction is not turned by a slope: the
+    /// series of the load are then written once, when the run begins.
+    pub(super) is_plain: bool,
+    /// dT/dγ at the start of the step, where the contact is plain and slips.
+    pub(super) drag: f64,
     /// γ.
     pub(super) slip: Series,
     /// N; where the contact is open the load that it would have, which is negative.
@@ -26,6 +31,8 @@ pub(super) struct ContactSeries {
 
 impl ContactSeries {
     pub(super) const ZERO: Self = Self {
+        is_plain: false,
+        drag: 0.0,
         slip: [0.0; ORDER + 1],
         load: [0.0; ORDER + 1],
         given: [0.0; ORDER + 1],

@@ -2,14 +2,15 @@
 
 use quell_model::System;
 use quell_model::friction::FrictionConstants;
-use quell_numerics::dispatch::{Work, with_fused_multiply_add};
+use quell_numerics::dispatch::with_fused_multiply_add;
 
 use super::equations::{Forcings, MotionEquations};
-use super::guards::{FirstGuard, Guards};
+use super::expansion::{ExpandedStep, StepExpansion, StepLimit};
+use super::guards::Guards;
 use super::observer::{MotionObserver, MotionSegment};
 use super::phase::{ContactNow, ContactPhase};
 use super::selection::first_minor_not_positive;
-use super::series::{StepExpansion, StepLimit, StepSeries};
+use super::series::StepSeries;
 use super::state::{ContactEnd, MotionEnd, MotionStart};
 use super::stopped::{MotionStopped, StopReason};
 use super::stuck::{StuckForces, coupling, dependent};
@@ -40,6 +41,8 @@ pub(super) struct MotionRun<'a> {
     pub(super) time_scale: f64,
     pub(super) budget: StepBudget,
     pub(super) idle: u32,
+    /// Time of the next kink or jump of a forcing.
+    pub(super) next_break: f64,
     /// Time of the last kink or jump of a forcing.
     pub(super) last_break: f64,
     pub(super) events: u64,
@@ -53,6 +56,7 @@ pub(super) struct MotionRun<'a> {
     pub(super) watched: bool,
     /// Whether guards end steps; otherwise every contact keeps its phase, regardless of its slip velocity and load.
     pub(super) is_guarded: bool,
+    /// The state at the end of a step.
     pub(super) scratch: Vec<f64>,
 }
 
@@ -85,6 +89,7 @@ impl<'a> MotionRun<'a> {
             time_scale: 1.0 / fastest,
             budget: StepBudget::new(start.time, until, fastest),
             idle: 0,
+            next_break: forcings.next_break(),
             last_break: f64::NEG_INFINITY,
             events: 0,
             steps: 0,
@@ -153,17 +158,11 @@ impl<'a> MotionRun<'a> {
     fn step(&mut self) -> MotionProgress {
         let before = self.clock;
         self.refresh()?;
-        let stop = self.forcings.next_break().min(self.until);
+        let stop = self.next_break.min(self.until);
         let room = self.clock.until(stop);
         let holds = self.now.iter().any(|now| now.held);
         let longest = if holds { self.longest.min(HOLD * self.time_scale) } else { self.longest };
-        let length = self.expand(longest, room);
-        let reached = if self.is_guarded {
-            with_fused_multiply_add(FirstGuard { guards: self.guards(), length })
-        } else {
-            None
-        };
-        let duration = reached.map_or(length, |reached| reached.after);
+        let ExpandedStep { duration, reached } = self.expand(longest, room);
         let triggers = match &reached {
             Some(first) => self.guards().together(first, self.time_scale),
             None => Vec::new(),
@@ -177,8 +176,8 @@ impl<'a> MotionRun<'a> {
         self.check_progress(before)
     }
 
-    /// Computes the series of a step from here; returns its length, at most `longest` and `room`.
-    fn expand(&mut self, longest: f64, room: f64) -> f64 {
+    /// Computes a step from here, at most `longest` and `room` long.
+    fn expand(&mut self, longest: f64, room: f64) -> ExpandedStep {
         let Self { tolerance, time_scale, .. } = *self;
         with_fused_multiply_add(StepExpansion {
             equations: self.equations,
@@ -188,7 +187,9 @@ impl<'a> MotionRun<'a> {
             stuck: &self.stuck,
             clock: self.clock,
             limit: StepLimit { tolerance, time_scale, longest, room },
+            is_guarded: self.is_guarded,
             out: &mut self.series,
+            end: &mut self.scratch,
         })
     }
 
@@ -284,16 +285,12 @@ impl<'a> MotionRun<'a> {
                 now: &self.now,
             });
         }
-        with_fused_multiply_add(EndState {
-            series: &self.series,
-            since: duration,
-            out: &mut self.scratch,
-        });
         let reaches_stop = duration >= room || self.clock.after(duration).time() == stop;
         if reaches_stop {
             self.last_break = stop;
             self.clock = Clock::at(stop);
             self.forcings.pass_breaks(self.clock);
+            self.next_break = self.forcings.next_break();
         } else {
             self.clock = self.clock.after(duration);
         }
@@ -343,20 +340,5 @@ impl<'a> MotionRun<'a> {
             near_tangential_releases: self.near_tangential_releases,
             dependent: (0..self.dependent.len()).filter(|c| self.dependent[*c]).collect(),
         })
-    }
-}
-
-struct EndState<'a> {
-    series: &'a StepSeries,
-    since: f64,
-    out: &'a mut [f64],
-}
-
-impl Work for EndState<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        self.series.state_at(self.since, self.out);
     }
 }

@@ -32,6 +32,7 @@ pub(super) struct ContactEquation {
     pub(super) normal_load: f64,
     /// Velocity that scales slip for the law.
     pub(super) scale: f64,
+    pub(super) inverse_scale: f64,
     /// μ_s and μ(0⁺).
     pub(super) static_coefficient: f64,
     pub(super) sliding_coefficient: f64,
@@ -42,6 +43,13 @@ impl ContactEquation {
     #[inline(always)]
     pub(super) fn is_compliant(&self) -> bool {
         !self.approach.is_empty()
+    }
+
+    /// Whether the load is that of the study at any time, given its forcing, and acts on friction alone.
+    pub(super) fn is_plain(&self, forcing: &ContactForcing) -> bool {
+        let is_constant = forcing.load.is_constant() && forcing.factor.is_none();
+        let acts_alone = self.across.is_empty() && self.slope.is_empty();
+        is_constant && acts_alone && !self.is_compliant()
     }
 
     /// Whether the contact has a tangent, so that it can stick.
@@ -233,6 +241,7 @@ fn contact_equation(
         across,
         normal_load: contact.normal_load,
         scale: contact.friction.velocity_scale(),
+        inverse_scale: 1.0 / contact.friction.velocity_scale(),
         static_coefficient: contact.friction.static_coefficient(),
         sliding_coefficient: contact.friction.coefficient(0.0),
     })

@@ -1,6 +1,5 @@
 //! The guards of a step: the polynomials whose first root ends it.
 
-use quell_numerics::dispatch::Work;
 use quell_numerics::lane::horner;
 use quell_numerics::polynomial::{derivative, first_crossing_after, value};
 
@@ -14,11 +13,12 @@ use crate::simulation::{ORDER, Series};
 /// accuracy of a step.
 const TOGETHER: f64 = 1e-12;
 
-/// A guard, positive until its event.
+/// A guard, of the given sign until its event.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Guard {
-    pub(super) what: Trigger,
-    series: Series,
+struct Guard<'a> {
+    what: Trigger,
+    series: &'a Series,
+    sign: f64,
     /// Multiplicity of its zero at the start, which is divided out.
     zeros: usize,
 }
@@ -41,74 +41,79 @@ pub(super) struct Guards<'a> {
     pub(super) contacts: &'a [ContactSeries],
 }
 
-/// The search for the first root of all guards.
-pub(super) struct FirstGuard<'a> {
-    pub(super) guards: Guards<'a>,
-    pub(super) length: f64,
-}
+/// Most guards of one contact: the load, and the margins on both sides.
+const GUARDS: usize = 3;
 
-impl Work for FirstGuard<'_> {
-    type Output = Option<GuardReached>;
-
+impl<'a> Guards<'a> {
+    /// The first guard that reaches zero within `length`.
     #[inline(always)]
-    fn run(self) -> Option<GuardReached> {
-        let mut length = self.length;
-        let mut first = None;
-        for contact in 0..self.guards.now.len() {
-            self.guards.of(contact, |guard| {
-                if let Some(after) = guard.root(length) {
+    pub(super) fn first(&self, mut length: f64) -> Option<GuardReached> {
+        let mut first: Option<GuardReached> = None;
+        let mut margin = [0.0; ORDER + 1];
+        for contact in 0..self.now.len() {
+            for place in 0..GUARDS {
+                let Some(guard) = self.at(contact, place, &mut margin) else { continue };
+                let Some(after) = guard.root(length) else { continue };
+                if first.is_none_or(|known| after < known.after) {
                     let rate = guard.rate(after);
-                    if first.is_none_or(|known: GuardReached| after < known.after) {
-                        first = Some(GuardReached { what: guard.what, after, rate });
-                    }
-                    length = after.max(f64::MIN_POSITIVE);
+                    first = Some(GuardReached { what: guard.what, after, rate });
                 }
-            });
+                length = after.max(f64::MIN_POSITIVE);
+            }
         }
         first
     }
-}
 
-impl Guards<'_> {
-    /// Passes every guard of a contact to `visit`.
+    /// A guard of a contact: its load, then its slip velocity or its margins, which are written to `margin`.
     #[inline(always)]
-    fn of(&self, contact: usize, mut visit: impl FnMut(&Guard)) {
+    fn at<'m>(&self, contact: usize, place: usize, margin: &'m mut Series) -> Option<Guard<'m>>
+    where
+        'a: 'm,
+    {
         let (now, series) = (&self.now[contact], &self.contacts[contact]);
         let equation = &self.equations.contacts[contact];
-        let forcing = &self.forcings.contacts[contact];
-        if equation.is_compliant() || !forcing.load.is_constant() {
-            let sign = if now.is_open() { -1.0 } else { 1.0 };
-            let guard = signed(Trigger::Load(contact), &series.load, sign, now.load_zeros);
-            visit(&guard);
-        }
-        match now.phase {
-            ContactPhase::Slip(sign) if equation.can_stick() => {
-                let what = Trigger::Slip(contact);
-                visit(&signed(what, &series.slip, f64::from(sign), now.slip_zeros));
-            }
-            ContactPhase::Stick if now.saturated == 0 && !now.held => {
-                for side in [1_i8, -1] {
-                    let level = equation.static_coefficient;
-                    let mut margin = series.pressed;
-                    for (margin, force) in margin.iter_mut().zip(&series.friction) {
-                        *margin = f64::mul_add(level, *margin, -f64::from(side) * force);
-                    }
-                    let what = Trigger::Margin(contact, side);
-                    visit(&Guard { what, series: margin, zeros: 0 });
+        match (place, now.phase) {
+            (0, _) if !series.is_plain => {
+                let varies =
+                    equation.is_compliant() || !self.forcings.contacts[contact].load.is_constant();
+                if !varies {
+                    return None;
                 }
+                let (what, sign) = (Trigger::Load(contact), if now.is_open() { -1.0 } else { 1.0 });
+                Some(Guard { what, series: &series.load, sign, zeros: now.load_zeros })
             }
-            _ => {}
+            (1, ContactPhase::Slip(sign)) if equation.can_stick() => {
+                let (what, sign) = (Trigger::Slip(contact), f64::from(sign));
+                Some(Guard { what, series: &series.slip, sign, zeros: now.slip_zeros })
+            }
+            (1 | 2, ContactPhase::Stick) if now.saturated == 0 && !now.held => {
+                let side = if place == 1 { 1 } else { -1 };
+                let level = equation.static_coefficient;
+                let sides = series.pressed.iter().zip(&series.friction);
+                for (margin, (pressed, force)) in margin.iter_mut().zip(sides) {
+                    *margin = f64::mul_add(level, *pressed, -f64::from(side) * force);
+                }
+                Some(Guard {
+                    what: Trigger::Margin(contact, side),
+                    series: margin,
+                    sign: 1.0,
+                    zeros: 0,
+                })
+            }
+            _ => None,
         }
     }
 
     /// Every guard that reaches zero together with the first one, at time `after` of the step.
     pub(super) fn together(&self, first: &GuardReached, time_scale: f64) -> Vec<GuardReached> {
         let mut found = Vec::new();
+        let mut margin = [0.0; ORDER + 1];
         for contact in 0..self.now.len() {
-            self.of(contact, |guard| {
+            for place in 0..GUARDS {
+                let Some(guard) = self.at(contact, place, &mut margin) else { continue };
                 if guard.what == first.what {
                     found.push(*first);
-                    return;
+                    continue;
                 }
                 let (height, rate) = (guard.height(first.after), guard.rate(first.after));
                 let is_reached =
@@ -116,18 +121,13 @@ impl Guards<'_> {
                 if is_reached {
                     found.push(GuardReached { what: guard.what, after: first.after, rate });
                 }
-            });
+            }
         }
         found
     }
 }
 
-#[inline(always)]
-fn signed(what: Trigger, series: &Series, sign: f64, zeros: usize) -> Guard {
-    Guard { what, series: series.map(|coefficient| sign * coefficient), zeros }
-}
-
-impl Guard {
+impl Guard<'_> {
     /// First root within `length`.
     #[inline(always)]
     fn root(&self, length: f64) -> Option<f64> {
@@ -138,26 +138,33 @@ impl Guard {
         if zeros > ORDER {
             return None;
         }
-        if self.series[zeros] < 0.0 {
+        if self.sign * self.series[zeros] < 0.0 {
             return Some(0.0);
         }
-        first_crossing_after(&self.series, zeros, length)
+        first_crossing_after(self.series, zeros, length)
     }
 
     /// Without the zero at its start.
+    #[inline(always)]
     fn quotient(&self) -> Series {
         let mut quotient = [0.0; ORDER + 1];
         quotient[..=ORDER - self.zeros].copy_from_slice(&self.series[self.zeros..]);
         quotient
     }
 
+    #[inline(always)]
     fn height(&self, after: f64) -> f64 {
-        if self.zeros == 0 { horner(&self.series, after) } else { horner(&self.quotient(), after) }
+        self.sign
+            * if self.zeros == 0 {
+                horner(self.series, after)
+            } else {
+                horner(&self.quotient(), after)
+            }
     }
 
     /// Rate at which it falls.
     #[inline(always)]
     fn rate(&self, after: f64) -> f64 {
-        -value(&derivative(&self.series), after)
+        -self.sign * value(&derivative(self.series), after)
     }
 }

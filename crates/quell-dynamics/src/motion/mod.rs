@@ -14,7 +14,7 @@
 //! | file | contents |
 //! |---|---|
 //! | `equations`, `rows` | a system as the engine needs it |
-//! | `series`, `contact_series`, `stuck` | the Taylor series of a step |
+//! | `series`, `contact_series`, `expansion`, `stuck` | the Taylor series of a step |
 //! | `guards`, `selection` | what ends a step, and what follows |
 //! | `engine`, `transitions` | the loop, and what the contacts do at its events |
 //! | `phase`, `state`, `observer`, `stopped` | what goes into a run and comes out of it |
@@ -25,6 +25,7 @@ mod contact_meter;
 mod contact_series;
 mod engine;
 mod equations;
+mod expansion;
 mod extremes;
 mod guards;
 mod input_meter;

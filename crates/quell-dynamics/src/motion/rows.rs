@@ -1,5 +1,8 @@
 //! Rows and columns over the state, and the state matrix, each in the form that costs least: a step of a modal structure costs O(n)
 //! per order, a step of a small one a few vector instructions.
+//!
+//! The equations of a step are written once, over [`StateStorage`]: with [`FewStates`] the length of the state is known at compile
+//! time, so that the state and its rates stay in registers.
 
 use quell_numerics::matrix::Matrix;
 
@@ -12,6 +15,8 @@ pub(super) struct RowEntries {
     values: Vec<f64>,
     /// RowEntries with gaps, instead of values.
     scattered: Vec<(usize, f64)>,
+    /// All numbers of a row over at most [`SMALL`] states.
+    dense: [f64; SMALL],
 }
 
 /// Share of zeros in a range above which its entries are kept apart.
@@ -26,14 +31,18 @@ impl RowEntries {
         else {
             return Self::default();
         };
+        let mut dense = [0.0; SMALL];
+        if let Some(dense) = dense.get_mut(offset..offset + values.len()) {
+            dense.copy_from_slice(values);
+        }
         let count = values.iter().filter(|value| nonzero(value)).count();
         if last + 1 - first > SCATTERED * count {
             let places = values.iter().enumerate().filter(|(_, value)| nonzero(value));
             let scattered = places.map(|(place, value)| (place + offset, *value)).collect();
-            return Self { start: 0, values: Vec::new(), scattered };
+            return Self { start: 0, values: Vec::new(), scattered, dense };
         }
         let start = first + offset;
-        Self { start, values: values[first..=last].to_vec(), scattered: Vec::new() }
+        Self { start, values: values[first..=last].to_vec(), scattered: Vec::new(), dense }
     }
 
     /// The row times a state.
@@ -185,13 +194,152 @@ impl StateMatrix {
 /// Σ columns times entries, in registers.
 #[inline(always)]
 fn small<const N: usize>(columns: &[f64], state: &[f64], out: &mut [f64]) {
+    out[..N].copy_from_slice(&product(columns.as_chunks::<N>().0, state));
+}
+
+/// Σ columns times entries.
+#[inline(always)]
+fn product<const N: usize>(columns: &[[f64; N]], state: &[f64]) -> [f64; N] {
     let mut sums = [0.0; N];
-    for (column, entry) in columns.as_chunks::<N>().0.iter().zip(state) {
+    for (column, entry) in columns.iter().zip(state) {
         for i in 0..N {
             sums[i] = f64::mul_add(column[i], *entry, sums[i]);
         }
     }
-    out[..N].copy_from_slice(&sums);
+    sums
+}
+
+/// How the equations of a step read rows and columns over the state, and the state matrix.
+pub(super) trait StateStorage: Copy {
+    /// Numbers over the state that last for one step.
+    type Buffer: AsMut<[f64]>;
+
+    /// Whether the loop over orders is unrolled, which pays where a step is short.
+    const IS_UNROLLED: bool;
+
+    /// Length of the state.
+    fn size(self) -> usize;
+
+    /// A buffer, from the memory that is kept between steps where there is no better place.
+    fn buffer(self, kept: &mut Vec<f64>) -> Self::Buffer;
+
+    /// Returns the memory of a buffer.
+    fn keep(self, buffer: Self::Buffer, kept: &mut Vec<f64>);
+
+    /// A row times a state.
+    fn dot(self, row: &RowEntries, state: &[f64]) -> f64;
+
+    /// Adds `factor` times a column to a state.
+    fn add(self, column: &RowEntries, factor: f64, state: &mut [f64]);
+
+    /// Writes the state matrix times a state to `out`.
+    fn times(self, state: &[f64], out: &mut [f64]);
+}
+
+/// Any number of states.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ManyStates<'a> {
+    pub(super) size: usize,
+    pub(super) matrix: &'a StateMatrix,
+}
+
+impl StateStorage for ManyStates<'_> {
+    type Buffer = Vec<f64>;
+
+    const IS_UNROLLED: bool = false;
+
+    #[inline(always)]
+    fn size(self) -> usize {
+        self.size
+    }
+
+    #[inline(always)]
+    fn buffer(self, kept: &mut Vec<f64>) -> Vec<f64> {
+        std::mem::take(kept)
+    }
+
+    #[inline(always)]
+    fn keep(self, buffer: Vec<f64>, kept: &mut Vec<f64>) {
+        *kept = buffer;
+    }
+
+    #[inline(always)]
+    fn dot(self, row: &RowEntries, state: &[f64]) -> f64 {
+        row.dot(state)
+    }
+
+    #[inline(always)]
+    fn add(self, column: &RowEntries, factor: f64, state: &mut [f64]) {
+        column.add_to(factor, state);
+    }
+
+    #[inline(always)]
+    fn times(self, state: &[f64], out: &mut [f64]) {
+        self.matrix.times(state, out);
+    }
+}
+
+/// `N` states, with the columns of the state matrix. Slices over the state must have this length.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FewStates<'a, const N: usize>(&'a [[f64; N]; N]);
+
+impl<'a, const N: usize> FewStates<'a, N> {
+    /// The storage of a matrix; `None` if it has another size.
+    #[inline(always)]
+    pub(super) fn of(matrix: &'a StateMatrix) -> Option<Self> {
+        const { assert!(2 <= N && N <= SMALL) };
+        let StateMatrix::Small(columns) = matrix else { return None };
+        if columns.len() != N * N {
+            return None;
+        }
+        columns.as_chunks::<N>().0.try_into().ok().map(Self)
+    }
+}
+
+impl<const N: usize> StateStorage for FewStates<'_, N> {
+    type Buffer = [f64; N];
+
+    const IS_UNROLLED: bool = N <= 2;
+
+    #[inline(always)]
+    fn size(self) -> usize {
+        N
+    }
+
+    #[inline(always)]
+    fn buffer(self, _: &mut Vec<f64>) -> [f64; N] {
+        [0.0; N]
+    }
+
+    #[inline(always)]
+    fn keep(self, _: [f64; N], _: &mut Vec<f64>) {}
+
+    /// In two partial sums.
+    #[inline(always)]
+    fn dot(self, row: &RowEntries, state: &[f64]) -> f64 {
+        let (upper, lower) = row.dense[..N].split_at(N / 2);
+        let (displacements, velocities) = state[..N].split_at(N / 2);
+        let mut sums = [upper[0] * displacements[0], lower[0] * velocities[0]];
+        for (value, entry) in upper[1..].iter().zip(&displacements[1..]) {
+            sums[0] = f64::mul_add(*value, *entry, sums[0]);
+        }
+        for (value, entry) in lower[1..].iter().zip(&velocities[1..]) {
+            sums[1] = f64::mul_add(*value, *entry, sums[1]);
+        }
+        sums[0] + sums[1]
+    }
+
+    #[inline(always)]
+    fn add(self, column: &RowEntries, factor: f64, state: &mut [f64]) {
+        for (entry, value) in state[..N].iter_mut().zip(&column.dense[..N]) {
+            *entry = f64::mul_add(*value, factor, *entry);
+        }
+    }
+
+    #[inline(always)]
+    fn times(self, state: &[f64], out: &mut [f64]) {
+        out[..N].copy_from_slice(&product(self.0, &state[..N]));
+    }
 }
 
 /// The diagonals of a mechanical structure of modes, if the matrix is that of one.
@@ -235,6 +383,36 @@ mod tests {
                 assert!((value - exact).abs() < 1e-12, "{size}: {value} {exact}");
             }
         }
+    }
+
+    /// A row, a column and the matrix in the storage of `N` states against the form for any number of states.
+    fn agrees<const N: usize>() {
+        let matrix = Matrix::from_fn(N, N, |i, j| (i as f64 - 0.7).mul_add(1.3, 0.9 * j as f64));
+        let form = StateMatrix::of(&matrix);
+        let few = FewStates::<N>::of(&form).expect("a small matrix");
+        let many = ManyStates { size: N, matrix: &form };
+        let state: [f64; N] = std::array::from_fn(|i| 0.3 * i as f64 - 1.0);
+        let values: Vec<f64> = (0..N / 2).map(|i| 1.7 - i as f64).collect();
+        for row in [RowEntries::at(&values, N / 2), RowEntries::at(&values, 0)] {
+            assert!((few.dot(&row, &state) - many.dot(&row, &state)).abs() < 1e-14);
+            let (mut left, mut right) = (state, state);
+            few.add(&row, 0.6, &mut left);
+            many.add(&row, 0.6, &mut right);
+            assert_eq!(left, right);
+        }
+        let (mut left, mut right) = ([0.0; N], [0.0; N]);
+        few.times(&state, &mut left);
+        many.times(&state, &mut right);
+        assert_eq!(left, right);
+        assert!(FewStates::<2>::of(&form).is_some() == (N == 2));
+    }
+
+    #[test]
+    fn the_storage_of_few_states_agrees_with_that_of_many() {
+        agrees::<2>();
+        agrees::<4>();
+        agrees::<6>();
+        agrees::<8>();
     }
 
     #[test]

@@ -10,6 +10,7 @@ use quell_numerics::matrix::Matrix;
 use super::contact_series::ContactSeries;
 use super::equations::MotionEquations;
 use super::phase::ContactNow;
+use super::rows::StateStorage;
 
 /// A row is dependent on others if they carry all but this share of it: the rounding of a Schur complement of rows whose condition
 /// is up to 10⁵. Rows that differ by less share their forces by least norm, and the motion changes by as little.
@@ -92,12 +93,16 @@ impl StuckForces {
         if free.is_empty() {
             return Some(Self { is_dependent, ..Self::default() });
         }
-        let matrix = coupling(equations, &free, tilts);
-        let places: Vec<usize> = (0..free.len()).collect();
-        let chosen = independent(&matrix, &places);
-        let block =
-            Matrix::from_fn(chosen.len(), chosen.len(), |i, j| matrix[(chosen[i], chosen[j])]);
-        let inverse = block.solve(&Matrix::identity(chosen.len()))?;
+        let matrix =
+            if free.len() == sticking.len() { all } else { coupling(equations, &free, tilts) };
+        let chosen = independent(&matrix, &places[..free.len()]);
+        let identity = Matrix::identity(chosen.len());
+        let inverse = if chosen.len() == free.len() {
+            matrix.solve(&identity)?
+        } else {
+            let entry = |i: usize, j: usize| matrix[(chosen[i], chosen[j])];
+            Matrix::from_fn(chosen.len(), chosen.len(), entry).solve(&identity)?
+        };
         let gain = if chosen.len() == free.len() {
             inverse
         } else {
@@ -113,8 +118,9 @@ impl StuckForces {
 
     /// Adds the friction of order k that holds the contacts to the rates.
     #[inline(always)]
-    pub(super) fn hold(
+    pub(super) fn hold<S: StateStorage>(
         &self,
+        storage: S,
         equations: &MotionEquations,
         k: usize,
         contacts: &mut [ContactSeries],
@@ -122,22 +128,21 @@ impl StuckForces {
     ) {
         let count = self.independent.len();
         // The conditions of all are read before any force is added: force by force into the series of this order.
-        for place in 0..self.free.len() {
+        for (place, &held) in self.free.iter().enumerate() {
             let mut force = 0.0;
-            for j in 0..count {
-                let index = self.independent[j];
-                let lost =
-                    contacts[index].lost_slip(k, equations.contacts[index].tangent.dot(rates));
-                force = f64::mul_add(self.gain[place * count + j], lost, force);
+            let gains = &self.gain[place * count..(place + 1) * count];
+            for (&index, gain) in self.independent.iter().zip(gains) {
+                let along = storage.dot(&equations.contacts[index].tangent, rates);
+                force = f64::mul_add(*gain, contacts[index].lost_slip(k, along), force);
             }
-            contacts[self.free[place]].friction[k] = force;
+            contacts[held].friction[k] = force;
         }
-        for (place, &index) in self.free.iter().enumerate() {
+        for (&index, tilt) in self.free.iter().zip(&self.tilts) {
             let contact = &equations.contacts[index];
             let force = contacts[index].friction[k];
-            contact.along.add_to(force, rates);
+            storage.add(&contact.along, force, rates);
             if !contact.slope.is_empty() {
-                contact.across.add_to(self.tilts[place] * force, rates);
+                storage.add(&contact.across, tilt * force, rates);
             }
         }
     }

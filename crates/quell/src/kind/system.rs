@@ -22,8 +22,8 @@ use crate::run::system::thresholds::{
 };
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
-    basins, bifurcation, curves, exact, found_attractor, measured, modes, orbit, reach, response, simulate,
-    stability, thresholds, tracked,
+    basins, bifurcation, curves, exact, found_attractor, measured, modes, orbit, reach, response,
+    simulate, stability, thresholds, tracked,
 };
 use crate::run::thresholds::ThresholdsRequest;
 use crate::study::{SystemSetup, SystemStudy};

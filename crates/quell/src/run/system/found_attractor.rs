@@ -5,15 +5,15 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::attractor::{EndOfRun, MotionKind, end_of_run};
-use super::orbit::MOST_PERIODS;
 use super::simulate::slowest_period;
 use super::start::{StateNumbers, start_in_words, start_with};
-use super::{has_equations, is_dithered, rate_of};
+use super::{has_equations, rate_of};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::run::exponents::{ExponentTimes, JudgedMotion, MeasuredExponents, MeasuredMotion};
 use crate::study::{SystemStudy, SystemUnits};
+use quell_dynamics::motion::orbit::MOST_PERIODS;
 
 /// What to find.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -67,7 +67,7 @@ pub fn run(
         let motion = MeasuredMotion {
             system,
             state: attractor.map_or(&start, |attractor| &attractor.state),
-            moves_freely: !is_dithered(system) && kind != Some(&MotionKind::Rest),
+            moves_freely: !system.is_dithered() && kind != Some(&MotionKind::Rest),
             judged,
         };
         Ok::<_, Failure>(MeasuredExponents::of(&motion, times))

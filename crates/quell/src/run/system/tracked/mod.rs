@@ -141,7 +141,7 @@ fn criticality(
         return Err(text(NoFirstLyapunov::OtherKind));
     }
     let system = study.system_at(&[(path, found.value)]).map_err(|why| why.to_string())?;
-    if is_dithered(&system) {
+    if system.is_dithered() {
         let why =
             "not computed for averaged motion: `thresholds` gives that of the dithered response";
         return Err(why.to_owned());
