@@ -64,6 +64,8 @@ pub struct RowMeter {
     count: usize,
     length: f64,
     extremes: RowRange,
+    /// The first value: sums of the differences from it keep the digits of a small vibration about a large mean.
+    reference: Option<f64>,
     sum: f64,
     squares: f64,
     /// The values at `first` + n · `step`.
@@ -81,6 +83,7 @@ impl RowMeter {
             count,
             length: 0.0,
             extremes: RowRange::NONE,
+            reference: None,
             sum: 0.0,
             squares: 0.0,
             samples: Vec::with_capacity(count),
@@ -94,12 +97,13 @@ impl RowMeter {
 
     /// Mean over time.
     pub fn mean(&self) -> f64 {
-        self.sum / self.length
+        self.reference.unwrap_or(0.0) + self.sum / self.length
     }
 
     /// Root mean square of the deviation from the mean.
     pub fn deviation(&self) -> f64 {
-        (self.squares / self.length - self.mean() * self.mean()).max(0.0).sqrt()
+        let mean = self.sum / self.length;
+        (self.squares / self.length - mean * mean).max(0.0).sqrt()
     }
 
     /// Peak to peak.
@@ -136,12 +140,13 @@ impl Work for RowOnSegment<'_, '_> {
         let Self { meter, segment } = self;
         let series = series_of(&meter.row, segment);
         let duration = segment.duration();
+        let reference = *meter.reference.get_or_insert(series[0]);
         meter.length += duration;
-        meter.sum += integral(&series, duration);
+        meter.sum += f64::mul_add(-reference, duration, integral(&series, duration));
         meter.extremes.add(&series, duration);
         let [nodes, weights] = &*RULE;
         for (node, weight) in nodes.iter().zip(weights) {
-            let value = horner(&series, node * duration);
+            let value = horner(&series, node * duration) - reference;
             meter.squares = f64::mul_add(weight * duration, value * value, meter.squares);
         }
         while meter.samples.len() < meter.count {

@@ -68,6 +68,8 @@ pub enum Uncertain {
     Undithered(Undefined),
     /// The record still changes, and where the dithered run settles does not decide.
     StillChanging,
+    /// With dither the observed motion drifts.
+    Drifts,
     /// The record does not resolve the change by the dither: E is 1 within this.
     Unresolved {
         /// Relative difference of the halves of the records.
@@ -82,6 +84,9 @@ impl fmt::Display for Uncertain {
             Self::Undithered(why) => why.fmt(f),
             Self::StillChanging => f.write_str(
                 "the vibration with dither still changes within the record: settle for longer",
+            ),
+            Self::Drifts => f.write_str(
+                "with dither the observed motion drifts: over the record it moves on by more than it vibrates",
             ),
             Self::Unresolved { within } => {
                 write!(
@@ -135,10 +140,8 @@ pub fn effect(belt: &Belt, compared: &Compared, ending: RunEnding) -> Effect {
         return Effect::Unknown(Uncertain::NoDither);
     }
     let quiet_without = match compared.efficiency() {
-        Err(why @ Undefined::UnditheredUnknown) => {
-            return Effect::Unknown(Uncertain::Undithered(why));
-        }
         Err(Undefined::UnditheredSettles | Undefined::UnditheredAtRest) => true,
+        Err(why) => return Effect::Unknown(Uncertain::Undithered(why)),
         Ok(_) => false,
     };
     if ending.is_quiet()

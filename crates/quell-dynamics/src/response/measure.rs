@@ -28,6 +28,17 @@ pub enum Undefined {
     UnditheredAtRest,
     /// The limit set of the undithered run is unknown.
     UnditheredUnknown,
+    /// The undithered run stays in steady sliding, which is unstable.
+    UnditheredUnstable,
+    /// The undithered run drifts.
+    UnditheredDrifts,
+}
+
+impl Undefined {
+    /// Whether it is unknown if the undithered run vibrates.
+    pub fn is_unknown(self) -> bool {
+        matches!(self, Self::UnditheredUnknown | Self::UnditheredUnstable | Self::UnditheredDrifts)
+    }
 }
 
 impl fmt::Display for Undefined {
@@ -44,6 +55,13 @@ impl fmt::Display for Undefined {
             Self::UnditheredUnknown => {
                 "where the undithered run from this start ends is unknown: it converges neither to \
                  a known limit cycle nor to stable steady sliding"
+            }
+            Self::UnditheredUnstable => {
+                "without dither the run stays in steady sliding, which is unstable, because its start does not disturb it: choose \
+                 another start"
+            }
+            Self::UnditheredDrifts => {
+                "without dither the observed motion drifts: over the record it moves on by more than it vibrates"
             }
         })
     }

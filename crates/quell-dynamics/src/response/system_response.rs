@@ -13,9 +13,6 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
-use quell_linear::growth::Verdict;
-use quell_linear::linearised::Linearised;
-use quell_linear::spectrum::spectrum;
 use quell_linear::steady::SteadySliding;
 use quell_model::System;
 use quell_numerics::matrix::Matrix;
@@ -25,7 +22,7 @@ use quell_numerics::spectrum::low_band::LargestLines;
 use super::effect::{Effect, Uncertain, Vibrations};
 use super::measure::Undefined;
 use super::record_lines::RecordLines;
-use super::system_ending::SystemEnding;
+use super::system_ending::{SystemEnding, cannot_settle};
 use crate::motion::{
     ContactMeans, ContactMeter, Immobile, InputCost, InputMeter, MOTION_TOLERANCE, Motion,
     MotionEnd, MotionObserver, MotionSegment, MotionStart, MotionStopped, NoPower, RowMeter,
@@ -173,6 +170,10 @@ pub fn respond_system(
         [&dithered, &undithered].map(|record| RecordLines { lines: record.lines, scale });
     let vibrates = if undithered.ending.period().is_some() {
         Ok(())
+    } else if undithered.ending == SystemEnding::UnstableSliding {
+        Err(Undefined::UnditheredUnstable)
+    } else if undithered.ending == SystemEnding::Drift {
+        Err(Undefined::UnditheredDrifts)
     } else if undithered.ending == SystemEnding::Rest
         || without.is_negligible()
         || without.whole() == 0.0
@@ -191,7 +192,8 @@ pub fn respond_system(
     };
     let effect = match vibrates {
         _ if !has_dither => Effect::Unknown(Uncertain::NoDither),
-        Err(why @ Undefined::UnditheredUnknown) => Effect::Unknown(Uncertain::Undithered(why)),
+        Err(why) if why.is_unknown() => Effect::Unknown(Uncertain::Undithered(why)),
+        _ if dithered.ending == SystemEnding::Drift => Effect::Unknown(Uncertain::Drifts),
         Ok(()) if dithered.ending.is_faster_than(grid.band_end) => Effect::Quenches,
         Err(_) if dithered.ending.is_faster_than(grid.band_end) => Effect::Quiet,
         _ => vibrations.effect(),
@@ -207,13 +209,6 @@ pub fn respond_system(
         vibrations,
         effect,
     })
-}
-
-/// Whether steady sliding of a system is unstable, so that hardly any run can settle there.
-fn cannot_settle(system: &System) -> bool {
-    let Ok(linear) = Linearised::new(system) else { return false };
-    let found = spectrum(&linear, &linear.friction());
-    found.is_ok_and(|found| found.growth.verdict() == Verdict::Unstable)
 }
 
 impl RecordGrid {
@@ -263,7 +258,7 @@ fn record(
             let begin = MotionStart { time: 0.0, state: state.clone() };
             motion.run(&begin, libm::fmod(settled, *period), MOTION_TOLERANCE, &mut ())?.restart()
         }
-        SystemEnding::Rest | SystemEnding::Record => end.restart(),
+        _ => end.restart(),
     };
     let mut row = RowMeter::new(&plan.row, from.time, grid.step, grid.count);
     let mut meters = RunMeters::new(motion, &plan.row);
@@ -278,6 +273,7 @@ fn record(
         motion.run(&from, from.time + period, MOTION_TOLERANCE, &mut meters)?;
     }
     let spectrum = spectrum_of(&row.samples, grid.step);
+    let ending = ending.with_record(&row.samples);
     Ok(SystemRecord {
         ending,
         contacts: meters.contacts.means().unwrap_or_default(),

@@ -210,7 +210,9 @@ impl From<Undefined> for Status {
         match why {
             Undefined::UnditheredSettles => Self::UnditheredSettles,
             Undefined::UnditheredAtRest => Self::UnditheredAtRest,
-            Undefined::UnditheredUnknown => Self::UnditheredUnknown,
+            Undefined::UnditheredUnknown
+            | Undefined::UnditheredUnstable
+            | Undefined::UnditheredDrifts => Self::UnditheredUnknown,
         }
     }
 }
@@ -220,7 +222,7 @@ impl From<Uncertain> for Status {
         match why {
             Uncertain::NoDither => Self::NoDither,
             Uncertain::Undithered(why) => why.into(),
-            Uncertain::StillChanging => Self::StillChanging,
+            Uncertain::StillChanging | Uncertain::Drifts => Self::StillChanging,
             Uncertain::Unresolved { .. } => Self::Unresolved,
         }
     }

@@ -18,6 +18,7 @@ use super::super::{
     Immobile, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver, MotionSegment, MotionStart,
     MotionStopped,
 };
+use super::approach::ApproachToSliding;
 use super::family::{MotionSignature, shot};
 use super::passages::Passages;
 use super::periodic::{MotionOrbit, orbit_at, scale_of};
@@ -33,6 +34,10 @@ const CLOSED: f64 = 10.0 * MOTION_TOLERANCE;
 
 /// A step of Newton's method that leaves more than this share of the residual no longer converges.
 const SHRINKS: f64 = 0.3;
+
+/// Relative difference of the rates of a state a period apart, on a cycle: closing to [`STAGNANT`] leaves less even in stiff systems. A
+/// decay of less than this per period would be taken for a cycle.
+const EQUALLY_FAST: f64 = 1e-6;
 
 /// Mismatch of passages, relative to the state, of a run that is on a cycle. On an unstable one only a symmetric run remains; others
 /// pass it, and end elsewhere.
@@ -68,11 +73,11 @@ pub enum NoCycle {
     Immobile(Immobile),
     /// The run ended early.
     Stopped(MotionStopped),
-    /// The motion comes to rest, or to steady sliding.
+    /// The motion comes to rest or to steady sliding, or approaches steady sliding at the rates of the small motions about it.
     Rest {
-        /// Time at which it was there.
+        /// Time at which that was certain.
         time: f64,
-        /// State there.
+        /// State then.
         state: Vec<f64>,
     },
     /// The run did not repeat itself.
@@ -142,6 +147,7 @@ pub fn free_cycle(system: &System, start: &[f64]) -> Result<MotionOrbit, NoCycle
     let lengths = WatchLengths::of(&motion);
     let mut passages = Passages::new(motion.size());
     let mut returns = Returns { allowed: NEAR, least: None, unstable: None };
+    let mut approach = ApproachToSliding::of(system);
     let mut from = MotionStart { time: 0.0, state: start.to_vec() };
     let (mut seen, mut passed, mut steps) = (0, 0, 0);
     let (mut idle, mut patience) = (0, IDLE);
@@ -155,7 +161,11 @@ pub fn free_cycle(system: &System, start: &[f64]) -> Result<MotionOrbit, NoCycle
         let still = STILL * scale_of(&motion, &end.state);
         let is_at_rest = passages.rates.1 <= AT_REST * passages.rates.0
             || passages.rates.1 * motion.time_scale() <= still;
-        if is_at_rest {
+        let has_released = passages.has_released();
+        let approaches = approach
+            .as_mut()
+            .is_some_and(|found| found.is_certain(end.time, &end.state, has_released));
+        if is_at_rest || approaches {
             return Err(NoCycle::Rest { time: end.time, state: end.state });
         }
         from = end.restart();
@@ -239,10 +249,18 @@ fn closed(
     reported(motion, &state, period)
 }
 
-/// Whether the state moves: an equilibrium closes after any time, and is no cycle.
+/// Whether a closed motion is a cycle: its state moves, and moves equally fast after a period. An equilibrium closes after any
+/// time, and a small oscillation that dies out slowly closes within the accuracy that the size of the state allows.
 fn moves(motion: &Motion<'_>, (state, period): &(Vec<f64>, f64), scale: f64) -> bool {
-    rates(motion, state)
-        .is_some_and(|rates| rates.iter().any(|rate| rate.abs() * period > COARSE * scale))
+    let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, value| m.max(value.abs()));
+    let later = || Some(shot(motion, state, *period, None).ok()?.0.state);
+    let Some((before, after)) =
+        rates(motion, state).zip(later().and_then(|later| rates(motion, &later)))
+    else {
+        return false;
+    };
+    let size = largest(&before);
+    size * period > COARSE * scale && distance(&before, &after) <= EQUALLY_FAST * size
 }
 
 /// The least period of a cycle closed after several passages.

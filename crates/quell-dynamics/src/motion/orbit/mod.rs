@@ -8,12 +8,14 @@
 //! | `family` | one period with its derivative and its signature |
 //! | `periodic` | a periodic motion, its multipliers and verdict; found near a state, or continued from steady sliding |
 //! | `free`, `passages`, `watch` | limit cycles without dither: the search, its section, and its length |
+//! | `approach` | how a run approaches steady sliding |
 //! | `recurrence` | when a run comes back near its own states |
 //! | `ramp` | a run whose dither grows from zero |
 //! | `settled` | the periodic motion on which a run ends |
 //! | `thresholds` | values of a parameter at which the base response gains or loses stability |
 //! | `curves` | their curves over a second parameter |
 
+mod approach;
 mod curves;
 pub mod family;
 mod free;

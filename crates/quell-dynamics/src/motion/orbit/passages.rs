@@ -28,6 +28,11 @@ impl Passages {
         }
     }
 
+    /// Whether a contact has released since the section was chosen.
+    pub(super) fn has_released(&self) -> bool {
+        self.contact.is_some()
+    }
+
     /// Forgets the section and its passages, not how fast the motion was.
     pub(super) fn forget(&mut self) {
         *self = Self { rates: self.rates, ..Self::new(self.size) };

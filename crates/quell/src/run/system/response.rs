@@ -2,8 +2,8 @@
 
 use quell_dynamics::motion::{ContactMeans, InputCost};
 use quell_dynamics::response::{
-    Effect, PEAK_FLOOR, ResponsePlan, ResponseRefused, SystemRecord, SystemResponse, Uncertain,
-    Undefined, respond_system,
+    Effect, PEAK_FLOOR, ResponsePlan, ResponseRefused, SystemEnding, SystemRecord, SystemResponse,
+    Uncertain, Undefined, respond_system,
 };
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -72,14 +72,17 @@ pub fn run(study: &SystemStudy, request: ResponseRequest) -> Result<SettledSyste
 }
 
 /// Why E is undefined.
-fn undefined(why: Undefined) -> &'static str {
+fn undefined(why: Undefined) -> String {
     match why {
         Undefined::UnditheredUnknown => {
             "the vibration without dither still changes within the record, so there is no steady vibration to compare with: \
              settle for longer"
+                .to_owned()
         }
-        _ => {
+        Undefined::UnditheredUnstable | Undefined::UnditheredDrifts => why.to_string(),
+        Undefined::UnditheredSettles | Undefined::UnditheredAtRest => {
             "without dither the motion settles without vibration from this start, so there is no vibration to compare with"
+                .to_owned()
         }
     }
 }
@@ -87,7 +90,7 @@ fn undefined(why: Undefined) -> &'static str {
 /// Why an effect is unknown.
 fn uncertain(why: Uncertain) -> String {
     match why {
-        Uncertain::Undithered(why) => undefined(why).to_owned(),
+        Uncertain::Undithered(why) => undefined(why),
         why => why.to_string(),
     }
 }
@@ -102,11 +105,13 @@ impl SettledSystem {
     fn settled(&self) -> bool {
         let vibrations = &self.response.vibrations;
         vibrations.dithered.is_settled(vibrations.undithered.whole())
+            && self.response.dithered.ending != SystemEnding::Drift
     }
 
     /// The same without dither.
     fn undithered_settled(&self) -> bool {
         self.response.vibrations.undithered.is_steady()
+            && self.response.undithered.ending != SystemEnding::Drift
             || self.response.efficiency == Err(Undefined::UnditheredSettles)
     }
 
@@ -120,6 +125,9 @@ impl SettledSystem {
                 Ok(_) => format!(
                     "Started {from}, without dither, the system keeps vibrating with an amplitude of {amplitude}."
                 ),
+                Err(Undefined::UnditheredSettles) => {
+                    format!("Started {from}, the motion settles without vibration.")
+                }
                 Err(why) => format!("Started {from}, {}.", undefined(why)),
             };
         }
@@ -183,13 +191,27 @@ impl SettledSystem {
         warnings.extend(beyond_laws(study.system(), &records.map(|record| &record.whole)));
         warnings.extend(of_engine(study.system(), &response.dithered.end));
         let settle = in_units(study.units(), Quantity::Time, self.plan.settle);
-        let settled = [("dithered", self.settled()), ("undithered", self.undithered_settled())];
-        for (which, settled) in settled {
-            if !settled {
-                warnings.push(format!(
-                    "the {which} response has not settled after t = {settle}: the amplitudes of the two halves of the record \
+        let runs = [
+            ("dithered ", self.settled(), &response.dithered),
+            ("undithered ", self.undithered_settled(), &response.undithered),
+        ];
+        // Without dither both are one run.
+        let runs = if self.has_dither() { &runs[..] } else { &runs[1..] };
+        for (which, settled, record) in runs {
+            let which = if self.has_dither() { which } else { "" };
+            match record.ending {
+                SystemEnding::Drift => warnings.push(format!(
+                    "the {which}response drifts: over the record the observed motion moves on by more than it vibrates, so that \
+                     amplitudes and strokes grow with the record"
+                )),
+                SystemEnding::UnstableSliding => warnings.push(format!(
+                    "the {which}run stays in steady sliding, which is unstable, because its start does not disturb it"
+                )),
+                _ if !settled => warnings.push(format!(
+                    "the {which}response has not settled after t = {settle}: the amplitudes of the two halves of the record \
                      differ; raise --settle or --record"
-                ));
+                )),
+                _ => {}
             }
         }
         warnings
@@ -204,7 +226,7 @@ impl SettledSystem {
             Effect::Unknown(why) => fields.plain("effect", "unknown").why("effect", uncertain(why)),
             effect => fields.plain("effect", effect.name()),
         };
-        let efficiency = response.efficiency.map_err(|why| undefined(why).to_owned());
+        let efficiency = response.efficiency.map_err(undefined);
         let level = efficiency.clone().and_then(|ratio| {
             level_of(ratio).ok_or_else(|| "E is zero, which has no level in decibels".to_owned())
         });
