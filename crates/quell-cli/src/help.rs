@@ -35,7 +35,6 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 &[
                     "quell thresholds quench.toml --parameter dither.amplitude --from 0.3 --to 0.7 --from-rest",
                     "quell thresholds drive.toml --parameter belt.belt_velocity_m_per_s --from 0.002 --to 0.04",
-                    "quell thresholds two-mass-drive.toml --parameter dither.amplitude --from 5 --to 6 --from-rest",
                     "quell thresholds two-mass-drive.toml --parameter dither.amplitude --from 3 --to 9 --along contact.guide.belt_velocity --between 0.04:0.06",
                 ],
             ),

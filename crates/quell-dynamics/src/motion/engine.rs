@@ -168,7 +168,7 @@ impl<'a> MotionRun<'a> {
             None => Vec::new(),
         };
         if duration > 0.0 {
-            self.advance(duration, room, stop);
+            self.advance(duration, room, stop)?;
         }
         if let Some(first) = reached {
             self.moment(first, &triggers)?;
@@ -273,7 +273,11 @@ impl<'a> MotionRun<'a> {
     }
 
     /// Advances by `duration`, exactly to the stop if it is reached.
-    fn advance(&mut self, duration: f64, room: f64, stop: f64) {
+    fn advance(&mut self, duration: f64, room: f64, stop: f64) -> MotionProgress {
+        if !self.scratch.iter().all(|value| value.is_finite()) {
+            // The last finite state, and its time.
+            return Err(self.stalled("the state leaves the finite numbers in the next step"));
+        }
         self.steps += 1;
         if self.watched {
             self.observer.segment(&MotionSegment {
@@ -303,6 +307,7 @@ impl<'a> MotionRun<'a> {
             self.stuck.project(self.equations, surface, &mut self.scratch);
         }
         self.series.set_start(&self.scratch);
+        Ok(())
     }
 
     /// Counts passes without advance, and checks that the run can go on.
@@ -310,9 +315,6 @@ impl<'a> MotionRun<'a> {
         self.idle = if self.clock == before { self.idle + 1 } else { 0 };
         if self.idle > 4 * PATIENCE {
             return Err(self.stalled("no step advanced time"));
-        }
-        if !self.series.start().iter().all(|value| value.is_finite()) {
-            return Err(self.stalled("the state left the finite numbers"));
         }
         if self.budget.is_due(self.steps) {
             let time = self.clock.time();

@@ -59,7 +59,7 @@ pub(super) struct ExpandedStep {
 }
 
 /// The recurrence of a slipping contact.
-type Branch<'c> = Option<FrictionSeries<'c, { ORDER + 1 }>>;
+type SlipRecurrence<'c> = Option<FrictionSeries<'c, { ORDER + 1 }>>;
 
 /// Largest number of contacts whose recurrences need no memory of their own.
 const FEW_CONTACTS: usize = 4;
@@ -85,7 +85,7 @@ impl Work for StepExpansion<'_> {
             }
         }
         let storage = ManyStates { size: self.equations.size, matrix };
-        let mut branches: Vec<Branch<'_>> = (0..self.now.len()).map(|_| None).collect();
+        let mut branches: Vec<SlipRecurrence<'_>> = (0..self.now.len()).map(|_| None).collect();
         self.whole(storage, &mut branches)
     }
 }
@@ -94,14 +94,18 @@ impl<'a> StepExpansion<'a> {
     /// The step of a system with few states and contacts: with constant loops, and no memory but the stack.
     #[inline(always)]
     fn few<const N: usize>(self, storage: FewStates<'a, N>) -> ExpandedStep {
-        let mut branches: [Branch<'_>; FEW_CONTACTS] = [None, None, None, None];
+        let mut branches: [SlipRecurrence<'_>; FEW_CONTACTS] = [None, None, None, None];
         let count = self.now.len();
         self.whole(storage, &mut branches[..count])
     }
 
     /// The step.
     #[inline(always)]
-    fn whole<S: StateStorage>(mut self, storage: S, branches: &mut [Branch<'a>]) -> ExpandedStep {
+    fn whole<S: StateStorage>(
+        mut self,
+        storage: S,
+        branches: &mut [SlipRecurrence<'a>],
+    ) -> ExpandedStep {
         self.forcings();
         self.start_branches(branches);
         let mut state = storage.buffer(&mut self.out.buffers[0]);
@@ -128,7 +132,7 @@ impl<'a> StepExpansion<'a> {
     fn orders<S: StateStorage>(
         &mut self,
         storage: S,
-        branches: &mut [Branch<'_>],
+        branches: &mut [SlipRecurrence<'_>],
         state: &mut [f64],
         rates: &mut [f64],
     ) {
@@ -178,7 +182,7 @@ impl<'a> StepExpansion<'a> {
 
     /// The laws' recurrences at the start of the step.
     #[inline(always)]
-    fn start_branches(&mut self, branches: &mut [Branch<'a>]) {
+    fn start_branches(&mut self, branches: &mut [SlipRecurrence<'a>]) {
         let laws = std::mem::take(&mut self.laws);
         for (index, (law, branch)) in laws.iter_mut().zip(branches).enumerate() {
             let ContactPhase::Slip(sign) = self.now[index].phase else { continue };
@@ -202,7 +206,7 @@ impl<'a> StepExpansion<'a> {
         &mut self,
         storage: S,
         k: usize,
-        branches: &mut [Branch<'_>],
+        branches: &mut [SlipRecurrence<'_>],
         state: &mut [f64],
         rates: &mut [f64],
     ) {
@@ -322,7 +326,7 @@ fn friction<S: StateStorage>(
     k: usize,
     contact: &ContactEquation,
     now: &ContactNow,
-    branch: &mut Branch<'_>,
+    branch: &mut SlipRecurrence<'_>,
     series: &mut ContactSeries,
     rates: &mut [f64],
 ) {

@@ -12,7 +12,7 @@ use quell_numerics::lane::horner;
 use super::contact_meter::RULE;
 use super::observer::{MotionObserver, MotionSegment};
 use super::phase::ContactPhase;
-use super::row_meter::{RowRange, series_of};
+use super::row_meter::RowRange;
 use super::rows::RowEntries;
 use crate::simulation::Clock;
 
@@ -132,7 +132,7 @@ impl Work for InputOnSegment<'_, '_, '_> {
     fn run(self) {
         let Self { worker, segment } = self;
         let duration = segment.duration();
-        let [displacement, velocity] = [0, 1].map(|row| series_of(&worker.rows[row], segment));
+        let [displacement, velocity] = [0, 1].map(|row| segment.row_of(&worker.rows[row]));
         worker.extremes.add(&displacement, duration);
         let open = |contact: usize| segment.phase(contact) == ContactPhase::Open;
         if worker.contact.is_some_and(open) {

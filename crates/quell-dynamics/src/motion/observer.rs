@@ -6,11 +6,10 @@ use quell_numerics::lane::horner;
 use super::contact_series::ContactSeries;
 use super::extremes::turning_points;
 use super::phase::{ContactNow, ContactPhase};
-use super::row_meter::series_of;
 use super::rows::RowEntries;
 use super::series::horner_states;
 use super::state::MotionEnd;
-use crate::simulation::{Clock, EventKind, ORDER};
+use crate::simulation::{Clock, EventKind, ORDER, Series};
 
 /// One smooth piece of a motion: a Taylor step during which no contact changes.
 #[derive(Clone, Copy)]
@@ -68,7 +67,17 @@ impl<'a> MotionSegment<'a> {
     /// Taylor coefficients of a row times the part of the state that begins at `from`: 0 for displacements or the states of
     /// first-order equations, the number of coordinates for velocities.
     pub fn row(&self, row: &[f64], from: usize) -> [f64; ORDER + 1] {
-        series_of(&RowEntries::at(row, from), self)
+        self.row_of(&RowEntries::at(row, from))
+    }
+
+    /// The same for the entries of a row.
+    #[inline(always)]
+    pub(super) fn row_of(&self, row: &RowEntries) -> Series {
+        let mut series = [0.0; ORDER + 1];
+        for (coefficient, state) in series.iter_mut().zip(self.states.chunks(self.size)) {
+            *coefficient = row.dot(state);
+        }
+        series
     }
 
     /// Times after the start at which the slope of a series on the segment changes its sign, in order; none is missed.

@@ -8,7 +8,7 @@ use super::contact_meter::{RULE, integral};
 use super::extremes::turning_points;
 use super::observer::{MotionObserver, MotionSegment};
 use super::rows::RowEntries;
-use crate::simulation::{ORDER, Series};
+use crate::simulation::Series;
 
 /// The range of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,16 +43,6 @@ impl RowRange {
             turning_points(series, duration, |since| self.take(horner(series, since)));
         }
     }
-}
-
-/// Taylor coefficients of a row times the state.
-#[inline(always)]
-pub(super) fn series_of(row: &RowEntries, segment: &MotionSegment<'_>) -> Series {
-    let mut series = [0.0; ORDER + 1];
-    for (coefficient, state) in series.iter_mut().zip(segment.states().chunks(segment.size)) {
-        *coefficient = row.dot(state);
-    }
-    series
 }
 
 /// Measures a row over the state.
@@ -138,7 +128,7 @@ impl Work for RowOnSegment<'_, '_> {
     #[inline(always)]
     fn run(self) {
         let Self { meter, segment } = self;
-        let series = series_of(&meter.row, segment);
+        let series = segment.row_of(&meter.row);
         let duration = segment.duration();
         let reference = *meter.reference.get_or_insert(series[0]);
         meter.length += duration;

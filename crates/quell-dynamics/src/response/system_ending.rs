@@ -6,7 +6,9 @@ use quell_linear::spectrum::spectrum;
 use quell_model::System;
 
 use crate::motion::MotionStart;
-use crate::motion::orbit::{MOST_PERIODS, NoCycle, free_cycle, settled, sliding_state};
+use crate::motion::orbit::{
+    MOST_PERIODS, NoCycle, SettledMotion, free_cycle, settled, sliding_state,
+};
 use crate::orbit::OrbitVerdict;
 
 /// Where a run ends.
@@ -14,8 +16,11 @@ use crate::orbit::OrbitVerdict;
 pub enum SystemEnding {
     /// On a stable periodic motion.
     Orbit {
-        /// State at t = 0 of the dither's phase.
+        /// A state at which the phase of the dither is that at t = 0.
         state: Vec<f64>,
+        /// Time at which the run passes that state, whole periods of the dither; 0 without dither, where the phase of the run on its
+        /// cycle is not known.
+        time: f64,
         /// Its period.
         period: f64,
     },
@@ -35,7 +40,7 @@ impl SystemEnding {
         if !system.is_dithered() {
             return match free_cycle(&system.undithered(), &start.state) {
                 Ok(cycle) if cycle.verdict() == OrbitVerdict::Stable => {
-                    Self::Orbit { state: cycle.state, period: cycle.period }
+                    Self::Orbit { state: cycle.state, time: 0.0, period: cycle.period }
                 }
                 Err(NoCycle::Rest { state, .. }) if is_unstable_sliding(system, &state) => {
                     Self::UnstableSliding
@@ -49,7 +54,11 @@ impl SystemEnding {
             return Self::Record;
         }
         match settled(system, &start.state, MOST_PERIODS) {
-            Ok(found) => Self::Orbit { state: found.orbit.state, period: found.orbit.period },
+            Ok(SettledMotion { orbit, multiple, periods }) => Self::Orbit {
+                time: f64::from(periods) * orbit.period / f64::from(multiple),
+                state: orbit.state,
+                period: orbit.period,
+            },
             Err(_) => Self::Record,
         }
     }

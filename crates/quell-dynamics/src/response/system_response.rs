@@ -253,10 +253,11 @@ fn record(
     let end = motion.run(start, settled, MOTION_TOLERANCE, &mut (&mut whole, &mut transient))?;
     let ending = SystemEnding::of(motion.system(), start);
     let from = match &ending {
-        SystemEnding::Orbit { state, period } => {
-            // The phase of the dither is that of the run at the end of the settling time.
+        SystemEnding::Orbit { state, time, period } => {
+            // To the phase of the run, and of the dither, at the end of the settling time.
             let begin = MotionStart { time: 0.0, state: state.clone() };
-            motion.run(&begin, libm::fmod(settled, *period), MOTION_TOLERANCE, &mut ())?.restart()
+            let phase = (settled - time).rem_euclid(*period);
+            motion.run(&begin, phase, MOTION_TOLERANCE, &mut ())?.restart()
         }
         _ => end.restart(),
     };

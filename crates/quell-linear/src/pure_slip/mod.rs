@@ -145,9 +145,15 @@ impl SlipOrbit {
 }
 
 /// The common period of the inputs of a system; `None` without dither or without a common period.
+///
+/// Waves of amplitude 0 have none of their own, except where no other acts: a family whose amplitude passes 0 keeps its period.
 pub fn period(system: &System) -> Option<f64> {
-    let waves = system.waves();
-    let frequencies: Vec<f64> = waves.map(|wave| wave.frequency).collect();
+    let acting: Vec<f64> = system.acting_frequencies().collect();
+    let frequencies = if acting.is_empty() {
+        system.waves().map(|wave| wave.frequency).collect()
+    } else {
+        acting
+    };
     let groups = commensurate_groups(&frequencies);
     let [members] = groups.as_slice() else { return None };
     let (first, multiple) = members.first()?;

@@ -18,8 +18,8 @@ const SHARE: f64 = 1e-2;
 /// Comparisons one after the other that must agree.
 const AGREEMENTS: u32 = 3;
 
-/// One small motion about steady sliding.
-struct Part {
+/// One small motion about steady sliding, which decays.
+struct DecayingMotion {
     rate: f64,
     left: Vec<Complex64>,
     /// Size of its right vector: the product with `left` times this is its size in the state.
@@ -29,7 +29,7 @@ struct Part {
 /// The approach of one run.
 pub(super) struct ApproachToSliding {
     sliding: Vec<f64>,
-    parts: Vec<Part>,
+    parts: Vec<DecayingMotion>,
     /// Time and sizes of the parts at the last comparison, and how many comparisons have agreed.
     last: Option<(f64, Vec<f64>)>,
     agreed: u32,
@@ -50,18 +50,23 @@ impl ApproachToSliding {
                 return None;
             }
             let size = pair.right.iter().fold(0.0, |m: f64, x| m.max(modulus(*x)));
-            parts.push(Part { rate: pair.value.re, left: pair.left, size });
+            parts.push(DecayingMotion { rate: pair.value.re, left: pair.left, size });
         }
         (sliding.len() == count).then_some(Self { sliding, parts, last: None, agreed: 0 })
     }
 
-    /// Whether the run, at this state and time, has approached steady sliding at the rates of the small motions about it since the
-    /// last calls. A run whose contacts have released since does not.
-    pub(super) fn is_certain(&mut self, time: f64, state: &[f64], has_released: bool) -> bool {
+    /// Steady sliding, if the run, at this state and time, has approached it at the rates of the small motions about it since the last
+    /// calls. A run whose contacts have released since does not.
+    pub(super) fn certain(
+        &mut self,
+        time: f64,
+        state: &[f64],
+        has_released: bool,
+    ) -> Option<Vec<f64>> {
         let off: Vec<f64> = state.iter().zip(&self.sliding).map(|(a, b)| a - b).collect();
         if has_released {
             (self.last, self.agreed) = (None, 0);
-            return false;
+            return None;
         }
         let sizes: Vec<f64> = self
             .parts
@@ -71,9 +76,7 @@ impl ApproachToSliding {
                 part.size * modulus(along)
             })
             .collect();
-        let Some((before, earlier)) = self.last.replace((time, sizes.clone())) else {
-            return false;
-        };
+        let (before, earlier) = self.last.replace((time, sizes.clone()))?;
         let largest = earlier.iter().fold(0.0, |m: f64, size| m.max(*size));
         let agrees =
             self.parts.iter().zip(earlier.iter().zip(&sizes)).all(|(part, (then, now))| {
@@ -83,7 +86,7 @@ impl ApproachToSliding {
                 }
             });
         self.agreed = if agrees { self.agreed + 1 } else { 0 };
-        self.agreed >= AGREEMENTS
+        (self.agreed >= AGREEMENTS).then(|| self.sliding.clone())
     }
 }
 
@@ -97,7 +100,7 @@ mod tests {
             let part = |rate: f64, place: usize| {
                 let mut left = vec![Complex64::new(0.0, 0.0); 2];
                 left[place] = Complex64::new(1.0, 0.0);
-                Part { rate, left, size: 1.0 }
+                DecayingMotion { rate, left, size: 1.0 }
             };
             vec![part(-0.1, 0), part(-0.3, 1)]
         };
@@ -107,7 +110,7 @@ mod tests {
             (0..8).any(|step| {
                 let time = 0.5 * f64::from(step);
                 let [x, y] = motion(time);
-                approach.is_certain(time, &[1.0 + x, 2.0 + y], released)
+                approach.certain(time, &[1.0 + x, 2.0 + y], released).is_some()
             })
         };
         let decaying = |t: f64| [0.05 * libm::exp(-0.1 * t), 0.02 * libm::exp(-0.3 * t)];

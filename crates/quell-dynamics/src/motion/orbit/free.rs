@@ -77,7 +77,7 @@ pub enum NoCycle {
     Rest {
         /// Time at which that was certain.
         time: f64,
-        /// State then.
+        /// State at rest; that of steady sliding where the run approaches it.
         state: Vec<f64>,
     },
     /// The run did not repeat itself.
@@ -161,12 +161,15 @@ pub fn free_cycle(system: &System, start: &[f64]) -> Result<MotionOrbit, NoCycle
         let still = STILL * scale_of(&motion, &end.state);
         let is_at_rest = passages.rates.1 <= AT_REST * passages.rates.0
             || passages.rates.1 * motion.time_scale() <= still;
-        let has_released = passages.has_released();
-        let approaches = approach
-            .as_mut()
-            .is_some_and(|found| found.is_certain(end.time, &end.state, has_released));
-        if is_at_rest || approaches {
+        if is_at_rest {
             return Err(NoCycle::Rest { time: end.time, state: end.state });
+        }
+        let has_released = passages.has_released();
+        let approached = approach
+            .as_mut()
+            .and_then(|approach| approach.certain(end.time, &end.state, has_released));
+        if let Some(sliding) = approached {
+            return Err(NoCycle::Rest { time: end.time, state: sliding });
         }
         from = end.restart();
         let count = passages.events.len();

@@ -65,7 +65,7 @@ pub struct SettledMotion {
     pub orbit: MotionOrbit,
     /// Common dither periods in its period.
     pub multiple: u32,
-    /// Common dither periods that the run took to reach its neighbourhood.
+    /// Common dither periods that the run took to reach its neighbourhood: it then is near the state of the orbit.
     pub periods: u32,
 }
 
@@ -80,9 +80,8 @@ pub fn settled(system: &System, start: &[f64], most: u32) -> Result<SettledMotio
     let mut next = FIRST_ATTEMPT;
     while run.periods() < most {
         run.go_to(next.min(most))?;
-        let periods = run.periods();
-        if let Some((orbit, multiple)) = run.ends_on()? {
-            return Ok(SettledMotion { orbit, multiple, periods });
+        if let Some(found) = run.ends_on()? {
+            return Ok(found);
         }
         let count = run.periods();
         next = count + (count / ATTEMPTS_APART).max(FIRST_ATTEMPT);
@@ -125,8 +124,8 @@ impl Strobed<'_, '_> {
         Ok(())
     }
 
-    /// The motion near the last states on which the run ends, and its common periods. Looking for it continues the run.
-    fn ends_on(&mut self) -> Result<Option<(MotionOrbit, u32)>, NoMotionOrbit> {
+    /// The motion near the last states on which the run ends. Looking for it continues the run.
+    fn ends_on(&mut self) -> Result<Option<SettledMotion>, NoMotionOrbit> {
         let scale = scale_of(self.motion, self.last());
         let earlier = self.states.iter().rev().skip(1).take(MOST_MULTIPLES);
         let found = returns(self.last(), earlier.map(Vec::as_slice));
@@ -137,12 +136,12 @@ impl Strobed<'_, '_> {
         let near = nearest.into_iter().chain(near);
         for (multiple, mismatch) in near {
             let Ok(multiple) = u32::try_from(multiple) else { continue };
-            let guess = self.last().to_vec();
+            let (guess, periods) = (self.last().to_vec(), self.periods());
             let Some((orbit, multiple)) = self.closed(&guess, multiple, mismatch, scale) else {
                 continue;
             };
             if self.approaches(&orbit, multiple, scale)? {
-                return Ok(Some((orbit, multiple)));
+                return Ok(Some(SettledMotion { orbit, multiple, periods }));
             }
         }
         Ok(None)

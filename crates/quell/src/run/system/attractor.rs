@@ -66,7 +66,7 @@ pub struct SystemAttractor {
     pub kind: MotionKind,
     /// A state of it at a whole period of the dither.
     pub state: Vec<f64>,
-    /// Its states at whole periods.
+    /// Its states at whole periods; of a limit cycle also those at its events.
     pub states: Vec<Vec<f64>>,
     /// Observed displacement at whole periods.
     pub section: Vec<f64>,
@@ -148,16 +148,23 @@ fn displaced(system: &System, start: &[f64]) -> Vec<f64> {
 }
 
 fn on_free_motion(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRun, String> {
-    let (kind, state, length) = match free_cycle(system, &displaced(system, start)) {
+    let (kind, state, length, passed) = match free_cycle(system, &displaced(system, start)) {
         Ok(cycle) => {
             let kind = MotionKind::Cycle { period: cycle.period, radius: cycle.radius() };
-            (kind, cycle.state, cycle.period)
+            let passed = cycle.events.into_iter().map(|event| event.state).collect();
+            (kind, cycle.state, cycle.period, passed)
         }
-        Err(NoCycle::Rest { state, .. }) => (MotionKind::Rest, state, 0.0),
+        Err(NoCycle::Rest { state, .. }) => {
+            // Long enough to show which contacts stick.
+            let motion = Motion::new(system).map_err(|why| why.to_string())?;
+            (MotionKind::Rest, state, motion.time_scale(), Vec::new())
+        }
         Err(why) => return Err(why.to_string()),
     };
     let samples = CycleSamples::over(system, row, &state, length);
-    let attractor = SystemAttractor::new(kind, row, vec![state], &samples);
+    let mut attractor = SystemAttractor::new(kind, row, vec![state], &samples);
+    // A run may enter a symmetric cycle half a period later: the states at its events make both one motion.
+    attractor.states.extend(passed);
     Ok(EndOfRun { attractor, periods: 0 })
 }
 

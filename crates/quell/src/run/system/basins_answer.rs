@@ -69,8 +69,9 @@ impl SystemBasins {
         sentences.push(match other {
             0 => format!("The starts are in the plane of {first} and {second}."),
             _ => format!(
-                "The starts are in the plane of {first} and {second}; the other {other} number{} of the state start {}.",
+                "The starts are in the plane of {first} and {second}; the other {other} number{} of the state {} {}.",
                 plural(other),
+                if other == 1 { "starts" } else { "start" },
                 self.start
             ),
         });

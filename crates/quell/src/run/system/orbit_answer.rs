@@ -67,7 +67,7 @@ fn behaviour(orbit: &MotionOrbit, contact: usize, count: usize) -> String {
         Some(ContactPhase::Stick) => format!("stick{s} throughout"),
         Some(ContactPhase::Open) if count == 1 => "is open throughout".to_owned(),
         Some(ContactPhase::Open) => "are open throughout".to_owned(),
-        _ => format!("slide{s} throughout, without grazing γ = 0"),
+        _ => format!("slide{s} throughout: its slip velocity does not reach 0"),
     }
 }
 

@@ -71,6 +71,9 @@ pub fn run(study: &SystemStudy, request: ResponseRequest) -> Result<SettledSyste
     Ok(SettledSystem { plan, response })
 }
 
+/// Relative change of the mean friction that is rounding.
+const UNCHANGED: f64 = 1e-9;
+
 /// Why E is undefined.
 fn undefined(why: Undefined) -> String {
     match why {
@@ -152,6 +155,12 @@ impl SettledSystem {
         let units = study.units();
         let losses = study.system().contacts.iter().zip(0..).filter_map(|(contact, index)| {
             let loss = self.friction_loss(index).ok()?;
+            if loss.abs() < UNCHANGED {
+                return Some(format!(
+                    "leaves the mean friction of contact {} unchanged",
+                    contact.name
+                ));
+            }
             let change = if loss < 0.0 { "raises" } else { "lowers" };
             let share = percent(loss.abs());
             Some(format!("{change} the mean friction of contact {} by {share}", contact.name))
