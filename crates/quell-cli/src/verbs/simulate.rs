@@ -148,13 +148,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         let done = verbs(study).simulate_from(&request)?;
         return answer(arguments.study.json, done.as_ref(), outputs, plot);
     }
-    let until = match study.as_ref() {
-        Some(study) => complaints.take(arguments.until_of_belt(study)),
+    let until = if let Some(study) = study.as_ref() {
+        complaints.take(arguments.until_of_belt(study))
+    } else {
         // Which options apply depends on the kind of the study, which is unknown: only what is given is examined.
-        None => {
-            let given = arguments.until.as_deref().map(|text| duration("--until", text, None));
-            complaints.take(given.transpose()).map(Option::unwrap_or_default)
-        }
+        let given = arguments.until.as_deref().map(|text| duration("--until", text, None));
+        complaints.take(given.transpose()).map(Option::unwrap_or_default)
     };
     let ((study, until), (sound, (outputs, plot))) =
         complaints.finish(study.zip(until).zip(sound.zip(outputs.zip(plot))))?;
