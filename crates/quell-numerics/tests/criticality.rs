@@ -14,10 +14,13 @@ const ROWS: [[f64; 3]; 3] = [[1.0, 0.4, -0.3], [0.2, 1.3, 0.5], [-0.6, 0.1, 0.9]
 const SHEARS: [(usize, usize, f64, f64); 4] =
     [(0, 1, 0.7, -0.4), (2, 0, -0.5, 0.9), (1, 2, 1.1, 0.3), (0, 2, -0.8, 0.2)];
 
+/// A map in its own coordinates: image and derivative.
+type OwnMap = fn([f64; 3]) -> ([f64; 3], [[f64; 3]; 3]);
+
 /// A map in the plane of w and a decaying number s, which feed each other by square terms, seen in sheared coordinates.
 struct Planted {
     /// The image of (x, y, s) with its derivative in its own coordinates.
-    own: fn([f64; 3]) -> ([f64; 3], [[f64; 3]; 3]),
+    own: OwnMap,
     /// Distance from the fixed point beyond which the signature differs.
     border: f64,
 }
@@ -121,13 +124,13 @@ fn a_planted_neimark_sacker_coefficient_is_found() {
 
 #[test]
 fn strong_resonances_are_refused() {
-    for (order, angle) in [(1, 0.002), (2, 3.1413), (3, 2.0945), (4, 1.5708)] {
+    for (order, angle) in [(1, 0.002), (2, 3.1413), (3, 2.0945), (4, 1.5709)] {
         // The angle cannot be captured: one map for each.
         let own: fn([f64; 3]) -> _ = match order {
             1 => |x| turned(x, 0.002, Complex64::new(-1.0, 0.0)),
             2 => |x| turned(x, 3.1413, Complex64::new(-1.0, 0.0)),
             3 => |x| turned(x, 2.0945, Complex64::new(-1.0, 0.0)),
-            _ => |x| turned(x, 1.5708, Complex64::new(-1.0, 0.0)),
+            _ => |x| turned(x, 1.5709, Complex64::new(-1.0, 0.0)),
         };
         let map = Planted { own, border: 2.0 };
         let why = first_lyapunov(&map, &[0.0; 3], &[], BifurcationKind::NeimarkSacker, 2);
