@@ -228,7 +228,9 @@ fn sweeps_change_at_the_threshold() {
     let found = found.unwrap_or_else(|why| panic!("{why:?}")).json();
     println!("{}", found["sentence"]);
     for (point, value) in list(&found["up"]).iter().zip([5.3, 5.35, 5.4, 5.45, 5.5]) {
-        assert_eq!(point["kind"] == "period-1", value > 5.39, "{point}");
+        // Below the threshold it may lock after many periods or not repeat.
+        let kinds: &[&str] = if value > 5.39 { &["period-1"] } else { &["locked", "not-periodic"] };
+        assert!(kinds.iter().any(|kind| point["kind"] == *kind), "{point}");
         assert_eq!(point["local_verdict"], if value > 5.39 { "stable" } else { "unstable" });
     }
     let differs = |value: f64| {
