@@ -10,6 +10,7 @@
 pub mod attractor;
 mod band;
 mod contraction;
+mod decay;
 pub mod motion;
 pub mod orbit;
 pub mod response;

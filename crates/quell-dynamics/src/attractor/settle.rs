@@ -2,7 +2,7 @@
 //!
 //! After each block a run ends for one of these reasons:
 //! 1. **Base.** The run is at the base response, which is not unstable; or the base response is stable and the distance from it
-//!    decreases at the rate of the multipliers (within `RATE_TOLERANCE`, in two consecutive blocks), so that its limit is known.
+//!    decreases at the rate of the multipliers (`crate::decay`, in two consecutive blocks), so that its limit is known.
 //! 2. **Elsewhere.** Centre, size and shape of the section no longer change, from block to block or from one long window of
 //!    blocks to the next, and their remaining change at the measured rate is below the requested closeness. This is sufficient
 //!    if the block contains a stick: the motion after a stick depends only on the time of release. If the mass slips throughout,
@@ -16,7 +16,7 @@
 //!
 //! Runs do not affect each other: the outcome of a run has the same bits alone and together with other runs.
 //!
-//! Two cases can be misjudged. A run that decays at the linear rate, within `RATE_TOLERANCE`, is assigned to the base response
+//! Two cases can be misjudged. A run that decays at the linear rate is assigned to the base response
 //! although another attractor could exist that close to it. And a quasi-periodic response with sticks that is about to lock
 //! changes along its curve without changing size, so that it counts as settled.
 
@@ -24,6 +24,7 @@ use super::average::{self, Moments};
 use super::base_response::BaseResponse;
 use super::block_observer::BlockObserver;
 use super::settings::AttractorSettings;
+use crate::decay::decays_at;
 use crate::orbit::cycle::{cycle_reached, cycles};
 use crate::orbit::{NoOrbit, Orbit, OrbitVerdict, Unsettled};
 use crate::simulation::{
@@ -41,11 +42,6 @@ const FEWEST: usize = 64;
 /// Distance from the base response, relative to F, that counts as being on it: a thousandth of the smallest vibration
 /// that the figures show, and far above the effect of rounding. Another attractor nearer than this would be missed.
 const NEAR: f64 = 1e-6;
-
-/// Relative difference within which a measured decay rate agrees with that of the multipliers; two successive blocks must agree,
-/// so that nonlinear decay no longer matters. With a larger value a run that converges elsewhere could pass; a smaller value only
-/// takes longer.
-const RATE_TOLERANCE: f64 = 0.05;
 
 /// Displacement of a start on an unstable base response, relative to F: far above rounding, so that the run leaves in time, and
 /// far below the size of any other response. An attractor closer than this to the unstable response could be missed.
@@ -434,7 +430,7 @@ impl RunHistory {
         let between = section.len() - quarter;
         let (first, last) = (size(&section[..quarter]), size(&section[between..]));
         let measured = libm::log(last / first) / between as f64;
-        let agrees = (measured - expected).abs() <= RATE_TOLERANCE * expected.abs();
+        let agrees = decays_at(measured, expected);
         let before = std::mem::replace(&mut self.decayed_at_rate, agrees);
         agrees && before
     }

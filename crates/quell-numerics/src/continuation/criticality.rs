@@ -2,8 +2,8 @@
 //!
 //! The second and third derivatives are differences of the exact first one, central in the step, and the coefficients of
 //! [`crate::normal_form`] are extrapolated to step zero (Richardson). The result is the extrapolated value that differs least from
-//! the two before it, and its error follows from the larger of these differences. Only states whose signature is that of the fixed point enter: across the border of a
-//! signature a map has no derivatives.
+//! the two before it, and its error follows from the larger of these differences. Only states whose signature is that of the fixed
+//! point enter: across the border of a signature a map has no derivatives.
 
 use std::fmt;
 
@@ -15,22 +15,28 @@ use crate::eigen::Decomposition;
 use crate::matrix::Matrix;
 use crate::normal_form::{CriticalPair, DerivativesAlong, FormCoefficient, flip, neimark_sacker};
 
-/// First step over the typical size of a state.
+/// First step over the typical size of a state: large enough that halvings pass the step at which truncation and rounding balance. If
+/// it leaves the region of the signature, the halvings return to it; a much smaller one would leave rounding alone.
 const FIRST_STEP: f64 = 0.05;
 
-/// Halvings of the step.
+/// Halvings of the step, down to 10⁻⁶ of the size of a state: below it second differences of a derivative known to 10⁻¹² are noise. If
+/// no step has the signature of the fixed point, the coefficient is unknown, with that reason.
 const MOST_LEVELS: usize = 16;
 
-/// Steps that are computed beyond the best one.
+/// Steps that are computed beyond the best one: rounding grows fourfold with each, so that a better one hardly follows. Fewer could
+/// stop at a chance agreement, which the larger of two differences in the error makes rare.
 const PATIENCE: usize = 3;
 
 /// Error over the change between extrapolated values: half the step has four times the noise in its second differences.
 const NOISE: f64 = 4.0;
 
-/// Largest distance of a critical multiplier from the unit circle.
+/// Largest distance of a critical multiplier from the unit circle: thresholds are located far more closely. A multiplier farther off
+/// is not that of the threshold, and the coefficient is unknown.
 const ON_THE_CIRCLE: f64 = 1e-4;
 
-/// Distance of λᵏ from 1, k = 1 … 4, below which a resonance is strong.
+/// Distance of λᵏ from 1, k = 1 … 4, below which a resonance is strong: the normal form divides by this distance, and at a hundredth its
+/// validity is limited to a tiny neighbourhood. With a larger value more coefficients are withheld, with a smaller one some would
+/// describe no vibration that can be observed.
 const RESONANT: f64 = 1e-2;
 
 /// Whether a vibration grows from zero beyond a threshold, or the motion jumps.

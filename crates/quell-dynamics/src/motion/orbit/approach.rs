@@ -8,14 +8,13 @@ use quell_numerics::continuation::modulus;
 use quell_numerics::eigen::Decomposition;
 
 use super::periodic::sliding_state;
+use crate::decay::decays_at;
 
-/// Largest difference of a measured rate from that of an eigenvalue, relative to it: as for the approach to a periodic motion.
-const RATE_TOLERANCE: f64 = 0.05;
-
-/// Parts of the motion smaller than this share of the largest are not compared: the others feed them.
+/// Parts of the motion smaller than this share of the largest are not compared: through the curvature of the friction law the others
+/// feed them. With a larger share a slow part that decides could be left out; with a smaller one the approach is recognised later.
 const SHARE: f64 = 1e-2;
 
-/// Comparisons one after the other that must agree.
+/// Comparisons one after the other that must agree. With fewer a run that passes by could agree by chance; more only take longer.
 const AGREEMENTS: u32 = 3;
 
 /// One small motion about steady sliding, which decays.
@@ -82,7 +81,7 @@ impl ApproachToSliding {
             self.parts.iter().zip(earlier.iter().zip(&sizes)).all(|(part, (then, now))| {
                 *then <= SHARE * largest || {
                     let measured = libm::log(now / then) / (time - before);
-                    (measured - part.rate).abs() <= RATE_TOLERANCE * part.rate.abs()
+                    decays_at(measured, part.rate)
                 }
             });
         self.agreed = if agrees { self.agreed + 1 } else { 0 };

@@ -19,16 +19,19 @@ use crate::orbit::threshold_curve::{
     curves_of, part, threshold_curve,
 };
 
-/// Steps of the continuation runs that find the first points.
+/// Steps of the continuation runs that find the first points, at least. More find pairs of thresholds that lie closer together.
 const STEPS: u32 = 40;
 
-/// Modulus of a multiplier that counts as outside the unit circle: the critical one is on it up to its error.
+/// Modulus of a multiplier that counts as outside the unit circle: the critical one is on it up to its error, which is far smaller. With a
+/// smaller excess that error would end a curve; with a larger one a curve would go on a little beyond a crossing.
 const OUTSIDE: f64 = 1.0 + 1e-5;
 
-/// Modulus of a further multiplier at the end of a curve from which on that multiplier ends it.
+/// Modulus of a further multiplier at the end of a curve from which on that multiplier ends it: the last point lies up to a step before the
+/// crossing. It decides only which reason for the end is given.
 const ABOUT_TO_LEAVE: f64 = 0.99;
 
-/// Distance of another contact from its event, relative to its velocity or load, below which that event comes first.
+/// Distance of another contact from its event, relative to its velocity or load, below which that event comes first: beyond the error of
+/// a distance. With a value nearer to 0 rounding would end curves; a lower one follows them slightly too far.
 const FIRST: f64 = -1e-9;
 
 /// A curve of thresholds of a system.

@@ -22,7 +22,7 @@ use super::approach::ApproachToSliding;
 use super::family::{MotionSignature, shot};
 use super::passages::Passages;
 use super::periodic::{MotionOrbit, orbit_at, scale_of};
-use super::recurrence::{COARSE, NEAR, SAME, STAGNANT, distance, nearest_return};
+use super::recurrence::{COARSE, NEAR, ON_IT, SAME, STAGNANT, distance, nearest_return};
 use super::watch::{MOST_STEPS, PASSAGES, WatchLengths};
 use crate::orbit::OrbitVerdict;
 
@@ -38,10 +38,6 @@ const SHRINKS: f64 = 0.3;
 /// Relative difference of the rates of a state a period apart, on a cycle: closing to [`STAGNANT`] leaves less even in stiff systems. A
 /// decay of less than this per period would be taken for a cycle.
 const EQUALLY_FAST: f64 = 1e-6;
-
-/// Mismatch of passages, relative to the state, of a run that is on a cycle. On an unstable one only a symmetric run remains; others
-/// pass it, and end elsewhere.
-const ON_IT: f64 = 1e-6;
 
 /// Steps of Newton's method. It converges in five to eight from [`NEAR`](super::recurrence::NEAR) where it does.
 const NEWTON_STEPS: u32 = 30;
@@ -223,6 +219,7 @@ impl Returns {
         let found = closed(motion, passages, back, scale);
         self.allowed = 0.5 * mismatch;
         let cycle = found?;
+        // On an unstable cycle only a symmetric run remains; others pass it, and end elsewhere.
         if cycle.verdict() != OrbitVerdict::Unstable || mismatch <= ON_IT {
             return Some(cycle);
         }

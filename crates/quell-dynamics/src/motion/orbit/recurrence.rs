@@ -10,6 +10,10 @@ pub(super) const NEAR: f64 = 3e-2;
 /// Distance, relative to the state, between an orbit and a run that is on its way to it. An orbit further away is another one.
 pub(super) const SAME: f64 = 0.2;
 
+/// Distance from a motion, relative to the state, within which a run is on it: far below any difference that matters, far above the
+/// error of a run. Another motion nearer than this would be missed.
+pub(super) const ON_IT: f64 = 1e-6;
+
 /// A run repeats itself after several periods, not one, if its states are nearer to each other by this factor. Errors cost one
 /// attempt: a multiple of the least period is reduced later.
 const MUCH_NEARER: f64 = 0.3;

@@ -16,7 +16,8 @@ use quell_numerics::eigen::Decomposition;
 use super::super::{MOTION_TOLERANCE, Motion, MotionStart};
 use super::family::{NoImage, shot, time_of};
 use super::periodic::{MotionOrbit, NoMotionOrbit, motion_near, orbit_at, scale_of};
-use super::recurrence::{NEAR, SAME, distance, returns};
+use super::recurrence::{NEAR, ON_IT, SAME, distance, returns};
+use crate::decay::decays_at;
 use crate::orbit::OrbitVerdict;
 
 /// Common periods within which a run must settle, where its caller has no reason for another number: `orbit` and `response` thus give
@@ -30,7 +31,8 @@ const MOST_MULTIPLES: usize = 200;
 /// States kept of a run that does not settle.
 const KEPT: usize = 100;
 
-/// Periods before the first attempt, and between attempts at first.
+/// Periods before the first attempt, and between attempts at first. A transient needs a few; more only take longer, and an attempt too
+/// early costs one Newton iteration.
 const FIRST_ATTEMPT: u32 = 8;
 
 /// Attempts are repeated after this part of the periods so far: their number grows with the logarithm of the run's length.
@@ -40,10 +42,6 @@ const ATTEMPTS_APART: u32 = 3;
 /// them only cost time on motions that do not repeat.
 const MOST_SHOTS: usize = 3;
 
-/// Distance from a motion, relative to the state, within which a run is on it: far below any difference that matters, far above the
-/// error of a run. Another motion nearer than this would be missed.
-const ON_IT: f64 = 1e-6;
-
 /// Distance, relative to the state, within which a state repeats itself to rounding: on a motion with a multiplier of 1, such as rest
 /// in friction, a run that repeats itself to rounding is on it.
 const REPEATS: f64 = 1e-10;
@@ -52,10 +50,9 @@ const REPEATS: f64 = 1e-10;
 /// at the rate by chance; a longer one only takes longer.
 const WINDOW: u32 = 16;
 
-/// Largest difference of the measured rate of approach from that of the multipliers, relative to it: as for the belt.
-const RATE_TOLERANCE: f64 = 0.05;
-
-/// Mismatch after a part of the period, relative to the state, of a motion that repeats after that part.
+/// Mismatch after a part of the period, relative to the state, of a motion that repeats after that part: far above the error of a
+/// closed motion, which is 10⁻¹² times its multipliers. Where a longer motion passes its own state nearer than this after a part, as
+/// next to a period doubling, the shorter one is tried, and taken only if it closes and the run approaches it.
 const PART: f64 = 1e-8;
 
 /// Where a run ends.
@@ -211,7 +208,7 @@ impl Strobed<'_, '_> {
                 let now = modulus(slowest.iter().zip(&off).map(|(y, d)| y * d).sum());
                 if let Some(before) = before {
                     let measured = libm::log(now / before) / f64::from(WINDOW);
-                    if (measured - expected).abs() > RATE_TOLERANCE * expected.abs() {
+                    if !decays_at(measured, expected) {
                         return Ok(false);
                     }
                     agreed += 1;

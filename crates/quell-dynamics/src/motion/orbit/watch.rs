@@ -10,7 +10,8 @@ use quell_numerics::continuation::modulus;
 use super::super::Motion;
 use super::recurrence::NEAR;
 
-/// Spans of a run, at whose ends its passages are compared, in the time that suffices for the slowest motion.
+/// Spans of a run, at whose ends its passages are compared, in the time that suffices for the slowest motion. Fewer find a cycle later;
+/// more only cost attempts.
 const SPANS: f64 = 60.0;
 
 /// Time over the reciprocal of the fastest rate, at least: a motion whose period friction and drive alone decide, such as slow
@@ -25,13 +26,14 @@ const PERIODS: f64 = 100.0;
 /// cycle attracts by friction or not at all.
 const MOST_DECAY_PERIODS: f64 = 1000.0;
 
-/// Passages through the section that are wanted of a motion that passes it, however slowly.
+/// Passages through the section that are wanted of a motion that passes it, however slowly. With fewer a cycle that attracts slowly is
+/// reported as not found; more only take longer.
 pub(super) const PASSAGES: usize = 100;
 
 /// Time over that which suffices for the structure after which no more passages are waited for.
 const MOST_TIMES: f64 = 50.0;
 
-/// Steps of a run: some seconds of computation with a hundred states.
+/// Steps of a run: some seconds of computation with a hundred states. A run that needs more is reported as not found, with its steps.
 pub(super) const MOST_STEPS: u64 = 4_000_000;
 
 /// The lengths of a watched run.
