@@ -94,7 +94,8 @@ impl RowEntries {
         values
     }
 
-    fn pairs(&self) -> impl Iterator<Item = (usize, f64)> {
+    /// Its places with their values.
+    pub(super) fn pairs(&self) -> impl Iterator<Item = (usize, f64)> {
         let values = self.values.iter().enumerate();
         let values = values.map(|(place, value)| (self.start + place, *value));
         values.chain(self.scattered.iter().copied())

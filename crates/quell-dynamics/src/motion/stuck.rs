@@ -169,20 +169,17 @@ impl StuckForces {
         }
     }
 
-    /// Adds the change of the forces that keeps the slip accelerations zero to the rates of a change.
-    pub(super) fn hold_change(&self, equations: &MotionEquations, rates: &mut [f64]) {
-        if self.free.is_empty() {
-            return;
-        }
-        let forces: Vec<f64> =
-            self.free.iter().map(|index| self.change_of_force(equations, *index, rates)).collect();
-        for (place, (&index, force)) in self.free.iter().zip(forces).enumerate() {
-            let contact = &equations.contacts[index];
-            contact.along.add_to(force, rates);
-            if !contact.slope.is_empty() {
-                contact.across.add_to(self.tilts[place] * force, rates);
-            }
-        }
+    /// The contacts that are held, each with the contacts whose conditions give its force: γ̇ of these without the forces that are
+    /// sought, times the gains.
+    #[inline(always)]
+    pub(super) fn gains(
+        &self,
+    ) -> impl Iterator<Item = (usize, impl Iterator<Item = (usize, f64)>)> {
+        let count = self.independent.len();
+        self.free.iter().enumerate().map(move |(place, &held)| {
+            let gains = &self.gain[place * count..(place + 1) * count];
+            (held, self.independent.iter().copied().zip(gains.iter().copied()))
+        })
     }
 
     /// Change of the force of a sticking contact, from the rates of a change without these forces; 0 for other contacts.

@@ -14,14 +14,14 @@
 //! Where two independent guards reach zero together, S depends on the order in which a change separates them: the multipliers
 //! are one-sided, and [`MotionVariation::is_one_sided`] says so.
 //!
-//! Scheme: extrapolation of order 16 on every Taylor step, like the step itself. Reference: Leine and Nijmeijer (2004), ch. 7.
+//! Between events the changes are Taylor series like the state (`change_series`). Reference: Leine and Nijmeijer (2004), ch. 7.
 
 use quell_model::System;
 use quell_model::friction::{BranchSeries, FrictionConstants};
-use quell_numerics::extrapolation::integrate;
 use quell_numerics::matrix::Matrix;
 
 use super::Motion;
+use super::change_series::{ChangeSeries, ChangeStep};
 use super::equations::MotionEquations;
 use super::extremes::least;
 use super::observer::{
@@ -30,9 +30,6 @@ use super::observer::{
 use super::phase::{ContactNow, ContactPhase};
 use super::stuck::StuckForces;
 use crate::simulation::ORDER;
-
-/// Error of the integration over a step.
-const TOLERANCE: f64 = 3e-15;
 
 /// Friction of a contact linearised at one instant: δT = −a tᵀδx + b rᵀδx.
 #[derive(Clone, Copy, Debug, Default)]
@@ -86,6 +83,7 @@ pub struct MotionVariation<'a> {
     stuck: StuckForces,
     /// (∇h, ḣ) of an event whose f⁺ is not known yet.
     pending: Option<(Vec<f64>, f64)>,
+    series: ChangeSeries,
     last: LinearFrictions,
     is_first: bool,
 }
@@ -109,6 +107,7 @@ impl<'a> MotionVariation<'a> {
             now: Vec::new(),
             stuck: StuckForces::default(),
             pending: None,
+            series: ChangeSeries::new(system, equations),
             last: Vec::new(),
             is_first: true,
             system,
@@ -170,23 +169,8 @@ impl<'a> MotionVariation<'a> {
         }
     }
 
-    /// Whether J is the same along the whole segment.
-    fn is_steady(&self, first: &LinearFrictions, last: &LinearFrictions) -> bool {
-        let laws = self.system.contacts.iter();
-        let linear = laws.zip(&self.now).all(|(contact, now)| match now.phase {
-            ContactPhase::Slip(_) => {
-                contact.friction.kind() == quell_model::LawKind::Coulomb
-                    && contact.friction.slope(1.0) == 0.0
-                    && contact.slope.is_none()
-            }
-            _ => contact.slope.is_none(),
-        });
-        linear
-            && first.iter().zip(last).all(|(a, b)| (a.by_load, a.by_slip) == (b.by_load, b.by_slip))
-    }
-
-    /// J δx, with the forces of sticking contacts if `holds`.
-    fn rates_of(&self, instants: &LinearFrictions, change: &[f64], out: &mut [f64], holds: bool) {
+    /// J δx without the forces that hold sticking contacts.
+    fn rates_of(&self, instants: &LinearFrictions, change: &[f64], out: &mut [f64]) {
         self.equations.matrix.times(change, out);
         for (index, contact) in self.equations.contacts.iter().enumerate() {
             let (now, instant) = (&self.now[index], &instants[index]);
@@ -206,58 +190,18 @@ impl<'a> MotionVariation<'a> {
                 contact.across.add_to(force * instant.tilt, out);
             }
         }
-        if holds {
-            self.stuck.hold_change(self.equations, out);
-        }
     }
 
     /// Advances all columns over a segment.
     fn flow(&mut self, segment: &MotionSegment<'_>) {
-        let (mut first, mut last) = (Vec::new(), Vec::new());
-        self.instants(segment, 0.0, &mut first);
-        self.instants(segment, segment.duration, &mut last);
-        let size = self.equations.size;
-        let mut columns = std::mem::take(&mut self.columns);
-        let duration = segment.duration;
-        if self.is_steady(&first, &last) {
-            for column in columns.chunks_mut(size) {
-                self.exponential(&first, duration, column);
-            }
-        } else {
-            let mut instants = first;
-            let mut rates = |since: f64, changes: &[f64], out: &mut [f64]| {
-                self.instants(segment, since, &mut instants);
-                for (change, out) in changes.chunks(size).zip(out.chunks_mut(size)) {
-                    self.rates_of(&instants, change, out, true);
-                }
-            };
-            let largest = columns.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-            let settings = (TOLERANCE * largest.max(1e-300), duration);
-            let done = integrate(&mut rates, (0.0, duration), &mut columns, settings, |_, _| {});
-            self.has_failed |= done.is_err();
-        }
-        self.columns = columns;
-        // Again, for the forces of tilted contacts are now those of another moment.
-        self.instants(segment, duration, &mut last);
-        self.last = last;
-    }
-
-    /// exp(Jh) δx by its Taylor series: a step of the engine, so that the series converges in few terms.
-    fn exponential(&self, instants: &LinearFrictions, duration: f64, column: &mut [f64]) {
-        let mut term = column.to_vec();
-        let mut next = vec![0.0; column.len()];
-        for k in 1..400 {
-            self.rates_of(instants, &term, &mut next, true);
-            let factor = duration / f64::from(k);
-            let mut is_done = true;
-            for ((value, term), next) in column.iter_mut().zip(&mut term).zip(&next) {
-                *term = next * factor;
-                *value += *term;
-                is_done &= term.abs() <= 1e-18 * value.abs();
-            }
-            if is_done || term.iter().all(|term| *term == 0.0) {
-                break;
-            }
+        let step = ChangeStep { equations: self.equations, segment, now: &self.now };
+        let Self { laws, stuck, columns, .. } = self;
+        self.has_failed |= self.series.advance(step, laws, stuck, columns).is_err();
+        // The margin of a contact that sticks is linearised at its root.
+        if self.now.iter().any(ContactNow::sticks) {
+            let mut last = std::mem::take(&mut self.last);
+            self.instants(segment, segment.duration, &mut last);
+            self.last = last;
         }
     }
 
@@ -302,7 +246,7 @@ impl<'a> MotionVariation<'a> {
                 for j in 0..size {
                     change.fill(0.0);
                     change[j] = 1.0;
-                    self.rates_of(&self.last, &change, &mut out, false);
+                    self.rates_of(&self.last, &change, &mut out);
                     let force = self.stuck.change_of_force(self.equations, contact, &out);
                     let level = equation.static_coefficient * self.last[contact].factor;
                     let load = level * equation.approach.dot(&change);

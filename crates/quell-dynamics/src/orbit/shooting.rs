@@ -62,17 +62,16 @@ pub(super) fn orbit_at(
 pub fn from_sliding(belt: &Belt, steps: u32) -> Result<Orbit, NoOrbit> {
     let forced = Forced { belt, parameters: FamilyParameters::CommonFactor, periods: 1 };
     let period = forced.period_of(belt)?;
-    let branch =
-        follow(&forced, &[belt.steady_sliding(), 0.0], 0.0, true, Follow::window(0.0, 1.0, steps))?;
+    let options = Follow::window(0.0, 1.0, steps).only_forwards();
+    let branch = follow(&forced, &[belt.steady_sliding(), 0.0], 0.0, true, options)?;
     // Where the branch turns back the base response ends, wherever the branch continues to.
-    let fold =
-        branch.special_points.iter().find(|point| point.below.is_none() || point.above.is_none());
+    let fold = branch.special_points.iter().find(|point| point.is_turn());
     if let Some(fold) = fold {
         return Err(NoOrbit::Ends { share: fold.parameter });
     }
     match branch.end {
         End::Window { at: 1.0 } => {}
-        End::Grazing { at } => return Err(NoOrbit::Ends { share: at }),
+        End::Grazing { at } | End::TurnsBack { at } => return Err(NoOrbit::Ends { share: at }),
         End::Lost { at } | End::TooLong { at } => {
             return Err(NoOrbit::LostOnTheWay { share: at });
         }

@@ -183,7 +183,9 @@ impl BranchEnding {
             branch.points.iter().map(|point| point.parameter).chain(special).fold(from, further);
         match branch.end {
             End::Window { at } if at == to => Self::Covered,
-            End::Window { .. } | End::Closed => Self::TurnedBack { at: furthest },
+            End::Window { .. } | End::Closed | End::TurnsBack { .. } => {
+                Self::TurnedBack { at: furthest }
+            }
             End::Grazing { at } => Self::Touch { at },
             End::Lost { at } | End::TooLong { at } if beyond(at, furthest) => {
                 Self::LostTurning { furthest, at }

@@ -60,6 +60,20 @@ pub trait PeriodMap {
         parameters: &[f64],
         held: Option<&Self::Signature>,
     ) -> Result<Image<Self::Signature>, Self::Error>;
+
+    /// The state of [`PeriodMap::image`] alone, for differences with respect to parameters: a map whose derivative costs more than its
+    /// state computes it without.
+    ///
+    /// # Errors
+    /// As [`PeriodMap::image`].
+    fn image_state(
+        &self,
+        state: &[f64],
+        parameters: &[f64],
+        held: Option<&Self::Signature>,
+    ) -> Result<Vec<f64>, Self::Error> {
+        self.image(state, parameters, held).map(|image| image.state)
+    }
 }
 
 /// The image of a state after a period.

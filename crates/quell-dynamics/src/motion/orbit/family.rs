@@ -11,8 +11,8 @@ use quell_model::System;
 use quell_numerics::continuation::{Image, PeriodMap};
 
 use super::super::{
-    ContactPhase, Immobile, LeastDistance, MOTION_TOLERANCE, Motion, MotionStart, MotionStopped,
-    MotionVariation,
+    ContactPhase, Immobile, LeastDistance, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver,
+    MotionStart, MotionStopped, MotionVariation,
 };
 use crate::simulation::EventKind;
 
@@ -124,21 +124,8 @@ pub(super) fn shot_within(
     held: Option<&MotionSignature>,
     tolerance: f64,
 ) -> Result<(Image<MotionSignature>, Shot), NoImage> {
-    let start = MotionStart { time: 0.0, state: state.to_vec() };
     let mut variation = MotionVariation::new(motion);
-    let kept = match held {
-        Some(MotionSignature::Steady(phases))
-            if held.is_some_and(MotionSignature::is_pure_slip) =>
-        {
-            Some(phases)
-        }
-        _ => None,
-    };
-    let end = match kept {
-        Some(phases) => motion.continued(&start, phases, time, &mut variation),
-        None => motion.run(&start, time, tolerance, &mut variation),
-    }
-    .map_err(NoImage::Stopped)?;
+    let (end, kept) = run_over(motion, state, (time, tolerance), held, &mut variation)?;
     if variation.has_failed {
         return Err(NoImage::NoVariation);
     }
@@ -156,6 +143,30 @@ pub(super) fn shot_within(
     let image = Image { state: end.state, derivative: variation.matrix(), distance, signature };
     let MotionVariation { events, is_one_sided, least, approaches, .. } = variation;
     Ok((image, Shot { events, is_one_sided, least, approaches }))
+}
+
+/// The run over a time, and the phases that the contacts keep on it if they do.
+fn run_over<'s>(
+    motion: &Motion<'_>,
+    state: &[f64],
+    (time, tolerance): (f64, f64),
+    held: Option<&'s MotionSignature>,
+    observer: &mut dyn MotionObserver,
+) -> Result<(MotionEnd, Option<&'s Vec<ContactPhase>>), NoImage> {
+    let start = MotionStart { time: 0.0, state: state.to_vec() };
+    let kept = match held {
+        Some(MotionSignature::Steady(phases))
+            if held.is_some_and(MotionSignature::is_pure_slip) =>
+        {
+            Some(phases)
+        }
+        _ => None,
+    };
+    let end = match kept {
+        Some(phases) => motion.continued(&start, phases, time, observer),
+        None => motion.run(&start, time, tolerance, observer),
+    };
+    end.map(|end| (end, kept)).map_err(NoImage::Stopped)
 }
 
 /// What a shot met on its way.
@@ -190,5 +201,17 @@ impl PeriodMap for MotionFamily<'_> {
         let motion = Motion::new(&system).map_err(NoImage::Immobile)?;
         let time = time_of(&motion, self.periods)?;
         shot(&motion, state, time, held).map(|(image, _)| image)
+    }
+
+    fn image_state(
+        &self,
+        state: &[f64],
+        parameters: &[f64],
+        held: Option<&MotionSignature>,
+    ) -> Result<Vec<f64>, NoImage> {
+        let system = (self.at)(parameters).map_err(NoImage::Invalid)?;
+        let motion = Motion::new(&system).map_err(NoImage::Immobile)?;
+        let time = time_of(&motion, self.periods)?;
+        run_over(&motion, state, (time, MOTION_TOLERANCE), held, &mut ()).map(|(end, _)| end.state)
     }
 }

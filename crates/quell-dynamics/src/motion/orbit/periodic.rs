@@ -241,15 +241,17 @@ pub fn base_motion(system: &System, steps: u32) -> Result<MotionOrbit, NoMotionO
     let at = |factor: &[f64]| Ok(system.with_amplitudes_scaled(factor[0]));
     let scale = scale_of(&motion, &sliding);
     let family = MotionFamily { at: &at, periods: 1, size: sliding.len(), scale };
-    let branch = follow(&family, &sliding, 0.0, true, Follow::window(0.0, 1.0, steps))?;
-    let fold =
-        branch.special_points.iter().find(|point| point.below.is_none() || point.above.is_none());
+    let options = Follow::window(0.0, 1.0, steps).only_forwards();
+    let branch = follow(&family, &sliding, 0.0, true, options)?;
+    let fold = branch.special_points.iter().find(|point| point.is_turn());
     if let Some(fold) = fold {
         return Err(NoMotionOrbit::Ends { share: fold.parameter });
     }
     match branch.end {
         End::Window { at: 1.0 } => {}
-        End::Grazing { at } => return Err(NoMotionOrbit::Ends { share: at }),
+        End::Grazing { at } | End::TurnsBack { at } => {
+            return Err(NoMotionOrbit::Ends { share: at });
+        }
         End::Lost { at } | End::TooLong { at } => return Err(NoMotionOrbit::Lost { share: at }),
         End::Window { .. } | End::Closed => return Err(NoMotionOrbit::Ends { share: 0.0 }),
     }

@@ -36,7 +36,7 @@ pub fn follow<F: PeriodMap>(
     let begin = here.clone();
     let n = family.dimension();
     let mut points = vec![run.point(&here)];
-    let mut special_points = Vec::new();
+    let mut special_points: Vec<SpecialPoint<F::Signature>> = Vec::new();
     let mut before: MaybeSolution<F> = None;
     let mut length = options.longest;
     // Whether the search beyond the obstacle that stopped the steps was already made.
@@ -50,6 +50,11 @@ pub fn follow<F: PeriodMap>(
         }
         if points.len() > options.most_points as usize {
             break End::TooLong { at };
+        }
+        if options.only_forwards
+            && let Some(turn) = special_points.iter().find(|point| point.is_turn())
+        {
+            break End::TurnsBack { at: turn.parameter };
         }
         let passed = special_points.len();
         match run.step(&here, length, &mut special_points) {
@@ -128,7 +133,9 @@ fn dips<F: PeriodMap>(
     solutions: [&BranchSolution<F::Signature>; 3],
     out: &mut Vec<SpecialPoint<F::Signature>>,
 ) {
-    for index in 0..SMOOTH.len() {
+    // The first test function is that of a fold.
+    let tests = if run.follow.only_forwards { 1 } else { SMOOTH.len() };
+    for index in 0..tests {
         if let Some((segment, inside)) = run.dip(solutions, index) {
             run.thresholds(solutions[segment], &inside, out);
             run.thresholds(&inside, solutions[segment + 1], out);

@@ -50,6 +50,13 @@ pub struct SpecialPoint<S> {
     pub above: Option<BranchSide<S>>,
 }
 
+impl<S> SpecialPoint<S> {
+    /// Whether the branch turns back there, or ends: it is on one side only.
+    pub fn is_turn(&self) -> bool {
+        self.below.is_none() || self.above.is_none()
+    }
+}
+
 /// End of a continuation run along a branch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {
@@ -62,6 +69,11 @@ pub enum End {
     Closed,
     /// At a grazing point with no fixed point beyond it on either side.
     Grazing {
+        /// The parameter.
+        at: f64,
+    },
+    /// The branch turns back, and the run does not follow it further.
+    TurnsBack {
         /// The parameter.
         at: f64,
     },

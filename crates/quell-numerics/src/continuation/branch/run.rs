@@ -76,9 +76,9 @@ impl<F: PeriodMap> UnderdeterminedSystem for FixedPointEquations<'_, F> {
             let mut moved = unknowns.to_vec();
             moved[n] += nudge;
             let (state, parameter) = self.run.unscaled(&moved);
-            let other = self.run.family.image(&state, &[parameter], self.held)?;
+            let other = self.run.family.image_state(&state, &[parameter], self.held)?;
             let scale = self.run.family.scale() * nudge;
-            other.state.iter().zip(&image.state).map(|(b, a)| (b - a) / scale).collect()
+            other.iter().zip(&image.state).map(|(b, a)| (b - a) / scale).collect()
         };
         Ok(Matrix::from_fn(n, n + 1, |i, j| match j {
             j if j == n => column[i],

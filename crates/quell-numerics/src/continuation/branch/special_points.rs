@@ -48,6 +48,11 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         b: &BranchSolution<F::Signature>,
         out: &mut Vec<SpecialPoint<F::Signature>>,
     ) {
+        let last = a.tangent.len() - 1;
+        let turns = a.tangent[last] * b.tangent[last] < 0.0;
+        if self.follow.only_forwards && !turns {
+            return;
+        }
         let (at_a, at_b) = (Tests::of(&a.multipliers), Tests::of(&b.multipliers));
         let held = Some(&a.image.signature);
         let mut found: Vec<FoundThreshold<F::Signature>> = Vec::new();
@@ -66,8 +71,6 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
             if !confirmed(kind, &solution.multipliers) {
                 continue;
             }
-            let last = a.tangent.len() - 1;
-            let turns = a.tangent[last] * b.tangent[last] < 0.0;
             let kind = if kind == BifurcationKind::Fold && !turns {
                 BifurcationKind::Branching
             } else {
