@@ -5,13 +5,14 @@ use quell_model::friction::FrictionConstants;
 use quell_numerics::dispatch::with_fused_multiply_add;
 
 use super::equations::{Forcings, MotionEquations};
-use super::expansion::{ExpandedStep, StepExpansion, StepLimit};
+use super::expansion::{ExpandedStep, StepExpansion};
 use super::guards::Guards;
 use super::observer::{MotionObserver, MotionSegment};
 use super::phase::{ContactNow, ContactPhase};
 use super::selection::first_minor_not_positive;
 use super::series::StepSeries;
 use super::state::{ContactEnd, MotionEnd, MotionStart};
+use super::step_recurrence::StepLimit;
 use super::stopped::{MotionStopped, StopReason};
 use super::stuck::{StuckForces, coupling, dependent};
 use crate::simulation::{Clock, ORDER, StepBudget};
@@ -196,7 +197,6 @@ impl<'a> MotionRun<'a> {
     fn guards(&self) -> Guards<'_> {
         Guards {
             equations: self.equations,
-            forcings: &self.forcings,
             now: &self.now,
             contacts: &self.series.contacts,
         }

@@ -14,13 +14,15 @@
 //! | file | contents |
 //! |---|---|
 //! | `equations`, `rows` | a system as the engine needs it |
-//! | `series`, `contact_series`, `expansion`, `stuck` | the Taylor series of a step |
+//! | `series`, `contact_series`, `step_recurrence`, `expansion`, `stuck` | the Taylor series of a step |
+//! | `contact_masks` | what each contact does during a step, in every lane |
 //! | `guards`, `selection` | what ends a step, and what follows |
 //! | `engine`, `transitions` | the loop, and what the contacts do at its events |
 //! | `phase`, `state`, `observer`, `stopped` | what goes into a run and comes out of it |
 //! | `extremes` | extremes of a series on a step |
 //! | `contact_meter`, `input_meter`, `row_meter` | integrals over a motion: what contacts do on average, the cost of inputs, a row |
 
+mod contact_masks;
 mod contact_meter;
 mod contact_series;
 mod engine;
@@ -38,6 +40,7 @@ mod rows;
 mod selection;
 mod series;
 mod state;
+mod step_recurrence;
 mod stopped;
 mod stuck;
 mod transitions;
