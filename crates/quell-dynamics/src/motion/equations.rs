@@ -100,6 +100,14 @@ pub(super) struct ContactForcing {
     pub(super) factor: Option<Forcing>,
 }
 
+impl ContactForcing {
+    /// Surface, load, guided part of the load, and factor.
+    #[inline(always)]
+    pub(super) fn all(&self) -> [Option<&Forcing>; 4] {
+        [Some(&self.surface), Some(&self.load), Some(&self.guided), self.factor.as_ref()]
+    }
+}
+
 impl Forcings {
     /// Those of a system, set to a moment.
     pub(super) fn of(system: &System, clock: Clock) -> Self {
@@ -134,11 +142,9 @@ impl Forcings {
     }
 
     /// Every forcing.
-    fn all(&self) -> impl Iterator<Item = &Forcing> {
-        let contacts = self.contacts.iter();
-        self.pushes.iter().chain(contacts.flat_map(|contact| {
-            [&contact.surface, &contact.load, &contact.guided].into_iter().chain(&contact.factor)
-        }))
+    pub(super) fn all(&self) -> impl Iterator<Item = &Forcing> {
+        let contacts = self.contacts.iter().flat_map(ContactForcing::all);
+        self.pushes.iter().chain(contacts.flatten())
     }
 
     /// The next kink or jump.

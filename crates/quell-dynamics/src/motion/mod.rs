@@ -17,6 +17,7 @@
 //! | `series`, `contact_series`, `step_recurrence`, `expansion`, `stuck` | the Taylor series of a step |
 //! | `contact_masks` | what each contact does during a step, in every lane |
 //! | `guards`, `selection` | what ends a step, and what follows |
+//! | `lanes` | runs of many systems side by side |
 //! | `engine`, `transitions` | the loop, and what the contacts do at its events |
 //! | `phase`, `state`, `observer`, `stopped` | what goes into a run and comes out of it |
 //! | `extremes` | extremes of a series on a step |
@@ -31,6 +32,7 @@ mod expansion;
 mod extremes;
 mod guards;
 mod input_meter;
+mod lanes;
 mod lyapunov;
 mod observer;
 pub mod orbit;
@@ -54,6 +56,7 @@ use selection::first_minor_not_positive;
 
 pub use contact_meter::{ContactMeans, ContactMeter};
 pub use input_meter::{InputCost, InputMeter, NoPower};
+pub use lanes::{MotionRequest, run_many, run_many_with};
 pub use lyapunov::{LyapunovExponent, LyapunovExponents, LyapunovVerdict, NoExponents};
 pub use observer::{
     MotionEvent, MotionMoment, MotionObserver, MotionRecorder, MotionSampler, MotionSegment,
