@@ -14,15 +14,18 @@
 //! | file | contents |
 //! |---|---|
 //! | `equations`, `rows` | a system as the engine needs it |
-//! | `series`, `contact_series`, `expansion`, `stuck` | the Taylor series of a step |
 //! | `variation`, `change_series` | small changes of the initial state |
+//! | `series`, `contact_series`, `step_recurrence`, `expansion`, `stuck` | the Taylor series of a step |
+//! | `contact_masks` | what each contact does during a step, in every lane |
 //! | `guards`, `selection` | what ends a step, and what follows |
+//! | `lanes` | runs of many systems side by side |
 //! | `engine`, `transitions` | the loop, and what the contacts do at its events |
 //! | `phase`, `state`, `observer`, `stopped` | what goes into a run and comes out of it |
 //! | `extremes` | extremes of a series on a step |
 //! | `contact_meter`, `input_meter`, `row_meter` | integrals over a motion: what contacts do on average, the cost of inputs, a row |
 
 mod change_series;
+mod contact_masks;
 mod contact_meter;
 mod contact_series;
 mod engine;
@@ -31,6 +34,7 @@ mod expansion;
 mod extremes;
 mod guards;
 mod input_meter;
+mod lanes;
 mod lyapunov;
 mod observer;
 pub mod orbit;
@@ -40,6 +44,7 @@ mod rows;
 mod selection;
 mod series;
 mod state;
+mod step_recurrence;
 mod stopped;
 mod stuck;
 mod transitions;
@@ -53,6 +58,7 @@ use selection::first_minor_not_positive;
 
 pub use contact_meter::{ContactMeans, ContactMeter};
 pub use input_meter::{InputCost, InputMeter, NoPower};
+pub use lanes::{MotionRequest, run_many, run_many_with};
 pub use lyapunov::{LyapunovExponent, LyapunovExponents, LyapunovVerdict, NoExponents};
 pub use observer::{
     MotionEvent, MotionMoment, MotionObserver, MotionRecorder, MotionSampler, MotionSegment,
