@@ -125,3 +125,25 @@ fn a_slow_dither_is_judged_as_for_the_belt() {
     assert!((number(without) - number(&belt["mean_friction_undithered"])).abs() < 1e-3);
     assert!((number(steady) - number(&belt["steady_sliding_friction"])).abs() < 1e-12);
 }
+
+/// A mass that comes to rest at the very edge of stick stays there: no events accumulate, and no time is lost.
+#[test]
+fn a_mass_rests_at_the_edge_of_stick() {
+    for velocity in ["1e-3", "1e-5", "1e-7", "1e-8", "1e-9", "0"] {
+        let start = format!("x=0.3,velocity.x={velocity}");
+        let found = answer(&block(0.2, 0.0), &["simulate", "--until", "20", "--start", &start]);
+        assert_eq!(found["ok"], true, "{velocity}: {found}");
+        assert!(found["events"].as_array().is_some_and(|events| events.len() <= 4), "{velocity}");
+        let x = number(&found["final"]["state"][0]);
+        assert!((x - 0.3).abs() < 1e-5, "{velocity}: {x}");
+    }
+}
+
+/// A motion decays to nothing without a limit on its steps.
+#[test]
+fn a_decaying_motion_may_underflow() {
+    let study = block(0.2, 1.0).replace("coefficient = 0.3", "coefficient = 0.0");
+    let found = answer(&study, &["simulate", "--until", "20000", "--start", "x=0.3"]);
+    assert_eq!(found["ok"], true, "{found}");
+    assert!(number(&found["final"]["state"][0]).abs() < 1e-300);
+}

@@ -17,10 +17,8 @@ pub(super) struct ContactMasks<V = f64> {
     pub(super) saturated: V,
     /// 1 where slip velocity or bound give the friction.
     pub(super) acting: V,
-    /// 1 where the contact sticks below its bound.
+    /// 1 where the contact sticks below its bound: its margins are guards.
     pub(super) holding: V,
-    /// 1 where the margins of the contact are guards: where it holds, unless it is held after grazing.
-    pub(super) releasing: V,
     /// Multiplicity of the zeros of γ and of the load at the start.
     pub(super) slip_zeros: V,
     pub(super) load_zeros: V,
@@ -59,7 +57,6 @@ impl ContactMasks {
             saturated: if is_saturated { f64::from(now.saturated) } else { 0.0 },
             acting: mask(slips || is_saturated),
             holding: mask(now.sticks() && !is_saturated),
-            releasing: mask(now.sticks() && !is_saturated && !now.held),
             slip_zeros: now.slip_zeros as f64,
             load_zeros: now.load_zeros as f64,
             any_slips: slips,
@@ -87,7 +84,6 @@ impl<V: Lane> ContactMasks<V> {
             saturated: zero,
             acting: zero,
             holding: zero,
-            releasing: zero,
             slip_zeros: zero,
             load_zeros: zero,
             any_slips: false,
@@ -112,7 +108,6 @@ impl<V: Lane> ContactMasks<V> {
         self.saturated.set_lane(lane, one.saturated);
         self.acting.set_lane(lane, one.acting);
         self.holding.set_lane(lane, one.holding);
-        self.releasing.set_lane(lane, one.releasing);
         self.slip_zeros.set_lane(lane, one.slip_zeros);
         self.load_zeros.set_lane(lane, one.load_zeros);
     }

@@ -21,9 +21,6 @@ use crate::simulation::{Clock, ORDER, StepBudget};
 /// grazing of a threshold repeats indefinitely.
 pub(super) const PATIENCE: u32 = 4;
 
-/// Time for which contacts are held in stick after grazing, over the time scale of the system.
-const HOLD: f64 = 1e-8;
-
 /// One run.
 pub(super) struct MotionRun<'a> {
     pub(super) system: &'a System,
@@ -194,9 +191,7 @@ impl<'a> MotionRun<'a> {
         self.refresh()?;
         let stop = self.next_break.min(self.until);
         let room = self.clock.until(stop);
-        let holds = self.now.iter().any(|now| now.held);
-        let longest = if holds { self.longest.min(HOLD * self.time_scale) } else { self.longest };
-        Ok(StepRoom { stop, room, longest })
+        Ok(StepRoom { stop, room, longest: self.longest })
     }
 
     /// Takes a step whose end is in `scratch`, and whose series are written if it is observed or a guard has been reached.

@@ -10,11 +10,17 @@ use super::equations::{ContactEquation, MotionEquations};
 use super::observer::Trigger;
 use super::phase::{ContactNow, ContactPhase};
 use super::rows::StateRow;
+use super::selection::AT_BOUND;
 use crate::simulation::{ORDER, Series};
 
 /// Guards that reach zero within this share of the time scale after the first one are simultaneous: their order is below the
 /// accuracy of a step.
 const TOGETHER: f64 = 1e-12;
+
+/// Share of its bound by which the force of a contact that is held in stick may exceed it: twice that within which a force counts as
+/// being at its bound. A mass that comes to rest at the very edge of stick stays there, and one that leaves it does so later by
+/// the time that this share of the force takes.
+const HELD_BEYOND: f64 = 2.0 * AT_BOUND;
 
 /// A guard, of the given sign until its event.
 #[derive(Clone, Copy, Debug)]
@@ -83,9 +89,14 @@ impl<'a> Guards<'a> {
                 let (what, sign) = (Trigger::Slip(contact), f64::from(sign));
                 Some(Guard { what, series: &series.slip, sign, zeros: now.slip_zeros })
             }
-            (1 | 2, ContactPhase::Stick) if now.saturated == 0 && !now.held => {
+            (1 | 2, ContactPhase::Stick) if now.saturated == 0 => {
                 let side = if place == 1 { 1 } else { -1 };
-                *margin = margin_above(equation.static_coefficient, f64::from(side), series);
+                let level = equation.static_coefficient;
+                *margin = margin_above(level, f64::from(side), series);
+                if now.held && margin[0] <= 0.0 {
+                    margin[0] =
+                        f64::mul_add(HELD_BEYOND * level, series.pressed[0].abs(), margin[0]);
+                }
                 Some(Guard {
                     what: Trigger::Margin(contact, side),
                     series: margin,
@@ -142,11 +153,11 @@ pub(super) fn margin_of_guards<R: StateRow, V: Lane>(
             let margin = margin_of_first_test(&series.slip, masks.slip_zeros, masks.sign, length);
             least = least.min(masks.slipping.where_positive(sure(margin), one));
         }
-        if masks.releasing.any_positive() {
+        if masks.any_holds {
             for side in [one, -one] {
                 let above = margin_above(equation.static_coefficient, side, series);
                 let margin = margin_of_first_test(&above, V::splat(0.0), one, length);
-                least = least.min(masks.releasing.where_positive(sure(margin), one));
+                least = least.min(masks.holding.where_positive(sure(margin), one));
             }
         }
     }

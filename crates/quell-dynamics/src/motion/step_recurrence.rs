@@ -20,6 +20,9 @@ use crate::simulation::{ORDER, RECIPROCALS};
 /// does not loosen the tolerance of the motion that remains.
 const FORGOTTEN: f64 = 0.8;
 
+/// Numbers of the state below this do not limit a step: their higher terms are no longer normal floating-point numbers.
+const LEAST_SCALE: f64 = 1e-280;
+
 /// Largest number of contacts whose recurrences need no memory of their own.
 pub(super) const FEW_CONTACTS: usize = 4;
 
@@ -173,7 +176,7 @@ impl<V: Lane, S: StateStorage<V>> StepRecurrence<'_, V, S> {
             }
             scale = scale.max(V::splat(FORGOTTEN) * *kept);
             *kept = scale;
-            let inverse = scale.map(|scale| if scale > 0.0 { 1.0 / scale } else { 0.0 });
+            let inverse = scale.map(|scale| if scale > LEAST_SCALE { 1.0 / scale } else { 0.0 });
             // A number that is not one is not the largest.
             last = (states[ORDER * size + i].abs() * inverse).max(last);
             previous = (states[(ORDER - 1) * size + i].abs() * inverse).max(previous);
