@@ -20,6 +20,7 @@ use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::lane::{horner, partial_product};
 use quell_numerics::polynomial::step_length;
 
+use super::MOTION_TOLERANCE;
 use super::equations::MotionEquations;
 use super::observer::MotionSegment;
 use super::phase::{ContactNow, ContactPhase};
@@ -38,8 +39,11 @@ type BlockSeries = [ColumnBlock; ORDER + 1];
 
 const ZERO: ColumnBlock = [0.0; LANES];
 
-/// Bound on the last two retained terms, relative to the largest change: the terms behind them are smaller still.
-const TOLERANCE: f64 = 1e-14;
+/// Bound on the last two retained terms, relative to the largest change, as for the state.
+const TOLERANCE: f64 = MOTION_TOLERANCE;
+
+/// Terms of a composition below this share of the largest are lost in its rounding.
+const NEGLIGIBLE: f64 = 1e-18;
 
 /// Shortest interval over the step, and largest number of intervals.
 const SHORTEST: f64 = 1e-9;
@@ -212,7 +216,10 @@ impl ChangeSeries {
             }
             if share < 1.0 {
                 length *= share;
-                continue;
+                if columns.len() > LANES * step.equations.size {
+                    // The series of all blocks but the last are gone.
+                    continue;
+                }
             }
             columns.copy_from_slice(&self.next);
             since += length;
@@ -248,8 +255,8 @@ struct ChangeExpansion<'a> {
 impl Work for ChangeExpansion<'_> {
     type Output = f64;
 
-    /// Writes the columns at the end of the interval, and returns the share of it over which the last terms are negligible: at least
-    /// 1 if they are at its end, NaN where they are not finite.
+    /// Returns the share of the interval over which the last terms are negligible, 1 if they are at its end, NaN where they are not
+    /// finite. Where the share is 1 or the columns are one block, writes the columns at its end.
     #[inline(always)]
     fn run(mut self) -> f64 {
         self.linearise();
@@ -257,6 +264,7 @@ impl Work for ChangeExpansion<'_> {
         let ChangeSeries { contacts, orders, rates, next } = self.series;
         next.resize(self.columns.len(), 0.0);
         let (mut last, mut previous, mut largest) = (0.0_f64, 0.0_f64, f64::MIN_POSITIVE);
+        let is_one_block = self.columns.len() <= LANES * size;
         let blocks = self.columns.chunks(LANES * size).zip(next.chunks_mut(LANES * size));
         for (columns, next) in blocks {
             for (i, change) in orders[..size].iter_mut().enumerate() {
@@ -267,28 +275,42 @@ impl Work for ChangeExpansion<'_> {
             let equations = self.step.equations;
             expand(equations, self.stuck, self.interval.1, contacts, (orders, rates));
             for i in 0..size {
-                let at = |k: usize| &orders[k * size + i];
-                let mut sum = *at(ORDER);
+                for lane in 0..LANES {
+                    last = most(last, orders[ORDER * size + i][lane].abs());
+                    previous = most(previous, orders[(ORDER - 1) * size + i][lane].abs());
+                    largest = most(largest, orders[i][lane].abs());
+                }
+            }
+            let end = if is_one_block {
+                negligible_over(last / largest, previous / largest)
+            } else {
+                1.0
+            };
+            for i in 0..size {
+                let mut sum = orders[ORDER * size + i];
                 for k in (0..ORDER).rev() {
-                    add(&mut sum, 1.0, at(k));
+                    let term = &orders[k * size + i];
+                    sum = std::array::from_fn(|lane| f64::mul_add(sum[lane], end, term[lane]));
                 }
                 for (lane, value) in sum.into_iter().enumerate() {
                     if let Some(next) = next.get_mut(lane * size + i) {
                         *next = value;
                     }
-                    last = most(last, at(ORDER)[lane].abs());
-                    previous = most(previous, at(ORDER - 1)[lane].abs());
-                    largest = most(largest, at(0)[lane].abs());
                 }
             }
         }
-        let (last, previous) = (last / largest, previous / largest);
-        if last <= TOLERANCE && previous <= TOLERANCE {
-            return 1.0;
-        }
-        // Below 1, so that an interval that is repeated is shorter.
-        0.95 * step_length(TOLERANCE, last, previous, ORDER).min(1.0)
+        negligible_over(last / largest, previous / largest)
     }
+}
+
+/// The share of an interval over which the last two terms, given at its end, are within the tolerance.
+#[inline(always)]
+fn negligible_over(last: f64, previous: f64) -> f64 {
+    if last <= TOLERANCE && previous <= TOLERANCE {
+        return 1.0;
+    }
+    // Below 1, so that an interval that is repeated is shorter.
+    0.95 * step_length(TOLERANCE, last, previous, ORDER).min(1.0)
 }
 
 /// The larger of two numbers; NaN if one is.
@@ -404,24 +426,48 @@ fn along_slip(law: &mut FrictionConstants, sign: f64, w: &Series) -> (f64, Serie
             }
         }
     }
-    let (slopes, terms) = counted(slopes);
-    let mut composed = [0.0; ORDER + 1];
-    let Some(highest) = terms.checked_sub(1) else { return (branch.first(), composed) };
     let mut relative = w.map(|term| if change > 0.0 { term / change } else { 0.0 });
     relative[0] = 0.0;
-    composed[0] = slopes[highest];
+    (branch.first(), composed(&slopes, &relative))
+}
+
+/// Σ aⱼ uʲ for a series u that begins at the first order and whose coefficients add up to at most 1, below the last order.
+#[inline(always)]
+fn composed(outer: &Series, inner: &Series) -> Series {
+    let largest = outer.iter().fold(0.0, |most: f64, term| most.max(term.abs()));
+    // A term contributes at most itself to any coefficient.
+    let counts = |term: &f64| !(term.abs() <= NEGLIGIBLE * largest);
+    let mut sum = [0.0; ORDER + 1];
+    let Some(highest) = outer.iter().rposition(counts) else { return sum };
+    sum[0] = outer[highest];
     for j in (0..highest).rev() {
-        // The product will be multiplied j times by a series that begins at the first order: so many terms are not needed.
-        let mut product = [0.0; ORDER + 1];
-        for i in 0..ORDER - j {
-            for l in 1..ORDER - j - i {
-                product[i + l] = f64::mul_add(composed[i], relative[l], product[i + l]);
-            }
-        }
-        composed = product;
-        composed[0] = slopes[j];
+        // What is multiplied j times more by u is needed up to the order 15 − j only.
+        sum = if j < ORDER / 2 {
+            multiplied_by_inner::<ORDER>(&sum, inner)
+        } else {
+            multiplied_by_inner::<{ ORDER / 2 }>(&sum, inner)
+        };
+        sum[0] = outer[j];
     }
-    (branch.first(), composed)
+    sum
+}
+
+/// The first `N` coefficients of a series times one that begins at the first order.
+#[inline(always)]
+fn multiplied_by_inner<const N: usize>(series: &Series, inner: &Series) -> Series {
+    // Behind zeros, so that every shifted copy of it has the same length.
+    let mut behind = [0.0; 2 * ORDER];
+    behind[ORDER..ORDER + N].copy_from_slice(&series[..N]);
+    let mut sum = [0.0; N];
+    for l in 1..N {
+        let shifted = &behind[ORDER - l..ORDER - l + N];
+        for (sum, term) in sum.iter_mut().zip(shifted) {
+            *sum = f64::mul_add(inner[l], *term, *sum);
+        }
+    }
+    let mut product = [0.0; ORDER + 1];
+    product[..N].copy_from_slice(&sum);
+    product
 }
 
 /// The series of μ along a slip from that of its slope: d(μ(w(t)))/dt = μ′ ẇ.
@@ -556,6 +602,67 @@ fn times(matrix: &StateMatrix, change: &[ColumnBlock], out: &mut [ColumnBlock]) 
                     add(out, value, &change[place]);
                 }
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use quell_model::LawKind;
+    use quell_model::friction::Expression;
+    use quell_model::friction::Friction;
+
+    use super::*;
+
+    /// The slope of every law along a slip that turns, against the law itself at times of the interval.
+    #[test]
+    fn the_slope_along_a_slip_is_that_of_the_law() {
+        let formula = "0.3 + 0.1*exp(-abs(v)/0.2) + 0.05*v^2/(1 + v^2)";
+        let laws = [
+            LawKind::Stribeck.build(&[0.4, 0.2857, 0.2]),
+            LawKind::StribeckExponential.build(&[0.25, 0.4, 0.1, 2.0, 0.05]),
+            LawKind::Decreasing.build(&[0.4, 0.25, 0.1]),
+            LawKind::Coulomb.build(&[0.3, 0.3, 0.0]),
+            Expression::new(formula, &[], None, 1.0).map(Friction::Expression),
+        ];
+        for law in laws {
+            let law = law.expect("valid");
+            for sign in [1.0, -1.0] {
+                let mut slip = [0.0; ORDER + 1];
+                slip[..4].copy_from_slice(&[0.8, -0.2, 0.3, -0.05]);
+                let slip = slip.map(|term| sign * term);
+                let mut constants = FrictionConstants::of(&law);
+                let (first, slopes) = along_slip(&mut constants, sign, &slip);
+                let values = integrated(first, &slopes, &slip);
+                for at in [0.0, 0.1, 0.2, 0.3] {
+                    let w = horner(&slip, at);
+                    let exact = law.velocity_scale() * law.slope(w.abs() * law.velocity_scale());
+                    assert!((horner(&slopes, at) - exact).abs() < 1e-9, "{law:?} {at}");
+                    let value = sign * law.coefficient(w.abs() * law.velocity_scale());
+                    assert!((horner(&values, at) - value).abs() < 1e-10, "{law:?} {at}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_composition_of_an_exponential_and_a_sine_has_its_known_coefficients() {
+        let mut factorial = 1.0;
+        let outer: Series = std::array::from_fn(|k| {
+            factorial *= k.max(1) as f64;
+            1.0 / factorial
+        });
+        let sine: Series = std::array::from_fn(|k| match k % 4 {
+            1 => outer[k],
+            3 => -outer[k],
+            _ => 0.0,
+        });
+        // exp(sin t) = 1 + t + t²/2 − t⁴/8 − t⁵/15 − t⁶/240 + t⁷/90 + 31t⁸/5760 + …
+        let exact =
+            [1.0, 1.0, 0.5, 0.0, -1.0 / 8.0, -1.0 / 15.0, -1.0 / 240.0, 1.0 / 90.0, 31.0 / 5760.0];
+        let found = composed(&outer, &sine);
+        for (found, exact) in found.iter().zip(exact) {
+            assert!((found - exact).abs() < 1e-15, "{found} {exact}");
         }
     }
 }

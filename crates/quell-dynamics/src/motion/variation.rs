@@ -18,6 +18,7 @@
 
 use quell_model::System;
 use quell_model::friction::{BranchSeries, FrictionConstants};
+use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::matrix::Matrix;
 
 use super::Motion;
@@ -264,6 +265,12 @@ impl<'a> MotionVariation<'a> {
             let equation = &self.equations.contacts[index];
             let contact = &self.system.contacts[index];
             let mut nearer = |series: &[f64; ORDER + 1], scale: f64, is_load: bool| {
+                let known = self.approaches[index][usize::from(is_load)];
+                // With a margin for the rounding of the bound.
+                let may_be = scale * lower_bound(series, segment.duration);
+                if may_be - 1e-12 * series[0].abs() * scale > known {
+                    return;
+                }
                 let (lowest, since) = least(series, segment.duration);
                 let distance = scale * lowest;
                 let known = &mut self.approaches[index][usize::from(is_load)];
@@ -286,11 +293,49 @@ impl<'a> MotionVariation<'a> {
     }
 }
 
+/// The rates of a series of the state at a time after its start.
+struct RatesAt<'a> {
+    states: &'a [f64],
+    since: f64,
+    out: &'a mut [f64],
+}
+
+impl Work for RatesAt<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let size = self.out.len();
+        self.out.fill(0.0);
+        for k in (1..=ORDER).rev() {
+            for (rate, term) in self.out.iter_mut().zip(&self.states[k * size..]) {
+                *rate = f64::mul_add(*rate, self.since, k as f64 * term);
+            }
+        }
+    }
+}
+
+/// A bound from below on a series on [0, `duration`].
+fn lower_bound(series: &[f64; ORDER + 1], duration: f64) -> f64 {
+    let mut change = 0.0;
+    for term in series[1..].iter().rev() {
+        change = (change + term.abs()) * duration;
+    }
+    series[0] - change
+}
+
 impl MotionObserver for MotionVariation<'_> {
     fn segment(&mut self, segment: &MotionSegment<'_>) {
         let size = self.equations.size;
-        if self.now != segment.now || self.equations.follows {
-            self.now = segment.now.to_vec();
+        let sticks_alike = |(a, b): (&ContactNow, &ContactNow)| {
+            (a.sticks(), a.saturated) == (b.sticks(), b.saturated)
+        };
+        let is_held = self.now.len() == segment.now.len()
+            && !self.equations.follows
+            && self.now.iter().zip(segment.now).all(sticks_alike);
+        self.now.clear();
+        self.now.extend_from_slice(segment.now);
+        if !is_held {
             let tilts: Vec<f64> = segment.contacts.iter().map(|contact| contact.tilt[0]).collect();
             self.hold_at(&tilts);
         }
@@ -300,12 +345,8 @@ impl MotionObserver for MotionVariation<'_> {
         }
         self.watch(segment);
         self.flow(segment);
-        for (i, rate) in self.rates.iter_mut().enumerate() {
-            *rate = 0.0;
-            for k in (1..=ORDER).rev() {
-                *rate = rate.mul_add(segment.duration, k as f64 * segment.states[k * size + i]);
-            }
-        }
+        let (states, since) = (segment.states, segment.duration);
+        with_fused_multiply_add(RatesAt { states, since, out: &mut self.rates });
     }
 
     fn event(&mut self, event: &MotionEvent<'_>) {

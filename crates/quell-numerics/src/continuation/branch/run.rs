@@ -10,6 +10,7 @@ use super::super::threshold::BifurcationKind;
 use super::super::{Image, PeriodMap, multipliers, spectral_radius, unstable};
 use super::parameter_window::Follow;
 use super::points::{BranchSide, ContinuationPoint, SpecialPoint};
+use super::special_points::MEETING;
 use crate::matrix::Matrix;
 
 /// A solution on the branch with the data that the continuation run needs.
@@ -273,8 +274,7 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
             return StepOutcome::Over(Some(Box::new(next.clone())));
         }
         let (near, far) = self.border(here, next);
-        if distance(&near.unknowns, &far.unknowns) > 1e-8 {
-            // The two points do not meet: they belong to different branches.
+        if distance(&near.unknowns, &far.unknowns) > MEETING {
             return StepOutcome::Failed;
         }
         self.thresholds(here, &near, out);

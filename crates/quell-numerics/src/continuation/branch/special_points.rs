@@ -10,6 +10,9 @@ use crate::roots::{Closeness, find_root, minimise};
 /// First and last distance beyond a grazing point at which the branch is searched for, in the scaled parameter.
 const BEYOND: (f64, f64) = (1e-7, 2e-2);
 
+/// Distance within which the solutions on both sides of a border meet; further apart they belong to different branches.
+pub(super) const MEETING: f64 = 1e-8;
+
 /// Distance from the first of two solutions, kind, solution and error of a threshold between them.
 type FoundThreshold<S> = (f64, BifurcationKind, BranchSolution<S>, f64);
 
@@ -259,7 +262,11 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         let heading: Vec<f64> = b.unknowns.iter().zip(&a.unknowns).map(|(b, a)| b - a).collect();
         let normal = normalised(heading);
         let (mut low, mut high) = (0.0, 1.0);
-        while high - low > 1e-9 {
+        // Where the place of the border is not wanted, that the two meet is enough.
+        let is_found = |near: &BranchSolution<F::Signature>, far: &BranchSolution<F::Signature>| {
+            self.follow.only_forwards && distance(&near.unknowns, &far.unknowns) <= MEETING
+        };
+        while high - low > 1e-9 && !is_found(&near, &far) {
             let share = 0.5 * (low + high);
             let predicted: Vec<f64> =
                 a.unknowns.iter().zip(&b.unknowns).map(|(a, b)| a + share * (b - a)).collect();
