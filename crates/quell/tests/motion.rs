@@ -159,7 +159,7 @@ fn orbits_and_multipliers_are_those_of_the_reference() {
             println!("{name}: base: {why}");
         }
         let orbit = base.or_else(|_| {
-            settled(study.system(), &vec![0.0; study.system().structure.state_size()], 4000)
+            settled(study.system(), &vec![0.0; study.system().structure.state_size()])
                 .map(|s| s.orbit)
         });
         let orbit = orbit.unwrap_or_else(|why| panic!("{name}: {why}"));

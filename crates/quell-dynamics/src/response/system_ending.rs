@@ -6,9 +6,7 @@ use quell_linear::spectrum::spectrum;
 use quell_model::System;
 
 use crate::motion::MotionStart;
-use crate::motion::orbit::{
-    MOST_PERIODS, NoCycle, SettledMotion, free_cycle, settled, sliding_state,
-};
+use crate::motion::orbit::{NoCycle, SettledMotion, free_cycle, settled, sliding_state};
 use crate::orbit::OrbitVerdict;
 
 /// Where a run ends.
@@ -53,7 +51,7 @@ impl SystemEnding {
         if start.time != 0.0 {
             return Self::Record;
         }
-        match settled(system, &start.state, MOST_PERIODS) {
+        match settled(system, &start.state) {
             Ok(SettledMotion { orbit, multiple, periods }) => Self::Orbit {
                 time: f64::from(periods) * orbit.period / f64::from(multiple),
                 state: orbit.state,

@@ -20,7 +20,7 @@ use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, decided, va
 use super::status::Status;
 use crate::complaint::Failure;
 use crate::range::outside_of_laws;
-use crate::run::system::attractor::{MOST_PERIODS_OF_A_START, end_of_run};
+use crate::run::system::attractor::end_of_run;
 use crate::run::system::cycle::BASE_STEPS;
 use crate::run::system::protocol::SystemProtocol;
 use crate::run::system::response::{self, ResponseRequest};
@@ -167,7 +167,7 @@ fn base_response(system: &System) -> Result<SystemOrbitPoint, Status> {
 /// The motion on which the run from the start of a study ends.
 fn end(study: &SystemStudy, system: &System) -> Result<SystemEndPoint, Status> {
     let start = SystemProtocol::Study.state(study, system).map_err(|_| Status::NoSquealingStart)?;
-    let end = end_of_run(system, &study.observe(), &start, MOST_PERIODS_OF_A_START);
+    let end = end_of_run(system, &study.observe(), &start);
     let attractor = end.map_err(|_| Status::Stalled)?.attractor;
     Ok(SystemEndPoint {
         kind: attractor.kind_code(),

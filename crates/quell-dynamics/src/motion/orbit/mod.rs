@@ -25,11 +25,12 @@ mod ramp;
 mod recurrence;
 mod settled;
 mod thresholds;
+mod transient;
 mod watch;
 
 pub use curves::{MotionCurve, MotionCurves, MotionPlane, motion_curves};
 pub use free::{NoCycle, free_cycle};
 pub use periodic::{MotionOrbit, NoMotionOrbit, base_motion, motion_near, sliding_state};
 pub use ramp::ramped_motion;
-pub use settled::{MOST_PERIODS, SettledMotion, settled};
+pub use settled::{LEAST_PERIODS, MOST_PERIODS, SettledMotion, settled};
 pub use thresholds::{MotionThreshold, MotionThresholds, motion_thresholds};

@@ -105,6 +105,8 @@ pub enum NoMotionOrbit {
         periods: u32,
         /// Its last states at whole periods, the latest last.
         last: Vec<Vec<f64>>,
+        /// Whether the run no longer changes: it is on a motion that does not repeat itself. Otherwise where it ends is unknown.
+        is_steady: bool,
     },
 }
 
@@ -131,8 +133,18 @@ impl fmt::Display for NoMotionOrbit {
                 "the response that continues steady sliding was lost at {:.4} % of the dither amplitude",
                 100.0 * share
             ),
-            Self::Unsettled { periods, .. } => {
-                write!(f, "the run did not settle on a periodic motion within {periods} periods")
+            Self::Unsettled { periods, is_steady: true, .. } => {
+                write!(
+                    f,
+                    "the run ends on a motion that does not repeat itself: after {periods} periods it no longer changes, and no period \
+                     of up to 200 dither periods was found"
+                )
+            }
+            Self::Unsettled { periods, is_steady: false, .. } => {
+                write!(
+                    f,
+                    "the run has not settled within {periods} periods of the dither: it still changes"
+                )
             }
         }
     }

@@ -7,6 +7,9 @@
 //! 1. the motion is reduced to its least period, and
 //! 2. the run goes on, and must reach the motion, or approach it at the rate of the motion's multipliers in two windows
 //!    one after the other. If it does neither, it goes on.
+//!
+//! A run that settles on no such motion within [`LEAST_PERIODS`] and no longer changes is on a motion that does not repeat itself. One that
+//! still changes goes on up to [`MOST_PERIODS`]; where it ends is unknown then.
 
 use num_complex::Complex64;
 use quell_model::System;
@@ -17,12 +20,16 @@ use super::super::{MOTION_TOLERANCE, Motion, MotionStart};
 use super::family::{NoImage, shot, time_of};
 use super::periodic::{MotionOrbit, NoMotionOrbit, motion_near, orbit_at, scale_of};
 use super::recurrence::{NEAR, ON_IT, SAME, distance, returns};
+use super::transient;
 use crate::decay::decays_at;
 use crate::orbit::OrbitVerdict;
 
-/// Common periods within which a run must settle, where its caller has no reason for another number: `orbit` and `response` thus give
-/// one verdict on one run.
-pub const MOST_PERIODS: u32 = 4000;
+/// Common periods after which a run that no longer changes counts as one that does not repeat itself. A run that is still drawn into
+/// a locked motion changes so slowly in few cases only; a larger number costs time on every motion that does not repeat.
+pub const LEAST_PERIODS: u32 = 1000;
+
+/// Common periods after which a run that still changes is given up: a transient that decays by a thousandth per period has long ended.
+pub const MOST_PERIODS: u32 = 20_000;
 
 /// Common periods in a motion's own period that are tried, as for the belt: a longer one is not distinguished from a motion that
 /// does not repeat.
@@ -66,26 +73,30 @@ pub struct SettledMotion {
     pub periods: u32,
 }
 
-/// The periodic motion on which a run from a state at t = 0 ends, within `most` common periods.
+/// The periodic motion on which a run from a state at t = 0 ends: the one judge of it for every verb.
 ///
 /// # Errors
 /// [`NoMotionOrbit::Unsettled`] where no such motion is found.
-pub fn settled(system: &System, start: &[f64], most: u32) -> Result<SettledMotion, NoMotionOrbit> {
+pub fn settled(system: &System, start: &[f64]) -> Result<SettledMotion, NoMotionOrbit> {
     let motion = Motion::new(system).map_err(NoMotionOrbit::Immobile)?;
     let period = time_of(&motion, 1).map_err(NoMotionOrbit::NoImage)?;
     let mut run = Strobed { motion: &motion, period, states: vec![start.to_vec()] };
     let mut next = FIRST_ATTEMPT;
-    while run.periods() < most {
-        run.go_to(next.min(most))?;
+    let mut is_steady = false;
+    while run.periods() < MOST_PERIODS && !is_steady {
+        // A first look is taken at the least number of periods exactly, and seldom later on.
+        let milestone = if run.periods() < LEAST_PERIODS { LEAST_PERIODS } else { MOST_PERIODS };
+        run.go_to(next.min(milestone))?;
         if let Some(found) = run.ends_on()? {
             return Ok(found);
         }
         let count = run.periods();
+        is_steady = count >= LEAST_PERIODS && transient::is_steady(&run.states);
         next = count + (count / ATTEMPTS_APART).max(FIRST_ATTEMPT);
     }
     let periods = run.periods();
     let last = run.states.split_off(run.states.len().saturating_sub(KEPT));
-    Err(NoMotionOrbit::Unsettled { periods, last })
+    Err(NoMotionOrbit::Unsettled { periods, last, is_steady })
 }
 
 /// A run and its states at whole periods, from t = 0 on.

@@ -16,13 +16,9 @@ use super::cycle_samples::CycleSamples;
 use super::in_units;
 use crate::fields::Fields;
 use crate::study::{SystemStudy, SystemUnits};
-use crate::words::plural;
 
 /// Periods of the dither over which a motion that is not periodic is measured.
 const MEASURED: f64 = 20.0;
-
-/// Periods of the dither within which a run must settle.
-pub const MOST_PERIODS_OF_A_START: u32 = 500;
 
 /// Mismatch of states, relative to their size, of one motion.
 const SAME: f64 = 1e-5;
@@ -44,9 +40,9 @@ pub enum MotionKind {
         /// Modulus of the deciding multiplier.
         radius: f64,
     },
-    /// It does not repeat within the periods of the dither that were tried.
+    /// It does not repeat itself.
     NotPeriodic {
-        /// Their number.
+        /// Periods of the dither over which it was followed.
         tried: u32,
     },
     /// A limit cycle without dither.
@@ -88,27 +84,22 @@ pub struct EndOfRun {
     pub periods: u32,
 }
 
-/// The motion on which a run from a state ends, within `most` periods of the dither.
+/// The motion on which a run from a state ends.
 ///
 /// # Errors
 /// Why it cannot be computed.
-pub fn end_of_run(
-    system: &System,
-    row: &[f64],
-    start: &[f64],
-    most: u32,
-) -> Result<EndOfRun, String> {
+pub fn end_of_run(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRun, String> {
     if !system.is_dithered() {
         // A dither of amplitude 0 gives the motion no period.
         return on_free_motion(&system.undithered(), row, start);
     }
-    let (kind, state, states, length, periods) = match settled(system, start, most) {
+    let (kind, state, states, length, periods) = match settled(system, start) {
         Ok(SettledMotion { orbit, multiple, periods }) => {
             let states = at_periods(system, &orbit, multiple)?;
             let kind = MotionKind::Periodic { periods: multiple, radius: orbit.radius() };
             (kind, orbit.state, states, orbit.period, periods)
         }
-        Err(NoMotionOrbit::Unsettled { periods, mut last }) => {
+        Err(NoMotionOrbit::Unsettled { periods, mut last, is_steady: true }) => {
             let length = MEASURED * period(system).ok_or("the dithers have no common period")?;
             let state = last.last().cloned().unwrap_or_else(|| start.to_vec());
             last.reverse();
@@ -228,7 +219,7 @@ impl SystemAttractor {
                 format!("locked: repeats after {periods} periods")
             }
             MotionKind::NotPeriodic { tried } => {
-                format!("not periodic within {tried} period{}", plural(tried))
+                format!("a motion that does not repeat itself, followed over {tried} periods")
             }
             MotionKind::Cycle { period, .. } => {
                 format!("limit cycle of period {}", in_units(units, Quantity::Time, period))

@@ -7,9 +7,7 @@ use quell_dynamics::motion::orbit::sliding_state;
 use quell_model::System;
 use rayon::prelude::*;
 
-use super::attractor::{
-    EndOfRun, MOST_PERIODS_OF_A_START, SystemAttractor, end_of_run, local_verdict,
-};
+use super::attractor::{EndOfRun, SystemAttractor, end_of_run, local_verdict};
 use super::protocol::SystemProtocol;
 use super::start::{state_names, state_quantity};
 use super::tracked::{TrackRequest, understood};
@@ -232,7 +230,7 @@ pub fn run(
                 for (place, value) in places.iter().zip(starts[index % count]) {
                     state[*place] = value;
                 }
-                let end = end_of_run(system, &row, &state, MOST_PERIODS_OF_A_START);
+                let end = end_of_run(system, &row, &state);
                 running.progress.advance(1);
                 Ok(end)
             })

@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
+use quell_dynamics::motion::orbit::MOST_PERIODS;
 use serde_json::Value as Json;
 
-use super::attractor::{MOST_PERIODS_OF_A_START, VERDICTS, verdict_code};
+use super::attractor::{VERDICTS, verdict_code};
 use super::basins::{SystemBasins, SystemPortrait};
 use super::simulate::beyond_laws;
 use super::start::{state_names, state_quantity};
@@ -193,7 +194,7 @@ impl SystemBasins {
             .plain("start", self.start.clone())
             .plain("starts", self.starts.len())
             .plain("layout", self.layout.json())
-            .plain("most_periods", MOST_PERIODS_OF_A_START);
+            .plain("most_periods", MOST_PERIODS);
         // Of a grid the values of each axis, of a sample those of each start.
         let columns = self.layout.axes(self.windows).unwrap_or_else(|| {
             [0, 1].map(|axis| self.starts.iter().map(|start| start[axis]).collect())

@@ -17,9 +17,6 @@ use crate::run::{evenly, stopped};
 use crate::study::SystemStudy;
 use crate::sweep::Running;
 
-/// Periods of the dither within which a motion must settle at each value.
-pub const MOST_PERIODS_OF_A_VALUE: u32 = 1000;
-
 /// Relative difference of size beyond which the two directions show different motions.
 const APART: f64 = 0.02;
 
@@ -135,7 +132,7 @@ fn point(
         Some(state) => state,
         None => SystemProtocol::Study.state(study, &system)?,
     };
-    let end = end_of_run(&system, &study.observe(), &begun, MOST_PERIODS_OF_A_VALUE);
+    let end = end_of_run(&system, &study.observe(), &begun);
     let state = end.as_ref().map_or(begun, |end| end.attractor.state.clone());
     let local = local_verdict(&system);
     let is_dithered = system.is_dithered();

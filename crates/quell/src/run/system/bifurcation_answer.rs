@@ -1,10 +1,11 @@
 //! Sweeps of a system in sentences, JSON and a dataset.
 
+use quell_dynamics::motion::orbit::MOST_PERIODS;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::attractor::{KINDS, SystemAttractor, VERDICTS, verdict_code};
-use super::bifurcation::{MOST_PERIODS_OF_A_VALUE, SystemBifurcation, SystemSweepPoint};
+use super::bifurcation::{SystemBifurcation, SystemSweepPoint};
 use super::simulate::beyond_laws;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
@@ -108,7 +109,7 @@ impl SystemBifurcation {
             .plain("parameter", self.range.parameter.clone())
             .plain("unit", study.unit_of(&self.range.parameter).unwrap_or("1"))
             .plain("start", self.start.clone())
-            .plain("most_periods", MOST_PERIODS_OF_A_VALUE);
+            .plain("most_periods", MOST_PERIODS);
         for branch in &self.branches {
             let points = branch.points.iter().map(|point| put(study, point));
             fields.list(branch.direction.name(), points);

@@ -13,7 +13,6 @@ use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::run::exponents::{ExponentTimes, JudgedMotion, MeasuredExponents, MeasuredMotion};
 use crate::study::{SystemStudy, SystemUnits};
-use quell_dynamics::motion::orbit::MOST_PERIODS;
 
 /// What to find.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -46,7 +45,7 @@ pub fn run(
     has_equations(study, "attractor")?;
     let system = study.system();
     let start = start_with(study, &request.start)?.state;
-    let end = end_of_run(system, &study.observe(), &start, MOST_PERIODS);
+    let end = end_of_run(system, &study.observe(), &start);
     let exponents = request.lyapunov.map(|times| {
         let times = times.over(|| slowest_period(study, "--record"))?;
         let attractor = end.as_ref().ok().map(|end| &end.attractor);

@@ -2,7 +2,7 @@
 //! Floquet multipliers; without dither the limit cycle on which a run ends, or what was tried to find one.
 
 use quell_dynamics::motion::orbit::{
-    MOST_PERIODS, MotionOrbit, NoMotionOrbit, SettledMotion, base_motion, motion_near, settled,
+    MotionOrbit, NoMotionOrbit, SettledMotion, base_motion, motion_near, settled,
 };
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
@@ -160,7 +160,7 @@ fn reached(
     let system = study.system();
     let start = protocol.state(study, system)?;
     let words = protocol.words(study);
-    match settled(system, &start, MOST_PERIODS) {
+    match settled(system, &start) {
         Ok(SettledMotion { orbit, multiple, periods }) => {
             let instead = instead.map(|why| why.to_string());
             Ok((orbit, multiple, FoundBy::Run { start: words, periods, instead }))

@@ -18,9 +18,6 @@ use crate::study::SystemStudy;
 /// Equal steps between the values tried; two changes between neighbouring values that cancel are missed.
 pub const STEPS_TRIED: u32 = 20;
 
-/// Periods of the dither within which a run must settle.
-pub const MOST_PERIODS_OF_A_RUN: u32 = 1500;
-
 /// Relative width of the interval at which halving ends.
 const CLOSENESS: f64 = 1e-5;
 
@@ -37,7 +34,7 @@ pub enum RunOutcome {
     InStep(Vec<f64>),
     /// A periodic motion with several periods of the dither.
     Locked(u32),
-    /// No periodic motion within [`MOST_PERIODS_OF_A_RUN`].
+    /// A motion that does not repeat itself.
     NotPeriodic,
     /// The run cannot be computed.
     Unknown(String),
@@ -101,10 +98,12 @@ impl VariedRun<'_> {
                 Err(NoMotionOrbit::NoDither) => start,
                 ramped => ramped.map_err(|why| why.to_string())?,
             };
-            match settled(&system, &start, MOST_PERIODS_OF_A_RUN) {
+            match settled(&system, &start) {
                 Ok(found) if found.multiple == 1 => Ok(RunOutcome::InStep(found.orbit.state)),
                 Ok(found) => Ok(RunOutcome::Locked(found.multiple)),
-                Err(NoMotionOrbit::Unsettled { .. }) => Ok(RunOutcome::NotPeriodic),
+                Err(NoMotionOrbit::Unsettled { is_steady: true, .. }) => {
+                    Ok(RunOutcome::NotPeriodic)
+                }
                 Err(why) => Err(why.to_string()),
             }
         };

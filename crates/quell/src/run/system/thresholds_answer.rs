@@ -1,5 +1,6 @@
 //! The answer of `thresholds` of a dithered system in sentences and JSON.
 
+use quell_dynamics::motion::orbit::MOST_PERIODS;
 use quell_dynamics::motion::orbit::{MotionThreshold, MotionThresholds as Local};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind};
@@ -8,7 +9,7 @@ use serde_json::Value as Json;
 
 use super::in_units;
 use super::start::{state_names, state_quantity};
-use super::switches::{MOST_PERIODS_OF_A_RUN, RunOutcome, RunSwitches, STEPS_TRIED};
+use super::switches::{RunOutcome, RunSwitches, STEPS_TRIED};
 use super::thresholds::MotionThresholdsFound;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
@@ -243,9 +244,7 @@ impl MotionThresholdsFound {
         }
         fields.nested("at_from", at_from);
         if !self.runs.is_empty() {
-            fields
-                .plain("values_tried", STEPS_TRIED + 1)
-                .plain("most_periods", MOST_PERIODS_OF_A_RUN);
+            fields.plain("values_tried", STEPS_TRIED + 1).plain("most_periods", MOST_PERIODS);
             if self.request.ramp > 0.0 {
                 fields.number("ramp", Quantity::Time, self.request.ramp);
             }
