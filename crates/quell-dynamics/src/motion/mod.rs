@@ -16,12 +16,14 @@
 //! | `equations`, `rows` | a system as the engine needs it |
 //! | `series`, `contact_series`, `expansion`, `stuck` | the Taylor series of a step |
 //! | `variation`, `change_series` | small changes of the initial state |
+//! | `change_block`, `law_along_slip` | several changes side by side, and the slope of a law along a slip |
 //! | `guards`, `selection` | what ends a step, and what follows |
 //! | `engine`, `transitions` | the loop, and what the contacts do at its events |
 //! | `phase`, `state`, `observer`, `stopped` | what goes into a run and comes out of it |
 //! | `extremes` | extremes of a series on a step |
 //! | `contact_meter`, `input_meter`, `row_meter` | integrals over a motion: what contacts do on average, the cost of inputs, a row |
 
+mod change_block;
 mod change_series;
 mod contact_meter;
 mod contact_series;
@@ -31,6 +33,7 @@ mod expansion;
 mod extremes;
 mod guards;
 mod input_meter;
+mod law_along_slip;
 mod lyapunov;
 mod observer;
 pub mod orbit;
