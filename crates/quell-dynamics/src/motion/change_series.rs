@@ -38,7 +38,7 @@ const MOST_INTERVALS: u32 = 200_000;
 
 /// What a contact does on an interval, and its linearised friction in the interval's time.
 #[derive(Clone, Debug)]
-struct LinearContact {
+struct ContactChanges {
     tangent: ChangeRow,
     approach: ChangeRow,
     slope: ChangeRow,
@@ -59,7 +59,7 @@ struct LinearContact {
     changes: Box<[BlockSeries; 4]>,
 }
 
-/// Places in [`LinearContact::changes`].
+/// Places in [`ContactChanges::changes`].
 const SLIP: usize = 0;
 const LOAD: usize = 1;
 const TILT: usize = 2;
@@ -68,7 +68,7 @@ const FORCE: usize = 3;
 /// The memory of the series of changes, kept from step to step.
 #[derive(Clone, Debug)]
 pub(super) struct ChangeSeries {
-    contacts: Vec<LinearContact>,
+    contacts: Vec<ContactChanges>,
     /// Changes of one block, order by order, and their rates.
     orders: Vec<ColumnBlock>,
     rates: Vec<ColumnBlock>,
@@ -91,7 +91,7 @@ pub(super) struct ChangeStep<'a> {
 impl ChangeSeries {
     pub(super) fn new(system: &System, equations: &MotionEquations) -> Self {
         let contacts = equations.contacts.iter().enumerate().map(|(index, contact)| {
-            LinearContact {
+            ContactChanges {
             tangent: ChangeRow::of(&contact.tangent),
             approach: ChangeRow::of(&contact.approach),
             slope: ChangeRow::of(&contact.slope),
@@ -327,7 +327,7 @@ fn expand(
     equations: &MotionEquations,
     stuck: &StuckForces,
     length: f64,
-    contacts: &mut [LinearContact],
+    contacts: &mut [ContactChanges],
     (orders, rates): (&mut [ColumnBlock], &mut [ColumnBlock]),
 ) {
     let size = rates.len();
@@ -346,7 +346,7 @@ fn expand(
     }
 }
 
-impl LinearContact {
+impl ContactChanges {
     /// The change of the contact's forces at order k, where the conditions of stick do not give it.
     #[inline(always)]
     fn force(&mut self, k: usize, change: &[ColumnBlock], rates: &mut [ColumnBlock]) {
@@ -390,7 +390,7 @@ impl LinearContact {
 
 /// Adds the changes of the forces that keep the slip velocities of sticking contacts at zero.
 #[inline(always)]
-fn hold(stuck: &StuckForces, k: usize, contacts: &mut [LinearContact], rates: &mut [ColumnBlock]) {
+fn hold(stuck: &StuckForces, k: usize, contacts: &mut [ContactChanges], rates: &mut [ColumnBlock]) {
     // The conditions of all are read before any force is added.
     for (held, gains) in stuck.gains() {
         let mut force = ZERO;
