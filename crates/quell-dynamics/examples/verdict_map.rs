@@ -6,7 +6,7 @@
 
 use std::time::Instant;
 
-use quell_dynamics::motion::orbit::base_motion;
+use quell_dynamics::motion::orbit::{MotionOrbit, base_motion};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::friction::Friction;
 use quell_model::profile::{Profile, Wave};
@@ -115,7 +115,7 @@ fn main() {
             };
             counts[place] += 1;
             if prints {
-                let radius = found.as_ref().map_or(f64::NAN, |orbit| orbit.radius());
+                let radius = found.as_ref().map_or(f64::NAN, MotionOrbit::radius);
                 println!("{amplitude:.6} {velocity:.6} {place} {radius:.13} {:.3} ms", 1e3 * took);
             }
         }

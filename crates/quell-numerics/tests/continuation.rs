@@ -160,6 +160,41 @@ fn henon_map_has_its_flip_and_is_continued_around_its_fold() {
     assert!(branch.special_points[0].error < 1e-8);
 }
 
+/// A branch that is followed only forwards ends at the fold and at the turn at a border that the whole one passes, with the same
+/// points up to there, and locates no flip.
+#[test]
+fn a_branch_followed_only_forwards_ends_where_the_whole_one_turns_back() {
+    let b = 0.3;
+    let x = |a: f64| (-(1.0 - b) + ((1.0_f64 - b).powi(2) + 4.0 * a).sqrt()) / (2.0 * a);
+    let start = |a: f64| [x(a), b * x(a)];
+    let window = Follow::window(-0.4, -0.05, 40);
+    let whole = follow(&Henon { b }, &start(-0.06), -0.06, false, window).expect("a branch");
+    let window = window.only_forwards();
+    let forwards = follow(&Henon { b }, &start(-0.06), -0.06, false, window).expect("a branch");
+    let End::TurnsBack { at } = forwards.end else { panic!("{:?}", forwards.end) };
+    assert_eq!(at, whole.special_points[0].parameter);
+    assert!(forwards.points.len() > 3 && forwards.points.len() < whole.points.len());
+    for (a, b) in forwards.points.iter().zip(&whole.points) {
+        assert_eq!((&a.state, a.parameter), (&b.state, b.parameter));
+    }
+    let window = Follow::window(-1.0, 1.0, 40);
+    let whole = follow(&Henon { b }, &start(0.2), 0.2, true, window).expect("a branch");
+    let window = window.only_forwards();
+    let forwards = follow(&Henon { b }, &start(0.2), 0.2, true, window).expect("a branch");
+    assert_eq!((whole.special_points.len(), forwards.special_points.len()), (1, 0));
+    assert_eq!((forwards.end, forwards.points.len()), (whole.end, whole.points.len()));
+    for continued in [true, false] {
+        let turns = Corner { inside: 0.5, outside: 1.5, continued };
+        let window = Follow::window(-1.0, 1.0, 20).only_forwards();
+        let branch = follow(&turns, &[1.0], 0.5, false, window).expect("a branch");
+        let End::TurnsBack { at } = branch.end else { panic!("{:?}", branch.end) };
+        near(at, 0.0, 1e-7);
+        let persists = Corner { inside: 0.5, outside: -0.3, continued };
+        let branch = follow(&persists, &[1.0], 0.5, false, window).expect("a branch");
+        assert!(matches!(branch.end, End::Window { at: -1.0 }), "{:?}", branch.end);
+    }
+}
+
 #[test]
 fn delayed_logistic_map_has_its_neimark_sacker_bifurcation() {
     let window = Follow::window(1.2, 3.0, 30);

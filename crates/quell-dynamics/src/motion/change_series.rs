@@ -14,101 +14,31 @@
 //! contributions at the end; where the last two are not negligible, the interval is shortened.
 
 use quell_model::System;
-use quell_model::friction::{BranchSeries, FrictionConstants};
+use quell_model::friction::FrictionConstants;
 use quell_model::system::InputTarget;
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
-use quell_numerics::lane::{horner, partial_product};
+use quell_numerics::lane::horner;
 use quell_numerics::polynomial::step_length;
 
 use super::MOTION_TOLERANCE;
+use super::change_block::{BlockSeries, ChangeRow, ColumnBlock, LANES, ZERO, add, product, times};
 use super::equations::MotionEquations;
+use super::law_along_slip::{along_slip, counted, integrated, multiplied};
 use super::observer::MotionSegment;
 use super::phase::{ContactNow, ContactPhase};
-use super::rows::{RowEntries, StateMatrix};
 use super::stuck::StuckForces;
 use crate::simulation::{ORDER, RECIPROCALS, Series, shift};
 
-/// Columns that are advanced together.
-const LANES: usize = 4;
-
-/// One number of each of the columns.
-type ColumnBlock = [f64; LANES];
-
-/// A series of them.
-type BlockSeries = [ColumnBlock; ORDER + 1];
-
-const ZERO: ColumnBlock = [0.0; LANES];
-
 /// Bound on the last two retained terms, relative to the largest change, as for the state.
 const TOLERANCE: f64 = MOTION_TOLERANCE;
-
-/// Terms of a composition below this share of the largest are lost in its rounding.
-const NEGLIGIBLE: f64 = 1e-18;
 
 /// Shortest interval over the step, and largest number of intervals.
 const SHORTEST: f64 = 1e-9;
 const MOST_INTERVALS: u32 = 200_000;
 
-/// The entries of a row or column over the state that are not zero.
-#[derive(Clone, Debug)]
-struct ChangeRow(Vec<(usize, f64)>);
-
-impl ChangeRow {
-    fn of(row: &RowEntries) -> Self {
-        Self(row.pairs().filter(|(_, value)| *value != 0.0).collect())
-    }
-
-    #[inline(always)]
-    fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// The row times a change.
-    #[inline(always)]
-    fn dot(&self, change: &[ColumnBlock]) -> ColumnBlock {
-        let mut sum = ZERO;
-        for &(place, value) in &self.0 {
-            add(&mut sum, value, &change[place]);
-        }
-        sum
-    }
-
-    /// Adds a multiple of the column to a change.
-    #[inline(always)]
-    fn add_to(&self, factor: &ColumnBlock, change: &mut [ColumnBlock]) {
-        for &(place, value) in &self.0 {
-            add(&mut change[place], value, factor);
-        }
-    }
-}
-
-#[inline(always)]
-fn add(sum: &mut ColumnBlock, factor: f64, block: &ColumnBlock) {
-    for lane in 0..LANES {
-        sum[lane] = f64::mul_add(factor, block[lane], sum[lane]);
-    }
-}
-
-/// Σ aⱼ bₖ₋ⱼ over j = `from`…k, with the `terms` coefficients of a that are not zero.
-#[inline(always)]
-fn product(a: &[f64], terms: usize, b: &BlockSeries, k: usize, from: usize) -> ColumnBlock {
-    let (mut even, mut odd) = (ZERO, ZERO);
-    let end = terms.min(k + 1);
-    let mut j = from;
-    while j + 1 < end {
-        add(&mut even, a[j], &b[k - j]);
-        add(&mut odd, a[j + 1], &b[k - j - 1]);
-        j += 2;
-    }
-    if j < end {
-        add(&mut even, a[j], &b[k - j]);
-    }
-    std::array::from_fn(|lane| even[lane] + odd[lane])
-}
-
 /// What a contact does on an interval, and its linearised friction in the interval's time.
 #[derive(Clone, Debug)]
-struct LinearContact {
+struct ContactChanges {
     tangent: ChangeRow,
     approach: ChangeRow,
     slope: ChangeRow,
@@ -129,7 +59,7 @@ struct LinearContact {
     changes: Box<[BlockSeries; 4]>,
 }
 
-/// Places in [`LinearContact::changes`].
+/// Places in [`ContactChanges::changes`].
 const SLIP: usize = 0;
 const LOAD: usize = 1;
 const TILT: usize = 2;
@@ -138,7 +68,7 @@ const FORCE: usize = 3;
 /// The memory of the series of changes, kept from step to step.
 #[derive(Clone, Debug)]
 pub(super) struct ChangeSeries {
-    contacts: Vec<LinearContact>,
+    contacts: Vec<ContactChanges>,
     /// Changes of one block, order by order, and their rates.
     orders: Vec<ColumnBlock>,
     rates: Vec<ColumnBlock>,
@@ -161,7 +91,7 @@ pub(super) struct ChangeStep<'a> {
 impl ChangeSeries {
     pub(super) fn new(system: &System, equations: &MotionEquations) -> Self {
         let contacts = equations.contacts.iter().enumerate().map(|(index, contact)| {
-            LinearContact {
+            ContactChanges {
             tangent: ChangeRow::of(&contact.tangent),
             approach: ChangeRow::of(&contact.approach),
             slope: ChangeRow::of(&contact.slope),
@@ -274,13 +204,13 @@ impl Work for ChangeExpansion<'_> {
             }
             let equations = self.step.equations;
             expand(equations, self.stuck, self.interval.1, contacts, (orders, rates));
-            for i in 0..size {
-                for lane in 0..LANES {
-                    last = most(last, orders[ORDER * size + i][lane].abs());
-                    previous = most(previous, orders[(ORDER - 1) * size + i][lane].abs());
-                    largest = most(largest, orders[i][lane].abs());
-                }
-            }
+            let largest_of = |k: usize, so_far: f64| {
+                let order = orders[k * size..(k + 1) * size].as_flattened();
+                order.iter().fold(so_far, |so_far, change| most(so_far, change.abs()))
+            };
+            last = largest_of(ORDER, last);
+            previous = largest_of(ORDER - 1, previous);
+            largest = largest_of(0, largest);
             let end = if is_one_block {
                 negligible_over(last / largest, previous / largest)
             } else {
@@ -308,6 +238,9 @@ impl Work for ChangeExpansion<'_> {
 fn negligible_over(last: f64, previous: f64) -> f64 {
     if last <= TOLERANCE && previous <= TOLERANCE {
         return 1.0;
+    }
+    if !(last.is_finite() && previous.is_finite()) {
+        return f64::NAN;
     }
     // Below 1, so that an interval that is repeated is shorter.
     0.95 * step_length(TOLERANCE, last, previous, ORDER).min(1.0)
@@ -351,7 +284,9 @@ impl ChangeExpansion<'_> {
                         pressed = within(&along.pressed, interval);
                     }
                     let mut by_slip = multiplied(&pressed, &slope);
-                    by_slip.iter_mut().for_each(|term| *term *= equation.inverse_scale);
+                    for term in &mut by_slip {
+                        *term *= equation.inverse_scale;
+                    }
                     contact.by_slip = counted(by_slip);
                     if !contact.approach.is_empty() {
                         let mut by_load = integrated(first, &slope, &scaled);
@@ -386,112 +321,13 @@ fn within(series: &Series, (since, length): (f64, f64)) -> Series {
     series
 }
 
-/// A series with the number of its terms up to the last that is not zero.
-#[inline(always)]
-fn counted(series: Series) -> (Series, usize) {
-    let terms = series.iter().rposition(|term| *term != 0.0).map_or(0, |last| last + 1);
-    (series, terms)
-}
-
-/// The product of two series, of which the first often is constant.
-#[inline(always)]
-fn multiplied(a: &Series, b: &Series) -> Series {
-    let terms = counted(*a).1;
-    let mut product = [0.0; ORDER + 1];
-    for (j, a) in a[..terms].iter().enumerate() {
-        for (term, b) in product[j..].iter_mut().zip(b) {
-            *term = f64::mul_add(*a, *b, *term);
-        }
-    }
-    product
-}
-
-/// μ at the start of a slip w(t), and the series of μ′(w(t)) up to the order that the last order of a change needs.
-#[inline(always)]
-fn along_slip(law: &mut FrictionConstants, sign: f64, w: &Series) -> (f64, Series) {
-    // In units of a bound on the change of w, in which the law's own series decreases as fast as that of the motion.
-    let change: f64 = w[1..].iter().map(|term| term.abs()).sum();
-    let mut path = [0.0; ORDER + 1];
-    (path[0], path[1]) = (w[0], change);
-    let mut branch = law.series::<{ ORDER + 1 }>(sign, w[0]);
-    let mut slopes = [0.0; ORDER + 1];
-    slopes[0] = branch.slope();
-    if change > 0.0 {
-        let inverse = 1.0 / change;
-        for k in 1..=ORDER {
-            // Beyond the first order a straight path has no part from the slope, and at the first no other.
-            let term = branch.lower(k, &path);
-            if k > 1 {
-                slopes[k - 1] = k as f64 * inverse * term;
-            }
-        }
-    }
-    let mut relative = w.map(|term| if change > 0.0 { term / change } else { 0.0 });
-    relative[0] = 0.0;
-    (branch.first(), composed(&slopes, &relative))
-}
-
-/// Σ aⱼ uʲ for a series u that begins at the first order and whose coefficients add up to at most 1, below the last order.
-#[inline(always)]
-fn composed(outer: &Series, inner: &Series) -> Series {
-    let largest = outer.iter().fold(0.0, |most: f64, term| most.max(term.abs()));
-    // A term contributes at most itself to any coefficient.
-    let counts = |term: &f64| !(term.abs() <= NEGLIGIBLE * largest);
-    let mut sum = [0.0; ORDER + 1];
-    let Some(highest) = outer.iter().rposition(counts) else { return sum };
-    sum[0] = outer[highest];
-    for j in (0..highest).rev() {
-        // What is multiplied j times more by u is needed up to the order 15 − j only.
-        sum = if j < ORDER / 2 {
-            multiplied_by_inner::<ORDER>(&sum, inner)
-        } else {
-            multiplied_by_inner::<{ ORDER / 2 }>(&sum, inner)
-        };
-        sum[0] = outer[j];
-    }
-    sum
-}
-
-/// The first `N` coefficients of a series times one that begins at the first order.
-#[inline(always)]
-fn multiplied_by_inner<const N: usize>(series: &Series, inner: &Series) -> Series {
-    // Behind zeros, so that every shifted copy of it has the same length.
-    let mut behind = [0.0; 2 * ORDER];
-    behind[ORDER..ORDER + N].copy_from_slice(&series[..N]);
-    let mut sum = [0.0; N];
-    for l in 1..N {
-        let shifted = &behind[ORDER - l..ORDER - l + N];
-        for (sum, term) in sum.iter_mut().zip(shifted) {
-            *sum = f64::mul_add(inner[l], *term, *sum);
-        }
-    }
-    let mut product = [0.0; ORDER + 1];
-    product[..N].copy_from_slice(&sum);
-    product
-}
-
-/// The series of μ along a slip from that of its slope: d(μ(w(t)))/dt = μ′ ẇ.
-#[inline(always)]
-fn integrated(first: f64, slope: &Series, w: &Series) -> Series {
-    let mut rates = [0.0; ORDER + 1];
-    for k in 0..ORDER {
-        rates[k] = (k + 1) as f64 * w[k + 1];
-    }
-    let mut series = [0.0; ORDER + 1];
-    series[0] = first;
-    for k in 1..=ORDER {
-        series[k] = partial_product(slope, &rates, k - 1, 0, k - 1) * RECIPROCALS[k];
-    }
-    series
-}
-
 /// The series of one block of columns over an interval, from its first order.
 #[inline(always)]
 fn expand(
     equations: &MotionEquations,
     stuck: &StuckForces,
     length: f64,
-    contacts: &mut [LinearContact],
+    contacts: &mut [ContactChanges],
     (orders, rates): (&mut [ColumnBlock], &mut [ColumnBlock]),
 ) {
     let size = rates.len();
@@ -510,7 +346,7 @@ fn expand(
     }
 }
 
-impl LinearContact {
+impl ContactChanges {
     /// The change of the contact's forces at order k, where the conditions of stick do not give it.
     #[inline(always)]
     fn force(&mut self, k: usize, change: &[ColumnBlock], rates: &mut [ColumnBlock]) {
@@ -554,7 +390,7 @@ impl LinearContact {
 
 /// Adds the changes of the forces that keep the slip velocities of sticking contacts at zero.
 #[inline(always)]
-fn hold(stuck: &StuckForces, k: usize, contacts: &mut [LinearContact], rates: &mut [ColumnBlock]) {
+fn hold(stuck: &StuckForces, k: usize, contacts: &mut [ContactChanges], rates: &mut [ColumnBlock]) {
     // The conditions of all are read before any force is added.
     for (held, gains) in stuck.gains() {
         let mut force = ZERO;
@@ -569,100 +405,6 @@ fn hold(stuck: &StuckForces, k: usize, contacts: &mut [LinearContact], rates: &m
         contact.along.add_to(&force, rates);
         if !contact.slope.is_empty() {
             contact.across.add_to(&force.map(|force| force * contact.tilt[0]), rates);
-        }
-    }
-}
-
-/// Writes the state matrix times a change to `out`.
-#[inline(always)]
-fn times(matrix: &StateMatrix, change: &[ColumnBlock], out: &mut [ColumnBlock]) {
-    match matrix {
-        StateMatrix::Modal(stiffness, damping) => {
-            let (displacements, velocities) = change.split_at(stiffness.len());
-            let (upper, lower) = out.split_at_mut(stiffness.len());
-            upper.copy_from_slice(velocities);
-            for (i, out) in lower.iter_mut().enumerate() {
-                *out = ZERO;
-                add(out, -stiffness[i], &displacements[i]);
-                add(out, -damping[i], &velocities[i]);
-            }
-        }
-        StateMatrix::Small(columns) => {
-            out.fill(ZERO);
-            for (column, entry) in columns.chunks(change.len()).zip(change) {
-                for (out, value) in out.iter_mut().zip(column) {
-                    add(out, *value, entry);
-                }
-            }
-        }
-        StateMatrix::Sparse(starts, entries) => {
-            for (i, out) in out.iter_mut().enumerate() {
-                *out = ZERO;
-                for &(place, value) in &entries[starts[i]..starts[i + 1]] {
-                    add(out, value, &change[place]);
-                }
-            }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use quell_model::LawKind;
-    use quell_model::friction::Expression;
-    use quell_model::friction::Friction;
-
-    use super::*;
-
-    /// The slope of every law along a slip that turns, against the law itself at times of the interval.
-    #[test]
-    fn the_slope_along_a_slip_is_that_of_the_law() {
-        let formula = "0.3 + 0.1*exp(-abs(v)/0.2) + 0.05*v^2/(1 + v^2)";
-        let laws = [
-            LawKind::Stribeck.build(&[0.4, 0.2857, 0.2]),
-            LawKind::StribeckExponential.build(&[0.25, 0.4, 0.1, 2.0, 0.05]),
-            LawKind::Decreasing.build(&[0.4, 0.25, 0.1]),
-            LawKind::Coulomb.build(&[0.3, 0.3, 0.0]),
-            Expression::new(formula, &[], None, 1.0).map(Friction::Expression),
-        ];
-        for law in laws {
-            let law = law.expect("valid");
-            for sign in [1.0, -1.0] {
-                let mut slip = [0.0; ORDER + 1];
-                slip[..4].copy_from_slice(&[0.8, -0.2, 0.3, -0.05]);
-                let slip = slip.map(|term| sign * term);
-                let mut constants = FrictionConstants::of(&law);
-                let (first, slopes) = along_slip(&mut constants, sign, &slip);
-                let values = integrated(first, &slopes, &slip);
-                for at in [0.0, 0.1, 0.2, 0.3] {
-                    let w = horner(&slip, at);
-                    let exact = law.velocity_scale() * law.slope(w.abs() * law.velocity_scale());
-                    assert!((horner(&slopes, at) - exact).abs() < 1e-9, "{law:?} {at}");
-                    let value = sign * law.coefficient(w.abs() * law.velocity_scale());
-                    assert!((horner(&values, at) - value).abs() < 1e-10, "{law:?} {at}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn the_composition_of_an_exponential_and_a_sine_has_its_known_coefficients() {
-        let mut factorial = 1.0;
-        let outer: Series = std::array::from_fn(|k| {
-            factorial *= k.max(1) as f64;
-            1.0 / factorial
-        });
-        let sine: Series = std::array::from_fn(|k| match k % 4 {
-            1 => outer[k],
-            3 => -outer[k],
-            _ => 0.0,
-        });
-        // exp(sin t) = 1 + t + t²/2 − t⁴/8 − t⁵/15 − t⁶/240 + t⁷/90 + 31t⁸/5760 + …
-        let exact =
-            [1.0, 1.0, 0.5, 0.0, -1.0 / 8.0, -1.0 / 15.0, -1.0 / 240.0, 1.0 / 90.0, 31.0 / 5760.0];
-        let found = composed(&outer, &sine);
-        for (found, exact) in found.iter().zip(exact) {
-            assert!((found - exact).abs() < 1e-15, "{found} {exact}");
         }
     }
 }

@@ -17,6 +17,7 @@
 //! | `variation`, `change_series` | small changes of the initial state |
 //! | `series`, `contact_series`, `step_recurrence`, `expansion`, `stuck` | the Taylor series of a step |
 //! | `contact_masks` | what each contact does during a step, in every lane |
+//! | `change_block`, `law_along_slip` | several changes side by side, and the slope of a law along a slip |
 //! | `guards`, `selection` | what ends a step, and what follows |
 //! | `lanes` | runs of many systems side by side |
 //! | `engine`, `transitions` | the loop, and what the contacts do at its events |
@@ -24,6 +25,7 @@
 //! | `extremes` | extremes of a series on a step |
 //! | `contact_meter`, `input_meter`, `row_meter` | integrals over a motion: what contacts do on average, the cost of inputs, a row |
 
+mod change_block;
 mod change_series;
 mod contact_masks;
 mod contact_meter;
@@ -35,6 +37,7 @@ mod extremes;
 mod guards;
 mod input_meter;
 mod lanes;
+mod law_along_slip;
 mod lyapunov;
 mod observer;
 pub mod orbit;

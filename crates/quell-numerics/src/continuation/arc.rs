@@ -18,6 +18,9 @@ const MOST_CORRECTIONS: u32 = 12;
 /// Largest accepted distance of the corrected point from the predicted one, as a fraction of the step.
 pub(super) const NEAR: f64 = 0.1;
 
+/// Distance within which the solutions on both sides of a border meet; further apart they belong to different branches.
+pub(super) const MEETING: f64 = 1e-8;
+
 /// Least cosine of the angle between successive tangents.
 pub(super) const TURN: f64 = 0.9;
 

@@ -3,14 +3,13 @@
 use num_complex::Complex64;
 
 use super::super::arc::{
-    self, NEAR, NUDGE, Solved, TURN, UnderdeterminedSystem, between, cosine, distance, normalised,
-    tangent,
+    self, MEETING, NEAR, NUDGE, Solved, TURN, UnderdeterminedSystem, between, cosine, distance,
+    normalised, tangent,
 };
 use super::super::threshold::BifurcationKind;
 use super::super::{Image, PeriodMap, multipliers, spectral_radius, unstable};
 use super::parameter_window::Follow;
 use super::points::{BranchSide, ContinuationPoint, SpecialPoint};
-use super::special_points::MEETING;
 use crate::matrix::Matrix;
 
 /// A solution on the branch with the data that the continuation run needs.

@@ -1,6 +1,6 @@
 //! Special points between two solutions on a branch: smooth thresholds, grazing, borders of signatures.
 
-use super::super::arc::{distance, normalised};
+use super::super::arc::{MEETING, distance, normalised};
 use super::super::threshold::{BifurcationKind, ON_THE_CIRCLE, SMOOTH, Tests, confirmed};
 use super::super::{PeriodMap, modulus, spectral_radius};
 use super::points::{BranchSide, SpecialPoint};
@@ -9,9 +9,6 @@ use crate::roots::{Closeness, find_root, minimise};
 
 /// First and last distance beyond a grazing point at which the branch is searched for, in the scaled parameter.
 const BEYOND: (f64, f64) = (1e-7, 2e-2);
-
-/// Distance within which the solutions on both sides of a border meet; further apart they belong to different branches.
-pub(super) const MEETING: f64 = 1e-8;
 
 /// Distance from the first of two solutions, kind, solution and error of a threshold between them.
 type FoundThreshold<S> = (f64, BifurcationKind, BranchSolution<S>, f64);
