@@ -60,6 +60,12 @@ pub trait PeriodMap {
         parameters: &[f64],
         held: Option<&Self::Signature>,
     ) -> Result<Image<Self::Signature>, Self::Error>;
+
+    /// Signatures with fewer events whose pieces [`PeriodMap::image`] extends beyond their borders: those that a motion with this
+    /// signature may have beyond a grazing. None by default.
+    fn smoother(&self, _signature: &Self::Signature, _parameters: &[f64]) -> Vec<Self::Signature> {
+        Vec::new()
+    }
 }
 
 /// The image of a state after a period.
