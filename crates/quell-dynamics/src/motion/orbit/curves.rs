@@ -1,7 +1,8 @@
 //! Curves of the thresholds of a system in two parameters: the scheme of [`crate::orbit::curve`] for belts.
 //!
-//! The curve of a grazing or a separation is that of one contact, whose least slip velocity or load is zero along it, whatever the
-//! events of the others; contacts that graze together have one curve. It ends where another contact grazes or opens first. A curve of multipliers ends where another multiplier leaves the unit circle.
+//! The curve of a grazing or a separation is that of one contact, whose least slip velocity or load is zero along it, regardless of the
+//! events of the others; contacts that graze together have one curve. It ends where another contact grazes or opens first. A curve of
+//! multipliers ends where another multiplier leaves the unit circle.
 
 use quell_model::System;
 use quell_numerics::continuation::criticality::NoFirstLyapunov;

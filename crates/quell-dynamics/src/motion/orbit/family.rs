@@ -1,7 +1,7 @@
 //! A system with parameters as a family of period maps.
 //!
 //! The state is that at t = 0. A contact that slips throughout the period is continued beyond a grazing of γ = 0, or of N = 0, in
-//! its phase, whatever the other contacts do; the least slip velocity or load of these contacts is the distance from the border. The
+//! its phase, regardless of the other contacts; the least slip velocity or load of these contacts is the distance from the border. The
 //! events of the other contacts are integrated as they are.
 
 use std::fmt;

@@ -106,7 +106,7 @@ pub fn follow<F: PeriodMap>(
                 if searched_beyond {
                     break End::Lost { at };
                 }
-                let over = match run.from_outside(&here, &mut special_points) {
+                let over = match run.onto_smoother_piece(&here, &mut special_points) {
                     Some(next) => Some((next, 100.0 * options.shortest)),
                     None => over_a_corner(&run, &here, &mut special_points),
                 };

@@ -29,7 +29,7 @@ type GrazingFromOutside<S> = (BranchSolution<S>, f64, BranchSolution<S>);
 
 impl<F: PeriodMap> ContinuationRun<'_, F> {
     /// The solution on a piece with fewer events beyond a grazing point next to `here`, if there is one; the point is added to `out`.
-    pub(super) fn from_outside(
+    pub(super) fn onto_smoother_piece(
         &self,
         here: &BranchSolution<F::Signature>,
         out: &mut Vec<SpecialPoint<F::Signature>>,
