@@ -135,6 +135,43 @@ fn ranges_without_an_answer_name_the_real_key() {
     assert!(why.starts_with("contact.normal_stiffness = -1: must be"), "{why}");
 }
 
+/// The surface reverses inside the window, whether or not a value of the grid is there: table, sentence and JSON say so, and the
+/// verdicts on both sides are those of windows that end before it.
+#[test]
+fn a_surface_that_comes_to_rest_is_a_point() {
+    let dithered = pad("[1, 1]", LIGHT, 1.0, 20.0);
+    let text = dithered.split("[[dither]]").next().expect("the study without dither");
+    let law = "law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.3\nreference_velocity = 1\n";
+    let text = text.replace("law = \"coulomb\"\ncoefficient = 0.3\n", law);
+    let path = "contact.pad.belt_velocity";
+    for window in [(-0.9, 1.1), (-1.0, 1.0), (-0.731, 1.2)] {
+        let request = TrackRequest { parameter: path.to_owned(), window, along: None };
+        let found = verbs(&study(&text)).tracked_stability(&request).expect("an answer");
+        let json = found.json();
+        let rest = &json["rests"][0];
+        assert_eq!(rest["contact"], "pad", "{json}");
+        assert!(rest["value"].as_f64().expect("a number").abs() < 1e-9, "{json}");
+        assert_eq!(json["rests"].as_array().expect("a list").len(), 1);
+        assert_eq!(json["unknown"].as_array().expect("a list").len(), 1, "{json}");
+        let sentence = json["sentence"].as_str().expect("a sentence");
+        assert!(sentence.contains("contact pad comes to rest"), "{sentence}");
+        assert!(found.text().contains("rest         contact pad"), "{}", found.text());
+        let values = |json: &Json| -> Vec<f64> {
+            let found = json["thresholds"].as_array().expect("a list").iter();
+            found.map(|found| found["value"].as_f64().expect("a number")).collect()
+        };
+        let sides = [(window.0, -1e-3), (1e-3, window.1)];
+        let apart: Vec<f64> =
+            sides.iter().flat_map(|side| values(&tracked(&text, path, *side))).collect();
+        let whole = values(&json);
+        assert!(!whole.is_empty() && whole.len() == apart.len(), "{whole:?} {apart:?}");
+        for (a, b) in whole.iter().zip(&apart) {
+            assert!((a - b).abs() < 1e-9, "{whole:?} {apart:?}");
+        }
+    }
+    assert_eq!(tracked(&text, path, (0.1, 1.0))["rests"], serde_json::json!([]));
+}
+
 #[test]
 fn unlikely_input_is_warned_of() {
     let check = |text: &str| warnings(&verbs(&study(text)).check().json());

@@ -190,6 +190,9 @@ fn thresholds_of_dithered_systems_are_those_of_the_reference() {
         assert!(off(&threshold) <= 1e-6, "{name}: {threshold}");
         assert_eq!(threshold["kind"], case["kind"], "{name}");
         assert_eq!(threshold["becomes"], case["becomes"], "{name}");
+        let grazes = ["grazing", "separation"].iter().any(|kind| threshold["kind"] == *kind);
+        assert_eq!(threshold["contacts"].is_array(), grazes, "{name}: {threshold}");
+        assert_eq!(threshold["opens_towards"].is_string(), threshold["kind"] == "fold", "{name}");
         assert_eq!(found["ending"] == "covered", found["covered"] == true, "{name}");
     }
 }

@@ -54,8 +54,6 @@ pub(super) struct MotionRun<'a> {
     pub(super) window: (f64, u64),
     pub(super) observer: &'a mut dyn MotionObserver,
     pub(super) watched: bool,
-    /// Whether guards end steps; otherwise every contact keeps its phase, regardless of its slip velocity and load.
-    pub(super) is_guarded: bool,
     /// The state at the end of a step.
     pub(super) scratch: Vec<f64>,
 }
@@ -109,7 +107,6 @@ impl<'a> MotionRun<'a> {
             dependent: vec![false; system.contacts.len()],
             window: (start.time, 0),
             watched: observer.watches(),
-            is_guarded: true,
             observer,
             scratch: vec![0.0; equations.size],
             forcings,
@@ -118,10 +115,13 @@ impl<'a> MotionRun<'a> {
         }
     }
 
-    /// The contacts keep these phases throughout: the smooth continuation of a motion beyond the borders of its phase.
-    pub(super) fn keeping(mut self, phases: &[ContactPhase]) -> Self {
-        self.is_guarded = false;
-        self.now = phases.iter().map(|phase| ContactNow::of(*phase)).collect();
+    /// Contacts with a phase here keep it throughout: the smooth continuation of a motion beyond the borders of these phases.
+    pub(super) fn keeping(mut self, phases: &[Option<ContactPhase>]) -> Self {
+        for (now, phase) in self.now.iter_mut().zip(phases) {
+            if let Some(phase) = phase {
+                *now = ContactNow::keeping(*phase);
+            }
+        }
         self
     }
 
@@ -142,7 +142,7 @@ impl<'a> MotionRun<'a> {
     /// Decides what the contacts do at the start.
     pub(super) fn open(&mut self) -> MotionProgress {
         StepBudget::begin().map_err(|why| self.stalled(why))?;
-        if self.is_guarded { self.begin() } else { Ok(()) }
+        self.begin()
     }
 
     /// Whether the run has reached its end.
@@ -225,7 +225,6 @@ impl<'a> MotionRun<'a> {
             stuck: &self.stuck,
             clock: self.clock,
             limit: StepLimit { tolerance, time_scale, longest, room },
-            is_guarded: self.is_guarded,
             out: &mut self.series,
             end: &mut self.scratch,
         })

@@ -24,8 +24,6 @@ pub(super) struct StepExpansion<'a> {
     pub(super) stuck: &'a StuckForces,
     pub(super) clock: Clock,
     pub(super) limit: StepLimit,
-    /// Whether guards end the step.
-    pub(super) is_guarded: bool,
     pub(super) out: &'a mut StepSeries,
     /// The state at the end of the step.
     pub(super) end: &'a mut [f64],
@@ -101,7 +99,7 @@ impl<'a> StepExpansion<'a> {
             series: &mut *self.out,
         };
         let length = recurrence.run(laws, branches, self.limit);
-        let reached = if self.is_guarded { self.guards().first(length) } else { None };
+        let reached = self.guards().first(length);
         let duration = reached.map_or(length, |reached| reached.after);
         horner_states(&self.out.states, duration, self.end);
         ExpandedStep { duration, reached }

@@ -79,6 +79,9 @@ impl<'a> Guards<'a> {
         'a: 'm,
     {
         let (now, series) = (&self.now[contact], &self.contacts[contact]);
+        if now.kept {
+            return None;
+        }
         let equation = &self.equations.contacts[contact];
         match (place, now.phase) {
             (0, _) if series.load_varies => {

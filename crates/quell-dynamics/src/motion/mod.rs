@@ -71,7 +71,7 @@ pub use phase::ContactPhase;
 pub use row_meter::RowMeter;
 pub use state::{ContactEnd, MotionEnd, MotionStart};
 pub use stopped::{Immobile, MotionStopped, StopReason};
-pub use variation::{LeastDistance, MotionVariation};
+pub use variation::MotionVariation;
 
 /// Default bound on the last retained terms of a step, relative to the size of each number of the state.
 pub const MOTION_TOLERANCE: f64 = 1e-13;
@@ -147,12 +147,12 @@ impl<'s> Motion<'s> {
         MotionRun::new((self.system, &self.equations), start, until, tolerance, observer).run()
     }
 
-    /// The same with every contact kept in its phase: the smooth continuation of a motion beyond the borders of its phase, which
-    /// is no motion of the system there.
+    /// The same with some contacts kept in these phases: the smooth continuation of a motion beyond the borders of the phases,
+    /// which is no motion of the system there. A kept contact has no events.
     pub(crate) fn continued(
         &self,
         start: &MotionStart,
-        phases: &[ContactPhase],
+        phases: &[Option<ContactPhase>],
         until: f64,
         observer: &mut dyn MotionObserver,
     ) -> Result<MotionEnd, MotionStopped> {

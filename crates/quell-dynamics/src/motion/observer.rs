@@ -163,10 +163,8 @@ pub struct MotionMoment<'a> {
     pub before: &'a [ContactPhase],
     /// What they do from here on.
     pub after: &'a [ContactPhase],
-    /// The contact whose guard reached zero first.
-    pub trigger: Trigger,
-    /// Rate at which that guard fell.
-    pub rate: f64,
+    /// The guards that reached zero together, each with the rate at which it fell, the first one first.
+    pub triggers: &'a [(Trigger, f64)],
     /// Whether the moment is a jump of the dither, which no change of the state moves.
     pub is_jump: bool,
     /// Whether independent guards reached zero together, so that derivatives by the state are one-sided.

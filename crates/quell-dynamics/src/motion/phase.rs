@@ -34,11 +34,18 @@ pub(super) struct ContactNow {
     pub(super) held: bool,
     /// Sign of the bound at which the friction of a sticking contact stands, if dependent contacts carry the rest.
     pub(super) saturated: i8,
+    /// Whether it keeps its phase beyond the borders of that phase: no guard ends it.
+    pub(super) kept: bool,
 }
 
 impl ContactNow {
     pub(super) fn of(phase: ContactPhase) -> Self {
-        Self { phase, slip_zeros: 0, load_zeros: 0, held: false, saturated: 0 }
+        Self { phase, slip_zeros: 0, load_zeros: 0, held: false, saturated: 0, kept: false }
+    }
+
+    /// A contact that keeps its phase.
+    pub(super) fn keeping(phase: ContactPhase) -> Self {
+        Self { kept: true, ..Self::of(phase) }
     }
 
     /// Forgets what held at the start of the last step alone.

@@ -1,5 +1,7 @@
 //! Transitions of a run: what the contacts do at the start, and at a moment at which guards have reached zero.
 
+use quell_model::friction::{BranchSeries, FrictionConstants};
+
 use super::engine::{MotionProgress, MotionRun, PATIENCE};
 use super::guards::GuardReached;
 use super::observer::{MotionEvent, MotionMoment, Trigger};
@@ -44,6 +46,9 @@ impl MotionRun<'_> {
     pub(super) fn begin(&mut self) -> MotionProgress {
         let mut resting = Vec::new();
         for contact in 0..self.now.len() {
+            if self.now[contact].kept {
+                continue;
+            }
             let (slip, size) = self.slip(contact);
             let load = self.load(contact);
             let is_compliant = self.equations.contacts[contact].is_compliant();
@@ -214,8 +219,15 @@ impl MotionRun<'_> {
             if members.contains(&index) {
                 continue;
             }
-            let speed = self.slip(index).0.abs();
-            let coefficient = self.system.contacts[index].friction.coefficient(speed);
+            let slip = self.slip(index).0;
+            let coefficient = if self.now[index].kept {
+                // Beyond the border the branch of its phase goes on.
+                let mut law = FrictionConstants::of(&self.system.contacts[index].friction);
+                let sign = f64::from(sign);
+                sign * law.series::<1>(sign, slip / contact.scale).first()
+            } else {
+                self.system.contacts[index].friction.coefficient(slip.abs())
+            };
             let force = f64::from(sign) * coefficient * load * self.factor(index);
             contact.along.add_to(force, &mut rates);
             contact.across.add_to(force * contact.slope.dot(state), &mut rates);
@@ -236,13 +248,14 @@ impl MotionRun<'_> {
         }
         let state = self.series.start();
         let clock = self.clock;
+        let others = triggers.iter().filter(|other| other.what != first.what);
+        let reached = [&first].into_iter().chain(others).map(|guard| (guard.what, guard.rate));
         self.observer.moment(&MotionMoment {
             clock,
             state,
             before,
             after: &after,
-            trigger: first.what,
-            rate: first.rate,
+            triggers: &reached.collect::<Vec<_>>(),
             is_jump: first.after == 0.0 && self.last_break == clock.time(),
             is_one_sided: triggers.len() > 1 && !self.stuck.is_dependent,
         });

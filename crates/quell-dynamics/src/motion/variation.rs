@@ -7,7 +7,9 @@
 //! S = I + (f⁺ − f⁻) ∇hᵀ / ḣ
 //! ```
 //!
-//! with the rates f of the state on both sides, f⁺ after all decisions of that moment, and ḣ along the motion before. A smooth
+//! with the rates f of the state on both sides, f⁺ after all decisions of that moment, and ḣ along the motion before. Where guards of
+//! several contacts reach zero together, S = I + Σ Δf_c ∇h_cᵀ/ḣ_c with the part Δf_c of f⁺ − f⁻ that the force of each contact
+//! causes: exact where no contact changes the rate of another's guard, one-sided otherwise. A smooth
 //! release, a separation and a landing have f⁺ = f⁻ and S = I; a stick projects onto γ = 0. A jump of the dither happens at
 //! a fixed time, regardless of the state: S = I there.
 //!
@@ -30,7 +32,7 @@ use super::observer::{
 };
 use super::phase::{ContactNow, ContactPhase};
 use super::rows::StateRow;
-use super::stuck::StuckForces;
+use super::stuck::{StuckForces, independent};
 use crate::simulation::ORDER;
 
 /// Friction of a contact linearised at one instant: δT = −a tᵀδx + b rᵀδx.
@@ -48,20 +50,6 @@ struct LinearFriction {
     tilt: f64,
 }
 
-/// Least distance of the slip velocities and loads from zero, relative to the velocity of the surface and to N₀. At a surface at rest
-/// slip is relative to the velocity that scales the friction law.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LeastDistance {
-    /// The distance.
-    pub distance: f64,
-    /// When.
-    pub time: f64,
-    /// The contact.
-    pub contact: usize,
-    /// Whether it is the distance of a load: of a separation.
-    pub is_load: bool,
-}
-
 /// Integrates the matrix of changes along a run, and records its events.
 pub struct MotionVariation<'a> {
     system: &'a System,
@@ -71,8 +59,6 @@ pub struct MotionVariation<'a> {
     columns: Vec<f64>,
     /// Events in order.
     pub events: Vec<RecordedEvent>,
-    /// Nearest approach to an event of a contact that slips.
-    pub least: Option<LeastDistance>,
     /// The least distance of each contact: of its slip velocity and of its load; infinite where it has no such event.
     pub approaches: Vec<[f64; 2]>,
     /// Whether independent guards reached zero together.
@@ -83,14 +69,21 @@ pub struct MotionVariation<'a> {
     rates: Vec<f64>,
     now: Vec<ContactNow>,
     stuck: StuckForces,
-    /// (∇h, ḣ) of an event whose f⁺ is not known yet.
-    pending: Option<(Vec<f64>, f64)>,
+    /// The guards of a moment whose f⁺ is not known yet.
+    pending: Vec<PendingJump>,
     series: ChangeSeries,
     last: LinearFrictions,
     is_first: bool,
 }
 
 type LinearFrictions = Vec<LinearFriction>;
+
+/// A guard that has reached zero: ∇h and ḣ.
+struct PendingJump {
+    contact: usize,
+    gradient: Vec<f64>,
+    rate: f64,
+}
 
 impl<'a> MotionVariation<'a> {
     /// From the identity.
@@ -101,14 +94,13 @@ impl<'a> MotionVariation<'a> {
             laws: system.contacts.iter().map(|c| FrictionConstants::of(&c.friction)).collect(),
             columns: Matrix::identity(size).as_slice().to_vec(),
             events: Vec::new(),
-            least: None,
             approaches: vec![[f64::INFINITY; 2]; system.contacts.len()],
             is_one_sided: false,
             has_failed: false,
             rates: vec![0.0; size],
             now: Vec::new(),
             stuck: StuckForces::default(),
-            pending: None,
+            pending: Vec::new(),
             series: ChangeSeries::new(system, equations),
             last: Vec::new(),
             is_first: true,
@@ -207,17 +199,60 @@ impl<'a> MotionVariation<'a> {
         }
     }
 
-    /// Applies a jump once the rates behind it are known.
+    /// Applies a jump once the rates behind it are known. Of contacts that reach their guards together each carries the part of the
+    /// jump of the rates that its own force causes.
     fn jump(&mut self, after: &[f64]) {
-        let Some((gradient, rate)) = self.pending.take() else { return };
+        let pending = std::mem::take(&mut self.pending);
+        let [first, others @ ..] = pending.as_slice() else { return };
         let size = self.equations.size;
+        let mut own: Vec<f64> = after.iter().zip(&self.rates).map(|(a, b)| a - b).collect();
+        let shares = self.shares_of(&pending, &own).filter(|_| !others.is_empty());
+        let parts: Vec<Vec<f64>> = others
+            .iter()
+            .enumerate()
+            .map(|(place, other)| {
+                let mut part = vec![0.0; size];
+                if let Some(shares) = &shares {
+                    let column = &self.equations.contacts[other.contact].along;
+                    column.add_to(shares[place + 1], &mut part);
+                }
+                own.iter_mut().zip(&part).for_each(|(own, part)| *own -= part);
+                part
+            })
+            .collect();
         for column in self.columns.chunks_mut(size) {
-            let height: f64 = gradient.iter().zip(column.iter()).map(|(g, x)| g * x).sum();
-            let share = height / rate;
-            for ((value, after), before) in column.iter_mut().zip(after).zip(&self.rates) {
-                *value = (after - before).mul_add(share, *value);
+            let before = column.to_vec();
+            for (jump, part) in [(first, &own)].into_iter().chain(others.iter().zip(&parts)) {
+                let height: f64 = jump.gradient.iter().zip(&before).map(|(g, x)| g * x).sum();
+                let share = height / jump.rate;
+                for (value, part) in column.iter_mut().zip(part) {
+                    *value = part.mul_add(share, *value);
+                }
             }
         }
+        if !others.is_empty() {
+            self.project();
+        }
+    }
+
+    /// The forces of contacts that together cause a jump of the rates, by least squares; `None` where their columns depend on each
+    /// other.
+    fn shares_of(&self, pending: &[PendingJump], jump: &[f64]) -> Option<Vec<f64>> {
+        let size = self.equations.size;
+        let columns: Vec<Vec<f64>> = pending
+            .iter()
+            .map(|of| self.equations.contacts[of.contact].along.dense(size))
+            .collect();
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let count = columns.len();
+        let normal = Matrix::from_fn(count, count, |i, j| product(&columns[i], &columns[j]));
+        let right = Matrix::from_fn(count, 1, |i, _| product(&columns[i], jump));
+        let places: Vec<usize> = (0..count).collect();
+        if independent(&normal, &places).len() < count {
+            return None;
+        }
+        let shares = normal.solve(&right).filter(Matrix::is_finite)?;
+        Some(shares.as_slice().to_vec())
     }
 
     /// Removes what a change of a sticking contact's slip velocity would be: it is lost at once.
@@ -271,14 +306,9 @@ impl<'a> MotionVariation<'a> {
                 if may_be - 1e-12 * series[0].abs() * scale > known {
                     return;
                 }
-                let (lowest, since) = least(series, segment.duration);
-                let distance = scale * lowest;
+                let (lowest, _) = least(series, segment.duration);
                 let known = &mut self.approaches[index][usize::from(is_load)];
-                *known = known.min(distance);
-                if self.least.is_none_or(|known| distance < known.distance) {
-                    let time = segment.clock.time() + since;
-                    self.least = Some(LeastDistance { distance, time, contact: index, is_load });
-                }
+                *known = known.min(scale * lowest);
             };
             if equation.can_stick() {
                 let speed = contact.surface_velocity.mean().abs();
@@ -355,9 +385,14 @@ impl MotionObserver for MotionVariation<'_> {
 
     fn moment(&mut self, moment: &MotionMoment<'_>) {
         self.is_one_sided |= moment.is_one_sided;
-        if self.now.is_empty() || moment.is_jump || self.pending.is_some() {
+        if self.now.is_empty() || moment.is_jump || !self.pending.is_empty() {
             return;
         }
-        self.pending = self.gradient(moment.trigger).map(|gradient| (gradient, -moment.rate));
+        for &(trigger, rate) in moment.triggers {
+            let (Trigger::Slip(contact) | Trigger::Margin(contact, _)) = trigger else { continue };
+            if let Some(gradient) = self.gradient(trigger) {
+                self.pending.push(PendingJump { contact, gradient, rate: -rate });
+            }
+        }
     }
 }

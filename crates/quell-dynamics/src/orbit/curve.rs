@@ -5,9 +5,9 @@ use quell_numerics::continuation::curve::{Trace, trace};
 
 use super::family::{FamilyParameters, Forced, Signature};
 use super::shooting::near;
-use super::threshold::{NoThresholds, Threshold, ThresholdKind, local};
+use super::threshold::{NoThresholds, Threshold, ThresholdKind, criticality, fold_of, local};
 pub use super::threshold_curve::{
-    CurvesFound, Open, OpenLine, ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint,
+    CurvesFound, Open, OpenLine, PointForm, ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint,
 };
 use super::threshold_curve::{LineSearched, ResponsePlane, curves_of, threshold_curve};
 use super::verdict::OrbitVerdict;
@@ -52,8 +52,20 @@ impl ResponsePlane for BeltPlane<'_> {
         Ok(LineSearched::new(found.thresholds, found.ending))
     }
 
-    fn place(found: &Self::Found) -> (f64, ThresholdKind) {
-        (found.value, found.kind)
+    fn place(found: &Self::Found) -> (f64, ThresholdKind, &[usize]) {
+        (found.value, found.kind, &[])
+    }
+
+    fn form(&self, kind: ThresholdKind, point: &ThresholdCurvePoint) -> PointForm {
+        let Self { belt, plane, .. } = *self;
+        let paths = [plane.path, plane.along];
+        let forced = Forced { belt, parameters: FamilyParameters::Paths(&paths), periods: 1 };
+        let at = [point.value, point.along];
+        let width = (plane.window.1 - plane.window.0).abs();
+        PointForm {
+            first_lyapunov: criticality(&forced, kind, point.state, &at),
+            fold: fold_of(&forced, kind, point.state, &at, width),
+        }
     }
 
     fn through(&self, found: &Self::Found, along: f64) -> Option<ThresholdCurve> {
@@ -75,7 +87,12 @@ impl ResponsePlane for BeltPlane<'_> {
         Some(threshold_curve(found.kind, &traced, Start::of_state))
     }
 
-    fn with_events(&self, value: f64, along: f64, state: &Start) -> Option<OrbitVerdict> {
+    fn with_events(
+        &self,
+        _: &Threshold,
+        (value, along): (f64, f64),
+        state: &Start,
+    ) -> Option<OrbitVerdict> {
         let at = self.belt.with(self.plane.along, along).ok()?.with(self.plane.path, value).ok()?;
         let orbit = near(&at, *state, 1).ok()?;
         (!orbit.is_pure_slip()).then(|| orbit.verdict())

@@ -159,4 +159,13 @@ impl PeriodMap for Forced<'_> {
             signature,
         })
     }
+
+    fn smoother(&self, signature: &Signature, parameters: &[f64]) -> Vec<Signature> {
+        let velocity = self.belt_at(parameters).map_or(0.0, |belt| belt.belt_velocity());
+        match signature {
+            Signature::PureSlip(_) => Vec::new(),
+            _ if velocity == 0.0 => Vec::new(),
+            _ => vec![Signature::PureSlip(if velocity < 0.0 { -1 } else { 1 })],
+        }
+    }
 }

@@ -15,6 +15,7 @@ use quell_numerics::continuation::branch::{
     BranchSide, End, FixedPointBranch, Follow, SpecialPoint, follow,
 };
 use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov, first_lyapunov};
+use quell_numerics::continuation::fold::{FoldCoefficient, fold_coefficient};
 use quell_numerics::continuation::spectral_radius;
 use quell_numerics::continuation::threshold::BifurcationKind as Event;
 
@@ -116,6 +117,8 @@ pub struct Threshold {
     /// Whether the vibration beyond it grows from zero, by the coefficient of its normal form: per period of the map, and of a
     /// Hopf bifurcation as [`quell_linear::criticality`] gives it. The critical vector has displacement 1.
     pub first_lyapunov: Result<FirstLyapunov, NoFirstLyapunov>,
+    /// On which side of a fold two responses exist; `None` for other kinds. The critical vector has displacement 1.
+    pub fold: Option<Result<FoldCoefficient, NoFirstLyapunov>>,
 }
 
 /// A value at which the signature changes.
@@ -285,24 +288,42 @@ pub fn along(
         if belt.dithers().is_empty() && threshold.kind == ThresholdKind::NeimarkSacker {
             threshold.kind = ThresholdKind::Hopf;
         }
-        threshold.first_lyapunov = criticality(&forced, threshold);
+        let parameters = [threshold.value];
+        threshold.first_lyapunov =
+            criticality(&forced, threshold.kind, threshold.state, &parameters);
+        threshold.fold =
+            fold_of(&forced, threshold.kind, threshold.state, &parameters, (to - from).abs());
     }
     Ok(found)
 }
 
 /// The coefficient that decides whether a bifurcation is supercritical.
-fn criticality(
+pub(super) fn criticality(
     forced: &Forced<'_>,
-    threshold: &Threshold,
+    kind: ThresholdKind,
+    state: Start,
+    parameters: &[f64],
 ) -> Result<FirstLyapunov, NoFirstLyapunov> {
-    let parameters = [threshold.value];
-    let event = threshold.kind.event().ok_or(NoFirstLyapunov::OtherKind)?;
-    if threshold.kind == ThresholdKind::Hopf {
-        let belt = forced.belt_at(&parameters).map_err(|_| NoFirstLyapunov::NotCritical)?;
+    let event = kind.event().ok_or(NoFirstLyapunov::OtherKind)?;
+    if kind == ThresholdKind::Hopf {
+        let belt = forced.belt_at(parameters).map_err(|_| NoFirstLyapunov::NotCritical)?;
         return of_steady_sliding(&belt.system());
     }
-    let state = [threshold.state.displacement, threshold.state.velocity];
-    first_lyapunov(forced, &state, &parameters, event, 1)
+    first_lyapunov(forced, &[state.displacement, state.velocity], parameters, event, 1)
+}
+
+/// The coefficient that decides to which side a fold in the first parameter opens, whose window is `width` wide; `None` for other
+/// kinds.
+pub(super) fn fold_of(
+    forced: &Forced<'_>,
+    kind: ThresholdKind,
+    state: Start,
+    parameters: &[f64],
+    width: f64,
+) -> Option<Result<FoldCoefficient, NoFirstLyapunov>> {
+    let state = [state.displacement, state.velocity];
+    (kind == ThresholdKind::Fold)
+        .then(|| fold_coefficient(forced, &state, parameters, (0, width), 1))
 }
 
 /// Translates a branch into the terms of the belt.
@@ -316,7 +337,9 @@ fn local_thresholds_of(branch: &FixedPointBranch<Signature>, from: f64, to: f64)
             let state = Start::of_state(&point.state);
             let (value, error) = (point.parameter, point.error);
             let first_lyapunov = Err(NoFirstLyapunov::OtherKind);
-            thresholds.push(Threshold { value, error, kind, becomes, was, state, first_lyapunov });
+            let found =
+                Threshold { value, error, kind, becomes, was, state, first_lyapunov, fold: None };
+            thresholds.push(found);
         }
         changes.extend(signature_change(point));
     }

@@ -6,9 +6,11 @@
 
 use std::fmt;
 
+use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov};
 use quell_numerics::continuation::curve::{
     BifurcationCurve as Traced, BifurcationCurvePoint, CurveEnd,
 };
+use quell_numerics::continuation::fold::FoldCoefficient;
 use quell_numerics::continuation::spectral_radius;
 
 use super::threshold::{BranchEnding, NoThresholds, ThresholdKind};
@@ -29,6 +31,17 @@ pub struct ThresholdCurvePoint<S = Start> {
     pub state: S,
     /// Modulus of the larger multiplier; at a grazing, of the response in pure slip.
     pub radius: f64,
+    /// What the normal form says about it.
+    pub form: PointForm,
+}
+
+/// What the normal form at a threshold on a curve says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointForm {
+    /// Whether the vibration beyond a Hopf, Neimark–Sacker or flip bifurcation grows from zero.
+    pub first_lyapunov: Result<FirstLyapunov, NoFirstLyapunov>,
+    /// Towards which values of the first parameter a fold opens; `None` for other kinds.
+    pub fold: Option<Result<FoldCoefficient, NoFirstLyapunov>>,
 }
 
 /// A curve of thresholds.
@@ -36,8 +49,8 @@ pub struct ThresholdCurvePoint<S = Start> {
 pub struct ThresholdCurve<S = Start> {
     /// The kind of bifurcation.
     pub kind: ThresholdKind,
-    /// The contact that grazes or opens, counted from 0; `None` for other kinds, and for a belt, which has one.
-    pub contact: Option<usize>,
+    /// The contacts that graze or open, counted from 0; empty for other kinds, and for a belt, which has one.
+    pub contacts: Vec<usize>,
     /// Its points, in order.
     pub points: Vec<ThresholdCurvePoint<S>>,
     /// How it ends at its first and at its last point.
@@ -178,14 +191,23 @@ pub(crate) trait ResponsePlane {
     /// The thresholds at a value of the second parameter.
     fn on_line(&self, along: f64) -> Result<LineSearched<Self::Found>, Open<Self::Why>>;
 
-    /// Value and kind of a threshold.
-    fn place(found: &Self::Found) -> (f64, ThresholdKind);
+    /// Value and kind of a threshold, and the contacts that graze or open there.
+    fn place(found: &Self::Found) -> (f64, ThresholdKind, &[usize]);
+
+    /// What the normal form at a point of a curve of this kind says.
+    fn form(&self, kind: ThresholdKind, point: &ThresholdCurvePoint<Self::State>) -> PointForm;
 
     /// The curve through a threshold, to the borders of the windows.
     fn through(&self, found: &Self::Found, along: f64) -> Option<ThresholdCurve<Self::State>>;
 
-    /// The verdict on the response with contact events near a state in pure slip; `None` if no such response exists.
-    fn with_events(&self, value: f64, along: f64, state: &Self::State) -> Option<OrbitVerdict>;
+    /// The verdict on the response with further events near a state on the curve of a grazing, at values of both parameters;
+    /// `None` if no such response exists.
+    fn with_events(
+        &self,
+        found: &Self::Found,
+        at: (f64, f64),
+        state: &Self::State,
+    ) -> Option<OrbitVerdict>;
 }
 
 /// The curves of a plane, or the last line if no line has a base response to start from.
@@ -220,19 +242,24 @@ pub(crate) fn curves_of<P: ResponsePlane>(plane: &P, lines: u32) -> Searched<P> 
             leave_open(Open::Lost { at });
         }
         for threshold in thresholds {
-            let (value, kind) = P::place(&threshold);
-            if found.iter().any(|curve| passes(curve, (value, kind), along, window)) {
+            let (value, kind, contacts) = P::place(&threshold);
+            let same = |curve: &&ThresholdCurve<P::State>| {
+                curve.kind == kind && curve.contacts == contacts
+            };
+            if found.iter().filter(same).any(|curve| passes(curve, value, along, window)) {
                 continue;
             }
-            match plane.through(&threshold, along) {
-                Some(curve)
-                    if matches!(kind, ThresholdKind::Grazing | ThresholdKind::Separation) =>
-                {
-                    found.push(deciding_part(plane, curve, along));
-                }
-                Some(curve) => found.push(curve),
-                None => leave_open(Open::NotFollowed { value }),
+            let Some(mut curve) = plane.through(&threshold, along) else {
+                leave_open(Open::NotFollowed { value });
+                continue;
+            };
+            if matches!(kind, ThresholdKind::Grazing | ThresholdKind::Separation) {
+                curve = deciding_part(plane, &threshold, curve, along);
             }
+            for point in &mut curve.points {
+                point.form = plane.form(kind, point);
+            }
+            found.push(curve);
         }
     }
     match open.pop() {
@@ -245,33 +272,28 @@ pub(crate) fn curves_of<P: ResponsePlane>(plane: &P, lines: u32) -> Searched<P> 
 }
 
 /// Whether a curve already passes through a threshold on a line.
-fn passes<S>(
-    curve: &ThresholdCurve<S>,
-    (value, kind): (f64, ThresholdKind),
-    along: f64,
-    window: (f64, f64),
-) -> bool {
+fn passes<S>(curve: &ThresholdCurve<S>, value: f64, along: f64, window: (f64, f64)) -> bool {
     let width = window.1 - window.0;
-    curve.kind == kind
-        && curve.points.windows(2).any(|pair| {
-            let (a, b) = (&pair[0], &pair[1]);
-            let share = (along - a.along) / (b.along - a.along);
-            let at = share.mul_add(b.value - a.value, a.value);
-            let tolerance = (0.1 * (b.value - a.value).abs()).max(1e-3 * width.abs());
-            (0.0..=1.0).contains(&share) && (at - value).abs() <= tolerance
-        })
+    curve.points.windows(2).any(|pair| {
+        let (a, b) = (&pair[0], &pair[1]);
+        let share = (along - a.along) / (b.along - a.along);
+        let at = share.mul_add(b.value - a.value, a.value);
+        let tolerance = (0.1 * (b.value - a.value).abs()).max(1e-3 * width.abs());
+        (0.0..=1.0).contains(&share) && (at - value).abs() <= tolerance
+    })
 }
 
 /// The part of a grazing curve, around the line on which it was found, where the grazing changes the verdict.
 fn deciding_part<P: ResponsePlane>(
     plane: &P,
+    found: &P::Found,
     curve: ThresholdCurve<P::State>,
     along: f64,
 ) -> ThresholdCurve<P::State> {
     let decides = |point: &ThresholdCurvePoint<P::State>| {
         let beyond = |side: f64| {
             let value = point.value * (1.0 + side * BEYOND);
-            plane.with_events(value, point.along, &point.state)
+            plane.with_events(found, (value, point.along), &point.state)
         };
         beyond(1.0).or_else(|| beyond(-1.0)) != Some(OrbitVerdict::of(point.radius, 0.0))
     };
@@ -313,10 +335,11 @@ pub(crate) fn threshold_curve<S>(
         along: point.parameters[1],
         state: state(&point.state),
         radius: spectral_radius(&point.multipliers),
+        form: PointForm { first_lyapunov: Err(NoFirstLyapunov::OtherKind), fold: None },
     };
     ThresholdCurve {
         kind,
-        contact: None,
+        contacts: Vec::new(),
         points: traced.points.iter().map(point).collect(),
         ends: traced.ends.map(ThresholdCurveEnd::of),
     }

@@ -6,7 +6,7 @@ use quell_linear::spectrum::spectrum;
 use quell_model::System;
 
 use crate::motion::MotionStart;
-use crate::motion::orbit::{NoCycle, SettledMotion, free_cycle, settled, sliding_state};
+use crate::motion::orbit::{NoCycle, SettledMotion, free_cycle, is_on_sliding, settled};
 use crate::orbit::OrbitVerdict;
 
 /// Where a run ends.
@@ -91,15 +91,9 @@ impl SystemEnding {
     }
 }
 
-/// Distance from steady sliding, relative to the state, within which a run is in steady sliding.
-const ON_SLIDING: f64 = 1e-9;
-
 /// Whether a state is that of steady sliding, and that is unstable.
 fn is_unstable_sliding(system: &System, state: &[f64]) -> bool {
-    let Ok(sliding) = sliding_state(system) else { return false };
-    let size = sliding.iter().chain(state).fold(0.0, |m: f64, x| m.max(x.abs()));
-    let is_there = sliding.iter().zip(state).all(|(a, b)| (a - b).abs() <= ON_SLIDING * size);
-    is_there && cannot_settle(system)
+    is_on_sliding(system, state) && cannot_settle(system)
 }
 
 /// Whether steady sliding of a system is unstable, so that hardly any run can settle there.

@@ -20,6 +20,10 @@ pub use thresholds::{StabilityChange, ThresholdOfStability};
 /// Shortest step over the width of the window: below it two eigenvalues count as one.
 const SHORTEST: f64 = 1e-12;
 
+/// Distance over the width of the window from a value without a matrix at which the eigenvalues are computed first: far above the
+/// error of that value, so that both are on their sides of it. A threshold closer to it is missed.
+const NEXT_TO_A_GAP: f64 = 1e-9;
+
 /// Most values of the parameter at which eigenvalues are computed, for each requested point: every close approach halves a
 /// step some forty times.
 const MOST_VALUES_PER_POINT: usize = 64;
@@ -62,23 +66,38 @@ pub fn track<F: Family>(
 ) -> Result<Tracked<F::Error>, F::Error> {
     let (from, to) = window;
     let count = points.max(2);
-    let grid: Vec<f64> =
-        (0..count)
-            .map(|k| {
-                if k + 1 == count { to } else { from + (to - from) * k as f64 / (count - 1) as f64 }
-            })
-            .collect();
+    let share = |k: usize| k as f64 / (count - 1) as f64;
+    let mut grid: Vec<f64> = (0..count)
+        .map(|k| if k + 1 == count { to } else { from + (to - from) * share(k) })
+        .collect();
+    let aside = NEXT_TO_A_GAP * (to - from).abs();
+    let mut gaps = family.gaps(window);
+    gaps.retain(|(gap, _)| *gap > from + aside && *gap < to - aside);
+    grid.retain(|value| gaps.iter().all(|(gap, _)| (value - gap).abs() > aside));
+    grid.extend(gaps.iter().flat_map(|(gap, _)| [gap - aside, gap + aside]));
+    grid.sort_by(f64::total_cmp);
+    let mut gaps = gaps.into_iter().peekable();
+    let mut is_gap = false;
     let mut pieces: Vec<Vec<TrackedPoint>> = Vec::new();
     let mut unknown: Vec<UnknownRange<F::Error>> = Vec::new();
     let mut piece: Vec<TrackedPoint> = Vec::new();
     for &value in &grid {
+        while let Some((gap, why)) = gaps.next_if(|(gap, _)| *gap < value) {
+            // Inside a range without an answer a gap is part of it.
+            if !piece.is_empty() {
+                unknown.push(UnknownRange { from: gap, to: gap, why });
+                pieces.push(std::mem::take(&mut piece));
+                is_gap = true;
+            }
+        }
         match at(family, value) {
             Ok(point) => piece.push(point),
             Err(why) => {
                 match unknown.last_mut() {
-                    Some(range) if piece.is_empty() => range.to = value,
+                    Some(range) if piece.is_empty() && !is_gap => range.to = value,
                     _ => unknown.push(UnknownRange { from: value, to: value, why }),
                 }
+                is_gap = false;
                 if !piece.is_empty() {
                     pieces.push(std::mem::take(&mut piece));
                 }

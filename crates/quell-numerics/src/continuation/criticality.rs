@@ -17,7 +17,7 @@ use crate::normal_form::{CriticalPair, DerivativesAlong, FormCoefficient, flip, 
 
 /// First step over the typical size of a state: large enough that halvings pass the step at which truncation and rounding balance. If
 /// it leaves the region of the signature, the halvings return to it; a much smaller one would leave rounding alone.
-const FIRST_STEP: f64 = 0.05;
+pub(super) const FIRST_STEP: f64 = 0.05;
 
 /// Halvings of the step, down to 10⁻⁶ of the size of a state: below it second differences of a derivative known to 10⁻¹² are noise. If
 /// no step has the signature of the fixed point, the coefficient is unknown, with that reason.
@@ -167,7 +167,7 @@ pub fn first_lyapunov<F: PeriodMap>(
 }
 
 /// The multiplier nearest to the target, or the one of a pair nearest to the unit circle.
-fn critical(
+pub(super) fn critical(
     derivative: &Matrix,
     target: Option<Complex64>,
     leading: usize,
@@ -188,12 +188,12 @@ fn critical(
 }
 
 /// A fixed point with its critical vector.
-struct Stencil<'a, F: PeriodMap> {
-    map: &'a F,
-    state: &'a [f64],
-    parameters: &'a [f64],
-    centre: &'a Image<F::Signature>,
-    pair: &'a CriticalPair,
+pub(super) struct Stencil<'a, F: PeriodMap> {
+    pub(super) map: &'a F,
+    pub(super) state: &'a [f64],
+    pub(super) parameters: &'a [f64],
+    pub(super) centre: &'a Image<F::Signature>,
+    pub(super) pair: &'a CriticalPair,
 }
 
 impl<F: PeriodMap> Stencil<'_, F> {
@@ -207,7 +207,7 @@ impl<F: PeriodMap> Stencil<'_, F> {
     }
 
     /// First and second differences of the derivative along a real direction; zero along none.
-    fn differences(&self, direction: &[f64], step: f64) -> Option<[Matrix; 2]> {
+    pub(super) fn differences(&self, direction: &[f64], step: f64) -> Option<[Matrix; 2]> {
         let n = direction.len();
         if direction.iter().all(|d| *d == 0.0) {
             return Some([Matrix::zeros(n, n), Matrix::zeros(n, n)]);
@@ -238,44 +238,57 @@ impl<F: PeriodMap> Stencil<'_, F> {
 
     fn extrapolated(&self, is_flip: bool) -> Result<FirstLyapunov, NoFirstLyapunov> {
         let largest = self.pair.right.iter().fold(0.0, |m: f64, z| m.max(modulus(*z)));
-        let mut step = FIRST_STEP * self.map.scale() / largest;
-        // A row of the table, and its last entries in the rows so far.
-        let mut before: Vec<f64> = Vec::new();
-        let mut ends: Vec<f64> = Vec::new();
-        let mut best: Option<(usize, FirstLyapunov)> = None;
-        for level in 0..MOST_LEVELS {
-            let found = self.coefficient(step, is_flip);
-            step *= 0.5;
-            let Some(found) = found else {
-                before.clear();
-                ends.clear();
-                continue;
-            };
-            let FormCoefficient { value, rounding } =
-                found.map_err(|()| NoFirstLyapunov::Singular)?;
-            let mut row = vec![value];
-            let mut power = 1.0;
-            for (k, coarser) in before.iter().enumerate() {
-                power *= 4.0;
-                row.push(row[k] + (row[k] - coarser) / (power - 1.0));
-            }
-            let value = row[row.len() - 1];
-            if let [.., earlier, last] = ends[..] {
-                // Two steps, for one alone may be small by chance.
-                let change = (value - last).abs().max((last - earlier).abs());
-                let error = NOISE * change + rounding;
-                if best.is_none_or(|(_, known)| error < known.error) {
-                    best = Some((level, FirstLyapunov { value, error }));
-                }
-            }
-            ends.push(value);
-            before = row;
-            if best.is_some_and(|(found, _)| level >= found + PATIENCE) {
-                break;
+        let first = FIRST_STEP * self.map.scale() / largest;
+        let (value, error) = extrapolated(first, |step| {
+            let found = self.coefficient(step, is_flip)?;
+            Some(found.map_err(|()| NoFirstLyapunov::Singular))
+        })?;
+        Ok(FirstLyapunov { value, error })
+    }
+}
+
+/// A coefficient from differences with a step, extrapolated to step zero, and its error. `None` at a step whose states meet other
+/// events.
+pub(super) fn extrapolated(
+    first: f64,
+    coefficient: impl Fn(f64) -> Option<Result<FormCoefficient, NoFirstLyapunov>>,
+) -> Result<(f64, f64), NoFirstLyapunov> {
+    let mut step = first;
+    // A row of the table, and its last entries in the rows so far.
+    let mut before: Vec<f64> = Vec::new();
+    let mut ends: Vec<f64> = Vec::new();
+    let mut best: Option<(usize, (f64, f64))> = None;
+    for level in 0..MOST_LEVELS {
+        let found = coefficient(step);
+        step *= 0.5;
+        let Some(found) = found else {
+            before.clear();
+            ends.clear();
+            continue;
+        };
+        let FormCoefficient { value, rounding } = found?;
+        let mut row = vec![value];
+        let mut power = 1.0;
+        for (k, coarser) in before.iter().enumerate() {
+            power *= 4.0;
+            row.push(row[k] + (row[k] - coarser) / (power - 1.0));
+        }
+        let value = row[row.len() - 1];
+        if let [.., earlier, last] = ends[..] {
+            // Two steps, for one alone may be small by chance.
+            let change = (value - last).abs().max((last - earlier).abs());
+            let error = NOISE * change + rounding;
+            if best.is_none_or(|(_, (_, known))| error < known) {
+                best = Some((level, (value, error)));
             }
         }
-        best.map(|(_, coefficient)| coefficient).ok_or(NoFirstLyapunov::OtherEvents)
+        ends.push(value);
+        before = row;
+        if best.is_some_and(|(found, _)| level >= found + PATIENCE) {
+            break;
+        }
     }
+    best.map(|(_, coefficient)| coefficient).ok_or(NoFirstLyapunov::OtherEvents)
 }
 
 /// Second and third derivatives by differences along the real and the imaginary part of q.
@@ -287,7 +300,7 @@ struct Differences<'a> {
     q: &'a [Complex64],
 }
 
-fn image_of(matrix: &Matrix, vector: &[Complex64]) -> Vec<Complex64> {
+pub(super) fn image_of(matrix: &Matrix, vector: &[Complex64]) -> Vec<Complex64> {
     (0..matrix.rows())
         .map(|i| matrix.row(i).iter().zip(vector).map(|(a, z)| z * *a).sum())
         .collect()

@@ -9,6 +9,7 @@
 //! * [`branch`]: a branch of fixed points in one parameter, around folds and through borders of signatures;
 //! * [`threshold`]: the test functions of a fold, a flip, a Neimark–Sacker bifurcation and a grazing bifurcation;
 //! * [`criticality`]: whether a bifurcation is supercritical or subcritical;
+//! * [`fold`]: on which side of a fold two fixed points exist;
 //! * [`curve`]: the curve of a threshold in two parameters.
 //!
 //! Lengths along a branch are measured in scaled coordinates: the state in units of [`PeriodMap::scale`], each parameter in
@@ -22,6 +23,7 @@ mod arc;
 pub mod branch;
 pub mod criticality;
 pub mod curve;
+pub mod fold;
 pub mod shooting;
 pub mod threshold;
 
@@ -73,6 +75,12 @@ pub trait PeriodMap {
         held: Option<&Self::Signature>,
     ) -> Result<Vec<f64>, Self::Error> {
         self.image(state, parameters, held).map(|image| image.state)
+    }
+
+    /// Signatures with fewer events whose pieces [`PeriodMap::image`] extends beyond their borders: those that a motion with this
+    /// signature may have beyond a grazing. None by default.
+    fn smoother(&self, _signature: &Self::Signature, _parameters: &[f64]) -> Vec<Self::Signature> {
+        Vec::new()
     }
 }
 

@@ -310,11 +310,14 @@ class TrackedStability(Result):
     """Whether every value of the range has an answer."""
     resumes: bool
     """Whether the last value has an answer again, after a range without one."""
+    rests: list[dict[str, Any]]
+    """``value`` at which the surface of a ``contact`` comes to rest: friction reverses there, and there is no steady sliding."""
     unknown: list[dict[str, Any]]
     """``from`` and ``to`` of ranges without an answer, and ``why``.
 
     With a second parameter also ``along``, ``between``, and ``curves``: ``kind``, ``value`` (n,), ``along`` (n,), ``error`` (n,),
-    ``frequency`` (n,), ``was`` and ``becomes`` of each curve.
+    ``frequency`` (n,), ``was`` and ``becomes`` of each curve, and ``criticality`` (n,) with ``criticality_reason`` (n,) and
+    ``first_lyapunov_coefficient`` (n,) of its points.
     """
 
 
@@ -513,7 +516,11 @@ class Thresholds(Result):
 
     Kinds are "neimark-sacker", "hopf", "flip", "fold", "grazing", "branching", "signature", and of a system without dither
     "hopf", "divergence", "coalescence", with ``frequency``; see :class:`TrackedStability`. Under dither a system also has
-    "separation", and ``state``, ``radius_below`` and ``radius_above``.
+    "separation", and ``state``, ``radius_below`` and ``radius_above``. ``contacts`` of a grazing or a separation names the contacts
+    of a system that graze or open, ``contact`` the first of them.
+
+    ``opens_towards`` of a fold is "larger" or "smaller", the values of the parameter at which two responses exist, or ``None`` with
+    the reason in ``why``; it is the sign of ``quadratic_coefficient`` with its ``quadratic_coefficient_error``.
 
     ``criticality`` of a Hopf, Neimark–Sacker or flip bifurcation is "supercritical" (beyond the threshold the vibration is stable
     and grows from zero), "subcritical" (the motion jumps, with hysteresis) or ``None`` with ``criticality_reason``. It is the sign
@@ -542,7 +549,8 @@ class ThresholdCurves(Result):
     """Path of the second parameter."""
     curves: list[dict[str, Any]]
     """``kind``, ``value`` (n,), ``along`` (n,) of each curve, and with dither ``multiplier_modulus`` (n,) and ``ends``; of a
-    system also ``state`` (n, m) and the ``contact`` that grazes or opens."""
+    system also ``state`` (n, m) and the ``contacts`` that graze or open. ``criticality`` (n,) and ``first_lyapunov_coefficient`` (n,)
+    of each point, or ``None`` with its reason in ``criticality_reason`` (n,); of folds ``opens_towards`` (n,) likewise."""
     averaged: list[dict[str, Any]]
     """With dither: boundaries of averaging: ``sharper``, ``along`` (n,), ``value`` (n,), and both as pairs, ``points``."""
 

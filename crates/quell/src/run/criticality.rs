@@ -1,6 +1,10 @@
-//! Whether the bifurcation at a threshold is supercritical, in JSON and in sentences.
+//! Whether the bifurcation at a threshold is supercritical, and to which side a fold opens, in JSON and in sentences.
 
-use quell_numerics::continuation::criticality::{Criticality, FirstLyapunov};
+use quell_dynamics::orbit::curve::PointForm;
+use quell_dynamics::orbit::threshold::ThresholdKind;
+use quell_numerics::continuation::criticality::{Criticality, FirstLyapunov, NoFirstLyapunov};
+use quell_numerics::continuation::fold::{FoldCoefficient, FoldOpening};
+use serde_json::Value as Json;
 
 use crate::fields::Fields;
 
@@ -28,6 +32,93 @@ pub fn words(criticality: Criticality) -> &'static str {
         Criticality::Supercritical => "supercritical: the vibration grows from zero",
         Criticality::Subcritical => "subcritical: the motion jumps",
     }
+}
+
+/// The coefficient of a fold; `None` for other kinds.
+type FoundFold = Option<Result<FoldCoefficient, NoFirstLyapunov>>;
+
+/// The side to which a fold opens.
+///
+/// # Errors
+/// Why it is not known.
+pub fn opening(found: &FoundFold) -> Result<FoldOpening, String> {
+    let not_a_fold = "two solutions exist on one side only of a fold";
+    let found = found.ok_or_else(|| not_a_fold.to_owned())?.map_err(|why| match why {
+        NoFirstLyapunov::Singular => "the parameter does not move the branch there".to_owned(),
+        why => why.to_string(),
+    })?;
+    let degenerate = "the quadratic coefficient is zero within its error, as at a cusp";
+    found.opening().ok_or_else(|| degenerate.to_owned())
+}
+
+/// A clause about a fold after a separator; empty where nothing is known or the threshold is of another kind.
+pub fn opening_clause(found: &FoundFold, separator: &str, parameter: &str) -> String {
+    opening(found).map_or_else(
+        |_| String::new(),
+        |side| format!("{separator}opens towards {} {parameter}", side.name()),
+    )
+}
+
+/// Adds to which side a fold opens. `value` and `length` are the units of the parameter and of displacements.
+pub(super) fn put_fold(fields: &mut Fields, [value, length]: [&str; 2], found: &FoundFold) {
+    let side = opening(found);
+    match &side {
+        Ok(side) => fields.plain("opens_towards", side.name()),
+        Err(why) => fields.unknown("opens_towards", why.clone()),
+    };
+    let unit = match (value, length) {
+        (_, "1") => value.to_owned(),
+        ("1", length) => format!("1/{length}²"),
+        (value, length) => format!("{value}/{length}²"),
+    };
+    let names = ["quadratic_coefficient", "quadratic_coefficient_error"];
+    match (found, side) {
+        (Some(Ok(FoldCoefficient { value, error })), _)
+            if value.is_finite() && error.is_finite() =>
+        {
+            fields.measured(names[0], &unit, *value).measured(names[1], &unit, *error);
+        }
+        (_, side) => {
+            let beyond = "the coefficient is beyond the range of floating-point numbers";
+            let why = side.err().unwrap_or_else(|| beyond.to_owned());
+            for name in names {
+                fields.unknown(name, why.clone());
+            }
+        }
+    }
+}
+
+/// Adds the forms of the points of a curve of one kind, in columns: a word, or `null` with its reason in the column of reasons.
+pub(super) fn put_columns(fields: &mut Fields, kind: ThresholdKind, forms: &[PointForm]) {
+    let lyapunov = |form: &PointForm| form.first_lyapunov.map_err(|why| why.to_string());
+    let coefficients: Vec<_> = forms.iter().map(lyapunov).collect();
+    put_criticalities(fields, &coefficients);
+    if kind == ThresholdKind::Fold {
+        let sides = forms.iter().map(|form| opening(&form.fold).map(FoldOpening::name));
+        put_words(fields, "opens_towards", &sides.collect::<Vec<_>>());
+    }
+}
+
+/// Adds the criticality of the points of a curve, likewise.
+pub(super) fn put_criticalities(fields: &mut Fields, found: &[Result<FirstLyapunov, String>]) {
+    let words = found.iter().map(|found| decided(found).map(Criticality::name));
+    put_words(fields, "criticality", &words.collect::<Vec<_>>());
+    let value = |found: &Result<FirstLyapunov, String>| match found {
+        Ok(found) if found.value.is_finite() => Json::from(found.value),
+        _ => Json::Null,
+    };
+    let values: Vec<Json> = found.iter().map(value).collect();
+    fields.plain("first_lyapunov_coefficient", values);
+}
+
+fn put_words(fields: &mut Fields, name: &str, found: &[Result<&'static str, String>]) {
+    let words: Vec<Json> =
+        found.iter().map(|word| word.as_ref().map_or(Json::Null, |word| (*word).into())).collect();
+    let reasons: Vec<Json> = found
+        .iter()
+        .map(|word| word.as_ref().err().map_or(Json::Null, |why| why.as_str().into()))
+        .collect();
+    fields.plain(name, words).plain(&format!("{name}_reason"), reasons);
 }
 
 /// Adds the fields of a threshold. `length` is the unit of displacements.

@@ -9,6 +9,7 @@ use quell_linear::averaging::{
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
+use super::criticality;
 use super::thresholds::{ThresholdKind, path_in_words, quantity_of, refused, value_in_words};
 use super::varied::{Named, ascending};
 use crate::complaint::{Complaint, Failure};
@@ -253,6 +254,8 @@ impl Curves {
                 .numbers("velocity", Quantity::Velocity, &column(&|point| point.state.velocity))
                 .numbers("multiplier_modulus", Quantity::Ratio, &column(&|point| point.radius))
                 .plain("ends", curve.ends.map(ThresholdCurveEnd::name).to_vec());
+            let forms: Vec<_> = curve.points.iter().map(|point| point.form).collect();
+            criticality::put_columns(&mut inner, curve.kind, &forms);
             if let Some(ratios) = self.amplitude_ratios(study, curve) {
                 inner.numbers("amplitude_ratio", Quantity::Velocity, &ratios);
             }

@@ -1,22 +1,24 @@
 //! Curves of the thresholds of a system in two parameters: the scheme of [`crate::orbit::curve`] for belts.
 //!
-//! The curve of a grazing or a separation is that of one contact, whose least slip velocity or load is zero along it. It ends where
-//! another contact grazes or opens first. A curve of multipliers ends where another multiplier leaves the unit circle.
+//! The curve of a grazing or a separation is that of one contact, whose least slip velocity or load is zero along it, regardless of the
+//! events of the others; contacts that graze together have one curve. It ends where another contact grazes or opens first. A curve of
+//! multipliers ends where another multiplier leaves the unit circle.
 
 use quell_model::System;
+use quell_numerics::continuation::criticality::NoFirstLyapunov;
 use quell_numerics::continuation::curve::{BifurcationCurvePoint, Trace, trace};
 use quell_numerics::continuation::threshold::BifurcationKind;
 use quell_numerics::continuation::{Image, PeriodMap, modulus};
 
 use super::super::Motion;
-use super::family::{MotionFamily, MotionSignature, NoImage, Shot, SystemAt, shot, time_of};
+use super::family::{BorderGuard, MotionFamily, MotionSignature, NoImage, Shot, SystemAt, shot_of};
 use super::periodic::{NoMotionOrbit, motion_near, scale_of};
-use super::thresholds::{MotionThreshold, motion_thresholds};
+use super::thresholds::{MotionThreshold, criticality, fold_of, motion_thresholds};
 use crate::orbit::OrbitVerdict;
 use crate::orbit::threshold::ThresholdKind;
 use crate::orbit::threshold_curve::{
-    CurvesFound, LineSearched, Open, OpenLine, ResponsePlane, ThresholdCurve, ThresholdCurveEnd,
-    curves_of, part, threshold_curve,
+    CurvesFound, LineSearched, Open, OpenLine, PointForm, ResponsePlane, ThresholdCurve,
+    ThresholdCurveEnd, ThresholdCurvePoint, curves_of, part, threshold_curve,
 };
 
 /// Steps of the continuation runs that find the first points, at least. More find pairs of thresholds that lie closer together.
@@ -63,13 +65,6 @@ pub fn motion_curves(
     curves_of(plane, lines)
 }
 
-/// A threshold on a line.
-pub(crate) struct MotionFound {
-    threshold: MotionThreshold,
-    /// The signature of the responses in pure slip on that line, if there are any.
-    pure_slip: Option<MotionSignature>,
-}
-
 impl MotionPlane<'_> {
     fn system(&self, value: f64, along: f64) -> Option<System> {
         (self.at)(&[value, along]).ok()
@@ -87,17 +82,15 @@ impl MotionPlane<'_> {
     /// The curve of a multiplier.
     fn of_multiplier(
         &self,
-        found: &MotionFound,
+        found: &MotionThreshold,
         kind: BifurcationKind,
         along: f64,
     ) -> Option<MotionCurve> {
-        let MotionThreshold { value, state, kind: name, .. } = &found.threshold;
+        let MotionThreshold { value, state, kind: name, signature, .. } = found;
         let system = self.system(*value, along)?;
-        let near = motion_near(&system, state, 1).ok().map(|orbit| orbit.signature);
-        let signature = near.or_else(|| found.pure_slip.clone())?;
         let family = self.family(&system, state)?;
         let at = [*value, along];
-        let traced = trace(&family, kind, &signature, state, at, self.trace_options())?;
+        let traced = trace(&family, kind, signature, state, at, self.trace_options())?;
         let mut curve = threshold_curve(*name, &traced, <[f64]>::to_vec);
         // Where two thresholds cross, the test function has a double root, at which the trace may end.
         let critical = if kind == BifurcationKind::NeimarkSacker { 2 } else { 1 };
@@ -116,94 +109,93 @@ impl MotionPlane<'_> {
     }
 
     /// The curve on which one contact grazes or opens.
-    fn of_contact(&self, found: &MotionFound, along: f64) -> Option<MotionCurve> {
-        let MotionThreshold { value, state, kind, .. } = &found.threshold;
-        let signature = found.pure_slip.clone()?;
+    fn of_contact(&self, found: &MotionThreshold, along: f64) -> Option<MotionCurve> {
+        let MotionThreshold { value, state, kind, signature, contacts, .. } = found;
         let system = self.system(*value, along)?;
         let family = self.family(&system, state)?;
-        let least = shot_of(&family, state, &[*value, along], &signature).ok()?.1.least?;
-        let guarded = GuardedFamily { family, contact: least.contact, is_load: least.is_load };
+        let is_load = *kind == ThresholdKind::Separation;
+        let guards = contacts.iter().map(|contact| BorderGuard { contact: *contact, is_load });
+        let guarded = GuardedFamily { family, guards: guards.collect() };
         let options = self.trace_options();
         let grazing = BifurcationKind::Grazing;
-        let traced = trace(&guarded, grazing, &signature, state, [*value, along], options)?;
+        let traced = trace(&guarded, grazing, signature, state, [*value, along], options)?;
         let mut curve = threshold_curve(*kind, &traced, <[f64]>::to_vec);
-        curve.contact = Some(least.contact);
+        curve.contacts.clone_from(contacts);
         let kept = curve.points.iter().map(|point| {
             let at = [point.value, point.along];
-            let met = shot_of(&guarded.family, &point.state, &at, &signature);
-            met.is_ok_and(|(_, met)| guarded.is_first(&met))
+            let met = shot_of(&guarded.family, &point.state, &at, signature);
+            met.is_ok_and(|(_, met)| guarded.is_first(&met, signature))
         });
         let kept: Vec<bool> = kept.collect();
         Some(part(curve, &kept, along, ThresholdCurveEnd::Crossing))
     }
 }
 
-/// The image of a state on the branch of a signature in pure slip.
-fn shot_of(
-    family: &MotionFamily<'_>,
-    state: &[f64],
-    parameters: &[f64],
-    signature: &MotionSignature,
-) -> Result<(Image<MotionSignature>, Shot), NoImage> {
-    let system = (family.at)(parameters).map_err(NoImage::Invalid)?;
-    let motion = Motion::new(&system).map_err(NoImage::Immobile)?;
-    let time = time_of(&motion, family.periods)?;
-    shot(&motion, state, time, Some(signature))
-}
-
 impl ResponsePlane for MotionPlane<'_> {
     type State = Vec<f64>;
-    type Found = MotionFound;
+    type Found = MotionThreshold;
     type Why = NoMotionOrbit;
 
     fn windows(&self) -> [(f64, f64); 2] {
         [self.window, self.between]
     }
 
-    fn on_line(&self, along: f64) -> Result<LineSearched<MotionFound>, Open<NoMotionOrbit>> {
+    fn on_line(&self, along: f64) -> Result<LineSearched<MotionThreshold>, Open<NoMotionOrbit>> {
         let at = |values: &[f64]| (self.at)(&[values[0], along]);
         let found = motion_thresholds(&at, self.window, STEPS, None).map_err(Open::Begin)?;
-        let thresholds = found.thresholds.into_iter().map(|threshold| {
-            let distance = |value: f64| (value - threshold.value).abs();
-            let pure = found.branch.iter().filter(|point| point.signature.is_pure_slip());
-            let nearest = pure.min_by(|a, b| distance(a.value).total_cmp(&distance(b.value)));
-            MotionFound { pure_slip: nearest.map(|point| point.signature.clone()), threshold }
-        });
-        Ok(LineSearched::new(thresholds.collect(), found.ending))
+        Ok(LineSearched::new(found.thresholds, found.ending))
     }
 
-    fn place(found: &MotionFound) -> (f64, ThresholdKind) {
-        (found.threshold.value, found.threshold.kind)
+    fn place(found: &MotionThreshold) -> (f64, ThresholdKind, &[usize]) {
+        (found.value, found.kind, &found.contacts)
     }
 
-    fn through(&self, found: &MotionFound, along: f64) -> Option<MotionCurve> {
-        match found.threshold.kind {
+    fn form(&self, kind: ThresholdKind, point: &ThresholdCurvePoint<Vec<f64>>) -> PointForm {
+        let at = [point.value, point.along];
+        let family =
+            self.system(at[0], at[1]).and_then(|system| self.family(&system, &point.state));
+        let Some(family) = family else {
+            let first_lyapunov = Err(NoFirstLyapunov::NotCritical);
+            return PointForm { first_lyapunov, fold: None };
+        };
+        let width = (self.window.1 - self.window.0).abs();
+        PointForm {
+            first_lyapunov: criticality(&family, kind, &point.state, &at),
+            fold: fold_of(&family, kind, &point.state, &at, width),
+        }
+    }
+
+    fn through(&self, found: &MotionThreshold, along: f64) -> Option<MotionCurve> {
+        match found.kind {
+            // A signature that changes without a grazing, and a branching, have no test function.
+            _ if found.kind == ThresholdKind::Separation && found.contacts.is_empty() => None,
             ThresholdKind::Grazing | ThresholdKind::Separation => self.of_contact(found, along),
             kind => self.of_multiplier(found, kind.event()?, along),
         }
     }
 
-    fn with_events(&self, value: f64, along: f64, state: &Vec<f64>) -> Option<OrbitVerdict> {
+    fn with_events(
+        &self,
+        found: &MotionThreshold,
+        (value, along): (f64, f64),
+        state: &Vec<f64>,
+    ) -> Option<OrbitVerdict> {
         let orbit = motion_near(&self.system(value, along)?, state, 1).ok()?;
-        (!orbit.signature.is_pure_slip()).then(|| orbit.verdict())
+        (orbit.signature != found.signature).then(|| orbit.verdict())
     }
 }
 
-/// A family whose distance is that of one contact from one of its events.
+/// A family whose distance is that of one contact from one of its events, or of contacts that graze together.
 struct GuardedFamily<'a> {
     family: MotionFamily<'a>,
-    contact: usize,
-    is_load: bool,
+    guards: Vec<BorderGuard>,
 }
 
 impl GuardedFamily<'_> {
-    /// Whether no other event comes before this one.
-    fn is_first(&self, met: &Shot) -> bool {
-        let others = met.approaches.iter().enumerate().flat_map(|(contact, distances)| {
-            let own = move |is_load: bool| contact == self.contact && is_load == self.is_load;
-            [false, true].into_iter().zip(distances).filter(move |(is_load, _)| !own(*is_load))
-        });
-        others.fold(f64::INFINITY, |least, (_, distance)| least.min(*distance)) >= FIRST
+    /// Whether no other contact that slips throughout has an event before this one.
+    fn is_first(&self, met: &Shot, signature: &MotionSignature) -> bool {
+        let others = met.distances(signature).filter(|(guard, _)| !self.guards.contains(guard));
+        others.fold(f64::INFINITY, |least, (_, distance)| least.min(distance)) >= FIRST
     }
 }
 
@@ -227,8 +219,9 @@ impl PeriodMap for GuardedFamily<'_> {
     ) -> Result<Image<MotionSignature>, NoImage> {
         let Some(held) = held else { return self.family.image(state, parameters, held) };
         let (image, met) = shot_of(&self.family, state, parameters, held)?;
-        // Distances are relative, and a family's distance is a length.
-        let distance = met.approaches[self.contact][usize::from(self.is_load)] * self.scale();
+        // Distances are relative, and a family's distance is a length. That of one contact is smooth where several graze together.
+        let own = |guard: &BorderGuard| met.approaches[guard.contact][usize::from(guard.is_load)];
+        let distance = self.guards.first().map_or(f64::INFINITY, own) * self.scale();
         Ok(Image { distance, ..image })
     }
 }

@@ -1,18 +1,19 @@
 //! A system with parameters as a family of period maps.
 //!
-//! The state is that at t = 0. A motion in which every contact slips is continued beyond a grazing of γ = 0, or of N = 0, with
-//! every contact kept in its phase; the least slip velocity or load is its distance from the border. Other motions are integrated
-//! as they are.
+//! The state is that at t = 0. A contact that slips throughout the period is continued beyond a grazing of γ = 0, or of N = 0, in
+//! its phase, regardless of the other contacts; the least slip velocity or load of these contacts is the distance from the border. The
+//! events of the other contacts are integrated as they are.
 
 use std::fmt;
 
 use quell_linear::pure_slip::period;
 use quell_model::System;
+use quell_model::system::Contact;
 use quell_numerics::continuation::{Image, PeriodMap};
 
 use super::super::{
-    ContactPhase, Immobile, LeastDistance, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver,
-    MotionStart, MotionStopped, MotionVariation,
+    ContactPhase, Immobile, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver, MotionStart,
+    MotionStopped, MotionVariation, RecordedEvent,
 };
 use crate::simulation::EventKind;
 
@@ -21,9 +22,22 @@ use crate::simulation::EventKind;
 pub enum MotionSignature {
     /// No event: what each contact does.
     Steady(Vec<ContactPhase>),
-    /// These events in their cyclic order, contact by contact with the sign of γ afterwards. Of the cyclic permutations the
-    /// least one is taken, so that the order does not depend on the phase of t = 0.
-    Events(Vec<(EventKind, usize, i8)>),
+    /// Events of some contacts.
+    Events {
+        /// The events in their cyclic order, contact by contact with the sign of γ afterwards. Of the cyclic permutations the
+        /// least one is taken, so that the order does not depend on the phase of t = 0.
+        sequence: Vec<(EventKind, usize, i8)>,
+        /// What each contact without an event does; `None` for the others.
+        others: Vec<Option<ContactPhase>>,
+    },
+}
+
+/// A border that a contact reaches: of its slip velocity, or of its load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct BorderGuard {
+    pub(crate) contact: usize,
+    /// Whether the contact opens there.
+    pub(crate) is_load: bool,
 }
 
 impl MotionSignature {
@@ -37,7 +51,47 @@ impl MotionSignature {
             rotated.map(|(kind, contact, sign)| (*kind as u8, *contact, *sign)).collect::<Vec<_>>()
         };
         let first = (0..events.len()).min_by_key(|first| key(*first)).unwrap_or(0);
-        Self::Events([&events[first..], &events[..first]].concat())
+        let acts = |contact: usize| events.iter().any(|(_, acting, _)| *acting == contact);
+        let others = phases.into_iter().enumerate();
+        let others = others.map(|(contact, phase)| (!acts(contact)).then_some(phase)).collect();
+        Self::Events { sequence: [&events[first..], &events[..first]].concat(), others }
+    }
+
+    /// What a contact does throughout the period; `None` where it has events.
+    pub fn throughout(&self, contact: usize) -> Option<ContactPhase> {
+        match self {
+            Self::Steady(phases) => phases.get(contact).copied(),
+            Self::Events { others, .. } => others.get(contact).copied().flatten(),
+        }
+    }
+
+    /// The phase of every contact that slips throughout, which can be kept beyond its border; `None` for the others.
+    fn slipping(&self, contacts: usize) -> Vec<Option<ContactPhase>> {
+        let slips = |phase: &ContactPhase| matches!(phase, ContactPhase::Slip(_));
+        (0..contacts).map(|contact| self.throughout(contact).filter(slips)).collect()
+    }
+
+    /// The signatures with fewer events in which some contacts with events slip throughout instead, in the direction of their
+    /// surfaces: the pieces that a motion with this signature may border on at a grazing of these contacts.
+    fn with_fewer_events(&self, directions: &[i8]) -> Vec<Self> {
+        let Self::Events { sequence, others } = self else { return Vec::new() };
+        let acting: Vec<usize> = (0..others.len()).filter(|c| others[*c].is_none()).collect();
+        let sets: Vec<Vec<usize>> = if acting.len() <= MOST_COMBINED {
+            let member = |set: usize, place: usize| set >> place & 1 == 1;
+            let of = |set| (0..acting.len()).filter(move |place| member(set, *place));
+            (1..1 << acting.len()).map(|set| of(set).map(|place| acting[place]).collect()).collect()
+        } else {
+            let single = acting.iter().map(|contact| vec![*contact]);
+            single.chain([acting.clone()]).collect()
+        };
+        let without = |set: &Vec<usize>| {
+            let stays = |event: &&(EventKind, usize, i8)| !set.contains(&event.1);
+            let sequence: Vec<_> = sequence.iter().filter(stays).copied().collect();
+            let phase =
+                |contact: usize| others[contact].unwrap_or(ContactPhase::Slip(directions[contact]));
+            Self::of(&sequence, (0..others.len()).map(phase).collect())
+        };
+        sets.iter().map(without).collect()
     }
 
     /// Whether every contact slips throughout.
@@ -50,10 +104,21 @@ impl MotionSignature {
     pub fn count(&self, kind: EventKind) -> usize {
         match self {
             Self::Steady(_) => 0,
-            Self::Events(events) => events.iter().filter(|event| event.0 == kind).count(),
+            Self::Events { sequence, .. } => {
+                sequence.iter().filter(|event| event.0 == kind).count()
+            }
         }
     }
 }
+
+/// Time over the time scale within which events of different contacts count as simultaneous in a signature: above the error of an
+/// event near a grazing, where it is the square root of the accuracy of a state. With a larger value a change of the order of two
+/// contacts is reported a little later.
+const SIMULTANEOUS: f64 = 1e-6;
+
+/// Contacts with events of which all combinations are tried as those that graze together; of more contacts only single ones and all
+/// together are. There are 2ᵏ − 1 combinations of k contacts, and each costs a few periods where a motion is hard to follow.
+const MOST_COMBINED: usize = 3;
 
 /// Why there is no image.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,58 +190,89 @@ pub(super) fn shot_within(
     tolerance: f64,
 ) -> Result<(Image<MotionSignature>, Shot), NoImage> {
     let mut variation = MotionVariation::new(motion);
-    let (end, kept) = run_over(motion, state, (time, tolerance), held, &mut variation)?;
+    let end = run_over(motion, state, (time, tolerance), held, &mut variation)?;
     if variation.has_failed {
         return Err(NoImage::NoVariation);
     }
     let phases: Vec<ContactPhase> = end.contacts.iter().map(|contact| contact.phase).collect();
-    let events: Vec<_> =
-        variation.events.iter().map(|event| (event.kind, event.contact, event.slip_sign)).collect();
-    let signature = match kept {
-        Some(phases) => MotionSignature::Steady(phases.clone()),
-        None => MotionSignature::of(&events, phases),
-    };
-    let distance = match variation.least {
-        Some(least) if signature.is_pure_slip() => least.distance,
-        _ => f64::INFINITY,
-    };
-    let image = Image { state: end.state, derivative: variation.matrix(), distance, signature };
-    let MotionVariation { events, is_one_sided, least, approaches, .. } = variation;
-    Ok((image, Shot { events, is_one_sided, least, approaches }))
+    let events = in_order(&variation.events, SIMULTANEOUS * motion.time_scale());
+    let signature = MotionSignature::of(&events, phases);
+    let derivative = variation.matrix();
+    let MotionVariation { events, is_one_sided, approaches, .. } = variation;
+    let shot = Shot { events, is_one_sided, approaches };
+    let distance = shot.nearest(&signature).map_or(f64::INFINITY, |(_, distance)| distance);
+    Ok((Image { state: end.state, derivative, distance, signature }, shot))
 }
 
-/// The run over a time, and the phases that the contacts keep on it if they do.
-fn run_over<'s>(
+/// Events of different contacts within a time are listed in the order of contacts, as events of one moment are: of equal parts of a
+/// structure rounding would decide which is first.
+fn in_order(events: &[RecordedEvent], together: f64) -> Vec<(EventKind, usize, i8)> {
+    let mut ordered: Vec<&RecordedEvent> = events.iter().collect();
+    for group in ordered.chunk_by_mut(|a, b| b.time - a.time <= together) {
+        group.sort_by_key(|event| event.contact);
+    }
+    ordered.into_iter().map(|event| (event.kind, event.contact, event.slip_sign)).collect()
+}
+
+/// The image of a state on the piece of a signature at given parameters.
+pub(super) fn shot_of(
+    family: &MotionFamily<'_>,
+    state: &[f64],
+    parameters: &[f64],
+    signature: &MotionSignature,
+) -> Result<(Image<MotionSignature>, Shot), NoImage> {
+    let system = (family.at)(parameters).map_err(NoImage::Invalid)?;
+    let motion = Motion::new(&system).map_err(NoImage::Immobile)?;
+    let time = time_of(&motion, family.periods)?;
+    shot(&motion, state, time, Some(signature))
+}
+
+/// The run over a time, continued on the piece of a signature.
+fn run_over(
     motion: &Motion<'_>,
     state: &[f64],
     (time, tolerance): (f64, f64),
-    held: Option<&'s MotionSignature>,
+    held: Option<&MotionSignature>,
     observer: &mut dyn MotionObserver,
-) -> Result<(MotionEnd, Option<&'s Vec<ContactPhase>>), NoImage> {
+) -> Result<MotionEnd, NoImage> {
     let start = MotionStart { time: 0.0, state: state.to_vec() };
-    let kept = match held {
-        Some(MotionSignature::Steady(phases))
-            if held.is_some_and(MotionSignature::is_pure_slip) =>
-        {
-            Some(phases)
-        }
-        _ => None,
-    };
-    let end = match kept {
-        Some(phases) => motion.continued(&start, phases, time, observer),
+    let contacts = motion.system().contacts.len();
+    let end = match held {
+        Some(held) => motion.continued(&start, &held.slipping(contacts), time, observer),
         None => motion.run(&start, time, tolerance, observer),
     };
-    end.map(|end| (end, kept)).map_err(NoImage::Stopped)
+    end.map_err(NoImage::Stopped)
 }
 
 /// What a shot met on its way.
 pub(crate) struct Shot {
-    pub(crate) events: Vec<super::super::RecordedEvent>,
+    pub(crate) events: Vec<RecordedEvent>,
     pub(crate) is_one_sided: bool,
-    /// The nearest event of a contact that slips.
-    pub(crate) least: Option<LeastDistance>,
     /// The least distance of each contact from its events: of its slip velocity and of its load.
     pub(crate) approaches: Vec<[f64; 2]>,
+}
+
+impl Shot {
+    /// The distances of the contacts that slip throughout from their borders, relative to the velocities of their surfaces or to
+    /// their loads.
+    pub(crate) fn distances(
+        &self,
+        signature: &MotionSignature,
+    ) -> impl Iterator<Item = (BorderGuard, f64)> {
+        let slipping = signature.slipping(self.approaches.len());
+        let slipping = slipping.into_iter().enumerate().filter(|(_, phase)| phase.is_some());
+        slipping.flat_map(|(contact, _)| {
+            let of = move |is_load: bool| BorderGuard { contact, is_load };
+            let [slip, load] = self.approaches[contact];
+            [(of(false), slip), (of(true), load)]
+        })
+    }
+
+    /// The nearest border and its distance; `None` where no contact that slips throughout has one.
+    pub(crate) fn nearest(&self, signature: &MotionSignature) -> Option<(BorderGuard, f64)> {
+        let distances = self.distances(signature).filter(|(_, distance)| distance.is_finite());
+        distances.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
 }
 
 impl PeriodMap for MotionFamily<'_> {
@@ -212,6 +308,15 @@ impl PeriodMap for MotionFamily<'_> {
         let system = (self.at)(parameters).map_err(NoImage::Invalid)?;
         let motion = Motion::new(&system).map_err(NoImage::Immobile)?;
         let time = time_of(&motion, self.periods)?;
-        run_over(&motion, state, (time, MOTION_TOLERANCE), held, &mut ()).map(|(end, _)| end.state)
+        run_over(&motion, state, (time, MOTION_TOLERANCE), held, &mut ()).map(|end| end.state)
+    }
+
+    fn smoother(&self, signature: &MotionSignature, parameters: &[f64]) -> Vec<MotionSignature> {
+        let Ok(system) = (self.at)(parameters) else { return Vec::new() };
+        let direction = |contact: &Contact| {
+            if contact.surface_velocity.mean() < 0.0 { -1 } else { 1 }
+        };
+        let directions: Vec<i8> = system.contacts.iter().map(direction).collect();
+        signature.with_fewer_events(&directions)
     }
 }

@@ -15,8 +15,8 @@ use quell_model::System;
 use quell_numerics::matrix::Matrix;
 
 use super::super::{
-    Immobile, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver, MotionSegment, MotionStart,
-    MotionStopped,
+    ContactPhase, Immobile, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver, MotionSegment,
+    MotionStart, MotionStopped,
 };
 use super::approach::ApproachToSliding;
 use super::family::{MotionSignature, shot};
@@ -359,10 +359,10 @@ fn reported(motion: &Motion<'_>, state: &[f64], period: f64) -> Option<MotionOrb
     }
     cycle.events.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.contact.cmp(&b.contact)));
     cycle.state = begin.state;
-    let phases = match &cycle.signature {
-        MotionSignature::Steady(phases) => phases.clone(),
-        MotionSignature::Events(_) => Vec::new(),
-    };
+    let before = &cycle.signature;
+    // A contact with events has no phase of its own throughout, and its place is not read.
+    let phase = |contact: usize| before.throughout(contact).unwrap_or(ContactPhase::Stick);
+    let phases = (0..motion.system().contacts.len()).map(phase).collect();
     let order: Vec<_> = cycle.events.iter().map(|e| (e.kind, e.contact, e.slip_sign)).collect();
     cycle.signature = MotionSignature::of(&order, phases);
     Some(cycle)

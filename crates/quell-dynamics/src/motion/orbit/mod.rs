@@ -30,7 +30,9 @@ mod watch;
 
 pub use curves::{MotionCurve, MotionCurves, MotionPlane, motion_curves};
 pub use free::{NoCycle, free_cycle};
-pub use periodic::{MotionOrbit, NoMotionOrbit, base_motion, motion_near, sliding_state};
+pub use periodic::{
+    MotionOrbit, NoMotionOrbit, base_motion, is_on_sliding, motion_near, sliding_state,
+};
 pub use ramp::ramped_motion;
 pub use settled::{LEAST_PERIODS, MOST_PERIODS, SettledMotion, settled};
 pub use thresholds::{MotionThreshold, MotionThresholds, motion_thresholds};

@@ -271,6 +271,20 @@ pub fn base_motion(system: &System, steps: u32) -> Result<MotionOrbit, NoMotionO
     orbit_at(&motion, &last.state, period, false)
 }
 
+/// Distance from steady sliding, relative to its state and the velocities of the surfaces, within which a state is on it: the distance
+/// within which a state of a belt counts as its base response. It is far above the error of a run and of a start written with seven
+/// digits, and far below any limit cycle that can be observed. With a smaller value a start given in digits would be taken for a
+/// vibration while it slowly leaves unstable sliding; with a larger one a small vibration would be taken for sliding.
+const ON_SLIDING: f64 = 1e-6;
+
+/// Whether a state is that of steady sliding; `false` where the system has none.
+pub fn is_on_sliding(system: &System, state: &[f64]) -> bool {
+    let Ok(sliding) = sliding_state(system) else { return false };
+    let speeds = system.contacts.iter().map(|contact| contact.surface_velocity.mean().abs());
+    let size = sliding.iter().map(|value| value.abs()).chain(speeds).fold(0.0, f64::max);
+    sliding.iter().zip(state).all(|(a, b)| (a - b).abs() <= ON_SLIDING * size)
+}
+
 /// Steady sliding without dither as a state.
 ///
 /// # Errors

@@ -7,11 +7,12 @@ use quell_linear::criticality::of_steady_sliding;
 use quell_model::System;
 use quell_numerics::continuation::branch::{BranchSide, Follow, SpecialPoint, follow};
 use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov, first_lyapunov};
+use quell_numerics::continuation::fold::{FoldCoefficient, fold_coefficient};
 use quell_numerics::continuation::spectral_radius;
 use quell_numerics::continuation::threshold::BifurcationKind;
 
 use super::super::Motion;
-use super::family::{MotionFamily, MotionSignature, SystemAt, shot, time_of};
+use super::family::{BorderGuard, MotionFamily, MotionSignature, SystemAt, shot_of};
 use super::periodic::{NoMotionOrbit, base_motion, scale_of, sliding_state};
 use crate::orbit::OrbitVerdict;
 use crate::orbit::threshold::{BranchEnding, ThresholdKind};
@@ -19,6 +20,10 @@ use crate::simulation::EventKind;
 
 /// Steps in which the base response is first continued from steady sliding.
 const FIRST_STEPS: u32 = 8;
+
+/// Difference of two contacts' distances from their borders, relative to their velocities or loads, up to which they graze together:
+/// beyond the error of a distance and far below what two different contacts have in common by chance.
+const TOGETHER: f64 = 1e-9;
 
 /// A value at which stability changes.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,9 +42,15 @@ pub struct MotionThreshold {
     pub radii: [Option<f64>; 2],
     /// State of the response there.
     pub state: Vec<f64>,
+    /// The events of the response there: at a grazing or a separation those of the side on which its contact slips throughout.
+    pub signature: MotionSignature,
+    /// The contacts that graze or open there, counted from 0: equal contacts may do so together. Empty for other kinds.
+    pub contacts: Vec<usize>,
     /// Whether the vibration beyond it grows from zero, by the coefficient of its normal form: per period of the map, and of a
     /// Hopf bifurcation as [`quell_linear::criticality`] gives it. The critical vector has norm 1 over the coordinates.
     pub first_lyapunov: Result<FirstLyapunov, NoFirstLyapunov>,
+    /// On which side of a fold two responses exist; `None` for other kinds. The critical vector has norm 1 over the coordinates.
+    pub fold: Option<Result<FoldCoefficient, NoFirstLyapunov>>,
 }
 
 /// A response on the branch.
@@ -94,9 +105,16 @@ pub fn motion_thresholds(
         if was == becomes {
             continue;
         }
-        let kind = match kind_of(&family, point) {
+        let border = border_of(&family, point);
+        let kind = match kind_of(point, border.as_ref()) {
             ThresholdKind::NeimarkSacker if !first.has_waves() => ThresholdKind::Hopf,
             kind => kind,
+        };
+        let sides = [&point.below, &point.above].map(|side| side.as_ref());
+        let Some(side) = sides.into_iter().flatten().next() else { continue };
+        let (signature, contacts) = match border {
+            Some(border) => (border.signature, border.contacts),
+            None => (side.signature.clone(), Vec::new()),
         };
         thresholds.push(MotionThreshold {
             value: point.parameter,
@@ -106,7 +124,10 @@ pub fn motion_thresholds(
             was,
             radii: [&point.below, &point.above].map(|side| side.as_ref().map(|side| side.radius)),
             state: point.state.clone(),
-            first_lyapunov: criticality(&family, point, kind),
+            signature,
+            contacts,
+            first_lyapunov: criticality(&family, kind, &point.state, &[point.parameter]),
+            fold: fold_of(&family, kind, &point.state, &[point.parameter], (to - from).abs()),
         });
     }
     let ending = BranchEnding::of(&branch, from, to);
@@ -132,44 +153,80 @@ fn verdict(side: Option<&BranchSide<MotionSignature>>) -> Option<OrbitVerdict> {
 }
 
 /// The coefficient that decides whether the bifurcation is supercritical.
-fn criticality(
+pub(super) fn criticality(
     family: &MotionFamily<'_>,
-    point: &SpecialPoint<MotionSignature>,
     kind: ThresholdKind,
+    state: &[f64],
+    parameters: &[f64],
 ) -> Result<FirstLyapunov, NoFirstLyapunov> {
-    let parameters = [point.parameter];
-    let system = (family.at)(&parameters).map_err(|_| NoFirstLyapunov::NotCritical)?;
+    let event = kind.event().ok_or(NoFirstLyapunov::OtherKind)?;
+    let system = (family.at)(parameters).map_err(|_| NoFirstLyapunov::NotCritical)?;
     if kind == ThresholdKind::Hopf {
         return of_steady_sliding(&system);
     }
-    first_lyapunov(family, &point.state, &parameters, point.kind, system.structure.size())
+    first_lyapunov(family, state, parameters, event, system.structure.size())
+}
+
+/// The coefficient that decides to which side a fold in the first parameter opens, whose window is `width` wide; `None` for other
+/// kinds.
+pub(super) fn fold_of(
+    family: &MotionFamily<'_>,
+    kind: ThresholdKind,
+    state: &[f64],
+    parameters: &[f64],
+    width: f64,
+) -> Option<Result<FoldCoefficient, NoFirstLyapunov>> {
+    (kind == ThresholdKind::Fold).then(|| {
+        let system = (family.at)(parameters).map_err(|_| NoFirstLyapunov::NotCritical)?;
+        fold_coefficient(family, state, parameters, (0, width), system.structure.size())
+    })
+}
+
+/// The border at which a motion grazes.
+struct MotionBorder {
+    /// The events on the side on which the contacts slip throughout.
+    signature: MotionSignature,
+    contacts: Vec<usize>,
+    is_load: bool,
+}
+
+/// The border of a grazing point; `None` for other points.
+fn border_of(
+    family: &MotionFamily<'_>,
+    point: &SpecialPoint<MotionSignature>,
+) -> Option<MotionBorder> {
+    if point.kind != BifurcationKind::Grazing {
+        return None;
+    }
+    let sides = [&point.below, &point.above].into_iter().flatten();
+    let met = sides.filter_map(|side| {
+        let parameters = [point.parameter];
+        let (_, met) = shot_of(family, &point.state, &parameters, &side.signature).ok()?;
+        let (guard, nearest) = met.nearest(&side.signature)?;
+        let together = |guard_and_distance: &(BorderGuard, f64)| {
+            let (other, distance) = guard_and_distance;
+            other.is_load == guard.is_load && (distance - nearest).abs() <= TOGETHER
+        };
+        let contacts = met.distances(&side.signature).filter(together);
+        let contacts = contacts.map(|(guard, _)| guard.contact).collect();
+        let signature = side.signature.clone();
+        Some((nearest.abs(), MotionBorder { signature, contacts, is_load: guard.is_load }))
+    });
+    met.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, border)| border)
 }
 
 /// The kind of a special point: where a contact opens, a separation.
-fn kind_of(family: &MotionFamily<'_>, point: &SpecialPoint<MotionSignature>) -> ThresholdKind {
-    let kind = ThresholdKind::of(point.kind);
+fn kind_of(point: &SpecialPoint<MotionSignature>, border: Option<&MotionBorder>) -> ThresholdKind {
     let opens = |side: Option<&BranchSide<MotionSignature>>| {
         side.map_or(0, |side| side.signature.count(EventKind::Separation))
     };
     match point.kind {
-        BifurcationKind::Grazing if nearest_is_load(family, point) => ThresholdKind::Separation,
+        BifurcationKind::Grazing if border.is_some_and(|border| border.is_load) => {
+            ThresholdKind::Separation
+        }
         BifurcationKind::Border if opens(point.below.as_ref()) != opens(point.above.as_ref()) => {
             ThresholdKind::Separation
         }
-        _ => kind,
+        _ => ThresholdKind::of(point.kind),
     }
-}
-
-/// Whether the border that a motion in pure slip reaches is that of a load.
-fn nearest_is_load(family: &MotionFamily<'_>, point: &SpecialPoint<MotionSignature>) -> bool {
-    let Ok(system) = (family.at)(&[point.parameter]) else { return false };
-    let Ok(motion) = Motion::new(&system) else { return false };
-    let slips = [&point.below, &point.above]
-        .into_iter()
-        .flatten()
-        .map(|side| &side.signature)
-        .find(|signature| signature.is_pure_slip());
-    let time = time_of(&motion, family.periods);
-    time.and_then(|time| shot(&motion, &point.state, time, slips))
-        .is_ok_and(|(_, met)| met.least.is_some_and(|least| least.is_load))
 }

@@ -3,7 +3,7 @@
 use super::super::PeriodMap;
 use super::super::arc::{self, cosine, distance};
 use super::super::shooting::{NotClosed, Shooting, fixed_point};
-use super::super::threshold::{BifurcationKind, SMOOTH};
+use super::super::threshold::{BifurcationKind, SMOOTH, Tests};
 use super::parameter_window::Follow;
 use super::points::{End, FixedPointBranch, SpecialPoint};
 use super::run::{BranchSolution, ContinuationRun, MaybeSolution, StepOutcome};
@@ -37,7 +37,9 @@ pub fn follow<F: PeriodMap>(
     let n = family.dimension();
     let mut points = vec![run.point(&here)];
     let mut special_points: Vec<SpecialPoint<F::Signature>> = Vec::new();
+    // The solution before `here`, and the number of special points up to it.
     let mut before: MaybeSolution<F> = None;
+    let mut passed_before = 0;
     let mut length = options.longest;
     // Whether the search beyond the obstacle that stopped the steps was already made.
     let mut searched_beyond = false;
@@ -59,6 +61,21 @@ pub fn follow<F: PeriodMap>(
         let passed = special_points.len();
         match run.step(&here, length, &mut special_points) {
             StepOutcome::On(next) => {
+                let grazes = before
+                    .as_ref()
+                    .filter(|_| length > options.shortest)
+                    .and_then(|before| grazes_between(&run, [before, &here, &next]));
+                if let Some((is_later, shorter)) = grazes {
+                    // The step is repeated so that it ends beyond the border.
+                    special_points.truncate(if is_later { passed } else { passed_before });
+                    length = shorter;
+                    if let (false, Some(before)) = (is_later, before.take()) {
+                        points.pop();
+                        here = before;
+                    }
+                    continue;
+                }
+                passed_before = passed;
                 searched_beyond = false;
                 if let Some(before) = before.as_ref().filter(|_| special_points.len() == passed) {
                     dips(&run, [before, &here, &next], &mut special_points);
@@ -91,10 +108,12 @@ pub fn follow<F: PeriodMap>(
             }
             StepOutcome::Failed if length > options.shortest => length *= 0.4,
             StepOutcome::Failed => {
-                let over = if searched_beyond {
-                    None
-                } else {
-                    over_a_corner(&run, &here, &mut special_points)
+                if searched_beyond {
+                    break End::Lost { at };
+                }
+                let over = match run.onto_smoother_piece(&here, &mut special_points) {
+                    Some(next) => Some((next, 100.0 * options.shortest)),
+                    None => over_a_corner(&run, &here, &mut special_points),
                 };
                 let Some((next, step_length)) = over else { break End::Lost { at } };
                 searched_beyond = true;
@@ -127,6 +146,19 @@ fn over_a_corner<F: PeriodMap>(
     Some((next, step_length))
 }
 
+/// Whether a motion grazes between three solutions on one piece and returns: if so, whether that is between the last two, and the
+/// length of a step to a solution beyond the border.
+fn grazes_between<F: PeriodMap>(
+    run: &ContinuationRun<'_, F>,
+    solutions: [&BranchSolution<F::Signature>; 3],
+) -> Option<(bool, f64)> {
+    if !solutions.iter().all(|solution| solution.image.distance.is_finite()) {
+        return None;
+    }
+    let (segment, inside) = run.dip(solutions, |solution| solution.image.distance)?;
+    Some((segment == 1, distance(&solutions[segment].unknowns, &inside.unknowns)))
+}
+
 /// Pairs of thresholds within a dip of a test function.
 fn dips<F: PeriodMap>(
     run: &ContinuationRun<'_, F>,
@@ -136,9 +168,13 @@ fn dips<F: PeriodMap>(
     // The first test function is that of a fold.
     let tests = if run.follow.only_forwards { 1 } else { SMOOTH.len() };
     for index in 0..tests {
-        if let Some((segment, inside)) = run.dip(solutions, index) {
-            run.thresholds(solutions[segment], &inside, out);
-            run.thresholds(&inside, solutions[segment + 1], out);
+        let value = |solution: &BranchSolution<F::Signature>| {
+            Tests::of(&solution.multipliers).values[index]
+        };
+        if let Some((segment, inside)) = run.dip(solutions, value) {
+            // Those of the other functions were found in the steps themselves.
+            run.thresholds_of((solutions[segment], &inside), Some(index), out);
+            run.thresholds_of((&inside, solutions[segment + 1]), Some(index), out);
         }
     }
 }

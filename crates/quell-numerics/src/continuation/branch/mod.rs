@@ -8,9 +8,11 @@
 //!
 //! At a grazing point the branch may continue with another signature, turn back with it, or end. The continuation is
 //! searched for at distances that grow from very small ones, and accepted if the state tends to the grazing state as the
-//! parameter tends to the grazing value: continuity is required, not convergence alone.
+//! parameter tends to the grazing value: continuity is required, not convergence alone. A grazing point that is approached from the
+//! side with more events is located on the piece with fewer of them, extended over its border.
 
 mod follow;
+mod outside;
 mod parameter_window;
 mod points;
 mod run;

@@ -130,7 +130,18 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
 
     /// The solution at a scaled parameter near a state, with any signature.
     pub(super) fn standing(&self, state: &[f64], share: f64, towards: f64) -> MaybeSolution<F> {
-        self.at(&self.scaled(state, share), &upright(state.len(), towards), None, None)
+        self.standing_on(state, share, towards, None)
+    }
+
+    /// The solution at a scaled parameter near a state, on a piece if one is given.
+    pub(super) fn standing_on(
+        &self,
+        state: &[f64],
+        share: f64,
+        towards: f64,
+        held: Option<&F::Signature>,
+    ) -> MaybeSolution<F> {
+        self.at(&self.scaled(state, share), &upright(state.len(), towards), held, None)
     }
 
     pub(super) fn point(
@@ -256,31 +267,54 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         next: &BranchSolution<F::Signature>,
         out: &mut Vec<SpecialPoint<F::Signature>>,
     ) -> StepOutcome<F::Signature> {
-        // If the distance from its border is defined on the piece beyond, this is grazing approached from outside.
-        let held = Some(&next.image.signature);
-        if next.image.distance.is_finite()
-            && let Some((grazing, error)) =
-                self.root(here, next, held, |solution| solution.image.distance)
-        {
-            out.push(self.special_point(
-                BifurcationKind::Grazing,
-                &grazing,
-                error,
-                here,
-                Some(&on_from(&grazing, next)),
-            ));
-            self.thresholds(&grazing, next, out);
-            return StepOutcome::Over(Some(Box::new(next.clone())));
-        }
         let (near, far) = self.border(here, next);
-        if distance(&near.unknowns, &far.unknowns) > MEETING {
+        let meets = distance(&near.unknowns, &far.unknowns) <= MEETING;
+        // If the distance from its border is defined on the piece beyond, this is grazing approached from outside.
+        let mut grazing = self.root_of_distance(here, next);
+        if grazing.is_none() && meets {
+            let found = self.grazing_of(&near, &next.image.signature);
+            grazing = found.map(|(grazing, error, _)| (grazing, error));
+        }
+        if grazing.is_none() && !meets {
+            // The two points belong to different branches.
             return StepOutcome::Failed;
         }
-        self.thresholds(here, &near, out);
-        let width = (far.parameter() - near.parameter()).abs() + 1e-12;
-        let error = width * (self.follow.to - self.follow.from).abs();
-        out.push(self.special_point(BifurcationKind::Border, &near, error, here, Some(next)));
+        let before = self.short_of(&near);
+        self.thresholds(here, &before, out);
+        if let Some((grazing, error)) = grazing {
+            let after = on_from(&grazing, next);
+            let kind = BifurcationKind::Grazing;
+            out.push(self.special_point(kind, &grazing, error, &before, Some(&after)));
+            self.thresholds(&grazing, next, out);
+        } else {
+            let width = (far.parameter() - near.parameter()).abs() + 1e-12;
+            let error = width * (self.follow.to - self.follow.from).abs();
+            out.push(self.special_point(
+                BifurcationKind::Border,
+                &near,
+                error,
+                &before,
+                Some(next),
+            ));
+        }
         StepOutcome::Over(Some(Box::new(next.clone())))
+    }
+
+    /// The root of the distance from the border of the piece of `next`, extended to `here`, which has another signature.
+    fn root_of_distance(
+        &self,
+        here: &BranchSolution<F::Signature>,
+        next: &BranchSolution<F::Signature>,
+    ) -> Option<(BranchSolution<F::Signature>, f64)> {
+        if !next.image.distance.is_finite() {
+            return None;
+        }
+        let signature = &next.image.signature;
+        self.root(here, next, Some(signature), |solution| {
+            // Events of other contacts may differ at the border, which then is none of this piece.
+            let same = solution.image.signature == *signature;
+            if same { solution.image.distance } else { f64::NAN }
+        })
     }
 }
 
@@ -297,7 +331,10 @@ fn grazing_side<S: Clone>(
 }
 
 /// A grazing point as the beginning of the piece after it.
-fn on_from<S: Clone>(grazing: &BranchSolution<S>, next: &BranchSolution<S>) -> BranchSolution<S> {
+pub(super) fn on_from<S: Clone>(
+    grazing: &BranchSolution<S>,
+    next: &BranchSolution<S>,
+) -> BranchSolution<S> {
     BranchSolution {
         unknowns: next.unknowns.clone(),
         tangent: next.tangent.clone(),

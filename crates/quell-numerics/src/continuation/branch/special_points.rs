@@ -48,6 +48,16 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         b: &BranchSolution<F::Signature>,
         out: &mut Vec<SpecialPoint<F::Signature>>,
     ) {
+        self.thresholds_of((a, b), None, out);
+    }
+
+    /// Those of one test function, by its index, or of all.
+    pub(super) fn thresholds_of(
+        &self,
+        (a, b): (&BranchSolution<F::Signature>, &BranchSolution<F::Signature>),
+        only: Option<usize>,
+        out: &mut Vec<SpecialPoint<F::Signature>>,
+    ) {
         let last = a.tangent.len() - 1;
         let turns = a.tangent[last] * b.tangent[last] < 0.0;
         if self.follow.only_forwards && !turns {
@@ -58,7 +68,8 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         let mut found: Vec<FoundThreshold<F::Signature>> = Vec::new();
         for (index, kind) in SMOOTH.into_iter().enumerate() {
             let (before, after) = (at_a.values[index], at_b.values[index]);
-            if before == 0.0 || before * after > 0.0 {
+            let wanted = only.is_none_or(|only| only == index);
+            if !wanted || before == 0.0 || before * after > 0.0 {
                 continue;
             }
             let value = |solution: &BranchSolution<F::Signature>| {
@@ -76,9 +87,17 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
             } else {
                 kind
             };
+            let at = self.value(solution.parameter());
+            let is_known = |known: &SpecialPoint<F::Signature>| {
+                known.kind == kind && (known.parameter - at).abs() <= known.error + error
+            };
+            // A dip may contain a point that a step has found.
+            if only.is_some() && out.iter().any(is_known) {
+                continue;
+            }
             found.push((distance(&a.unknowns, &solution.unknowns), kind, solution, error));
         }
-        if found.is_empty() {
+        if found.is_empty() && only.is_none() {
             found.extend(self.even_crossing(a, b));
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -152,17 +171,14 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         SpecialPoint { parameter, error, kind, state, below, above }
     }
 
-    /// A solution with the opposite sign of the test function, if the function has one sign at three successive solutions
-    /// but changes sign in a dip between them.
+    /// A solution with the opposite sign of a function, if the function has one sign at three successive solutions but changes
+    /// sign in a dip between them: the solution, and the number of the solution before it.
     pub(super) fn dip(
         &self,
         solutions: [&BranchSolution<F::Signature>; 3],
-        index: usize,
+        value: impl Fn(&BranchSolution<F::Signature>) -> f64,
     ) -> Option<(usize, BranchSolution<F::Signature>)> {
-        let value = |solution: &BranchSolution<F::Signature>| {
-            Tests::of(&solution.multipliers).values[index]
-        };
-        let [before, here, after] = solutions.map(value);
+        let [before, here, after] = solutions.map(&value);
         let sign = here.signum();
         if before * here <= 0.0
             || here * after <= 0.0

@@ -11,7 +11,7 @@ use crate::outcome::table::figure;
 use crate::outcome::thresholds::rows_of_curves;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::system::curves::SystemCurves;
+use crate::run::system::curves::{SystemCurves, kind_in_words};
 use crate::run::system::switches::STEPS_TRIED;
 use crate::run::system::thresholds::MotionThresholdsFound;
 use crate::run::thresholds::side;
@@ -32,10 +32,14 @@ impl Presented<SystemSetup> for MotionThresholdsFound {
         let mut text = String::new();
         let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
         let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
-        for found in self.local.iter().flat_map(|local| &local.thresholds) {
+        let found = self.local.iter().flat_map(|local| &local.thresholds);
+        let kinds: Vec<(String, _)> =
+            found.map(|found| (kind_in_words(study, found.kind, &found.contacts), found)).collect();
+        let width = kinds.iter().map(|(kind, _)| kind.chars().count() + 2).fold(16, usize::max);
+        for (kind, found) in kinds {
             let value = figure(found.value) + &unit;
             let sides = format!("{} below, {} above", side(found.was), side(found.becomes));
-            let _ = writeln!(text, "  {value:<16}{:<16}{sides}", found.kind.name());
+            let _ = writeln!(text, "  {value:<16}{kind:<width$}{sides}");
         }
         for (protocol, switches) in &self.runs {
             let _ = writeln!(

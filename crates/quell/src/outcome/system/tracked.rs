@@ -28,18 +28,27 @@ impl Presented<SystemSetup> for TrackedStability {
 
     fn table(&self, study: &SystemStudy) -> String {
         let mut text = String::new();
+        let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
+        let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+        let mut rests = self.rests.iter().peekable();
+        let mut comes_to_rest = |text: &mut String, until: f64| {
+            while let Some(rest) = rests.next_if(|rest| rest.value <= until) {
+                let value = figure(rest.value) + &unit;
+                let _ = writeln!(text, "  {value:<16}{:<13}contact {}", "rest", rest.contact);
+            }
+        };
         for found in &self.tracked.thresholds {
+            comes_to_rest(&mut text, found.value);
             let [before, beyond] = found.verdicts.map(Verdict::name);
             let verdicts = if before == beyond {
                 format!("{before} on both sides")
             } else {
                 format!("{before} below, {beyond} above")
             };
-            let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
-            let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
             let value = figure(found.value) + &unit;
             let _ = writeln!(text, "  {value:<16}{:<13}{verdicts}", found.change.name());
         }
+        comes_to_rest(&mut text, f64::INFINITY);
         for curve in &self.curves {
             let ends = curve.points.first().zip(curve.points.last());
             if let Some(((first, at_first), (last, at_last))) = ends {

@@ -1,8 +1,8 @@
 //! The motion on which a run of a system ends, as `bifurcation` and `basins` report it.
 
 use quell_dynamics::motion::orbit::{
-    MotionOrbit, NoCycle, NoMotionOrbit, SettledMotion, base_motion, free_cycle, settled,
-    sliding_state,
+    MotionOrbit, NoCycle, NoMotionOrbit, SettledMotion, base_motion, free_cycle, is_on_sliding,
+    settled,
 };
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart};
 use quell_linear::linearised::Linearised;
@@ -22,9 +22,6 @@ const MEASURED: f64 = 20.0;
 
 /// Mismatch of states, relative to their size, of one motion.
 const SAME: f64 = 1e-5;
-
-/// Distance from steady sliding, relative to its state and the velocities of the surfaces, of a start that is on it.
-const ON_SLIDING: f64 = 1e-6;
 
 /// Velocity of the displacement of a start on unstable steady sliding, over that of the surface: far above rounding, so that the
 /// run leaves in time, and far below that of a limit cycle.
@@ -128,12 +125,7 @@ pub fn local_verdict(system: &System) -> Result<&'static str, String> {
 /// A start without dither. A run from unstable steady sliding would stay there until rounding displaces it: such a start is
 /// displaced first, by [`NUDGE`] times the velocity of the surface.
 fn displaced(system: &System, start: &[f64]) -> Vec<f64> {
-    let Ok(sliding) = sliding_state(system) else { return start.to_vec() };
-    let speeds = system.contacts.iter().map(|contact| contact.surface_velocity.mean().abs());
-    let size = sliding.iter().map(|value| value.abs()).chain(speeds).fold(0.0, f64::max);
-    let pairs = sliding.iter().zip(start);
-    let distance = pairs.fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-    if distance > ON_SLIDING * size
+    if !is_on_sliding(system, start)
         || local_verdict(system).as_ref().is_ok_and(|verdict| *verdict == "stable")
     {
         return start.to_vec();

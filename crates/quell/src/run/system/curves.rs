@@ -16,6 +16,7 @@ use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::run::criticality;
 use crate::run::curves::{AveragedBoundary, CurvesRequest, LINES, POINTS, why_it_ends};
 use crate::run::thresholds::ThresholdKind;
 use crate::study::SystemStudy;
@@ -115,6 +116,36 @@ fn averaged(
     vec![found]
 }
 
+/// The contacts of a study by their indices.
+fn names<'s>(study: &'s SystemStudy, contacts: &[usize]) -> Vec<&'s str> {
+    let all = &study.system().contacts;
+    contacts.iter().filter_map(|contact| Some(all.get(*contact)?.name.as_str())).collect()
+}
+
+/// The kind of a threshold in words, with the contacts that graze or open there if the study has several.
+pub(crate) fn kind_in_words(
+    study: &SystemStudy,
+    kind: ThresholdKind,
+    contacts: &[usize],
+) -> String {
+    let several = study.system().contacts.len() > 1;
+    match names(study, contacts).as_slice() {
+        [before @ .., last] if several && !before.is_empty() => {
+            format!("{} ({} and {last})", kind.name(), before.join(", "))
+        }
+        [only] if several => format!("{} ({only})", kind.name()),
+        _ => kind.name().to_owned(),
+    }
+}
+
+/// Adds the contacts that graze or open at a threshold: all of them, and the first one.
+pub(super) fn put_contacts(fields: &mut Fields, study: &SystemStudy, contacts: &[usize]) {
+    let names: Vec<String> = names(study, contacts).into_iter().map(str::to_owned).collect();
+    if let Some(first) = names.first() {
+        fields.plain("contact", first.clone()).plain("contacts", names);
+    }
+}
+
 fn with_unit(study: &SystemStudy, path: &str, value: f64) -> String {
     let unit = study.unit_of(path).filter(|unit| *unit != "1");
     format!("{}{}", digits(value), unit.map_or(String::new(), |unit| format!(" {unit}")))
@@ -138,13 +169,7 @@ impl SystemCurves {
 
     /// The kind of a curve in words, with its contact if there are several.
     pub fn kind(&self, study: &SystemStudy, curve: &MotionCurve) -> String {
-        let contacts = &study.system().contacts;
-        match curve.contact.and_then(|contact| contacts.get(contact)) {
-            Some(contact) if contacts.len() > 1 => {
-                format!("{} ({})", curve.kind.name(), contact.name)
-            }
-            _ => curve.kind.name().to_owned(),
-        }
+        kind_in_words(study, curve.kind, &curve.contacts)
     }
 
     /// The curves and where they end inside the windows, in a few sentences.
@@ -195,15 +220,15 @@ impl SystemCurves {
             let moduli: Vec<f64> = points().map(|point| point.radius).collect();
             let mut inner = object();
             inner.plain("kind", curve.kind.name());
-            if let Some(contact) = curve.contact {
-                inner.plain("contact", study.system().contacts[contact].name.clone());
-            }
+            put_contacts(&mut inner, study, &curve.contacts);
             inner
                 .measured("value", unit, points().map(|point| point.value).collect::<Vec<_>>())
                 .measured("along", across, points().map(|point| point.along).collect::<Vec<_>>())
                 .plain("state", points().map(|point| point.state.clone()).collect::<Vec<_>>())
                 .numbers("multiplier_modulus", Quantity::Ratio, &moduli)
                 .plain("ends", curve.ends.map(ThresholdCurveEnd::name).to_vec());
+            let forms: Vec<_> = points().map(|point| point.form).collect();
+            criticality::put_columns(&mut inner, curve.kind, &forms);
             inner
         });
         let averaged = self.averaged.iter().map(|boundary| {

@@ -1,7 +1,6 @@
 //! The answer of `orbit` of a system in sentences, JSON and a dataset.
 
 use quell_dynamics::motion::orbit::MotionOrbit;
-use quell_dynamics::motion::orbit::family::MotionSignature;
 use quell_dynamics::motion::{ContactPhase, RecordedEvent};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::simulation::EventKind;
@@ -63,19 +62,11 @@ fn behaviour(orbit: &MotionOrbit, contact: usize, count: usize) -> String {
         let before = before.join(", ");
         return if before.is_empty() { last.clone() } else { format!("{before} and {last}") };
     }
-    match phase_of(orbit, contact) {
+    match orbit.signature.throughout(contact) {
         Some(ContactPhase::Stick) => format!("stick{s} throughout"),
         Some(ContactPhase::Open) if count == 1 => "is open throughout".to_owned(),
         Some(ContactPhase::Open) => "are open throughout".to_owned(),
         _ => format!("slide{s} throughout: its slip velocity does not reach 0"),
-    }
-}
-
-/// What a contact without events does, where the signature says so.
-fn phase_of(orbit: &MotionOrbit, contact: usize) -> Option<ContactPhase> {
-    match &orbit.signature {
-        MotionSignature::Steady(phases) => phases.get(contact).copied(),
-        MotionSignature::Events(_) => None,
     }
 }
 

@@ -7,6 +7,7 @@ use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::curves::{kind_in_words, put_contacts};
 use super::in_units;
 use super::start::{state_names, state_quantity};
 use super::switches::{RunOutcome, RunSwitches, STEPS_TRIED};
@@ -97,8 +98,9 @@ impl MotionThresholdsFound {
         let furthest = end_of(local.ending);
         let change = |threshold: &MotionThreshold| {
             let criticality = threshold.first_lyapunov.map_err(|why| why.to_string());
-            let kind =
-                format!("{}{}", threshold.kind.name(), criticality::clause(&criticality, ", ", ""));
+            let kind = kind_in_words(study, threshold.kind, &threshold.contacts)
+                + &criticality::clause(&criticality, ", ", "")
+                + &criticality::opening_clause(&threshold.fold, ", ", path);
             let at = format!("at {path} = {} ({kind})", self.value(study, threshold.value));
             match (threshold.was, threshold.becomes) {
                 (Some(_), Some(verdict)) => format!("becomes {} {at}", verdict.name()),
@@ -262,6 +264,7 @@ fn put(study: &SystemStudy, unit: &str, found: &MotionThreshold) -> Fields {
         .plain("was", side(found.was))
         .plain("becomes", side(found.becomes))
         .plain("state", found.state.clone());
+    put_contacts(&mut fields, study, &found.contacts);
     let names = ["radius_below", "radius_above"];
     for (name, radius) in names.into_iter().zip(found.radii) {
         match radius {
@@ -270,6 +273,7 @@ fn put(study: &SystemStudy, unit: &str, found: &MotionThreshold) -> Fields {
         };
     }
     let length = study.units().unit(Quantity::Displacement).unwrap_or("1");
+    criticality::put_fold(&mut fields, [unit, length], &found.fold);
     let found = found.first_lyapunov.map_err(|why| why.to_string());
     criticality::put(&mut fields, length, &found);
     fields

@@ -25,6 +25,7 @@ use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
 use crate::quantity::bearable;
+use crate::quantity::unit_of;
 use crate::range::SlipMet;
 use crate::study::document::given_number;
 use crate::study::{BeltStudy, InitialState};
@@ -312,6 +313,8 @@ impl Thresholds {
             let length = if study.scales().is_some() { "m" } else { "length" };
             let found = threshold.first_lyapunov.map_err(|why| why.to_string());
             criticality::put(&mut inner, length, &found);
+            let unit = unit_of(quantity, study.scales().is_some());
+            criticality::put_fold(&mut inner, [&unit, length], &threshold.fold);
             inner
         });
         let words = |signature: Option<&Signature>| {

@@ -8,7 +8,7 @@ use quell_model::units::Quantity;
 use quell_numerics::continuation::criticality::FirstLyapunov;
 use serde_json::{Value as Json, json};
 
-use super::{StabilityCurve, TrackRequest, TrackedStability};
+use super::{StabilityCurve, SurfaceAtRest, TrackRequest, TrackedStability};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::criticality;
@@ -76,6 +76,13 @@ impl TrackedStability {
             let count = self.curves.len();
             let _ = write!(sentence, " Found {count} curve{} of thresholds.", plural(count));
         }
+        for SurfaceAtRest { value, contact } in &self.rests {
+            let value = self.value(study, *value);
+            let _ = write!(
+                sentence,
+                " At {parameter} = {value} contact {contact} comes to rest: its surface reverses, and there is no steady sliding."
+            );
+        }
         sentence + &condition
     }
 
@@ -128,6 +135,12 @@ impl TrackedStability {
             let curves = self.curves.iter().map(|curve| put_curve(study, [unit, other], curve));
             fields.list("curves", curves.collect::<Vec<_>>());
         }
+        let rests = self.rests.iter().map(|SurfaceAtRest { value, contact }| {
+            let mut inner = Fields::of_system(study.units());
+            inner.measured("value", unit, *value).plain("contact", contact.clone());
+            inner
+        });
+        fields.list("rests", rests);
         let unknown = self.tracked.unknown.iter();
         let unknown =
             unknown.map(|range| json!({ "from": range.from, "to": range.to, "why": range.why }));
@@ -297,5 +310,6 @@ fn put_curve(study: &SystemStudy, [unit, along]: [&str; 2], curve: &StabilityCur
         .measured("along", along, positions)
         .measured("error", unit, column(&|found| found.error))
         .numbers("frequency", Quantity::FrequencyRatio, &frequencies);
+    criticality::put_criticalities(&mut fields, &curve.first_lyapunov);
     fields
 }

@@ -7,10 +7,12 @@ use std::cell::RefCell;
 use quell_linear::averaging::DitheredSystem;
 use quell_linear::criticality::first_lyapunov;
 use quell_linear::linearised::Linearised;
+use quell_linear::steady::NoSteadySliding;
 use quell_linear::tracking::{Family, StabilityChange, ThresholdOfStability, Tracked, track};
 use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov};
 use quell_numerics::eigen::EigenError;
 use quell_numerics::matrix::Matrix;
+use quell_numerics::roots::{Closeness, find_root};
 
 use super::validity::ContactRanges;
 use super::{failed, has_equations};
@@ -45,6 +47,8 @@ pub struct TrackRequest {
 pub struct StabilityCurve {
     /// Its points.
     pub points: Vec<(f64, ThresholdOfStability)>,
+    /// For each point the first Lyapunov coefficient, or the reason why it is unknown.
+    pub first_lyapunov: Vec<Result<FirstLyapunov, String>>,
 }
 
 /// Eigenvalues over a parameter.
@@ -56,6 +60,8 @@ pub struct TrackedStability {
     pub averaged: bool,
     /// The eigenvalues and thresholds over the window.
     pub tracked: Tracked<String>,
+    /// Where surfaces come to rest in the window, ascending.
+    pub rests: Vec<SurfaceAtRest>,
     /// For each threshold of the window the first Lyapunov coefficient, or the reason why it is unknown.
     pub first_lyapunov: Vec<Result<FirstLyapunov, String>>,
     /// Curves along the second parameter; empty without one.
@@ -94,6 +100,58 @@ impl Family for StudyFamily<'_> {
     fn overflows(why: EigenError) -> String {
         why.to_string()
     }
+
+    fn gaps(&self, window: (f64, f64)) -> Vec<(f64, String)> {
+        let at_rest = rests(self.study, (self.path, window), self.fixed).into_iter();
+        let why = |contact: String| NoSteadySliding::AtRest { contact }.to_string();
+        at_rest.map(|SurfaceAtRest { value, contact }| (value, why(contact))).collect()
+    }
+}
+
+/// A value of the parameter at which the surface of a contact comes to rest and its velocity changes its sign: friction reverses
+/// there, and at the value itself there is no steady sliding.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceAtRest {
+    /// The parameter.
+    pub value: f64,
+    /// Name of the contact.
+    pub contact: String,
+}
+
+/// Where surfaces come to rest inside a window, ascending.
+fn rests(
+    study: &SystemStudy,
+    (path, (from, to)): (&str, (f64, f64)),
+    fixed: Option<(&str, f64)>,
+) -> Vec<SurfaceAtRest> {
+    let velocities = |value: f64| -> Option<Vec<f64>> {
+        let numbers: Vec<(&str, f64)> = fixed.into_iter().chain([(path, value)]).collect();
+        let system = study.system_at(&numbers).ok()?;
+        Some(system.contacts.iter().map(|contact| contact.surface_velocity.mean()).collect())
+    };
+    let grid = (0..POINTS).map(|k| from + (to - from) * k as f64 / (POINTS - 1) as f64);
+    let met: Vec<(f64, Vec<f64>)> =
+        grid.filter_map(|value| Some((value, velocities(value)?))).collect();
+    let mut found = Vec::new();
+    for (index, contact) in study.system().contacts.iter().enumerate() {
+        let moving: Vec<(f64, f64)> = met
+            .iter()
+            .map(|(value, all)| (*value, all[index]))
+            .filter(|(_, v)| *v != 0.0)
+            .collect();
+        for pair in moving.windows(2) {
+            let [(low, before), (high, after)] = [pair[0], pair[1]];
+            if before * after > 0.0 {
+                continue;
+            }
+            let velocity = |value: f64| velocities(value).map_or(f64::NAN, |all| all[index]);
+            let closeness = Closeness { absolute: 1e-12 * (to - from), relative: 0.0 };
+            let Ok(root) = find_root(velocity, low, high, closeness) else { continue };
+            found.push(SurfaceAtRest { value: root.location, contact: contact.name.clone() });
+        }
+    }
+    found.sort_by(|a, b| a.value.total_cmp(&b.value));
+    found
 }
 
 /// Follows the eigenvalues of a study.
@@ -121,26 +179,39 @@ pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStabili
             extend(&mut curves, (value, step), thresholds, width);
         }
     }
+    if let Some((along, _)) = &request.along {
+        for curve in &mut curves {
+            let points = curve.points.iter();
+            let found = points.map(|(at, found)| {
+                let numbers = [(along.as_str(), *at), (request.parameter.as_str(), found.value)];
+                criticality(study, &numbers, found)
+            });
+            curve.first_lyapunov = found.collect();
+        }
+    }
     let averaged = study.system().is_dithered();
     let contacts = recorded.map(RefCell::into_inner);
-    let first_lyapunov =
-        tracked.thresholds.iter().map(|found| criticality(study, &request.parameter, found));
+    let first_lyapunov = tracked
+        .thresholds
+        .iter()
+        .map(|found| criticality(study, &[(request.parameter.as_str(), found.value)], found));
     let first_lyapunov = first_lyapunov.collect();
     let request = request.clone();
-    Ok(TrackedStability { request, averaged, tracked, first_lyapunov, curves, contacts })
+    let rests = rests(study, (&request.parameter, request.window), None);
+    Ok(TrackedStability { request, averaged, tracked, rests, first_lyapunov, curves, contacts })
 }
 
-/// The first Lyapunov coefficient at a threshold of steady sliding without dither.
+/// The first Lyapunov coefficient at a threshold of steady sliding without dither, at these numbers of the study.
 fn criticality(
     study: &SystemStudy,
-    path: &str,
+    numbers: &[(&str, f64)],
     found: &ThresholdOfStability,
 ) -> Result<FirstLyapunov, String> {
     let text = |why: NoFirstLyapunov| why.to_string();
     if found.change != StabilityChange::Hopf {
         return Err(text(NoFirstLyapunov::OtherKind));
     }
-    let system = study.system_at(&[(path, found.value)]).map_err(|why| why.to_string())?;
+    let system = study.system_at(numbers).map_err(|why| why.to_string())?;
     if system.is_dithered() {
         let why =
             "not computed for averaged motion: `thresholds` gives that of the dithered response";
@@ -172,7 +243,8 @@ fn extend(
             curves[index].points.push((value, found));
             taken[index] = true;
         } else {
-            curves.push(StabilityCurve { points: vec![(value, found)] });
+            curves
+                .push(StabilityCurve { points: vec![(value, found)], first_lyapunov: Vec::new() });
             taken.push(true);
         }
     }
