@@ -389,7 +389,9 @@ mod tests {
     #[test]
     fn one_lane_is_read_and_replaced() {
         let numbers = std::array::from_fn(|lane| lane as f64 - 3.0);
-        for (set, place) in InstructionSet::ALL.into_iter().flat_map(|set| (0..LANES).map(move |p| (set, p))) {
+        for (set, place) in
+            InstructionSet::ALL.into_iter().flat_map(|set| (0..LANES).map(move |p| (set, p)))
+        {
             let mut expected = numbers.to_vec();
             expected[place] = 100.0;
             assert_eq!(with_lanes(set, Replaced(&numbers, place)), expected, "{}", set.name());

@@ -238,11 +238,7 @@ impl<'a> MotionRun<'a> {
 
     #[inline(always)]
     pub(super) fn guards(&self) -> Guards<'_> {
-        Guards {
-            equations: self.equations,
-            now: &self.now,
-            contacts: &self.series.contacts,
-        }
+        Guards { equations: self.equations, now: &self.now, contacts: &self.series.contacts }
     }
 
     /// Computes the forces of the sticking contacts anew where they have changed.

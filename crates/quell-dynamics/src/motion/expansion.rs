@@ -47,16 +47,16 @@ impl Work for StepExpansion<'_> {
     fn run(self) -> ExpandedStep {
         let matrix = &self.equations.matrix;
         if self.now.len() <= FEW_CONTACTS {
-            if let Some(storage) = FewStates::<_, _, 2>::of(matrix) {
+            if let Some(storage) = FewStates::<2>::of(matrix) {
                 return self.few(storage);
             }
-            if let Some(storage) = FewStates::<_, _, 4>::of(matrix) {
+            if let Some(storage) = FewStates::<4>::of(matrix) {
                 return self.few(storage);
             }
-            if let Some(storage) = FewStates::<_, _, 6>::of(matrix) {
+            if let Some(storage) = FewStates::<6>::of(matrix) {
                 return self.few(storage);
             }
-            if let Some(storage) = FewStates::<_, _, 8>::of(matrix) {
+            if let Some(storage) = FewStates::<8>::of(matrix) {
                 return self.few(storage);
             }
         }
@@ -72,7 +72,8 @@ impl<'a> StepExpansion<'a> {
     #[inline(always)]
     fn few<S: StateStorage<f64, Row = RowEntries>>(self, storage: S) -> ExpandedStep {
         let mut branches: [SlipRecurrence<'_>; FEW_CONTACTS] = [None, None, None, None];
-        let mut masks: [ContactMasks; FEW_CONTACTS] = std::array::from_fn(|_| ContactMasks::empty());
+        let mut masks: [ContactMasks; FEW_CONTACTS] =
+            std::array::from_fn(|_| ContactMasks::empty());
         for (masks, now) in masks.iter_mut().zip(self.now) {
             *masks = ContactMasks::of(now);
         }
@@ -108,11 +109,7 @@ impl<'a> StepExpansion<'a> {
 
     #[inline(always)]
     fn guards(&self) -> Guards<'_> {
-        Guards {
-            equations: self.equations,
-            now: self.now,
-            contacts: &self.out.contacts,
-        }
+        Guards { equations: self.equations, now: self.now, contacts: &self.out.contacts }
     }
 
     /// Series of what varies in time; constant ones were written when the run began.

@@ -45,7 +45,6 @@ impl StepSeries {
         });
         Self::with(size, equations.pushes.len(), contacts.collect())
     }
-
 }
 
 impl<V: Lane> StepSeries<V> {

@@ -63,7 +63,8 @@ impl<V: Lane, S: StateStorage<V>> StepRecurrence<'_, V, S> {
         self.start_branches(laws, branches);
         let mut state = self.storage.buffer(&mut self.series.buffers[0]);
         let mut rates = self.storage.buffer(&mut self.series.buffers[1]);
-        state.as_mut().copy_from_slice(&self.series.states[..self.storage.size()]);
+        let size = self.storage.size();
+        state.as_mut()[..size].copy_from_slice(&self.series.states[..size]);
         self.orders(branches, state.as_mut(), rates.as_mut());
         self.storage.keep(state, &mut self.series.buffers[0]);
         self.storage.keep(rates, &mut self.series.buffers[1]);
@@ -103,12 +104,7 @@ impl<V: Lane, S: StateStorage<V>> StepRecurrence<'_, V, S> {
 
     /// All orders, one after the other.
     #[inline(always)]
-    fn orders(
-        &mut self,
-        branches: &mut [SlipRecurrence<'_, V>],
-        state: &mut [V],
-        rates: &mut [V],
-    ) {
+    fn orders(&mut self, branches: &mut [SlipRecurrence<'_, V>], state: &mut [V], rates: &mut [V]) {
         if S::IS_UNROLLED {
             quell_numerics::for_each_order_below_16!(K, {
                 self.order(K, branches, state, rates);

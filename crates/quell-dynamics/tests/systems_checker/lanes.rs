@@ -115,7 +115,10 @@ fn side_by_side(set: InstructionSet, cases: &[Case], is_sampled: bool) -> Vec<St
         observer: if is_sampled { observer } else { &mut observer.0 },
     });
     let ends = run_many_with(set, requests.collect(), MOTION_TOLERANCE);
-    ends.iter().zip(&observers).map(|(end, (events, samples))| trace(end, events, samples)).collect()
+    ends.iter()
+        .zip(&observers)
+        .map(|(end, (events, samples))| trace(end, events, samples))
+        .collect()
 }
 
 /// Compares all runs with those alone on every instruction set.

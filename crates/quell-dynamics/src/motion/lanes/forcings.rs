@@ -101,9 +101,10 @@ fn series_of<V>(contact: &mut ContactSeries<V>) -> [&mut SeriesOf<V>; 4] {
 impl<V: Lane> LaneForcings<V> {
     /// Zeros, for forcings like these.
     pub(super) fn like(forcings: &Forcings) -> Self {
-        let contacts = forcings.contacts.iter().map(|contact| {
-            contact.all().map(|forcing| forcing.map(LaneWave::like))
-        });
+        let contacts = forcings
+            .contacts
+            .iter()
+            .map(|contact| contact.all().map(|forcing| forcing.map(LaneWave::like)));
         let pushes = forcings.pushes.iter().map(LaneWave::like);
         let has_others = forcings.all().any(|forcing| Varying::of(forcing) == Varying::Other);
         Self { pushes: pushes.collect(), contacts: contacts.collect(), has_others }

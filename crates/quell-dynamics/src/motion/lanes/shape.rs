@@ -2,10 +2,10 @@
 
 use quell_model::friction::Friction;
 
+use super::super::Motion;
 use super::super::equations::{ContactEquation, Forcings, MotionEquations};
 use super::super::rows::StateRow;
 use super::super::step_recurrence::FEW_CONTACTS;
-use super::super::Motion;
 use super::forcings::Varying;
 use crate::simulation::Clock;
 
@@ -57,12 +57,6 @@ impl LaneShape {
             pushes: forcings.pushes.iter().map(Varying::of).collect(),
             contacts: shapes.collect(),
         })
-    }
-
-    /// Number of states.
-    #[inline(always)]
-    pub(super) fn size(&self) -> usize {
-        self.size
     }
 
     /// Laws like those of the contacts.
