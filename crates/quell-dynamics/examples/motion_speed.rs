@@ -1,13 +1,13 @@
 //! Times of the general engine: belts written as systems next to the own engine of belts, two masses on two contacts, and many modes.
 //!
 //! `cargo run --release --package quell-dynamics --example motion_speed` prints one JSON line: microseconds per dither period of a
-//! belt by its own engine and as a system, of two masses, and microseconds per step over the number of modes.
+//! belt by its own engine and as a system, of two masses alone and in a batch of 64, and microseconds per step over the number of modes.
 //! Each measurement is repeated and the fastest pass counts, because other work on the machine can only slow it down.
 
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart};
+use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionRequest, MotionStart, run_many};
 use quell_dynamics::simulation::{Start, simulate};
 use quell_model::friction::Friction;
 use quell_model::profile::{Profile, Wave};
@@ -16,6 +16,9 @@ use quell_model::{Belt, Direction, Dither, LawKind, Parametrisation, System, Wav
 use quell_numerics::matrix::Matrix;
 
 const PASSES: u32 = 9;
+
+/// Runs of a batch.
+const BATCH: usize = 64;
 
 /// The least time of several passes, in microseconds.
 fn fastest(mut work: impl FnMut()) -> f64 {
@@ -51,7 +54,7 @@ fn contact(tangent: Vec<f64>, velocity: f64) -> Contact {
 }
 
 /// Masses in a row with dither on the first.
-fn chain(masses: usize, contacts: usize) -> System {
+fn chain(masses: usize, contacts: usize, amplitude: f64) -> System {
     let stiffness = Matrix::from_fn(masses, masses, |i, j| match i.abs_diff(j) {
         0 => 2.2,
         1 => -1.2,
@@ -63,7 +66,7 @@ fn chain(masses: usize, contacts: usize) -> System {
     let mass = MassMatrix::dense(Matrix::identity(masses));
     let input = Input {
         target: InputTarget::Force(unit(0)),
-        profile: Profile::default().with(sine(0.4, 10.0)),
+        profile: Profile::default().with(sine(amplitude, 10.0)),
     };
     System {
         structure: Mechanical::new(names, mass, damping, stiffness).into(),
@@ -100,6 +103,29 @@ fn run(system: &System, until: f64) -> (f64, u64, u64) {
     (time, counts.0, counts.1)
 }
 
+/// Times of a batch of two masses with different amplitudes: one run after the other, and side by side.
+fn batch(until: f64) -> [f64; 2] {
+    let systems: Vec<System> =
+        (0..BATCH).map(|number| chain(2, 2, 0.3 + 0.2 * number as f64 / BATCH as f64)).collect();
+    let motions: Vec<Motion<'_>> =
+        systems.iter().map(|system| Motion::new(system).expect("movable")).collect();
+    let start = MotionStart { time: 0.0, state: vec![0.0; 4] };
+    let alone = fastest(|| {
+        for motion in &motions {
+            let _ = motion.run(&start, until, MOTION_TOLERANCE, &mut ()).expect("an end");
+        }
+    });
+    let side_by_side =
+        fastest(|| {
+            let mut observers = [(); BATCH];
+            let requests = motions.iter().zip(&mut observers).map(|(motion, observer)| {
+                MotionRequest { motion, start: start.clone(), until, observer }
+            });
+            let _ = run_many(requests.collect(), MOTION_TOLERANCE);
+        });
+    [alone, side_by_side]
+}
+
 fn main() {
     let until = 200.0;
     let (mut own, mut general, mut periods) = (0.0, 0.0, 0.0);
@@ -125,19 +151,23 @@ fn main() {
         }
     }
     let own_steps = own_steps / u64::from(PASSES);
-    let two = run(&chain(2, 2), until);
+    let two = run(&chain(2, 2, 0.4), until);
+    let [alone, side_by_side] = batch(until);
+    let batch_periods = BATCH as f64 * until * 10.0 / TAU;
     let mut modal = Vec::new();
     for count in [2, 10, 50, 100, 200] {
         let (time, steps, _) = run(&modes(count), 400.0);
         modal.push(format!("\"{count}\": {:.4}", time / steps as f64));
     }
     println!(
-        "{{\"belt\": {:.4}, \"belt as a system\": {:.4}, \"steps\": [{own_steps}, {steps}], \"two masses\": {:.4}, \"two masses, per step\": {:.4}, \"two masses, events\": {}, \"modes, per step\": {{{}}}}}",
+        "{{\"belt\": {:.4}, \"belt as a system\": {:.4}, \"steps\": [{own_steps}, {steps}], \"two masses\": {:.4}, \"two masses, per step\": {:.4}, \"two masses, events\": {}, \"64 times two masses\": {:.4}, \"64 times two masses, in lanes\": {:.4}, \"modes, per step\": {{{}}}}}",
         own / periods,
         general / periods,
         two.0 / (until * 10.0 / TAU),
         two.0 / two.1 as f64,
         two.2,
+        alone / batch_periods,
+        side_by_side / batch_periods,
         modal.join(", ")
     );
 }

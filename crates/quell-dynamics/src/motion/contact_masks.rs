@@ -35,7 +35,7 @@ pub(super) struct ContactMasks<V = f64> {
 /// `yes` where `mask` is positive, which it is in one lane at least: alone `yes`.
 #[inline(always)]
 pub(super) fn chosen<V: Lane>(mask: V, yes: V, no: V) -> V {
-    if V::LANES == 1 { yes } else { mask.where_positive(yes, no) }
+    if const { V::LANES == 1 } { yes } else { mask.where_positive(yes, no) }
 }
 
 #[inline(always)]

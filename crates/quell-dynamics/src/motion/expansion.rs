@@ -45,16 +45,16 @@ impl Work for StepExpansion<'_> {
     fn run(self) -> ExpandedStep {
         let matrix = &self.equations.matrix;
         if self.now.len() <= FEW_CONTACTS {
-            if let Some(storage) = FewStates::<_, _, 2>::of(matrix) {
+            if let Some(storage) = FewStates::<2>::of(matrix) {
                 return self.few(storage);
             }
-            if let Some(storage) = FewStates::<_, _, 4>::of(matrix) {
+            if let Some(storage) = FewStates::<4>::of(matrix) {
                 return self.few(storage);
             }
-            if let Some(storage) = FewStates::<_, _, 6>::of(matrix) {
+            if let Some(storage) = FewStates::<6>::of(matrix) {
                 return self.few(storage);
             }
-            if let Some(storage) = FewStates::<_, _, 8>::of(matrix) {
+            if let Some(storage) = FewStates::<8>::of(matrix) {
                 return self.few(storage);
             }
         }

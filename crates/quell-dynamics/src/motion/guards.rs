@@ -1,7 +1,7 @@
 //! The guards of a step: the polynomials whose first root ends it.
 
 use quell_numerics::lane::{Lane, horner};
-use quell_numerics::polynomial::side_by_side::margin_of_first_test;
+use quell_numerics::polynomial::side_by_side::proof_of_no_root;
 use quell_numerics::polynomial::{derivative, first_crossing_after, value};
 
 use super::contact_masks::ContactMasks;
@@ -134,37 +134,36 @@ impl<'a> Guards<'a> {
     }
 }
 
-/// Positive in the lanes where [`Guards::first`] finds no guard that reaches zero within `length`, by its first test alone.
+/// Positive in the lanes where [`Guards::first`] finds no guard that reaches zero within `length` without halving the step.
 #[inline(always)]
-pub(super) fn margin_of_guards<R: StateRow, V: Lane>(
+pub(super) fn proof_of_no_event<R: StateRow, V: Lane>(
     equations: &[ContactEquation<R, V>],
     masks: &[ContactMasks<V>],
     contacts: &[ContactSeries<V>],
     length: V,
 ) -> V {
-    let one = V::splat(1.0);
-    // A margin that is not a number is not positive.
-    let sure = |margin: V| margin.where_positive(one, -one);
-    let mut least = one;
+    let (zero, one) = (V::splat(0.0), V::splat(1.0));
+    let mut proof = one;
     for ((equation, masks), series) in equations.iter().zip(masks).zip(contacts) {
         if series.load_varies {
             let sign = masks.open.where_positive(-one, one);
-            let margin = margin_of_first_test(&series.load, masks.load_zeros, sign, length);
-            least = least.min(sure(margin));
+            let found = proof_of_no_root(&series.load, masks.load_zeros, sign, length, one);
+            proof = proof.min(found);
         }
         if masks.any_slips && equation.can_stick() {
-            let margin = margin_of_first_test(&series.slip, masks.slip_zeros, masks.sign, length);
-            least = least.min(masks.slipping.where_positive(sure(margin), one));
+            let (zeros, sign, slips) = (masks.slip_zeros, masks.sign, masks.slipping);
+            let found = proof_of_no_root(&series.slip, zeros, sign, length, slips);
+            proof = proof.min(slips.where_positive(found, one));
         }
         if masks.any_holds {
             for side in [one, -one] {
                 let above = margin_above(equation.static_coefficient, side, series);
-                let margin = margin_of_first_test(&above, V::splat(0.0), one, length);
-                least = least.min(masks.holding.where_positive(sure(margin), one));
+                let found = proof_of_no_root(&above, zero, one, length, masks.holding);
+                proof = proof.min(masks.holding.where_positive(found, one));
             }
         }
     }
-    least
+    proof
 }
 
 /// The margin μ_s N ∓ T of a sticking contact on one side.

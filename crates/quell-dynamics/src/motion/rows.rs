@@ -4,8 +4,6 @@
 //! The equations of a step are written once, over [`StateStorage`]: with [`FewStates`] the length of the state is known at compile
 //! time, so that the state and its rates stay in registers.
 
-use std::marker::PhantomData;
-
 use quell_numerics::lane::Lane;
 use quell_numerics::matrix::Matrix;
 
@@ -136,12 +134,11 @@ pub(super) enum StateMatrix {
 const SMALL: usize = 8;
 
 impl StateMatrix {
-    /// The columns of a matrix of `N` states, 2 ≤ N ≤ [`SMALL`]; `None` if it has another size.
+    /// The columns of a matrix of `size` states, one after the other; `None` if it has another size.
     #[inline(always)]
-    pub(super) fn columns<const N: usize>(&self) -> Option<&[[f64; N]]> {
-        const { assert!(2 <= N && N <= SMALL) };
+    pub(super) fn columns(&self, size: usize) -> Option<&[f64]> {
         let Self::Small(columns) = self else { return None };
-        (columns.len() == N * N).then(|| columns.as_chunks::<N>().0)
+        (columns.len() == size * size).then_some(&columns[..])
     }
 
     pub(super) fn of(matrix: &Matrix) -> Self {
@@ -207,11 +204,11 @@ fn small<const N: usize>(columns: &[f64], state: &[f64], out: &mut [f64]) {
 
 /// Σ columns times entries.
 #[inline(always)]
-fn product<V: Lane, const N: usize>(columns: &[[V; N]], state: &[V]) -> [V; N] {
-    let mut sums = [V::splat(0.0); N];
+fn product<const N: usize>(columns: &[[f64; N]], state: &[f64]) -> [f64; N] {
+    let mut sums = [0.0; N];
     for (column, entry) in columns.iter().zip(state) {
         for i in 0..N {
-            sums[i] = column[i].mul_add(*entry, sums[i]);
+            sums[i] = f64::mul_add(column[i], *entry, sums[i]);
         }
     }
     sums
@@ -256,23 +253,10 @@ pub(super) trait StateRow {
     fn is_empty(&self) -> bool;
 }
 
-/// A row or a column over at most [`SMALL`] states, in every lane.
-pub(super) trait DenseRow<V>: StateRow {
-    /// All numbers, and zeros beyond the length of the state.
-    fn dense(&self) -> &[V; SMALL];
-}
-
 impl StateRow for RowEntries {
     #[inline(always)]
     fn is_empty(&self) -> bool {
         self.values.is_empty() && self.scattered.is_empty()
-    }
-}
-
-impl DenseRow<f64> for RowEntries {
-    #[inline(always)]
-    fn dense(&self) -> &[f64; SMALL] {
-        &self.dense
     }
 }
 
@@ -301,13 +285,6 @@ impl<V> StateRow for LaneEntries<V> {
     #[inline(always)]
     fn is_empty(&self) -> bool {
         self.is_empty
-    }
-}
-
-impl<V> DenseRow<V> for LaneEntries<V> {
-    #[inline(always)]
-    fn dense(&self) -> &[V; SMALL] {
-        &self.dense
     }
 }
 
@@ -360,43 +337,24 @@ impl StateStorage<f64> for ManyStates<'_> {
     }
 }
 
-/// `N` states, with the columns of the state matrix and rows of type `R`. Slices over the state must have this length.
-#[derive(Debug)]
-pub(super) struct FewStates<'a, V, R, const N: usize> {
-    columns: &'a [[V; N]; N],
-    rows: PhantomData<R>,
-}
+/// `N` states of one run, with the columns of the state matrix. Slices over the state must have this length.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FewStates<'a, const N: usize>(&'a [[f64; N]; N]);
 
-impl<V, R, const N: usize> Clone for FewStates<'_, V, R, N> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<V, R, const N: usize> Copy for FewStates<'_, V, R, N> {}
-
-impl<'a, const N: usize> FewStates<'a, f64, RowEntries, N> {
+impl<'a, const N: usize> FewStates<'a, N> {
     /// The storage of a matrix; `None` if it has another size.
     #[inline(always)]
     pub(super) fn of(matrix: &'a StateMatrix) -> Option<Self> {
-        let columns = matrix.columns::<N>()?.try_into().ok()?;
-        Some(Self { columns, rows: PhantomData })
+        const { assert!(2 <= N && N <= SMALL) };
+        matrix.columns(N)?.as_chunks::<N>().0.try_into().ok().map(Self)
     }
 }
 
-impl<'a, V, const N: usize> FewStates<'a, V, LaneEntries<V>, N> {
-    /// The storage of the matrices of all lanes, column by column.
-    #[inline(always)]
-    pub(super) fn in_lanes(columns: &'a [[V; N]; N]) -> Self {
-        Self { columns, rows: PhantomData }
-    }
-}
+impl<const N: usize> StateStorage<f64> for FewStates<'_, N> {
+    type Buffer = [f64; N];
+    type Row = RowEntries;
 
-impl<V: Lane, R: DenseRow<V>, const N: usize> StateStorage<V> for FewStates<'_, V, R, N> {
-    type Buffer = [V; N];
-    type Row = R;
-
-    const IS_UNROLLED: bool = N <= 2 && V::LANES == 1;
+    const IS_UNROLLED: bool = N <= 2;
 
     #[inline(always)]
     fn size(self) -> usize {
@@ -404,46 +362,106 @@ impl<V: Lane, R: DenseRow<V>, const N: usize> StateStorage<V> for FewStates<'_, 
     }
 
     #[inline(always)]
-    fn buffer(self, _: &mut Vec<V>) -> [V; N] {
-        [V::splat(0.0); N]
+    fn buffer(self, _: &mut Vec<f64>) -> [f64; N] {
+        [0.0; N]
     }
 
     #[inline(always)]
-    fn keep(self, _: [V; N], _: &mut Vec<V>) {}
+    fn keep(self, _: [f64; N], _: &mut Vec<f64>) {}
 
-    /// In two partial sums.
     #[inline(always)]
-    fn dot(self, row: &R, state: &[V]) -> V {
-        let (upper, lower) = row.dense()[..N].split_at(N / 2);
-        let (displacements, velocities) = state[..N].split_at(N / 2);
-        let mut sums = [upper[0] * displacements[0], lower[0] * velocities[0]];
-        for (value, entry) in upper[1..].iter().zip(&displacements[1..]) {
-            sums[0] = value.mul_add(*entry, sums[0]);
-        }
-        for (value, entry) in lower[1..].iter().zip(&velocities[1..]) {
-            sums[1] = value.mul_add(*entry, sums[1]);
-        }
-        sums[0] + sums[1]
+    fn dot(self, row: &RowEntries, state: &[f64]) -> f64 {
+        dot_by_halves(&row.dense[..N], &state[..N])
     }
 
     #[inline(always)]
-    fn add(self, column: &R, factor: V, state: &mut [V]) {
-        for (entry, value) in state[..N].iter_mut().zip(&column.dense()[..N]) {
+    fn add(self, column: &RowEntries, factor: f64, state: &mut [f64]) {
+        for (entry, value) in state[..N].iter_mut().zip(&column.dense[..N]) {
+            *entry = f64::mul_add(*value, factor, *entry);
+        }
+    }
+
+    #[inline(always)]
+    fn add_where(self, _: f64, column: &RowEntries, factor: f64, state: &mut [f64]) {
+        self.add(column, factor, state);
+    }
+
+    #[inline(always)]
+    fn times(self, state: &[f64], out: &mut [f64]) {
+        out[..N].copy_from_slice(&product(self.0, &state[..N]));
+    }
+}
+
+/// As many states of several runs as [`FewStates`] of each, and with its bits: the matrices in all lanes, column by column.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LaneStates<'a, V> {
+    pub(super) size: usize,
+    pub(super) columns: &'a [V],
+}
+
+impl<V: Lane> StateStorage<V> for LaneStates<'_, V> {
+    type Buffer = [V; SMALL];
+    type Row = LaneEntries<V>;
+
+    const IS_UNROLLED: bool = false;
+
+    #[inline(always)]
+    fn size(self) -> usize {
+        self.size
+    }
+
+    #[inline(always)]
+    fn buffer(self, _: &mut Vec<V>) -> [V; SMALL] {
+        [V::splat(0.0); SMALL]
+    }
+
+    #[inline(always)]
+    fn keep(self, _: [V; SMALL], _: &mut Vec<V>) {}
+
+    #[inline(always)]
+    fn dot(self, row: &LaneEntries<V>, state: &[V]) -> V {
+        dot_by_halves(&row.dense[..self.size], &state[..self.size])
+    }
+
+    #[inline(always)]
+    fn add(self, column: &LaneEntries<V>, factor: V, state: &mut [V]) {
+        for (entry, value) in state[..self.size].iter_mut().zip(&column.dense) {
             *entry = value.mul_add(factor, *entry);
         }
     }
 
     #[inline(always)]
-    fn add_where(self, mask: V, column: &R, factor: V, state: &mut [V]) {
-        for (entry, value) in state[..N].iter_mut().zip(&column.dense()[..N]) {
+    fn add_where(self, mask: V, column: &LaneEntries<V>, factor: V, state: &mut [V]) {
+        for (entry, value) in state[..self.size].iter_mut().zip(&column.dense) {
             *entry = chosen(mask, value.mul_add(factor, *entry), *entry);
         }
     }
 
     #[inline(always)]
     fn times(self, state: &[V], out: &mut [V]) {
-        out[..N].copy_from_slice(&product(self.columns, &state[..N]));
+        for (i, out) in out[..self.size].iter_mut().enumerate() {
+            let mut sum = V::splat(0.0);
+            for (column, entry) in self.columns.chunks_exact(self.size).zip(state) {
+                sum = column[i].mul_add(*entry, sum);
+            }
+            *out = sum;
+        }
     }
+}
+
+/// Σ aᵢbᵢ in two partial sums, one of each half.
+#[inline(always)]
+fn dot_by_halves<V: Lane>(row: &[V], state: &[V]) -> V {
+    let (upper, lower) = row.split_at(row.len() / 2);
+    let (displacements, velocities) = state.split_at(state.len() / 2);
+    let mut sums = [upper[0] * displacements[0], lower[0] * velocities[0]];
+    for (value, entry) in upper[1..].iter().zip(&displacements[1..]) {
+        sums[0] = value.mul_add(*entry, sums[0]);
+    }
+    for (value, entry) in lower[1..].iter().zip(&velocities[1..]) {
+        sums[1] = value.mul_add(*entry, sums[1]);
+    }
+    sums[0] + sums[1]
 }
 
 /// The diagonals of a mechanical structure of modes, if the matrix is that of one.
@@ -493,7 +511,7 @@ mod tests {
     fn agrees<const N: usize>() {
         let matrix = Matrix::from_fn(N, N, |i, j| (i as f64 - 0.7).mul_add(1.3, 0.9 * j as f64));
         let form = StateMatrix::of(&matrix);
-        let few = FewStates::<_, _, N>::of(&form).expect("a small matrix");
+        let few = FewStates::<N>::of(&form).expect("a small matrix");
         let many = ManyStates { size: N, matrix: &form };
         let state: [f64; N] = std::array::from_fn(|i| 0.3 * i as f64 - 1.0);
         let values: Vec<f64> = (0..N / 2).map(|i| 1.7 - i as f64).collect();
@@ -508,7 +526,7 @@ mod tests {
         few.times(&state, &mut left);
         many.times(&state, &mut right);
         assert_eq!(left, right);
-        assert!(FewStates::<_, _, 2>::of(&form).is_some() == (N == 2));
+        assert!(FewStates::<2>::of(&form).is_some() == (N == 2));
     }
 
     #[test]

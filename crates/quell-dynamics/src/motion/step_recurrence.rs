@@ -66,7 +66,8 @@ impl<V: Lane, S: StateStorage<V>> StepRecurrence<'_, V, S> {
         self.start_branches(laws, branches);
         let mut state = self.storage.buffer(&mut self.series.buffers[0]);
         let mut rates = self.storage.buffer(&mut self.series.buffers[1]);
-        state.as_mut().copy_from_slice(&self.series.states[..self.storage.size()]);
+        let size = self.storage.size();
+        state.as_mut()[..size].copy_from_slice(&self.series.states[..size]);
         self.orders(branches, state.as_mut(), rates.as_mut());
         self.storage.keep(state, &mut self.series.buffers[0]);
         self.storage.keep(rates, &mut self.series.buffers[1]);

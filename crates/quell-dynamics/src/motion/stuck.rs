@@ -70,13 +70,13 @@ impl<V: Lane> HoldingForces<'_, V> {
             let gains = &self.gain[place * count..(place + 1) * count];
             for (other, (&index, gain)) in self.independent.iter().zip(gains).enumerate() {
                 let sum = gain.mul_add(contacts[index].lost, force);
-                force = if V::LANES == 1 {
+                force = if const { V::LANES == 1 } {
                     sum
                 } else {
                     self.is_independent[other].where_positive(sum, force)
                 };
             }
-            contacts[held].friction[k] = if V::LANES == 1 {
+            contacts[held].friction[k] = if const { V::LANES == 1 } {
                 force
             } else {
                 self.is_free[place].where_positive(force, contacts[held].friction[k])
@@ -85,7 +85,7 @@ impl<V: Lane> HoldingForces<'_, V> {
         for (place, (&index, tilt)) in self.free.iter().zip(self.tilts).enumerate() {
             let contact = &equations[index];
             let force = contacts[index].friction[k];
-            let mask = if V::LANES == 1 { V::splat(1.0) } else { self.is_free[place] };
+            let mask = if const { V::LANES == 1 } { V::splat(1.0) } else { self.is_free[place] };
             storage.add_where(mask, &contact.along, force, rates);
             if !contact.slope.is_empty() {
                 storage.add_where(mask, &contact.across, *tilt * force, rates);

@@ -198,7 +198,7 @@ fn relays(a: f64) -> System {
 #[test]
 fn a_neighbour_whose_events_accumulate_changes_no_bit() {
     let case = |number: u32| {
-        let a = if number % 2 == 0 { 2.0 } else { 60.0 } + 0.1 * f64::from(number);
+        let a = if number % 2 == 0 { 2.0 } else { 60.0 } + 0.01 * f64::from(number);
         let state = vec![-1e-3 * f64::from(1 + number), 0.0];
         Case { system: relays(a), start: MotionStart { time: 0.0, state }, until: 1.0 }
     };
@@ -209,7 +209,7 @@ fn a_neighbour_whose_events_accumulate_changes_no_bit() {
         stopped.is_some_and(|why| matches!(why.reason, StopReason::Zeno { .. }))
     };
     let zeno = cases.iter().filter(|case| is_zeno(case)).count();
-    assert!((10..=20).contains(&zeno), "{zeno}");
+    assert!((10..=30).contains(&zeno), "{zeno}");
     compare(&cases, "relays");
 }
 

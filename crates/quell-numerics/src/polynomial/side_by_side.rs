@@ -25,20 +25,62 @@ pub fn margin_of_no_root<V: Lane, const N: usize>(c: &[V; N], zeros: V, h: V) ->
     margin_by_cubic(&head, pick(zeros, beyond, beyond_first, beyond_second))
 }
 
-/// The first test of [`super::first_crossing_after`] with its bits, for Σ cₖ₊ₙtᵏ that starts with `sign`: where the result is
-/// positive, that function finds no root on (0, h]. It is not positive where the first coefficient is zero or has the other sign. The
-/// lanes may have different n = `zeros`, 0, 1 or 2.
+/// Positive where [`super::first_crossing_after`] finds no root of Σ cₖ₊ₙtᵏ on (0, h] by its three tests, with their bits. It is
+/// not positive where the first coefficient is zero or has another sign than `sign`, nor where that function has to halve the
+/// interval. The lanes may have different n = `zeros`, 0, 1 or 2; only those where `wanted` is positive count.
 #[inline(always)]
-pub fn margin_of_first_test<V: Lane, const N: usize>(c: &[V; N], zeros: V, sign: V, h: V) -> V {
-    let zero = V::splat(0.0);
+pub fn proof_of_no_root<V: Lane, const N: usize>(
+    c: &[V; N],
+    zeros: V,
+    sign: V,
+    h: V,
+    wanted: V,
+) -> V {
+    let (zero, one) = (V::splat(0.0), V::splat(1.0));
     let mut a = [zero; N];
     for k in 0..N {
-        let one = if k + 1 < N { c[k + 1] } else { zero };
-        let two = if k + 2 < N { c[k + 2] } else { zero };
-        a[k] = pick(zeros, c[k], one, two);
+        let first = if k + 1 < N { c[k + 1] } else { zero };
+        let second = if k + 2 < N { c[k + 2] } else { zero };
+        a[k] = pick(zeros, c[k], first, second);
     }
-    let a = scaled(&a, h);
-    margin_by_cubic(&[a[0] * sign, a[1] * sign, a[2] * sign, a[3] * sign], absolute_sum(&a, 4))
+    let mut a = scaled(&a, h);
+    for coefficient in &mut a {
+        *coefficient = *coefficient * sign;
+    }
+    let by_cubic = margin_by_cubic(&[a[0], a[1], a[2], a[3]], absolute_sum(&a, 4));
+    let by_cubic = by_cubic.where_positive(one, -one);
+    if !wanted.where_positive(-by_cubic, -one).any_positive() {
+        return by_cubic;
+    }
+    let mut slope_tail = zero;
+    for (k, coefficient) in a.iter().enumerate().skip(2) {
+        slope_tail = V::splat(k as f64).mul_add(coefficient.abs(), slope_tail);
+    }
+    let end = value(&a, one);
+    let is_monotone = a[1].abs() - slope_tail;
+    // No coefficient changes its sign; one that is not a number does.
+    let mut keeps = one;
+    for (j, coefficient) in bernstein(&a).into_iter().enumerate() {
+        let coefficient = if j + 1 < N { coefficient } else { end };
+        keeps = keeps.min(coefficient.map(|b| if b >= 0.0 { 1.0 } else { -1.0 }));
+    }
+    let starts = a[0].where_positive(one, -one);
+    let by_shape = is_monotone.where_positive(one, keeps);
+    let by_shape = by_shape.min(end.where_positive(one, -one)).min(starts);
+    by_cubic.where_positive(one, by_shape)
+}
+
+/// Bernstein coefficients on [0, 1] of Σ aₖuᵏ, summed by ascending k.
+#[inline(always)]
+fn bernstein<V: Lane, const N: usize>(a: &[V; N]) -> [V; N] {
+    let matrix = &ToBernstein::<N>::MATRIX;
+    let mut bernstein = [a[0]; N];
+    for k in 1..N {
+        for j in k..N {
+            bernstein[j] = V::splat(matrix[k][j]).mul_add(a[k], bernstein[j]);
+        }
+    }
+    bernstein
 }
 
 /// Result of the search in each lane.
@@ -118,13 +160,7 @@ fn shifted<V: Lane, const N: usize>(b: &[V; N], zeros: V, k: usize) -> V {
 /// the control polygon first decreases through zero.
 #[inline(always)]
 fn control_polygon<V: Lane, const N: usize>(a: &[V; N]) -> (V, V) {
-    let matrix = &ToBernstein::<N>::MATRIX;
-    let mut bernstein = [a[0]; N];
-    for k in 1..N {
-        for j in k..N {
-            bernstein[j] = V::splat(matrix[k][j]).mul_add(a[k], bernstein[j]);
-        }
-    }
+    let mut bernstein = bernstein(a);
     // The next step starts from the value at the end, so its sign decides.
     bernstein[N - 1] = value(a, V::splat(1.0));
     let one = V::splat(1.0);
@@ -199,7 +235,7 @@ mod tests {
     }
 
     impl LaneWork for Search<'_> {
-        /// Margin, found, time, margin of the first test.
+        /// Margin, found, time, proof of no root.
         type Output = Vec<[f64; 4]>;
 
         #[inline(always)]
@@ -215,10 +251,10 @@ mod tests {
                 margin.store(&mut lanes[0]);
                 crossings.found.store(&mut lanes[1]);
                 crossings.time.store(&mut lanes[2]);
-                let first = pick(zeros, c[0], c[1], c[2]);
-                let sign = V::splat(1.0).zip(first, f64::copysign);
-                margin_of_first_test(&c, zeros, sign, h).store(&mut lanes[3]);
-                assert!(!margin_of_first_test(&c, zeros, -sign, h).any_positive());
+                let sign = V::splat(1.0).zip(pick(zeros, c[0], c[1], c[2]), f64::copysign);
+                let proof = |sign| proof_of_no_root(&c, zeros, sign, h, V::splat(1.0));
+                proof(sign).store(&mut lanes[3]);
+                assert!(!proof(-sign).any_positive());
                 results.extend((0..V::LANES).map(|lane| lanes.map(|row| row[lane])));
             }
             results
@@ -252,7 +288,7 @@ mod tests {
             state ^= state << 17;
             (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
         };
-        let mut counts = [0; 3];
+        let mut counts = [0; 4];
         for round in 0..600 {
             let growth = [0.4, 0.9, 1.4][round % 3];
             let (rows, zeros) = rows(&mut random, growth);
@@ -264,16 +300,13 @@ mod tests {
                 let lanes: Vec<_> = search(set).iter().map(bits).collect();
                 assert_eq!(lanes, alone.iter().map(bits).collect::<Vec<_>>(), "{}", set.name());
             }
-            for (lane, &[margin, found, time, first_test]) in alone.iter().enumerate() {
+            for (lane, &[margin, found, time, proof]) in alone.iter().enumerate() {
                 let c: [f64; N] = std::array::from_fn(|k| rows[k][lane]);
                 let scalar = first_crossing_after(&c, lane % 3, h);
-                let a = [
-                    super::super::scaled::<N, 0>,
-                    super::super::scaled::<N, 1>,
-                    super::super::scaled::<N, 2>,
-                ][lane % 3](&c, h);
-                let expected = margin_by_cubic(&[a[0], a[1], a[2], a[3]], absolute_sum(&a, 4));
-                assert_eq!(first_test.to_bits(), expected.to_bits());
+                // The control polygon of the lanes, with the same bits as the scalar one, changes its sign where there is no proof.
+                assert!(proof < 0.0 || scalar.is_none(), "a proof of no root is wrong");
+                assert!(proof > 0.0 || margin <= 0.0 && found != -1.0, "a proof is missed");
+                counts[3] += usize::from(proof > 0.0 && margin <= 0.0);
                 if margin > 0.0 {
                     assert_eq!(scalar, None, "a proof of no root is wrong");
                 }

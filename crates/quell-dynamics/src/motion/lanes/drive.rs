@@ -33,7 +33,7 @@ struct LaneSlot<'a> {
 impl LaneSlot<'_> {
     /// Writes to the lane what its next step needs.
     #[inline(always)]
-    fn write<V: Lane, const N: usize>(&mut self, lane: usize, numbers: &mut LaneNumbers<V, N>) {
+    fn write<V: Lane>(&mut self, lane: usize, numbers: &mut LaneNumbers<V>) {
         let run = &self.run;
         if self.now != run.now {
             self.now.clone_from(&run.now);
@@ -48,10 +48,10 @@ impl LaneSlot<'_> {
 
     /// Accepts the step that the lane has taken, and prepares the next one. Whether the run goes on.
     #[inline(always)]
-    fn accept<V: Lane, const N: usize>(
+    fn accept<V: Lane>(
         &mut self,
         lane: usize,
-        numbers: &mut LaneNumbers<V, N>,
+        numbers: &mut LaneNumbers<V>,
     ) -> Result<bool, MotionStopped> {
         let run = &mut self.run;
         let length = numbers.length(lane);
@@ -81,19 +81,19 @@ impl LaneSlot<'_> {
 }
 
 /// The runs of one shape, and their lanes.
-pub(super) struct LaneLoop<'a, 'f, V: Lane, const N: usize> {
+pub(super) struct LaneLoop<'a, 'f, V: Lane> {
     shape: &'f LaneShape,
     queue: std::vec::IntoIter<(usize, MotionRequest<'a>)>,
     tolerance: f64,
     finish: Finish<'f>,
     /// Present from the first run on.
-    numbers: Option<LaneNumbers<V, N>>,
+    numbers: Option<LaneNumbers<V>>,
     slots: [Option<LaneSlot<'a>>; MOST_LANES],
     /// Number of lanes with a run.
     occupied: usize,
 }
 
-impl<'a, 'f, V: Lane, const N: usize> LaneLoop<'a, 'f, V, N> {
+impl<'a, 'f, V: Lane> LaneLoop<'a, 'f, V> {
     pub(super) fn new(
         shape: &'f LaneShape,
         queue: Vec<(usize, MotionRequest<'a>)>,

@@ -46,6 +46,7 @@ impl<V: Lane> LaneHolding<V> {
     }
 
     /// Writes the forces of one run; [`LaneHolding::combine`] must follow.
+    #[inline(always)]
     pub(super) fn set(&mut self, lane: usize, forces: &StuckForces) {
         let HoldingForces { free, independent, gain, tilts, .. } = forces.holding();
         for contact in 0..self.contacts {
@@ -66,6 +67,7 @@ impl<V: Lane> LaneHolding<V> {
     }
 
     /// Combines the forces of all lanes.
+    #[inline(always)]
     pub(super) fn combine(&mut self) {
         let Together { free, independent, gain, tilts, is_free, is_independent } =
             &mut self.together;

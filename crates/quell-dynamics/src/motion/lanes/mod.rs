@@ -126,23 +126,14 @@ impl LaneWork for RunsOfOneShape<'_, '_> {
 
     #[inline(always)]
     fn run<V: Lane>(self) {
-        // Below that the lanes would cost more than they save.
-        if V::LANES == 1 || self.queue.len() <= drive::few(V::LANES) {
-            return run_one_by_one(self.queue, self.tolerance, self.finish);
-        }
-        match self.shape.size() {
-            2 => self.in_lanes::<V, 2>(),
-            4 => self.in_lanes::<V, 4>(),
-            6 => self.in_lanes::<V, 6>(),
-            _ => self.in_lanes::<V, 8>(),
-        }
-    }
-}
-
-impl RunsOfOneShape<'_, '_> {
-    #[inline(always)]
-    fn in_lanes<V: Lane, const N: usize>(self) {
         let Self { shape, queue, tolerance, finish } = self;
-        LaneLoop::<V, N>::new(&shape, queue, tolerance, finish).run();
+        if const { V::LANES == 1 } {
+            run_one_by_one(queue, tolerance, finish);
+        } else if queue.len() <= drive::few(V::LANES) {
+            // The lanes would cost more than they save.
+            run_one_by_one(queue, tolerance, finish);
+        } else {
+            LaneLoop::<V>::new(&shape, queue, tolerance, finish).run();
+        }
     }
 }

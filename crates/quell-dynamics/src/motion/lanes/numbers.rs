@@ -7,9 +7,9 @@ use super::super::contact_masks::ContactMasks;
 use super::super::contact_series::ContactSeries;
 use super::super::engine::{MotionRun, StepRoom};
 use super::super::equations::ContactEquation;
-use super::super::guards::margin_of_guards;
+use super::super::guards::proof_of_no_event;
 use super::super::phase::{ContactNow, ContactPhase};
-use super::super::rows::{FewStates, LaneEntries};
+use super::super::rows::{LaneEntries, LaneStates};
 use super::super::series::{StepSeries, horner_states};
 use super::super::step_recurrence::{FEW_CONTACTS, SlipRecurrence, StepLimit, StepRecurrence};
 use super::forcings::LaneForcings;
@@ -17,13 +17,14 @@ use super::holding::LaneHolding;
 use super::shape::LaneShape;
 use crate::simulation::ORDER;
 
-/// The numbers of `N` states in every lane.
+/// The numbers of all lanes.
 ///
 /// The state of a run between two steps belongs to its engine; a lane receives a copy for each step.
-pub(super) struct LaneNumbers<V: Lane, const N: usize> {
+pub(super) struct LaneNumbers<V: Lane> {
     // Constants of a run.
-    columns: [[V; N]; N],
-    constant: [V; N],
+    size: usize,
+    columns: Vec<V>,
+    constant: Vec<V>,
     pushes: Vec<LaneEntries<V>>,
     contacts: Vec<ContactEquation<LaneEntries<V>, V>>,
     forcings: LaneForcings<V>,
@@ -41,16 +42,17 @@ pub(super) struct LaneNumbers<V: Lane, const N: usize> {
     low: V,
     series: StepSeries<V>,
     length: V,
-    /// Positive where no guard reaches zero within the step, as far as its first test shows.
+    /// Positive where no guard reaches zero within the step, as far as its tests show.
     clear: V,
-    end: [V; N],
+    end: Vec<V>,
 }
 
-impl<V: Lane, const N: usize> LaneNumbers<V, N> {
+impl<V: Lane> LaneNumbers<V> {
     /// Zeros, for runs like this one.
     pub(super) fn like(shape: &LaneShape, run: &MotionRun<'_>) -> Self {
         let zero = V::splat(0.0);
         let equations = run.equations;
+        let size = equations.size;
         let contacts = equations.contacts.iter().map(|contact| ContactEquation {
             tangent: LaneEntries::like(&contact.tangent),
             approach: LaneEntries::like(&contact.approach),
@@ -72,8 +74,9 @@ impl<V: Lane, const N: usize> LaneNumbers<V, N> {
         });
         let count = equations.contacts.len();
         Self {
-            columns: [[zero; N]; N],
-            constant: [zero; N],
+            size,
+            columns: vec![zero; size * size],
+            constant: vec![zero; size],
             pushes: equations.pushes.iter().map(LaneEntries::like).collect(),
             contacts: contacts.collect(),
             forcings: LaneForcings::like(&run.forcings),
@@ -86,21 +89,19 @@ impl<V: Lane, const N: usize> LaneNumbers<V, N> {
             limit: StepLimit { tolerance: zero, time_scale: zero, longest: zero, room: zero },
             time: zero,
             low: zero,
-            series: StepSeries::with(N, equations.pushes.len(), series.collect()),
+            series: StepSeries::with(size, equations.pushes.len(), series.collect()),
             length: zero,
             clear: zero,
-            end: [zero; N],
+            end: vec![zero; size],
         }
     }
 
     /// Writes the constants of a run; [`LaneNumbers::begin`] must follow.
     pub(super) fn admit(&mut self, lane: usize, run: &MotionRun<'_>) {
         let equations = run.equations;
-        let columns = equations.matrix.columns::<N>().unwrap_or_default();
-        for (numbers, column) in self.columns.iter_mut().zip(columns) {
-            for (number, entry) in numbers.iter_mut().zip(column) {
-                number.set_lane(lane, *entry);
-            }
+        let columns = equations.matrix.columns(self.size).unwrap_or_default();
+        for (number, entry) in self.columns.iter_mut().zip(columns) {
+            number.set_lane(lane, *entry);
         }
         for (number, entry) in self.constant.iter_mut().zip(&equations.constant) {
             number.set_lane(lane, *entry);
@@ -155,6 +156,7 @@ impl<V: Lane, const N: usize> LaneNumbers<V, N> {
     }
 
     /// Writes the phases of the contacts of a run.
+    #[inline(always)]
     pub(super) fn set_phases(&mut self, lane: usize, now: &[ContactNow]) {
         for (masks, now) in self.masks.iter_mut().zip(now) {
             masks.set(lane, now);
@@ -163,6 +165,7 @@ impl<V: Lane, const N: usize> LaneNumbers<V, N> {
     }
 
     /// Writes the forces of the sticking contacts of a run.
+    #[inline(always)]
     pub(super) fn set_holding(&mut self, lane: usize, run: &MotionRun<'_>) {
         self.holding.set(lane, &run.stuck);
         self.is_holding_new = true;
@@ -171,7 +174,7 @@ impl<V: Lane, const N: usize> LaneNumbers<V, N> {
     /// Writes the start of the next step of a run.
     #[inline(always)]
     pub(super) fn load(&mut self, lane: usize, run: &MotionRun<'_>, room: StepRoom) {
-        for (number, entry) in self.series.states[..N].iter_mut().zip(run.series.start()) {
+        for (number, entry) in self.series.states[..self.size].iter_mut().zip(run.series.start()) {
             number.set_lane(lane, *entry);
         }
         self.time.set_lane(lane, run.clock.time());
@@ -195,7 +198,7 @@ impl<V: Lane, const N: usize> LaneNumbers<V, N> {
         self.forcings.write(self.time, self.low, &mut self.series);
         let mut branches: [SlipRecurrence<'_, V>; FEW_CONTACTS] = [None, None, None, None];
         let mut recurrence = StepRecurrence {
-            storage: FewStates::in_lanes(&self.columns),
+            storage: LaneStates { size: self.size, columns: &self.columns },
             constant: &self.constant,
             pushes: &self.pushes,
             contacts: &self.contacts,
@@ -206,7 +209,7 @@ impl<V: Lane, const N: usize> LaneNumbers<V, N> {
         let branches = &mut branches[..self.masks.len()];
         self.length = recurrence.run(&mut self.constants, branches, self.limit);
         self.clear =
-            margin_of_guards(&self.contacts, &self.masks, &self.series.contacts, self.length);
+            proof_of_no_event(&self.contacts, &self.masks, &self.series.contacts, self.length);
         horner_states(&self.series.states, self.length, &mut self.end);
     }
 
@@ -233,7 +236,7 @@ impl<V: Lane, const N: usize> LaneNumbers<V, N> {
     /// Writes the series of a lane's step to those of its run.
     #[inline(always)]
     pub(super) fn extract(&self, lane: usize, out: &mut StepSeries) {
-        let states = (ORDER + 1) * N;
+        let states = (ORDER + 1) * self.size;
         copy_lane(lane, &self.series.states[..states], &mut out.states[..states]);
         for (numbers, contact) in self.series.contacts.iter().zip(&mut out.contacts) {
             copy_lane(lane, &numbers.slip, &mut contact.slip);

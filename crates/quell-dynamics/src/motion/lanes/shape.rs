@@ -59,12 +59,6 @@ impl LaneShape {
         })
     }
 
-    /// Number of states.
-    #[inline(always)]
-    pub(super) fn size(&self) -> usize {
-        self.size
-    }
-
     /// Laws like those of the contacts.
     pub(super) fn laws(&self) -> impl Iterator<Item = &Friction> {
         self.contacts.iter().map(|contact| &contact.law)
