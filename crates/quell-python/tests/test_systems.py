@@ -12,59 +12,10 @@ import numpy as np
 import pytest
 import xarray
 from conftest import STUDIES
+from gallery import DRIVE, FRICTION, HOFFMANN
 
 import quell
 from quell import _system, results
-
-HOFFMANN = """
-schema = 1
-title = "Mode coupling (Hoffmann et al. 2002)"
-[parameters]
-c = 0.05
-[system]
-coordinates = ["x", "y"]
-mass = [1.0, 1.0]
-damping = ["c", "c"]
-stiffness = [[2.0, 1.0], [1.0, 0.6666666666666667]]
-[[contact]]
-name = "pad"
-tangent = { x = 1.0 }
-normal = { y = 1.0 }
-normal_load = 1.0
-normal_stiffness = 1.3333333333333333
-belt_velocity = 1.0
-[contact.friction]
-law = "coulomb"
-coefficient = 0.9
-"""
-
-DRIVE = """
-schema = 1
-title = "Two-mass drive, dither at the motor"
-[system]
-coordinates = ["motor", "carriage"]
-mass = [0.5, 1.0]
-damping = [[0.03, -0.01], [-0.01, 0.01]]
-stiffness = [[5.0, -4.0], [-4.0, 4.0]]
-[[contact]]
-name = "guide"
-tangent = { carriage = 1.0 }
-normal_load = 1.0
-belt_velocity = 0.05
-[contact.friction]
-law = "stribeck"
-static_coefficient = 0.4
-minimum_coefficient = 0.2857
-reference_velocity = 0.2
-[[dither]]
-at = { motor = 1.0 }
-waveform = "sine"
-amplitude = 5.2
-frequency = 10.0
-"""
-
-FRICTION = "contact.pad.friction.coefficient"
-
 
 @pytest.fixture
 def hoffmann() -> quell.System:
@@ -213,7 +164,7 @@ def test_curves_of_thresholds_follow_a_second_parameter(hoffmann: quell.System) 
     same = hoffmann.thresholds(FRICTION, 0.6, 0.9, along="parameters.c", between=(0.02, 0.2))
     assert isinstance(same, results.ThresholdCurves) and same.curves == done.curves
     dataset = same.dataset
-    assert dataset["curve"].dims == ("point",) and dataset[FRICTION].shape == dataset["parameters.c"].shape
+    assert dataset["curve"].dims == ("point",) and dataset["contact_pad_friction_coefficient"].shape == dataset["parameters_c"].shape
     assert dataset["eigenvalues_growth_rate"].dims == ("parameter", "branch")
 
 
@@ -252,7 +203,7 @@ def test_simulations_have_every_contact(hoffmann: quell.System, belt: quell.Belt
     assert pad["name"] == "pad" and {"slip_velocity", "friction", "normal", "sticking", "open", "slip_sign"} <= set(pad)
     assert done.contacts[0]["event_counts"] == done.event_counts
     dataset = done.dataset
-    assert float(dataset["velocity.x"][0]) == 0.1 and dataset["pad.friction"].dims == ("time",)
+    assert float(dataset["velocity_x"][0]) == 0.1 and dataset["pad_friction"].dims == ("time",)
     assert float(dataset["time"][-1]) == 60.0
     assert np.allclose(dataset["x"][-1], done.final["state"][0], rtol=0, atol=1e-12)
     assert "100 periods" in hoffmann.simulate(samples=False).sentence
