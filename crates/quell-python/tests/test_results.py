@@ -10,6 +10,7 @@ from typing import Any
 
 import gallery
 import matplotlib.figure
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray
@@ -249,6 +250,36 @@ def test_pictures_have_the_curves_of_the_command_line_s(belt: quell.Belt) -> Non
     box = record.get_position()
     assert box.x0 * described["width"] == pytest.approx(frame["left"])
     assert (1.0 - box.y1) * described["height"] == pytest.approx(frame["top"])
+
+
+def test_pictures_are_drawn_into_given_axes() -> None:
+    response, friction = gallery.result("response"), gallery.result("friction")
+    figure, axes = plt.subplots(2)
+    assert response.plot(ax=axes, color="red", lw=3) is axes
+    assert all(line.get_color() == "red" and line.get_linewidth() == 3 for line in axes[0].get_lines())
+    assert "time" in axes[0].get_xlabel() and axes[1].get_yscale() == "log" and axes[0].get_legend() is not None
+    _, one = plt.subplots()
+    one.plot([0, 1], [0.3, 0.3], label="measured")
+    assert friction.plot(ax=one, label="fitted") is one and len(one.get_lines()) > 1
+    assert [text.get_text() for text in one.get_legend().get_texts()].count("fitted") == 1
+    assert 0.5 in [line.get_alpha() for line in friction.plot(alpha=0.5).axes[0].get_lines()]
+    assert len(response.plot(ax=tuple(axes))) == 2
+    shown = gallery.result("map of a disc")
+    with pytest.raises(quell.StudyError, match="ax = 1 Axes: must be a sequence of 2 Axes, one for each panel"):
+        response.plot(ax=one)
+    with pytest.raises(quell.StudyError, match="2 Axes: must be one Axes: this picture has one panel"):
+        friction.plot(ax=axes)
+    with pytest.raises(quell.StudyError, match="matplotlib axes"):
+        friction.plot(ax=3)
+    with pytest.raises(TypeError, match="did you mean linewidth"):
+        friction.plot(linewith=3)
+    plt.close("all")
+    _, several = plt.subplots()
+    two = gallery.belt().map("growth", {"dither.amplitude": [0.1, 0.5], "belt.belt_velocity": [0.05, 0.1, 0.2]})
+    assert two.plot(ax=several) is several and len(several.figure.axes) == 2  # with the colour bar
+    assert isinstance(shown.plot(), matplotlib.figure.Figure)
+    plt.close("all")
+    del figure
 
 
 def test_without_xarray_and_matplotlib_there_is_numpy() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import keyword
 import os
 from collections.abc import Iterator, KeysView
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from ._study import Study
 
 __all__ = ["Result", "numbers_of"]
+
+T = TypeVar("T")
 
 REPORTED_ELSEWHERE = ("ok", "units", "why", "warnings")
 """Facts that every result has as properties."""
@@ -104,11 +106,35 @@ class Result:
 
         return copy.deepcopy(self.facts)
 
-    def plot(self) -> matplotlib.figure.Figure:
-        """Draws the picture of ``--plot`` on the command line with matplotlib."""
+    @overload
+    def plot(self, ax: None = None, **style: Any) -> matplotlib.figure.Figure: ...
+
+    @overload
+    def plot(self, ax: T, **style: Any) -> T: ...
+
+    def plot(self, ax: Any = None, **style: Any) -> Any:
+        """Draws the picture of ``--plot`` on the command line with matplotlib.
+
+        Parameters
+        ----------
+        ax :
+            Axes to draw into; of a picture with several panels a sequence or array of as many axes [default: a new figure].
+        style :
+            Properties of every curve, such as ``color``, ``linewidth`` and ``alpha``; ``label`` is that of the first.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            Or ``ax``, if it is given.
+
+        Raises
+        ------
+        quell.StudyError
+            The number of axes is not that of the panels, or the result has no picture.
+        """
         from .plotting import draw
 
-        return draw(self._described())
+        return draw(self._described(), ax, style)
 
     def save(self, path: str | os.PathLike[str]) -> list[str]:
         """Writes the arrays as .csv, with units and the study in the header, the picture as .svg or .png, or a run as .wav.
