@@ -7,7 +7,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any, Literal
 
 from ._axes import Axes, axes_tables
-from ._belt import Dither, Friction, several
+from ._belt import Dither, as_given, listed_tables, several, single
+from ._laws import Friction, law_of
 from ._study import Study
 from ._tables import Number, Table, Unknown, given
 
@@ -171,6 +172,23 @@ class Disc(Study):
         All complaints at once.
     """
 
+    _own = "disc"
+
+    inner_radius_ratio: float | None
+    poisson_ratio: float | None
+    modal_damping: float | None
+    rotating: str | None
+    centrifugal: float | None
+    radial_modes: int | None
+    nodal_diameters: int | None
+    reference_frequency: str | float | None
+    modes_file: str | None
+    without: list[str] | None
+    youngs_modulus_pa: float | None
+    density_kg_per_m3: float | None
+    thickness_m: float | None
+    outer_radius_m: float | None
+
     def __init__(
         self,
         *,
@@ -203,3 +221,37 @@ class Disc(Study):
             if inner is not None:
                 disc.given[name] = inner
         self._build(title=title, disc=disc, friction=friction, dither=several(dither), sweep=axes_tables(axes))
+
+    @property
+    def loads(self) -> tuple[Load, ...]:
+        """The loads."""
+        return tuple(Load._of(table) for table in listed_tables(self._document()["disc"].get("load")))
+
+    @property
+    def load(self) -> Load | None:
+        """The load; ``None`` if there is none. A disc with several has :attr:`loads`."""
+        found: Load | None = single(self.loads, "loads")
+        return found
+
+    @property
+    def mode(self) -> tuple[Mode, ...]:
+        """The listed modes."""
+        return tuple(Mode._of(table) for table in listed_tables(self._document()["disc"].get("mode")))
+
+    @property
+    def dither(self) -> Dither | None:
+        """The dither; ``None`` if there is none."""
+        found: Dither | None = single(tuple(Dither._of(it) for it in listed_tables(self._document().get("dither"))), "dithers")
+        return found
+
+    def _arguments(self) -> dict[str, Any]:
+        document = self._document()
+        arguments = self._common(document)
+        own = dict(document.pop("disc"))
+        friction = document.pop("friction", None)
+        for name, cls in (("load", Load), ("mode", Mode)):
+            if name in own:
+                arguments[name] = as_given(own.pop(name), cls)
+        if "dither" in document:
+            arguments["dither"] = as_given(document.pop("dither"), Dither)
+        return {**arguments, **own, **document, "friction": None if friction is None else law_of(friction)}

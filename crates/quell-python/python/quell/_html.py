@@ -6,7 +6,7 @@ import html
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ._study import Study
+    from ._checked import CheckedStudy
     from .results import Result
 
 MOST_ROWS = 12
@@ -175,7 +175,7 @@ def result(result: Result) -> str:
     return "".join(parts)
 
 
-def study(study: Study) -> str:
+def study(study: CheckedStudy) -> str:
     """A study for a notebook."""
     head = html.escape(study.title or type(study).__name__)
     rows = [(path, value) for path, value in study.settings.items() if path != "schema"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -10,6 +10,9 @@ import numpy.typing as npt
 from .._result import Result, numbers_of
 from . import _columns
 from ._steady import Verdict
+
+if TYPE_CHECKING:
+    from .._tables import Number
 
 
 class Simulation(_columns.SimulationColumns, Result):
@@ -50,6 +53,23 @@ class Simulation(_columns.SimulationColumns, Result):
     """Disc: growth rate of the small motion at the start, in ω_ref."""
     leading_frequency: float
     """Disc: frequency of that motion, in ω_ref."""
+
+    def continued(
+        self,
+        until: Number | None = None,
+        *,
+        events: bool = True,
+        samples: bool = True,
+        t_eval: npt.ArrayLike | None = None,
+    ) -> Simulation:
+        """The run from the end of this one on; together they have the events and samples of one long run.
+
+        Parameters
+        ----------
+        until, events, samples, t_eval :
+            As in :meth:`quell.Study.simulate`; times count from the begin of the first run.
+        """
+        return self.study.simulate(until, events=events, samples=samples, t_eval=t_eval, start=self.final)
 
 
 class Response(_columns.ResponseColumns, Result):
