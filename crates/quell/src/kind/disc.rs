@@ -38,7 +38,7 @@ impl Verbs for DiscStudy {
         let Options { events, samples, sound, times, .. } = options;
         let until = Some(until);
         let rest = MotionRequest::default();
-        self.simulate_from(&MotionRequest { until, events, samples, sound, times, ..rest })
+        self.simulate_from(&MotionRequest { until, times, events, samples, sound, ..rest })
     }
 
     fn simulate_from(&self, request: &MotionRequest) -> Reply {

@@ -112,7 +112,7 @@ impl Verbs for SystemStudy {
     fn simulate(&self, until: f64, options: Options) -> Reply {
         let Options { events, samples, times, .. } = options;
         let rest = MotionRequest::default();
-        let request = MotionRequest { until: Some(until), events, samples, times, ..rest };
+        let request = MotionRequest { until: Some(until), times, events, samples, ..rest };
         self.simulate_from(&request)
     }
 

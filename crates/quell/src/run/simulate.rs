@@ -74,25 +74,23 @@ pub struct Simulation {
 /// a sample is not within it, or if the sound would be too long;
 /// [`Failure::Failed`] if the engine stops.
 pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation, Failure> {
+    let Options { start: begin, times, events, samples: sampled, undithered, sound } = options;
     let belt = study.belt();
-    let start = match options.start {
+    let start = match begin {
         Some(given) => given,
         None => start(study)?,
     };
-    sample_times::are_within(start.time, until, options.times.as_deref())?;
-    let sound = options.sound.map(|sound| plan(study, until - start.time, sound)).transpose()?;
-    let (intervals, coarse) = if options.samples && options.times.is_none() {
-        grid(study, until - start.time)
-    } else {
-        (0, false)
-    };
+    sample_times::are_within(start.time, until, times.as_deref())?;
+    let sound = sound.map(|sound| plan(study, until - start.time, sound)).transpose()?;
+    let (intervals, coarse) =
+        if sampled && times.is_none() { grid(study, until - start.time) } else { (0, false) };
     let sample_step = (until - start.time) / (intervals.max(1) as f64);
-    let sampling = || match &options.times {
+    let sampling = || match &times {
         Some(times) => Sampler::at(times.clone()),
         None => Sampler::new(start.time, sample_step, intervals),
     };
     // The last point of a grid may round to just beyond the end.
-    let finished = |sampler: Sampler, end: &FinalState| match options.times {
+    let finished = |sampler: Sampler, end: &FinalState| match times {
         Some(_) => sampler.finished(end),
         None => with_end(sampler.samples, end),
     };
@@ -102,7 +100,7 @@ pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation
     let mut largest = LargestSlip::of(belt);
     let mut tap = SoundTap::new(start, sound.as_ref());
     let mut watch = (&mut largest, (&mut sampler, &mut tap));
-    let end = if options.events {
+    let end = if events {
         simulate(belt, start, until, tolerance, &mut (&mut recorder, &mut watch))
     } else {
         simulate(belt, start, until, tolerance, &mut watch)
@@ -111,7 +109,7 @@ pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation
     let mut slip = SlipMet::default();
     slip.add(belt, largest.speed);
     let samples = finished(sampler, &end);
-    let undithered_samples = if options.undithered && !belt.dithers().is_empty() {
+    let undithered_samples = if undithered && !belt.dithers().is_empty() {
         let mut sampler = sampling();
         let end =
             simulate(&belt.undithered(), start, until, tolerance, &mut sampler).map_err(failed)?;
@@ -121,10 +119,10 @@ pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation
     };
     Ok(Simulation {
         start,
-        given: options.start.is_some(),
+        given: begin.is_some(),
         end,
-        events: options.events.then_some(recorder.events),
-        samples: options.samples.then_some(samples),
+        events: events.then_some(recorder.events),
+        samples: sampled.then_some(samples),
         undithered_samples,
         sound: tap.finish(&end),
         coarse,
