@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Literal
+
+import numpy as np
 
 from ._axes import Axes, axes_tables
 from ._errors import StudyError, complaint
-from ._laws import Friction, law_of
+from ._laws import Friction, as_law, law_of
 from ._study import Study
 from ._tables import Number, Table, Unknown, given
 
@@ -128,7 +130,7 @@ class Belt(Study):
         v₀ ≥ 0: a length per τ. In SI ``belt_velocity_m_per_s``, in m/s.
     friction :
         A law: :class:`Stribeck`, :class:`Decreasing`, :class:`Coulomb`, :class:`StribeckExponential`,
-        :class:`Expression` (a formula), :class:`Samples` (measured), or
+        :class:`Expression` (a formula), :class:`Samples` (measured), a function of the slip speed ≥ 0 (see :class:`SampledLaw`), or
         :class:`Friction` with the name of the law.
     dither :
         One :class:`Dither` or several.
@@ -176,7 +178,7 @@ class Belt(Study):
         damping_ratio: Number | None = None,
         normal_load: Number | None = None,
         belt_velocity: Number | None = None,
-        friction: Friction | Mapping[str, Any] | None = None,
+        friction: Friction | Mapping[str, Any] | Callable[[float], float] | None = None,
         dither: Dither | Iterable[Dither] | None = None,
         initial: Literal["rest", "sliding", "squealing"] | tuple[float, float] | Initial | None = None,
         solver: Solver | None = None,
@@ -196,6 +198,8 @@ class Belt(Study):
         if initial is not None:
             si = any(name in belt.given for name in ("mass_kg", "stiffness_n_per_m", "natural_frequency_hz"))
             belt.given["initial"] = start(initial, si)
+        if callable(friction):
+            friction = as_law(friction, *speed_of(belt.given, several(dither)))
         self._build(
             title=title,
             belt=belt,
@@ -243,6 +247,32 @@ class Belt(Study):
             arguments["solver"] = self.solver
         bands = document.pop("response", {})
         return {**arguments, **own, **bands, **document, "friction": None if friction is None else law_of(friction)}
+
+
+def speed_of(belt: Mapping[str, Any], dither: object) -> tuple[float, bool]:
+    """Speed of the belt and peak speed of a free mass under its tangential dithers, and whether it is in m/s.
+
+    Numbers that are texts or invalid do not count: the reader checks them, and the law is valid farther than this speed.
+    """
+    in_si = any(name in belt for name in ("mass_kg", "stiffness_n_per_m", "natural_frequency_hz"))
+    keys = ("belt_velocity_m_per_s", "amplitude_n", "frequency_hz") if in_si else ("belt_velocity", "amplitude", "frequency_ratio")
+    inertia = 2.0 * np.pi * number_in(belt, "mass_kg") if in_si else 1.0
+    total = number_in(belt, keys[0])
+    for table in dither if isinstance(dither, list) else [dither]:
+        given = table.given if isinstance(table, Table) else table if isinstance(table, Mapping) else {}
+        under = inertia * number_in(given, keys[2])
+        if given.get("direction") == "tangential" and under > 0.0:
+            total += number_in(given, keys[1]) / under
+    return total, in_si
+
+
+def number_in(table: Mapping[str, Any], key: str) -> float:
+    """A number of a table; 0 if it is no finite number ≥ 0."""
+    value = table.get(key)
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+        return 0.0
+    number = float(value)
+    return number if np.isfinite(number) and number >= 0.0 else 0.0
 
 
 def listed_tables(found: Any) -> list[Mapping[str, Any]]:

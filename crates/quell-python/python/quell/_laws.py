@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ._arguments import keywords
+from ._arguments import Arguments, keywords
 from ._errors import StudyError, complaint
 from ._tables import Number, Table, Unknown, given
 from ._values import plain
@@ -18,15 +19,26 @@ if TYPE_CHECKING:
     from . import results
     from ._study import Study
 
+LARGEST_ERROR = 0.01
+"""Default bound on the error of a fit, as a fraction of the largest coefficient."""
+
+POINTS_OF_A_CHECK = 2001
+"""Speeds at which a fit is compared with its function."""
+
+RANGE_OF_A_FUNCTION = 10.0
+"""Range of a function without a maximum velocity, over the speed of belt and dither."""
+
 __all__ = [
     "Coulomb",
     "Decreasing",
     "Expression",
     "Friction",
+    "SampledLaw",
     "Samples",
     "Stribeck",
     "StribeckExponential",
     "StudyFriction",
+    "as_law",
     "law_of",
 ]
 
@@ -229,7 +241,109 @@ class Samples(Friction):
         terms: int | None = None,
         **unknown: Unknown,
     ) -> None:
-        super().__init__("samples", **given(locals()))
+        keys = given(locals())
+        lists = {name: plain(keys[name]) for name in ("slip_velocity", "slip_velocity_m_per_s", "coefficient")}
+        super().__init__("samples", **{**keys, **lists})
+
+
+class SampledLaw(Samples):
+    """A friction law from a function of the slip speed, which is sampled and fitted as :class:`Samples`.
+
+    A function given as the friction of a study (``friction=lambda v: …``) becomes such a law up to 10 times the speed of belt and
+    dither.
+
+    Parameters
+    ----------
+    function :
+        The coefficient of friction at a slip speed ≥ 0, in the unit of the study.
+    maximum_velocity :
+        Slip speed up to which it is sampled, as length per τ (velocity/ω₀); of a system in its unit of velocity.
+    maximum_velocity_m_per_s :
+        The same in m/s, in a study in SI.
+    static_coefficient :
+        μ_s, independent of the function [default: the value of the fit at v = 0].
+    terms :
+        Number of exponentials of the fit [default: the best number].
+    largest_error :
+        Bound on the difference between function and fit, as a fraction of the largest coefficient; beyond it a UserWarning is
+        raised [default: 0.01].
+
+    Attributes
+    ----------
+    error : float
+        The largest difference between function and fit between the samples, a coefficient of friction.
+    """
+
+    error: float
+
+    def __init__(
+        self,
+        function: Callable[[float], float],
+        maximum_velocity: Number | None = None,
+        *,
+        maximum_velocity_m_per_s: Number | None = None,
+        static_coefficient: Number | None = None,
+        terms: int | None = None,
+        largest_error: float = LARGEST_ERROR,
+    ) -> None:
+        from ._sampling import sampled
+
+        arguments = Arguments()
+        in_si = maximum_velocity_m_per_s is not None
+        name = "maximum_velocity_m_per_s" if in_si else "maximum_velocity"
+        top = arguments.number(name, maximum_velocity_m_per_s if in_si else maximum_velocity, "a slip speed above 0")
+        bound = arguments.number("largest_error", largest_error)
+        if in_si and maximum_velocity is not None:
+            arguments.wrong.append(complaint("maximum_velocity", maximum_velocity, "given without its twin in SI", "conflict"))
+        if not callable(function):
+            arguments.wrong.append(complaint("function", function, "a function of the slip speed"))
+        elif not top > 0.0:
+            arguments.wrong.append(complaint(name, top, "a slip speed above 0"))
+        arguments.done()
+        speeds, coefficients = sampled(function, top)
+        super().__init__(
+            None if in_si else speeds,
+            coefficients,
+            slip_velocity_m_per_s=speeds if in_si else None,
+            static_coefficient=static_coefficient,
+            terms=terms,
+        )
+        self._check(function, top, bound)
+
+    def _check(self, function: Callable[[float], float], top: float, bound: float) -> None:
+        """Compares the fit with the function, and warns where it is off."""
+        from ._sampling import fitted
+
+        speeds = np.linspace(0.0, top, POINTS_OF_A_CHECK)[1:]
+        wanted = np.array([float(function(float(speed))) for speed in speeds])
+        off = np.abs(fitted(self.given["coefficient"], speeds_of(self.given), self.given.get("terms"), speeds) - wanted)
+        error = float(off.max())
+        object.__setattr__(self, "error", error)
+        largest = float(np.abs(wanted).max())
+        if error > bound * largest:
+            where = float(speeds[off.argmax()])
+            warnings.warn(
+                f"the fit of this friction law is off by {error:.2g} at the slip speed {where:.4g}, more than {bound:g} of its largest "
+                f"coefficient {largest:.4g}; quell.Expression takes a formula exactly",
+                UserWarning,
+                stacklevel=3,
+            )
+
+
+def speeds_of(table: Mapping[str, Any]) -> Any:
+    """The slip speeds of samples, in either unit."""
+    return table.get("slip_velocity", table.get("slip_velocity_m_per_s"))
+
+
+def as_law(friction: Any, speed: float, in_si: bool) -> Any:
+    """A friction law; of a function the sampled law up to 10 times a speed. Invalid values are rejected by the reader."""
+    if isinstance(friction, (Table, Mapping)) or not callable(friction):
+        return friction
+    if not (np.isfinite(speed) and speed > 0.0):
+        allowed = "quell.SampledLaw(function, maximum_velocity): the speed of belt and dither is not known here"
+        raise StudyError([complaint("friction", friction, allowed)])
+    top = RANGE_OF_A_FUNCTION * speed
+    return SampledLaw(friction, maximum_velocity_m_per_s=top) if in_si else SampledLaw(friction, top)
 
 
 CLASSES: dict[str, type[Friction]] = {

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal, Union, overload
 
 import numpy.typing as npt
 
 from ._axes import Axes, axes_tables
-from ._belt import as_given, listed_tables, several, single
-from ._laws import Friction, law_of
+from ._belt import as_given, listed_tables, number_in, several, single
+from ._laws import Friction, as_law, law_of
 from ._names import suggestion
 from ._study import Study
 from ._tables import Number, Table, Unknown, given
@@ -52,7 +52,8 @@ class Contact(Table):
     normal_load_n, normal_stiffness_n_per_m, normal_damping_n_s_per_m, belt_velocity_m_per_s :
         The same in SI, in a study with units.
     friction :
-        A friction law, such as :class:`Coulomb` [default: that of the study].
+        A friction law, such as :class:`Coulomb`, or a function of the slip speed ≥ 0 (see :class:`SampledLaw`) [default: that of
+        the study].
     """
 
     _path = "contact"
@@ -73,10 +74,14 @@ class Contact(Table):
         normal_stiffness_n_per_m: Number | None = None,
         normal_damping_n_s_per_m: Number | None = None,
         belt_velocity_m_per_s: Number | None = None,
-        friction: Friction | Mapping[str, Any] | None = None,
+        friction: Friction | Mapping[str, Any] | Callable[[float], float] | None = None,
         **unknown: Unknown,
     ) -> None:
         super().__init__(**given(locals()))
+        if callable(friction):
+            in_si = belt_velocity_m_per_s is not None
+            speed = number_in(self.given, "belt_velocity_m_per_s" if in_si else "belt_velocity")
+            self.given["friction"] = as_law(friction, speed, in_si)
 
 
 class SystemDither(Table):
