@@ -16,7 +16,7 @@ use crate::answer::NativeAnswer;
 use crate::arguments::{NamedNumbers, Pair, both, ends};
 use crate::verbs::attractor::TimeTexts;
 use crate::verbs::map::Asked;
-use crate::verbs::simulate::{Begin, SoundTexts};
+use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
 use crate::verbs::{
     attractor, basins, bifurcation, check, cite, friction, map, modes, orbit, resonances, response,
     simulate, stability, thresholds,
@@ -196,9 +196,9 @@ impl NativeStudy {
     }
 
     /// `until`: τ, or a time with its unit; `kept`: whether events and samples are kept; `begin`: an exact time and state, a
-    /// state of a belt with its time, or names of the state of a system with their values; `times`: those of the samples;
-    /// `sound`: its transposition and gain.
-    #[pyo3(signature = (until, kept, begin, times, sound))]
+    /// state of a belt with its time, or names of the state of a system with their values; `times`: those of the samples, or
+    /// `texts` with units; `sound`: its transposition and gain.
+    #[pyo3(signature = (until, kept, begin, times, texts, sound))]
     fn simulate(
         &self,
         py: Python<'_>,
@@ -206,10 +206,12 @@ impl NativeStudy {
         kept: (bool, bool),
         begin: Option<Begin>,
         times: Option<PyReadonlyArray1<'_, f64>>,
+        texts: Vec<String>,
         sound: Option<SoundTexts>,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
-        let times = times.map(|times| times.as_array().to_vec());
+        let times = times.map(|times| GivenTimes::Numbers(times.as_array().to_vec()));
+        let times = if texts.is_empty() { times } else { Some(GivenTimes::Texts(texts)) };
         let asked = simulate::Asked { until, kept, begin, times, sound };
         call::run(py, move || simulate::run(&study, &asked))
     }

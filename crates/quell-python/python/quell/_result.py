@@ -17,6 +17,7 @@ from ._names import suggestion
 
 if TYPE_CHECKING:
     import matplotlib.figure
+    import pandas
     import xarray
 
     from ._quell import NativeAnswer
@@ -105,6 +106,44 @@ class Result:
         import copy
 
         return copy.deepcopy(self.facts)
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The arrays over the first coordinates as a pandas DataFrame, one row for each point, with the coordinates as index.
+
+        Units, study and verb are in ``attrs`` of the frame. Coded values are words.
+        """
+        from ._export import frame
+
+        return frame(self)
+
+    def to_netcdf(self, path: str | os.PathLike[str]) -> None:
+        """Writes :attr:`dataset` as a NetCDF file; it needs xarray, and h5netcdf or netCDF4.
+
+        A variable that has the name of a dimension, but is not its coordinate, gets the suffix ``_value``; booleans are 0 and 1.
+        """
+        from ._export import netcdf
+
+        netcdf(self, path)
+
+    def to_parquet(self, path: str | os.PathLike[str]) -> None:
+        """Writes :meth:`to_dataframe` as a Parquet file; it needs pandas, and pyarrow or fastparquet."""
+        from ._export import parquet
+
+        parquet(self, path)
+
+    def quantity(self, name: str, registry: Any = None) -> Any:
+        """A fact or array with its unit, as a quantity of pint, in the unit of the study.
+
+        Parameters
+        ----------
+        name :
+            Name of a variable of :attr:`dataset`.
+        registry :
+            A ``pint.UnitRegistry`` [default: the registry of the application].
+        """
+        from ._export import quantity
+
+        return quantity(self, name, registry)
 
     @overload
     def plot(self, ax: None = None, **style: Any) -> matplotlib.figure.Figure: ...

@@ -19,6 +19,7 @@ from ._checked import CheckedStudy
 from ._errors import StudyError, complaint
 from ._laws import StudyFriction
 from ._tables import Number
+from ._values import plain
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -155,7 +156,7 @@ class Study(CheckedStudy):
             such as ``{"x": 0.1, "velocity.x": -2}``; disc: numbers that replace those of rest, such as ``{"A2": 0.1}``
             [default: the start of the study; of a disc the leading small motion].
         t_eval :
-            Times (n,) of the samples in ascending order, in the unit of ``until``, instead of equal steps. The values there are
+            Times (n,) of the samples in ascending order, in the unit of ``until`` or with units, instead of equal steps. The values there are
             those of the Taylor polynomials of the steps, not interpolated.
         sound :
             Whether to describe in ``sound`` the file that ``save("run.wav")`` writes: the velocity as sound.
@@ -168,18 +169,21 @@ class Study(CheckedStudy):
         """
         arguments = Arguments()
         allowed = 'a finite number, or a time with its unit such as "0.5s"'
-        times = None if t_eval is None else arguments.numbers("t_eval", t_eval, "times: finite numbers")
-        if times is not None and not samples:
+        given = plain(t_eval)
+        of_texts = isinstance(given, list) and bool(given) and all(isinstance(it, str) for it in given)
+        written = [arguments.text("t_eval", it, "times") for it in given] if of_texts else []
+        times = None if given is None or of_texts else arguments.numbers("t_eval", given, "times: finite numbers")
+        if t_eval is not None and not samples:
             arguments.wrong.append(complaint("t_eval", None, "given with samples=True", "conflict"))
-        if until is None and times is not None and times.size:
-            until = float(times[-1])
+        if until is None and t_eval is not None:
+            until = written[-1] if written else float(times[-1]) if times is not None and times.size else 0.0
         end = None if until is None else arguments.quantity("until", until, allowed)
         begin = None if start is None else begin_of(arguments, start, self._native.kind)
         factor = None if transpose is None else arguments.quantity("transpose", transpose, "a factor above 0, such as 0.5")
         level = None if gain is None else arguments.quantity("gain", gain)
         arguments.done()
         texts = (factor, level) if sound or factor is not None or level is not None else None
-        return results.Simulation(self, self._native.simulate(end, (bool(events), bool(samples)), begin, times, texts))
+        return results.Simulation(self, self._native.simulate(end, (bool(events), bool(samples)), begin, times, written, texts))
 
     @keywords
     def response(self, *, settle: Number | None = None, record: Number | None = None) -> results.Response:

@@ -15,8 +15,11 @@ __all__ = ["is_quantity", "plain"]
 SYMBOLS = {"[length]": "m", "[mass]": "kg", "[time]": "s"}
 """SI units of the dimensions that studies have."""
 
-ANGLES = ("radian", "degree", "revolution", "turn", "rpm")
-"""Words in the names of units that count angles, which pint takes as dimensionless."""
+ANGLES = ("radian", "degree")
+"""Words in the names of units of angles, which pint takes as dimensionless."""
+
+TURNS = ("revolution", "turn", "rpm")
+"""Words in the names of units that count revolutions: in Quell a revolution per second is a hertz, in pint 2π."""
 
 
 def is_quantity(given: object) -> bool:
@@ -46,11 +49,13 @@ def plain(given: Any) -> Any:
 
 def with_unit(quantity: Any) -> Any:
     """A quantity as a text with an SI unit, or nested lists of such texts; as numbers if it has no dimension and no angle."""
-    angular = any(word in str(quantity.units) for word in ANGLES)
+    turning, angular = (any(word in str(quantity.units) for word in words) for words in (TURNS, ANGLES))
     powers = {str(name): float(power) for name, power in quantity.dimensionality.items()}
     if not powers:
         value = quantity.to("radian" if angular else "").magnitude
         return plain(np.asarray(value).tolist()) if not angular else texts(np.asarray(value).tolist(), "rad")
+    if turning and powers == {"[time]": -1.0}:
+        return texts(np.asarray(quantity.to("revolution/second").magnitude).tolist(), "Hz")
     if angular and powers == {"[time]": -1.0}:
         return texts(np.asarray(quantity.to("radian/second").magnitude).tolist(), "rad/s")
     if not set(powers) <= set(SYMBOLS) or any(power != int(power) for power in powers.values()):

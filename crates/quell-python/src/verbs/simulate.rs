@@ -25,6 +25,14 @@ pub(crate) enum Begin {
     Named(NamedNumbers),
 }
 
+/// Times of samples.
+pub(crate) enum GivenTimes {
+    /// In the unit of `until`.
+    Numbers(Vec<f64>),
+    /// Texts with units.
+    Texts(Vec<String>),
+}
+
 /// What is asked of a run.
 pub(crate) struct Asked {
     /// Time at its end.
@@ -33,8 +41,8 @@ pub(crate) struct Asked {
     pub(crate) kept: (bool, bool),
     /// Where it begins, if not at the start of the study.
     pub(crate) begin: Option<Begin>,
-    /// Times of the samples, in the unit of `until`.
-    pub(crate) times: Option<Vec<f64>>,
+    /// Times of the samples.
+    pub(crate) times: Option<GivenTimes>,
     /// The options of its sound.
     pub(crate) sound: Option<SoundTexts>,
 }
@@ -49,16 +57,16 @@ pub(crate) fn run(study: &Study, asked: &Asked) -> Result<NativeAnswer, Failure>
         let allowed = "a time: only systems have a default";
         refused("--until", Fault::Missing, allowed)
     })?;
-    let read = |text: &str| quantity::duration(text, study.scales(), "--until");
+    let read = |text: &str, option| quantity::duration(text, study.scales(), option);
     let options = Options {
         start: asked.begin.as_ref().map(|begin| of_belt(study, begin)).transpose()?,
-        times: in_time(asked.times.as_deref(), &read)?,
+        times: in_time(asked.times.as_ref(), read)?,
         events: asked.kept.0,
         samples: asked.kept.1,
         undithered: false,
         sound: asked.sound.as_ref().map(|sound| options(study, sound)).transpose()?,
     };
-    Ok(NativeAnswer::new(verbs(study).simulate(read(until)?, options)?))
+    Ok(NativeAnswer::new(verbs(study).simulate(read(until, "--until")?, options)?))
 }
 
 fn refused(option: &'static str, fault: Fault, allowed: &str) -> Failure {
@@ -66,14 +74,23 @@ fn refused(option: &'static str, fault: Fault, allowed: &str) -> Failure {
     Complaint::new(fault, option, origin, serde_json::Value::Null, allowed).into()
 }
 
-/// Times in the unit of the study as numbers of the equations; `read` reads one of them.
+/// Times of samples as numbers of the equations; `read` reads one of them for an option.
 fn in_time(
-    times: Option<&[f64]>,
-    read: impl Fn(&str) -> Result<f64, Box<Complaint>>,
+    times: Option<&GivenTimes>,
+    read: impl Fn(&str, &'static str) -> Result<f64, Box<Complaint>>,
 ) -> Result<Option<Vec<f64>>, Failure> {
-    let Some(times) = times else { return Ok(None) };
-    let unit = read("1")?;
-    Ok(Some(times.iter().map(|time| unit * time).collect()))
+    Ok(match times {
+        None => None,
+        Some(GivenTimes::Numbers(times)) => {
+            let unit = read("1", "t_eval")?;
+            Some(times.iter().map(|time| unit * time).collect())
+        }
+        Some(GivenTimes::Texts(texts)) => {
+            let times: Result<Vec<f64>, _> =
+                texts.iter().map(|text| read(text, "t_eval")).collect();
+            Some(times?)
+        }
+    })
 }
 
 fn of_belt(study: &Study, begin: &Begin) -> Result<Start, Failure> {
@@ -109,10 +126,10 @@ fn options(study: &Study, (transpose, gain): &SoundTexts) -> Result<SoundOptions
 }
 
 fn of_system(study: &Study, system: &SystemStudy, asked: &Asked) -> Result<MotionRequest, Failure> {
-    let read = |text: &str| start::duration(system, text, "--until");
+    let read = |text: &str, option| start::duration(system, text, option);
     let mut request = MotionRequest {
-        until: asked.until.as_deref().map(read).transpose()?,
-        times: in_time(asked.times.as_deref(), &read)?,
+        until: asked.until.as_deref().map(|text| read(text, "--until")).transpose()?,
+        times: in_time(asked.times.as_ref(), read)?,
         events: asked.kept.0,
         samples: asked.kept.1,
         sound: asked.sound.as_ref().map(|sound| options(study, sound)).transpose()?,

@@ -12,6 +12,8 @@ from . import _columns
 from ._steady import Verdict
 
 if TYPE_CHECKING:
+    import pandas
+
     from .._tables import Number
 
 
@@ -53,6 +55,16 @@ class Simulation(_columns.SimulationColumns, Result):
     """Disc: growth rate of the small motion at the start, in ω_ref."""
     leading_frequency: float
     """Disc: frequency of that motion, in ω_ref."""
+
+    def events_frame(self) -> pandas.DataFrame:
+        """The events as a pandas DataFrame, one row for each, in the units of the study.
+
+        Columns are ``time``, ``contact``, ``kind``, ``slip_sign``, and ``displacement`` of a belt; of a system ``contact_name`` and
+        every number of the state.
+        """
+        from .._export import events_frame
+
+        return events_frame(self)
 
     def continued(
         self,
