@@ -231,6 +231,44 @@ def test_responses_have_contacts_and_dithers(drive: quell.System, belt: quell.Be
         belt.response(record=10)
 
 
+def sliding_mass() -> quell.System:
+    """A mass that slides on all its motion: a damped oscillator, ζ = 0.02, driven at 10 times its frequency."""
+    return quell.System(
+        coordinates=["x"], mass=[1], damping=[0.04], stiffness=[1], initial="sliding",
+        contact=quell.Contact("pad", tangent={"x": 1}, normal_load=1, belt_velocity=1, friction=quell.Coulomb(0.3)),
+        dither=quell.SystemDither({"x": 1}, "sine", amplitude=0.4, frequency=10),
+    )  # fmt: skip
+
+
+def test_responses_say_on_which_motion_they_settled(drive: quell.System) -> None:
+    done = sliding_mass().response()
+    assert (done.settled, done.settled_on, done.undithered_settled_on) == (True, "orbit", "rest")
+    assert done.period == pytest.approx(2 * np.pi / 10, rel=1e-12)
+    assert done.undithered_period is None and "periodic" in done.why["undithered_period"]
+    # Without dither the drive squeals, in a limit cycle.
+    squealing = drive.set({"dither.amplitude": 5.6}).response(settle=400, record=200)
+    assert (squealing.settled_on, squealing.undithered_settled_on) == ("orbit", "orbit")
+    assert squealing.period == pytest.approx(2 * np.pi / 10, rel=1e-12)
+    cycle = drive.set({"dither.amplitude": 0.0}).orbit()
+    assert squealing.undithered_period == pytest.approx(cycle.period, rel=1e-6)
+
+
+def test_lyapunov_exponents_are_those_of_the_equations(hoffmann: quell.System) -> None:
+    found = sliding_mass().attractor(lyapunov=True)
+    assert found.attractor is not None and found.lyapunov is not None
+    exponents = found.lyapunov["exponents"]
+    # Both rates are −ζω, and their sum is the trace of the equations.
+    assert exponents == pytest.approx([-0.02, -0.02], abs=5 * max(found.lyapunov["errors"]))
+    assert sum(exponents) == pytest.approx(-0.04, abs=1e-9)
+    assert found.lyapunov["of_multiplier"] == pytest.approx(-0.02, rel=1e-9) and found.lyapunov["agrees_with_multipliers"]
+    assert (found.lyapunov["verdict"], found.lyapunov["kaplan_yorke_dimension"]) == ("regular", 0.0)
+    assert found.lyapunov_exponents.tolist() == exponents and found.dataset["lyapunov_errors"].shape == (2,)
+    sliding = hoffmann.set({FRICTION: 0.3}).attractor(lyapunov=True, settle=20, record=200).lyapunov
+    assert sliding is not None and sum(sliding["exponents"]) == pytest.approx(-0.1, abs=1e-9)
+    assert (sliding["settle"], sliding["time"]) == (20.0, 200.0)
+    assert hoffmann.set({FRICTION: 0.3}).attractor().facts.get("lyapunov") is None
+
+
 def test_maps_of_systems_are_arrays(hoffmann: quell.System) -> None:
     assert {"growth", "verdict"} <= set(quell.quantities()["system"])
     done = hoffmann.map(["growth", "verdict"], {FRICTION: [0.5, 0.9]})
