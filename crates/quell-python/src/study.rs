@@ -196,22 +196,19 @@ impl NativeStudy {
     }
 
     /// `until`: τ, or a time with its unit; `kept`: whether events and samples are kept; `begin`: an exact time and state, a
-    /// state of a belt with its time, or names of the state of a system with their values; `times`: those of the samples, or
-    /// `texts` with units; `sound`: its transposition and gain.
-    #[pyo3(signature = (until, kept, begin, times, texts, sound))]
+    /// state of a belt with its time, or names of the state of a system with their values; `times`: those of the samples, as
+    /// numbers or texts with units; `sound`: its transposition and gain.
+    #[pyo3(signature = (until, kept, begin, times, sound))]
     fn simulate(
         &self,
         py: Python<'_>,
         until: Option<String>,
         kept: (bool, bool),
         begin: Option<Begin>,
-        times: Option<PyReadonlyArray1<'_, f64>>,
-        texts: Vec<String>,
+        times: Option<GivenTimes>,
         sound: Option<SoundTexts>,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
-        let times = times.map(|times| GivenTimes::Numbers(times.as_array().to_vec()));
-        let times = if texts.is_empty() { times } else { Some(GivenTimes::Texts(texts)) };
         let asked = simulate::Asked { until, kept, begin, times, sound };
         call::run(py, move || simulate::run(&study, &asked))
     }

@@ -50,8 +50,7 @@ class NativeStudy:
         until: str | None,
         kept: tuple[bool, bool],
         begin: tuple[float, list[float]] | tuple[tuple[str, str], str | None] | list[tuple[str, str]] | None,
-        times: npt.NDArray[np.float64] | None,
-        texts: list[str],
+        times: list[float] | list[str] | None,
         sound: tuple[str | None, str | None] | None,
     ) -> NativeAnswer: ...
     def document(self) -> dict[str, Any]: ...

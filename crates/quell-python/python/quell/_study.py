@@ -177,13 +177,14 @@ class Study(CheckedStudy):
             arguments.wrong.append(complaint("t_eval", None, "given with samples=True", "conflict"))
         if until is None and t_eval is not None:
             until = written[-1] if written else float(times[-1]) if times is not None and times.size else 0.0
+        moments: list[float] | list[str] | None = written or (None if times is None else times.tolist())
         end = None if until is None else arguments.quantity("until", until, allowed)
         begin = None if start is None else begin_of(arguments, start, self._native.kind)
         factor = None if transpose is None else arguments.quantity("transpose", transpose, "a factor above 0, such as 0.5")
         level = None if gain is None else arguments.quantity("gain", gain)
         arguments.done()
         texts = (factor, level) if sound or factor is not None or level is not None else None
-        return results.Simulation(self, self._native.simulate(end, (bool(events), bool(samples)), begin, times, written, texts))
+        return results.Simulation(self, self._native.simulate(end, (bool(events), bool(samples)), begin, moments, texts))
 
     @keywords
     def response(self, *, settle: Number | None = None, record: Number | None = None) -> results.Response:

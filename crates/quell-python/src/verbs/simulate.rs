@@ -26,6 +26,7 @@ pub(crate) enum Begin {
 }
 
 /// Times of samples.
+#[derive(pyo3::FromPyObject)]
 pub(crate) enum GivenTimes {
     /// In the unit of `until`.
     Numbers(Vec<f64>),

@@ -147,7 +147,7 @@ class Response(_columns.ResponseColumns, Result):
     undithered_mean: float
     """System: ``mean`` without dither."""
     settled_on: str
-    """System: the motion on which the run ends, such as "period-1"."""
+    """System: what the run ends on: "orbit", "rest", "unstable sliding", "drift", or "record" where only the record was judged."""
     undithered_settled_on: str
     """System: the same without dither."""
     period: float | None
