@@ -209,7 +209,7 @@ impl NativeStudy {
         sound: Option<SoundTexts>,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
-        let asked = simulate::Asked { until, kept, begin, times, sound };
+        let asked = simulate::GivenRun { until, kept, begin, times, sound };
         call::run(py, move || simulate::run(&study, &asked))
     }
 

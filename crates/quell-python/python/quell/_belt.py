@@ -218,7 +218,7 @@ class Belt(Study):
 
     @property
     def dither(self) -> Dither | None:
-        """The dither; ``None`` if there is none. A belt with several has :attr:`dithers`."""
+        """The dither, or ``None``. A belt with several has :attr:`dithers`."""
         found: Dither | None = single(self.dithers, "dithers")
         return found
 

@@ -229,7 +229,7 @@ class Disc(Study):
 
     @property
     def load(self) -> Load | None:
-        """The load; ``None`` if there is none. A disc with several has :attr:`loads`."""
+        """The load, or ``None``. A disc with several has :attr:`loads`."""
         found: Load | None = single(self.loads, "loads")
         return found
 
@@ -240,7 +240,7 @@ class Disc(Study):
 
     @property
     def dither(self) -> Dither | None:
-        """The dither; ``None`` if there is none."""
+        """The dither, or ``None``."""
         found: Dither | None = single(tuple(Dither._of(it) for it in listed_tables(self._document().get("dither"))), "dithers")
         return found
 

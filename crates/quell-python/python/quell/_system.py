@@ -374,7 +374,7 @@ class System(Study):
 
     @property
     def dither(self) -> SystemDither | None:
-        """The dither; ``None`` if there is none. A system with several has :attr:`dithers`."""
+        """The dither, or ``None``. A system with several has :attr:`dithers`."""
         found: SystemDither | None = single(self.dithers, "dithers")
         return found
 

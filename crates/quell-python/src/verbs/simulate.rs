@@ -35,7 +35,7 @@ pub(crate) enum GivenTimes {
 }
 
 /// What is asked of a run.
-pub(crate) struct Asked {
+pub(crate) struct GivenRun {
     /// Time at its end.
     pub(crate) until: Option<String>,
     /// Whether events and samples are kept.
@@ -49,7 +49,7 @@ pub(crate) struct Asked {
 }
 
 /// Runs the verb.
-pub(crate) fn run(study: &Study, asked: &Asked) -> Result<NativeAnswer, Failure> {
+pub(crate) fn run(study: &Study, asked: &GivenRun) -> Result<NativeAnswer, Failure> {
     if let Some(system) = moving_system(study) {
         let request = of_system(study, &system, asked)?;
         return Ok(NativeAnswer::new(verbs(study).simulate_from(&request)?));
@@ -126,7 +126,7 @@ fn options(study: &Study, (transpose, gain): &SoundTexts) -> Result<SoundOptions
     Ok(options)
 }
 
-fn of_system(study: &Study, system: &SystemStudy, asked: &Asked) -> Result<MotionRequest, Failure> {
+fn of_system(study: &Study, system: &SystemStudy, asked: &GivenRun) -> Result<MotionRequest, Failure> {
     let read = |text: &str, option| start::duration(system, text, option);
     let mut request = MotionRequest {
         until: asked.until.as_deref().map(|text| read(text, "--until")).transpose()?,
