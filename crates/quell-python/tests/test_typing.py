@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import pint
 
 import quell
 
@@ -35,6 +36,9 @@ in_si: float | None = belt.response().amplitude_m
 values: npt.NDArray[np.float64] = belt.thresholds("dither.amplitude", 0.3, 0.6).local_value
 shown: list[str] = list(belt.response())
 residual: npt.NDArray[Any] = belt.map("efficiency").efficiency
+heavy: quell.Belt = quell.Belt(mass_kg=pint.UnitRegistry().Quantity(2000, "gram"))
+velocity: float | None = heavy.belt_velocity_m_per_s
+last: quell.results.Simulation = belt.simulate(5).continued(10, t_eval=[6, 7])
 left: list[int] = belt.map("efficiency", store="m.zarr", shard="1/2").left_shards
 """
 

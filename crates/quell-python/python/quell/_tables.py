@@ -3,14 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, Union
+from typing import TYPE_CHECKING, Any, NoReturn, Protocol, TypeVar, Union
 
 from ._names import suggestion
 
 __all__ = ["Number", "Table", "given"]
 
-Number = Union[float, str]
-"""A number in the unit of its key, or in SI for a study in SI; or a text with a unit, such as ``"5kN"``."""
+
+class Quantity(Protocol):
+    """A number with its unit, such as a quantity of pint."""
+
+    @property
+    def magnitude(self) -> Any: ...
+
+    @property
+    def units(self) -> Any: ...
+
+    @property
+    def dimensionality(self) -> Any: ...
+
+
+Number = Union[float, str, Quantity]
+"""A number in the unit of its key, or in SI for a study in SI; a text with a unit, such as ``"5kN"``; or a quantity of pint."""
 
 
 Self = TypeVar("Self", bound="Table")
