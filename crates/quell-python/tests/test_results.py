@@ -145,6 +145,8 @@ def test_a_result_is_shown_with_its_numbers() -> None:
     run = gallery.result("simulate")
     assert f"events, the first 12 of {run.event_count}:" in repr(run) and "final: time = 20" in repr(run)
     assert "arrays over time (" in repr(run) and "growth_rate" in repr(gallery.result("stability of a system"))
+    shown = " ".join(repr(gallery.result("response")).split())
+    assert "unknown: band_from, band_to, " in shown and "(the study does not define a frequency band)" in shown
     assert "arrays over disc_load_speed (2): growth" in repr(gallery.result("map of a disc"))
 
 

@@ -38,7 +38,7 @@ def scalars(result: Result) -> list[tuple[str, str, str, str]]:
             continue
         unit = result.units.get(name, "")
         shown = "unknown" if value is None else number(value)
-        rows.append((name, shown, "" if unit == "1" else unit, result.why.get(name, "")))
+        rows.append((name, shown, "" if unit == "1" or value is None else unit, result.why.get(name, "")))
     return rows
 
 
@@ -113,9 +113,14 @@ def plain(result: Result) -> str:
     lines = [f"<quell.results.{type(result).__name__}>"]
     if "sentence" in result.facts:
         lines.append(f"  {result.facts['sentence']}")
+    unknown: dict[str, list[str]] = {}
     for name, value, unit, why in scalars(result):
-        rest = f" {unit}" if unit else ""
-        lines.append(f"  {name}: {value}{rest}{f' ({why})' if why else ''}")
+        if why and value == "unknown":
+            unknown.setdefault(why, []).append(name)
+        else:
+            lines.append(f"  {name}: {value}{f' {unit}' if unit else ''}{f' ({why})' if why else ''}")
+    for why, names in unknown.items():
+        lines += wrap(f"unknown: {', '.join(names)} ({why})", WIDTH, initial_indent="  ", subsequent_indent="    ")
     for name, words in pairs(result):
         lines += wrap(f"{name}: {words}", WIDTH, initial_indent="  ", subsequent_indent="    ", max_lines=3, placeholder=" …")
     room = MOST_ROWS

@@ -55,6 +55,11 @@ class Friction(Table):
     def __init__(self, law: str, **parameters: Any) -> None:
         super().__init__(law=law, **parameters)
 
+    def __repr__(self) -> str:
+        shown = {name: value for name, value in self.given.items() if name != "law" or type(self) is Friction}
+        inside = ", ".join(f"{name}={value!r}" for name, value in shown.items())
+        return f"quell.{type(self).__name__}({inside})"
+
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Friction) and other.given == self.given
 
