@@ -34,6 +34,13 @@ class Axis(Table):
 
     _path = "sweep"
 
+    parameter: str | None
+    from_: float | str | None
+    to: float | str | None
+    points: int | None
+    values: Any
+    spacing: str | None
+
     def __init__(
         self,
         parameter: str | None = None,

@@ -42,6 +42,15 @@ class Dither(Table):
 
     _path = "dither"
 
+    direction: str | None
+    waveform: str | None
+    amplitude: float | str | None
+    frequency_ratio: float | str | None
+    phase: float | str | None
+    amplitude_n: float | str | None
+    amplitude_n_rms: float | str | None
+    frequency_hz: float | str | None
+
     def __init__(
         self,
         direction: Literal["tangential", "normal"] | None = None,
@@ -74,6 +83,12 @@ class Initial(Table):
 
     _path = "belt.initial"
 
+    state: str | None
+    displacement: float | str | None
+    velocity: float | str | None
+    displacement_m: float | str | None
+    velocity_m_per_s: float | str | None
+
     def __init__(
         self,
         state: Literal["rest", "sliding", "squealing"] | None = None,
@@ -101,6 +116,11 @@ class Solver(Table):
     """
 
     _path = "solver"
+
+    tolerance: float | str | None
+    settle: float | str | None
+    settle_s: float | str | None
+    record_periods: int | None
 
     def __init__(
         self,

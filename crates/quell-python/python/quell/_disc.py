@@ -55,6 +55,43 @@ class Load(Table):
 
     _path = "disc.load"
 
+    radius_ratio: float | str | None
+    angle_deg: float | str | None
+    mass: float | str | None
+    damping: float | str | None
+    stiffness: float | str | None
+    friction: float | str | None
+    mass_kg: float | str | None
+    damping_n_s_per_m: float | str | None
+    stiffness_n_per_m: float | str | None
+    friction_n: float | str | None
+    normal_load: float | str | None
+    normal_load_n: float | str | None
+    half_thickness: float | str | None
+    static_load: float | str | None
+    static_load_n: float | str | None
+    slip_ratio: float | str | None
+    extent_deg: float | str | None
+    radial_extent: float | str | None
+    points: int | None
+    radial_points: int | None
+    pad_mass: float | str | None
+    pad_mass_kg: float | str | None
+    pad_damping: float | str | None
+    pad_damping_n_s_per_m: float | str | None
+    pad_stiffness: float | str | None
+    pad_stiffness_n_per_m: float | str | None
+    caliper_mass: float | str | None
+    caliper_mass_kg: float | str | None
+    caliper_damping: float | str | None
+    caliper_damping_n_s_per_m: float | str | None
+    caliper_stiffness: float | str | None
+    caliper_stiffness_n_per_m: float | str | None
+    dither_phase_deg: float | str | None
+    speed: float | str | None
+    speed_hz: float | str | None
+    speed_rpm: float | str | None
+
     def __init__(
         self,
         *,
@@ -117,6 +154,13 @@ class Mode(Table):
     """
 
     _path = "disc.mode"
+
+    diameters: int | None
+    ratio: float | str | None
+    frequency_hz: float | str | None
+    shape_at_load: float | str | None
+    damping: float | str | None
+    centrifugal: float | str | None
 
     def __init__(
         self,

@@ -55,6 +55,10 @@ class Friction(Table):
     def __init__(self, law: str, **parameters: Any) -> None:
         super().__init__(law=law, **parameters)
 
+    if TYPE_CHECKING:
+        # Which parameters a law has depends on its name.
+        def __getattr__(self, name: str) -> Any: ...
+
     def __repr__(self) -> str:
         shown = {name: value for name, value in self.given.items() if name != "law" or type(self) is Friction}
         inside = ", ".join(f"{name}={value!r}" for name, value in shown.items())

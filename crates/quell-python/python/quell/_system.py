@@ -58,6 +58,21 @@ class Contact(Table):
 
     _path = "contact"
 
+    name: str | None
+    tangent: Any
+    normal: Any
+    slope: Any
+    force: Any
+    normal_load: float | str | None
+    normal_stiffness: float | str | None
+    normal_damping: float | str | None
+    belt_velocity: float | str | None
+    normal_load_n: float | str | None
+    normal_stiffness_n_per_m: float | str | None
+    normal_damping_n_s_per_m: float | str | None
+    belt_velocity_m_per_s: float | str | None
+    friction: Any
+
     def __init__(
         self,
         name: str | None = None,
@@ -106,6 +121,18 @@ class SystemDither(Table):
 
     _path = "dither"
 
+    at: Any
+    waveform: str | None
+    contact: str | None
+    direction: str | None
+    reaction: bool | None
+    amplitude: float | str | None
+    frequency: float | str | None
+    phase: float | str | None
+    amplitude_n: float | str | None
+    amplitude_n_rms: float | str | None
+    frequency_hz: float | str | None
+
     def __init__(
         self,
         at: Row | None = None,
@@ -142,6 +169,13 @@ class SystemInitial(Table):
 
     _path = "system.initial"
 
+    state: str | None
+    displacements: Any
+    velocities: Any
+    displacements_m: Any
+    velocities_m_per_s: Any
+    values: Any
+
     def __init__(
         self,
         state: Literal["rest", "sliding", "squealing", "base"] | None = None,
@@ -173,6 +207,13 @@ class SystemMode(Table):
 
     _path = "system.mode"
 
+    frequency: float | str | None
+    frequency_hz: float | str | None
+    damping_ratio: float | str | None
+    modal_mass: float | str | None
+    modal_mass_kg: float | str | None
+    shape: Any
+
     def __init__(
         self,
         *,
@@ -203,6 +244,11 @@ class Component(Table):
     """
 
     _path = "system.component"
+
+    name: str | None
+    mode: Any
+    modes: str | None
+    normalisation: str | None
 
     def __init__(
         self,

@@ -57,11 +57,8 @@ class Table:
         kept = {**self.given, **changes}
         return self._of({name: value for name, value in kept.items() if value is not None})
 
-    if TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> Any: ...
-
-    else:
+    # Type checkers know the declared keys.
+    if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
             if name.startswith("_") or "given" not in self.__dict__:
