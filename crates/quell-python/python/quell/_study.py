@@ -157,7 +157,7 @@ class Study(CheckedStudy):
             [default: the start of the study; of a disc the leading small motion].
         t_eval :
             Times (n,) of the samples in ascending order, in the unit of ``until`` or with units, instead of equal steps. The values there are
-            those of the Taylor polynomials of the steps, not interpolated.
+            those of the Taylor polynomials of the steps, not interpolated. ``time`` of a disc is in 1/ω_ref, in SI too.
         sound :
             Whether to describe in ``sound`` the file that ``save("run.wav")`` writes: the velocity as sound.
         transpose :

@@ -126,7 +126,11 @@ fn options(study: &Study, (transpose, gain): &SoundTexts) -> Result<SoundOptions
     Ok(options)
 }
 
-fn of_system(study: &Study, system: &SystemStudy, asked: &GivenRun) -> Result<MotionRequest, Failure> {
+fn of_system(
+    study: &Study,
+    system: &SystemStudy,
+    asked: &GivenRun,
+) -> Result<MotionRequest, Failure> {
     let read = |text: &str, option| start::duration(system, text, option);
     let mut request = MotionRequest {
         until: asked.until.as_deref().map(|text| read(text, "--until")).transpose()?,
