@@ -140,6 +140,7 @@ def test_a_result_is_shown_with_its_numbers() -> None:
     assert shown.count("0.75375 ") == 1 + shown.splitlines()[1].count("0.75375 ")
     orbit = gallery.result("orbit")
     assert f"modulus {abs(orbit.multipliers[0]):.6g}" in repr(orbit)
+    assert f"modulus {abs(orbit.multipliers[0]):.6g}" in orbit._repr_html_()
     jumps = repr(gallery.result("bifurcation in SI"))
     assert re.search(r"up +90 +120 +quiet", jumps) and re.search(r"down +120 +90 +not quiet", jumps)
     run = gallery.result("simulate")

@@ -167,7 +167,7 @@ def result(result: Result) -> str:
         parts.append(f"<p>{html.escape(result.facts['sentence'])}</p>")
     for warning in result.warnings:
         parts.append(f"<p style='color:#D55E00'>{html.escape(warning)}</p>")
-    facts = scalars(result)
+    facts = scalars(result) + [(name, words, "", "") for name, words in pairs(result)]
     if facts:
         parts.append(f"<table>{rows_of(facts)}</table>")
     for name, columns, rows, count in tables(result):
