@@ -52,6 +52,7 @@ def test_every_fact_and_array_is_declared_with_its_type(call: str) -> None:
     result = gallery.result(call)
     declared = hints(type(result))
     known = set(declared) | set(dir(type(result)))
+    assert isinstance(result.facts.get("why", {}), dict)
     facts = {attribute(name) for name in result.facts if name not in REPORTED_ELSEWHERE}
     assert facts <= known, f"not declared: {sorted(facts - known)}"
     arrays = {name for name in result.arrays if name.isidentifier()} - declare.of_the_study(result) - set(result.facts)
