@@ -61,6 +61,10 @@ fn options_without_units_are_in_si() {
     let run = same(&place, &["simulate", "pad.toml"], &["--until", "0.002"], &["--until", "2ms"]);
     let end = run["final"]["time_s"].as_f64().expect("a time");
     assert!((end - 0.002).abs() < 1e-17, "{end}");
+    let run = ["simulate", "pad.toml", "--until", "2ms"];
+    let begun = same(&place, &run, &["--start", "1e-6,0.05"], &["--start", "0.001 mm, 5cm/s"]);
+    let begin = begun["start"]["velocity_m_per_s"].as_f64().expect("a velocity");
+    assert!((begin - 0.05).abs() < 1e-17, "{begin}");
     let start = ["orbit", "pad.toml", "--set", "dither.amplitude_n=6.5kN"];
     same(&place, &start, &["--near", "1e-6,0.05"], &["--near", "1um,50mm/s"]);
     same(&place, &start, &["--start", "1e-6,0.05"], &["--start", "0.001 mm, 5cm/s"]);
@@ -314,6 +318,7 @@ fn wrong_units_are_rejected_with_the_expected_ones() {
     let cases: &[(&[&str], &str, &str)] = &[
         (&["friction", "pad.toml", "--at", "0.1N"], "--at", "in m/s"),
         (&["simulate", "pad.toml", "--until", "0.1m"], "--until", "in s"),
+        (&["simulate", "pad.toml", "--until", "1ms", "--start", "1um,50mm"], "--start", "in m/s"),
         (&["orbit", "pad.toml", "--near", "1um,50mm"], "--near", "in m/s"),
         (&["check", "pad.toml", "--set", "belt.mass_kg=5N"], "belt.mass_kg", "in kg"),
         (&range("5m"), "--from", "in N"),

@@ -14,5 +14,6 @@ mod decay;
 pub mod motion;
 pub mod orbit;
 pub mod response;
+mod sample_times;
 pub mod simulation;
 pub mod start;

@@ -16,12 +16,12 @@ use crate::answer::NativeAnswer;
 use crate::arguments::{NamedNumbers, Pair, both, ends};
 use crate::verbs::attractor::TimeTexts;
 use crate::verbs::map::Asked;
-use crate::verbs::simulate::SoundTexts;
+use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
 use crate::verbs::{
     attractor, basins, bifurcation, check, cite, friction, map, modes, orbit, resonances, response,
     simulate, stability, thresholds,
 };
-use crate::{call, errors};
+use crate::{call, convert, errors};
 
 /// A checked study.
 #[pyclass(name = "NativeStudy", module = "quell._quell", frozen)]
@@ -195,19 +195,33 @@ impl NativeStudy {
         call::run(py, move || stability::run_tracked(&study, parameter, &range, along))
     }
 
-    /// `until`: τ, or a time with its unit; `kept`: whether events and samples are kept; `start`: names of the state of a system
-    /// with their values; `sound`: its transposition and gain.
-    #[pyo3(signature = (until, kept, start, sound))]
+    /// `until`: τ, or a time with its unit; `kept`: whether events and samples are kept; `begin`: an exact time and state, a
+    /// state of a belt with its time, or names of the state of a system with their values; `times`: those of the samples, as
+    /// numbers or texts with units; `sound`: its transposition and gain.
+    #[pyo3(signature = (until, kept, begin, times, sound))]
     fn simulate(
         &self,
         py: Python<'_>,
         until: Option<String>,
         kept: (bool, bool),
-        start: Vec<Pair>,
+        begin: Option<Begin>,
+        times: Option<GivenTimes>,
         sound: Option<SoundTexts>,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::run(py, move || simulate::run(&study, until.as_deref(), kept, &start, sound.as_ref()))
+        let asked = simulate::GivenRun { until, kept, begin, times, sound };
+        call::run(py, move || simulate::run(&study, &asked))
+    }
+
+    /// Every key and value after the changes, as nested dicts and lists, with title and axes.
+    fn document(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        convert::to_python(py, &self.inner.document())
+    }
+
+    /// The folder in which the files that the study names are searched.
+    #[getter]
+    fn folder(&self) -> PathBuf {
+        self.folder.clone()
     }
 
     /// `settle` and `record`: times of the response of a system.

@@ -113,8 +113,8 @@ def test_a_call_costs_little_more_than_its_computation(belt: quell.Belt) -> None
 
 def test_import_is_quick_and_brings_little_along() -> None:
     program = (
-        "import time; begun = time.process_time(); import quell; print(time.process_time() - begun);"
-        "import sys; print([it for it in ('xarray', 'matplotlib', 'pandas', 'distributed', 'zarr') if it in sys.modules])"
+        "import numpy, time; begun = time.process_time(); import quell; print(time.process_time() - begun);"
+        "import sys; print([it for it in ('xarray', 'matplotlib', 'pandas', 'pint', 'distributed', 'zarr') if it in sys.modules])"
     )
     runs = []
     for _ in range(3):
@@ -122,7 +122,8 @@ def test_import_is_quick_and_brings_little_along() -> None:
         seconds, modules = done.stdout.splitlines()
         assert modules == "[]"
         runs.append(float(seconds))
-    assert min(runs) < 0.3, runs
+    # 0.02 s next to NumPy's own 0.1 s on an idle machine.
+    assert min(runs) < 0.1, runs
 
 
 @pytest.mark.parametrize(

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import pickle
+import re
 import subprocess
 import sys
-from typing import Any, get_type_hints
+from typing import Any
 
+import gallery
 import matplotlib.figure
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray
 from conftest import STUDIES
 
 import quell
-from quell import results
+from quell import _dataset, _names, results
 
 
 def every(belt: quell.Belt, disc: quell.Disc) -> dict[str, results.Result]:
@@ -57,31 +60,6 @@ def test_every_result_is_a_dataset_and_pickles_and_shows(belt: quell.Belt, disc:
                 result.plot()
         else:
             assert isinstance(again.plot(), matplotlib.figure.Figure), name
-
-
-def test_annotated_facts_are_there(belt: quell.Belt, disc: quell.Disc) -> None:
-    # Facts of other kinds of studies.
-    systems = {"responses", "coordinates", "contacts", "unit_system", "motions", "undithered", "eigenvalues"}
-    missing = {
-        "check": systems,
-        "stability": systems | {"growth_rate_error", "frequency"},
-        "disc stability": systems | {"critical_amplitudes", "criterion"},
-        "modes": systems,
-        "resonances": {"responses"},
-        "simulate": {"event_counts", "contacts", "state_names", "amplitude", "growth_observed"},
-        "response": {"half_peak_to_peak", "band_end", "contacts", "dithers"},
-    }
-    for name, result in every(belt, disc).items():
-        for fact, hint in get_type_hints(type(result), localns={"Study": quell.Study}).items():
-            if fact in ("verb", "study") or (fact == "sentence" and "sentence" not in result.facts):
-                continue
-            if fact in missing.get(name, set()):
-                continue
-            value = getattr(result, fact)
-            if hint in (int, float, bool):
-                assert isinstance(value, (int, float)), (name, fact, value)
-            if hint is bool:
-                assert isinstance(value, bool), (name, fact)
 
 
 def test_an_orbit_has_the_same_fields_where_there_is_none(belt: quell.Belt) -> None:
@@ -153,6 +131,73 @@ def test_friction_takes_and_gives_numpy(belt: quell.Belt) -> None:
         belt.friction("fast")
 
 
+def test_a_result_is_shown_with_its_numbers() -> None:
+    shown = repr(gallery.result("thresholds of a system"))
+    for local in gallery.result("thresholds of a system").facts["local"]:
+        row = next(line for line in shown.splitlines() if f"{local['value']:.6g} " in line and local["kind"] in line)
+        assert f"{local['error']:.6g}".replace("-", "−") in row and row.index(local["was"]) < row.rindex(local["becomes"])
+    # The list has two names, and is shown once.
+    assert shown.count("0.75375 ") == 1 + shown.splitlines()[1].count("0.75375 ")
+    orbit = gallery.result("orbit")
+    assert f"modulus {abs(orbit.multipliers[0]):.6g}" in repr(orbit)
+    assert f"modulus {abs(orbit.multipliers[0]):.6g}" in orbit._repr_html_()
+    jumps = repr(gallery.result("bifurcation in SI"))
+    assert re.search(r"up +90 +120 +quiet", jumps) and re.search(r"down +120 +90 +not quiet", jumps)
+    run = gallery.result("simulate")
+    assert f"events, the first 12 of {run.event_count}:" in repr(run) and "final: time = 20" in repr(run)
+    assert "arrays over time (" in repr(run) and "growth_rate" in repr(gallery.result("stability of a system"))
+    shown = " ".join(repr(gallery.result("response")).split())
+    assert "unknown: band_from, band_to, " in shown and "(the study does not define a frequency band)" in shown
+    assert "arrays over disc_load_speed (2): growth" in repr(gallery.result("map of a disc"))
+
+
+@pytest.mark.parametrize("call", gallery.CALLS)
+def test_a_shown_result_is_short(call: str) -> None:
+    lines = repr(gallery.result(call)).splitlines()
+    assert sum(line.startswith("    ") for line in lines) <= 60
+    of_tables = [line for line in lines if not line.startswith(("  arrays", "  warning")) and not line.endswith((".", ")"))]
+    assert max(len(line) for line in of_tables[2:]) <= 160
+
+
+def test_names_of_variables_are_singular_and_have_no_dots() -> None:
+    for call in gallery.CALLS:
+        found = gallery.result(call).arrays
+        names = {*found, *(dim for it in found.values() for dim in it.dims)}
+        assert not [name for name in names if "." in name or "[" in name], call
+        assert not {"hysteresi", "hysteresi_part", "unstable_belt_velocitie", "acros"} & names, call
+    stability, run = gallery.result("stability"), gallery.result("simulate a system")
+    assert stability["unstable_belt_velocity_upper"].dims == ("unstable_belt_velocity",)
+    intervals = _dataset.arrays("bifurcation", {"hysteresis": [[1.0, 2.0]]}, [])
+    assert intervals["hysteresis_value"].dims == ("hysteresis", "hysteresis_part")
+    with pytest.warns(FutureWarning, match="hysteresis is now named hysteresis_value"):
+        assert intervals["hysteresis"] is intervals["hysteresis_value"]
+    with pytest.warns(FutureWarning, match="unstable_belt_velocitie_upper is now named unstable_belt_velocity_upper"):
+        old = stability["unstable_belt_velocitie_upper"]
+    assert old.identical(stability["unstable_belt_velocity_upper"])
+    with pytest.warns(FutureWarning, match="velocity.motor is now named velocity_motor"):
+        assert run.arrays["velocity.motor"] is run.arrays["velocity_motor"]
+    assert "velocity.motor" in run.arrays and "velocity.motor" not in list(run.arrays)
+
+
+def test_names_that_differ_only_in_dots_stay() -> None:
+    both = quell.System(
+        coordinates=["x", "velocity_x"], mass=[1, 1], damping=[0.1, 0.1], stiffness=[1, 1],
+        contact=quell.Contact(tangent={"x": 1}, normal_load=1, belt_velocity=1, friction=quell.Coulomb(0.3)),
+    )  # fmt: skip
+    found = both.simulate(1.0).arrays
+    assert {"x", "velocity_x", "velocity.x", "velocity_velocity_x"} <= set(found)
+
+
+@pytest.mark.parametrize(
+    ("plural", "one"),
+    [("velocities", "velocity"), ("unstable_belt_velocities", "unstable_belt_velocity"), ("hysteresis", "hysteresis"),
+     ("responses", "response"), ("branches", "branch"), ("axes", "axis"), ("losses", "loss"), ("modes", "mode"), ("state", "state"),
+     ("across", "across"), ("series", "series"), ("radius", "radius"), ("edges", "edge"), ("waves", "wave")],
+)  # fmt: skip
+def test_singulars(plural: str, one: str) -> None:
+    assert _names.singular(plural) == one
+
+
 def test_arrays_are_handed_over_not_copied(belt: quell.Belt) -> None:
     run = belt.simulate(5.0)
     values = run.arrays["displacement"].values
@@ -208,6 +253,36 @@ def test_pictures_have_the_curves_of_the_command_line_s(belt: quell.Belt) -> Non
     box = record.get_position()
     assert box.x0 * described["width"] == pytest.approx(frame["left"])
     assert (1.0 - box.y1) * described["height"] == pytest.approx(frame["top"])
+
+
+def test_pictures_are_drawn_into_given_axes() -> None:
+    response, friction = gallery.result("response"), gallery.result("friction")
+    figure, axes = plt.subplots(2)
+    assert response.plot(ax=axes, color="red", lw=3) is axes
+    assert all(line.get_color() == "red" and line.get_linewidth() == 3 for line in axes[0].get_lines())
+    assert "time" in axes[0].get_xlabel() and axes[1].get_yscale() == "log" and axes[0].get_legend() is not None
+    _, one = plt.subplots()
+    one.plot([0, 1], [0.3, 0.3], label="measured")
+    assert friction.plot(ax=one, label="fitted") is one and len(one.get_lines()) > 1
+    assert [text.get_text() for text in one.get_legend().get_texts()].count("fitted") == 1
+    assert 0.5 in [line.get_alpha() for line in friction.plot(alpha=0.5).axes[0].get_lines()]
+    assert len(response.plot(ax=tuple(axes))) == 2
+    shown = gallery.result("map of a disc")
+    with pytest.raises(quell.StudyError, match="ax = 1 Axes: must be a sequence of 2 Axes, one for each panel"):
+        response.plot(ax=one)
+    with pytest.raises(quell.StudyError, match="2 Axes: must be one Axes: this picture has one panel"):
+        friction.plot(ax=axes)
+    with pytest.raises(quell.StudyError, match="matplotlib axes"):
+        friction.plot(ax=3)
+    with pytest.raises(TypeError, match="did you mean linewidth"):
+        friction.plot(linewith=3)
+    plt.close("all")
+    _, several = plt.subplots()
+    two = gallery.belt().map("growth", {"dither.amplitude": [0.1, 0.5], "belt.belt_velocity": [0.05, 0.1, 0.2]})
+    assert two.plot(ax=several) is several and len(several.figure.axes) == 2  # with the colour bar
+    assert isinstance(shown.plot(), matplotlib.figure.Figure)
+    plt.close("all")
+    del figure
 
 
 def test_without_xarray_and_matplotlib_there_is_numpy() -> None:

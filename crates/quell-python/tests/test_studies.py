@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import inspect
 import pickle
+import re
 from typing import Any
 
 import numpy as np
@@ -92,6 +94,15 @@ def test_complaints_are_those_of_the_command_line(cli: Any, tmp_path: Any) -> No
     with pytest.raises(quell.StudyError) as caught:
         quell.Study.from_toml(tmp_path / "missing.toml")
     assert caught.value.errors[0]["fault"] == "path"
+    missing = caught.value
+    assert isinstance(missing, FileNotFoundError) and isinstance(missing, quell.StudyFileNotFoundError)
+    assert missing.filename == str(tmp_path / "missing.toml") and missing.errno == errno.ENOENT
+    assert str(missing) == missing.errors[0]["message"]
+    again = pickle.loads(pickle.dumps(missing))
+    assert again.errors == missing.errors and again.filename == missing.filename
+    with pytest.raises(quell.StudyError) as caught:
+        quell.Study.from_toml(tmp_path)
+    assert not isinstance(caught.value, FileNotFoundError)
 
 
 def belt_in_si(**given: Any) -> quell.Belt:
@@ -178,7 +189,7 @@ def test_a_belt_may_name_a_band_of_frequencies() -> None:
 def test_numpy_numbers_are_numbers() -> None:
     one = quell.Belt(**{**BELT, "belt_velocity": np.float64(0.05), "normal_load": np.int64(1)}, dither=DITHER)
     assert one == quell.Belt(**BELT, dither=DITHER)
-    assert one.set({"dither.amplitude": np.float32(0.5)}).settings["dither.amplitude"] == "0.5"
+    assert one.set({"dither.amplitude": np.float32(0.5)}).settings["dither.amplitude"] == 0.5
 
 
 def test_changes_are_those_of_set() -> None:
@@ -186,7 +197,7 @@ def test_changes_are_those_of_set() -> None:
     assert belt.changes == ["belt.belt_velocity=0.1"]
     again = belt.set({"dither.waveform": "square"})
     assert again.changes == ["belt.belt_velocity=0.1", 'dither.waveform="square"']
-    assert again.settings["dither.waveform"] == '"square"'
+    assert again.settings["dither.waveform"] == "square"
     with pytest.raises(quell.StudyError, match="did you mean belt.belt_velocity"):
         belt.set({"belt.belt_velcity": 1})
     with pytest.raises(quell.StudyError, match="set"):
@@ -229,13 +240,17 @@ def keys(table: str) -> set[str]:
 )
 def test_classes_have_the_keys_of_their_tables(cls: type, table: str, also: set[str]) -> None:
     assert parameters(cls) == keys(table) | also
+    if issubclass(cls, quell.Study):
+        return
+    # The keys are declared for type checkers.
+    assert set(inspect.get_annotations(cls)) == parameters(cls)
 
 
 def test_every_law_has_a_class_with_its_parameters() -> None:
     classes = {
         cls.__name__.lower(): cls
         for cls in vars(quell).values()
-        if isinstance(cls, type) and issubclass(cls, quell.Friction) and cls is not quell.Friction
+        if isinstance(cls, type) and issubclass(cls, quell.Friction) and cls not in (quell.Friction, quell.StudyFriction, quell.SampledLaw)
     }
     laws: dict[str, set[str]] = {}
     for system in ("scaled", "si"):
@@ -310,3 +325,101 @@ def test_a_verb_about_the_other_kind_of_study_says_so(belt: quell.Belt, disc: qu
     for refused in (disc.response, disc.friction, disc.orbit, belt.modes, belt.resonances):
         with pytest.raises(quell.StudyError, match="is not available for a"):
             refused()
+
+
+def test_the_numbers_of_a_study_are_attributes(belt: quell.Belt, disc: quell.Disc) -> None:
+    assert belt.belt_velocity == 0.05 and belt.dither is not None and belt.dither.amplitude == 0.4
+    assert belt.dither == DITHER and belt.dithers == (DITHER,) and belt.dither.phase is None
+    assert belt.friction.static_coefficient == 0.4 and belt.friction.law == "stribeck"
+    assert belt.friction == BELT["friction"] and isinstance(belt.friction([0.1]), quell.results.FrictionCurve)
+    assert belt.solver.settle == 60.0 and belt.initial.state == "rest" and belt.mass_kg is None
+    assert eval(repr(belt.friction)) == belt.friction and eval(repr(belt.dither)) == belt.dither and {"static_coefficient", "law"} <= set(dir(belt.friction))
+    assert pickle.loads(pickle.dumps(belt.friction)) == belt.friction
+    assert disc.load is not None and disc.load.radius_ratio == 0.75 and disc.radial_modes == 1 and disc.inner_radius_ratio == 0.5
+    assert belt.settings["dither.amplitude"] == 0.4 and belt.settings["friction.law"] == "stribeck"
+    assert {"belt_velocity", "dither", "response"} <= set(dir(belt))
+    for wrong, words in (
+        (lambda: belt.belt_velcity, "Belt has no belt_velcity; did you mean belt_velocity?"),
+        (lambda: belt.respone, "did you mean response?"),
+        (lambda: belt.dither.amplitud, "Dither has no amplitud; did you mean amplitude?"),
+        (lambda: belt.friction.static_coeficient, "did you mean static_coefficient?"),
+        (lambda: disc.load.radius_rato, "did you mean radius_ratio?"),
+    ):
+        with pytest.raises(AttributeError, match=re.escape(words)):
+            wrong()
+    two = quell.Study.from_toml(STUDIES / "two-dithers.toml")
+    assert isinstance(two, quell.Belt) and [it.direction for it in two.dithers] == ["tangential", "normal"]
+    with pytest.raises(quell.StudyError, match=r"dithers\[0\], …: this study has 2 dithers"):
+        _ = two.dither
+
+
+def test_the_contacts_of_a_system_are_attributes() -> None:
+    system = quell.Study.from_toml(STUDIES / "mode-coupling.toml")
+    assert isinstance(system, quell.System)
+    pad = system.contacts["pad"]
+    assert pad.friction.coefficient == 0.9 and pad.tangent == {"x": 1} and system.contacts[0] == pad
+    assert system.coordinates == ["x", "y"] and system.parameters == {"c": 0.05} and system.damping == ["c", "c"]
+    with pytest.raises(KeyError, match="did you mean pad?"):
+        _ = system.contacts["pat"]
+    shared = quell.System(
+        coordinates=["x"], mass=[1], damping=[0.1], stiffness=[1], friction=quell.Coulomb(0.3),
+        contact=quell.Contact(tangent={"x": 1}, normal_load=1, belt_velocity=1), dither=quell.SystemDither({"x": 1}, "sine", amplitude=1, frequency=9),
+    )  # fmt: skip
+    assert shared.contacts["1"].friction.coefficient == 0.3 == shared.friction.coefficient
+    assert shared.dither is not None and shared.dither.at == {"x": 1} and len(shared.contacts) == 1
+
+
+def test_a_study_is_replaced_by_its_arguments(belt: quell.Belt, disc: quell.Disc) -> None:
+    faster = belt.replace(belt_velocity=0.1)
+    assert faster.settings == belt.set({"belt.belt_velocity": 0.1}).settings and faster.title == "a belt" and not faster.changes
+    assert belt.dither is not None
+    louder = belt.replace(dither=belt.dither.replace(amplitude=0.5))
+    assert louder.dither is not None and louder.dither.amplitude == 0.5 and louder.dither.waveform == "sine"
+    assert belt.replace(dither=None).dither is None and belt.replace(friction=quell.Coulomb(0.3)).friction.coefficient == 0.3
+    assert belt.replace(friction=belt.friction).settings == belt.settings
+    with pytest.raises(quell.StudyError, match="did you mean belt.belt_velocity"):
+        belt.replace(belt_velcity=1)
+    assert disc.replace(radial_modes=2).radial_modes == 2
+
+
+@pytest.mark.parametrize("path", sorted(STUDIES.glob("*.toml")), ids=lambda path: path.stem)
+def test_studies_survive_replacing_and_writing(path: Any, tmp_path: Any) -> None:
+    study = quell.Study.from_toml(path)
+    assert study.replace().settings == study.settings
+    assert study.replace().check().facts == study.check().facts
+    assert study.to_toml() == path.read_text("utf-8")
+    text = study.to_toml(tmp_path / "copy.toml")
+    copy = quell.Study.from_toml(tmp_path / "copy.toml")
+    assert (tmp_path / "copy.toml").read_text("utf-8") == text
+    named = {"friction.file", "system.modes", "disc.modes_file", "system.frequency_response"}
+    assert {k: v for k, v in copy.settings.items() if k not in named} == {k: v for k, v in study.settings.items() if k not in named}
+
+
+def test_a_changed_study_is_written_with_its_changes(belt: quell.Belt, tmp_path: Any) -> None:
+    axes = {"dither.amplitude": [0.1, 0.2]}
+    changed = belt.set({"belt.belt_velocity": 0.1, "dither.waveform": "square"}).sweeping(axes)
+    again = quell.Study.from_text(changed.to_toml())
+    assert again.settings == changed.settings and again.title == "a belt"
+    assert again.check().facts["sweeps"] == changed.check().facts["sweeps"]
+    assert changed.replace().check().facts["sweeps"] == changed.check().facts["sweeps"]
+    assert changed.to_toml(tmp_path / "belt.toml") == changed.to_toml()
+    with pytest.raises(quell.StudyError, match="overwrite=True"):
+        changed.to_toml(tmp_path / "belt.toml")
+    assert belt.to_toml(tmp_path / "belt.toml", overwrite=True) == belt.text
+    with pytest.raises(quell.StudyError, match="can be written"):
+        belt.to_toml(tmp_path / "nowhere" / "belt.toml")
+
+
+def test_misspelt_arguments_name_the_nearest(belt: quell.Belt) -> None:
+    anyhow: Any = belt
+    for call, words in (
+        (lambda: anyhow.simulate(untill=3), "simulate() got an unexpected keyword argument 'untill'; did you mean until?"),
+        (lambda: anyhow.friction(att=[0.1]), "did you mean at?"),
+        (lambda: anyhow.thresholds("dither.amplitude", 0.3, 0.6, from_resst=True), "did you mean from_rest?"),
+        (lambda: quell.new(qestion="drive"), "did you mean question?"),  # type: ignore[call-arg]
+        (lambda: quell.Study.from_toml("x.toml", sett={}), "did you mean set?"),  # type: ignore[call-arg]
+        (lambda: quell.sweep(belt, "growth", thread=1), "did you mean threads?"),
+        (lambda: anyhow.check(3), "takes 1 positional argument"),
+    ):
+        with pytest.raises(TypeError, match=re.escape(words)):
+            call()

@@ -12,59 +12,10 @@ import numpy as np
 import pytest
 import xarray
 from conftest import STUDIES
+from gallery import DRIVE, FRICTION, HOFFMANN
 
 import quell
 from quell import _system, results
-
-HOFFMANN = """
-schema = 1
-title = "Mode coupling (Hoffmann et al. 2002)"
-[parameters]
-c = 0.05
-[system]
-coordinates = ["x", "y"]
-mass = [1.0, 1.0]
-damping = ["c", "c"]
-stiffness = [[2.0, 1.0], [1.0, 0.6666666666666667]]
-[[contact]]
-name = "pad"
-tangent = { x = 1.0 }
-normal = { y = 1.0 }
-normal_load = 1.0
-normal_stiffness = 1.3333333333333333
-belt_velocity = 1.0
-[contact.friction]
-law = "coulomb"
-coefficient = 0.9
-"""
-
-DRIVE = """
-schema = 1
-title = "Two-mass drive, dither at the motor"
-[system]
-coordinates = ["motor", "carriage"]
-mass = [0.5, 1.0]
-damping = [[0.03, -0.01], [-0.01, 0.01]]
-stiffness = [[5.0, -4.0], [-4.0, 4.0]]
-[[contact]]
-name = "guide"
-tangent = { carriage = 1.0 }
-normal_load = 1.0
-belt_velocity = 0.05
-[contact.friction]
-law = "stribeck"
-static_coefficient = 0.4
-minimum_coefficient = 0.2857
-reference_velocity = 0.2
-[[dither]]
-at = { motor = 1.0 }
-waveform = "sine"
-amplitude = 5.2
-frequency = 10.0
-"""
-
-FRICTION = "contact.pad.friction.coefficient"
-
 
 @pytest.fixture
 def hoffmann() -> quell.System:
@@ -213,7 +164,7 @@ def test_curves_of_thresholds_follow_a_second_parameter(hoffmann: quell.System) 
     same = hoffmann.thresholds(FRICTION, 0.6, 0.9, along="parameters.c", between=(0.02, 0.2))
     assert isinstance(same, results.ThresholdCurves) and same.curves == done.curves
     dataset = same.dataset
-    assert dataset["curve"].dims == ("point",) and dataset[FRICTION].shape == dataset["parameters.c"].shape
+    assert dataset["curve"].dims == ("point",) and dataset["contact_pad_friction_coefficient"].shape == dataset["parameters_c"].shape
     assert dataset["eigenvalues_growth_rate"].dims == ("parameter", "branch")
 
 
@@ -252,7 +203,7 @@ def test_simulations_have_every_contact(hoffmann: quell.System, belt: quell.Belt
     assert pad["name"] == "pad" and {"slip_velocity", "friction", "normal", "sticking", "open", "slip_sign"} <= set(pad)
     assert done.contacts[0]["event_counts"] == done.event_counts
     dataset = done.dataset
-    assert float(dataset["velocity.x"][0]) == 0.1 and dataset["pad.friction"].dims == ("time",)
+    assert float(dataset["velocity_x"][0]) == 0.1 and dataset["pad_friction"].dims == ("time",)
     assert float(dataset["time"][-1]) == 60.0
     assert np.allclose(dataset["x"][-1], done.final["state"][0], rtol=0, atol=1e-12)
     assert "100 periods" in hoffmann.simulate(samples=False).sentence
@@ -278,6 +229,44 @@ def test_responses_have_contacts_and_dithers(drive: quell.System, belt: quell.Be
         drive.response(settle="soon")
     with pytest.raises(quell.StudyError, match="record"):
         belt.response(record=10)
+
+
+def sliding_mass() -> quell.System:
+    """A mass that slides on all its motion: a damped oscillator, ζ = 0.02, driven at 10 times its frequency."""
+    return quell.System(
+        coordinates=["x"], mass=[1], damping=[0.04], stiffness=[1], initial="sliding",
+        contact=quell.Contact("pad", tangent={"x": 1}, normal_load=1, belt_velocity=1, friction=quell.Coulomb(0.3)),
+        dither=quell.SystemDither({"x": 1}, "sine", amplitude=0.4, frequency=10),
+    )  # fmt: skip
+
+
+def test_responses_say_on_which_motion_they_settled(drive: quell.System) -> None:
+    done = sliding_mass().response()
+    assert (done.settled, done.settled_on, done.undithered_settled_on) == (True, "orbit", "rest")
+    assert done.period == pytest.approx(2 * np.pi / 10, rel=1e-12)
+    assert done.undithered_period is None and "periodic" in done.why["undithered_period"]
+    # Without dither the drive squeals, in a limit cycle.
+    squealing = drive.set({"dither.amplitude": 5.6}).response(settle=400, record=200)
+    assert (squealing.settled_on, squealing.undithered_settled_on) == ("orbit", "orbit")
+    assert squealing.period == pytest.approx(2 * np.pi / 10, rel=1e-12)
+    cycle = drive.set({"dither.amplitude": 0.0}).orbit()
+    assert squealing.undithered_period == pytest.approx(cycle.period, rel=1e-6)
+
+
+def test_lyapunov_exponents_are_those_of_the_equations(hoffmann: quell.System) -> None:
+    found = sliding_mass().attractor(lyapunov=True)
+    assert found.attractor is not None and found.lyapunov is not None
+    exponents = found.lyapunov["exponents"]
+    # Both rates are −ζω, and their sum is the trace of the equations.
+    assert exponents == pytest.approx([-0.02, -0.02], abs=5 * max(found.lyapunov["errors"]))
+    assert sum(exponents) == pytest.approx(-0.04, abs=1e-9)
+    assert found.lyapunov["of_multiplier"] == pytest.approx(-0.02, rel=1e-9) and found.lyapunov["agrees_with_multipliers"]
+    assert (found.lyapunov["verdict"], found.lyapunov["kaplan_yorke_dimension"]) == ("regular", 0.0)
+    assert found.lyapunov_exponents.tolist() == exponents and found.dataset["lyapunov_errors"].shape == (2,)
+    sliding = hoffmann.set({FRICTION: 0.3}).attractor(lyapunov=True, settle=20, record=200).lyapunov
+    assert sliding is not None and sum(sliding["exponents"]) == pytest.approx(-0.1, abs=1e-9)
+    assert (sliding["settle"], sliding["time"]) == (20.0, 200.0)
+    assert hoffmann.set({FRICTION: 0.3}).attractor().facts.get("lyapunov") is None
 
 
 def test_maps_of_systems_are_arrays(hoffmann: quell.System) -> None:

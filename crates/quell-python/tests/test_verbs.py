@@ -27,16 +27,19 @@ ELSEWHERE = {
 OTHER_NAMES = {"--from": "from_"}
 """Options whose name is a keyword of Python."""
 
-BESIDE = {"Study.sweeping", "quell.sweep", "quell.quantities"}
+BESIDE = {"quell.sweep", "quell.quantities"}
 """Functions that only Python has, all of them about axes and names of maps."""
 
 
 def offered() -> dict[str, Any]:
     """Verbs in Python: methods that return a result, and functions of the package."""
+    members = inspect.getmembers(quell.Study, inspect.isfunction)
+    # The law of a study is an attribute, and called it is the verb.
+    members.append(("friction", quell.StudyFriction.__call__))
     verbs = {
         name: method
-        for name, method in vars(quell.Study).items()
-        if not name.startswith("_") and inspect.isfunction(method) and "results." in str(method.__annotations__.get("return"))
+        for name, method in members
+        if not name.startswith("_") and "results." in str(method.__annotations__.get("return"))
     }
     functions = {
         name: it for name, it in vars(quell).items() if inspect.isfunction(it) and name in quell.__all__
@@ -68,7 +71,7 @@ def test_the_options_are_the_same(verb: str) -> None:
     given = set(inspect.signature(offered()[verb]).parameters) - {"self"}
     python_only = {
         "map": {"axes", "store", "progress", "client"},
-        "simulate": {"samples", "sound"},
+        "simulate": {"samples", "sound", "t_eval"},
         "bifurcation": {"progress"},
         "basins": {"progress"},
         "reproduce": {"names"},

@@ -276,7 +276,7 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     quiet(&stability::run(&inside).json(&inside));
     warns(&stability::run(&outside).json(&outside));
     let options = simulate::Options::default();
-    quiet(&simulate::run(&inside, 40.0, options).expect("a run").json(&inside));
+    quiet(&simulate::run(&inside, 40.0, options.clone()).expect("a run").json(&inside));
     warns(&simulate::run(&outside, 40.0, options).expect("a run").json(&outside));
     quiet(&response::run(&inside).expect("a response").json(&inside));
     warns(&response::run(&outside).expect("a response").json(&outside));

@@ -345,6 +345,42 @@ fn dependent_contacts_are_named() {
     assert!(warning.contains("are not unique") && warning.contains(" and "), "{warning}");
 }
 
+/// A run from the end of another one continues it, and samples at given times are values of the polynomials of the steps.
+#[test]
+fn two_runs_are_one_long_run() {
+    let reference = reference();
+    let study = study(reference["dependent_rows"]["study"].as_str().expect("a study"));
+    let run = |request: &MotionRequest| simulate::run(&study, request).expect("a run");
+    let until = Some(20.0);
+    let even = run(&MotionRequest { until, samples: true, ..MotionRequest::default() });
+    let even = even.samples.expect("samples");
+    let times: Vec<f64> = even.times.iter().step_by(7).copied().collect();
+    let given = MotionRequest { until, samples: true, ..MotionRequest::default() };
+    let whole = run(&MotionRequest { times: Some(times.clone()), ..given.clone() });
+    let samples = whole.samples.expect("samples");
+    let size = whole.start.state.len();
+    assert_eq!(samples.times, times);
+    for (place, state) in samples.states.chunks(size).enumerate() {
+        assert_eq!(state, &even.states[7 * place * size..][..size]);
+    }
+    let half = run(&MotionRequest { until: Some(9.5), ..MotionRequest::default() });
+    let from = Some(half.end.restart());
+    let rest = run(&MotionRequest { from: from.clone(), ..given.clone() });
+    assert_eq!(half.end.events + rest.end.events, whole.end.events);
+    assert_eq!(rest.start.time, 9.5);
+    for (state, wanted) in rest.end.state.iter().zip(&whole.end.state) {
+        assert!((state - wanted).abs() < 1e-10, "{state} {wanted}");
+    }
+    let refused =
+        |request: MotionRequest| simulate::run(&study, &request).expect_err("refused").to_string();
+    let backwards = MotionRequest { until: Some(9.0), from, ..MotionRequest::default() };
+    assert!(refused(backwards).contains("at or after that of the start, 9.5"));
+    let beyond = MotionRequest { times: Some(vec![1.0, 30.0]), ..given.clone() };
+    assert!(refused(beyond).contains("within the run, from 0 to 20"));
+    let unsorted = MotionRequest { times: Some(vec![2.0, 1.0]), ..given };
+    assert!(refused(unsorted).contains("in ascending order"));
+}
+
 /// Steady sliding is a start without motion, and every refusal has its reason.
 #[test]
 fn starts_are_those_of_the_study() {

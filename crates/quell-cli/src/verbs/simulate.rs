@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueHint};
 use quell::kind::{moving_system, verbs};
-use quell::run::simulate::Options;
+use quell::run::simulate::{Options, Start};
 use quell::run::system::simulate::MotionRequest;
 use quell::run::system::start::{duration as duration_of_motion, read_state};
 use quell::sound::SoundOptions;
@@ -12,7 +12,7 @@ use quell::study::SystemStudy;
 use quell::{Complaint, Failure, Fault, Origin, Study};
 use serde_json::Value as Json;
 
-use super::numbers::{duration, scales};
+use super::numbers::{duration, scales, state};
 use crate::answer::Answer;
 use crate::arguments::{
     Gathered, Outputs, Plot, PlotArguments, StudyArguments, WAV, answer, inputs,
@@ -28,8 +28,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     until: Option<String>,
     /// Start of a system: numbers that replace those of the study's start, such as x=0.1,velocity.x=-2; of a disc, numbers that
-    /// replace those of rest, such as A2=0.1
-    #[arg(long, value_name = "NAME=VALUE,…", allow_hyphen_values = true, value_hint = ValueHint::Other)]
+    /// replace those of rest, such as A2=0.1; of a belt, the state x,v, such as 0.3,0
+    #[arg(long, value_name = "NAME=VALUE,…|X,V", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     start: Option<String>,
     /// Lists every event; with --save FILE.csv also writes them to a second file, such as run_events.csv next to run.csv
     #[arg(long)]
@@ -95,21 +95,15 @@ impl Arguments {
             start: start.unwrap_or_default(),
             events: self.events,
             samples,
-            sound: None,
+            ..MotionRequest::default()
         })
     }
 
-    /// The duration of the run of a study of another kind, which must be given.
-    fn until_of_belt(&self, study: &Study) -> Result<f64, Failure> {
+    /// The duration of the run of a belt, which must be given, and its start.
+    fn run_of_belt(&self, study: &Study) -> Result<(f64, Option<Start>), Failure> {
         let mut complaints = Gathered::default();
-        if let Some(text) = &self.start {
-            let origin = Origin::Argument("--start");
-            let allowed =
-                "left out: the start of a belt is that of [belt.initial], which --set changes";
-            let complaint =
-                Complaint::new(Fault::Conflict, "--start", origin, text.as_str(), allowed);
-            complaints.take::<()>(Err(complaint));
-        }
+        let begin = self.start.as_deref().map(|text| state("--start", text, Some(study)));
+        let begin = complaints.take(begin.transpose());
         let until = match &self.until {
             Some(text) => duration("--until", text, Some(study)),
             None => Err(Box::new(Complaint::new(
@@ -121,7 +115,9 @@ impl Arguments {
             ))),
         };
         let until = complaints.take(until);
-        complaints.finish(until)
+        let (until, begin) = complaints.finish(until.zip(begin))?;
+        let begin = begin.map(|(x, v)| Start { time: 0.0, displacement: x, velocity: v });
+        Ok((until, begin))
     }
 }
 
@@ -149,16 +145,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         return answer(arguments.study.json, done.as_ref(), outputs, plot);
     }
     let until = if let Some(study) = study.as_ref() {
-        complaints.take(arguments.until_of_belt(study))
+        complaints.take(arguments.run_of_belt(study))
     } else {
         // Which options apply depends on the kind of the study, which is unknown: only what is given is examined.
         let given = arguments.until.as_deref().map(|text| duration("--until", text, None));
-        complaints.take(given.transpose()).map(Option::unwrap_or_default)
+        complaints.take(given.transpose()).map(|until| (until.unwrap_or_default(), None))
     };
-    let ((study, until), (sound, (outputs, plot))) =
+    let ((study, (until, start)), (sound, (outputs, plot))) =
         complaints.finish(study.zip(until).zip(sound.zip(outputs.zip(plot))))?;
 
     let options = Options {
+        start,
+        times: None,
         events: arguments.events,
         samples: save.is_some() && sound.is_none() || plot.wanted(),
         undithered: plot.wanted(),

@@ -9,6 +9,7 @@ use super::phase::{ContactNow, ContactPhase};
 use super::rows::RowEntries;
 use super::series::horner_states;
 use super::state::MotionEnd;
+use crate::sample_times::SampleTimes;
 use crate::simulation::{Clock, EventKind, ORDER, Series};
 
 /// One smooth piece of a motion: a Taylor step during which no contact changes.
@@ -282,12 +283,10 @@ impl MotionObserver for MotionRecorder {
     }
 }
 
-/// Samples the state at t₀ + nΔ for n = 0, 1, …
+/// Samples the state at t₀ + nΔ for n = 0, 1, …, or at given times.
 #[derive(Clone, Debug)]
 pub struct MotionSampler {
-    first: f64,
-    step: f64,
-    count: usize,
+    wanted: SampleTimes,
     /// Times of the samples.
     pub times: Vec<f64>,
     /// States, one after the other.
@@ -305,11 +304,18 @@ pub struct MotionSampler {
 impl MotionSampler {
     /// `count` samples from `first`, `step` apart.
     pub fn new(first: f64, step: f64, count: usize) -> Self {
+        Self::of(SampleTimes::Even { first, step, count })
+    }
+
+    /// Samples at these times, in ascending order.
+    pub fn at(times: Vec<f64>) -> Self {
+        Self::of(SampleTimes::Given(times))
+    }
+
+    fn of(wanted: SampleTimes) -> Self {
         Self {
-            first,
-            step,
-            count,
-            times: Vec::with_capacity(count),
+            wanted,
+            times: Vec::new(),
             states: Vec::new(),
             phases: Vec::new(),
             slip_velocities: Vec::new(),
@@ -322,7 +328,18 @@ impl MotionSampler {
 impl MotionSampler {
     /// Adds a sample at the end of a run, beyond those of the grid: its last point may round to just after the end.
     pub fn push_end(&mut self, end: &MotionEnd) {
-        self.times.push(end.time);
+        self.push(end.time, end);
+    }
+
+    /// Adds the remaining samples after a run at given times: those of its last moment may round to just after the end.
+    pub fn finish(&mut self, end: &MotionEnd) {
+        while let Some(time) = self.wanted.get(self.times.len()) {
+            self.push(time, end);
+        }
+    }
+
+    fn push(&mut self, time: f64, end: &MotionEnd) {
+        self.times.push(time);
         self.states.extend(&end.state);
         for contact in &end.contacts {
             self.phases.push(contact.phase);
@@ -335,8 +352,7 @@ impl MotionSampler {
 
 impl MotionObserver for MotionSampler {
     fn segment(&mut self, segment: &MotionSegment<'_>) {
-        while self.times.len() < self.count {
-            let time = f64::mul_add(self.times.len() as f64, self.step, self.first);
+        while let Some(time) = self.wanted.get(self.times.len()) {
             let since = segment.clock.until(time);
             if since > segment.duration {
                 break;

@@ -6,7 +6,9 @@ use quell_numerics::polynomial::first_crossing_after;
 
 use super::clock::Clock;
 use super::event::Event;
+use super::state::FinalState;
 use super::taylor::{ORDER, RECIPROCALS};
+use crate::sample_times::SampleTimes;
 
 /// One smooth piece of a trajectory: a Taylor step of slip, or an interval of stick.
 #[derive(Clone, Copy, Debug)]
@@ -220,13 +222,11 @@ pub struct Sample {
     pub sticking: bool,
 }
 
-/// Samples the state at τ₀ + nΔ for n = 0, 1, …: dense output, or a stroboscopic Poincaré
-/// section with Δ = 2π/R.
+/// Samples the state at τ₀ + nΔ for n = 0, 1, …, which is dense output or a stroboscopic Poincaré section with Δ = 2π/R; or at
+/// given times. Samples are values of the Taylor polynomials of the steps, not interpolated.
 #[derive(Clone, Debug)]
 pub struct Sampler {
-    first: f64,
-    step: f64,
-    count: usize,
+    times: SampleTimes,
     /// The samples, in order.
     pub samples: Vec<Sample>,
 }
@@ -234,19 +234,35 @@ pub struct Sampler {
 impl Sampler {
     /// `count` samples from `first`, `step` apart.
     pub fn new(first: f64, step: f64, count: usize) -> Self {
-        Self { first, step, count, samples: Vec::with_capacity(count) }
+        Self { times: SampleTimes::Even { first, step, count }, samples: Vec::with_capacity(count) }
     }
 
-    /// Time between two samples.
+    /// Time between two samples; 0 at given times.
     pub fn step(&self) -> f64 {
-        self.step
+        match self.times {
+            SampleTimes::Even { step, .. } => step,
+            SampleTimes::Given(_) => 0.0,
+        }
+    }
+
+    /// Samples at these times, in ascending order.
+    pub fn at(times: Vec<f64>) -> Self {
+        Self { samples: Vec::with_capacity(times.len()), times: SampleTimes::Given(times) }
+    }
+
+    /// The samples of a run that has ended: those of its last moment, which may round to just after the end, have its final state.
+    pub fn finished(mut self, end: &FinalState) -> Vec<Sample> {
+        while let Some(time) = self.times.get(self.samples.len()) {
+            let FinalState { displacement, velocity, sticking, .. } = *end;
+            self.samples.push(Sample { time, displacement, velocity, sticking });
+        }
+        self.samples
     }
 }
 
 impl Observer for Sampler {
     fn segment(&mut self, segment: &Segment<'_>) {
-        while self.samples.len() < self.count {
-            let time = f64::mul_add(self.samples.len() as f64, self.step, self.first);
+        while let Some(time) = self.times.get(self.samples.len()) {
             let since = segment.clock.until(time);
             if since > segment.duration {
                 break;

@@ -25,26 +25,25 @@ from collections.abc import Iterable
 from typing import Any
 
 from . import _quell, results
-from ._arguments import Arguments
+from ._arguments import Arguments, keywords
 from ._axes import Axes, Axis
-from ._belt import (
-    Belt,
+from ._belt import Belt, Dither, Initial, Solver
+from ._disc import Disc, Load, Mode
+from ._errors import Complaint, QuellError, RunError, StudyError, StudyFileNotFoundError, complaint
+from ._laws import (
     Coulomb,
     Decreasing,
-    Dither,
     Expression,
     Friction,
-    Initial,
+    SampledLaw,
     Samples,
-    Solver,
     Stribeck,
     StribeckExponential,
+    StudyFriction,
 )
-from ._disc import Disc, Load, Mode
-from ._errors import Complaint, QuellError, RunError, StudyError, complaint
 from ._quell import __version__
 from ._study import Study
-from ._system import Component, Contact, System, SystemDither, SystemInitial, SystemMode
+from ._system import Component, Contact, Contacts, System, SystemDither, SystemInitial, SystemMode
 
 __all__ = [
     "Axis",
@@ -52,6 +51,7 @@ __all__ = [
     "Complaint",
     "Component",
     "Contact",
+    "Contacts",
     "Coulomb",
     "Decreasing",
     "Disc",
@@ -63,12 +63,15 @@ __all__ = [
     "Mode",
     "QuellError",
     "RunError",
+    "SampledLaw",
     "Samples",
     "Solver",
     "Stribeck",
     "StribeckExponential",
     "Study",
     "StudyError",
+    "StudyFileNotFoundError",
+    "StudyFriction",
     "System",
     "SystemDither",
     "SystemInitial",
@@ -88,6 +91,7 @@ def schema() -> dict[str, Any]:
     return _quell.schema()
 
 
+@keywords
 def new(
     question: str | None = None, *, save: str | os.PathLike[str] | None = None, overwrite: bool = False
 ) -> dict[str, Any]:
@@ -140,6 +144,7 @@ def sweep(
     return done
 
 
+@keywords
 def reproduce(*names: str, out: str | os.PathLike[str] = "reproduction", quick: bool = False) -> dict[str, Any]:
     """Reproduces figures and tables of the dissertation, with their data, the table of claims and a report.
 

@@ -3,15 +3,38 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Set
-from typing import Any
+from collections.abc import Callable, Mapping, Set
+from functools import wraps
+from typing import Any, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _toml
 from ._errors import Complaint, StudyError, complaint
+from ._names import suggestion
+from ._values import plain
 
-__all__ = ["Arguments", "changes_of"]
+__all__ = ["Arguments", "changes_of", "keywords"]
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def keywords(function: F) -> F:
+    """A function whose TypeError for a misspelt keyword argument names the nearest valid one."""
+    code = function.__code__
+    names = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+    known = frozenset(names)
+
+    @wraps(function)
+    def checked(*args: Any, **given: Any) -> Any:
+        if not known.issuperset(given):
+            wrong = next(name for name in given if name not in known)
+            advice = suggestion(wrong, (name for name in names if name not in ("self", "cls")))
+            raise TypeError(f"{function.__name__}() got an unexpected keyword argument {wrong!r}{advice}")
+        return function(*args, **given)
+
+    return checked  # type: ignore[return-value]
 
 
 class Arguments:
@@ -34,12 +57,24 @@ class Arguments:
         self.wrong.append(complaint(name, given, f"a whole number from {least} to {most}"))
         return least
 
+    def numbers(self, name: str, given: Any, allowed: str) -> npt.NDArray[np.float64]:
+        """Finite numbers of any shape, which is flattened."""
+        try:
+            if isinstance(given, (str, bytes, bytearray, Mapping, Set)):
+                raise TypeError
+            found = np.atleast_1d(np.asarray(plain(given), dtype=np.float64)).ravel()
+        except (TypeError, ValueError, OverflowError):
+            found = np.array([np.nan])
+        if not np.isfinite(found).all():
+            self.wrong.append(complaint(name, given, allowed))
+        return found
+
     def pair(self, name: str, given: Any, allowed: str) -> tuple[float, float]:
         """Two finite numbers."""
         try:
             if isinstance(given, (str, bytes, bytearray, Mapping, Set)):
                 raise TypeError
-            first, second = given
+            first, second = plain(given)
         except (TypeError, ValueError):
             first = second = None
         pair = (_number(first), _number(second))
@@ -49,6 +84,7 @@ class Arguments:
 
     def quantity(self, name: str, given: object, allowed: str = "a finite number, or one with a unit") -> str:
         """A number in the system of the study, or a text with a unit such as ``"5kN"``, which the native module parses."""
+        given = plain(given)
         if isinstance(given, str):
             return self.text(name, given, allowed)
         return repr(self.number(name, given, allowed))
@@ -58,7 +94,7 @@ class Arguments:
         try:
             if isinstance(given, (str, bytes, bytearray, Mapping, Set)):
                 raise TypeError
-            first, second = given
+            first, second = plain(given)
         except (TypeError, ValueError):
             first = second = None
         of_text = [isinstance(it, str) for it in (first, second)]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, Literal, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ._tables import Number, Table, Unknown
+from ._values import plain
 
 __all__ = ["Axes", "Axis", "axes_tables"]
 
@@ -33,6 +34,13 @@ class Axis(Table):
 
     _path = "sweep"
 
+    parameter: str | None
+    from_: float | str | None
+    to: float | str | None
+    points: int | None
+    values: Any
+    spacing: str | None
+
     def __init__(
         self,
         parameter: str | None = None,
@@ -44,12 +52,18 @@ class Axis(Table):
         spacing: Literal["linear", "log"] | None = None,
         **unknown: Unknown,
     ) -> None:
-        given = None if values is None else np.asarray(values, dtype=object).tolist()
+        given = None if values is None else listed(values)
         super().__init__(
             parameter=parameter, to=to, points=points, values=given, spacing=spacing, **unknown
         )
         if from_ is not None:
             self.given["from"] = from_
+
+
+def listed(values: Any) -> Any:
+    """Values of an axis as a list; numbers that are no list are one value."""
+    found = plain(list(values) if isinstance(values, (range, Iterator)) else values)
+    return np.asarray(found, dtype=object).tolist() if isinstance(found, list) else found
 
 
 Axes = Union[Mapping[str, "Numbers | Axis"], Iterable[Axis], Axis]

@@ -2,225 +2,23 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Literal
 
-import numpy.typing as npt
+import numpy as np
 
 from ._axes import Axes, axes_tables
+from ._errors import StudyError, complaint
+from ._laws import Friction, as_law, law_of
 from ._study import Study
 from ._tables import Number, Table, Unknown, given
 
 __all__ = [
     "Belt",
-    "Coulomb",
-    "Decreasing",
     "Dither",
-    "Expression",
-    "Friction",
     "Initial",
-    "Samples",
     "Solver",
-    "Stribeck",
-    "StribeckExponential",
 ]
-
-
-class Friction(Table):
-    """A friction law given by its name and its parameters: ``Friction("stribeck", …)``.
-
-    Every law of :func:`quell.schema` can be given this way; the common ones have their own classes.
-    """
-
-    _path = "friction"
-    law: str
-
-    def __init__(self, law: str, **parameters: Any) -> None:
-        super().__init__(law=law, **parameters)
-
-
-class Stribeck(Friction):
-    """The Stribeck law, μ(v) = μ_s − (3/2)(μ_s − μ_m)(w − w³/3) with w = v/v_m > 0, equation (2.7).
-
-    Friction falls to μ_m at v_m, then rises.
-
-    Parameters
-    ----------
-    static_coefficient, minimum_coefficient :
-        μ_s and μ_m, with 0 ≤ μ_m ≤ μ_s, dimensionless.
-    reference_velocity :
-        v_m, the slip velocity of least friction, as length per τ (velocity/ω₀).
-    reference_velocity_m_per_s :
-        The same in m/s, in a study in SI.
-    """
-
-    def __init__(
-        self,
-        *,
-        static_coefficient: Number | None = None,
-        minimum_coefficient: Number | None = None,
-        reference_velocity: Number | None = None,
-        reference_velocity_m_per_s: Number | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__("stribeck", **given(locals()))
-
-
-class Decreasing(Friction):
-    """The decreasing law, μ(v) = μ_m + (μ_s − μ_m) exp(−v/v_m), equation (2.8).
-
-    Parameters
-    ----------
-    static_coefficient, minimum_coefficient :
-        μ_s and μ_m, with 0 ≤ μ_m ≤ μ_s, dimensionless.
-    reference_velocity :
-        v_m, over which the excess of friction above μ_m falls to 1/e, as length per τ (velocity/ω₀).
-    reference_velocity_m_per_s :
-        The same in m/s, in a study in SI.
-    """
-
-    def __init__(
-        self,
-        *,
-        static_coefficient: Number | None = None,
-        minimum_coefficient: Number | None = None,
-        reference_velocity: Number | None = None,
-        reference_velocity_m_per_s: Number | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__("decreasing", **given(locals()))
-
-
-class Coulomb(Friction):
-    """Coulomb friction, μ(v) = μ_d + σ_v v for v > 0, with static friction μ_s ≥ μ_d.
-
-    Parameters
-    ----------
-    coefficient, static_coefficient :
-        μ_d and μ_s, dimensionless [default of μ_s: μ_d].
-    viscous :
-        σ_v, the rise of the coefficient with slip speed, per length per τ [default: 0].
-    viscous_s_per_m :
-        The same in s/m, in a study in SI.
-    friction_force_n, static_friction_force_n, viscous_n_s_per_m :
-        Friction as forces in N and N·s/m instead, in a study in SI. The normal force may then be left out.
-    """
-
-    def __init__(
-        self,
-        coefficient: float | None = None,
-        *,
-        static_coefficient: float | None = None,
-        viscous: float | None = None,
-        viscous_s_per_m: float | None = None,
-        friction_force_n: float | None = None,
-        static_friction_force_n: float | None = None,
-        viscous_n_s_per_m: float | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__("coulomb", **given(locals()))
-
-
-class StribeckExponential(Friction):
-    """Exponential Stribeck friction, μ(v) = μ_d + (μ_s − μ_d) exp(−(v/v_s)^δ) + σ_v v for v > 0.
-
-    Parameters
-    ----------
-    coefficient, static_coefficient :
-        μ_d and μ_s, dimensionless.
-    reference_velocity :
-        v_s, over which friction falls, as length per τ (velocity/ω₀).
-    exponent :
-        δ [default: 2]. Simulation needs 1, 2, 3 or 4; averages accept any δ > 0.
-    viscous :
-        σ_v, the rise of the coefficient with slip speed, per length per τ [default: 0].
-    reference_velocity_m_per_s, viscous_s_per_m :
-        The same in m/s and s/m, in a study in SI.
-    friction_force_n, static_friction_force_n, viscous_n_s_per_m :
-        Friction as forces in N and N·s/m instead, in a study in SI. The normal force may then be left out.
-    """
-
-    def __init__(
-        self,
-        *,
-        coefficient: float | None = None,
-        static_coefficient: float | None = None,
-        reference_velocity: float | None = None,
-        exponent: float | None = None,
-        viscous: float | None = None,
-        reference_velocity_m_per_s: float | None = None,
-        viscous_s_per_m: float | None = None,
-        friction_force_n: float | None = None,
-        static_friction_force_n: float | None = None,
-        viscous_n_s_per_m: float | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__("stribeck-exponential", **given(locals()))
-
-
-class Expression(Friction):
-    """A friction law as a formula: ``Expression("0.3 + 0.1*exp(-abs(v)/0.2)")``.
-
-    Parameters
-    ----------
-    coefficient :
-        The coefficient as a function of the slip velocity v, in the unit of the belt's velocity, for both directions of
-        slip. Its derivatives are exact.
-    constants :
-        Named numbers of the formula. They can be changed, swept and searched for thresholds as
-        ``friction.constants.NAME``.
-    static_coefficient :
-        μ_s, independent of the formula [default: the value of the formula at v = 0].
-    maximum_velocity :
-        The slip speed up to which the formula holds and is proven finite, smooth and not negative, as length per τ
-        [default: 10 times the speed of belt and dither].
-    maximum_velocity_m_per_s :
-        The same in m/s, in a study in SI.
-    """
-
-    def __init__(
-        self,
-        coefficient: str | None = None,
-        *,
-        constants: Mapping[str, float] | None = None,
-        static_coefficient: Number | None = None,
-        maximum_velocity: Number | None = None,
-        maximum_velocity_m_per_s: Number | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__("expression", **given(locals()))
-
-
-class Samples(Friction):
-    """A friction law from measured samples: one smooth fit of exponentials, whose error ``Study.check`` reports.
-
-    Parameters
-    ----------
-    slip_velocity, coefficient :
-        Slip speeds ≥ 0 (n,), as length per τ, and the coefficients measured there (n,).
-    slip_velocity_m_per_s :
-        The same in m/s, in a study in SI.
-    file :
-        A CSV file with columns of these names, instead of arrays.
-    static_coefficient :
-        μ_s, independent of the samples [default: the value of the fit at v = 0].
-    terms :
-        Number of exponentials of the fit [default: the best number].
-    """
-
-    def __init__(
-        self,
-        slip_velocity: npt.ArrayLike | None = None,
-        coefficient: npt.ArrayLike | None = None,
-        *,
-        slip_velocity_m_per_s: npt.ArrayLike | None = None,
-        file: str | os.PathLike[str] | None = None,
-        static_coefficient: Number | None = None,
-        terms: int | None = None,
-        **unknown: Unknown,
-    ) -> None:
-        super().__init__("samples", **given(locals()))
 
 
 class Dither(Table):
@@ -243,6 +41,15 @@ class Dither(Table):
     """
 
     _path = "dither"
+
+    direction: str | None
+    waveform: str | None
+    amplitude: float | str | None
+    frequency_ratio: float | str | None
+    phase: float | str | None
+    amplitude_n: float | str | None
+    amplitude_n_rms: float | str | None
+    frequency_hz: float | str | None
 
     def __init__(
         self,
@@ -276,6 +83,12 @@ class Initial(Table):
 
     _path = "belt.initial"
 
+    state: str | None
+    displacement: float | str | None
+    velocity: float | str | None
+    displacement_m: float | str | None
+    velocity_m_per_s: float | str | None
+
     def __init__(
         self,
         state: Literal["rest", "sliding", "squealing"] | None = None,
@@ -303,6 +116,11 @@ class Solver(Table):
     """
 
     _path = "solver"
+
+    tolerance: float | str | None
+    settle: float | str | None
+    settle_s: float | str | None
+    record_periods: int | None
 
     def __init__(
         self,
@@ -332,7 +150,7 @@ class Belt(Study):
         v₀ ≥ 0: a length per τ. In SI ``belt_velocity_m_per_s``, in m/s.
     friction :
         A law: :class:`Stribeck`, :class:`Decreasing`, :class:`Coulomb`, :class:`StribeckExponential`,
-        :class:`Expression` (a formula), :class:`Samples` (measured), or
+        :class:`Expression` (a formula), :class:`Samples` (measured), a function of the slip speed ≥ 0 (see :class:`SampledLaw`), or
         :class:`Friction` with the name of the law.
     dither :
         One :class:`Dither` or several.
@@ -362,13 +180,25 @@ class Belt(Study):
         All complaints at once.
     """
 
+    _own = "belt"
+
+    damping_ratio: float | None
+    normal_load: float | None
+    belt_velocity: float | None
+    mass_kg: float | None
+    stiffness_n_per_m: float | None
+    natural_frequency_hz: float | None
+    damping_n_s_per_m: float | None
+    normal_force_n: float | None
+    belt_velocity_m_per_s: float | None
+
     def __init__(
         self,
         *,
         damping_ratio: Number | None = None,
         normal_load: Number | None = None,
         belt_velocity: Number | None = None,
-        friction: Friction | Mapping[str, Any] | None = None,
+        friction: Friction | Mapping[str, Any] | Callable[[float], float] | None = None,
         dither: Dither | Iterable[Dither] | None = None,
         initial: Literal["rest", "sliding", "squealing"] | tuple[float, float] | Initial | None = None,
         solver: Solver | None = None,
@@ -388,6 +218,8 @@ class Belt(Study):
         if initial is not None:
             si = any(name in belt.given for name in ("mass_kg", "stiffness_n_per_m", "natural_frequency_hz"))
             belt.given["initial"] = start(initial, si)
+        if callable(friction):
+            friction = as_law(friction, *speed_of(belt.given, several(dither)))
         self._build(
             title=title,
             belt=belt,
@@ -397,6 +229,91 @@ class Belt(Study):
             response=levels(band, band_hz),
             sweep=axes_tables(axes),
         )
+
+
+    @property
+    def dithers(self) -> tuple[Dither, ...]:
+        """The dithers."""
+        return tuple(Dither._of(table) for table in listed_tables(self._document().get("dither")))
+
+    @property
+    def dither(self) -> Dither | None:
+        """The dither, or ``None``. A belt with several has :attr:`dithers`."""
+        found: Dither | None = single(self.dithers, "dithers")
+        return found
+
+    @property
+    def initial(self) -> Initial:
+        """The initial state."""
+        found = self._document()["belt"].get("initial", {"state": "rest"})
+        return Initial._of(found if isinstance(found, Mapping) else {"state": found})
+
+    @property
+    def solver(self) -> Solver:
+        """The given settings of the solver."""
+        return Solver._of(self._document().get("solver", {}))
+
+    def _arguments(self) -> dict[str, Any]:
+        document = self._document()
+        arguments = self._common(document)
+        own = dict(document.pop("belt"))
+        friction = document.pop("friction", None)
+        if "initial" in own:
+            own["initial"] = self.initial
+        if "dither" in document:
+            arguments["dither"] = as_given(document.pop("dither"), Dither)
+        if "solver" in document:
+            document.pop("solver")
+            arguments["solver"] = self.solver
+        bands = document.pop("response", {})
+        return {**arguments, **own, **bands, **document, "friction": None if friction is None else law_of(friction)}
+
+
+def speed_of(belt: Mapping[str, Any], dither: object) -> tuple[float, bool]:
+    """Speed of the belt and peak speed of a free mass under its tangential dithers, and whether it is in m/s.
+
+    Numbers that are texts or invalid do not count: the reader checks them, and the law is valid farther than this speed.
+    """
+    in_si = any(name in belt for name in ("mass_kg", "stiffness_n_per_m", "natural_frequency_hz"))
+    keys = ("belt_velocity_m_per_s", "amplitude_n", "frequency_hz") if in_si else ("belt_velocity", "amplitude", "frequency_ratio")
+    inertia = 2.0 * np.pi * number_in(belt, "mass_kg") if in_si else 1.0
+    total = number_in(belt, keys[0])
+    for table in dither if isinstance(dither, list) else [dither]:
+        given = table.given if isinstance(table, Table) else table if isinstance(table, Mapping) else {}
+        under = inertia * number_in(given, keys[2])
+        if given.get("direction") == "tangential" and under > 0.0:
+            total += number_in(given, keys[1]) / under
+    return total, in_si
+
+
+def number_in(table: Mapping[str, Any], key: str) -> float:
+    """A number of a table; 0 if it is no finite number ≥ 0."""
+    value = table.get(key)
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+        return 0.0
+    number = float(value)
+    return number if np.isfinite(number) and number >= 0.0 else 0.0
+
+
+def listed_tables(found: Any) -> list[Mapping[str, Any]]:
+    """One table or several as a list."""
+    return found if isinstance(found, list) else [] if found is None else [found]
+
+
+def as_given(found: Any, cls: type[Table]) -> Any:
+    """One table or a list of them, as in the document."""
+    return [cls._of(table) for table in found] if isinstance(found, list) else cls._of(found)
+
+
+def single(tables: tuple[Any, ...], name: str) -> Any:
+    """The only table, or ``None``.
+
+    An AttributeError would be taken for a missing attribute, so that a StudyError names the list.
+    """
+    if len(tables) > 1:
+        allowed = f"read as {name}[0], …: this study has {len(tables)} {name}"
+        raise StudyError([complaint(name[:-1], None, allowed, "usage")])
+    return tables[0] if tables else None
 
 
 def start(initial: object, si: bool) -> object:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
+from ._names import attributes, singular, suggestion
 from ._quell import __version__, readable_unit
 
 if TYPE_CHECKING:
@@ -54,13 +56,43 @@ class Variable:
 
 
 class Arrays(Mapping[str, Variable]):
-    """Named variables, like an xarray Dataset but in plain NumPy."""
+    """Named variables, like an xarray Dataset but in plain NumPy.
 
-    def __init__(self, variables: dict[str, Variable], coords: set[str], attrs: dict[str, Any]) -> None:
+    Every name is also a name in Python (``velocity_x``). Names of earlier versions (``velocity.x``) are found with a
+    FutureWarning.
+    """
+
+    def __init__(
+        self,
+        variables: dict[str, Variable],
+        coords: set[str],
+        attrs: dict[str, Any],
+        renamed: dict[str, str] | None = None,
+    ) -> None:
         self._variables, self.coords, self.attrs = variables, coords, attrs
+        self._renamed = renamed or {}
 
     def __getitem__(self, name: str) -> Variable:
-        return self._variables[name]
+        return self._variables[self.current(name)]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._variables or name in self._renamed
+
+    def current(self, name: str) -> str:
+        """The name of a variable now; the name of an earlier version raises a FutureWarning.
+
+        Raises
+        ------
+        KeyError
+            Names the nearest variable.
+        """
+        if name in self._variables:
+            return name
+        if name in self._renamed:
+            now = self._renamed[name]
+            warnings.warn(f"{name} is now named {now}; the old name will be removed", FutureWarning, stacklevel=3)
+            return now
+        raise KeyError(f"{name} is not a variable{suggestion(name, self._variables)}")
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._variables)
@@ -86,10 +118,34 @@ class Arrays(Mapping[str, Variable]):
         return xarray.Dataset(others, coords, self.attrs)
 
 
+class Collection:
+    """Variables under construction, with the names that they had in earlier versions."""
+
+    def __init__(self) -> None:
+        self.variables: dict[str, Variable] = {}
+        self.coords: set[str] = set()
+        self.renamed: dict[str, str] = {}
+
+    def free(self, label: str, dims: tuple[str, ...] = ()) -> str:
+        """A name for a variable that is not one of its dimensions nor taken: ``NAME``, or else ``NAME_value``."""
+        return f"{label}_value" if label in self.variables or label in dims else label
+
+    def put(self, label: str, former: str, one: Variable) -> None:
+        """Adds a variable whose name was ``former`` in earlier versions."""
+        self.variables[label] = one
+        if former != label:
+            self.renamed[former] = label
+
+    def done(self, attrs: dict[str, Any]) -> Arrays:
+        """The variables with their attributes."""
+        renamed = {former: now for former, now in self.renamed.items() if former not in self.variables}
+        return Arrays(self.variables, self.coords, attrs, renamed)
+
+
 def arrays(verb: str, facts: Mapping[str, Any], datasets: list[tuple[str, Any]]) -> Arrays:
     """Facts and datasets of a result as one set of variables."""
-    variables: dict[str, Variable] = {}
-    coords: set[str] = set()
+    found = Collection()
+    current = attributes({array[0] for _, (_, axes, values) in datasets for array in (*axes, *values)})
     attrs: dict[str, Any] = {"quell_version": __version__, "verb": verb}
     given = {array[0] for _, (_, axes, values) in datasets for array in (*axes, *values)}
     for place, (name, (provenance, axes, values)) in enumerate(datasets):
@@ -100,17 +156,17 @@ def arrays(verb: str, facts: Mapping[str, Any], datasets: list[tuple[str, Any]])
             attrs["changes"] = "\n".join(provenance["changes"])
         if provenance["facts"]:
             attrs[f"{name}_facts"] = "\n".join(provenance["facts"])
-        dims = tuple(axis[0] for axis in axes)
+        dims = tuple(current[axis[0]] for axis in axes)
         shape = tuple(len(axis[2]) for axis in axes)
-        for axis in axes:
-            coords.add(axis[0])
-            variables[axis[0]] = variable((axis[0],), axis)
+        for axis, dim in zip(axes, dims, strict=True):
+            found.coords.add(dim)
+            found.put(dim, axis[0], variable((dim,), axis))
         for array in values:
-            # Names in later datasets, such as the spectrum, get a prefix where they clash.
-            label = array[0] if place == 0 and array[0] not in variables else f"{name}_{array[0]}"
-            variables[label] = variable(dims, array, shape)
-    Facts(facts, given, variables, attrs).all()
-    return Arrays(variables, coords, attrs)
+            # Names in later datasets, such as the spectrum, get a prefix, and so do names that are taken.
+            prefix = "" if place == 0 and current[array[0]] not in found.variables else f"{name}_"
+            found.put(prefix + current[array[0]], prefix + array[0], variable(dims, array, shape))
+    Facts(facts, given, found, attrs).all()
+    return found.done(attrs)
 
 
 def variable(dims: tuple[str, ...], array: Any, shape: tuple[int, ...] | None = None) -> Variable:
@@ -139,14 +195,12 @@ def twin_of(name: str, units: Mapping[str, str]) -> str | None:
 class Facts:
     """Facts as variables: numbers have no dimension, lists have one of their own."""
 
-    def __init__(
-        self, facts: Mapping[str, Any], given: set[str], variables: dict[str, Variable], attrs: dict[str, Any]
-    ) -> None:
-        self.facts, self.given, self.variables, self.attrs = facts, given, variables, attrs
-        given_units: Mapping[str, str] = facts.get("units", {})
+    def __init__(self, facts: Mapping[str, Any], given: set[str], found: Collection, attrs: dict[str, Any]) -> None:
+        self.facts, self.given, self.found, self.attrs = facts, given, found, attrs
+        given_units: Mapping[str, str] = facts.get("units") or {}
         self.twins = {name: twin for name in given_units if (twin := twin_of(name, given_units)) is not None}
         self.units = {name: given_units[self.twins.get(name, name)] for name in given_units}
-        self.why: Mapping[str, str] = facts.get("why", {})
+        self.why: Mapping[str, str] = facts.get("why") or {}
 
     def all(self) -> None:
         """Adds all facts."""
@@ -154,44 +208,50 @@ class Facts:
             # An array that was added already is not added again as a fact.
             of_array = name in self.given and isinstance(value, list)
             if name not in NOT_FACTS and not of_array:
-                self.add(name, name, value)
+                self.add(name, name, name, value)
 
     def in_units(self, values: Mapping[str, Any]) -> dict[str, Any]:
         """Facts in the units of the study: a number with an SI twin takes the value of the twin."""
         return {name: values.get(self.twins.get(name, name), value) for name, value in values.items()}
 
-    def add(self, label: str, name: str, value: Any) -> None:
-        """Adds one fact, according to its type."""
+    def add(self, label: str, former: str, name: str, value: Any) -> None:
+        """Adds one fact, according to its type; ``former`` is its label in earlier versions."""
         if isinstance(value, str):
             self.attrs[label] = value
         elif isinstance(value, Mapping):
             for inner, it in self.in_units(value).items():
-                self.add(f"{label}_{inner}", inner, it)
+                self.add(f"{label}_{inner}", f"{former}_{inner}", inner, it)
         elif isinstance(value, list):
-            self.many(label, name, value)
+            self.many(label, former, name, value)
         else:
             number = np.nan if value is None else value
-            self.put(label, name, (), np.asarray(number))
+            self.put((label, former), name, (), np.asarray(number))
 
-    def many(self, label: str, name: str, values: list[Any]) -> None:
+    def many(self, label: str, former: str, name: str, values: list[Any]) -> None:
         """A list: of numbers or words, or of objects with the same keys."""
-        dim = label.removesuffix("s")
+        dim, old = singular(label), former.removesuffix("s")
         if values and all(isinstance(it, Mapping) for it in values):
             values = [self.in_units(it) for it in values]
             for inner in dict.fromkeys(key for it in values for key in it):
                 column = [it.get(inner) for it in values]
                 if all(isinstance(it, (int, float, bool, str, type(None))) for it in column):
-                    self.put(f"{dim}_{inner}", inner, (dim,), as_array(column))
+                    self.put((f"{dim}_{inner}", f"{old}_{inner}"), inner, (dim,), as_array(column))
         elif values and all(isinstance(it, (int, float, bool, str, type(None))) for it in values):
-            self.put(label, name, (dim,), as_array(values))
+            self.put((label, former), name, (dim,), as_array(values), (old,))
         elif values and all(isinstance(it, list) for it in values):
             table = np.asarray(values, dtype=np.float64)
-            self.put(label, name, (dim, f"{dim}_part"), table)
+            self.put((label, former), name, (dim, f"{dim}_part"), table, (old,))
 
-    def put(self, label: str, name: str, dims: tuple[str, ...], values: npt.NDArray[Any]) -> None:
+    def put(
+        self,
+        labels: tuple[str, str],
+        name: str,
+        dims: tuple[str, ...],
+        values: npt.NDArray[Any],
+        former_dims: tuple[str, ...] = (),
+    ) -> None:
         """Adds a variable with its unit, and the reason if it is unknown."""
-        if label in self.variables or label in dims:
-            label = f"{label}_value"
+        label, former = labels
         attrs: dict[str, Any] = {}
         if name in self.units:
             attrs["units"], scaling = readable_unit(self.units[name])
@@ -199,7 +259,8 @@ class Facts:
                 attrs["scaling"] = scaling
         if label in self.why:
             attrs["why"] = self.why[label]
-        self.variables[label] = Variable(dims, values, attrs)
+        former = self.found.free(former, former_dims)
+        self.found.put(self.found.free(label, dims), former, Variable(dims, values, attrs))
 
 
 def as_array(values: list[Any]) -> npt.NDArray[Any]:

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any, Literal
 
 from ._axes import Axes, axes_tables
-from ._belt import Dither, Friction, several
+from ._belt import Dither, as_given, listed_tables, several, single
+from ._laws import Friction, law_of
 from ._study import Study
 from ._tables import Number, Table, Unknown, given
 
@@ -53,6 +54,43 @@ class Load(Table):
     """
 
     _path = "disc.load"
+
+    radius_ratio: float | str | None
+    angle_deg: float | str | None
+    mass: float | str | None
+    damping: float | str | None
+    stiffness: float | str | None
+    friction: float | str | None
+    mass_kg: float | str | None
+    damping_n_s_per_m: float | str | None
+    stiffness_n_per_m: float | str | None
+    friction_n: float | str | None
+    normal_load: float | str | None
+    normal_load_n: float | str | None
+    half_thickness: float | str | None
+    static_load: float | str | None
+    static_load_n: float | str | None
+    slip_ratio: float | str | None
+    extent_deg: float | str | None
+    radial_extent: float | str | None
+    points: int | None
+    radial_points: int | None
+    pad_mass: float | str | None
+    pad_mass_kg: float | str | None
+    pad_damping: float | str | None
+    pad_damping_n_s_per_m: float | str | None
+    pad_stiffness: float | str | None
+    pad_stiffness_n_per_m: float | str | None
+    caliper_mass: float | str | None
+    caliper_mass_kg: float | str | None
+    caliper_damping: float | str | None
+    caliper_damping_n_s_per_m: float | str | None
+    caliper_stiffness: float | str | None
+    caliper_stiffness_n_per_m: float | str | None
+    dither_phase_deg: float | str | None
+    speed: float | str | None
+    speed_hz: float | str | None
+    speed_rpm: float | str | None
 
     def __init__(
         self,
@@ -117,6 +155,13 @@ class Mode(Table):
 
     _path = "disc.mode"
 
+    diameters: int | None
+    ratio: float | str | None
+    frequency_hz: float | str | None
+    shape_at_load: float | str | None
+    damping: float | str | None
+    centrifugal: float | str | None
+
     def __init__(
         self,
         *,
@@ -171,6 +216,23 @@ class Disc(Study):
         All complaints at once.
     """
 
+    _own = "disc"
+
+    inner_radius_ratio: float | None
+    poisson_ratio: float | None
+    modal_damping: float | None
+    rotating: str | None
+    centrifugal: float | None
+    radial_modes: int | None
+    nodal_diameters: int | None
+    reference_frequency: str | float | None
+    modes_file: str | None
+    without: list[str] | None
+    youngs_modulus_pa: float | None
+    density_kg_per_m3: float | None
+    thickness_m: float | None
+    outer_radius_m: float | None
+
     def __init__(
         self,
         *,
@@ -203,3 +265,37 @@ class Disc(Study):
             if inner is not None:
                 disc.given[name] = inner
         self._build(title=title, disc=disc, friction=friction, dither=several(dither), sweep=axes_tables(axes))
+
+    @property
+    def loads(self) -> tuple[Load, ...]:
+        """The loads."""
+        return tuple(Load._of(table) for table in listed_tables(self._document()["disc"].get("load")))
+
+    @property
+    def load(self) -> Load | None:
+        """The load, or ``None``. A disc with several has :attr:`loads`."""
+        found: Load | None = single(self.loads, "loads")
+        return found
+
+    @property
+    def mode(self) -> tuple[Mode, ...]:
+        """The listed modes."""
+        return tuple(Mode._of(table) for table in listed_tables(self._document()["disc"].get("mode")))
+
+    @property
+    def dither(self) -> Dither | None:
+        """The dither, or ``None``."""
+        found: Dither | None = single(tuple(Dither._of(it) for it in listed_tables(self._document().get("dither"))), "dithers")
+        return found
+
+    def _arguments(self) -> dict[str, Any]:
+        document = self._document()
+        arguments = self._common(document)
+        own = dict(document.pop("disc"))
+        friction = document.pop("friction", None)
+        for name, cls in (("load", Load), ("mode", Mode)):
+            if name in own:
+                arguments[name] = as_given(own.pop(name), cls)
+        if "dither" in document:
+            arguments["dither"] = as_given(document.pop("dither"), Dither)
+        return {**arguments, **own, **document, "friction": None if friction is None else law_of(friction)}

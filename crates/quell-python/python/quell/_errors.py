@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from collections.abc import Sequence
 from typing import Any, TypedDict
 
-__all__ = ["Complaint", "QuellError", "RunError", "StudyError"]
+__all__ = ["Complaint", "QuellError", "RunError", "StudyError", "StudyFileNotFoundError"]
 
 
 class Complaint(TypedDict):
@@ -48,6 +50,21 @@ class StudyError(QuellError, ValueError):
 
     def __reduce__(self) -> tuple[type[StudyError], tuple[list[Complaint]]]:
         return type(self), (self.errors,)
+
+
+class StudyFileNotFoundError(StudyError, FileNotFoundError):
+    """The study file does not exist: a :class:`StudyError` that is also a :class:`FileNotFoundError` with its ``filename``."""
+
+    def __init__(self, errors: Sequence[Complaint], filename: str) -> None:
+        super().__init__(errors)
+        self.errno, self.filename = errno.ENOENT, filename
+        self.strerror = os.strerror(errno.ENOENT)
+
+    def __str__(self) -> str:
+        return "\n".join(error["message"] for error in self.errors)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.errors, self.filename)
 
 
 class RunError(QuellError, RuntimeError):

@@ -49,9 +49,13 @@ class NativeStudy:
         self,
         until: str | None,
         kept: tuple[bool, bool],
-        start: list[tuple[str, str]],
+        begin: tuple[float, list[float]] | tuple[tuple[str, str], str | None] | list[tuple[str, str]] | None,
+        times: list[float] | list[str] | None,
         sound: tuple[str | None, str | None] | None,
     ) -> NativeAnswer: ...
+    def document(self) -> dict[str, Any]: ...
+    @property
+    def folder(self) -> str: ...
     def response(self, settle: str | None, record: str | None) -> NativeAnswer: ...
     def orbit(
         self,

@@ -1,27 +1,30 @@
-"""A study and its verbs, which have the names of the command line."""
+"""The verbs of a study, which have the names of the command line: one method for each, which checks its arguments.
+
+What a study is apart from its verbs is in ``_checked.py``.
+"""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, TypeVar, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _toml, results
-from ._arguments import Arguments, changes_of
-from ._axes import Axes, axes_tables
+from . import results
+from ._arguments import Arguments, keywords
+from ._axes import Axes
+from ._checked import CheckedStudy
 from ._errors import StudyError, complaint
-from ._quell import NativeStudy
-from ._tables import Number, Table
+from ._laws import StudyFriction
+from ._tables import Number
+from ._values import plain
 
 if TYPE_CHECKING:
     from distributed import Client
 
 __all__ = ["Study"]
-
-Self = TypeVar("Self", bound="Study")
 
 State = tuple[Number, Number]
 """Two numbers: displacement and velocity, or the ends of a range."""
@@ -29,131 +32,34 @@ State = tuple[Number, Number]
 A_NUMBER_OF_A_SYSTEM = "path of a number, such as contact.pad.friction.coefficient"
 
 
-class Study:
+class Study(CheckedStudy):
     """A checked study: of a belt, of a disc or of a system.
 
     Made by :class:`quell.Belt`, :class:`quell.Disc`, :class:`quell.System`, :meth:`from_toml` or :meth:`from_text`. A study is
-    valid and immutable (:meth:`set` returns a new one). Studies compare by their settings, pickle,
-    and have a method for every verb of the command line. A verb for another kind of study raises
-    :class:`quell.StudyError`.
+    valid and immutable (:meth:`set` and :meth:`replace` return a new one). Its numbers and tables are attributes
+    (``belt.belt_velocity``, ``belt.dither.amplitude``). Studies compare by their settings, pickle, and have a method for every
+    verb of the command line. A verb for another kind of study raises :class:`quell.StudyError`.
     """
-
-    _native: NativeStudy
-
-    def _build(self, **tables: Any) -> None:
-        text = _toml.study(tables)
-        self._native = NativeStudy.parse((text, "", [], None, False, None))
-
-    @classmethod
-    def _of(cls: type[Self], native: NativeStudy) -> Self:
-        from ._belt import Belt
-        from ._disc import Disc
-        from ._system import System
-
-        kinds: dict[str, type[Study]] = {"belt": Belt, "disc": Disc, "system": System}
-        study: Self = object.__new__(kinds[native.kind])  # type: ignore[assignment]
-        study._native = native
-        return study
-
-    @classmethod
-    def from_toml(cls, path: str | os.PathLike[str], set: Mapping[str, Any] | None = None) -> Study:  # noqa: A002
-        """Reads and checks a study file; ``set`` first changes values, like ``--set path=value``.
-
-        Raises
-        ------
-        quell.StudyError
-            All complaints, each with its line.
-        """
-        arguments = Arguments()
-        place = arguments.path("path", path)
-        changes = changes_of(set, arguments)
-        arguments.done()
-        return Study._of(NativeStudy.read(place, changes))
-
-    @classmethod
-    def from_text(cls, text: str, set: Mapping[str, Any] | None = None) -> Study:  # noqa: A002
-        """Checks the text of a study, like :meth:`from_toml` for a file."""
-        arguments = Arguments()
-        given = arguments.text("text", text, "the text of a study")
-        changes = changes_of(set, arguments)
-        arguments.done()
-        return Study._of(NativeStudy.parse((given, "", changes, None, True, None)))
-
-    def set(self: Self, changes: Mapping[str, Any]) -> Self:
-        """Returns the study with changed values: ``study.set({"dither.amplitude": 0.5})``.
-
-        Paths are those of the study file, including ``dither[1].phase`` and SI twins.
-        """
-        arguments = Arguments()
-        wanted = changes_of(changes, arguments)
-        arguments.done()
-        return self._of(self._native.changed(wanted))
-
-    def sweeping(self: Self, axes: Axes) -> Self:
-        """Returns the study with other axes; see :meth:`map`."""
-        tables = axes_tables(axes) or []
-        wrong = [it for it in tables if not isinstance(it, Table)]
-        if wrong:
-            allowed = "Axis objects, or a dict of paths and values"
-            raise StudyError([complaint("axes", it, allowed) for it in wrong])
-        lists = [[(name, _toml.value(it)) for name, it in axis.given.items()] for axis in tables]
-        return self._of(self._native.swept(lists))
-
-    @property
-    def text(self) -> str:
-        """The text of the study as a file, before the :attr:`changes`."""
-        return self._native.parts()[0]
-
-    @property
-    def changes(self) -> list[str]:
-        """Changes of the text, as ``path=value``."""
-        return self._native.changes
-
-    @property
-    def title(self) -> str | None:
-        """Title of the study, if it has one."""
-        return self._native.title
-
-    @property
-    def settings(self) -> dict[str, str]:
-        """Every value after the changes, by its path, without title and axes."""
-        return dict(self._native.settings)
 
     # Verbs, in the order of the command line.
 
+    @keywords
     def check(self) -> results.Check:
         """The study in numbers; for a study in SI also in SI."""
         return results.Check(self, self._native.check())
 
+    @keywords
     def cite(self) -> results.Citations:
         """Equations and papers that the computations use, with BibTeX, and corrections of the printed equations."""
         return results.Citations(self, self._native.cite())
 
-    def friction(self, at: npt.ArrayLike | str | Sequence[str] | None = None) -> results.FrictionCurve:
-        """The friction law and the effective friction under the dither, equations (2.21), (3.19)–(3.27), (4.27).
+    @property
+    def friction(self) -> StudyFriction:
+        """The friction law of the study, and the verb: ``belt.friction.static_coefficient``, ``belt.friction(at=[0.1])``.
 
-        Parameters
-        ----------
-        at :
-            Slip velocities of any shape, which is flattened; in m/s in a study in SI, or texts with units such as
-            ``"20mm/s"`` [default: a grid that shows the law].
-
-        Returns
-        -------
-        quell.results.FrictionCurve
-            μ, μ̄ and μ̄′ over ``slip_velocity`` (n,).
+        See :meth:`quell.StudyFriction.__call__`. Contacts of a system have laws of their own: ``system.contacts["pad"].friction``.
         """
-        where: npt.NDArray[np.float64] | None = None
-        if isinstance(at, str):
-            at = [at]
-        if isinstance(at, Sequence) and at and all(isinstance(it, str) for it in at):
-            return results.FrictionCurve(self, self._native.friction(None, [str(it) for it in at]))
-        if at is not None:
-            try:
-                where = np.atleast_1d(np.asarray(at, dtype=np.float64)).ravel()
-            except (TypeError, ValueError, OverflowError):
-                raise StudyError([complaint("at", at, "slip velocities: finite numbers")]) from None
-        return results.FrictionCurve(self, self._native.friction(where, []))
+        return StudyFriction(self, self._document().get("friction", {}))
 
     @overload
     def stability(self) -> results.Stability: ...
@@ -166,6 +72,7 @@ class Study:
     @overload
     def stability(self, *, exact: Literal[True]) -> results.ExactStability: ...
 
+    @keywords
     def stability(
         self,
         parameter: str | None = None,
@@ -217,13 +124,15 @@ class Study:
             return results.ExactStability(self, self._native.stability(True))
         return results.Stability(self, self._native.stability(False))
 
+    @keywords
     def simulate(
         self,
         until: Number | None = None,
         *,
         events: bool = True,
         samples: bool = True,
-        start: Mapping[str, Number] | None = None,
+        start: Mapping[str, Any] | State | None = None,
+        t_eval: npt.ArrayLike | None = None,
         sound: bool = False,
         transpose: Number | None = None,
         gain: Number | None = None,
@@ -234,15 +143,21 @@ class Study:
         ----------
         until :
             Time at the end: τ of a belt, 1/ω_ref of a disc; in a study in SI seconds, or a time with its unit such as ``"50ms"``
-            [default: 100 periods of the slowest oscillation of a system; of a disc, until a small motion has grown].
+            [default: the last of ``t_eval``; else 100 periods of the slowest oscillation of a system; of a disc, until a small
+            motion has grown].
         events :
             Whether to keep every event, in order, in ``events``. Those of systems are always kept.
         samples :
             Whether to sample the trajectory over ``time`` (n,): displacement and velocity, of a system every number of the
             state, and slip velocity, friction, load and phase of every contact. Sampling does not change the run.
         start :
-            System: numbers that replace those of the study's start, such as ``{"x": 0.1, "velocity.x": -2}``; disc: numbers
-            that replace those of rest, such as ``{"A2": 0.1}`` [default: the leading small motion].
+            ``final`` of an earlier run, which this one continues at its time; belt: (x, x′), or a dict with ``displacement``,
+            ``velocity`` and, if the run does not begin at 0, ``time``; system: numbers that replace those of the study's start,
+            such as ``{"x": 0.1, "velocity.x": -2}``; disc: numbers that replace those of rest, such as ``{"A2": 0.1}``
+            [default: the start of the study; of a disc the leading small motion].
+        t_eval :
+            Times (n,) of the samples in ascending order, in the unit of ``until`` or with units, instead of equal steps. The values there are
+            those of the Taylor polynomials of the steps, not interpolated. ``time`` of a disc is in 1/ω_ref, in SI too.
         sound :
             Whether to describe in ``sound`` the file that ``save("run.wav")`` writes: the velocity as sound.
         transpose :
@@ -254,14 +169,24 @@ class Study:
         """
         arguments = Arguments()
         allowed = 'a finite number, or a time with its unit such as "0.5s"'
+        given = plain(t_eval)
+        of_texts = isinstance(given, list) and bool(given) and all(isinstance(it, str) for it in given)
+        written = [arguments.text("t_eval", it, "times") for it in given] if of_texts else []
+        times = None if given is None or of_texts else arguments.numbers("t_eval", given, "times: finite numbers")
+        if t_eval is not None and not samples:
+            arguments.wrong.append(complaint("t_eval", None, "given with samples=True", "conflict"))
+        if until is None and t_eval is not None:
+            until = written[-1] if written else float(times[-1]) if times is not None and times.size else 0.0
+        moments: list[float] | list[str] | None = written or (None if times is None else times.tolist())
         end = None if until is None else arguments.quantity("until", until, allowed)
-        numbers = arguments.named("start", start)
+        begin = None if start is None else begin_of(arguments, start, self._native.kind)
         factor = None if transpose is None else arguments.quantity("transpose", transpose, "a factor above 0, such as 0.5")
         level = None if gain is None else arguments.quantity("gain", gain)
         arguments.done()
         texts = (factor, level) if sound or factor is not None or level is not None else None
-        return results.Simulation(self, self._native.simulate(end, (bool(events), bool(samples)), numbers, texts))
+        return results.Simulation(self, self._native.simulate(end, (bool(events), bool(samples)), begin, moments, texts))
 
+    @keywords
     def response(self, *, settle: Number | None = None, record: Number | None = None) -> results.Response:
         """The steady response, the effect of the dither (``effect``; residual vibration E, equation (2.27)), and its cost.
 
@@ -280,6 +205,7 @@ class Study:
         arguments.done()
         return results.Response(self, self._native.response(before, length))
 
+    @keywords
     def orbit(
         self,
         *,
@@ -337,6 +263,7 @@ class Study:
         )
         return results.Orbit(self, native)
 
+    @keywords
     def attractor(
         self,
         *,
@@ -395,6 +322,7 @@ class Study:
         self, parameter: str, from_: Number, to: Number, *, along: str, between: State
     ) -> results.ThresholdCurves: ...
 
+    @keywords
     def thresholds(
         self,
         parameter: str,
@@ -497,6 +425,7 @@ class Study:
         shard: str,
     ) -> results.Shard: ...
 
+    @keywords
     def map(
         self,
         quantity: str | Iterable[str],
@@ -568,6 +497,7 @@ class Study:
             return compute(study, asked, place, client, resume=resume, progress=progress)
         return results.Map(study, study._native.map(asked, place, bool(resume), count, progress))
 
+    @keywords
     def bifurcation(
         self,
         parameter: str,
@@ -602,6 +532,7 @@ class Study:
         ways = (bool(up), bool(down))
         return results.Bifurcation(self, self._native.bifurcation(path, ends, count, ways, progress))
 
+    @keywords
     def basins(
         self,
         *,
@@ -678,10 +609,12 @@ class Study:
         native = self._native.basins(window, ((sides[0], sides[1]), drawn), along, workers, progress)
         return results.Basins(self, native)
 
+    @keywords
     def modes(self) -> results.Modes:
         """Natural frequencies and shapes of a disc or of a system, and critical speeds of a disc."""
         return results.Modes(self, self._native.modes())
 
+    @keywords
     def resonances(
         self,
         *,
@@ -716,30 +649,18 @@ class Study:
         arguments.done()
         return results.Resonances(self, self._native.resonances(ranges, how_far, wanted, within))
 
-    # Value semantics.
 
-    def __reduce__(self) -> tuple[Callable[..., Study], tuple[Any, ...]]:
-        return study_of, (self._native.parts(),)
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Study):
-            return NotImplemented
-        return self._native.settings == other._native.settings and self.changes == other.changes
-
-    def __hash__(self) -> int:
-        return hash(tuple(self._native.settings))
-
-    def __repr__(self) -> str:
-        title = f" {self.title!r}" if self.title else ""
-        values = ", ".join(f"{path}={value}" for path, value in self._native.settings if path != "schema")
-        return f"<quell.{type(self).__name__}{title}: {values}>"
-
-    def _repr_html_(self) -> str:
-        from ._html import study
-
-        return study(self)
-
-
-def study_of(parts: Any) -> Study:
-    """A study from its pickled parts."""
-    return Study._of(NativeStudy.parse(parts))
+def begin_of(arguments: Arguments, start: Any, kind: str) -> Any:
+    """Where a run begins: an exact state, the state of a belt, or numbers by name."""
+    if not isinstance(start, Mapping):
+        return (arguments.quantities("start", start, "two finite numbers (x, x′), or a dict of names and numbers"), None)
+    if "sticking" in start or "contacts" in start:
+        # The end of a run, whose facts are numbers of the equations, also where they are given in SI as well.
+        state = start.get("state", [start.get("displacement"), start.get("velocity")])
+        numbers = arguments.numbers("start", state, "final of an earlier run")
+        return (arguments.number("start", start.get("time"), "final of an earlier run"), numbers.tolist())
+    if kind == "belt" and set(start) & {"displacement", "velocity"} and set(start) <= {"displacement", "velocity", "time"}:
+        pair = (start.get("displacement", 0.0), start.get("velocity", 0.0))
+        time = None if "time" not in start else arguments.quantity("start", start["time"])
+        return (arguments.quantities("start", pair, "displacement, velocity and time: finite numbers"), time)
+    return arguments.named("start", start)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
-from typing import Any, Literal, Union
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, Literal, Union, overload
 
 import numpy.typing as npt
 
 from ._axes import Axes, axes_tables
-from ._belt import Friction, several
+from ._belt import as_given, listed_tables, number_in, several, single
+from ._laws import Friction, as_law, law_of
+from ._names import suggestion
 from ._study import Study
 from ._tables import Number, Table, Unknown, given
 
@@ -50,10 +52,26 @@ class Contact(Table):
     normal_load_n, normal_stiffness_n_per_m, normal_damping_n_s_per_m, belt_velocity_m_per_s :
         The same in SI, in a study with units.
     friction :
-        A friction law, such as :class:`Coulomb` [default: that of the study].
+        A friction law, such as :class:`Coulomb`, or a function of the slip speed ≥ 0 (see :class:`SampledLaw`) [default: that of
+        the study].
     """
 
     _path = "contact"
+
+    name: str | None
+    tangent: Any
+    normal: Any
+    slope: Any
+    force: Any
+    normal_load: float | str | None
+    normal_stiffness: float | str | None
+    normal_damping: float | str | None
+    belt_velocity: float | str | None
+    normal_load_n: float | str | None
+    normal_stiffness_n_per_m: float | str | None
+    normal_damping_n_s_per_m: float | str | None
+    belt_velocity_m_per_s: float | str | None
+    friction: Any
 
     def __init__(
         self,
@@ -71,10 +89,14 @@ class Contact(Table):
         normal_stiffness_n_per_m: Number | None = None,
         normal_damping_n_s_per_m: Number | None = None,
         belt_velocity_m_per_s: Number | None = None,
-        friction: Friction | Mapping[str, Any] | None = None,
+        friction: Friction | Mapping[str, Any] | Callable[[float], float] | None = None,
         **unknown: Unknown,
     ) -> None:
         super().__init__(**given(locals()))
+        if callable(friction):
+            in_si = belt_velocity_m_per_s is not None
+            speed = number_in(self.given, "belt_velocity_m_per_s" if in_si else "belt_velocity")
+            self.given["friction"] = as_law(friction, speed, in_si)
 
 
 class SystemDither(Table):
@@ -98,6 +120,18 @@ class SystemDither(Table):
     """
 
     _path = "dither"
+
+    at: Any
+    waveform: str | None
+    contact: str | None
+    direction: str | None
+    reaction: bool | None
+    amplitude: float | str | None
+    frequency: float | str | None
+    phase: float | str | None
+    amplitude_n: float | str | None
+    amplitude_n_rms: float | str | None
+    frequency_hz: float | str | None
 
     def __init__(
         self,
@@ -135,6 +169,13 @@ class SystemInitial(Table):
 
     _path = "system.initial"
 
+    state: str | None
+    displacements: Any
+    velocities: Any
+    displacements_m: Any
+    velocities_m_per_s: Any
+    values: Any
+
     def __init__(
         self,
         state: Literal["rest", "sliding", "squealing", "base"] | None = None,
@@ -166,6 +207,13 @@ class SystemMode(Table):
 
     _path = "system.mode"
 
+    frequency: float | str | None
+    frequency_hz: float | str | None
+    damping_ratio: float | str | None
+    modal_mass: float | str | None
+    modal_mass_kg: float | str | None
+    shape: Any
+
     def __init__(
         self,
         *,
@@ -196,6 +244,11 @@ class Component(Table):
     """
 
     _path = "system.component"
+
+    name: str | None
+    mode: Any
+    modes: str | None
+    normalisation: str | None
 
     def __init__(
         self,
@@ -282,6 +335,24 @@ class System(Study):
     ('hopf', 0.75375, 'unstable')
     """
 
+    _own = "system"
+
+    coordinates: list[str] | None
+    mass: list[Any] | None
+    damping: list[Any] | None
+    stiffness: list[Any] | None
+    states: list[str] | None
+    matrix: list[Any] | None
+    force: list[Any] | dict[str, Any] | None
+    normalisation: str | None
+    frequency_response: str | None
+    units: str | None
+    observe: list[Any] | dict[str, Any] | None
+    mass_kg: list[Any] | None
+    damping_n_s_per_m: list[Any] | None
+    stiffness_n_per_m: list[Any] | None
+    force_n: list[Any] | dict[str, Any] | None
+
     def __init__(
         self,
         *,
@@ -327,6 +398,103 @@ class System(Study):
             dither=tables(dither),
             sweep=axes_tables(axes),
         )
+
+
+    @property
+    def contacts(self) -> Contacts:
+        """The contacts, by name or place: ``system.contacts["pad"].friction.coefficient``."""
+        document = self._document()
+        found = []
+        for place, table in enumerate(listed_tables(document.get("contact"))):
+            contact = Contact._of({"name": f"{place + 1}", **table})
+            law = table.get("friction", document.get("friction"))
+            if law is not None:
+                contact.given["friction"] = law_of(law)
+            found.append(contact)
+        return Contacts(found)
+
+    @property
+    def dithers(self) -> tuple[SystemDither, ...]:
+        """The dithers."""
+        return tuple(SystemDither._of(table) for table in listed_tables(self._document().get("dither")))
+
+    @property
+    def dither(self) -> SystemDither | None:
+        """The dither, or ``None``. A system with several has :attr:`dithers`."""
+        found: SystemDither | None = single(self.dithers, "dithers")
+        return found
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """Named numbers of formulas."""
+        return dict(self._document().get("parameters", {}))
+
+    @property
+    def initial(self) -> SystemInitial:
+        """The initial state."""
+        found = self._document()["system"].get("initial", {"state": "rest"})
+        return SystemInitial._of(found if isinstance(found, Mapping) else {"state": found})
+
+    @property
+    def mode(self) -> tuple[SystemMode, ...]:
+        """The modes of the structure, if it is given by them."""
+        return tuple(SystemMode._of(table) for table in listed_tables(self._document()["system"].get("mode")))
+
+    @property
+    def component(self) -> tuple[Component, ...]:
+        """The bodies of the structure, if it is given by them."""
+        return tuple(Component._of(table) for table in listed_tables(self._document()["system"].get("component")))
+
+    def _arguments(self) -> dict[str, Any]:
+        document = self._document()
+        arguments = self._common(document)
+        own = dict(document.pop("system"))
+        friction = document.pop("friction", None)
+        for name, cls in (("mode", SystemMode), ("component", Component)):
+            if name in own:
+                arguments[name] = as_given(own.pop(name), cls)
+        if own.pop("initial", None) is not None:
+            arguments["initial"] = self.initial
+        for name, outer in (("contact", Contact), ("dither", SystemDither)):
+            if name in document:
+                arguments[name] = as_given(document.pop(name), outer)
+        return {**arguments, **own, **document, "friction": None if friction is None else law_of(friction)}
+
+
+class Contacts(Sequence[Contact]):
+    """Contacts of a system, by place or name."""
+
+    def __init__(self, contacts: Sequence[Contact]) -> None:
+        self._contacts = list(contacts)
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the contacts."""
+        return [str(contact.given["name"]) for contact in self._contacts]
+
+    @overload
+    def __getitem__(self, key: int | str) -> Contact: ...
+
+    @overload
+    def __getitem__(self, key: slice) -> Contacts: ...
+
+    def __getitem__(self, key: int | str | slice) -> Contact | Contacts:
+        if isinstance(key, slice):
+            return Contacts(self._contacts[key])
+        if isinstance(key, str):
+            if key not in self.names:
+                raise KeyError(f"no contact is named {key}{suggestion(key, self.names)}")
+            return self._contacts[self.names.index(key)]
+        return self._contacts[key]
+
+    def __len__(self) -> int:
+        return len(self._contacts)
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} contacts: {', '.join(self.names)}>"
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return self.names
 
 
 def tables(given: object) -> object:

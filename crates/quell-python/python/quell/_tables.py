@@ -2,18 +2,39 @@
 
 from __future__ import annotations
 
-from typing import Any, NoReturn, Union
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NoReturn, Protocol, TypeVar, Union
+
+from ._names import suggestion
 
 __all__ = ["Number", "Table", "given"]
 
-Number = Union[float, str]
-"""A number in the unit of its key, or in SI for a study in SI; or a text with a unit, such as ``"5kN"``."""
+
+class Quantity(Protocol):
+    """A number with its unit, such as a quantity of pint."""
+
+    @property
+    def magnitude(self) -> Any: ...
+
+    @property
+    def units(self) -> Any: ...
+
+    @property
+    def dimensionality(self) -> Any: ...
+
+
+Number = Union[float, str, Quantity]
+"""A number in the unit of its key, or in SI for a study in SI; a text with a unit, such as ``"5kN"``; or a quantity of pint."""
+
+
+Self = TypeVar("Self", bound="Table")
 
 
 class Table:
-    """Keys and values of one table of a study file.
+    """Keys and values of one table of a study file, which are attributes: ``dither.amplitude``.
 
-    Nothing is checked until the study is made of its tables; then all errors are reported at once.
+    A key that is not given is ``None``. Nothing is checked until the study is made of its tables; then all errors are reported at
+    once.
     """
 
     _path: str = ""
@@ -23,6 +44,40 @@ class Table:
 
     def __init__(self, **given: Any) -> None:
         self.given = {name: value for name, value in given.items() if value is not None}
+
+    @classmethod
+    def _of(cls: type[Self], given: Mapping[str, Any]) -> Self:
+        """The table with these keys and values."""
+        table: Self = object.__new__(cls)
+        table.given = dict(given)
+        return table
+
+    def replace(self: Self, **changes: Any) -> Self:
+        """The table with other values; ``None`` removes a key."""
+        kept = {**self.given, **changes}
+        return self._of({name: value for name, value in kept.items() if value is not None})
+
+    # Type checkers know the declared keys.
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_") or "given" not in self.__dict__:
+                raise AttributeError(name)
+            key = name[:-1] if name.endswith("_") else name
+            if key in self.given:
+                return self.given[key]
+            keys = self._keys()
+            if name in keys:
+                return None
+            raise AttributeError(f"{type(self).__name__} has no {name}{suggestion(name, [*self.given, *keys])}")
+
+    def _keys(self) -> tuple[str, ...]:
+        """Arguments of the class, which are its keys."""
+        code = type(self).__init__.__code__
+        return code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self._keys(), *self.given})
 
     def __repr__(self) -> str:
         inside = ", ".join(f"{name}={value!r}" for name, value in self.given.items())

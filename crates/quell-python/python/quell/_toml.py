@@ -11,9 +11,8 @@ import os
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-import numpy as np
-
 from ._tables import Table
+from ._values import plain
 
 LARGEST_WHOLE = 2**63 - 1
 
@@ -32,8 +31,7 @@ def key(name: str) -> str:
 
 def value(given: object) -> str:
     """A value. Types that TOML lacks are written as their ``repr`` in a string, which the reader rejects."""
-    if isinstance(given, (np.generic, np.ndarray)):
-        given = given.tolist()
+    given = plain(given)
     if isinstance(given, bool):
         return "true" if given else "false"
     if isinstance(given, int):

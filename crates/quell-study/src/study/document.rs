@@ -116,6 +116,11 @@ impl Table {
         self.entries.iter_mut().map(|(key, node)| (key.as_str(), node))
     }
 
+    /// Keys and values as JSON, tables within it included.
+    pub fn json(&self) -> Json {
+        Json::Object(self.iter().map(|(name, node)| (name.to_owned(), node.json())).collect())
+    }
+
     /// Whether a key exists.
     pub fn has(&self, key: &str) -> bool {
         self.get(key).is_some()
@@ -175,6 +180,15 @@ impl Node {
             Value::Flag(flag) => (*flag).into(),
             Value::List(list) => list.iter().map(Self::given).collect::<Vec<_>>().into(),
             Value::Table(_) => "a table".into(),
+        }
+    }
+
+    /// The whole value as JSON.
+    fn json(&self) -> Json {
+        match &self.value {
+            Value::List(list) => list.iter().map(Self::json).collect::<Vec<_>>().into(),
+            Value::Table(table) => table.json(),
+            _ => self.given(),
         }
     }
 

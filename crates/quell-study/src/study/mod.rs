@@ -10,6 +10,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use serde_json::Value as Json;
+
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::input::Inputs;
 use document::{Table, Value};
@@ -247,6 +249,12 @@ impl<K: StudyKind> StudyOf<K> {
 }
 
 impl<K> StudyOf<K> {
+    /// Every key and value after the changes as JSON, with title and axes: the document that would give this study without
+    /// changes.
+    pub fn document(&self) -> Json {
+        self.source.document.json()
+    }
+
     /// The parts that only this kind of study has.
     pub fn kind(&self) -> &K {
         &self.kind

@@ -35,9 +35,10 @@ impl Verbs for DiscStudy {
     }
 
     fn simulate(&self, until: f64, options: Options) -> Reply {
-        let Options { events, samples, sound, .. } = options;
+        let Options { events, samples, sound, times, .. } = options;
         let until = Some(until);
-        self.simulate_from(&MotionRequest { until, events, samples, sound, ..Default::default() })
+        let rest = MotionRequest::default();
+        self.simulate_from(&MotionRequest { until, times, events, samples, sound, ..rest })
     }
 
     fn simulate_from(&self, request: &MotionRequest) -> Reply {

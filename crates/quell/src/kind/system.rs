@@ -110,8 +110,9 @@ impl Verbs for SystemStudy {
     }
 
     fn simulate(&self, until: f64, options: Options) -> Reply {
-        let Options { events, samples, .. } = options;
-        let request = MotionRequest { until: Some(until), events, samples, ..Default::default() };
+        let Options { events, samples, times, .. } = options;
+        let rest = MotionRequest::default();
+        let request = MotionRequest { until: Some(until), times, events, samples, ..rest };
         self.simulate_from(&request)
     }
 

@@ -48,7 +48,8 @@ impl Presented<BeltSetup> for Simulation {
         if let Some(bytes) = wav(self) {
             return Some(Ok(bytes));
         }
-        let options = Options { sound: Some(SoundOptions::default()), ..Options::default() };
+        let start = self.given.then_some(self.start);
+        let options = Options { start, sound: Some(SoundOptions::default()), ..Options::default() };
         match run(study, self.end.time, options) {
             Ok(done) => wav(&done).map(Ok),
             Err(failure) => Some(Err(failure)),
@@ -60,7 +61,8 @@ impl Presented<BeltSetup> for Simulation {
         if self.samples.is_some() && self.undithered_samples.is_some() {
             return Some(Ok(picture::simulate(study, self)));
         }
-        let options = Options { samples: true, undithered: true, ..Options::default() };
+        let start = self.given.then_some(self.start);
+        let options = Options { start, samples: true, undithered: true, ..Options::default() };
         let both = run(study, self.end.time, options);
         Some(both.map(|both| picture::simulate(study, &both)))
     }

@@ -19,6 +19,7 @@ pub mod map;
 pub mod orbit;
 pub mod protocol;
 pub mod response;
+mod sample_times;
 pub mod simulate;
 mod sound_tap;
 pub mod stability;

@@ -2,12 +2,14 @@
 
 use std::f64::consts::TAU;
 
+pub use quell_dynamics::simulation::Start;
 use quell_dynamics::simulation::{
-    Event, EventKind, EventRecorder, FinalState, LargestSlip, Sample, Sampler, Start, simulate,
+    Event, EventKind, EventRecorder, FinalState, LargestSlip, Sample, Sampler, simulate,
 };
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::sample_times;
 use super::sound_tap::{SoundTap, fastest_dither, plan};
 use super::{failed, start};
 use crate::complaint::Failure;
@@ -25,9 +27,13 @@ const SAMPLES_PER_SLOW_PERIOD: f64 = 256.0;
 /// Largest number of samples kept; a longer run is sampled more coarsely.
 pub const MOST_SAMPLES: usize = 2_000_000;
 
-/// What a run keeps.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// Where a run begins, if not at the start of the study, and what it keeps.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
+    /// State and time at which it begins.
+    pub start: Option<Start>,
+    /// Times of the samples in ascending order, instead of equal steps.
+    pub times: Option<Vec<f64>>,
     /// Whether every event is kept.
     pub events: bool,
     /// Whether the trajectory is sampled densely.
@@ -43,6 +49,8 @@ pub struct Options {
 pub struct Simulation {
     /// Initial state.
     pub start: Start,
+    /// Whether it was given, and is not that of the study.
+    pub given: bool,
     /// Final state.
     pub end: FinalState,
     /// The events, if requested.
@@ -62,23 +70,37 @@ pub struct Simulation {
 /// Integrates a study to τ = `until`.
 ///
 /// # Errors
-/// [`Failure::Wrong`] if a squealing start is requested but does not exist, or if the sound would be too long;
+/// [`Failure::Wrong`] if a squealing start is requested but does not exist, if the run would end before it begins, if a time of
+/// a sample is not within it, or if the sound would be too long;
 /// [`Failure::Failed`] if the engine stops.
 pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation, Failure> {
+    let Options { start: begin, times, events, samples: sampled, undithered, sound } = options;
     let belt = study.belt();
-    let sound = options.sound.map(|sound| plan(study, until, sound)).transpose()?;
-    let start = start(study)?;
+    let start = match begin {
+        Some(given) => given,
+        None => start(study)?,
+    };
+    sample_times::are_within(start.time, until, times.as_deref())?;
+    let sound = sound.map(|sound| plan(study, until - start.time, sound)).transpose()?;
     let (intervals, coarse) =
-        if options.samples { grid(study, until - start.time) } else { (0, false) };
+        if sampled && times.is_none() { grid(study, until - start.time) } else { (0, false) };
     let sample_step = (until - start.time) / (intervals.max(1) as f64);
-    let count = if options.samples { intervals } else { 0 };
-    let mut sampler = Sampler::new(start.time, sample_step, count);
+    let sampling = || match &times {
+        Some(times) => Sampler::at(times.clone()),
+        None => Sampler::new(start.time, sample_step, intervals),
+    };
+    // The last point of a grid may round to just beyond the end.
+    let finished = |sampler: Sampler, end: &FinalState| match times {
+        Some(_) => sampler.finished(end),
+        None => with_end(sampler.samples, end),
+    };
+    let mut sampler = sampling();
     let tolerance = study.solver().tolerance;
     let mut recorder = EventRecorder::default();
     let mut largest = LargestSlip::of(belt);
     let mut tap = SoundTap::new(start, sound.as_ref());
     let mut watch = (&mut largest, (&mut sampler, &mut tap));
-    let end = if options.events {
+    let end = if events {
         simulate(belt, start, until, tolerance, &mut (&mut recorder, &mut watch))
     } else {
         simulate(belt, start, until, tolerance, &mut watch)
@@ -86,20 +108,21 @@ pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation
     .map_err(failed)?;
     let mut slip = SlipMet::default();
     slip.add(belt, largest.speed);
-    let samples = with_end(sampler.samples, &end);
-    let undithered_samples = if options.undithered && !belt.dithers().is_empty() {
-        let mut sampler = Sampler::new(start.time, sample_step, count);
+    let samples = finished(sampler, &end);
+    let undithered_samples = if undithered && !belt.dithers().is_empty() {
+        let mut sampler = sampling();
         let end =
             simulate(&belt.undithered(), start, until, tolerance, &mut sampler).map_err(failed)?;
-        Some(with_end(sampler.samples, &end))
+        Some(finished(sampler, &end))
     } else {
         None
     };
     Ok(Simulation {
         start,
+        given: begin.is_some(),
         end,
-        events: options.events.then_some(recorder.events),
-        samples: options.samples.then_some(samples),
+        events: events.then_some(recorder.events),
+        samples: sampled.then_some(samples),
         undithered_samples,
         sound: tap.finish(&end),
         coarse,
@@ -107,7 +130,7 @@ pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation
     })
 }
 
-/// Samples plus the final state: the last grid point may round to just beyond the end.
+/// Samples plus the final state.
 fn with_end(mut samples: Vec<Sample>, end: &FinalState) -> Vec<Sample> {
     samples.push(Sample {
         time: end.time,
@@ -152,7 +175,7 @@ impl Simulation {
         };
         let ends = format!(
             "Started {}: at {} = {} {state}, {events}.",
-            start_in_words(study),
+            self.start_in_words(study),
             time,
             in_words(study, Quantity::Time, end.time)
         );
@@ -160,6 +183,21 @@ impl Simulation {
             Some(sound) => format!("{ends} {sound}"),
             None => ends,
         }
+    }
+
+    /// The start as text, such as "from rest".
+    pub fn start_in_words(&self, study: &BeltStudy) -> String {
+        if !self.given {
+            return start_in_words(study);
+        }
+        let Start { time, displacement, velocity } = self.start;
+        let symbol = if study.scales().is_some() { "t" } else { "τ" };
+        format!(
+            "from x = {}, x′ = {} at {symbol} = {}",
+            in_words(study, Quantity::Displacement, displacement),
+            in_words(study, Quantity::Velocity, velocity),
+            in_words(study, Quantity::Time, time)
+        )
     }
 
     /// The sound in one sentence, if it was requested.
@@ -247,7 +285,7 @@ impl Simulation {
         let words = kinds.iter().zip(0..).map(|(kind, code)| (code, kind.name())).collect();
         let rows = (1..=events.len()).map(|row| row as f64).collect();
         Dataset::new(study, "simulate: events")
-            .fact(format!("start: {}", start_in_words(study)))
+            .fact(format!("start: {}", self.start_in_words(study)))
             .axis("event", Quantity::Count, rows)
             .array("time", Quantity::Time, column(|event| event.time))
             .with(Array::of_words("kind", words, &codes))
@@ -265,7 +303,7 @@ impl Simulation {
             .iter()
             .map(|sample| if sample.sticking { 0.0 } else { belt_velocity - sample.velocity });
         Dataset::new(study, "simulate")
-            .fact(format!("start: {}", start_in_words(study)))
+            .fact(format!("start: {}", self.start_in_words(study)))
             .axis("time", Quantity::Time, column(|sample| sample.time))
             .array("displacement", Quantity::Displacement, column(|sample| sample.displacement))
             .array("velocity", Quantity::Velocity, column(|sample| sample.velocity))

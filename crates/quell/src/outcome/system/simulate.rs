@@ -65,11 +65,15 @@ impl Presented<SystemSetup> for SystemSimulation {
     }
 
     fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
-        if let Some(samples) = &self.samples {
+        if let (Some(samples), None) = (&self.samples, &self.request.times) {
             return Some(Ok(picture::system_motion::simulate(study, self, samples)));
         }
-        let request =
-            MotionRequest { until: Some(self.end.time), samples: true, ..self.request.clone() };
+        let request = MotionRequest {
+            until: Some(self.end.time),
+            samples: true,
+            times: None,
+            ..self.request.clone()
+        };
         let done = match run(study, &request) {
             Ok(done) => done,
             Err(failure) => return Some(Err(failure)),

@@ -89,19 +89,20 @@ pub fn at_rest(study: &DiscStudy) -> SystemStudy {
 pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation, Failure> {
     let system = study.disc().system_of(study.parts());
     let kick = kick::of(&system, &observed_row(study))?;
-    let initial = if request.start.is_empty() {
+    let initial = if request.begins_as_the_study() {
         let words = "the leading small motion".to_owned();
         SystemStart::Described { state: kick.state.clone(), words }
     } else {
         SystemStart::Rest
     };
     let system = described(study, system, initial);
+    let begin = request.from.as_ref().map_or(0.0, |from| from.time);
     let until = match request.until {
         Some(until) => until,
-        None => usual_duration(&system, &kick)?,
+        None => begin + usual_duration(&system, &kick)?,
     };
     let request_of_system = MotionRequest { until: Some(until), ..request.clone() };
-    let from = until - TAIL * until;
+    let from = until - TAIL * (until - begin);
     let mut watch = RowWatch::new(observed_row(study), kick.middle, kick.levels.clone(), from);
     let done = run_observed(&system, &request_of_system, &mut watch);
     let ran_away = watch.largest() > RUNAWAY * kick.amplitude.max(f64::MIN_POSITIVE);
@@ -110,7 +111,7 @@ pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation,
         system,
         motion,
         kick,
-        amplitude: (until > 0.0).then(|| watch.amplitude()),
+        amplitude: (until > begin).then(|| watch.amplitude()),
         growth: watch.growth(),
         chosen: request.until.is_none(),
         ran_away,
@@ -141,7 +142,7 @@ impl DiscSimulation {
     pub fn sentence(&self, study: &DiscStudy) -> String {
         let mut text = self.motion.sentence(&self.system);
         let unit = Self::length_unit(study);
-        if self.motion.request.start.is_empty() {
+        if self.motion.request.begins_as_the_study() {
             let words = match (self.kick.changes_contacts, self.kick.amplitude) {
                 (true, deflection) => format!(
                     "loads and slip velocities change by at most {KICK} of their values, and the deflection under load 0 by {} {unit}",
@@ -202,7 +203,7 @@ impl DiscSimulation {
             &self.amplitude.ok_or("the run has no duration".to_owned()),
         );
         put(&mut object, &mut why, "growth_observed", &self.growth);
-        if !self.motion.request.start.is_empty() {
+        if !self.motion.request.begins_as_the_study() {
             object["start"]["amplitude"] = Json::Null;
             why.insert("start.amplitude".to_owned(), "the start is given".into());
         }
@@ -212,7 +213,8 @@ impl DiscSimulation {
         }
         put_seconds(&mut object, study);
         put_units(&mut object, study);
-        if let Some(known) = object["why"].as_object_mut() {
+        // Indexing would insert a null where there is no such key.
+        if let Some(known) = object.get_mut("why").and_then(Json::as_object_mut) {
             known.append(&mut why);
         } else if !why.is_empty() {
             object["why"] = Json::Object(why);

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
+pub use quell_dynamics::motion::MotionStart;
 use quell_dynamics::motion::{
     ContactMeans, ContactMeter, ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver,
-    MotionSampler, MotionStart, MotionStopped,
+    MotionSampler, MotionStopped,
 };
 use quell_model::System;
 use quell_model::units::Quantity;
@@ -17,6 +18,7 @@ use super::{failed, has_equations, in_units, modes};
 use crate::complaint::{Complaint, Failure};
 use crate::fields::Fields;
 use crate::range;
+use crate::run::sample_times;
 use crate::sound::{Sound, SoundOptions};
 use crate::study::{SystemStudy, SystemUnits};
 use crate::words::{capital, listed, plural};
@@ -43,12 +45,23 @@ pub struct MotionRequest {
     pub until: Option<f64>,
     /// Numbers that replace those of the study's start.
     pub start: StateNumbers,
+    /// State and time at which it begins, in place of the start of the study.
+    pub from: Option<MotionStart>,
+    /// Times of the samples in ascending order, instead of equal steps.
+    pub times: Option<Vec<f64>>,
     /// Whether the text lists every event.
     pub events: bool,
     /// Whether the motion is sampled.
     pub samples: bool,
     /// The sound of the velocity of the observed row, if wanted.
     pub sound: Option<SoundOptions>,
+}
+
+impl MotionRequest {
+    /// Whether the run begins at the start of the study.
+    pub(crate) fn begins_as_the_study(&self) -> bool {
+        self.start.is_empty() && self.from.is_none()
+    }
 }
 
 /// One motion of a system.
@@ -94,26 +107,40 @@ pub(crate) fn run_observed(
     has_equations(study, "simulate")?;
     let system = study.system();
     let motion = Motion::new(system).map_err(|why| failed("simulate", why))?;
-    let start = start_with(study, &request.start)?;
+    let start = match &request.from {
+        Some(from) => given_state(study, from)?,
+        None => start_with(study, &request.start)?,
+    };
     let until = match request.until {
         Some(until) => until,
         None => start.time + DEFAULT_PERIODS * slowest_period(study, "--until")?,
     };
     let plan = request.sound.map(|options| sound::plan(study, until - start.time, options));
     let plan = plan.transpose()?;
-    let (intervals, coarse) =
-        if request.samples { grid(&motion, until - start.time) } else { (0, false) };
+    sample_times::are_within(start.time, until, request.times.as_deref())?;
+    let (intervals, coarse) = if request.samples && request.times.is_none() {
+        grid(&motion, until - start.time)
+    } else {
+        (0, false)
+    };
     let step = (until - start.time) / intervals.max(1) as f64;
     let contacts = system.contacts.len();
     let mut meter = ContactMeter::new(contacts);
     let mut history = EventHistory::new(contacts, motion.size(), request.samples);
-    let mut sampler = MotionSampler::new(start.time, step, intervals);
+    let mut sampler = match &request.times {
+        Some(times) => MotionSampler::at(times.clone()),
+        None => MotionSampler::new(start.time, step, intervals),
+    };
     let mut tap = MotionSoundTap::new(&start, &study.observe(), plan.as_ref());
     let mut observer = (&mut meter, (&mut history, (&mut sampler, (&mut tap, watch))));
     let end = motion
         .run(&start, until, MOTION_TOLERANCE, &mut observer)
         .map_err(|stopped| failed_run("simulate", system, &stopped))?;
-    sampler.push_end(&end);
+    if request.times.is_some() {
+        sampler.finish(&end);
+    } else {
+        sampler.push_end(&end);
+    }
     let beyond = beyond_laws(system, |contact| meter.largest_slip(contact));
     Ok(SystemSimulation {
         request: request.clone(),
@@ -126,6 +153,17 @@ pub(crate) fn run_observed(
         coarse,
         beyond,
     })
+}
+
+/// A given state, which must have one finite number for each of the system.
+fn given_state(study: &SystemStudy, from: &MotionStart) -> Result<MotionStart, Failure> {
+    let size = study.system().structure.state_size();
+    let is_finite = from.time.is_finite() && from.state.iter().all(|number| number.is_finite());
+    if from.state.len() == size && is_finite {
+        return Ok(from.clone());
+    }
+    let allowed = format!("a state of {size} finite numbers at a finite time");
+    Err(Complaint::option("--start", format!("{:?}", from.state), allowed).into())
 }
 
 /// The failure of a run that ended early: time, reason, and state.
@@ -208,6 +246,17 @@ impl SystemSimulation {
         )
     }
 
+    /// The start as text, such as "from rest".
+    pub fn start_in_words(&self, study: &SystemStudy) -> String {
+        match &self.request.from {
+            Some(from) => {
+                let time = in_units(study.units(), Quantity::Time, from.time);
+                format!("from the given state at t = {time}")
+            }
+            None => start_in_words(study, &self.request.start),
+        }
+    }
+
     /// The outcome in one or two sentences.
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let time = in_units(study.units(), Quantity::Time, self.end.time);
@@ -225,7 +274,7 @@ impl SystemSimulation {
                 " The run lasts {DEFAULT_PERIODS} periods of the slowest oscillation; --until sets another time."
             ),
         };
-        let start = capital(&start_in_words(study, &self.request.start));
+        let start = capital(&self.start_in_words(study));
         let contacts = match self.end.contacts.len() {
             0 => format!("{start}: the run ends at t = {time}"),
             _ => format!(

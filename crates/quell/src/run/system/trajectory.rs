@@ -5,7 +5,7 @@ use quell_model::units::Quantity;
 
 use super::history::{KINDS, code};
 use super::simulate::SystemSimulation;
-use super::start::{start_in_words, state_names, state_quantity};
+use super::start::{state_names, state_quantity};
 use crate::dataset::{Array, Dataset};
 use crate::study::SystemStudy;
 
@@ -50,7 +50,7 @@ impl SystemSimulation {
     pub fn dataset(&self, study: &SystemStudy, samples: &MotionSampler) -> Dataset {
         let axis = Array::new("time", unit_of(study, Some(Quantity::Time)), samples.times.clone());
         let dataset = Dataset::of(&study.into(), "simulate")
-            .fact(format!("start: {}", start_in_words(study, &self.request.start)))
+            .fact(format!("start: {}", self.start_in_words(study)))
             .with_axis(axis);
         let mut dataset = with_states(dataset, study, &samples.states);
         let contacts = &study.system().contacts;
@@ -81,7 +81,7 @@ impl SystemSimulation {
         let signs = events.iter().map(|event| f64::from(event.slip_sign)).collect();
         let states: Vec<f64> = events.iter().flat_map(|event| event.state.clone()).collect();
         let dataset = Dataset::of(&study.into(), "simulate: events")
-            .fact(format!("start: {}", start_in_words(study, &self.request.start)))
+            .fact(format!("start: {}", self.start_in_words(study)))
             .axis("event", Quantity::Count, rows)
             .with(Array::new("time", unit_of(study, Some(Quantity::Time)), times))
             .with(Array::new("contact", "1", contacts))

@@ -1,0 +1,273 @@
+"""A checked study apart from its verbs: how it is read, changed, compared and kept."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from . import _toml
+from ._arguments import Arguments, changes_of, keywords
+from ._axes import Axes, Axis, axes_tables
+from ._errors import StudyError, StudyFileNotFoundError, complaint
+from ._names import suggestion
+from ._quell import NativeStudy
+from ._tables import Table
+
+if TYPE_CHECKING:
+    from ._study import Study
+
+__all__ = ["CheckedStudy"]
+
+Self = TypeVar("Self", bound="CheckedStudy")
+
+FILES = ("file", "modes", "modes_file", "frequency_response")
+"""Keys whose value may be the path of a file, relative to the folder of the study."""
+
+
+class CheckedStudy:
+    """What studies of all kinds have apart from their verbs."""
+
+    _native: NativeStudy
+
+    _folder: str = ""
+    """Folder of the files that the study names, while it is made."""
+
+    _own: str = ""
+    """Name of the table of its own numbers."""
+
+    def _build(self, **tables: Any) -> None:
+        text = _toml.study(tables)
+        self._native = NativeStudy.parse((text, self._folder, [], None, False, None))
+
+    @classmethod
+    def _of(cls: type[Self], native: NativeStudy) -> Self:
+        from ._belt import Belt
+        from ._disc import Disc
+        from ._system import System
+
+        kinds: dict[str, type[Study]] = {"belt": Belt, "disc": Disc, "system": System}
+        study: Self = object.__new__(kinds[native.kind])  # type: ignore[assignment]
+        study._native = native
+        return study
+
+    @classmethod
+    @keywords
+    def from_toml(cls, path: str | os.PathLike[str], set: Mapping[str, Any] | None = None) -> Study:  # noqa: A002
+        """Reads and checks a study file; ``set`` first changes values, like ``--set path=value``.
+
+        Raises
+        ------
+        quell.StudyError
+            All complaints, each with its line.
+        quell.StudyFileNotFoundError
+            There is no such file; it is also a :class:`FileNotFoundError`.
+        """
+        from ._study import Study
+
+        arguments = Arguments()
+        place = arguments.path("path", path)
+        changes = changes_of(set, arguments)
+        arguments.done()
+        try:
+            return Study._of(NativeStudy.read(place, changes))
+        except StudyError as refused:
+            if not os.path.lexists(place) and any(error["fault"] == "path" for error in refused.errors):
+                raise StudyFileNotFoundError(refused.errors, place) from None
+            raise
+
+    @classmethod
+    @keywords
+    def from_text(cls, text: str, set: Mapping[str, Any] | None = None) -> Study:  # noqa: A002
+        """Checks the text of a study, like :meth:`from_toml` for a file."""
+        from ._study import Study
+
+        arguments = Arguments()
+        given = arguments.text("text", text, "the text of a study")
+        changes = changes_of(set, arguments)
+        arguments.done()
+        return Study._of(NativeStudy.parse((given, "", changes, None, True, None)))
+
+    def set(self: Self, changes: Mapping[str, Any]) -> Self:
+        """Returns the study with changed values: ``study.set({"dither.amplitude": 0.5})``.
+
+        Paths are those of the study file, including ``dither[1].phase`` and SI twins.
+        """
+        arguments = Arguments()
+        wanted = changes_of(changes, arguments)
+        arguments.done()
+        return self._of(self._native.changed(wanted))
+
+    def replace(self: Self, **changes: Any) -> Self:
+        """Returns the study with other arguments of its class: ``belt.replace(belt_velocity=0.1, dither=None)``.
+
+        A table takes the place of the whole old one; ``belt.dither.replace(amplitude=0.5)`` changes one key of it. ``None``
+        removes an argument. The text of the new study has no comments.
+        """
+        study: Self = object.__new__(type(self))
+        study._folder = self._native.folder
+        study.__init__(**{**self._arguments(), **changes})  # type: ignore[misc]
+        return study
+
+    def _arguments(self) -> dict[str, Any]:
+        """The arguments of the class that give this study."""
+        raise NotImplementedError
+
+    def _document(self) -> dict[str, Any]:
+        """Keys and values by table, after the changes."""
+        document = self._native.document()
+        document.pop("schema", None)
+        return document
+
+    def _common(self, document: dict[str, Any]) -> dict[str, Any]:
+        """The arguments that all kinds share; their tables are taken from the document."""
+        axes = [Axis._of(axis) for axis in document.pop("sweep", [])]
+        return {"title": document.pop("title", None), "axes": axes or None}
+
+    def sweeping(self: Self, axes: Axes) -> Self:
+        """Returns the study with other axes; see :meth:`map`."""
+        tables = axes_tables(axes) or []
+        wrong = [it for it in tables if not isinstance(it, Table)]
+        if wrong:
+            allowed = "Axis objects, or a dict of paths and values"
+            raise StudyError([complaint("axes", it, allowed) for it in wrong])
+        lists = [[(name, _toml.value(it)) for name, it in axis.given.items()] for axis in tables]
+        return self._of(self._native.swept(lists))
+
+    @property
+    def text(self) -> str:
+        """The text of the study as a file, before the :attr:`changes`."""
+        return self._native.parts()[0]
+
+    @property
+    def changes(self) -> list[str]:
+        """Changes of the text, as ``path=value``."""
+        return self._native.changes
+
+    @property
+    def title(self) -> str | None:
+        """Title of the study, if it has one."""
+        return self._native.title
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Every value after the changes, by its path, without title and axes; numbers are numbers.
+
+        What the files that the study names contribute is text.
+        """
+        document = self._native.document()
+        for name in ("title", "sweep"):
+            document.pop(name, None)
+        typed = dict(leaves("", document))
+        return {path: typed.get(path, 1 if path == "schema" else text) for path, text in self._native.settings}
+
+    @keywords
+    def to_toml(self, path: str | os.PathLike[str] | None = None, *, overwrite: bool = False) -> str:
+        """The study as the text of a file, with its changes.
+
+        Without changes it is the text as it was read; otherwise it has no comments.
+
+        Parameters
+        ----------
+        path :
+            A file to write. Files that the study names are then named relative to its folder.
+        overwrite :
+            Whether to replace an existing file.
+
+        Raises
+        ------
+        quell.StudyError
+            The file exists, or cannot be written.
+        """
+        parts = self._native.parts()
+        changed = bool(self.changes) or parts[3] is not None
+        if path is None:
+            return _toml.study(self._document()) if changed else parts[0]
+        arguments = Arguments()
+        place = arguments.path("path", path)
+        arguments.done()
+        document = self._document()
+        moved = rebased(document, self._native.folder, os.path.dirname(os.path.abspath(place)))
+        text = _toml.study(document) if changed or moved else parts[0]
+        try:
+            with open(place, "w" if overwrite else "x", encoding="utf-8") as file:
+                file.write(text)
+        except FileExistsError:
+            raise StudyError([complaint("path", place, "a new file, or overwrite=True", "path")]) from None
+        except OSError as why:
+            raise StudyError([complaint("path", place, f"a file that can be written: {why.strerror}", "path")]) from None
+        return text
+
+    # The numbers of a study as attributes. Type checkers know the declared ones.
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_"):
+                raise AttributeError(name)
+            own = self._native.document().get(self._own, {})
+            if name in own:
+                return own[name]
+            keys = [*own, *getattr(type(self), "__annotations__", {})]
+            if name in keys:
+                return None
+            verbs = (verb for verb in dir(type(self)) if not verb.startswith("_"))
+            advice = suggestion(name, [*keys, *verbs])
+            raise AttributeError(f"{type(self).__name__} has no {name}{advice}")
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self._native.document().get(self._own, {})})
+
+    # Value semantics.
+
+    def __reduce__(self) -> tuple[Callable[..., Study], tuple[Any, ...]]:
+        return study_of, (self._native.parts(),)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, CheckedStudy):
+            return NotImplemented
+        return self._native.settings == other._native.settings and self.changes == other.changes
+
+    def __hash__(self) -> int:
+        return hash(tuple(self._native.settings))
+
+    def __repr__(self) -> str:
+        title = f" {self.title!r}" if self.title else ""
+        values = ", ".join(f"{path}={value}" for path, value in self._native.settings if path != "schema")
+        return f"<quell.{type(self).__name__}{title}: {values}>"
+
+    def _repr_html_(self) -> str:
+        from ._html import study
+
+        return study(self)
+
+
+def study_of(parts: Any) -> Study:
+    """A study from its pickled parts."""
+    from ._study import Study
+
+    return Study._of(NativeStudy.parse(parts))
+
+
+def leaves(path: str, value: Any) -> list[tuple[str, Any]]:
+    """Every value below a node of a document with its path."""
+    if isinstance(value, dict):
+        dot = "." if path else ""
+        return [leaf for name, inner in value.items() for leaf in leaves(f"{path}{dot}{name}", inner)]
+    if isinstance(value, list):
+        return [leaf for index, inner in enumerate(value) for leaf in leaves(f"{path}[{index}]", inner)]
+    return [(path, value)]
+
+
+def rebased(document: Any, folder: str, target: str) -> bool:
+    """Names the files of a document relative to another folder; whether a name changed."""
+    if isinstance(document, list):
+        return any([rebased(inner, folder, target) for inner in document])
+    if not isinstance(document, dict):
+        return False
+    moved = [rebased(inner, folder, target) for inner in document.values()]
+    for key in FILES:
+        name = document.get(key)
+        if isinstance(name, str) and not os.path.isabs(name):
+            document[key] = os.path.relpath(os.path.join(os.path.abspath(folder), name), target)
+            moved.append(document[key] != name)
+    return any(moved)

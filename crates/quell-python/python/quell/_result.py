@@ -1,0 +1,303 @@
+"""What every result can do: its facts and arrays by name, files, pictures, pickles."""
+
+from __future__ import annotations
+
+import keyword
+import os
+from collections.abc import Iterator, KeysView
+from typing import TYPE_CHECKING, Any, TypeVar, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _dataset
+from ._dataset import Arrays
+from ._errors import StudyError, complaint
+from ._names import suggestion
+
+if TYPE_CHECKING:
+    import matplotlib.figure
+    import pandas
+    import xarray
+
+    from ._quell import NativeAnswer
+    from ._study import Study
+
+__all__ = ["Result", "numbers_of"]
+
+T = TypeVar("T")
+
+REPORTED_ELSEWHERE = ("ok", "units", "why", "warnings")
+"""Facts that every result has as properties."""
+
+
+class Result:
+    """The result of a verb for a study.
+
+    Facts and arrays are attributes and entries: ``response.efficiency``, ``response["efficiency"]``,
+    ``"efficiency" in response``, ``list(response)``. An attribute is a method or property of the class if it has one of that
+    name, else the fact, else the array, as NumPy values in the units of the study; an array never replaces a fact that the class
+    documents. An entry is the variable of :attr:`dataset`, with its unit, else the fact.
+    """
+
+    verb: str = ""
+    """The verb."""
+
+    study: Study
+    """The study of the result."""
+
+    sentence: str
+    """The result in one sentence, if the verb has one."""
+
+    def __init__(self, study: Study, native: NativeAnswer | None) -> None:
+        self.study = study
+        self._native = native
+        self._facts: dict[str, Any] | None = None
+        self._arrays: Arrays | None = None
+        self._description: dict[str, Any] | None = None
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """The facts, as the command line prints them with ``--json``; for a map without its arrays."""
+        if self._facts is None:
+            self._facts = self._alive().facts()
+        return self._facts
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of the facts, by name."""
+        units: dict[str, str] = self.facts.get("units") or {}
+        return units
+
+    @property
+    def why(self) -> dict[str, str]:
+        """Reasons why facts are ``None``, by name."""
+        why: dict[str, str] = self.facts.get("why") or {}
+        return why
+
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings about the numbers."""
+        found: list[str] = self.facts.get("warnings", [])
+        return found
+
+    @property
+    def arrays(self) -> Arrays:
+        """Everything as NumPy arrays with dimensions, units and provenance, without xarray."""
+        if self._arrays is None:
+            self._arrays = _dataset.arrays(self.verb, self.facts, self._alive().datasets())
+        return self._arrays
+
+    @property
+    def dataset(self) -> xarray.Dataset:
+        """Everything as one xarray Dataset; the same as :attr:`arrays` if xarray is not installed.
+
+        Facts are variables without dimension, lists have one dimension, and arrays have their own. The attributes of each
+        variable have the unit, those of the Dataset the provenance.
+        """
+        return self.arrays.to_xarray()
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Like :attr:`dataset`, but raises ImportError if xarray is not installed."""
+        return self.arrays.to_xarray(needed=True)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The facts as a new dict, as ``--json`` prints them."""
+        import copy
+
+        return copy.deepcopy(self.facts)
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The arrays over the first coordinates as a pandas DataFrame, one row for each point, with the coordinates as index.
+
+        Units, study and verb are in ``attrs`` of the frame. Coded values are words.
+        """
+        from ._export import frame
+
+        return frame(self)
+
+    def to_netcdf(self, path: str | os.PathLike[str]) -> None:
+        """Writes :attr:`dataset` as a NetCDF file; it needs xarray, and h5netcdf or netCDF4.
+
+        A variable that has the name of a dimension, but is not its coordinate, gets the suffix ``_value``; booleans are 0 and 1.
+        """
+        from ._export import netcdf
+
+        netcdf(self, path)
+
+    def to_parquet(self, path: str | os.PathLike[str]) -> None:
+        """Writes :meth:`to_dataframe` as a Parquet file; it needs pandas, and pyarrow or fastparquet."""
+        from ._export import parquet
+
+        parquet(self, path)
+
+    def quantity(self, name: str, registry: Any = None) -> Any:
+        """A fact or array with its unit, as a quantity of pint, in the unit of the study.
+
+        Parameters
+        ----------
+        name :
+            Name of a variable of :attr:`dataset`.
+        registry :
+            A ``pint.UnitRegistry`` [default: the registry of the application].
+        """
+        from ._export import quantity
+
+        return quantity(self, name, registry)
+
+    @overload
+    def plot(self, ax: None = None, **style: Any) -> matplotlib.figure.Figure: ...
+
+    @overload
+    def plot(self, ax: T, **style: Any) -> T: ...
+
+    def plot(self, ax: Any = None, **style: Any) -> Any:
+        """Draws the picture of ``--plot`` on the command line with matplotlib.
+
+        Parameters
+        ----------
+        ax :
+            Axes to draw into; of a picture with several panels a sequence or array of as many axes [default: a new figure].
+        style :
+            Properties of every curve, such as ``color``, ``linewidth`` and ``alpha``; ``label`` is that of the first.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            Or ``ax``, if it is given.
+
+        Raises
+        ------
+        quell.StudyError
+            The number of axes is not that of the panels, or the result has no picture.
+        """
+        from .plotting import draw
+
+        return draw(self._described(), ax, style)
+
+    def save(self, path: str | os.PathLike[str]) -> list[str]:
+        """Writes the arrays as .csv, with units and the study in the header, the picture as .svg or .png, or a run as .wav.
+
+        The files are those of ``--save`` and ``--plot`` on the command line. Returns the paths of the written files.
+        """
+        try:
+            place = os.fspath(path)
+        except TypeError:
+            raise StudyError([complaint("path", path, "a path", "path")]) from None
+        if self._native is None:
+            raise StudyError([complaint("save", None, "a result that was not unpickled: repeat the call", "usage")])
+        if str(place).lower().endswith((".svg", ".png")):
+            return [self._native.picture(str(place))]
+        if str(place).lower().endswith(".wav"):
+            return [self._native.sound(str(place))]
+        return self._native.csv(str(place))
+
+    def _alive(self) -> NativeAnswer:
+        if self._native is None:
+            raise RuntimeError("an unpickled result has only its facts, its arrays and its picture")
+        return self._native
+
+    def _described(self) -> dict[str, Any]:
+        if self._description is None:
+            if self._native is None:
+                allowed = "this result has no picture"
+                raise StudyError([complaint("plot", None, allowed, "usage")])
+            self._description = self._native.description()
+        return self._description
+
+    # Names. The one place that decides between a fact and an array of the same name.
+
+    def keys(self) -> KeysView[str]:
+        """The names of the variables of :attr:`dataset`, then those of the other facts."""
+        return dict.fromkeys([*self.arrays, *(name for name in self.facts if self._is_entry(name))]).keys()
+
+    def _is_entry(self, fact: str) -> bool:
+        """Whether a fact is an entry of the result even where it is not a variable."""
+        return fact not in REPORTED_ELSEWHERE
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.keys())
+
+    def __len__(self) -> int:
+        return len(self.keys())
+
+    def __bool__(self) -> bool:
+        return True
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.arrays or (isinstance(name, str) and name in self.facts and self._is_entry(name))
+
+    def __getitem__(self, name: str) -> Any:
+        """A variable of :attr:`dataset`, or a fact that is not one."""
+        if name in self.arrays:
+            return self.dataset[self.arrays.current(name)]
+        if name in self:
+            return self.facts[name]
+        raise KeyError(f"{type(self).__name__} has no {name}{suggestion(name, self)}")
+
+    # Type checkers know only the declared facts and arrays, and so find misspelt ones.
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_"):
+                raise AttributeError(name)
+            return self._named(name)
+
+    def _named(self, name: str) -> Any:
+        """A fact, or the values of an array."""
+        if name.endswith("_") and keyword.iskeyword(name[:-1]):
+            name = name[:-1]
+        if name in self.facts:
+            return self.facts[name]
+        if name in self.arrays and not self._declares(name):
+            one = self.arrays[name]
+            return one.values if one.dims else one.values.item()
+        there = ", ".join(key for key in self.facts if key not in REPORTED_ELSEWHERE)
+        only = [name for name in self.arrays if name not in self.facts and self.arrays[name].dims]
+        also = f", its arrays {', '.join(only)}" if only else ""
+        if name in self.arrays:
+            raise AttributeError(f"{type(self).__name__} has no fact {name}, but an array: result[{name!r}]")
+        advice = suggestion(name, [*self.facts, *only, *super().__dir__()])
+        raise AttributeError(f"{type(self).__name__} has no {name}{advice}; its facts are {there}{also}")
+
+    def _declares(self, name: str) -> bool:
+        """Whether the class documents a fact of this name, which an array of the same name does not replace."""
+        from inspect import get_annotations
+
+        classes = (cls for cls in type(self).__mro__ if not cls.__name__.endswith("Columns"))
+        return any(name in get_annotations(cls) for cls in classes)
+
+    def __dir__(self) -> list[str]:
+        names = (f"{name}_" if keyword.iskeyword(name) else name for name in {*self, *self.facts})
+        return sorted({*super().__dir__(), *(name for name in names if name.isidentifier() and name != "ok")})
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
+
+    def __getstate__(self) -> dict[str, Any]:
+        try:
+            description = self._described() if self._native else self._description
+        except StudyError:
+            description = None  # this result has no picture
+        return {
+            "study": self.study,
+            "_native": None,
+            "_facts": self.facts,
+            "_arrays": self.arrays,
+            "_description": description,
+        }
+
+    def __repr__(self) -> str:
+        from ._html import plain
+
+        return plain(self)
+
+    def _repr_html_(self) -> str:
+        from ._html import result
+
+        return result(self)
+
+
+def numbers_of(pairs: list[list[float]]) -> npt.NDArray[np.complex128]:
+    """Pairs of a real and an imaginary part as complex numbers."""
+    return np.array([complex(re, im) for re, im in pairs], dtype=np.complex128)

@@ -1,0 +1,44 @@
+"""Results of the verbs of a study.
+
+A result has the facts that the command line prints with ``--json`` as attributes (``response.efficiency``), in the
+dimensionless form of the equations and, for a study in SI, also in SI (``amplitude_m``). Unknown facts are ``None``, with
+the reason in ``result.why``. Its arrays and their coordinates are attributes too (``run.displacement`` over ``run.time``), as
+NumPy arrays in the units of the study: in SI for a study in SI. Names that depend on the study, such as those of coordinates,
+are not known to type checkers: ``run["velocity_x"]``. ``result.dataset`` has everything, with units and provenance, as one
+:class:`xarray.Dataset`. pint reads the units (:meth:`Result.quantity`), and ``attrs["scaling"]`` is the scale of a dimensionless
+number. If xarray is not installed, it is a :class:`quell.results.Arrays`. Results plot, save, pickle, and are shown as tables.
+
+A fact whose name is a keyword of Python has an underscore as an attribute: ``thresholds.from_``.
+"""
+
+from __future__ import annotations
+
+from .._dataset import Arrays, Variable
+from .._result import Result
+from ._motion import Attractor, Orbit, Response, Simulation
+from ._steady import Check, Citations, ExactStability, FrictionCurve, Modes, Resonances, Stability, TrackedStability
+from ._sweeps import Basins, Bifurcation, Map, Shard, ThresholdCurves, Thresholds
+
+__all__ = [
+    "Arrays",
+    "Attractor",
+    "Basins",
+    "Bifurcation",
+    "Check",
+    "Citations",
+    "ExactStability",
+    "FrictionCurve",
+    "Map",
+    "Modes",
+    "Orbit",
+    "Resonances",
+    "Response",
+    "Result",
+    "Shard",
+    "Simulation",
+    "Stability",
+    "ThresholdCurves",
+    "Thresholds",
+    "TrackedStability",
+    "Variable",
+]

@@ -1,0 +1,266 @@
+"""Results about one motion: trajectories, responses, orbits, attractors."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .._result import Result, numbers_of
+from . import _columns
+from ._steady import Verdict
+
+if TYPE_CHECKING:
+    import pandas
+
+    from .._tables import Number
+
+
+class Simulation(_columns.SimulationColumns, Result):
+    """A trajectory: its end, its events, its samples."""
+
+    verb = "simulate"
+    final: dict[str, Any]
+    """``time``, ``displacement``, ``velocity``, ``sticking``, ``slip_sign`` at the end; of a system ``time``, ``state`` and
+    ``contacts``: ``name``, ``slip_velocity``, ``sticking``, ``open``, ``slip_sign``, ``friction``, ``normal``."""
+    events: list[dict[str, Any]]
+    """``time``, ``contact``, ``kind`` ("stick", "release", "reversal", of a system also "separation", "landing"), ``slip_sign``,
+    and ``displacement`` or ``state`` of every event."""
+    event_count: int
+    """Number of events, including those that were not kept."""
+    sound: dict[str, Any]
+    """With ``sound``: ``sample_rate``, ``duration_s``, ``transposition``, ``natural_frequency_hz`` (where ω₀ sounds),
+    ``strongest_frequency_hz``, ``gain`` and ``clipped`` of the file that ``save("run.wav")`` writes."""
+    event_counts: dict[str, int]
+    """System: number of events of each kind."""
+    contacts: list[dict[str, Any]]
+    """System: ``name``, ``event_counts``, ``stick_fraction``, ``open_fraction``, ``mean_friction``, ``mean_normal``,
+    ``least_normal``, ``friction_power`` of every contact over the run."""
+    state_names: list[str]
+    """System: names of the numbers of ``state``."""
+    amplitude: float | None
+    """Disc: half the peak-to-peak deflection under the first load over the last tenth of the run."""
+    growth_observed: float | None
+    """Disc: growth rate of the extremes of that deflection while the motion is small, in ω_ref."""
+    start: dict[str, Any]
+    """``time`` and state at the begin, as in ``final``; of a disc also the ``amplitude`` of its small motion."""
+    steps: int
+    """Number of steps of the integration."""
+    near_tangential_releases: int
+    """Number of releases that barely crossed the stiction threshold, where forward uniqueness is not guaranteed."""
+    tolerance: float
+    """Bound on the last retained Taylor terms of a step."""
+    leading_growth_rate: float
+    """Disc: growth rate of the small motion at the start, in ω_ref."""
+    leading_frequency: float
+    """Disc: frequency of that motion, in ω_ref."""
+
+    def events_frame(self) -> pandas.DataFrame:
+        """The events as a pandas DataFrame, one row for each, in the units of the study.
+
+        Columns are ``time``, ``contact``, ``kind``, ``slip_sign``, and ``displacement`` of a belt; of a system ``contact_name`` and
+        every number of the state.
+        """
+        from .._export import events_frame
+
+        return events_frame(self)
+
+    def continued(
+        self,
+        until: Number | None = None,
+        *,
+        events: bool = True,
+        samples: bool = True,
+        t_eval: npt.ArrayLike | None = None,
+    ) -> Simulation:
+        """The run from the end of this one on; together they have the events and samples of one long run.
+
+        Parameters
+        ----------
+        until, events, samples, t_eval :
+            As in :meth:`quell.Study.simulate`; times count from the begin of the first run.
+        """
+        return self.study.simulate(until, events=events, samples=samples, t_eval=t_eval, start=self.final)
+
+
+class Response(_columns.ResponseColumns, Result):
+    """The steady response with and without dither."""
+
+    verb = "response"
+    effect: str
+    """Effect of the dither: "quenches", "reduces", "increases", "causes" (quiet without, vibrating with), "quiet" or
+    "unknown"."""
+    ends_on: str
+    """Where the dithered run ends: "base response", "another response without slow motion of its own", "another response" or
+    "unknown"."""
+    amplitude: float
+    """Largest spectral amplitude with 0 < ω ≤ 1.9 ω₀: a length."""
+    undithered_amplitude: float
+    """The same without dither."""
+    efficiency: float | None
+    """Residual vibration E = amplitude / undithered amplitude (2.27)."""
+    level_db: float | None
+    """20 lg E, in dB."""
+    stick_fraction: float
+    """Fraction of the time during which the mass sticks to the belt."""
+    settled: bool
+    """Whether both halves of the record have the same amplitude."""
+    undithered_settled: bool
+    """The same without dither."""
+    mean_friction: float
+    """Mean friction force over k: a length."""
+    mean_friction_undithered: float
+    """The same of the run without dither from the same start."""
+    steady_sliding_friction: float
+    """Friction force μ(v₀)F of steady sliding without dither, over k: a length."""
+    friction_loss: float | None
+    """Fraction of the friction of undithered steady sliding that is lost; negative if friction rises."""
+    dither_power: float | None
+    """Mean power of tangential dither over kω₀: a length squared."""
+    dither_stroke: float | None
+    """Stroke of the fast motion due to tangential dither: a length."""
+    minimum_normal_load: float
+    """Least normal force over k: a length."""
+    peaks: list[dict[str, float]]
+    """Peaks of the spectrum: ``frequency`` (ω₀), ``amplitude``."""
+    band_displacement_level_db: float | None
+    """Change of the level of the displacement in the band of the study, in dB."""
+    band_velocity_level_db: float | None
+    """The same for the velocity."""
+    band_displacement_rms: float | None
+    """Root mean square of the displacement in the band: a length."""
+    band_undithered_displacement_rms: float | None
+    """The same without dither."""
+    band_velocity_rms: float | None
+    """Root mean square of the velocity in the band: a length."""
+    band_undithered_velocity_rms: float | None
+    """The same without dither."""
+    half_peak_to_peak: float
+    """System: half of the peak-to-peak value of ``observe``."""
+    rms: float
+    """System: root mean square of ``observe`` about its mean."""
+    mean: float
+    """System: mean of ``observe``."""
+    undithered_half_peak_to_peak: float
+    """System: ``half_peak_to_peak`` without dither."""
+    undithered_rms: float
+    """System: ``rms`` without dither."""
+    undithered_mean: float
+    """System: ``mean`` without dither."""
+    settled_on: str
+    """System: what the run ends on: "orbit", "rest", "unstable sliding", "drift", or "record" where only the record was judged."""
+    undithered_settled_on: str
+    """System: the same without dither."""
+    period: float | None
+    """System: period of that motion, if it is periodic."""
+    undithered_period: float | None
+    """System: the same without dither."""
+    near_tangential_releases: int
+    """System: number of releases that barely crossed the stiction threshold."""
+    band_end: float
+    """System: upper end of the band of ``amplitude`` and ``efficiency``, an angular frequency below the lowest dither."""
+    contacts: list[dict[str, Any]]
+    """System: ``name``, ``stick_fraction``, ``open_fraction``, ``mean_friction``, ``mean_normal``, ``friction_power`` and
+    ``friction_loss`` of every contact."""
+    dithers: list[dict[str, Any]]
+    """System: ``power`` that each dither feeds in, and its peak-to-peak ``stroke``."""
+    band_from: float | None
+    """Lower end of the band of the study, in ω₀."""
+    band_to: float | None
+    """Upper end of the band of the study, in ω₀."""
+    settle: float
+    """Time before the record."""
+    record_length: float
+    """Length of the record."""
+
+
+class Orbit(_columns.OrbitColumns, Result):
+    """A periodic response and its Floquet multipliers."""
+
+    verb = "orbit"
+    free_phase: bool | None
+    """Whether it is a limit cycle, whose phase is free; ``None`` for steady sliding."""
+    displacement: float
+    """x at τ = 0: a length."""
+    velocity: float
+    """x′ at τ = 0: a length per τ."""
+    period: float | None
+    """Period, in τ; ``None`` if there is no orbit."""
+    monodromy: list[list[float]] | None
+    """Matrix that maps a small change of x and x′ to that after one period; ``None`` if there is no orbit."""
+    verdict: Verdict
+    """Whether small deviations decay."""
+    stick_episodes: int
+    """Number of sticking phases in a period."""
+    reversals: int
+    """Number of reversals of slip in a period."""
+    stick_fraction: float
+    """Fraction of the period during which the mass sticks."""
+    residual: float
+    """Distance of the state from itself after one period: a length."""
+    state_error: float | None
+    """Estimated error of the state: a length; ``None`` if a multiplier is too close to 1."""
+    multiplier_error: float | None
+    """Estimated error of the modulus of the decisive multiplier; ``None`` as for ``state_error``."""
+    signature: list[dict[str, Any]]
+    """``kind`` and ``slip_sign`` of the events of a period, in order."""
+    least_slip_velocity: float | None
+    """Least |v_r| during slip: a length per τ; ``None`` if the mass always sticks."""
+    protocol: str
+    """How it was found: "base", "near", "reached" or "limit-cycle"."""
+    lowest: float
+    """Least displacement: a length; of a system, of ``observe``."""
+    highest: float
+    """Largest displacement."""
+    lowest_velocity: float
+    """Least velocity: a length per τ; of a system, of ``observe``."""
+    highest_velocity: float
+    """Largest velocity."""
+    cycles: list[dict[str, Any]]
+    """Without dither: every limit cycle, each with all of these facts."""
+    response: str
+    """System: "base", "near", "reached" or "limit-cycle"."""
+    periods: int
+    """System: number of common periods of the dithers in one period of the response."""
+    state_names: list[str]
+    """System: names of the numbers of ``state``."""
+    state: list[float] | None
+    """System: the state at t = 0."""
+    radius: float | None
+    """System: modulus of the decisive multiplier."""
+    one_sided: bool
+    """System: whether the multipliers are those of changes to one side only."""
+    events: list[dict[str, Any]]
+    """System: ``time``, ``contact``, ``kind``, ``slip_sign`` and ``state`` of the events of a period."""
+    contacts: list[dict[str, Any]]
+    """System: ``name``, ``signature``, ``stick_fraction`` and ``open_fraction`` of every contact."""
+    start: str
+    """System: the start of the run that was followed, in words."""
+    tried: list[str]
+    """System without dither: the starts from which a limit cycle was searched."""
+    steady_sliding: str
+    """System without dither: the verdict on steady sliding."""
+
+    @property
+    def multipliers(self) -> npt.NDArray[np.complex128]:
+        """The two multipliers; empty if there is no orbit (see ``why``)."""
+        return numbers_of(self.facts["multipliers"] or [])
+
+
+class Attractor(_columns.AttractorColumns, Result):
+    """The motion on which a run ends, and its Lyapunov exponents."""
+
+    verb = "attractor"
+    start: str
+    """The start in words."""
+    attractor: dict[str, Any] | None
+    """``kind``, ``quiet``, ``periods``, ``multiplier``, ``lowest``, ``highest``, …; ``None`` if the run did not settle."""
+    periods_until_settled: int | None
+    """Periods of the dither until the run was near the motion."""
+    lyapunov: dict[str, Any] | None
+    """With ``lyapunov=True``, or ``None`` with the reason in ``why``: ``exponents`` (largest first; ``None`` where a stick erases
+    the direction, −∞) with their standard ``errors``, per unit of time; ``time`` of the record and ``settle`` before it;
+    ``verdict`` ("regular", "irregular (chaotic)", "unknown"); ``deciding``, the largest exponent apart from the 0 of a shift in
+    time, whose place is ``shift_in_time``; ``kaplan_yorke_dimension``; ``of_multiplier``, the same rate by the multipliers of a
+    periodic motion, and ``agrees_with_multipliers``."""

@@ -1,0 +1,275 @@
+"""Results about steady sliding and small motions, and about the study itself."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from .._result import Result, numbers_of
+from . import _columns
+
+Verdict = Literal["stable", "unstable", "undecided"]
+
+
+class Check(_columns.CheckColumns, Result):
+    """The study in numbers."""
+
+    verb = "check"
+    system: Literal["dimensionless", "si"]
+    """Whether the numbers are only dimensionless, or also in SI."""
+    coordinates: list[str]
+    """System: names of the coordinates or states."""
+    contacts: list[str]
+    """System: names of the contacts."""
+    unit_system: Literal["none", "SI", "mm-t-s"]
+    """System: the unit of bare numbers."""
+    title: str | None
+    """Title of the study."""
+    kind: str
+    """System: the kind of study."""
+    form: str
+    """System: how the structure is given, such as "matrices" or "modes"."""
+    belt: dict[str, float]
+    """Belt: its numbers."""
+    disc: dict[str, Any]
+    """Disc: ``modes`` (their number), ``modes_from``, ``loads``, ``speed``, ``without``."""
+    friction: dict[str, Any]
+    """Belt and disc: ``law``, its parameters, and the range of slip in which it holds; of a fit also its error."""
+    dither: dict[str, Any] | None
+    """Disc: its dither."""
+    dithers: list[dict[str, Any]]
+    """Belt and system: the dithers, with ``amplitude_ratio`` (velocity of a free mass) of a belt."""
+    contact_laws: list[dict[str, Any]]
+    """System: ``name``, ``normal_load``, ``belt_velocity`` with their units, ``law``, and whether ``normal`` and ``tangent`` are
+    given, of each contact."""
+    observe: list[float]
+    """System: row of the observed displacement."""
+    initial: str
+    """System: the initial state in words."""
+    sweeps: list[dict[str, Any]]
+    """Axes of a map: ``parameter`` and its values."""
+
+
+class Citations(_columns.CitationsColumns, Result):
+    """Sources of the computations for a study, and corrections of their printed equations."""
+
+    verb = "cite"
+    sources: list[dict[str, Any]]
+    """``key``, ``reference``, and ``used``, the purpose."""
+    corrections: list[dict[str, Any]]
+    """Errors in the print of a source, with the correct form."""
+    bibtex: str
+    """The sources as BibTeX entries."""
+
+
+class FrictionCurve(_columns.FrictionCurveColumns, Result):
+    """The friction law and its average under the dither, over slip velocities (n,)."""
+
+    verb = "friction"
+    law: dict[str, Any]
+    """``law``, its parameters, and the range of slip in which it holds."""
+    effective_coefficient_error: list[float | None]
+    """Bound on the error of μ̄ (n,)."""
+    effective_slope_error: list[float | None]
+    """Bound on the error of μ̄′ (n,)."""
+    effective_slope_one_sided: list[bool]
+    """Whether μ̄′ is the slope on one side of a kink (n,)."""
+
+    @property
+    def slip_velocity(self) -> npt.NDArray[np.float64]:
+        """v_r (n,), in the unit of the study: lengths per τ, in SI m/s."""
+        return self.arrays["slip_velocity"].values
+
+    @property
+    def coefficient(self) -> npt.NDArray[np.float64]:
+        """μ (n,); NaN at v_r = 0, where friction takes any value up to ±μ_s."""
+        return self.arrays["coefficient"].values
+
+    @property
+    def effective_coefficient(self) -> npt.NDArray[np.float64]:
+        """μ̄ (n,); NaN where it is undefined."""
+        return self.arrays["effective_coefficient"].values
+
+    @property
+    def effective_slope(self) -> npt.NDArray[np.float64]:
+        """μ̄′ (n,) per unit of ``slip_velocity``; NaN where it is undefined."""
+        return self.arrays["effective_slope"].values
+
+
+class Stability(_columns.StabilityColumns, Result):
+    """Stability of steady sliding: of a belt by averaging, of a disc or system by eigenvalues."""
+
+    verb = "stability"
+    verdict: Verdict
+    """Whether small motions decay."""
+    protocol: str
+    """Method: "averaged", "linearised" or "floquet"."""
+    criterion: float | None
+    """Belt: 2ζ + Fμ̄′ (2.26), stable where positive."""
+    critical_amplitudes: list[dict[str, Any]] | None
+    """Belt: every α > 0 at which the verdict changes: ``amplitude_ratio``, ``amplitude``, ``kind``, ``becomes``. System: the
+    amplitudes of the first dither."""
+    growth_rate: float | None
+    """Largest growth rate, per unit τ or per unit of time of a system."""
+    growth_rate_error: float | None
+    """Disc and system: bound on the error of the growth rate."""
+    frequency: float | None
+    """Disc and system: frequency of the motion that grows fastest or decays slowest."""
+    motions: list[dict[str, Any]]
+    """System: ``growth_rate``, ``frequency``, ``damping_ratio``, ``error``, ``shape`` and ``friction_work`` of each motion."""
+    contacts: list[dict[str, Any]]
+    """System: ``name``, ``friction``, ``normal``, ``slip_amplitude``, ``effective_coefficient``, … of each contact."""
+    undithered: dict[str, Any] | None
+    """System: ``verdict``, ``growth_rate`` and ``frequency`` without dither."""
+    sentence_by: str
+    """Belt: the averaging behind the sentence, "averaged" or "sharper"."""
+    method: str
+    """Belt: the method of averaging in words."""
+    error: float | None
+    """Belt: bound on the error of the criterion."""
+    effective_coefficient: float | None
+    """Belt: averaged friction coefficient at the belt velocity."""
+    one_sided: bool
+    """Belt: whether the slope of averaged friction is that on one side of a kink."""
+    everywhere_stable_amplitude_ratio: float | None
+    """Belt: amplitude ratio from which on sliding is stable at any belt velocity: a length (velocity/ω₀)."""
+    everywhere_stable_amplitude: float | None
+    """Belt: the same amplitude as a force over k."""
+    unstable_belt_velocities: list[dict[str, Any]] | None
+    """Belt: ``lower``, ``lower_kind`` and ``upper`` of each range of belt velocities in which sliding is unstable."""
+    sharper: dict[str, Any] | None
+    """Belt: the same facts by finite-R averaging, with the oscillator's own response."""
+    unstable_modes: list[int]
+    """Disc: modes that grow."""
+    critical_speeds: list[dict[str, Any]]
+    """Disc: ``mode``, ``diameters``, ``speed`` of each critical speed, and whether the speed of the study is ``near``."""
+    speed: float
+    """Disc: speed of the loads, in ω_ref."""
+    without: list[str]
+    """Disc: contributions that were left out."""
+    changes: list[dict[str, float]]
+    """Disc: change of the dither in which the verdict may change."""
+    out_of_reach: bool
+    """Disc: whether no dither of this kind can change the verdict."""
+
+    @property
+    def eigenvalues(self) -> npt.NDArray[np.complex128]:
+        """System: the eigenvalues (n,), those with the largest growth rate first."""
+        return numbers_of(self._named("eigenvalues"))
+
+
+class TrackedStability(_columns.TrackedStabilityColumns, Result):
+    """Eigenvalues of a system over a parameter, and its thresholds.
+
+    The dataset has ``growth_rate`` and ``frequency`` over ``parameter`` and ``branch``; with a second parameter their names begin
+    with ``eigenvalues_``, and ``curve``, ``kind`` and both parameters are those of the points of the curves.
+    """
+
+    verb = "stability"
+    protocol: str
+    """Method: "linearised", or "averaged" under dither."""
+    parameter: str
+    """Path of the parameter."""
+    local: list[dict[str, Any]]
+    """``value`` with its ``error``, ``kind`` ("hopf", "divergence", "coalescence", "jump"), ``frequency``, and the verdicts below
+    and above it, ``was`` and ``becomes``, which are equal where two frequencies merge without a change."""
+    thresholds: list[dict[str, Any]]
+    """The same list."""
+    at_from: dict[str, Verdict | None]
+    """The verdict at the first value."""
+    covered: bool
+    """Whether every value of the range has an answer."""
+    resumes: bool
+    """Whether the last value has an answer again, after a range without one."""
+    rests: list[dict[str, Any]]
+    """``value`` at which the surface of a ``contact`` comes to rest: friction reverses there, and there is no steady sliding."""
+    unknown: list[dict[str, Any]]
+    """``from`` and ``to`` of ranges without an answer, and ``why``."""
+    from_: float
+    """First value of the parameter."""
+    to: float
+    """Last value of the parameter."""
+    points: int
+    """Number of values at which eigenvalues were computed."""
+    along: str
+    """Path of the second parameter."""
+    between: list[float]
+    """First and last value of the second parameter."""
+    curves: list[dict[str, Any]]
+    """``kind``, ``value`` (n,), ``along`` (n,), ``error`` (n,), ``frequency`` (n,), ``was`` and ``becomes`` of each curve."""
+
+
+class ExactStability(_columns.ExactStabilityColumns, Result):
+    """Stability of the dithered motion of a system in pure slip, by its Floquet exponents."""
+
+    verb = "stability"
+    verdict: Verdict
+    """Whether small deviations decay."""
+    protocol: str
+    """Method: "floquet"."""
+    growth_rate: float
+    """Largest growth rate."""
+    growth_rate_error: float
+    """Bound on its error."""
+    frequency: float
+    """Frequency of that deviation, up to multiples of the frequency of the motion."""
+    period: float
+    """Period of the motion."""
+    state: list[float]
+    """State at time 0: displacements, velocities, further states."""
+    residual: float
+    """Distance of the state from itself after one period."""
+    exponents: list[dict[str, Any]]
+    """``growth_rate``, ``growth_rate_error``, ``frequency`` and ``multiplier`` of each exponent."""
+
+    @property
+    def multipliers(self) -> npt.NDArray[np.complex128]:
+        """The multipliers (n,), in the order of the exponents."""
+        return numbers_of([it["multiplier"] for it in self.exponents])
+
+
+class Modes(_columns.ModesColumns, Result):
+    """Natural frequencies and shapes of a disc or of a system."""
+
+    verb = "modes"
+    modes: list[dict[str, Any]]
+    """Disc: ``radial``, ``diameters``, ``frequency_parameter`` (k²), ``ratio`` (ω_ref), ``shape_at_load``, ``damping``, …
+    System: ``frequency``, ``damping_ratio``, ``shape``, ``shape_imaginary``, with the springs of contacts and without friction."""
+    critical_mode: dict[str, int] | None
+    """Disc: the mode with the lowest critical speed."""
+    coordinates: list[str]
+    """System: names of the coordinates of the shapes."""
+    reference_frequency: float
+    """Disc: frequency parameter k² of ω_ref."""
+    reference_hz: float | None
+    """Disc: ω_ref in Hz."""
+    plate_mass_kg: float | None
+    """Disc: mass of the plate, in kg."""
+
+
+class Resonances(_columns.ResonancesColumns, Result):
+    """Meetings of the waves of a disc, or responses of the contacts of a system to its dithers."""
+
+    verb = "resonances"
+    responses: list[dict[str, Any]]
+    """System: ``dither``, ``contact`` and ``extremes`` of each pair: ``kind`` ("peak" or "dip"), ``frequency``,
+    ``slip_per_amplitude``, ``out_of_reach``, ``reversal_amplitude``. The dataset has the slip over ``frequency``."""
+    undithered: list[dict[str, Any]]
+    """Disc: meetings without dither, with the keys of ``dithered``."""
+    dithered: list[dict[str, Any]]
+    """Disc: ``speed``, ``waves``, ``can_be_unstable``, ``threshold``, ``edges``, ``peak_growth`` of each meeting."""
+    speeds: list[float]
+    """Disc: range of speeds in which meetings are listed, in ω_ref."""
+    order: str
+    """Disc: order of the theory in the friction."""
+    clear: dict[str, Any]
+    """Disc: ``clear`` and ``blocked`` intervals of R for the ``speeds`` that should be kept clear, the best R (``suggestion``) with
+    its ``verified_growth_rate``, the result of the exact equations for it (``verified``: ``verdict``, which is "stable" if nothing
+    grows, "unstable" or "undecided", ``growth_rate``, ``growth_rate_error`` and its ``speed``; or ``None``, and ``why``), and the
+    meetings in the range, ``there``, each with ``reaches_in``."""
+    from_: float
+    """System: least frequency."""
+    to: float
+    """System: largest frequency."""
