@@ -439,6 +439,7 @@ fn fields_have_documented_names() {
         "mean_friction",
         "mean_friction_n",
         "mean_friction_undithered",
+        "steady_sliding_friction",
         "dither_power",
         "dither_power_w",
         "dither_stroke",

@@ -112,7 +112,7 @@ fn costs_obey_their_balances() {
         samples.iter().map(|sample| sample.displacement).sum::<f64>() / samples.len() as f64;
     assert!((costs.mean_friction - mean).abs() < 1e-6, "{} {mean}", costs.mean_friction);
     // Fast vibration smooths friction: its mean is smaller than without dither, and the dither feeds in power.
-    assert!(costs.mean_friction < costs.mean_friction_undithered);
+    assert!(costs.mean_friction < costs.steady_sliding_friction);
     assert!(costs.dither_power.expect("tangential") > 0.0);
     assert_eq!(costs.minimum_normal_load, 1.0);
     // In pure slip far from reversals x follows the dither as the linear oscillator does,

@@ -233,6 +233,16 @@ macro_rules! vector_lane {
             }
 
             #[inline(always)]
+            fn lane(&self, lane: usize) -> f64 {
+                pulp::bytemuck::cast_ref::<_, [f64; $lanes]>(&self.0)[lane]
+            }
+
+            #[inline(always)]
+            fn set_lane(&mut self, lane: usize, value: f64) {
+                pulp::bytemuck::cast_mut::<_, [f64; $lanes]>(&mut self.0)[lane] = value;
+            }
+
+            #[inline(always)]
             fn map(self, function: impl Fn(f64) -> f64) -> Self {
                 // A loop, because an iterator of the standard library may not be inlined and would then
                 // be compiled without the instructions of this lane.
@@ -359,6 +369,32 @@ mod tests {
         #[inline(always)]
         fn run<V: Lane>(self) -> bool {
             (0..LANES / V::LANES).any(|group| V::load(&self.0[group * V::LANES..]).any_positive())
+        }
+    }
+
+    /// Replaces one number of sixteen, and reads all of them.
+    struct Replaced<'a>(&'a [f64; LANES], usize);
+
+    impl LaneWork for Replaced<'_> {
+        type Output = Vec<f64>;
+
+        #[inline(always)]
+        fn run<V: Lane>(self) -> Vec<f64> {
+            let mut groups: Vec<V> = self.0.chunks(V::LANES).map(V::load).collect();
+            groups[self.1 / V::LANES].set_lane(self.1 % V::LANES, 100.0);
+            (0..LANES).map(|place| groups[place / V::LANES].lane(place % V::LANES)).collect()
+        }
+    }
+
+    #[test]
+    fn one_lane_is_read_and_replaced() {
+        let numbers = std::array::from_fn(|lane| lane as f64 - 3.0);
+        for (set, place) in
+            InstructionSet::ALL.into_iter().flat_map(|set| (0..LANES).map(move |p| (set, p)))
+        {
+            let mut expected = numbers.to_vec();
+            expected[place] = 100.0;
+            assert_eq!(with_lanes(set, Replaced(&numbers, place)), expected, "{}", set.name());
         }
     }
 

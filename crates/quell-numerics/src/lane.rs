@@ -36,6 +36,12 @@ pub trait Lane:
     /// Writes the lanes to the first [`Lane::LANES`] entries of `to`, which has at least as many.
     fn store(self, to: &mut [f64]);
 
+    /// The number of one lane, below [`Lane::LANES`].
+    fn lane(&self, lane: usize) -> f64;
+
+    /// Replaces the number of one lane, below [`Lane::LANES`].
+    fn set_lane(&mut self, lane: usize, value: f64);
+
     /// Applies `function` to every lane, for bit operations, divisions or roots. If the function has no branch,
     /// the compiler generates vector instructions for it.
     #[must_use]
@@ -102,6 +108,16 @@ impl Lane for f64 {
     #[inline(always)]
     fn store(self, to: &mut [f64]) {
         to[0] = self;
+    }
+
+    #[inline(always)]
+    fn lane(&self, _: usize) -> f64 {
+        *self
+    }
+
+    #[inline(always)]
+    fn set_lane(&mut self, _: usize, value: f64) {
+        *self = value;
     }
 
     #[inline(always)]
@@ -203,6 +219,20 @@ impl<V: Lane> Lane for LanePair<V> {
     fn store(self, to: &mut [f64]) {
         self.0.store(to);
         self.1.store(&mut to[V::LANES..]);
+    }
+
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> f64 {
+        if lane < V::LANES { self.0.lane(lane) } else { self.1.lane(lane - V::LANES) }
+    }
+
+    #[inline(always)]
+    fn set_lane(&mut self, lane: usize, value: f64) {
+        if lane < V::LANES {
+            self.0.set_lane(lane, value);
+        } else {
+            self.1.set_lane(lane - V::LANES, value);
+        }
     }
 
     #[inline(always)]

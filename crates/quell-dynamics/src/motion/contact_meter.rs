@@ -35,7 +35,7 @@ pub struct ContactMeans {
 }
 
 /// Integrals of one contact over a motion.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct ContactSums {
     stick: f64,
     open: f64,
@@ -59,7 +59,7 @@ impl ContactSums {
 }
 
 /// Measures every contact of a motion.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ContactMeter {
     length: f64,
     sums: Vec<ContactSums>,

@@ -1,57 +1,75 @@
 //! The Taylor series of one contact on a step.
 
-use crate::simulation::{ORDER, Series};
+use quell_numerics::lane::Lane;
+
+use crate::simulation::ORDER;
+
+/// Taylor coefficients in every lane.
+pub(super) type SeriesOf<V> = [V; ORDER + 1];
 
 /// Series of one contact on a step.
 #[derive(Clone, Debug)]
-pub(super) struct ContactSeries {
+pub(super) struct ContactSeries<V = f64> {
     /// Whether load and factor are constant and without reaction on the structure, and friction is not turned by a slope: the
     /// series of the load are then written once, when the run begins.
     pub(super) is_plain: bool,
+    /// Whether the load depends on the motion or on time.
+    pub(super) load_varies: bool,
+    /// Whether a part of the load has no reaction on the structure.
+    pub(super) is_guided: bool,
+    /// Whether a factor multiplies friction.
+    pub(super) has_factor: bool,
     /// dT/dγ at the start of the step, where the contact is plain and slips.
-    pub(super) drag: f64,
+    pub(super) drag: V,
+    /// γ̇ of the current order without the forces that are sought, where the contact sticks.
+    pub(super) lost: V,
     /// γ.
-    pub(super) slip: Series,
+    pub(super) slip: SeriesOf<V>,
     /// N; where the contact is open the load that it would have, which is negative.
-    pub(super) load: Series,
+    pub(super) load: SeriesOf<V>,
     /// N₀ + ΔN(t).
-    pub(super) given: Series,
+    pub(super) given: SeriesOf<V>,
     /// N times its factor: what the coefficient of friction multiplies.
-    pub(super) pressed: Series,
+    pub(super) pressed: SeriesOf<V>,
     /// T.
-    pub(super) friction: Series,
+    pub(super) friction: SeriesOf<V>,
     /// sᵀx.
-    pub(super) tilt: Series,
-    pub(super) scaled: Series,
-    pub(super) coefficient: Series,
-    pub(super) surface: Series,
-    pub(super) guided: Series,
-    pub(super) factor: Series,
+    pub(super) tilt: SeriesOf<V>,
+    pub(super) scaled: SeriesOf<V>,
+    pub(super) coefficient: SeriesOf<V>,
+    pub(super) surface: SeriesOf<V>,
+    pub(super) guided: SeriesOf<V>,
+    pub(super) factor: SeriesOf<V>,
 }
 
-impl ContactSeries {
-    pub(super) const ZERO: Self = Self {
-        is_plain: false,
-        drag: 0.0,
-        slip: [0.0; ORDER + 1],
-        load: [0.0; ORDER + 1],
-        given: [0.0; ORDER + 1],
-        pressed: [0.0; ORDER + 1],
-        friction: [0.0; ORDER + 1],
-        tilt: [0.0; ORDER + 1],
-        scaled: [0.0; ORDER + 1],
-        coefficient: [0.0; ORDER + 1],
-        surface: [0.0; ORDER + 1],
-        guided: [0.0; ORDER + 1],
-        factor: [0.0; ORDER + 1],
-    };
-}
+impl<V: Lane> ContactSeries<V> {
+    pub(super) fn zero() -> Self {
+        let series = [V::splat(0.0); ORDER + 1];
+        Self {
+            is_plain: false,
+            load_varies: false,
+            is_guided: false,
+            has_factor: false,
+            drag: V::splat(0.0),
+            lost: V::splat(0.0),
+            slip: series,
+            load: series,
+            given: series,
+            pressed: series,
+            friction: series,
+            tilt: series,
+            scaled: series,
+            coefficient: series,
+            surface: series,
+            guided: series,
+            factor: series,
+        }
+    }
 
-impl ContactSeries {
     /// γ̇ of order k without the forces that are sought: (k + 1) v_{k+1} − tᵀẋ.
     #[inline(always)]
-    pub(super) fn lost_slip(&self, k: usize, along: f64) -> f64 {
-        let surface = if k < ORDER { self.surface[k + 1] } else { 0.0 };
-        f64::mul_add((k + 1) as f64, surface, -along)
+    pub(super) fn lost_slip(&self, k: usize, along: V) -> V {
+        let surface = if k < ORDER { self.surface[k + 1] } else { V::splat(0.0) };
+        V::splat((k + 1) as f64).mul_add(surface, -along)
     }
 }

@@ -5,13 +5,14 @@ use quell_model::friction::FrictionConstants;
 use quell_numerics::dispatch::with_fused_multiply_add;
 
 use super::equations::{Forcings, MotionEquations};
-use super::expansion::{ExpandedStep, StepExpansion, StepLimit};
+use super::expansion::{ExpandedStep, StepExpansion};
 use super::guards::Guards;
 use super::observer::{MotionObserver, MotionSegment};
 use super::phase::{ContactNow, ContactPhase};
 use super::selection::first_minor_not_positive;
 use super::series::StepSeries;
 use super::state::{ContactEnd, MotionEnd, MotionStart};
+use super::step_recurrence::StepLimit;
 use super::stopped::{MotionStopped, StopReason};
 use super::stuck::{StuckForces, coupling, dependent};
 use crate::simulation::{Clock, ORDER, StepBudget};
@@ -19,9 +20,6 @@ use crate::simulation::{Clock, ORDER, StepBudget};
 /// Decisions at one moment after which the contacts are held in stick: a jump that releases a contact just made needs two;
 /// grazing of a threshold repeats indefinitely.
 pub(super) const PATIENCE: u32 = 4;
-
-/// Time for which contacts are held in stick after grazing, over the time scale of the system.
-const HOLD: f64 = 1e-8;
 
 /// One run.
 pub(super) struct MotionRun<'a> {
@@ -35,6 +33,8 @@ pub(super) struct MotionRun<'a> {
     pub(super) stuck: StuckForces,
     /// Whether the sets of sticking contacts have changed since `stuck` was computed.
     pub(super) is_stale: bool,
+    /// How often `stuck` has been computed.
+    pub(super) refreshed: u64,
     pub(super) until: f64,
     pub(super) tolerance: f64,
     pub(super) longest: f64,
@@ -60,6 +60,17 @@ pub(super) struct MotionRun<'a> {
     pub(super) scratch: Vec<f64>,
 }
 
+/// How far the next step may go.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StepRoom {
+    /// The next moment that no step may pass.
+    stop: f64,
+    /// Time to it.
+    pub(super) room: f64,
+    /// Longest step.
+    pub(super) longest: f64,
+}
+
 pub(super) type MotionProgress = Result<(), MotionStopped>;
 
 impl<'a> MotionRun<'a> {
@@ -83,6 +94,7 @@ impl<'a> MotionRun<'a> {
             series,
             stuck: StuckForces::default(),
             is_stale: true,
+            refreshed: 0,
             until,
             tolerance,
             longest: if waves > 0.0 { 0.5 * ORDER as f64 / waves } else { f64::INFINITY },
@@ -115,16 +127,29 @@ impl<'a> MotionRun<'a> {
 
     /// Runs to the end.
     pub(super) fn run(mut self) -> Result<MotionEnd, MotionStopped> {
-        StepBudget::begin().map_err(|why| self.stalled(why))?;
-        if self.is_guarded {
-            self.begin()?;
-        }
-        while self.clock.until(self.until) > 0.0 {
+        self.open()?;
+        self.run_on()
+    }
+
+    /// Runs to the end from where it is.
+    pub(super) fn run_on(mut self) -> Result<MotionEnd, MotionStopped> {
+        while !self.is_over() {
             self.step()?;
         }
-        // The steps are counted, but a run that has ended is not stopped for them.
-        let _ = self.budget.spend(self.steps);
         self.end()
+    }
+
+    /// Decides what the contacts do at the start.
+    pub(super) fn open(&mut self) -> MotionProgress {
+        StepBudget::begin().map_err(|why| self.stalled(why))?;
+        if self.is_guarded { self.begin() } else { Ok(()) }
+    }
+
+    /// Whether the run has reached its end.
+    #[inline(always)]
+    pub(super) fn is_over(&self) -> bool {
+        let goes_on = self.clock.until(self.until) > 0.0;
+        !goes_on
     }
 
     pub(super) fn stopped(&self, reason: StopReason) -> MotionStopped {
@@ -156,13 +181,26 @@ impl<'a> MotionRun<'a> {
 
     /// One pass of the loop: it advances time or changes contacts.
     fn step(&mut self) -> MotionProgress {
-        let before = self.clock;
+        let room = self.prepare()?;
+        let expanded = self.expand(room.longest, room.room);
+        self.accept(expanded, room)
+    }
+
+    /// What the next step needs.
+    pub(super) fn prepare(&mut self) -> Result<StepRoom, MotionStopped> {
         self.refresh()?;
         let stop = self.next_break.min(self.until);
         let room = self.clock.until(stop);
-        let holds = self.now.iter().any(|now| now.held);
-        let longest = if holds { self.longest.min(HOLD * self.time_scale) } else { self.longest };
-        let ExpandedStep { duration, reached } = self.expand(longest, room);
+        Ok(StepRoom { stop, room, longest: self.longest })
+    }
+
+    /// Takes a step whose end is in `scratch`, and whose series are written if it is observed or a guard has been reached.
+    pub(super) fn accept(
+        &mut self,
+        ExpandedStep { duration, reached }: ExpandedStep,
+        StepRoom { stop, room, .. }: StepRoom,
+    ) -> MotionProgress {
+        let before = self.clock;
         let triggers = match &reached {
             Some(first) => self.guards().together(first, self.time_scale),
             None => Vec::new(),
@@ -193,13 +231,9 @@ impl<'a> MotionRun<'a> {
         })
     }
 
-    fn guards(&self) -> Guards<'_> {
-        Guards {
-            equations: self.equations,
-            forcings: &self.forcings,
-            now: &self.now,
-            contacts: &self.series.contacts,
-        }
+    #[inline(always)]
+    pub(super) fn guards(&self) -> Guards<'_> {
+        Guards { equations: self.equations, now: &self.now, contacts: &self.series.contacts }
     }
 
     /// Computes the forces of the sticking contacts anew where they have changed.
@@ -225,6 +259,7 @@ impl<'a> MotionRun<'a> {
             self.note_dependent(&sticking(), &tilts);
         }
         self.stuck = stuck;
+        self.refreshed += 1;
         self.is_stale = false;
         Ok(())
     }
@@ -324,7 +359,9 @@ impl<'a> MotionRun<'a> {
     }
 
     /// The state at the end of the run.
-    fn end(mut self) -> Result<MotionEnd, MotionStopped> {
+    pub(super) fn end(mut self) -> Result<MotionEnd, MotionStopped> {
+        // The steps are counted, but a run that has ended is not stopped for them.
+        let _ = self.budget.spend(self.steps);
         self.refresh()?;
         self.expand(self.longest, self.time_scale);
         let contacts = self.now.iter().zip(&self.series.contacts).map(|(now, series)| ContactEnd {

@@ -12,50 +12,52 @@ use quell_model::System;
 use quell_model::system::{Contact, InputTarget, Mechanical, Structure};
 use quell_numerics::matrix::Matrix;
 
-use super::rows::{RowEntries, StateMatrix};
+use super::rows::{RowEntries, StateMatrix, StateRow};
 use super::stopped::Immobile;
 use crate::simulation::{Clock, Forcing};
 
-/// A contact as the engine needs it.
+/// A contact as the engine needs it, with rows of type `R` and numbers of type `V`.
 #[derive(Clone, Debug)]
-pub(super) struct ContactEquation {
+pub(super) struct ContactEquation<R = RowEntries, V = f64> {
     /// Row t of the slip velocity γ = v − tᵀx.
-    pub(super) tangent: RowEntries,
+    pub(super) tangent: R,
     /// Row r of the load: k nᵀ over displacements and d nᵀ over velocities.
-    pub(super) approach: RowEntries,
+    pub(super) approach: R,
     /// Row s of the tilt.
-    pub(super) slope: RowEntries,
+    pub(super) slope: R,
     /// Columns g and h.
-    pub(super) along: RowEntries,
-    pub(super) across: RowEntries,
+    pub(super) along: R,
+    pub(super) across: R,
     /// N₀.
-    pub(super) normal_load: f64,
+    pub(super) normal_load: V,
     /// Velocity that scales slip for the law.
-    pub(super) scale: f64,
-    pub(super) inverse_scale: f64,
+    pub(super) scale: V,
+    pub(super) inverse_scale: V,
     /// μ_s and μ(0⁺).
-    pub(super) static_coefficient: f64,
-    pub(super) sliding_coefficient: f64,
+    pub(super) static_coefficient: V,
+    pub(super) sliding_coefficient: V,
 }
 
-impl ContactEquation {
+impl<R: StateRow, V> ContactEquation<R, V> {
     /// Whether the load depends on the motion, so that the contact can open.
     #[inline(always)]
     pub(super) fn is_compliant(&self) -> bool {
         !self.approach.is_empty()
     }
 
+    /// Whether the contact has a tangent, so that it can stick.
+    #[inline(always)]
+    pub(super) fn can_stick(&self) -> bool {
+        !self.tangent.is_empty()
+    }
+}
+
+impl ContactEquation {
     /// Whether the load is that of the study at any time, given its forcing, and acts on friction alone.
     pub(super) fn is_plain(&self, forcing: &ContactForcing) -> bool {
         let is_constant = forcing.load.is_constant() && forcing.factor.is_none();
         let acts_alone = self.across.is_empty() && self.slope.is_empty();
         is_constant && acts_alone && !self.is_compliant()
-    }
-
-    /// Whether the contact has a tangent, so that it can stick.
-    #[inline(always)]
-    pub(super) fn can_stick(&self) -> bool {
-        !self.tangent.is_empty()
     }
 }
 
@@ -98,6 +100,14 @@ pub(super) struct ContactForcing {
     pub(super) factor: Option<Forcing>,
 }
 
+impl ContactForcing {
+    /// Surface, load, guided part of the load, and factor.
+    #[inline(always)]
+    pub(super) fn all(&self) -> [Option<&Forcing>; 4] {
+        [Some(&self.surface), Some(&self.load), Some(&self.guided), self.factor.as_ref()]
+    }
+}
+
 impl Forcings {
     /// Those of a system, set to a moment.
     pub(super) fn of(system: &System, clock: Clock) -> Self {
@@ -132,11 +142,9 @@ impl Forcings {
     }
 
     /// Every forcing.
-    fn all(&self) -> impl Iterator<Item = &Forcing> {
-        let contacts = self.contacts.iter();
-        self.pushes.iter().chain(contacts.flat_map(|contact| {
-            [&contact.surface, &contact.load, &contact.guided].into_iter().chain(&contact.factor)
-        }))
+    pub(super) fn all(&self) -> impl Iterator<Item = &Forcing> {
+        let contacts = self.contacts.iter().flat_map(ContactForcing::all);
+        self.pushes.iter().chain(contacts.flatten())
     }
 
     /// The next kink or jump.

@@ -1,17 +1,26 @@
 //! The guards of a step: the polynomials whose first root ends it.
 
-use quell_numerics::lane::horner;
+use quell_numerics::lane::{Lane, horner};
+use quell_numerics::polynomial::side_by_side::margin_of_first_test;
 use quell_numerics::polynomial::{derivative, first_crossing_after, value};
 
-use super::contact_series::ContactSeries;
-use super::equations::{Forcings, MotionEquations};
+use super::contact_masks::ContactMasks;
+use super::contact_series::{ContactSeries, SeriesOf};
+use super::equations::{ContactEquation, MotionEquations};
 use super::observer::Trigger;
 use super::phase::{ContactNow, ContactPhase};
+use super::rows::StateRow;
+use super::selection::AT_BOUND;
 use crate::simulation::{ORDER, Series};
 
 /// Guards that reach zero within this share of the time scale after the first one are simultaneous: their order is below the
 /// accuracy of a step.
 const TOGETHER: f64 = 1e-12;
+
+/// Share of its bound by which the force of a contact that is held in stick may exceed it: twice that within which a force counts as
+/// being at its bound. A mass that comes to rest at the very edge of stick stays there, and one that leaves it does so later by
+/// the time that this share of the force takes.
+const HELD_BEYOND: f64 = 2.0 * AT_BOUND;
 
 /// A guard, of the given sign until its event.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +45,6 @@ pub(super) struct GuardReached {
 /// The guards of a step.
 pub(super) struct Guards<'a> {
     pub(super) equations: &'a MotionEquations,
-    pub(super) forcings: &'a Forcings,
     pub(super) now: &'a [ContactNow],
     pub(super) contacts: &'a [ContactSeries],
 }
@@ -73,12 +81,7 @@ impl<'a> Guards<'a> {
         let (now, series) = (&self.now[contact], &self.contacts[contact]);
         let equation = &self.equations.contacts[contact];
         match (place, now.phase) {
-            (0, _) if !series.is_plain => {
-                let varies =
-                    equation.is_compliant() || !self.forcings.contacts[contact].load.is_constant();
-                if !varies {
-                    return None;
-                }
+            (0, _) if series.load_varies => {
                 let (what, sign) = (Trigger::Load(contact), if now.is_open() { -1.0 } else { 1.0 });
                 Some(Guard { what, series: &series.load, sign, zeros: now.load_zeros })
             }
@@ -86,12 +89,13 @@ impl<'a> Guards<'a> {
                 let (what, sign) = (Trigger::Slip(contact), f64::from(sign));
                 Some(Guard { what, series: &series.slip, sign, zeros: now.slip_zeros })
             }
-            (1 | 2, ContactPhase::Stick) if now.saturated == 0 && !now.held => {
+            (1 | 2, ContactPhase::Stick) if now.saturated == 0 => {
                 let side = if place == 1 { 1 } else { -1 };
                 let level = equation.static_coefficient;
-                let sides = series.pressed.iter().zip(&series.friction);
-                for (margin, (pressed, force)) in margin.iter_mut().zip(sides) {
-                    *margin = f64::mul_add(level, *pressed, -f64::from(side) * force);
+                *margin = margin_above(level, f64::from(side), series);
+                if now.held && margin[0] <= 0.0 {
+                    margin[0] =
+                        f64::mul_add(HELD_BEYOND * level, series.pressed[0].abs(), margin[0]);
                 }
                 Some(Guard {
                     what: Trigger::Margin(contact, side),
@@ -125,6 +129,50 @@ impl<'a> Guards<'a> {
         }
         found
     }
+}
+
+/// Positive in the lanes where [`Guards::first`] finds no guard that reaches zero within `length`, by its first test alone.
+#[inline(always)]
+pub(super) fn margin_of_guards<R: StateRow, V: Lane>(
+    equations: &[ContactEquation<R, V>],
+    masks: &[ContactMasks<V>],
+    contacts: &[ContactSeries<V>],
+    length: V,
+) -> V {
+    let one = V::splat(1.0);
+    // A margin that is not a number is not positive.
+    let sure = |margin: V| margin.where_positive(one, -one);
+    let mut least = one;
+    for ((equation, masks), series) in equations.iter().zip(masks).zip(contacts) {
+        if series.load_varies {
+            let sign = masks.open.where_positive(-one, one);
+            let margin = margin_of_first_test(&series.load, masks.load_zeros, sign, length);
+            least = least.min(sure(margin));
+        }
+        if masks.any_slips && equation.can_stick() {
+            let margin = margin_of_first_test(&series.slip, masks.slip_zeros, masks.sign, length);
+            least = least.min(masks.slipping.where_positive(sure(margin), one));
+        }
+        if masks.any_holds {
+            for side in [one, -one] {
+                let above = margin_above(equation.static_coefficient, side, series);
+                let margin = margin_of_first_test(&above, V::splat(0.0), one, length);
+                least = least.min(masks.holding.where_positive(sure(margin), one));
+            }
+        }
+    }
+    least
+}
+
+/// The margin μ_s N ∓ T of a sticking contact on one side.
+#[inline(always)]
+fn margin_above<V: Lane>(level: V, side: V, series: &ContactSeries<V>) -> SeriesOf<V> {
+    let mut margin = [V::splat(0.0); ORDER + 1];
+    let sides = series.pressed.iter().zip(&series.friction);
+    for (margin, (pressed, force)) in margin.iter_mut().zip(sides) {
+        *margin = level.mul_add(*pressed, -(side * *force));
+    }
+    margin
 }
 
 impl Guard<'_> {

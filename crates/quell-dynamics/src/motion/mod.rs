@@ -14,10 +14,12 @@
 //! | file | contents |
 //! |---|---|
 //! | `equations`, `rows` | a system as the engine needs it |
-//! | `series`, `contact_series`, `expansion`, `stuck` | the Taylor series of a step |
 //! | `variation`, `change_series` | small changes of the initial state |
 //! | `change_block`, `law_along_slip` | several changes side by side, and the slope of a law along a slip |
+//! | `series`, `contact_series`, `step_recurrence`, `expansion`, `stuck` | the Taylor series of a step |
+//! | `contact_masks` | what each contact does during a step, in every lane |
 //! | `guards`, `selection` | what ends a step, and what follows |
+//! | `lanes` | runs of many systems side by side |
 //! | `engine`, `transitions` | the loop, and what the contacts do at its events |
 //! | `phase`, `state`, `observer`, `stopped` | what goes into a run and comes out of it |
 //! | `extremes` | extremes of a series on a step |
@@ -25,6 +27,7 @@
 
 mod change_block;
 mod change_series;
+mod contact_masks;
 mod contact_meter;
 mod contact_series;
 mod engine;
@@ -33,6 +36,7 @@ mod expansion;
 mod extremes;
 mod guards;
 mod input_meter;
+mod lanes;
 mod law_along_slip;
 mod lyapunov;
 mod observer;
@@ -43,6 +47,7 @@ mod rows;
 mod selection;
 mod series;
 mod state;
+mod step_recurrence;
 mod stopped;
 mod stuck;
 mod transitions;
@@ -56,6 +61,7 @@ use selection::first_minor_not_positive;
 
 pub use contact_meter::{ContactMeans, ContactMeter};
 pub use input_meter::{InputCost, InputMeter, NoPower};
+pub use lanes::{MotionRequest, run_many, run_many_with};
 pub use lyapunov::{LyapunovExponent, LyapunovExponents, LyapunovVerdict, NoExponents};
 pub use observer::{
     MotionEvent, MotionMoment, MotionObserver, MotionRecorder, MotionSampler, MotionSegment,

@@ -30,7 +30,7 @@ pub(super) struct ContactNow {
     pub(super) slip_zeros: usize,
     /// Multiplicity of the zero of the load at the start: 1 after a separation or a landing.
     pub(super) load_zeros: usize,
-    /// Whether the contact is held in stick after grazing its threshold.
+    /// Whether the contact is held in stick although its force is at its bound to rounding, after decisions that repeat.
     pub(super) held: bool,
     /// Sign of the bound at which the friction of a sticking contact stands, if dependent contacts carry the rest.
     pub(super) saturated: i8,
@@ -46,7 +46,6 @@ impl ContactNow {
     pub(super) fn advanced(&mut self) {
         self.slip_zeros = 0;
         self.load_zeros = 0;
-        self.held = false;
     }
 
     #[inline(always)]

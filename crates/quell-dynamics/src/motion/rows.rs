@@ -4,7 +4,12 @@
 //! The equations of a step are written once, over [`StateStorage`]: with [`FewStates`] the length of the state is known at compile
 //! time, so that the state and its rates stay in registers.
 
+use std::marker::PhantomData;
+
+use quell_numerics::lane::Lane;
 use quell_numerics::matrix::Matrix;
+
+use super::contact_masks::chosen;
 
 /// RowEntries of a row or of a column over the state.
 #[derive(Clone, Debug, Default)]
@@ -81,12 +86,6 @@ impl RowEntries {
         self.pairs().map(|(place, value)| value * other(place)).sum()
     }
 
-    /// Whether there is no entry.
-    #[inline(always)]
-    pub(super) fn is_empty(&self) -> bool {
-        self.values.is_empty() && self.scattered.is_empty()
-    }
-
     /// All numbers, `size` of them.
     pub(super) fn dense(&self, size: usize) -> Vec<f64> {
         let mut values = vec![0.0; size];
@@ -137,6 +136,14 @@ pub(super) enum StateMatrix {
 const SMALL: usize = 8;
 
 impl StateMatrix {
+    /// The columns of a matrix of `N` states, 2 ≤ N ≤ [`SMALL`]; `None` if it has another size.
+    #[inline(always)]
+    pub(super) fn columns<const N: usize>(&self) -> Option<&[[f64; N]]> {
+        const { assert!(2 <= N && N <= SMALL) };
+        let Self::Small(columns) = self else { return None };
+        (columns.len() == N * N).then(|| columns.as_chunks::<N>().0)
+    }
+
     pub(super) fn of(matrix: &Matrix) -> Self {
         let size = matrix.rows();
         if size <= SMALL {
@@ -200,20 +207,23 @@ fn small<const N: usize>(columns: &[f64], state: &[f64], out: &mut [f64]) {
 
 /// Σ columns times entries.
 #[inline(always)]
-fn product<const N: usize>(columns: &[[f64; N]], state: &[f64]) -> [f64; N] {
-    let mut sums = [0.0; N];
+fn product<V: Lane, const N: usize>(columns: &[[V; N]], state: &[V]) -> [V; N] {
+    let mut sums = [V::splat(0.0); N];
     for (column, entry) in columns.iter().zip(state) {
         for i in 0..N {
-            sums[i] = f64::mul_add(column[i], *entry, sums[i]);
+            sums[i] = column[i].mul_add(*entry, sums[i]);
         }
     }
     sums
 }
 
-/// How the equations of a step read rows and columns over the state, and the state matrix.
-pub(super) trait StateStorage: Copy {
+/// How the equations of a step read rows and columns over the state, and the state matrix, in every lane.
+pub(super) trait StateStorage<V: Lane>: Copy {
     /// Numbers over the state that last for one step.
-    type Buffer: AsMut<[f64]>;
+    type Buffer: AsMut<[V]>;
+
+    /// A row or a column over the state.
+    type Row: StateRow;
 
     /// Whether the loop over orders is unrolled, which pays where a step is short.
     const IS_UNROLLED: bool;
@@ -222,19 +232,83 @@ pub(super) trait StateStorage: Copy {
     fn size(self) -> usize;
 
     /// A buffer, from the memory that is kept between steps where there is no better place.
-    fn buffer(self, kept: &mut Vec<f64>) -> Self::Buffer;
+    fn buffer(self, kept: &mut Vec<V>) -> Self::Buffer;
 
     /// Returns the memory of a buffer.
-    fn keep(self, buffer: Self::Buffer, kept: &mut Vec<f64>);
+    fn keep(self, buffer: Self::Buffer, kept: &mut Vec<V>);
 
     /// A row times a state.
-    fn dot(self, row: &RowEntries, state: &[f64]) -> f64;
+    fn dot(self, row: &Self::Row, state: &[V]) -> V;
 
     /// Adds `factor` times a column to a state.
-    fn add(self, column: &RowEntries, factor: f64, state: &mut [f64]);
+    fn add(self, column: &Self::Row, factor: V, state: &mut [V]);
+
+    /// The same where `mask` is positive, which it is in one lane at least.
+    fn add_where(self, mask: V, column: &Self::Row, factor: V, state: &mut [V]);
 
     /// Writes the state matrix times a state to `out`.
-    fn times(self, state: &[f64], out: &mut [f64]);
+    fn times(self, state: &[V], out: &mut [V]);
+}
+
+/// A row or a column over the state.
+pub(super) trait StateRow {
+    /// Whether there is no entry.
+    fn is_empty(&self) -> bool;
+}
+
+/// A row or a column over at most [`SMALL`] states, in every lane.
+pub(super) trait DenseRow<V>: StateRow {
+    /// All numbers, and zeros beyond the length of the state.
+    fn dense(&self) -> &[V; SMALL];
+}
+
+impl StateRow for RowEntries {
+    #[inline(always)]
+    fn is_empty(&self) -> bool {
+        self.values.is_empty() && self.scattered.is_empty()
+    }
+}
+
+impl DenseRow<f64> for RowEntries {
+    #[inline(always)]
+    fn dense(&self) -> &[f64; SMALL] {
+        &self.dense
+    }
+}
+
+/// Rows or columns over at most [`SMALL`] states, one per lane.
+#[derive(Clone, Debug)]
+pub(super) struct LaneEntries<V> {
+    is_empty: bool,
+    dense: [V; SMALL],
+}
+
+impl<V: Lane> LaneEntries<V> {
+    /// Zeros, in the place of rows that are empty or not as `row` is.
+    pub(super) fn like(row: &RowEntries) -> Self {
+        Self { is_empty: row.is_empty(), dense: [V::splat(0.0); SMALL] }
+    }
+
+    /// Writes the row of one lane.
+    pub(super) fn set(&mut self, lane: usize, row: &RowEntries) {
+        for (numbers, value) in self.dense.iter_mut().zip(row.dense) {
+            numbers.set_lane(lane, value);
+        }
+    }
+}
+
+impl<V> StateRow for LaneEntries<V> {
+    #[inline(always)]
+    fn is_empty(&self) -> bool {
+        self.is_empty
+    }
+}
+
+impl<V> DenseRow<V> for LaneEntries<V> {
+    #[inline(always)]
+    fn dense(&self) -> &[V; SMALL] {
+        &self.dense
+    }
 }
 
 /// Any number of states.
@@ -244,8 +318,9 @@ pub(super) struct ManyStates<'a> {
     pub(super) matrix: &'a StateMatrix,
 }
 
-impl StateStorage for ManyStates<'_> {
+impl StateStorage<f64> for ManyStates<'_> {
     type Buffer = Vec<f64>;
+    type Row = RowEntries;
 
     const IS_UNROLLED: bool = false;
 
@@ -275,32 +350,53 @@ impl StateStorage for ManyStates<'_> {
     }
 
     #[inline(always)]
+    fn add_where(self, _: f64, column: &RowEntries, factor: f64, state: &mut [f64]) {
+        column.add_to(factor, state);
+    }
+
+    #[inline(always)]
     fn times(self, state: &[f64], out: &mut [f64]) {
         self.matrix.times(state, out);
     }
 }
 
-/// `N` states, with the columns of the state matrix. Slices over the state must have this length.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct FewStates<'a, const N: usize>(&'a [[f64; N]; N]);
+/// `N` states, with the columns of the state matrix and rows of type `R`. Slices over the state must have this length.
+#[derive(Debug)]
+pub(super) struct FewStates<'a, V, R, const N: usize> {
+    columns: &'a [[V; N]; N],
+    rows: PhantomData<R>,
+}
 
-impl<'a, const N: usize> FewStates<'a, N> {
-    /// The storage of a matrix; `None` if it has another size.
-    #[inline(always)]
-    pub(super) fn of(matrix: &'a StateMatrix) -> Option<Self> {
-        const { assert!(2 <= N && N <= SMALL) };
-        let StateMatrix::Small(columns) = matrix else { return None };
-        if columns.len() != N * N {
-            return None;
-        }
-        columns.as_chunks::<N>().0.try_into().ok().map(Self)
+impl<V, R, const N: usize> Clone for FewStates<'_, V, R, N> {
+    fn clone(&self) -> Self {
+        *self
     }
 }
 
-impl<const N: usize> StateStorage for FewStates<'_, N> {
-    type Buffer = [f64; N];
+impl<V, R, const N: usize> Copy for FewStates<'_, V, R, N> {}
 
-    const IS_UNROLLED: bool = N <= 2;
+impl<'a, const N: usize> FewStates<'a, f64, RowEntries, N> {
+    /// The storage of a matrix; `None` if it has another size.
+    #[inline(always)]
+    pub(super) fn of(matrix: &'a StateMatrix) -> Option<Self> {
+        let columns = matrix.columns::<N>()?.try_into().ok()?;
+        Some(Self { columns, rows: PhantomData })
+    }
+}
+
+impl<'a, V, const N: usize> FewStates<'a, V, LaneEntries<V>, N> {
+    /// The storage of the matrices of all lanes, column by column.
+    #[inline(always)]
+    pub(super) fn in_lanes(columns: &'a [[V; N]; N]) -> Self {
+        Self { columns, rows: PhantomData }
+    }
+}
+
+impl<V: Lane, R: DenseRow<V>, const N: usize> StateStorage<V> for FewStates<'_, V, R, N> {
+    type Buffer = [V; N];
+    type Row = R;
+
+    const IS_UNROLLED: bool = N <= 2 && V::LANES == 1;
 
     #[inline(always)]
     fn size(self) -> usize {
@@ -308,38 +404,45 @@ impl<const N: usize> StateStorage for FewStates<'_, N> {
     }
 
     #[inline(always)]
-    fn buffer(self, _: &mut Vec<f64>) -> [f64; N] {
-        [0.0; N]
+    fn buffer(self, _: &mut Vec<V>) -> [V; N] {
+        [V::splat(0.0); N]
     }
 
     #[inline(always)]
-    fn keep(self, _: [f64; N], _: &mut Vec<f64>) {}
+    fn keep(self, _: [V; N], _: &mut Vec<V>) {}
 
     /// In two partial sums.
     #[inline(always)]
-    fn dot(self, row: &RowEntries, state: &[f64]) -> f64 {
-        let (upper, lower) = row.dense[..N].split_at(N / 2);
+    fn dot(self, row: &R, state: &[V]) -> V {
+        let (upper, lower) = row.dense()[..N].split_at(N / 2);
         let (displacements, velocities) = state[..N].split_at(N / 2);
         let mut sums = [upper[0] * displacements[0], lower[0] * velocities[0]];
         for (value, entry) in upper[1..].iter().zip(&displacements[1..]) {
-            sums[0] = f64::mul_add(*value, *entry, sums[0]);
+            sums[0] = value.mul_add(*entry, sums[0]);
         }
         for (value, entry) in lower[1..].iter().zip(&velocities[1..]) {
-            sums[1] = f64::mul_add(*value, *entry, sums[1]);
+            sums[1] = value.mul_add(*entry, sums[1]);
         }
         sums[0] + sums[1]
     }
 
     #[inline(always)]
-    fn add(self, column: &RowEntries, factor: f64, state: &mut [f64]) {
-        for (entry, value) in state[..N].iter_mut().zip(&column.dense[..N]) {
-            *entry = f64::mul_add(*value, factor, *entry);
+    fn add(self, column: &R, factor: V, state: &mut [V]) {
+        for (entry, value) in state[..N].iter_mut().zip(&column.dense()[..N]) {
+            *entry = value.mul_add(factor, *entry);
         }
     }
 
     #[inline(always)]
-    fn times(self, state: &[f64], out: &mut [f64]) {
-        out[..N].copy_from_slice(&product(self.0, &state[..N]));
+    fn add_where(self, mask: V, column: &R, factor: V, state: &mut [V]) {
+        for (entry, value) in state[..N].iter_mut().zip(&column.dense()[..N]) {
+            *entry = chosen(mask, value.mul_add(factor, *entry), *entry);
+        }
+    }
+
+    #[inline(always)]
+    fn times(self, state: &[V], out: &mut [V]) {
+        out[..N].copy_from_slice(&product(self.columns, &state[..N]));
     }
 }
 
@@ -390,7 +493,7 @@ mod tests {
     fn agrees<const N: usize>() {
         let matrix = Matrix::from_fn(N, N, |i, j| (i as f64 - 0.7).mul_add(1.3, 0.9 * j as f64));
         let form = StateMatrix::of(&matrix);
-        let few = FewStates::<N>::of(&form).expect("a small matrix");
+        let few = FewStates::<_, _, N>::of(&form).expect("a small matrix");
         let many = ManyStates { size: N, matrix: &form };
         let state: [f64; N] = std::array::from_fn(|i| 0.3 * i as f64 - 1.0);
         let values: Vec<f64> = (0..N / 2).map(|i| 1.7 - i as f64).collect();
@@ -405,7 +508,7 @@ mod tests {
         few.times(&state, &mut left);
         many.times(&state, &mut right);
         assert_eq!(left, right);
-        assert!(FewStates::<2>::of(&form).is_some() == (N == 2));
+        assert!(FewStates::<_, _, 2>::of(&form).is_some() == (N == 2));
     }
 
     #[test]

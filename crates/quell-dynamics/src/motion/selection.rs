@@ -29,7 +29,7 @@ const AT_REST: f64 = 1e-9;
 
 /// A force within this share of its bound is at it: the accuracy of solved forces with a margin. A contact released too early by it
 /// has reached its bound within the time that this share of the force takes.
-const AT_BOUND: f64 = 1e-10;
+pub(super) const AT_BOUND: f64 = 1e-10;
 
 /// A force whose margin has a root at this moment is within this share of its bound unless other events have relieved it.
 const NEAR_BOUND: f64 = 1e-7;

@@ -4,22 +4,24 @@
 //! that γ stays 0), and friction gives the next order of the state. Nothing is implicit: γ and N read the state, and friction
 //! enters its derivative.
 
-use super::contact_series::ContactSeries;
+use quell_numerics::lane::Lane;
+
+use super::contact_series::{ContactSeries, SeriesOf};
 use super::equations::{Forcings, MotionEquations};
-use crate::simulation::{Clock, ORDER, Series};
+use crate::simulation::{Clock, ORDER};
 
 /// Series of a step; the memory is kept from step to step.
 #[derive(Clone, Debug)]
-pub(super) struct StepSeries {
+pub(super) struct StepSeries<V = f64> {
     size: usize,
     /// Order by order, the state side by side.
-    pub(super) states: Vec<f64>,
+    pub(super) states: Vec<V>,
     /// Memory of the state and its rates of one order.
-    pub(super) buffers: [Vec<f64>; 2],
-    pub(super) pushes: Vec<Series>,
-    pub(super) contacts: Vec<ContactSeries>,
+    pub(super) buffers: [Vec<V>; 2],
+    pub(super) pushes: Vec<SeriesOf<V>>,
+    pub(super) contacts: Vec<ContactSeries<V>>,
     /// Magnitude of every number of the state in the last steps, over the time scale of the system.
-    pub(super) scales: Vec<f64>,
+    pub(super) scales: Vec<V>,
 }
 
 impl StepSeries {
@@ -30,43 +32,54 @@ impl StepSeries {
             let given = forcing.load.series(clock);
             ContactSeries {
                 is_plain: contact.is_plain(forcing),
+                load_varies: contact.is_compliant() || !forcing.load.is_constant(),
+                is_guided: !forcing.guided.is_constant(),
+                has_factor: forcing.factor.is_some(),
                 surface: forcing.surface.series(clock),
                 given,
                 load: given,
                 pressed: given,
                 guided: forcing.guided.series(clock),
-                ..ContactSeries::ZERO
+                ..ContactSeries::zero()
             }
         });
+        Self::with(size, equations.pushes.len(), contacts.collect())
+    }
+}
+
+impl<V: Lane> StepSeries<V> {
+    /// With a state of zeros.
+    pub(super) fn with(size: usize, pushes: usize, contacts: Vec<ContactSeries<V>>) -> Self {
+        let zeros = |count: usize| vec![V::splat(0.0); count];
         Self {
             size,
-            states: vec![0.0; (ORDER + 2) * size],
-            buffers: [vec![0.0; size], vec![0.0; size]],
-            pushes: vec![[0.0; ORDER + 1]; equations.pushes.len()],
-            contacts: contacts.collect(),
-            scales: vec![0.0; size],
+            states: zeros((ORDER + 2) * size),
+            buffers: [zeros(size), zeros(size)],
+            pushes: vec![[V::splat(0.0); ORDER + 1]; pushes],
+            contacts,
+            scales: zeros(size),
         }
     }
 
     /// The state at the start of the step.
-    pub(super) fn start(&self) -> &[f64] {
+    pub(super) fn start(&self) -> &[V] {
         &self.states[..self.size]
     }
 
     /// Sets the state at the start of the next step.
-    pub(super) fn set_start(&mut self, state: &[f64]) {
+    pub(super) fn set_start(&mut self, state: &[V]) {
         self.states[..self.size].copy_from_slice(state);
     }
 }
 
 /// The state of a series at a time after its start.
 #[inline(always)]
-pub(super) fn horner_states(states: &[f64], since: f64, out: &mut [f64]) {
+pub(super) fn horner_states<V: Lane>(states: &[V], since: V, out: &mut [V]) {
     let size = out.len();
     out.copy_from_slice(&states[ORDER * size..(ORDER + 1) * size]);
     for k in (0..ORDER).rev() {
         for (value, coefficient) in out.iter_mut().zip(&states[k * size..(k + 1) * size]) {
-            *value = f64::mul_add(*value, since, *coefficient);
+            *value = value.mul_add(since, *coefficient);
         }
     }
 }

@@ -5,12 +5,13 @@
 //! an independent subset B of them these are T = R (RᵀR)⁻¹ G_BB⁻¹ w_B; a contact that reaches its bound stays there (saturated),
 //! while the others carry the rest.
 
+use quell_numerics::lane::Lane;
 use quell_numerics::matrix::Matrix;
 
 use super::contact_series::ContactSeries;
-use super::equations::MotionEquations;
+use super::equations::{ContactEquation, MotionEquations};
 use super::phase::ContactNow;
-use super::rows::StateStorage;
+use super::rows::{StateRow, StateStorage};
 
 /// A row is dependent on others if they carry all but this share of it: the rounding of a Schur complement of rows whose condition
 /// is up to 10⁵. Rows that differ by less share their forces by least norm, and the motion changes by as little.
@@ -29,6 +30,68 @@ pub(super) struct StuckForces {
     tilts: Vec<f64>,
     /// Whether the rows of the sticking contacts, saturated ones included, are dependent.
     pub(super) is_dependent: bool,
+}
+
+/// Forces of the sticking contacts that are not saturated, in every lane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HoldingForces<'a, V = f64> {
+    /// The contacts that are free in any lane, in order.
+    pub(super) free: &'a [usize],
+    /// Those with independent rows in any lane.
+    pub(super) independent: &'a [usize],
+    /// T of the free contacts per w of the independent ones, row by row.
+    pub(super) gain: &'a [V],
+    /// σ of the free contacts.
+    pub(super) tilts: &'a [V],
+    /// Positive in the lanes where each of these contacts is one of them; not read of one lane.
+    pub(super) is_free: &'a [V],
+    pub(super) is_independent: &'a [V],
+}
+
+impl<V: Lane> HoldingForces<'_, V> {
+    /// Adds the friction of order k that holds the contacts to the rates.
+    #[inline(always)]
+    pub(super) fn hold<S: StateStorage<V>>(
+        &self,
+        storage: S,
+        equations: &[ContactEquation<S::Row, V>],
+        k: usize,
+        contacts: &mut [ContactSeries<V>],
+        rates: &mut [V],
+    ) {
+        // The conditions of all are read before any force is added: force by force into the series of this order.
+        for &index in self.independent {
+            let along = storage.dot(&equations[index].tangent, rates);
+            contacts[index].lost = contacts[index].lost_slip(k, along);
+        }
+        let count = self.independent.len();
+        for (place, &held) in self.free.iter().enumerate() {
+            let mut force = V::splat(0.0);
+            let gains = &self.gain[place * count..(place + 1) * count];
+            for (other, (&index, gain)) in self.independent.iter().zip(gains).enumerate() {
+                let sum = gain.mul_add(contacts[index].lost, force);
+                force = if V::LANES == 1 {
+                    sum
+                } else {
+                    self.is_independent[other].where_positive(sum, force)
+                };
+            }
+            contacts[held].friction[k] = if V::LANES == 1 {
+                force
+            } else {
+                self.is_free[place].where_positive(force, contacts[held].friction[k])
+            };
+        }
+        for (place, (&index, tilt)) in self.free.iter().zip(self.tilts).enumerate() {
+            let contact = &equations[index];
+            let force = contacts[index].friction[k];
+            let mask = if V::LANES == 1 { V::splat(1.0) } else { self.is_free[place] };
+            storage.add_where(mask, &contact.along, force, rates);
+            if !contact.slope.is_empty() {
+                storage.add_where(mask, &contact.across, *tilt * force, rates);
+            }
+        }
+    }
 }
 
 /// G over a set of contacts, at their tilts.
@@ -116,34 +179,16 @@ impl StuckForces {
         Some(Self { free, independent, gain: gain.as_slice().to_vec(), tilts, is_dependent })
     }
 
-    /// Adds the friction of order k that holds the contacts to the rates.
+    /// The forces of one run, for the equations of a step.
     #[inline(always)]
-    pub(super) fn hold<S: StateStorage>(
-        &self,
-        storage: S,
-        equations: &MotionEquations,
-        k: usize,
-        contacts: &mut [ContactSeries],
-        rates: &mut [f64],
-    ) {
-        let count = self.independent.len();
-        // The conditions of all are read before any force is added: force by force into the series of this order.
-        for (place, &held) in self.free.iter().enumerate() {
-            let mut force = 0.0;
-            let gains = &self.gain[place * count..(place + 1) * count];
-            for (&index, gain) in self.independent.iter().zip(gains) {
-                let along = storage.dot(&equations.contacts[index].tangent, rates);
-                force = f64::mul_add(*gain, contacts[index].lost_slip(k, along), force);
-            }
-            contacts[held].friction[k] = force;
-        }
-        for (&index, tilt) in self.free.iter().zip(&self.tilts) {
-            let contact = &equations.contacts[index];
-            let force = contacts[index].friction[k];
-            storage.add(&contact.along, force, rates);
-            if !contact.slope.is_empty() {
-                storage.add(&contact.across, tilt * force, rates);
-            }
+    pub(super) fn holding(&self) -> HoldingForces<'_> {
+        HoldingForces {
+            free: &self.free,
+            independent: &self.independent,
+            gain: &self.gain,
+            tilts: &self.tilts,
+            is_free: &[],
+            is_independent: &[],
         }
     }
 

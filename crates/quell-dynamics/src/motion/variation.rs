@@ -29,6 +29,7 @@ use super::observer::{
     MotionEvent, MotionMoment, MotionObserver, MotionSegment, RecordedEvent, Trigger,
 };
 use super::phase::{ContactNow, ContactPhase};
+use super::rows::StateRow;
 use super::stuck::StuckForces;
 use crate::simulation::ORDER;
 

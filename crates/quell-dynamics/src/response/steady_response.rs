@@ -38,8 +38,10 @@ pub struct SteadyResponse {
     pub undithered_settled: bool,
     /// Mean friction force ⟨f⟩ (over k) in the record.
     pub mean_friction: f64,
-    /// Friction force of undithered steady sliding, μ(v₀)F.
+    /// The same of the undithered run from the same state.
     pub mean_friction_undithered: f64,
+    /// Friction force of undithered steady sliding, μ(v₀)F.
+    pub steady_sliding_friction: f64,
     /// Mean power ⟨D_T g_T x′⟩ (over kω₀) that tangential dither feeds in; `None` if all dither
     /// is normal, because the model has no normal motion on which it could do work.
     pub dither_power: Option<f64>,
@@ -90,7 +92,8 @@ pub fn respond(belt: &Belt, start: Start, solver: &Solver) -> Result<SteadyRespo
         settled: compared.settled() && !still_decays(effect, &compared),
         undithered_settled: compared.undithered_settled(),
         mean_friction: dithered.mean_friction,
-        mean_friction_undithered: belt.steady_sliding(),
+        mean_friction_undithered: undithered.mean_friction,
+        steady_sliding_friction: belt.steady_sliding(),
         dither_power: dithered.dither_power,
         dither_stroke: dithered.dither_stroke,
         minimum_normal_load: dithered.minimum_normal_load,

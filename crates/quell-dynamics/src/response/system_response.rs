@@ -3,7 +3,8 @@
 //! Where a run ends on a stable periodic motion, the record begins on it, and means over time are those of one period exactly
 //! ([`SystemEnding`]). Where no such motion is found, the record of the run itself is judged, after the settling time.
 //!
-//! The band of slow vibration ends below the lowest dither frequency. M is the largest spectral amplitude in it, as for a belt,
+//! The band of slow vibration ends below the lowest dither frequency, if the strongest line without dither lies below it too; otherwise
+//! it contains that line, as for a belt whose dither is slower than its vibration ([`RecordGrid::band_end`]). M is the largest spectral amplitude in it, as for a belt,
 //! and the same rules decide the effect ([`Vibrations`]). The tones of the dithers are subtracted first: near the end of the band
 //! the window would spread them into it.
 //!
@@ -43,6 +44,9 @@ const LEAST_SAMPLES: f64 = 256.0;
 /// Lines of the unpadded record, or of its halves, between the line of a dither and the end of the band: the window spreads a
 /// tone over two on each side.
 const WINDOW_REACH: f64 = 4.0;
+
+/// Upper end of a band that contains a self-excited vibration, over its frequency: below the second harmonic (2.27).
+const OF_VIBRATION: f64 = 1.9;
 
 /// How a response is measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -142,7 +146,6 @@ pub struct SystemResponse {
 struct RecordGrid {
     step: f64,
     count: usize,
-    band_end: f64,
 }
 
 /// Integrates a system from a start with and without its dither, and measures both.
@@ -158,12 +161,16 @@ pub fn respond_system(
     let motion = Motion::new(system).map_err(ResponseRefused::Immobile)?;
     let without = Motion::new(&still).map_err(ResponseRefused::Immobile)?;
     let grid = RecordGrid::of(&motion, plan)?;
-    let dithered = record(&motion, start, plan, grid).map_err(ResponseRefused::Stopped)?;
+    let mut undithered = record(&without, start, plan, grid).map_err(ResponseRefused::Stopped)?;
+    let band_end = grid.band_end(system, plan, &undithered)?;
+    undithered.measure_lines(&without, band_end);
     let has_dither = system.is_dithered();
-    let undithered = if has_dither {
-        record(&without, start, plan, grid).map_err(ResponseRefused::Stopped)?
+    let dithered = if has_dither {
+        let mut dithered = record(&motion, start, plan, grid).map_err(ResponseRefused::Stopped)?;
+        dithered.measure_lines(&motion, band_end);
+        dithered
     } else {
-        dithered.clone()
+        undithered.clone()
     };
     let scale = dithered.largest.max(undithered.largest);
     let [with, without] =
@@ -194,14 +201,14 @@ pub fn respond_system(
         _ if !has_dither => Effect::Unknown(Uncertain::NoDither),
         Err(why) if why.is_unknown() => Effect::Unknown(Uncertain::Undithered(why)),
         _ if dithered.ending == SystemEnding::Drift => Effect::Unknown(Uncertain::Drifts),
-        Ok(()) if dithered.ending.is_faster_than(grid.band_end) => Effect::Quenches,
-        Err(_) if dithered.ending.is_faster_than(grid.band_end) => Effect::Quiet,
+        Ok(()) if dithered.ending.is_faster_than(band_end) => Effect::Quenches,
+        Err(_) if dithered.ending.is_faster_than(band_end) => Effect::Quiet,
         _ => vibrations.effect(),
     };
     let steady = SteadySliding::new(&still).ok();
     Ok(SystemResponse {
         efficiency: vibrates.map(|()| with.whole() / without.whole()),
-        band_end: grid.band_end,
+        band_end,
         steady_friction: steady
             .map(|steady| steady.contacts.iter().map(|contact| contact.friction).collect()),
         dithered,
@@ -217,7 +224,6 @@ impl RecordGrid {
         let own = TAU * motion.time_scale() / SAMPLES_PER_PERIOD;
         let system = motion.system();
         let fastest = system.acting_frequencies().fold(0.0, f64::max);
-        let slowest = system.acting_frequencies().fold(f64::INFINITY, f64::min);
         let longest = own.min(TAU / (SAMPLES_PER_DITHER_PERIOD * fastest));
         let wanted = (plan.length / longest).max(LEAST_SAMPLES);
         if wanted > MOST_SAMPLES {
@@ -227,19 +233,62 @@ impl RecordGrid {
         let unit = libm::exp2(libm::log2(wanted / LEAST_SAMPLES).floor() + 1.0);
         let count = (wanted / unit).ceil() * unit;
         let step = plan.length / count;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        let count = count as usize;
+        Ok(Self { step, count })
+    }
+
+    /// Upper end of the band of slow vibration: below the lowest dither frequency, or 1.9 times the frequency of the strongest line
+    /// without dither where that is not below the dither, reduced to end below a dither above that line.
+    fn band_end(
+        &self,
+        system: &System,
+        plan: &ResponsePlan,
+        undithered: &SystemRecord,
+    ) -> Result<f64, ResponseRefused> {
+        let reach = WINDOW_REACH * TAU / plan.length;
+        let slowest = system.acting_frequencies().fold(f64::INFINITY, f64::min);
         // Above the Nyquist frequency there are no lines.
-        let band_end = (slowest - WINDOW_REACH * TAU / plan.length).min(0.5 * TAU / step);
-        if band_end <= 2.0 * TAU / plan.length {
+        let nyquist = 0.5 * TAU / self.step;
+        let below_dither = (slowest - reach).min(nyquist);
+        let vibration = undithered.strongest_line();
+        let end = match vibration.filter(|frequency| *frequency > below_dither) {
+            None => below_dither,
+            Some(vibration) => {
+                let above = system.acting_frequencies().filter(|f| f - reach > vibration);
+                above.map(|f| f - reach).fold((OF_VIBRATION * vibration).min(nyquist), f64::min)
+            }
+        };
+        if end <= 2.0 * TAU / plan.length {
             let least = (WINDOW_REACH + 2.0) * TAU / slowest;
             return Err(ResponseRefused::TooShort { least });
         }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-        let count = count as usize;
-        Ok(Self { step, count, band_end })
+        Ok(end)
     }
 }
 
-/// Settles a run and measures its record.
+impl SystemRecord {
+    /// Frequency of the largest line, if there is a vibration.
+    fn strongest_line(&self) -> Option<f64> {
+        if self.ending == SystemEnding::Rest {
+            return None;
+        }
+        let lines = self.spectrum.frequencies().zip(self.spectrum.amplitudes()).skip(1);
+        let largest = lines.max_by(|a, b| a.1.total_cmp(b.1));
+        largest.filter(|(_, amplitude)| **amplitude > 0.0).map(|(frequency, _)| frequency)
+    }
+
+    /// Measures M in the band of slow vibration.
+    fn measure_lines(&mut self, motion: &Motion<'_>, band_end: f64) {
+        self.lines = lines_of(&self.row.samples, motion.system(), self.step, band_end);
+        if self.ending.period().is_some() {
+            // The halves of a periodic motion differ by where the window cuts it.
+            self.lines.halves = [self.lines.whole; 2];
+        }
+    }
+}
+
+/// Settles a run and measures its record, without its lines, whose band depends on the undithered record.
 fn record(
     motion: &Motion<'_>,
     start: &MotionStart,
@@ -266,10 +315,7 @@ fn record(
     let mut observer = ((&mut whole, &mut meters), &mut row);
     let end = motion.run(&from, from.time + plan.length, MOTION_TOLERANCE, &mut observer)?;
     row.finish(&end.state);
-    let mut lines = lines_of(&row.samples, motion.system(), grid);
     if let Some(period) = ending.period() {
-        // The halves of a periodic motion differ by where the window cuts it.
-        lines.halves = [lines.whole; 2];
         meters = RunMeters::new(motion, &plan.row);
         motion.run(&from, from.time + period, MOTION_TOLERANCE, &mut meters)?;
     }
@@ -284,7 +330,7 @@ fn record(
         observed: meters.row,
         row,
         spectrum,
-        lines,
+        lines: LargestLines { whole: 0.0, halves: [0.0; 2] },
         whole,
         end,
     })
@@ -317,15 +363,15 @@ impl MotionObserver for RunMeters<'_> {
 }
 
 /// M of a record and of its halves, without the tones of the dithers.
-fn lines_of(samples: &[f64], system: &System, grid: RecordGrid) -> LargestLines {
+fn lines_of(samples: &[f64], system: &System, step: f64, band_end: f64) -> LargestLines {
     let mut rest = samples.to_vec();
     for frequency in system.acting_frequencies() {
-        subtract_tone(&mut rest, frequency * grid.step);
+        subtract_tone(&mut rest, frequency * step);
     }
     let largest = |samples: &[f64]| {
-        let spectrum = spectrum_of(samples, grid.step);
+        let spectrum = spectrum_of(samples, step);
         let lines = spectrum.frequencies().zip(spectrum.amplitudes());
-        let low = lines.skip(1).take_while(|(frequency, _)| *frequency <= grid.band_end);
+        let low = lines.skip(1).take_while(|(frequency, _)| *frequency <= band_end);
         low.fold(0.0_f64, |most, (_, amplitude)| most.max(*amplitude))
     };
     let (first, second) = rest.split_at(rest.len() / 2);

@@ -139,8 +139,13 @@ impl Forcing {
         Self::new(&dithers, Direction::Tangential, mean, 1.0, clock)
     }
 
+    /// Whether the forcing is one harmonic wave and a constant part.
+    pub(crate) fn is_harmonic(&self) -> bool {
+        matches!(&self.components[..], [only] if only.waveform.breaks().is_empty())
+    }
+
     /// Rate, phase and D Rᵏ/k! of the first dither; zeros without one.
-    pub(super) fn wave(&self) -> (f64, f64, Series) {
+    pub(crate) fn wave(&self) -> (f64, f64, Series) {
         match self.components.first() {
             Some(component) => (component.rate, component.phase, component.table),
             None => (0.0, 0.0, [0.0; ORDER + 1]),
@@ -343,13 +348,25 @@ impl Component {
             out[1] = slope;
             return out;
         }
-        let (sine, cosine) = self.sin_cos(clock);
-        let phasor = [sine, cosine, -sine, -cosine];
-        for k in 0..=ORDER {
-            out[k] = self.table[k] * phasor[k % 4];
-        }
-        out
+        harmonic_series(&self.table, (self.rate, self.phase), clock.time(), clock.low())
     }
+}
+
+/// Taylor coefficients of D sin(Rτ + φ) at the moment `time` + `low` in every lane, from the table D Rᵏ/k! and (R, φ).
+#[inline(always)]
+pub(crate) fn harmonic_series<V: Lane>(
+    table: &[V; ORDER + 1],
+    (rate, phase): (V, V),
+    time: V,
+    low: V,
+) -> [V; ORDER + 1] {
+    let (sine, cosine) = sin_cos_of_phase(rate, time, low, phase);
+    let phasor = [sine, cosine, -sine, -cosine];
+    let mut out = [V::splat(0.0); ORDER + 1];
+    for k in 0..=ORDER {
+        out[k] = table[k] * phasor[k % 4];
+    }
+    out
 }
 
 #[cfg(test)]

@@ -59,7 +59,7 @@ pub use quell_numerics::dispatch::InstructionSet;
 pub use clock::Clock;
 pub use event::{Event, EventKind};
 pub use extremes::Extremes;
-pub(crate) use forcing::Forcing;
+pub(crate) use forcing::{Forcing, harmonic_series};
 pub use largest_slip::LargestSlip;
 pub(crate) use observer::shift;
 pub use observer::{EventRecorder, Observer, Sample, Sampler, Segment, VelocitySection};

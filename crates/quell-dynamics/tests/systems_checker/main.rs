@@ -4,6 +4,7 @@ mod cases;
 mod checker;
 mod comparison;
 mod expected;
+mod lanes;
 mod variation;
 
 use std::collections::BTreeMap;

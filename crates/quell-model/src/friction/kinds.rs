@@ -2,6 +2,8 @@
 
 use std::any::Any;
 
+use quell_numerics::lane::Lane;
+
 use super::law::AnyLaw;
 use super::{
     BranchSeries, Coulomb, Decreasing, Expression, LawParameters, LawSeries, LawVisitor,
@@ -78,14 +80,14 @@ macro_rules! laws {
             }
         }
 
-        /// The constants of a law's recurrence, one run at a time, for engines whose contacts have different laws.
-        pub enum FrictionConstants {
-            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind(<$kind as LawSeries>::Constants<f64>),)+
+        /// The constants of a law's recurrence in each lane, for engines whose contacts have different laws.
+        pub enum FrictionConstants<V: Lane = f64> {
+            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind(<$kind as LawSeries>::Constants<V>),)+
         }
 
-        /// The Taylor recurrence of a law, one run at a time.
-        pub enum FrictionSeries<'c, const N: usize> {
-            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind(<$kind as LawSeries>::Series<'c, f64, N>),)+
+        /// The Taylor recurrence of a law in each lane.
+        pub enum FrictionSeries<'c, V: Lane, const N: usize> {
+            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind(<$kind as LawSeries>::Series<'c, V, N>),)+
         }
 
         impl FrictionConstants {
@@ -97,36 +99,53 @@ macro_rules! laws {
                     })+
                 }
             }
+        }
+
+        impl<V: Lane> FrictionConstants<V> {
+            /// The constants of [`Lane::LANES`] laws, one per lane; `None` if they are not all alike ([`Friction::is_alike`]) or
+            /// of another number.
+            pub fn side_by_side(laws: &[Friction]) -> Option<Self> {
+                let first = laws.first()?;
+                if laws.len() != V::LANES || !laws.iter().all(|law| law.is_alike(first)) {
+                    return None;
+                }
+                Some(match first {
+                    $(Friction::$kind(_) => {
+                        let laws = laws.iter().map(<$kind as LawSeries>::of).collect::<Option<Vec<_>>>()?;
+                        Self::$kind(<$kind as LawSeries>::constants::<V>(&laws))
+                    })+
+                })
+            }
 
             /// Starts the recurrence on the branch of `sign` (±1) at scaled slip `w0`.
             #[inline(always)]
-            pub fn series<const N: usize>(&mut self, sign: f64, w0: f64) -> FrictionSeries<'_, N> {
+            pub fn series<const N: usize>(&mut self, sign: V, w0: V) -> FrictionSeries<'_, V, N> {
                 match self {
                     $(Self::$kind(constants) => FrictionSeries::$kind(
-                        <$kind as LawSeries>::series::<f64, N>(constants, sign, w0),
+                        <$kind as LawSeries>::series::<V, N>(constants, sign, w0),
                     ),)+
                 }
             }
         }
 
-        impl<const N: usize> BranchSeries<f64> for FrictionSeries<'_, N> {
+        impl<V: Lane, const N: usize> BranchSeries<V> for FrictionSeries<'_, V, N> {
             #[inline(always)]
-            fn first(&self) -> f64 {
+            fn first(&self) -> V {
                 match self { $(Self::$kind(series) => series.first()),+ }
             }
 
             #[inline(always)]
-            fn slope(&self) -> f64 {
+            fn slope(&self) -> V {
                 match self { $(Self::$kind(series) => series.slope()),+ }
             }
 
             #[inline(always)]
-            fn lower(&mut self, k: usize, w: &[f64]) -> f64 {
+            fn lower(&mut self, k: usize, w: &[V]) -> V {
                 match self { $(Self::$kind(series) => series.lower(k, w)),+ }
             }
 
             #[inline(always)]
-            fn trusted(&self, w: &[f64], length: f64) -> f64 {
+            fn trusted(&self, w: &[V], length: V) -> V {
                 match self { $(Self::$kind(series) => series.trusted(w, length)),+ }
             }
         }

@@ -25,6 +25,22 @@ pub fn margin_of_no_root<V: Lane, const N: usize>(c: &[V; N], zeros: V, h: V) ->
     margin_by_cubic(&head, pick(zeros, beyond, beyond_first, beyond_second))
 }
 
+/// The first test of [`super::first_crossing_after`] with its bits, for Σ cₖ₊ₙtᵏ that starts with `sign`: where the result is
+/// positive, that function finds no root on (0, h]. It is not positive where the first coefficient is zero or has the other sign. The
+/// lanes may have different n = `zeros`, 0, 1 or 2.
+#[inline(always)]
+pub fn margin_of_first_test<V: Lane, const N: usize>(c: &[V; N], zeros: V, sign: V, h: V) -> V {
+    let zero = V::splat(0.0);
+    let mut a = [zero; N];
+    for k in 0..N {
+        let one = if k + 1 < N { c[k + 1] } else { zero };
+        let two = if k + 2 < N { c[k + 2] } else { zero };
+        a[k] = pick(zeros, c[k], one, two);
+    }
+    let a = scaled(&a, h);
+    margin_by_cubic(&[a[0] * sign, a[1] * sign, a[2] * sign, a[3] * sign], absolute_sum(&a, 4))
+}
+
 /// Result of the search in each lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossings<V> {
@@ -183,11 +199,11 @@ mod tests {
     }
 
     impl LaneWork for Search<'_> {
-        /// Margin, found, time.
-        type Output = Vec<[f64; 3]>;
+        /// Margin, found, time, margin of the first test.
+        type Output = Vec<[f64; 4]>;
 
         #[inline(always)]
-        fn run<V: Lane>(self) -> Vec<[f64; 3]> {
+        fn run<V: Lane>(self) -> Vec<[f64; 4]> {
             let mut results = Vec::new();
             for first in (0..MOST_LANES).step_by(V::LANES) {
                 let c: [V; N] = std::array::from_fn(|k| V::load(&self.rows[k][first..]));
@@ -195,10 +211,14 @@ mod tests {
                 let h = V::splat(self.h);
                 let margin = margin_of_no_root(&c, zeros, h);
                 let crossings = first_crossings(&c, zeros, h, V::splat(1.0));
-                let mut lanes = [[0.0; MOST_LANES]; 3];
+                let mut lanes = [[0.0; MOST_LANES]; 4];
                 margin.store(&mut lanes[0]);
                 crossings.found.store(&mut lanes[1]);
                 crossings.time.store(&mut lanes[2]);
+                let first = pick(zeros, c[0], c[1], c[2]);
+                let sign = V::splat(1.0).zip(first, f64::copysign);
+                margin_of_first_test(&c, zeros, sign, h).store(&mut lanes[3]);
+                assert!(!margin_of_first_test(&c, zeros, -sign, h).any_positive());
                 results.extend((0..V::LANES).map(|lane| lanes.map(|row| row[lane])));
             }
             results
@@ -240,13 +260,20 @@ mod tests {
             let search = |set| with_lanes(set, Search { rows: &rows, zeros: &zeros, h });
             let alone = search(InstructionSet::Baseline);
             for set in InstructionSet::ALL {
-                let bits = |row: &[f64; 3]| row.map(f64::to_bits);
+                let bits = |row: &[f64; 4]| row.map(f64::to_bits);
                 let lanes: Vec<_> = search(set).iter().map(bits).collect();
                 assert_eq!(lanes, alone.iter().map(bits).collect::<Vec<_>>(), "{}", set.name());
             }
-            for (lane, &[margin, found, time]) in alone.iter().enumerate() {
+            for (lane, &[margin, found, time, first_test]) in alone.iter().enumerate() {
                 let c: [f64; N] = std::array::from_fn(|k| rows[k][lane]);
                 let scalar = first_crossing_after(&c, lane % 3, h);
+                let a = [
+                    super::super::scaled::<N, 0>,
+                    super::super::scaled::<N, 1>,
+                    super::super::scaled::<N, 2>,
+                ][lane % 3](&c, h);
+                let expected = margin_by_cubic(&[a[0], a[1], a[2], a[3]], absolute_sum(&a, 4));
+                assert_eq!(first_test.to_bits(), expected.to_bits());
                 if margin > 0.0 {
                     assert_eq!(scalar, None, "a proof of no root is wrong");
                 }

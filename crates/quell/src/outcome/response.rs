@@ -54,7 +54,8 @@ fn table(study: &BeltStudy, done: &MeasuredResponse) -> String {
     table.number("stick fraction", Quantity::Ratio, response.stick_fraction);
     table.word("settled", if response.settled { "yes" } else { "no" });
     table.number("mean friction", Quantity::Force, response.mean_friction);
-    table.number("  steady, undithered", Quantity::Force, response.mean_friction_undithered);
+    table.number("  without dither", Quantity::Force, response.mean_friction_undithered);
+    table.number("  in steady sliding", Quantity::Force, response.steady_sliding_friction);
     table.known("friction loss", Quantity::Ratio, done.friction_loss());
     let only_normal = || "all dither is normal".to_owned();
     table.known("dither power", Quantity::Power, response.dither_power.ok_or_else(only_normal));

@@ -19,7 +19,7 @@ const UNKNOWN: &str = "outcome unknown";
 /// [`Failure::Failed`] if it cannot be drawn.
 pub fn basins(study: &SystemStudy, done: &SystemBasins) -> Result<Figure, Failure> {
     let figure = match (&done.over, done.portraits.as_slice()) {
-        (None, [portrait]) => Figure::single(plane(done, portrait)?.legend(Legend::Above))
+        (None, [portrait]) => Figure::single(plane(study, done, portrait)?.legend(Legend::Above))
             .size(Size::Frame(420.0, 330.0)),
         _ => Figure::single(shares(study, done))
             .legend(SharedLegend::Above)
@@ -32,11 +32,18 @@ pub fn basins(study: &SystemStudy, done: &SystemBasins) -> Result<Figure, Failur
 }
 
 /// The plane of starts.
-fn plane(done: &SystemBasins, portrait: &SystemPortrait) -> Result<Panel, Failure> {
+fn plane(
+    study: &SystemStudy,
+    done: &SystemBasins,
+    portrait: &SystemPortrait,
+) -> Result<Panel, Failure> {
     let names = done.names.each_ref().map(|name| PlotAxis::new(name.as_str()));
     let outcome = |(place, basin): (usize, &SystemBasin)| {
         let share = 100.0 * basin.share.fraction;
-        (role(&portrait.basins, place), format!("{}: {share:.1} %", basin.attractor.words()))
+        (
+            role(&portrait.basins, place),
+            format!("{}: {share:.1} %", basin.attractor.words(study.units())),
+        )
     };
     let outcomes = portrait.basins.iter().enumerate().map(outcome);
     let Some(values) = done.layout.axes(done.windows) else {

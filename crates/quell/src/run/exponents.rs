@@ -3,6 +3,8 @@
 use quell_dynamics::motion::{
     LyapunovExponent, LyapunovExponents, LyapunovVerdict, Motion, MotionStart,
 };
+use quell_linear::linearised::Linearised;
+use quell_linear::spectrum::spectrum;
 use quell_model::System;
 use quell_model::units::Quantity;
 
@@ -74,6 +76,8 @@ pub enum JudgedMotion {
     QuasiPeriodic,
     /// It is not periodic, as far as it was followed.
     NotPeriodic,
+    /// Every contact slips steadily: the exponents are the growth rates of the small motions.
+    SteadySliding,
     /// It is at rest, or nothing is known.
     Other,
 }
@@ -96,8 +100,8 @@ pub struct MeasuredMotion<'a> {
 pub struct MeasuredExponents {
     /// The exponents.
     pub found: LyapunovExponents,
-    /// Time before the record.
-    pub settle: f64,
+    /// Time before the record; `None` of exponents that are eigenvalues.
+    pub settle: Option<f64>,
     /// Whether the motion may be shifted in time.
     pub moves_freely: bool,
     /// What is known about the motion.
@@ -113,18 +117,50 @@ impl MeasuredExponents {
     /// Why they are not known.
     pub fn of(motion: &MeasuredMotion<'_>, times: (f64, f64)) -> Result<Self, String> {
         let MeasuredMotion { system, state, moves_freely, judged } = *motion;
+        if judged == JudgedMotion::SteadySliding {
+            return Self::of_small_motions(system, state);
+        }
         let engine = Motion::new(system).map_err(|why| why.to_string())?;
         let count = engine.size().min(MOST_EXPONENTS);
         let start = MotionStart { time: 0.0, state: state.to_vec() };
         let found = engine.lyapunov_exponents(&start, times, count);
         let found = found.map_err(|why| why.to_string())?;
         let left_out = engine.size() - count;
-        Ok(Self { found, settle: times.0, moves_freely, judged, left_out })
+        Ok(Self { found, settle: Some(times.0), moves_freely, judged, left_out })
     }
 
-    /// What they say about the motion.
+    /// Those of steady sliding: the real parts of the eigenvalues, without a record.
+    fn of_small_motions(system: &System, state: &[f64]) -> Result<Self, String> {
+        let linear = Linearised::new(system).map_err(|why| why.to_string())?;
+        let found = spectrum(&linear, &linear.friction()).map_err(|why| why.to_string())?;
+        // An exponent and its interval are known to the bound on the eigenvalue.
+        let exponents = found.motions.iter().map(|motion| LyapunovExponent::Rate {
+            value: motion.eigenvalue.re,
+            error: motion.error,
+        });
+        let exponents: Vec<LyapunovExponent> = exponents.take(MOST_EXPONENTS).collect();
+        let left_out = found.motions.len() - exponents.len();
+        let means = vec![Vec::new(); exponents.len()];
+        let found = LyapunovExponents { exponents, means, time: 0.0, state: state.to_vec() };
+        let judged = JudgedMotion::SteadySliding;
+        Ok(Self { found, settle: None, moves_freely: false, judged, left_out })
+    }
+
+    /// Whether they are eigenvalues and not means over a record.
+    pub fn are_eigenvalues(&self) -> bool {
+        self.settle.is_none()
+    }
+
+    /// What is known about the motion: what the exponents say, or, where they leave it open and agree with it, the multiplier.
     pub fn verdict(&self) -> LyapunovVerdict {
-        self.found.verdict(self.moves_freely)
+        match (self.found.verdict(self.moves_freely), self.judged) {
+            (LyapunovVerdict::Unknown, JudgedMotion::Periodic { radius, .. })
+                if radius < 1.0 && self.agrees() == Some(true) =>
+            {
+                LyapunovVerdict::Regular
+            }
+            (verdict, _) => verdict,
+        }
     }
 
     /// Whether the deciding exponent is ln|λ|/T of the deciding multiplier; `None` of a motion that is not periodic.
@@ -169,7 +205,12 @@ impl MeasuredExponents {
         } else {
             "Its largest Lyapunov exponent"
         };
+        let is_open = self.found.verdict(self.moves_freely) == LyapunovVerdict::Unknown;
         let verdict = match self.verdict() {
+            LyapunovVerdict::Regular if is_open => {
+                "0 is within three standard errors, but the motion is periodic with all multipliers inside the unit circle, and so \
+                 it is regular"
+            }
             LyapunovVerdict::Regular => "the motion is regular",
             LyapunovVerdict::Irregular => "the motion is irregular (chaotic)",
             LyapunovVerdict::Unknown => {
@@ -179,6 +220,11 @@ impl MeasuredExponents {
         match self.found.deciding(self.moves_freely) {
             Some(LyapunovExponent::Rate { value, error }) => {
                 let (value, error) = (rate(value), rate(error));
+                if self.are_eigenvalues() {
+                    return format!(
+                        "{which} is {value}, the largest growth rate of a small motion: {verdict}."
+                    );
+                }
                 format!("{which} is {value} (standard error {error}): {verdict}.")
             }
             Some(LyapunovExponent::Erased) => {
@@ -196,6 +242,12 @@ impl MeasuredExponents {
         contradiction.into_iter().chain(left_out).collect()
     }
 
+    /// A time of the record, or why there is none.
+    fn recorded(&self, time: f64) -> Result<f64, String> {
+        let why = "the exponents are eigenvalues of small motions, not means over a record";
+        if self.are_eigenvalues() { Err(why.to_owned()) } else { Ok(time) }
+    }
+
     /// Adds the fields to an object.
     pub(super) fn put(&self, fields: &mut Fields) {
         let exponents = &self.found.exponents;
@@ -209,8 +261,8 @@ impl MeasuredExponents {
         fields
             .rates("exponents", &part(|value, _| value), STICK)
             .rates("errors", &part(|_, error| error), STICK)
-            .number("time", Quantity::Time, self.found.time)
-            .number("settle", Quantity::Time, self.settle)
+            .known("time", Quantity::Time, self.recorded(self.found.time))
+            .known("settle", Quantity::Time, self.recorded(self.settle.unwrap_or_default()))
             .plain("verdict", self.verdict().name());
         if self.verdict() == LyapunovVerdict::Unknown {
             fields.why(
@@ -233,7 +285,8 @@ impl MeasuredExponents {
             "the errors of the exponents, or those that were not computed, leave it open".to_owned()
         });
         fields.known("kaplan_yorke_dimension", Quantity::Ratio, dimension);
-        let not_periodic = || "no periodic motion was found, and so no multiplier".to_owned();
+        let not_periodic =
+            || "the motion has no multiplier: it is steady, or no period was found".to_owned();
         let expected = match self.judged {
             JudgedMotion::Periodic { radius, period } => {
                 let rate = libm::log(radius) / period;
@@ -275,10 +328,13 @@ impl MeasuredExponents {
 
     /// The table of exponents for people.
     pub fn table(&self, rate: impl Fn(f64) -> String) -> String {
+        let shift = self.found.shift_in_time(self.moves_freely);
         let rows = self.found.exponents.iter().enumerate().map(|(index, exponent)| {
+            let of_shift =
+                if Some(index) == shift { " (of a shift in time: exactly 0)" } else { "" };
             let value = match exponent {
                 LyapunovExponent::Rate { value, error } => {
-                    format!("{} ± {}", rate(*value), rate(*error))
+                    format!("{} ± {}{of_shift}", rate(*value), rate(*error))
                 }
                 LyapunovExponent::Erased => "−∞ (erased by sticks)".to_owned(),
             };

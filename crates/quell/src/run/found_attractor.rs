@@ -66,7 +66,11 @@ fn found(study: &BeltStudy, request: &AttractorRequest) -> Result<AttractorOfBel
     let exponents = request.lyapunov.map(|times| {
         // One mass on its spring: the slowest oscillation has about the period 2π.
         let times = times.over(|| Ok(TAU.max(period)))?;
+        let still = attractor.as_ref().is_some_and(|attractor| attractor.size() == 0.0);
         let judged = match kind {
+            Some(AttractorKind::Periodic { .. }) if settings.is_autonomous() && still => {
+                JudgedMotion::SteadySliding
+            }
             Some(AttractorKind::Periodic { periods, radius }) if !settings.is_autonomous() => {
                 JudgedMotion::Periodic { radius, period: f64::from(periods) * period }
             }
@@ -74,7 +78,6 @@ fn found(study: &BeltStudy, request: &AttractorRequest) -> Result<AttractorOfBel
             Some(AttractorKind::Unclassified) => JudgedMotion::NotPeriodic,
             _ => JudgedMotion::Other,
         };
-        let still = attractor.as_ref().is_some_and(|attractor| attractor.size() == 0.0);
         let motion = MeasuredMotion {
             system: &belt.system(),
             state: &[at.displacement, at.velocity],

@@ -119,7 +119,7 @@ impl MeasuredResponse {
         });
         let stroke = response.dither_stroke.map(|stroke| {
             let stroke = in_words(study, Quantity::Displacement, stroke);
-            format!("needs a peak-to-peak stroke of {stroke}")
+            format!("needs a peak-to-peak stroke of {stroke} at its frequency")
         });
         let parts: Vec<String> = [loss, power, stroke].into_iter().flatten().collect();
         match parts.as_slice() {
@@ -141,7 +141,7 @@ impl MeasuredResponse {
         if response.effect == Effect::Unknown(Uncertain::NoDither) {
             Err(Uncertain::NoDither.to_string())
         } else if self.moves {
-            Ok(1.0 - response.mean_friction / response.mean_friction_undithered)
+            Ok(1.0 - response.mean_friction / response.steady_sliding_friction)
         } else {
             Err("the belt does not move (v₀ = 0), so there is no steady sliding to compare with"
                 .to_owned())
@@ -299,6 +299,7 @@ impl MeasuredResponse {
             .plain("undithered_settled", response.undithered_settled)
             .number("mean_friction", Quantity::Force, response.mean_friction)
             .number("mean_friction_undithered", Quantity::Force, response.mean_friction_undithered)
+            .number("steady_sliding_friction", Quantity::Force, response.steady_sliding_friction)
             .known("friction_loss", Quantity::Ratio, self.friction_loss())
             .known("dither_power", Quantity::Power, response.dither_power.ok_or_else(only_normal))
             .known(

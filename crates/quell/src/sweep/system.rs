@@ -189,7 +189,10 @@ fn steady_response(study: &SystemStudy) -> Result<SystemResponsePoint, Status> {
         effect: response.effect,
         amplitude: response.dithered.lines.whole,
         undithered_amplitude: response.undithered.lines.whole,
-        beyond_range: !beyond_laws(study.system(), &records).is_empty(),
+        beyond_range: !beyond_laws(study.system(), |contact| {
+            records.iter().map(|record| record.largest_slip(contact)).fold(0.0, f64::max)
+        })
+        .is_empty(),
     })
 }
 

@@ -245,7 +245,7 @@ fn closed(
     if !moves(motion, &cycle, scale) {
         return None;
     }
-    let (state, period) = least_period(motion, cycle, back, scale);
+    let (state, period) = least_period(motion, cycle, scale);
     reported(motion, &state, period)
 }
 
@@ -263,14 +263,20 @@ fn moves(motion: &Motion<'_>, (state, period): &(Vec<f64>, f64), scale: f64) -> 
     size * period > COARSE * scale && distance(&before, &after) <= EQUALLY_FAST * size
 }
 
-/// The least period of a cycle closed after several passages.
+/// The least period of a closed cycle. It passes its section equally often in each part, however often the run passed it on its way
+/// there.
 fn least_period(
     motion: &Motion<'_>,
     (state, period): (Vec<f64>, f64),
-    passages: usize,
     scale: f64,
 ) -> (Vec<f64>, f64) {
-    for parts in (2..=passages).rev() {
+    let mut section = Passages::new(motion.size());
+    let start = MotionStart { time: 0.0, state: state.clone() };
+    if motion.run(&start, period, MOTION_TOLERANCE, &mut section).is_err() {
+        return (state, period);
+    }
+    let passages = section.events.len();
+    for parts in (2..=passages).rev().filter(|parts| passages % parts == 0) {
         let part = period / parts as f64;
         let is_near = shot(motion, &state, part, None).is_ok_and(|(image, _)| {
             image.state.iter().zip(&state).all(|(a, b)| (a - b).abs() <= COARSE * scale)

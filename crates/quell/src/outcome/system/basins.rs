@@ -25,13 +25,13 @@ impl Presented<SystemSetup> for SystemBasins {
         Some(self.sentence(study))
     }
 
-    fn table(&self, _: &SystemStudy) -> String {
+    fn table(&self, study: &SystemStudy) -> String {
         let mut text = String::new();
         let percent = |fraction: f64| format!("{:.1} %", 100.0 * fraction);
         if let (None, [portrait]) = (&self.over, self.portraits.as_slice()) {
             for basin in &portrait.basins {
                 let share = percent(basin.share.fraction);
-                let _ = writeln!(text, "  {share:<10}{}", basin.attractor.words());
+                let _ = writeln!(text, "  {share:<10}{}", basin.attractor.words(study.units()));
             }
             if portrait.unknown.starts > 0 {
                 let share = percent(portrait.unknown.fraction);

@@ -25,11 +25,11 @@ impl Presented<SystemSetup> for SystemBifurcation {
         Some(self.sentence(study))
     }
 
-    fn table(&self, _: &SystemStudy) -> String {
+    fn table(&self, study: &SystemStudy) -> String {
         let mut text = String::new();
         for branch in &self.branches {
             let _ = writeln!(text, "\n{}:", branch.direction.name());
-            for interval in intervals(branch) {
+            for interval in intervals(study, branch) {
                 let _ = writeln!(text, "  {interval}");
             }
         }
@@ -46,19 +46,19 @@ impl Presented<SystemSetup> for SystemBifurcation {
 }
 
 /// Ranges of neighbouring values with the same kind of motion, one line each.
-fn intervals(branch: &SystemBranch) -> Vec<String> {
+fn intervals(study: &SystemStudy, branch: &SystemBranch) -> Vec<String> {
     let mut lines = Vec::new();
     let mut from = 0;
     for place in 0..branch.points.len() {
         let last = place + 1 == branch.points.len();
-        if last || words(&branch.points[place + 1]) != words(&branch.points[from]) {
+        if last || words(study, &branch.points[place + 1]) != words(study, &branch.points[from]) {
             let value = |place: usize| figure(branch.points[place].value);
             let ends = if from == place {
                 value(place)
             } else {
                 format!("{} to {}", value(from), value(place))
             };
-            lines.push(format!("{ends:<22}  {}", words(&branch.points[from])));
+            lines.push(format!("{ends:<22}  {}", words(study, &branch.points[from])));
             from = place + 1;
         }
     }

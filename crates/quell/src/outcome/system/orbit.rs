@@ -11,7 +11,6 @@ use crate::outcome::Presented;
 use crate::outcome::table::figure;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::system::cycle_samples::CycleSamples;
 use crate::run::system::orbit::{FoundMotion, OrbitOfSystem};
 use crate::run::system::start::{state_names, state_quantity};
 use crate::study::{SystemSetup, SystemStudy};
@@ -72,16 +71,14 @@ fn table(study: &SystemStudy, found: &FoundMotion) -> String {
         let unit = unit(state_quantity(study.system(), place));
         row(&format!("{name} at t = 0"), figure(*value) + &unit);
     }
-    for (contact, sampled) in
-        study.system().contacts.iter().zip(&samples.contacts).take(MOST_LISTED)
-    {
+    for (contact, means) in study.system().contacts.iter().zip(samples.means()).take(MOST_LISTED) {
         let name = &contact.name;
-        row(&format!("stick fraction of {name}"), figure(samples.share(sampled.stuck)));
-        if sampled.open > 0.0 {
-            row(&format!("open fraction of {name}"), figure(samples.share(sampled.open)));
+        row(&format!("stick fraction of {name}"), figure(means.stick_fraction));
+        if means.open_fraction > 0.0 {
+            row(&format!("open fraction of {name}"), figure(means.open_fraction));
         }
     }
-    let (low, high) = CycleSamples::extremes(&samples.observed);
+    let [(low, high), _] = samples.extremes;
     row("lowest observed displacement", figure(low) + &unit(Some(Quantity::Displacement)));
     row("highest observed displacement", figure(high) + &unit(Some(Quantity::Displacement)));
     row("residual", figure(orbit.residual));

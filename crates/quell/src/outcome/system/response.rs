@@ -43,9 +43,9 @@ impl Presented<SystemSetup> for SettledSystem {
                 text,
                 "  {name}: slow amplitude {}, half peak-to-peak {}, rms {}, mean {}",
                 length(record.lines.whole),
-                length(0.5 * record.row.range()),
-                length(record.row.deviation()),
-                length(record.row.mean())
+                length(0.5 * record.observed.range()),
+                length(record.observed.deviation()),
+                length(record.observed.mean())
             );
         }
         for (contact, means) in study.system().contacts.iter().zip(&self.response.dithered.contacts)

@@ -81,7 +81,9 @@ pub(in crate::run) fn hysteresis_sentence(
         return format!("The two directions differ {parts}, where {noun} coexist.");
     }
     if known.iter().all(|known| *known) {
-        return format!("Both directions show {noun} of the same size: no hysteresis.");
+        return format!(
+            "Both directions show {noun} of the same size: these sweeps show no hysteresis."
+        );
     }
     if known.contains(&true) {
         return format!("Both directions show {noun} of the same size wherever both have settled.");

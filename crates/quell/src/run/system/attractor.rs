@@ -13,9 +13,10 @@ use quell_model::units::Quantity;
 
 use super::cycle::{BASE_STEPS, kicked_by};
 use super::cycle_samples::CycleSamples;
+use super::in_units;
 use crate::fields::Fields;
-use crate::study::SystemStudy;
-use crate::words::{digits, plural};
+use crate::study::{SystemStudy, SystemUnits};
+use crate::words::plural;
 
 /// Periods of the dither over which a motion that is not periodic is measured.
 const MEASURED: f64 = 20.0;
@@ -74,6 +75,8 @@ pub struct SystemAttractor {
     pub extremes: (f64, f64),
     /// Share of the time that each contact sticks.
     pub stick: Vec<f64>,
+    /// Largest slip speed of each contact.
+    pub largest_slip: Vec<f64>,
 }
 
 /// The end of a run.
@@ -191,12 +194,13 @@ impl SystemAttractor {
         let observed =
             |state: &Vec<f64>| -> f64 { row.iter().zip(state).map(|(w, x)| w * x).sum() };
         let section: Vec<f64> = states.iter().map(observed).collect();
-        let (least, most) = CycleSamples::extremes(&samples.observed);
+        let [(least, most), _] = samples.extremes;
         let bounds = section.iter().fold((least, most), |(a, b), x| (a.min(*x), b.max(*x)));
-        let stick = samples.contacts.iter().map(|contact| samples.share(contact.stuck));
-        let stick = stick.map(|share| if share.is_finite() { share } else { 0.0 }).collect();
+        let means = samples.means().into_iter();
+        let stick: Vec<f64> = means.map(|means| means.stick_fraction).collect();
+        let largest_slip = (0..stick.len()).map(|contact| samples.largest_slip(contact)).collect();
         let state = states.first().cloned().unwrap_or_default();
-        Self { kind, state, states, section, extremes: bounds, stick }
+        Self { kind, state, states, section, extremes: bounds, stick, largest_slip }
     }
 
     /// Peak-to-peak of the observed displacement.
@@ -209,8 +213,13 @@ impl SystemAttractor {
         matches!(self.kind, MotionKind::Periodic { periods: 1, .. } | MotionKind::Rest)
     }
 
+    /// Whether it is steady sliding: without dither and at rest, while every contact slips.
+    pub fn slides(&self) -> bool {
+        self.kind == MotionKind::Rest && self.stick.iter().all(|share| *share == 0.0)
+    }
+
     /// Its kind in words.
-    pub fn words(&self) -> String {
+    pub fn words(&self, units: SystemUnits) -> String {
         match self.kind {
             MotionKind::Periodic { periods: 1, .. } => {
                 "period 1, in step with the dither".to_owned()
@@ -221,8 +230,14 @@ impl SystemAttractor {
             MotionKind::NotPeriodic { tried } => {
                 format!("not periodic within {tried} period{}", plural(tried))
             }
-            MotionKind::Cycle { period, .. } => format!("limit cycle of period {}", digits(period)),
-            MotionKind::Rest => "rest or steady sliding".to_owned(),
+            MotionKind::Cycle { period, .. } => {
+                format!("limit cycle of period {}", in_units(units, Quantity::Time, period))
+            }
+            MotionKind::Rest if self.slides() => "steady sliding".to_owned(),
+            MotionKind::Rest if self.stick.iter().all(|share| *share == 1.0) => {
+                "rest, with every contact in stick".to_owned()
+            }
+            MotionKind::Rest => "rest, with some contacts in stick".to_owned(),
         }
     }
 
@@ -267,7 +282,7 @@ impl SystemAttractor {
     /// Adds its fields to an object.
     pub(super) fn put(&self, fields: &mut Fields, study: &SystemStudy) {
         fields
-            .plain("words", self.words())
+            .plain("words", self.words(study.units()))
             .plain("kind", self.kind_name())
             .plain("quiet", self.is_quiet());
         match self.kind {
@@ -279,7 +294,7 @@ impl SystemAttractor {
                 fields.number("period", Quantity::Time, period).plain("multiplier", radius);
             }
             MotionKind::NotPeriodic { .. } | MotionKind::Rest => {
-                let why = self.words();
+                let why = self.words(study.units());
                 fields.unknown("periods", why.clone()).unknown("multiplier", why);
             }
         }

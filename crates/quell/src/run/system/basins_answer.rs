@@ -6,6 +6,7 @@ use serde_json::Value as Json;
 
 use super::attractor::{MOST_PERIODS_OF_A_START, VERDICTS, verdict_code};
 use super::basins::{SystemBasins, SystemPortrait};
+use super::simulate::beyond_laws;
 use super::start::{state_names, state_quantity};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
@@ -15,10 +16,10 @@ use crate::words::{digits, plural};
 
 impl SystemPortrait {
     /// The shares of the motions in a few sentences.
-    fn sentences(&self) -> Vec<String> {
+    fn sentences(&self, study: &SystemStudy) -> Vec<String> {
         let count = self.ends.len();
         let parts = self.basins.iter().map(|basin| {
-            let (share, motion) = (basin.share.percent(), basin.attractor.words());
+            let (share, motion) = (basin.share.percent(), basin.attractor.words(study.units()));
             format!("{share} of {count} starts end on: {motion}.")
         });
         parts.collect()
@@ -61,7 +62,7 @@ impl SystemBasins {
     /// The shares of the motions, or their range over the parameter, in a few sentences.
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let mut sentences = match (&self.over, self.portraits.as_slice()) {
-            (None, [portrait]) => portrait.sentences(),
+            (None, [portrait]) => portrait.sentences(study),
             _ => self.over_parameter(study),
         };
         let other = state_names(study.system()).len() - 2;
@@ -171,7 +172,14 @@ impl SystemBasins {
             };
             Some(format!("the outcome of {count} start{}{at} is unknown: {why}", plural(count)))
         });
-        study.warnings().iter().cloned().chain(unknown).collect()
+        let attractors = || {
+            let basins = self.portraits.iter().flat_map(|portrait| &portrait.basins);
+            basins.map(|basin| &basin.attractor)
+        };
+        let beyond = beyond_laws(study.system(), |contact| {
+            attractors().map(|attractor| attractor.largest_slip[contact]).fold(0.0, f64::max)
+        });
+        study.warnings().iter().cloned().chain(beyond).chain(unknown).collect()
     }
 
     /// As JSON: the fields of a single portrait, or a list of portraits.
@@ -233,7 +241,7 @@ impl SystemBasins {
         let is_quiet = |place: usize| u8::from(portrait.basins[place].attractor.is_quiet());
         let quiet: Vec<u8> = portrait.ends.iter().map(|end| end.map_or(2, is_quiet)).collect();
         let mut dataset = Dataset::of(&study.into(), "basins");
-        let words = portrait.basins.iter().map(|basin| basin.attractor.words());
+        let words = portrait.basins.iter().map(|basin| basin.attractor.words(study.units()));
         for (place, words) in words.enumerate() {
             dataset = dataset.fact(format!("attractor {place}: {words}"));
         }

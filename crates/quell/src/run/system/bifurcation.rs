@@ -148,6 +148,10 @@ fn hysteresis(branches: &[SystemBranch]) -> Vec<(f64, f64)> {
     let pairs = up.points.iter().zip(down.points.iter().rev());
     ranges(pairs.map(|(one, other)| {
         let apart = one.attractor().zip(other.attractor()).is_some_and(|(one, other)| {
+            if one.kind == MotionKind::Rest && other.kind == MotionKind::Rest {
+                // At rest both sizes are rounding.
+                return false;
+            }
             let most = one.size().max(other.size());
             let repeats = |attractor: &SystemAttractor| {
                 !matches!(attractor.kind, MotionKind::NotPeriodic { .. })

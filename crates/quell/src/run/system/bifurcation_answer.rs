@@ -5,6 +5,7 @@ use serde_json::Value as Json;
 
 use super::attractor::{KINDS, SystemAttractor, VERDICTS, verdict_code};
 use super::bifurcation::{MOST_PERIODS_OF_A_VALUE, SystemBifurcation, SystemSweepPoint};
+use super::simulate::beyond_laws;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::bifurcation::SweepDirection;
@@ -13,8 +14,9 @@ use crate::study::SystemStudy;
 use crate::words::digits;
 
 /// The motion of a point in words.
-pub fn words(point: &SystemSweepPoint) -> String {
-    point.attractor().map_or_else(|| "unknown".to_owned(), SystemAttractor::words)
+pub fn words(study: &SystemStudy, point: &SystemSweepPoint) -> String {
+    let attractor = point.attractor();
+    attractor.map_or_else(|| "unknown".to_owned(), |attractor| attractor.words(study.units()))
 }
 
 impl SystemBifurcation {
@@ -35,7 +37,7 @@ impl SystemBifurcation {
             };
             let mut parts = vec![format!(
                 "Sweeping {path} {way}, the motion is {} at {}",
-                words(first),
+                words(study, first),
                 self.value(study, first.value)
             )];
             for (before, after) in changes(branch.points.iter().map(SystemSweepPoint::quiet)) {
@@ -50,7 +52,11 @@ impl SystemBifurcation {
                 parts.push(format!("{verb} between {} and {}", ends[0], ends[1]));
             }
             let end = self.value(study, last.value);
-            sentences.push(format!("{}, and is {} at {end}.", parts.join(", "), words(last)));
+            sentences.push(format!(
+                "{}, and is {} at {end}.",
+                parts.join(", "),
+                words(study, last)
+            ));
         }
         if self.branches.len() == 2 {
             let value = |value| self.value(study, value);
@@ -70,6 +76,14 @@ impl SystemBifurcation {
     /// Warnings: those of the study, and values at which the motion is unknown.
     pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let mut warnings = study.warnings().to_vec();
+        let attractors = || {
+            let points = self.branches.iter().flat_map(|branch| &branch.points);
+            points.filter_map(SystemSweepPoint::attractor)
+        };
+        // The laws are those of the study: a law that is swept itself keeps the range of its study here.
+        warnings.extend(beyond_laws(study.system(), |contact| {
+            attractors().map(|attractor| attractor.largest_slip[contact]).fold(0.0, f64::max)
+        }));
         for branch in &self.branches {
             for point in &branch.points {
                 if let Err(why) = &point.end {

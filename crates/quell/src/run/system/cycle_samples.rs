@@ -1,9 +1,11 @@
-//! One period of a periodic motion of a system: samples, extremes and the shares of stick and separation.
+//! One period of a periodic motion of a system: samples, exact extremes, and the means of its contacts.
 
 use quell_dynamics::motion::orbit::MotionOrbit;
 use quell_dynamics::motion::{
-    ContactPhase, MOTION_TOLERANCE, Motion, MotionObserver, MotionSegment, MotionStart,
+    ContactMeans, ContactMeter, ContactPhase, MOTION_TOLERANCE, Motion, MotionObserver,
+    MotionSegment, MotionStart,
 };
+use quell_dynamics::simulation::ORDER;
 use quell_model::System;
 
 /// Number of sampling steps in a period.
@@ -20,10 +22,6 @@ pub struct SampledContact {
     pub friction: Vec<f64>,
     /// Load N; 0 where it is open.
     pub normal_load: Vec<f64>,
-    /// Time in stick.
-    pub stuck: f64,
-    /// Time open.
-    pub open: f64,
 }
 
 /// Samples of a period, both ends included.
@@ -42,7 +40,14 @@ pub struct CycleSamples {
     pub rate: Vec<f64>,
     /// The contacts.
     pub contacts: Vec<SampledContact>,
+    /// Exact least and largest value of the observed displacement, and of its rate.
+    pub extremes: [(f64, f64); 2],
+    /// Means and extremes of the contacts.
+    meter: ContactMeter,
 }
+
+/// No value.
+const NO_RANGE: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
 impl CycleSamples {
     /// The samples of an orbit of a system, with the displacement that `row` observes.
@@ -61,6 +66,8 @@ impl CycleSamples {
             observed: Vec::new(),
             rate: Vec::new(),
             contacts: vec![SampledContact::default(); system.contacts.len()],
+            extremes: [NO_RANGE; 2],
+            meter: ContactMeter::new(system.contacts.len()),
         };
         let start = MotionStart { time: 0.0, state: state.to_vec() };
         // The orbit was already integrated when it was found; a run that stops keeps the part before.
@@ -70,37 +77,42 @@ impl CycleSamples {
         samples
     }
 
-    /// The share of a period for which the time is given.
-    pub fn share(&self, time: f64) -> f64 {
-        (time / (self.step * SAMPLES as f64)).clamp(0.0, 1.0)
+    /// Means of every contact; empty if the run stopped at once.
+    pub fn means(&self) -> Vec<ContactMeans> {
+        self.meter.means().unwrap_or_default()
     }
 
-    /// Least and largest of some samples.
-    pub fn extremes(values: &[f64]) -> (f64, f64) {
-        values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), value| {
-            (least.min(*value), most.max(*value))
-        })
+    /// The largest slip speed of a contact.
+    pub fn largest_slip(&self, contact: usize) -> f64 {
+        self.meter.largest_slip(contact)
     }
 
-    /// Peak-to-peak of the observed displacement.
-    pub fn size(&self) -> f64 {
-        let (least, most) = Self::extremes(&self.observed);
-        (most - least).max(0.0)
+    /// Widens a range by the extremes of a series over a segment.
+    fn widen(range: &mut (f64, f64), segment: &MotionSegment<'_>, series: &Series) {
+        let inner = segment.turning_points(series);
+        for since in inner.into_iter().chain([0.0, segment.duration()]) {
+            let value = MotionSegment::value(series, since);
+            *range = (range.0.min(value), range.1.max(value));
+        }
     }
 }
+
+/// A Taylor series of a segment.
+type Series = [f64; ORDER + 1];
 
 impl MotionObserver for CycleSamples {
     fn segment(&mut self, segment: &MotionSegment<'_>) {
         let duration = segment.duration();
-        for (index, contact) in self.contacts.iter_mut().enumerate() {
-            match segment.phase(index) {
-                ContactPhase::Stick => contact.stuck += duration,
-                ContactPhase::Open => contact.open += duration,
-                ContactPhase::Slip(_) => {}
-            }
-        }
-        // The series of the observed displacement.
+        self.meter.segment(segment);
+        // The series of the observed displacement and of its rate.
         let series = segment.row(&self.row, 0);
+        let mut rate = [0.0; ORDER + 1];
+        for (k, (rate, term)) in rate.iter_mut().zip(&series[1..]).enumerate() {
+            *rate = (k + 1) as f64 * term;
+        }
+        let [displacements, rates] = &mut self.extremes;
+        Self::widen(displacements, segment, &series);
+        Self::widen(rates, segment, &rate);
         while self.times.len() <= SAMPLES {
             let time = self.times.len() as f64 * self.step;
             let since = segment.clock().until(time);
@@ -114,10 +126,8 @@ impl MotionObserver for CycleSamples {
             let from = self.states.len();
             self.states.resize(from + self.size, 0.0);
             segment.state(since, &mut self.states[from..]);
-            let terms = || series.iter().enumerate().rev();
-            self.observed.push(terms().fold(0.0, |sum, (_, c)| f64::mul_add(sum, since, *c)));
-            let slope = terms().filter(|(k, _)| *k > 0);
-            self.rate.push(slope.fold(0.0, |sum, (k, c)| f64::mul_add(sum, since, k as f64 * c)));
+            self.observed.push(MotionSegment::value(&series, since));
+            self.rate.push(MotionSegment::value(&rate, since));
             for (index, contact) in self.contacts.iter_mut().enumerate() {
                 let phase = segment.phase(index);
                 contact.phases.push(phase);

@@ -4,8 +4,8 @@ use quell_linear::pure_slip::period;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::attractor::{EndOfRun, MotionKind, end_of_run};
-use super::simulate::slowest_period;
+use super::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run};
+use super::simulate::{beyond_laws, slowest_period};
 use super::start::{StateNumbers, start_in_words, start_with};
 use super::{has_equations, rate_of};
 use crate::complaint::Failure;
@@ -62,6 +62,9 @@ pub fn run(
                 JudgedMotion::Periodic { radius: *radius, period: *period }
             }
             Some(MotionKind::NotPeriodic { .. }) => JudgedMotion::NotPeriodic,
+            Some(MotionKind::Rest) if attractor.is_some_and(SystemAttractor::slides) => {
+                JudgedMotion::SteadySliding
+            }
             Some(MotionKind::Rest) | None => JudgedMotion::Other,
         };
         let motion = MeasuredMotion {
@@ -86,7 +89,10 @@ impl AttractorOfSystem {
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let start = &self.start;
         let end = match &self.end {
-            Ok(end) => format!("The run {start} ends on this motion: {}.", end.attractor.words()),
+            Ok(end) => {
+                let words = end.attractor.words(study.units());
+                format!("The run {start} ends on this motion: {words}.")
+            }
             Err(why) => format!("Where the run {start} ends is unknown: {why}."),
         };
         let exponents = match &self.exponents {
@@ -127,10 +133,19 @@ impl AttractorOfSystem {
             }
             None => {}
         }
-        let warnings = study.warnings().iter().cloned();
-        let found = self.measured().map(MeasuredExponents::warnings).unwrap_or_default();
-        fields.plain("warnings", warnings.chain(found).collect::<Vec<String>>());
+        fields.plain("warnings", self.warnings(study));
         fields.finish()
+    }
+
+    /// Warnings: those of the study, about slip beyond the ranges of the laws, and about the exponents.
+    fn warnings(&self, study: &SystemStudy) -> Vec<String> {
+        let attractor = self.end.as_ref().ok().map(|end| &end.attractor);
+        let beyond = attractor.map_or_else(Vec::new, |attractor| {
+            beyond_laws(study.system(), |contact| attractor.largest_slip[contact])
+        });
+        let warnings = study.warnings().iter().cloned().chain(beyond);
+        let found = self.measured().map(MeasuredExponents::warnings).unwrap_or_default();
+        warnings.chain(found).collect()
     }
 
     /// The exponents over the time up to which they are averaged.

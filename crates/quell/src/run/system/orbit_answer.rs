@@ -9,8 +9,8 @@ use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
 use super::cycle::without_cycle;
-use super::cycle_samples::CycleSamples;
 use super::orbit::{FoundBy, FoundMotion, OrbitOfSystem};
+use super::simulate::beyond_laws;
 use super::start::{state_names, state_quantity};
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
@@ -206,7 +206,10 @@ impl OrbitOfSystem {
             "independent events coincide: the multipliers hold for deviations to one side only"
                 .to_owned()
         });
-        study.warnings().iter().cloned().chain(one_sided).collect()
+        let beyond = self.found.iter().flat_map(|found| {
+            beyond_laws(study.system(), |contact| found.samples.largest_slip(contact))
+        });
+        study.warnings().iter().cloned().chain(one_sided).chain(beyond).collect()
     }
 
     /// As JSON.
@@ -298,19 +301,18 @@ fn put_found(fields: &mut Fields, study: &SystemStudy, found: &FoundMotion) {
     put_error(fields, "multiplier_error", orbit.multiplier_error);
     fields.plain("events", put_events(&orbit.events));
     let samples = &found.samples;
-    let contacts = study.system().contacts.iter().zip(&samples.contacts).enumerate();
-    let contacts = contacts.map(|(index, (contact, sampled))| {
+    let contacts = study.system().contacts.iter().zip(samples.means()).enumerate();
+    let contacts = contacts.map(|(index, (contact, means))| {
         let mut inner = Fields::of_system(study.units());
         inner
             .plain("name", contact.name.clone())
             .plain("signature", signature_of(found, index))
-            .number("stick_fraction", Quantity::Ratio, samples.share(sampled.stuck))
-            .number("open_fraction", Quantity::Ratio, samples.share(sampled.open));
+            .number("stick_fraction", Quantity::Ratio, means.stick_fraction)
+            .number("open_fraction", Quantity::Ratio, means.open_fraction);
         inner
     });
     fields.list("contacts", contacts);
-    let (low, high) = CycleSamples::extremes(&samples.observed);
-    let (slow, fast) = CycleSamples::extremes(&samples.rate);
+    let [(low, high), (slow, fast)] = samples.extremes;
     fields
         .number("lowest", Quantity::Displacement, low)
         .number("highest", Quantity::Displacement, high)

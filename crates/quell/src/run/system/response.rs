@@ -157,13 +157,16 @@ impl SettledSystem {
             let loss = self.friction_loss(index).ok()?;
             if loss.abs() < UNCHANGED {
                 return Some(format!(
-                    "leaves the mean friction of contact {} unchanged",
+                    "leaves the mean friction of contact {} at that of steady sliding",
                     contact.name
                 ));
             }
             let change = if loss < 0.0 { "raises" } else { "lowers" };
             let share = percent(loss.abs());
-            Some(format!("{change} the mean friction of contact {} by {share}", contact.name))
+            Some(format!(
+                "{change} the mean friction of contact {} by {share} relative to steady sliding",
+                contact.name
+            ))
         });
         let several = self.response.dithered.inputs.len() > 1;
         let inputs = self.response.dithered.inputs.iter().enumerate();
@@ -174,7 +177,7 @@ impl SettledSystem {
             let stroke = in_units(units, Quantity::Displacement, stroke);
             let of = if several { format!(" at dither[{index}]") } else { String::new() };
             Some(format!(
-                "{does} a mean power of {power} with a peak-to-peak stroke of {stroke}{of}"
+                "{does} a mean power of {power} while the point on which it acts moves by {stroke} peak to peak{of}"
             ))
         });
         let parts: Vec<String> = losses.chain(costs).collect();
@@ -197,7 +200,10 @@ impl SettledSystem {
         let response = &self.response;
         let mut warnings = study.warnings().to_vec();
         let records = [&response.dithered, &response.undithered];
-        warnings.extend(beyond_laws(study.system(), &records.map(|record| &record.whole)));
+        let largest = |contact| records.map(|record| record.whole.largest_slip(contact));
+        warnings.extend(beyond_laws(study.system(), |contact| {
+            largest(contact).into_iter().fold(0.0, f64::max)
+        }));
         warnings.extend(of_engine(study.system(), &response.dithered.end));
         let settle = in_units(study.units(), Quantity::Time, self.plan.settle);
         let runs = [
@@ -285,7 +291,12 @@ impl SettledSystem {
             let means: ContactMeans = self.response.dithered.contacts[index];
             put_means(&mut inner, Ok(means));
             inner
-                .known("mean_friction_undithered", Quantity::Force, self.steady_friction(index))
+                .number(
+                    "mean_friction_undithered",
+                    Quantity::Force,
+                    self.response.undithered.contacts[index].friction,
+                )
+                .known("steady_sliding_friction", Quantity::Force, self.steady_friction(index))
                 .known("friction_loss", Quantity::Ratio, self.friction_loss(index));
             inner
         });

@@ -114,7 +114,7 @@ pub(crate) fn run_observed(
         .run(&start, until, MOTION_TOLERANCE, &mut observer)
         .map_err(|stopped| failed_run("simulate", system, &stopped))?;
     sampler.push_end(&end);
-    let beyond = beyond_laws(system, &[&meter]);
+    let beyond = beyond_laws(system, |contact| meter.largest_slip(contact));
     Ok(SystemSimulation {
         request: request.clone(),
         start,
@@ -136,11 +136,9 @@ pub(super) fn failed_run(verb: &str, system: &System, stopped: &MotionStopped) -
     )
 }
 
-/// Warnings about slip beyond the ranges of the laws, over several runs.
-pub(crate) fn beyond_laws(system: &System, meters: &[&ContactMeter]) -> Vec<String> {
+/// Warnings about slip beyond the ranges of the laws; `largest` is the largest slip speed of a contact.
+pub(crate) fn beyond_laws(system: &System, largest: impl Fn(usize) -> f64) -> Vec<String> {
     let contacts = system.contacts.iter().enumerate();
-    let largest =
-        |contact: usize| meters.iter().map(|meter| meter.largest_slip(contact)).fold(0.0, f64::max);
     contacts.filter_map(|(index, contact)| range::at_contact(contact, largest(index))).collect()
 }
 
