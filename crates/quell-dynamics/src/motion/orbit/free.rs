@@ -276,7 +276,7 @@ fn least_period(
         return (state, period);
     }
     let passages = section.events.len();
-    for parts in (2..=passages).rev().filter(|parts| passages % parts == 0) {
+    for parts in (2..=passages).rev().filter(|parts| passages.is_multiple_of(*parts)) {
         let part = period / parts as f64;
         let is_near = shot(motion, &state, part, None).is_ok_and(|(image, _)| {
             image.state.iter().zip(&state).all(|(a, b)| (a - b).abs() <= COARSE * scale)
