@@ -212,6 +212,12 @@ impl Outputs {
             let datasets = outcome.datasets().into_iter();
             datasets.map(|(_, dataset)| dataset.csv().into_bytes()).collect()
         };
+        if contents.is_empty() {
+            let allowed =
+                "--save: this answer has no table; the table of attractor is that of --lyapunov";
+            let origin = Origin::Argument("--save");
+            return Err(Complaint::new(Fault::Usage, "--save", origin, Json::Null, allowed).into());
+        }
         let mut saved = Vec::new();
         for (output, content) in self.save.into_iter().zip(contents) {
             saved.push(output.write(&content)?.display().to_string());

@@ -76,7 +76,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     if let (Some(Ok(system)), Some(text)) = (study.as_ref().map(Study::system), &arguments.plane) {
         return run_in_plane(arguments, &system, text, complaints);
     }
-    if let Some(text) = &arguments.plane {
+    // Of a study that cannot be read the kind is unknown.
+    if let (Some(_), Some(text)) = (&study, &arguments.plane) {
         let allowed = "left out: the plane of a belt is that of displacement and velocity";
         complaints.take::<()>(Err(Complaint::option("--plane", text.as_str(), allowed)));
     }

@@ -39,7 +39,11 @@ pub(super) fn read(reader: &mut Reader, document: &Table, units: SystemUnits) ->
 fn step<'t>(reader: &mut Reader, name: &str, node: &'t Node, known: &[&str]) -> ParameterStep<'t> {
     let key = format!("parameters.{name}");
     if !is_name(name) || is_taken(name) {
-        let allowed = "a name made of letters, digits and _ that has no other meaning in a formula";
+        let allowed = if name == "v" {
+            "must have another name: in formulas v is the slip velocity"
+        } else {
+            "must have a name of letters, digits and _ that is no function, constant or variable of formulas"
+        };
         let complaint = Complaint::new(Fault::Conflict, key, node.origin, node.given(), allowed);
         reader.complain(complaint);
         return ParameterStep::Wrong;

@@ -93,7 +93,10 @@ fn wilson(fraction: f64, count: f64) -> (f64, f64) {
     let centre = (fraction + 0.5 * square) / (1.0 + square);
     let reach =
         Z * (fraction * (1.0 - fraction) / count + 0.25 * square / count).sqrt() / (1.0 + square);
-    ((centre - reach).max(0.0), (centre + reach).min(1.0))
+    // Both ends are exact where rounding of the root would miss them.
+    let low = if fraction == 0.0 { 0.0 } else { (centre - reach).max(0.0) };
+    let high = if fraction == 1.0 { 1.0 } else { (centre + reach).min(1.0) };
+    (low, high)
 }
 
 /// Number of starts inside with a neighbour outside, and of those outside with a neighbour inside.

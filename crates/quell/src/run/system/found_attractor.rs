@@ -92,6 +92,10 @@ impl AttractorOfSystem {
                 let words = end.attractor.words(study.units());
                 format!("The run {start} ends on this motion: {words}.")
             }
+            Err(why) if self.exponents.is_none() => format!(
+                "Where the run {start} ends is unknown: {why}. Its Lyapunov exponents (--lyapunov) tell an irregular motion from a \
+                 regular one."
+            ),
             Err(why) => format!("Where the run {start} ends is unknown: {why}."),
         };
         let exponents = match &self.exponents {

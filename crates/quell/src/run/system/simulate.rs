@@ -15,7 +15,7 @@ use super::history::{EventHistory, KINDS};
 use super::sound::{self, MotionSoundTap};
 use super::start::{StateNumbers, start_in_words, start_with, state_in_words, state_names};
 use super::{failed, has_equations, in_units, modes};
-use crate::complaint::{Complaint, Failure};
+use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
 use crate::range;
 use crate::run::sample_times;
@@ -192,8 +192,8 @@ pub(crate) fn slowest_period(study: &SystemStudy, option: &'static str) -> Resul
     if slowest.is_finite() {
         return Ok(TAU / slowest);
     }
-    let allowed = "given: no motion of this structure oscillates, so that it has no period";
-    Err(Complaint::option(option, Json::Null, allowed).into())
+    let why = "no motion of this structure oscillates, so that there is no usual length: give one";
+    Err(Complaint::new(Fault::Missing, option, Origin::Argument(option), Json::Null, why).into())
 }
 
 /// Number of intervals between samples, and whether it had to be limited.

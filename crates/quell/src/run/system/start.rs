@@ -149,6 +149,9 @@ fn place_of(names: &[String], name: &str) -> Result<usize, Box<Complaint>> {
 
 /// The start in words, such as "from rest".
 pub fn start_in_words(study: &SystemStudy, numbers: &StateNumbers) -> String {
+    if !numbers.is_empty() && *study.initial() == SystemStart::Rest {
+        return format!("from {}", listed(study, numbers));
+    }
     let from = match study.initial() {
         SystemStart::Rest => "from rest",
         SystemStart::Sliding => "from steady sliding",
@@ -160,6 +163,11 @@ pub fn start_in_words(study: &SystemStudy, numbers: &StateNumbers) -> String {
     if numbers.is_empty() {
         return from.to_owned();
     }
+    format!("{from} with {}", listed(study, numbers))
+}
+
+/// Numbers of a state with their names and units.
+fn listed(study: &SystemStudy, numbers: &StateNumbers) -> String {
     let names = state_names(study.system());
     let given = numbers.iter().map(|(place, value)| {
         let quantity = state_quantity(study.system(), *place);
@@ -167,7 +175,7 @@ pub fn start_in_words(study: &SystemStudy, numbers: &StateNumbers) -> String {
         let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
         format!("{} = {}{unit}", names[*place], digits(*value))
     });
-    format!("{from} with {}", given.collect::<Vec<_>>().join(", "))
+    given.collect::<Vec<_>>().join(", ")
 }
 
 /// A state in words, at most a few of its numbers.

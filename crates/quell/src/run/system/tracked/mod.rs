@@ -264,8 +264,10 @@ pub(super) fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<
     let first = (("--parameter", "--from", "--to"), &request.parameter, request.window);
     for ((option, from, to), path, window) in [Some(first), along].into_iter().flatten() {
         if study.number(path).is_none() {
-            let allowed =
-                "the path of a number of the study, such as contact.pad.friction.coefficient";
+            let contact = study.system().contacts.first().map_or("NAME", |contact| &contact.name);
+            let allowed = format!(
+                "the path of a number of the study, such as contact.{contact}.normal_load; quell check lists the contacts"
+            );
             let complaint = Complaint::option(option, path.as_str(), allowed);
             wrong.push(complaint.suggesting(nearest(study, path)));
             continue;
