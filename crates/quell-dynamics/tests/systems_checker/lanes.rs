@@ -198,7 +198,7 @@ fn relays(a: f64) -> System {
 #[test]
 fn a_neighbour_whose_events_accumulate_changes_no_bit() {
     let case = |number: u32| {
-        let a = if number % 2 == 0 { 2.0 } else { 60.0 } + 0.01 * f64::from(number);
+        let a = if number.is_multiple_of(2) { 2.0 } else { 60.0 } + 0.01 * f64::from(number);
         let state = vec![-1e-3 * f64::from(1 + number), 0.0];
         Case { system: relays(a), start: MotionStart { time: 0.0, state }, until: 1.0 }
     };

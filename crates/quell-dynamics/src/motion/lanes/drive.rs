@@ -9,7 +9,7 @@ use super::super::series::horner_states;
 use super::super::stopped::MotionStopped;
 use super::numbers::LaneNumbers;
 use super::shape::LaneShape;
-use super::{Finish, MotionRequest};
+use super::{Finish, MotionRequest, Queue};
 
 /// Number of runs that are integrated one by one rather than in this number of lanes: a step in all lanes takes about as long as so
 /// many steps alone.
@@ -60,15 +60,12 @@ impl LaneSlot<'_> {
             numbers.extract(lane, &mut run.series);
         }
         let reached = if is_clear { None } else { run.guards().first(length) };
-        let duration = match &reached {
-            Some(reached) => {
-                horner_states(&run.series.states, reached.after, &mut run.scratch);
-                reached.after
-            }
-            None => {
-                numbers.end(lane, &mut run.scratch);
-                length
-            }
+        let duration = if let Some(reached) = &reached {
+            horner_states(&run.series.states, reached.after, &mut run.scratch);
+            reached.after
+        } else {
+            numbers.end(lane, &mut run.scratch);
+            length
         };
         run.accept(ExpandedStep { duration, reached }, self.room)?;
         if run.is_over() {
@@ -96,7 +93,7 @@ pub(super) struct LaneLoop<'a, 'f, V: Lane> {
 impl<'a, 'f, V: Lane> LaneLoop<'a, 'f, V> {
     pub(super) fn new(
         shape: &'f LaneShape,
-        queue: Vec<(usize, MotionRequest<'a>)>,
+        queue: Queue<'a>,
         tolerance: f64,
         finish: Finish<'f>,
     ) -> Self {

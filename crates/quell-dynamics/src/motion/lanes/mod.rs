@@ -82,7 +82,7 @@ pub fn run_many_with(
 ) -> Vec<Result<MotionEnd, MotionStopped>> {
     let mut ends: Vec<Option<Result<MotionEnd, MotionStopped>>> = Vec::new();
     ends.resize_with(requests.len(), || None);
-    let mut groups: Vec<(Option<LaneShape>, Vec<(usize, MotionRequest<'_>)>)> = Vec::new();
+    let mut groups: Vec<(Option<LaneShape>, Queue<'_>)> = Vec::new();
     for (number, request) in requests.into_iter().enumerate() {
         assert_eq!(request.start.state.len(), request.motion.size(), "numbers of the state");
         let shape = LaneShape::of(request.motion);
@@ -105,9 +105,12 @@ pub fn run_many_with(
     ends.into_iter().flatten().collect()
 }
 
+/// Runs, each with its number in the order of the requests.
+type Queue<'a> = Vec<(usize, MotionRequest<'a>)>;
+
 type Finish<'f> = &'f mut dyn FnMut(usize, Result<MotionEnd, MotionStopped>);
 
-fn run_one_by_one(queue: Vec<(usize, MotionRequest<'_>)>, tolerance: f64, finish: Finish<'_>) {
+fn run_one_by_one(queue: Queue<'_>, tolerance: f64, finish: Finish<'_>) {
     for (number, request) in queue {
         finish(number, request.prepared(tolerance).run());
     }
@@ -116,7 +119,7 @@ fn run_one_by_one(queue: Vec<(usize, MotionRequest<'_>)>, tolerance: f64, finish
 /// Runs that share lanes.
 struct RunsOfOneShape<'a, 'f> {
     shape: LaneShape,
-    queue: Vec<(usize, MotionRequest<'a>)>,
+    queue: Queue<'a>,
     tolerance: f64,
     finish: Finish<'f>,
 }
@@ -127,9 +130,7 @@ impl LaneWork for RunsOfOneShape<'_, '_> {
     #[inline(always)]
     fn run<V: Lane>(self) {
         let Self { shape, queue, tolerance, finish } = self;
-        if const { V::LANES == 1 } {
-            run_one_by_one(queue, tolerance, finish);
-        } else if queue.len() <= drive::few(V::LANES) {
+        if const { V::LANES == 1 } || queue.len() <= drive::few(V::LANES) {
             // The lanes would cost more than they save.
             run_one_by_one(queue, tolerance, finish);
         } else {
