@@ -8,8 +8,8 @@ use super::super::phase::ContactNow;
 use super::super::series::horner_states;
 use super::super::stopped::MotionStopped;
 use super::numbers::LaneNumbers;
+use super::request::{Finish, PlannedMotion, Queue};
 use super::shape::LaneShape;
-use super::{Finish, MotionRequest, Queue};
 
 /// Number of runs that are integrated one by one rather than in this number of lanes: a step in all lanes takes about as long as so
 /// many steps alone.
@@ -80,7 +80,7 @@ impl LaneSlot<'_> {
 /// The runs of one shape, and their lanes.
 pub(super) struct LaneLoop<'a, 'f, V: Lane> {
     shape: &'f LaneShape,
-    queue: std::vec::IntoIter<(usize, MotionRequest<'a>)>,
+    queue: std::vec::IntoIter<(usize, PlannedMotion<'a>)>,
     tolerance: f64,
     finish: Finish<'f>,
     /// Present from the first run on.

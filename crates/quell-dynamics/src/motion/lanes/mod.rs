@@ -11,6 +11,7 @@
 //!
 //! | file | contents |
 //! |---|---|
+//! | `request` | what a run is computed from |
 //! | `shape` | the structure that the lanes of a group share |
 //! | `numbers` | the numbers of all lanes, and the step that they take |
 //! | `forcings`, `holding` | of these numbers, what varies in time and the forces of sticking contacts |
@@ -20,38 +21,18 @@ mod drive;
 mod forcings;
 mod holding;
 mod numbers;
+mod request;
 mod shape;
 
 use quell_numerics::dispatch::{InstructionSet, LaneWork, with_lanes};
 use quell_numerics::lane::Lane;
 
 use self::drive::LaneLoop;
+pub use self::request::PlannedMotion;
+use self::request::{Finish, Queue};
 use self::shape::LaneShape;
-use super::Motion;
-use super::engine::MotionRun;
-use super::observer::MotionObserver;
-use super::state::{MotionEnd, MotionStart};
+use super::state::MotionEnd;
 use super::stopped::MotionStopped;
-
-/// A run of a system, to be computed side by side with others.
-pub struct MotionRequest<'a> {
-    /// The system.
-    pub motion: &'a Motion<'a>,
-    /// Where the run starts.
-    pub start: MotionStart,
-    /// The time at which it ends.
-    pub until: f64,
-    /// Receives its segments and events.
-    pub observer: &'a mut dyn MotionObserver,
-}
-
-impl<'a> MotionRequest<'a> {
-    /// The run, before its first decision.
-    fn prepared(self, tolerance: f64) -> MotionRun<'a> {
-        let Motion { system, equations } = self.motion;
-        MotionRun::new((system, equations), &self.start, self.until, tolerance, self.observer)
-    }
-}
 
 /// Integrates many runs side by side in the lanes of the machine's widest instruction set.
 ///
@@ -65,7 +46,7 @@ impl<'a> MotionRequest<'a> {
 /// # Panics
 /// If a start has not as many numbers as the state of its system.
 pub fn run_many(
-    requests: Vec<MotionRequest<'_>>,
+    requests: Vec<PlannedMotion<'_>>,
     tolerance: f64,
 ) -> Vec<Result<MotionEnd, MotionStopped>> {
     run_many_with(InstructionSet::widest(), requests, tolerance)
@@ -77,7 +58,7 @@ pub fn run_many(
 /// If a start has not as many numbers as the state of its system.
 pub fn run_many_with(
     set: InstructionSet,
-    requests: Vec<MotionRequest<'_>>,
+    requests: Vec<PlannedMotion<'_>>,
     tolerance: f64,
 ) -> Vec<Result<MotionEnd, MotionStopped>> {
     let mut ends: Vec<Option<Result<MotionEnd, MotionStopped>>> = Vec::new();
@@ -104,11 +85,6 @@ pub fn run_many_with(
     // Every request is in one group, and every run of a group finishes.
     ends.into_iter().flatten().collect()
 }
-
-/// Runs, each with its number in the order of the requests.
-type Queue<'a> = Vec<(usize, MotionRequest<'a>)>;
-
-type Finish<'f> = &'f mut dyn FnMut(usize, Result<MotionEnd, MotionStopped>);
 
 fn run_one_by_one(queue: Queue<'_>, tolerance: f64, finish: Finish<'_>) {
     for (number, request) in queue {
