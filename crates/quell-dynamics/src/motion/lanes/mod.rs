@@ -36,7 +36,7 @@ use super::stopped::MotionStopped;
 
 /// Integrates many runs side by side in the lanes of the machine's widest instruction set.
 ///
-/// Every run has the same bits and events as by [`Motion::run`], for any other runs in the lanes and on any instruction set. Runs of
+/// Every run has the same bits and events as by [`Motion::run`](super::Motion::run), for any other runs in the lanes and on any instruction set. Runs of
 /// systems with the same structure share lanes: equal numbers of states (2, 4, 6 or 8) and contacts (at most 4), equal kinds of law,
 /// and the same numbers that vary in time. Other runs are integrated one by one. The results are in the order of the requests.
 ///
