@@ -7,7 +7,7 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionRequest, MotionStart, run_many};
+use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart, PlannedMotion, run_many};
 use quell_dynamics::simulation::{Start, simulate};
 use quell_model::friction::Friction;
 use quell_model::profile::{Profile, Wave};
@@ -119,7 +119,7 @@ fn batch(until: f64) -> [f64; 2] {
         fastest(|| {
             let mut observers = [(); BATCH];
             let requests = motions.iter().zip(&mut observers).map(|(motion, observer)| {
-                MotionRequest { motion, start: start.clone(), until, observer }
+                PlannedMotion { motion, start: start.clone(), until, observer }
             });
             let _ = run_many(requests.collect(), MOTION_TOLERANCE);
         });

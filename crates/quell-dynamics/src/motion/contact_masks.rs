@@ -6,6 +6,10 @@ use super::phase::{ContactNow, ContactPhase};
 
 /// What a contact does during a step. Each mask is positive in the lanes where it holds, and each `bool` or number next to them
 /// combines all lanes, so that work which no lane needs is left out.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each says of one mask whether any lane needs its work"
+)]
 #[derive(Clone, Debug)]
 pub(super) struct ContactMasks<V = f64> {
     /// Sign of the slip velocity; 0 where the contact does not slip.

@@ -8,6 +8,10 @@ use crate::simulation::ORDER;
 pub(super) type SeriesOf<V> = [V; ORDER + 1];
 
 /// Series of one contact on a step.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "independent properties of a contact, constant along a run"
+)]
 #[derive(Clone, Debug)]
 pub(super) struct ContactSeries<V = f64> {
     /// Whether load and factor are constant and without reaction on the structure, and friction is not turned by a slope: the

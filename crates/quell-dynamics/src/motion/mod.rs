@@ -61,7 +61,7 @@ use selection::first_minor_not_positive;
 
 pub use contact_meter::{ContactMeans, ContactMeter};
 pub use input_meter::{InputCost, InputMeter, NoPower};
-pub use lanes::{MotionRequest, run_many, run_many_with};
+pub use lanes::{PlannedMotion, run_many, run_many_with};
 pub use lyapunov::{LyapunovExponent, LyapunovExponents, LyapunovVerdict, NoExponents};
 pub use observer::{
     MotionEvent, MotionMoment, MotionObserver, MotionRecorder, MotionSampler, MotionSegment,

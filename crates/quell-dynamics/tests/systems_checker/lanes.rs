@@ -1,8 +1,8 @@
 //! Runs of random systems have the same bits alone, in any lane and next to any neighbours, on every instruction set.
 
 use quell_dynamics::motion::{
-    MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder, MotionRequest, MotionSampler, MotionStart,
-    MotionStopped, StopReason, run_many, run_many_with,
+    MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder, MotionSampler, MotionStart, MotionStopped,
+    PlannedMotion, StopReason, run_many, run_many_with,
 };
 use quell_dynamics::simulation::InstructionSet;
 use quell_model::System;
@@ -108,7 +108,7 @@ fn side_by_side(set: InstructionSet, cases: &[Case], is_sampled: bool) -> Vec<St
         cases.iter().map(|case| Motion::new(&case.system).expect("movable")).collect();
     let mut observers: Vec<_> = cases.iter().map(observer).collect();
     let requests = cases.iter().zip(&motions).zip(&mut observers);
-    let requests = requests.map(|((case, motion), observer)| MotionRequest {
+    let requests = requests.map(|((case, motion), observer)| PlannedMotion {
         motion,
         start: case.start.clone(),
         until: case.until,
@@ -198,7 +198,7 @@ fn relays(a: f64) -> System {
 #[test]
 fn a_neighbour_whose_events_accumulate_changes_no_bit() {
     let case = |number: u32| {
-        let a = if number % 2 == 0 { 2.0 } else { 60.0 } + 0.01 * f64::from(number);
+        let a = if number.is_multiple_of(2) { 2.0 } else { 60.0 } + 0.01 * f64::from(number);
         let state = vec![-1e-3 * f64::from(1 + number), 0.0];
         Case { system: relays(a), start: MotionStart { time: 0.0, state }, until: 1.0 }
     };

@@ -8,8 +8,8 @@ use super::super::phase::ContactNow;
 use super::super::series::horner_states;
 use super::super::stopped::MotionStopped;
 use super::numbers::LaneNumbers;
+use super::request::{Finish, PlannedMotion, Queue};
 use super::shape::LaneShape;
-use super::{Finish, MotionRequest};
 
 /// Number of runs that are integrated one by one rather than in this number of lanes: a step in all lanes takes about as long as so
 /// many steps alone.
@@ -60,15 +60,12 @@ impl LaneSlot<'_> {
             numbers.extract(lane, &mut run.series);
         }
         let reached = if is_clear { None } else { run.guards().first(length) };
-        let duration = match &reached {
-            Some(reached) => {
-                horner_states(&run.series.states, reached.after, &mut run.scratch);
-                reached.after
-            }
-            None => {
-                numbers.end(lane, &mut run.scratch);
-                length
-            }
+        let duration = if let Some(reached) = &reached {
+            horner_states(&run.series.states, reached.after, &mut run.scratch);
+            reached.after
+        } else {
+            numbers.end(lane, &mut run.scratch);
+            length
         };
         run.accept(ExpandedStep { duration, reached }, self.room)?;
         if run.is_over() {
@@ -83,7 +80,7 @@ impl LaneSlot<'_> {
 /// The runs of one shape, and their lanes.
 pub(super) struct LaneLoop<'a, 'f, V: Lane> {
     shape: &'f LaneShape,
-    queue: std::vec::IntoIter<(usize, MotionRequest<'a>)>,
+    queue: std::vec::IntoIter<(usize, PlannedMotion<'a>)>,
     tolerance: f64,
     finish: Finish<'f>,
     /// Present from the first run on.
@@ -96,7 +93,7 @@ pub(super) struct LaneLoop<'a, 'f, V: Lane> {
 impl<'a, 'f, V: Lane> LaneLoop<'a, 'f, V> {
     pub(super) fn new(
         shape: &'f LaneShape,
-        queue: Vec<(usize, MotionRequest<'a>)>,
+        queue: Queue<'a>,
         tolerance: f64,
         finish: Finish<'f>,
     ) -> Self {

@@ -11,6 +11,7 @@
 //!
 //! | file | contents |
 //! |---|---|
+//! | `request` | what a run is computed from |
 //! | `shape` | the structure that the lanes of a group share |
 //! | `numbers` | the numbers of all lanes, and the step that they take |
 //! | `forcings`, `holding` | of these numbers, what varies in time and the forces of sticking contacts |
@@ -20,42 +21,22 @@ mod drive;
 mod forcings;
 mod holding;
 mod numbers;
+mod request;
 mod shape;
 
 use quell_numerics::dispatch::{InstructionSet, LaneWork, with_lanes};
 use quell_numerics::lane::Lane;
 
 use self::drive::LaneLoop;
+pub use self::request::PlannedMotion;
+use self::request::{Finish, Queue};
 use self::shape::LaneShape;
-use super::Motion;
-use super::engine::MotionRun;
-use super::observer::MotionObserver;
-use super::state::{MotionEnd, MotionStart};
+use super::state::MotionEnd;
 use super::stopped::MotionStopped;
-
-/// A run of a system, to be computed side by side with others.
-pub struct MotionRequest<'a> {
-    /// The system.
-    pub motion: &'a Motion<'a>,
-    /// Where the run starts.
-    pub start: MotionStart,
-    /// The time at which it ends.
-    pub until: f64,
-    /// Receives its segments and events.
-    pub observer: &'a mut dyn MotionObserver,
-}
-
-impl<'a> MotionRequest<'a> {
-    /// The run, before its first decision.
-    fn prepared(self, tolerance: f64) -> MotionRun<'a> {
-        let Motion { system, equations } = self.motion;
-        MotionRun::new((system, equations), &self.start, self.until, tolerance, self.observer)
-    }
-}
 
 /// Integrates many runs side by side in the lanes of the machine's widest instruction set.
 ///
-/// Every run has the same bits and events as by [`Motion::run`], for any other runs in the lanes and on any instruction set. Runs of
+/// Every run has the same bits and events as by [`Motion::run`](super::Motion::run), for any other runs in the lanes and on any instruction set. Runs of
 /// systems with the same structure share lanes: equal numbers of states (2, 4, 6 or 8) and contacts (at most 4), equal kinds of law,
 /// and the same numbers that vary in time. Other runs are integrated one by one. The results are in the order of the requests.
 ///
@@ -65,7 +46,7 @@ impl<'a> MotionRequest<'a> {
 /// # Panics
 /// If a start has not as many numbers as the state of its system.
 pub fn run_many(
-    requests: Vec<MotionRequest<'_>>,
+    requests: Vec<PlannedMotion<'_>>,
     tolerance: f64,
 ) -> Vec<Result<MotionEnd, MotionStopped>> {
     run_many_with(InstructionSet::widest(), requests, tolerance)
@@ -77,12 +58,12 @@ pub fn run_many(
 /// If a start has not as many numbers as the state of its system.
 pub fn run_many_with(
     set: InstructionSet,
-    requests: Vec<MotionRequest<'_>>,
+    requests: Vec<PlannedMotion<'_>>,
     tolerance: f64,
 ) -> Vec<Result<MotionEnd, MotionStopped>> {
     let mut ends: Vec<Option<Result<MotionEnd, MotionStopped>>> = Vec::new();
     ends.resize_with(requests.len(), || None);
-    let mut groups: Vec<(Option<LaneShape>, Vec<(usize, MotionRequest<'_>)>)> = Vec::new();
+    let mut groups: Vec<(Option<LaneShape>, Queue<'_>)> = Vec::new();
     for (number, request) in requests.into_iter().enumerate() {
         assert_eq!(request.start.state.len(), request.motion.size(), "numbers of the state");
         let shape = LaneShape::of(request.motion);
@@ -105,9 +86,7 @@ pub fn run_many_with(
     ends.into_iter().flatten().collect()
 }
 
-type Finish<'f> = &'f mut dyn FnMut(usize, Result<MotionEnd, MotionStopped>);
-
-fn run_one_by_one(queue: Vec<(usize, MotionRequest<'_>)>, tolerance: f64, finish: Finish<'_>) {
+fn run_one_by_one(queue: Queue<'_>, tolerance: f64, finish: Finish<'_>) {
     for (number, request) in queue {
         finish(number, request.prepared(tolerance).run());
     }
@@ -116,7 +95,7 @@ fn run_one_by_one(queue: Vec<(usize, MotionRequest<'_>)>, tolerance: f64, finish
 /// Runs that share lanes.
 struct RunsOfOneShape<'a, 'f> {
     shape: LaneShape,
-    queue: Vec<(usize, MotionRequest<'a>)>,
+    queue: Queue<'a>,
     tolerance: f64,
     finish: Finish<'f>,
 }
@@ -127,9 +106,7 @@ impl LaneWork for RunsOfOneShape<'_, '_> {
     #[inline(always)]
     fn run<V: Lane>(self) {
         let Self { shape, queue, tolerance, finish } = self;
-        if const { V::LANES == 1 } {
-            run_one_by_one(queue, tolerance, finish);
-        } else if queue.len() <= drive::few(V::LANES) {
+        if const { V::LANES == 1 } || queue.len() <= drive::few(V::LANES) {
             // The lanes would cost more than they save.
             run_one_by_one(queue, tolerance, finish);
         } else {

@@ -12,6 +12,7 @@ use super::super::phase::{ContactNow, ContactPhase};
 use super::super::rows::{LaneEntries, LaneStates};
 use super::super::series::{StepSeries, horner_states};
 use super::super::step_recurrence::{FEW_CONTACTS, SlipRecurrence, StepLimit, StepRecurrence};
+use super::super::stuck::StuckForces;
 use super::forcings::LaneForcings;
 use super::holding::LaneHolding;
 use super::shape::LaneShape;
@@ -151,7 +152,7 @@ impl<V: Lane> LaneNumbers<V> {
         for masks in &mut self.masks {
             masks.set(lane, &ContactNow::of(ContactPhase::Open));
         }
-        self.holding.set(lane, &Default::default());
+        self.holding.set(lane, &StuckForces::default());
         (self.are_masks_new, self.is_holding_new) = (true, true);
     }
 
