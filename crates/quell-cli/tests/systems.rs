@@ -262,7 +262,10 @@ fn times_and_starts_of_simulations_have_units() {
         assert!(why.contains(part), "{options:?}: {why}");
     }
     let why = complaint(&["simulate", "stribeck-belt.toml", "--until", "1", "--start", "x=1"]);
-    assert!(why.contains("[belt.initial]"), "{why}");
+    assert!(why.contains("two finite numbers x,v"), "{why}");
+    let belt = ["simulate", "stribeck-belt.toml", "--until", "1", "--start", "0.2,-0.1"];
+    let begin = answer(&belt)["start"].clone();
+    assert_eq!((&begin["displacement"], &begin["velocity"]), (&0.2.into(), &(-0.1).into()));
     assert!(complaint(&["simulate", "stribeck-belt.toml"]).contains("--until"));
 }
 
