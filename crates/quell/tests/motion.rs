@@ -8,7 +8,7 @@ use quell::kind::verbs;
 use quell::run::system::simulate::{self, MotionRequest};
 use quell::run::system::start::read_state;
 use quell_dynamics::motion::orbit::{
-    MotionOrbit, base_motion, free_cycle, motion_thresholds, settled,
+    MotionOrbit, base_motion, free_cycle, motion_thresholds, settled, settled_many,
 };
 use quell_dynamics::motion::{
     ContactPhase, LyapunovExponent, MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder,
@@ -434,5 +434,35 @@ fn failures_have_time_and_contact() {
     let endless = why(&text.replace("normal = ", "tangent = ").replace("= 0.0", "= 0.1"));
     for part in ["stopped at t = ", "the state there is x = ", "velocity.x = "] {
         assert!(endless.contains(part), "{endless}");
+    }
+}
+
+/// The judge of many starts gives every bit of that of one.
+#[test]
+fn runs_side_by_side_end_where_they_end_alone() {
+    for name in ["belt-as-system.toml", "two-mass-drive.toml"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies").join(name);
+        let text = fs::read_to_string(path).expect("a study");
+        let study = study(&text);
+        let size = study.system().structure.state_size();
+        let start = |k: usize| -> Vec<f64> {
+            (0..size).map(|i| 0.3 * libm::sin((1 + i) as f64 * (0.7 + k as f64))).collect()
+        };
+        let starts: Vec<Vec<f64>> = (0..20).map(start).collect();
+        let together = settled_many(study.system(), &starts);
+        assert_eq!(together.len(), starts.len());
+        for (start, found) in starts.iter().zip(together) {
+            let alone = settled(study.system(), start);
+            match (&found, &alone) {
+                (Ok(one), Ok(other)) => {
+                    assert_eq!((one.multiple, one.periods), (other.multiple, other.periods));
+                    let bits =
+                        |state: &[f64]| state.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+                    assert_eq!(bits(&one.orbit.state), bits(&other.orbit.state), "{name}");
+                }
+                (Err(one), Err(other)) => assert_eq!(one, other, "{name}"),
+                _ => panic!("{name}: {found:?} {alone:?}"),
+            }
+        }
     }
 }

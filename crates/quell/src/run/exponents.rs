@@ -242,7 +242,7 @@ impl MeasuredExponents {
         contradiction.into_iter().chain(left_out).collect()
     }
 
-    /// A time of the record, or why there is none.
+    /// A time of the record, or the reason for exponents without one.
     fn recorded(&self, time: f64) -> Result<f64, String> {
         let why = "the exponents are eigenvalues of small motions, not means over a record";
         if self.are_eigenvalues() { Err(why.to_owned()) } else { Ok(time) }

@@ -34,5 +34,5 @@ pub use periodic::{
     MotionOrbit, NoMotionOrbit, base_motion, is_on_sliding, motion_near, sliding_state,
 };
 pub use ramp::ramped_motion;
-pub use settled::{LEAST_PERIODS, MOST_PERIODS, SettledMotion, settled};
+pub use settled::{LEAST_PERIODS, MOST_PERIODS, SettledMotion, settled, settled_many};
 pub use thresholds::{MotionThreshold, MotionThresholds, motion_thresholds};

@@ -16,7 +16,7 @@ use quell_model::System;
 use quell_numerics::continuation::modulus;
 use quell_numerics::eigen::Decomposition;
 
-use super::super::{MOTION_TOLERANCE, Motion, MotionStart};
+use super::super::{MOTION_TOLERANCE, Motion, MotionStart, MotionStopped, PlannedMotion, run_many};
 use super::family::{NoImage, shot, time_of};
 use super::periodic::{MotionOrbit, NoMotionOrbit, motion_near, orbit_at, scale_of};
 use super::recurrence::{NEAR, ON_IT, SAME, distance, returns};
@@ -79,24 +79,118 @@ pub struct SettledMotion {
 /// [`NoMotionOrbit::Unsettled`] where no such motion is found.
 pub fn settled(system: &System, start: &[f64]) -> Result<SettledMotion, NoMotionOrbit> {
     let motion = Motion::new(system).map_err(NoMotionOrbit::Immobile)?;
-    let period = time_of(&motion, 1).map_err(NoMotionOrbit::NoImage)?;
-    let mut run = Strobed { motion: &motion, period, states: vec![start.to_vec()] };
-    let mut next = FIRST_ATTEMPT;
-    let mut is_steady = false;
-    while run.periods() < MOST_PERIODS && !is_steady {
-        // A first look is taken at the least number of periods exactly, and seldom later on.
-        let milestone = if run.periods() < LEAST_PERIODS { LEAST_PERIODS } else { MOST_PERIODS };
-        run.go_to(next.min(milestone))?;
-        if let Some(found) = run.ends_on()? {
-            return Ok(found);
+    let mut search = Search::new(&motion, start)?;
+    loop {
+        search.run.go_to(search.next)?;
+        if let Some(end) = search.judged()? {
+            return end;
         }
-        let count = run.periods();
-        is_steady = count >= LEAST_PERIODS && transient::is_steady(&run.states);
-        next = count + (count / ATTEMPTS_APART).max(FIRST_ATTEMPT);
     }
-    let periods = run.periods();
-    let last = run.states.split_off(run.states.len().saturating_sub(KEPT));
-    Err(NoMotionOrbit::Unsettled { periods, last, is_steady })
+}
+
+/// [`settled`] of several starts of one system, whose runs go on side by side, with the same bits as alone.
+///
+/// # Errors
+/// Those of [`settled`], of each start.
+pub fn settled_many(
+    system: &System,
+    starts: &[Vec<f64>],
+) -> Vec<Result<SettledMotion, NoMotionOrbit>> {
+    let motion = match Motion::new(system) {
+        Ok(motion) => motion,
+        Err(why) => {
+            return starts.iter().map(|_| Err(NoMotionOrbit::Immobile(why.clone()))).collect();
+        }
+    };
+    let mut ends: Vec<Option<Result<SettledMotion, NoMotionOrbit>>> = Vec::new();
+    ends.resize_with(starts.len(), || None);
+    let mut searches: Vec<(usize, Search<'_, '_>)> = Vec::new();
+    for (place, start) in starts.iter().enumerate() {
+        match Search::new(&motion, start) {
+            Ok(search) => searches.push((place, search)),
+            Err(why) => ends[place] = Some(Err(why)),
+        }
+    }
+    while !searches.is_empty() {
+        let mut stopped = go_on_side_by_side(&mut searches);
+        searches.retain_mut(|(place, search)| {
+            let end = match stopped.iter_mut().find(|(other, _)| other == place) {
+                Some((_, why)) => Some(Err(NoMotionOrbit::NoImage(NoImage::Stopped(why.clone())))),
+                None => search.judged().unwrap_or_else(|why| Some(Err(why))),
+            };
+            let goes_on = end.is_none();
+            ends[*place] = end;
+            goes_on
+        });
+    }
+    // Every search has ended.
+    ends.into_iter().flatten().collect()
+}
+
+/// Continues every run to the period at which it is judged next, period by period; the runs that stopped on the way.
+fn go_on_side_by_side(searches: &mut [(usize, Search<'_, '_>)]) -> Vec<(usize, MotionStopped)> {
+    let mut stopped: Vec<(usize, MotionStopped)> = Vec::new();
+    loop {
+        let mut going: Vec<&mut (usize, Search<'_, '_>)> = searches
+            .iter_mut()
+            .filter(|(place, search)| {
+                search.run.periods() < search.next
+                    && stopped.iter().all(|(other, _)| other != place)
+            })
+            .collect();
+        if going.is_empty() {
+            return stopped;
+        }
+        let mut unobserved = vec![(); going.len()];
+        let planned = going.iter().zip(&mut unobserved).map(|((_, search), observer)| {
+            let run = &search.run;
+            let start = MotionStart { time: run.time(), state: run.last().to_vec() };
+            let until = f64::from(run.periods() + 1) * run.period;
+            PlannedMotion { motion: run.motion, start, until, observer }
+        });
+        let found = run_many(planned.collect(), MOTION_TOLERANCE);
+        for ((place, search), end) in going.iter_mut().zip(found) {
+            match end {
+                Ok(end) => search.run.states.push(end.state),
+                Err(why) => stopped.push((*place, why)),
+            }
+        }
+    }
+}
+
+/// A run that is judged again and again until it is known where it ends.
+struct Search<'a, 's> {
+    run: Strobed<'a, 's>,
+    /// Period at which it is judged next.
+    next: u32,
+}
+
+impl<'a, 's> Search<'a, 's> {
+    fn new(motion: &'a Motion<'s>, start: &[f64]) -> Result<Self, NoMotionOrbit> {
+        let period = time_of(motion, 1).map_err(NoMotionOrbit::NoImage)?;
+        Ok(Self {
+            run: Strobed { motion, period, states: vec![start.to_vec()] },
+            next: FIRST_ATTEMPT,
+        })
+    }
+
+    /// Where the run ends, if that is certain at the period it has reached, or that it is given up.
+    fn judged(&mut self) -> Result<Option<Result<SettledMotion, NoMotionOrbit>>, NoMotionOrbit> {
+        if let Some(found) = self.run.ends_on()? {
+            return Ok(Some(Ok(found)));
+        }
+        let periods = self.run.periods();
+        let is_steady = periods >= LEAST_PERIODS && transient::is_steady(&self.run.states);
+        if is_steady || periods >= MOST_PERIODS {
+            let states = &mut self.run.states;
+            let last = states.split_off(states.len().saturating_sub(KEPT));
+            return Ok(Some(Err(NoMotionOrbit::Unsettled { periods, last, is_steady })));
+        }
+        // A look is taken at the least number of periods exactly.
+        let milestone = if periods < LEAST_PERIODS { LEAST_PERIODS } else { MOST_PERIODS };
+        self.next = (periods + (periods / ATTEMPTS_APART).max(FIRST_ATTEMPT)).min(milestone);
+        Ok(None)
+    }
 }
 
 /// A run and its states at whole periods, from t = 0 on.
@@ -116,12 +210,14 @@ impl Strobed<'_, '_> {
         self.states.last().map_or(&[], Vec::as_slice)
     }
 
+    /// Time of the last state.
+    fn time(&self) -> f64 {
+        f64::from(self.periods()) * self.period
+    }
+
     /// Continues to a number of periods.
     fn go_to(&mut self, periods: u32) -> Result<(), NoMotionOrbit> {
-        let mut from = MotionStart {
-            time: f64::from(self.periods()) * self.period,
-            state: self.last().to_vec(),
-        };
+        let mut from = MotionStart { time: self.time(), state: self.last().to_vec() };
         for count in self.periods() + 1..=periods {
             let until = f64::from(count) * self.period;
             let end = self.motion.run(&from, until, MOTION_TOLERANCE, &mut ());

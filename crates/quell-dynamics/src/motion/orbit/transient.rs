@@ -16,7 +16,7 @@ pub(super) fn is_steady(states: &[Vec<f64>]) -> bool {
         return false;
     }
     let (before, last) = states[states.len() - 2 * quarter..].split_at(quarter);
-    let (one, other) = (Window::of(before), Window::of(last));
+    let (one, other) = (StateWindow::of(before), StateWindow::of(last));
     let shift = one.mean.iter().zip(&other.mean).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
     let (one, other) = (libm::sqrt(one.spread), libm::sqrt(other.spread));
     (one - other).abs() <= SPREAD_CHANGES * one
@@ -24,12 +24,12 @@ pub(super) fn is_steady(states: &[Vec<f64>]) -> bool {
 }
 
 /// Mean of some states, and their mean squared distance from it.
-struct Window {
+struct StateWindow {
     mean: Vec<f64>,
     spread: f64,
 }
 
-impl Window {
+impl StateWindow {
     fn of(states: &[Vec<f64>]) -> Self {
         let count = states.len() as f64;
         let size = states.first().map_or(0, Vec::len);

@@ -2,7 +2,7 @@
 
 use quell_dynamics::motion::orbit::{
     MotionOrbit, NoCycle, NoMotionOrbit, SettledMotion, base_motion, free_cycle, is_on_sliding,
-    settled,
+    settled, settled_many,
 };
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart};
 use quell_linear::linearised::Linearised;
@@ -90,7 +90,30 @@ pub fn end_of_run(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRu
         // A dither of amplitude 0 gives the motion no period.
         return on_free_motion(&system.undithered(), row, start);
     }
-    let (kind, state, states, length, periods) = match settled(system, start) {
+    under_dither(system, row, start, settled(system, start))
+}
+
+/// [`end_of_run`] of several starts; those under dither go on side by side.
+pub(super) fn ends_of_runs(
+    system: &System,
+    row: &[f64],
+    starts: &[Vec<f64>],
+) -> Vec<Result<EndOfRun, String>> {
+    if !system.is_dithered() {
+        return starts.iter().map(|start| end_of_run(system, row, start)).collect();
+    }
+    let found = settled_many(system, starts).into_iter().zip(starts);
+    found.map(|(found, start)| under_dither(system, row, start, found)).collect()
+}
+
+/// The motion that the judge has found for a run under dither.
+fn under_dither(
+    system: &System,
+    row: &[f64],
+    start: &[f64],
+    found: Result<SettledMotion, NoMotionOrbit>,
+) -> Result<EndOfRun, String> {
+    let (kind, state, states, length, periods) = match found {
         Ok(SettledMotion { orbit, multiple, periods }) => {
             let states = at_periods(system, &orbit, multiple)?;
             let kind = MotionKind::Periodic { periods: multiple, radius: orbit.radius() };

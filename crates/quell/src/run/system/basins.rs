@@ -7,7 +7,7 @@ use quell_dynamics::motion::orbit::sliding_state;
 use quell_model::System;
 use rayon::prelude::*;
 
-use super::attractor::{EndOfRun, SystemAttractor, end_of_run, local_verdict};
+use super::attractor::{EndOfRun, SystemAttractor, ends_of_runs, local_verdict};
 use super::protocol::SystemProtocol;
 use super::start::{state_names, state_quantity};
 use super::tracked::{TrackRequest, understood};
@@ -19,6 +19,12 @@ use crate::run::varied::{MOST_VALUES, Range};
 use crate::run::{evenly, stopped};
 use crate::study::{SystemStudy, suggest};
 use crate::sweep::Running;
+
+/// Starts of one task, at most: several times the lanes of the widest instruction set, so that a lane whose run has ended takes another.
+const SIDE_BY_SIDE: usize = 64;
+
+/// Tasks into which the starts of one value are divided, at least.
+const LEAST_TASKS: usize = 4;
 
 /// The grid of starts by default.
 pub const GRID: (usize, usize) = (21, 15);
@@ -217,27 +223,40 @@ pub fn run(
     let row = study.observe();
     let count = starts.len();
     running.progress.begin(systems.len() * count, 0);
+    // Each task takes some starts of one system, whose runs go on side by side. Few starts are shared among the threads.
+    let together = count.div_ceil(LEAST_TASKS).clamp(1, SIDE_BY_SIDE);
+    let tasks: Vec<(&System, &[f64], &[[f64; 2]])> = systems
+        .iter()
+        .flat_map(|(system, begun)| {
+            starts.chunks(together).map(move |part| (system, begun.as_slice(), part))
+        })
+        .collect();
     let ends = running.pool()?.install(|| {
-        (0..systems.len() * count)
+        tasks
             .into_par_iter()
             .with_max_len(1)
-            .map(|index| {
+            .map(|(system, begun, part)| {
                 if running.stop.load(Ordering::Relaxed) {
                     return Err(stopped("basins"));
                 }
-                let (system, begun) = &systems[index / count];
-                let mut state = begun.clone();
-                for (place, value) in places.iter().zip(starts[index % count]) {
-                    state[*place] = value;
-                }
-                let end = end_of_run(system, &row, &state);
-                running.progress.advance(1);
-                Ok(end)
+                let states: Vec<Vec<f64>> = part
+                    .iter()
+                    .map(|values| {
+                        let mut state = begun.to_vec();
+                        for (place, value) in places.iter().zip(values) {
+                            state[*place] = *value;
+                        }
+                        state
+                    })
+                    .collect();
+                let ends = ends_of_runs(system, &row, &states);
+                running.progress.advance(part.len());
+                Ok(ends)
             })
             .collect::<Result<Vec<_>, Failure>>()
     });
     running.progress.end();
-    let mut ends = ends?.into_iter();
+    let mut ends = ends?.into_iter().flatten();
     let portraits = values.into_iter().zip(&systems).map(|(value, (system, _))| {
         let own: Vec<_> = ends.by_ref().take(count).collect();
         SystemPortrait::of(value, system, own, request.layout)

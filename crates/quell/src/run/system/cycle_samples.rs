@@ -88,7 +88,7 @@ impl CycleSamples {
     }
 
     /// Widens a range by the extremes of a series over a segment.
-    fn widen(range: &mut (f64, f64), segment: &MotionSegment<'_>, series: &Series) {
+    fn widen(range: &mut (f64, f64), segment: &MotionSegment<'_>, series: &ObservedSeries) {
         let inner = segment.turning_points(series);
         for since in inner.into_iter().chain([0.0, segment.duration()]) {
             let value = MotionSegment::value(series, since);
@@ -98,7 +98,7 @@ impl CycleSamples {
 }
 
 /// A Taylor series of a segment.
-type Series = [f64; ORDER + 1];
+type ObservedSeries = [f64; ORDER + 1];
 
 impl MotionObserver for CycleSamples {
     fn segment(&mut self, segment: &MotionSegment<'_>) {

@@ -93,7 +93,7 @@ impl AttractorOfSystem {
                 format!("The run {start} ends on this motion: {words}.")
             }
             Err(why) if self.exponents.is_none() => format!(
-                "Where the run {start} ends is unknown: {why}. Its Lyapunov exponents (--lyapunov) tell an irregular motion from a \
+                "Where the run {start} ends is unknown: {why}. Its Lyapunov exponents (--lyapunov) distinguish an irregular motion from a \
                  regular one."
             ),
             Err(why) => format!("Where the run {start} ends is unknown: {why}."),
