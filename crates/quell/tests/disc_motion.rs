@@ -118,9 +118,7 @@ fn names_start_units_and_files() {
     let done = verbs(&any).simulate_from(&request).expect("a motion");
     let json = done.json();
     assert_eq!(json["state_names"].as_array().map(Vec::len), Some(10));
-    assert!(
-        json["sentence"].as_str().is_some_and(|text| text.starts_with("From rest with A2 = 0.001"))
-    );
+    assert!(json["sentence"].as_str().is_some_and(|text| text.starts_with("From A2 = 0.001")));
     assert_eq!(json["units"]["time"], "1/ω_ref");
     let names: Vec<&str> = done.datasets().iter().map(|(name, _)| *name).collect();
     assert_eq!(names, ["trajectory", "events"]);

@@ -12,6 +12,7 @@ use super::phase::{ContactNow, ContactPhase};
 use super::selection::first_minor_not_positive;
 use super::series::StepSeries;
 use super::state::{ContactEnd, MotionEnd, MotionStart};
+use super::step_recurrence::LEAST_SCALE;
 use super::step_recurrence::StepLimit;
 use super::stopped::{MotionStopped, StopReason};
 use super::stuck::{StuckForces, coupling, dependent};
@@ -311,6 +312,11 @@ impl<'a> MotionRun<'a> {
         if !self.scratch.iter().all(|value| value.is_finite()) {
             // The last finite state, and its time.
             return Err(self.stalled("the state leaves the finite numbers in the next step"));
+        }
+        for value in &mut self.scratch {
+            if value.abs() < LEAST_SCALE {
+                *value = 0.0;
+            }
         }
         self.steps += 1;
         if self.watched {

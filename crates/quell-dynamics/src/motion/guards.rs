@@ -10,17 +10,17 @@ use super::equations::{ContactEquation, MotionEquations};
 use super::observer::Trigger;
 use super::phase::{ContactNow, ContactPhase};
 use super::rows::StateRow;
-use super::selection::AT_BOUND;
+use super::selection::ZERO_ACCELERATION;
 use crate::simulation::{ORDER, Series};
 
 /// Guards that reach zero within this share of the time scale after the first one are simultaneous: their order is below the
 /// accuracy of a step.
 const TOGETHER: f64 = 1e-12;
 
-/// Share of its bound by which the force of a contact that is held in stick may exceed it: twice that within which a force counts as
-/// being at its bound. A mass that comes to rest at the very edge of stick stays there, and one that leaves it does so later by
-/// the time that this share of the force takes.
-const HELD_BEYOND: f64 = 2.0 * AT_BOUND;
+/// Share of its bound by which the force of a contact that is held in stick may exceed it: above it a release has a slip acceleration
+/// that is not zero to rounding, and its direction is certain. A mass that comes to rest at the very edge of stick stays there,
+/// and one that leaves it does so later by the time that this share of the force takes.
+const HELD_BEYOND: f64 = 4.0 * ZERO_ACCELERATION;
 
 /// A guard, of the given sign until its event.
 #[derive(Clone, Copy, Debug)]

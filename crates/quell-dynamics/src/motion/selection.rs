@@ -25,11 +25,11 @@ const LEAST_NORM: f64 = 1e-13;
 /// Slip accelerations below this share of their terms are zero to rounding: they are differences of forces solved to about 10⁻¹³,
 /// with a margin for the condition of G. A release with less is treated as smooth, with a double zero of γ at its
 /// start.
-const AT_REST: f64 = 1e-9;
+pub(super) const ZERO_ACCELERATION: f64 = 1e-9;
 
 /// A force within this share of its bound is at it: the accuracy of solved forces with a margin. A contact released too early by it
 /// has reached its bound within the time that this share of the force takes.
-pub(super) const AT_BOUND: f64 = 1e-10;
+const AT_BOUND: f64 = 1e-10;
 
 /// A force whose margin has a root at this moment is within this share of its bound unless other events have relieved it.
 const NEAR_BOUND: f64 = 1e-7;
@@ -96,7 +96,7 @@ impl Moment {
     fn is_at_rest(&self, contact: usize, rate: f64) -> bool {
         let row = self.coupling.row(contact).iter().zip(&self.holding);
         let terms: f64 = row.map(|(g, bound)| (g * bound).abs()).sum();
-        rate.abs() <= AT_REST * (terms + self.accelerations[contact].abs())
+        rate.abs() <= ZERO_ACCELERATION * (terms + self.accelerations[contact].abs())
     }
 
     /// The decision; `None` where it is not unique.

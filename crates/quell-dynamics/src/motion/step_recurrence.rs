@@ -20,8 +20,8 @@ use crate::simulation::{ORDER, RECIPROCALS};
 /// does not loosen the tolerance of the motion that remains.
 const FORGOTTEN: f64 = 0.8;
 
-/// Numbers of the state below this do not limit a step: their higher terms are no longer normal floating-point numbers.
-const LEAST_SCALE: f64 = 1e-280;
+/// Numbers of the state below this are taken as zero: their higher terms are no longer normal floating-point numbers.
+pub(super) const LEAST_SCALE: f64 = 1e-280;
 
 /// Largest number of contacts whose recurrences need no memory of their own.
 pub(super) const FEW_CONTACTS: usize = 4;
