@@ -80,7 +80,7 @@ pub struct SettledMotion {
 /// [`NoMotionOrbit::Unsettled`] where no such motion is found.
 pub fn settled(system: &System, start: &[f64]) -> Result<SettledMotion, NoMotionOrbit> {
     let motion = Motion::new(system).map_err(NoMotionOrbit::Immobile)?;
-    let mut search = Search::new(&motion, start)?;
+    let mut search = EndSearch::new(&motion, start)?;
     loop {
         search.run.go_to(search.next)?;
         if let Some(end) = search.judged()? {
@@ -105,9 +105,9 @@ pub fn settled_many(
     };
     let mut ends: Vec<Option<Result<SettledMotion, NoMotionOrbit>>> = Vec::new();
     ends.resize_with(starts.len(), || None);
-    let mut searches: Vec<(usize, Search<'_, '_>)> = Vec::new();
+    let mut searches: Vec<(usize, EndSearch<'_, '_>)> = Vec::new();
     for (place, start) in starts.iter().enumerate() {
-        match Search::new(&motion, start) {
+        match EndSearch::new(&motion, start) {
             Ok(search) => searches.push((place, search)),
             Err(why) => ends[place] = Some(Err(why)),
         }
@@ -129,10 +129,10 @@ pub fn settled_many(
 }
 
 /// Continues every run to the period at which it is judged next, period by period; the runs that stopped on the way.
-fn go_on_side_by_side(searches: &mut [(usize, Search<'_, '_>)]) -> Vec<(usize, MotionStopped)> {
+fn go_on_side_by_side(searches: &mut [(usize, EndSearch<'_, '_>)]) -> Vec<(usize, MotionStopped)> {
     let mut stopped: Vec<(usize, MotionStopped)> = Vec::new();
     loop {
-        let mut going: Vec<&mut (usize, Search<'_, '_>)> = searches
+        let mut going: Vec<&mut (usize, EndSearch<'_, '_>)> = searches
             .iter_mut()
             .filter(|(place, search)| {
                 search.run.periods() < search.next
@@ -160,13 +160,13 @@ fn go_on_side_by_side(searches: &mut [(usize, Search<'_, '_>)]) -> Vec<(usize, M
 }
 
 /// A run that is judged again and again until it is known where it ends.
-struct Search<'a, 's> {
+struct EndSearch<'a, 's> {
     run: Strobed<'a, 's>,
     /// Period at which it is judged next.
     next: u32,
 }
 
-impl<'a, 's> Search<'a, 's> {
+impl<'a, 's> EndSearch<'a, 's> {
     fn new(motion: &'a Motion<'s>, start: &[f64]) -> Result<Self, NoMotionOrbit> {
         let period = time_of(motion, 1).map_err(NoMotionOrbit::NoImage)?;
         Ok(Self {

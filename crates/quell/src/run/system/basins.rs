@@ -20,6 +20,9 @@ use crate::run::{evenly, stopped};
 use crate::study::{SystemStudy, suggest};
 use crate::sweep::Running;
 
+/// A system, the start of its runs, and the places in the plane that replace two of its numbers.
+type BasinsTask<'a> = (&'a System, &'a [f64], &'a [[f64; 2]]);
+
 /// Starts of one task, at most: several times the lanes of the widest instruction set, so that a lane whose run has ended takes another.
 const SIDE_BY_SIDE: usize = 64;
 
@@ -225,7 +228,7 @@ pub fn run(
     running.progress.begin(systems.len() * count, 0);
     // Each task takes some starts of one system, whose runs go on side by side. Few starts are shared among the threads.
     let together = count.div_ceil(LEAST_TASKS).clamp(1, SIDE_BY_SIDE);
-    let tasks: Vec<(&System, &[f64], &[[f64; 2]])> = systems
+    let tasks: Vec<BasinsTask<'_>> = systems
         .iter()
         .flat_map(|(system, begun)| {
             starts.chunks(together).map(move |part| (system, begun.as_slice(), part))
