@@ -115,6 +115,16 @@ def disc_in_si() -> quell.Disc:
     )  # fmt: skip
 
 
+@cache
+def belt_with_two_responses() -> quell.Belt:
+    """A belt with a decreasing law, on which squeal and a quiet response exist together."""
+    return quell.Belt(
+        damping_ratio=0.005, normal_load=1.0, belt_velocity=1.0,
+        friction=quell.Decreasing(static_coefficient=0.4, minimum_coefficient=0.2857, reference_velocity=0.2),
+        dither=quell.Dither("tangential", "sine", amplitude=2.5, frequency_ratio=10.0),
+    )  # fmt: skip
+
+
 AMPLITUDE = "dither.amplitude"
 VELOCITY = "belt.belt_velocity"
 IN_SI = ("dither.amplitude_n", 60.0, 120.0)
@@ -165,6 +175,7 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "curves of a system": lambda: study("drive").thresholds(
         AMPLITUDE, 3, 9, along="contact.guide.belt_velocity", between=(0.049, 0.051)),
     "bifurcation": lambda: belt().bifurcation(AMPLITUDE, 0.45, 0.55, points=3, up=True),
+    "bifurcation with hysteresis": lambda: belt_with_two_responses().bifurcation(AMPLITUDE, 2.5, 4.5, points=3),
     "bifurcation in SI": lambda: belt_in_si().bifurcation(*IN_SI, points=3),
     "bifurcation of a system": lambda: study("drive").set({AMPLITUDE: 0.0}).bifurcation("contact.guide.belt_velocity", 0.05, 0.25, points=3),
     "basins": lambda: belt().basins(grid=(5, 4)),

@@ -47,6 +47,8 @@ class Thresholds(_columns.ThresholdsColumns, Result):
     """Whether the response was continued over the whole range."""
     resumes: bool
     """Whether the last value has an answer again, after a range without one."""
+    rests: list[dict[str, Any]]
+    """System without dither: ``value`` at which the surface of a ``contact`` comes to rest."""
     from_: float
     """First value of the parameter."""
     to: float
