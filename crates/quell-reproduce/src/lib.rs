@@ -27,6 +27,7 @@ use std::time::Instant;
 use serde_json::{Value as Json, json};
 
 use quell::complaint::{Complaint, Complaints, Failure};
+use quell::picture::PicturePage;
 use quell::study::suggest;
 
 mod amplitude_columns;
@@ -179,6 +180,7 @@ pub fn run(
     entries: &[CatalogueEntry],
     directory: &Path,
     resolution: Resolution,
+    page: PicturePage,
     progress: impl Fn(EntryProgress) + Sync,
 ) -> Result<Reproduction, Failure> {
     write::prepare(directory)?;
@@ -192,7 +194,7 @@ pub fn run(
         while let Some(&index) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
             let entry = &entries[index];
             progress(EntryProgress::Begun(entry));
-            let outcome = one(entry, directory, resolution, &shared);
+            let outcome = one(entry, directory, (resolution, page), &shared);
             match &outcome {
                 Ok(written) => progress(EntryProgress::Done(written)),
                 Err(_) => next.store(entries.len(), Ordering::Relaxed),
@@ -221,11 +223,11 @@ pub fn run(
 fn one(
     entry: &CatalogueEntry,
     directory: &Path,
-    resolution: Resolution,
+    (resolution, page): (Resolution, PicturePage),
     shared: &SharedMeasurements,
 ) -> Result<WrittenEntry, Failure> {
     let began = Instant::now();
     let product = entry.at(resolution, shared)?;
-    let files = write::product(&product, &entry.stem(), directory)?;
+    let files = write::product(&product, &entry.stem(), directory, page)?;
     Ok(WrittenEntry { entry: *entry, files, product, elapsed: began.elapsed() })
 }

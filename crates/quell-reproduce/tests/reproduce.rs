@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use quell::picture::PicturePage;
 use quell::{Failure, Study};
 use quell_reproduce::claims::{self, ClaimVerdict, LEDGER};
 use quell_reproduce::{CatalogueEntry, Cell, ENTRIES, Resolution, find, run};
@@ -197,7 +198,9 @@ fn files_are_written_to_a_new_directory() {
     let folder = tempfile::tempdir().expect("a folder");
     let directory = folder.path().join("new/deeper");
     let entries = find(&["2.2".to_owned(), "2.6".to_owned(), "3.2".to_owned()]).expect("known");
-    let written = run(&entries, &directory, Resolution::Full, |_| ()).expect("written").written;
+    let written = run(&entries, &directory, Resolution::Full, PicturePage::default(), |_| ())
+        .expect("written")
+        .written;
     assert_eq!(
         written.iter().map(|done| done.entry.name).collect::<Vec<_>>(),
         ["2.2", "2.6", "3.2"]
@@ -235,7 +238,8 @@ fn files_are_written_to_a_new_directory() {
     assert!(table.contains("[figure-2.6.csv](figure-2.6.csv)"), "{table}");
     // Overwriting the files gives the same bytes.
     let first = std::fs::read(directory.join("figure-2.6.png")).expect("read");
-    run(&entries, &directory, Resolution::Full, |_| ()).expect("written again");
+    run(&entries, &directory, Resolution::Full, PicturePage::default(), |_| ())
+        .expect("written again");
     assert_eq!(std::fs::read(directory.join("figure-2.6.png")).expect("read"), first);
 }
 
@@ -245,8 +249,10 @@ fn a_directory_that_cannot_be_created_is_rejected_before_any_work() {
     let file = folder.path().join("occupied");
     std::fs::write(&file, "a file").expect("written");
     let failure =
-        run(&find(&[]).expect("all"), &file, Resolution::Full, |_| panic!("nothing is made"))
-            .expect_err("refused");
+        run(&find(&[]).expect("all"), &file, Resolution::Full, PicturePage::default(), |_| {
+            panic!("nothing is made")
+        })
+        .expect_err("refused");
     let Failure::Wrong(complaints) = failure else { panic!("{failure}") };
     assert_eq!(complaints[0].key, "--out");
     assert!(complaints[0].to_string().contains("occupied"), "{}", complaints[0]);
