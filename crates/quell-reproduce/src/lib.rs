@@ -143,8 +143,7 @@ pub struct Reproduction {
 impl Reproduction {
     /// Claims whose verdict is not the expected one.
     pub fn changed(&self) -> Vec<&claims::Claim> {
-        let claims = self.written.iter().flat_map(|done| &done.product.claims);
-        claims.filter(|claim| !claim.as_expected()).collect()
+        self.claims().filter(|claim| !claim.as_expected()).collect()
     }
 
     /// A warning for each claim whose verdict is not the expected one.
@@ -154,6 +153,17 @@ impl Reproduction {
             format!("{}: {}, expected: {expected}", claim.name, claim.verdict)
         };
         self.changed().into_iter().map(warning).collect()
+    }
+
+    /// The claims of the entries that were written.
+    fn claims(&self) -> impl Iterator<Item = &claims::Claim> {
+        self.written.iter().flat_map(|done| &done.product.claims)
+    }
+
+    /// How many statements of the dissertation hold, in one sentence; `None` if no claim was measured.
+    pub fn summary(&self) -> Option<String> {
+        let statements = claims::statements(self.claims());
+        (!statements.is_empty()).then(|| claims::summary(&statements))
     }
 
     /// As JSON, for files written to `directory`.
@@ -166,6 +176,7 @@ impl Reproduction {
             "table": self.table.display().to_string(),
             "quick": resolution == Resolution::Quick,
             "entries": entries,
+            "summary": self.summary(),
             "warnings": self.warnings(),
         })
     }

@@ -60,6 +60,9 @@ fn text(arguments: &Arguments, done: &Reproduction) -> String {
             claim.place, claim.statement, claim.printed, claim.measured, claim.verdict
         );
     }
+    if let Some(summary) = done.summary() {
+        let _ = writeln!(text, "{summary}");
+    }
     let _ = writeln!(text, "Report: {}", done.report.display());
     text
 }
