@@ -1,0 +1,161 @@
+"""Pictures of two parameters or of two numbers of a state, with HoloViews."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import holoviews as hv
+import holoviews.plotting.bokeh  # registers how pictures are drawn
+import numpy as np
+import numpy.typing as npt
+from contourpy import contour_generator
+
+from ._figures import labelled
+from ._style import ACCENT, ENDS, HEIGHT, STICK, TEXT, WIDTH
+
+hv.Store.set_current_backend("bokeh")
+
+Ends = tuple[float, float, bool]
+"""The ends of an axis, and whether it is logarithmic."""
+
+FONTS = {"labels": f"{TEXT}px", "ticks": f"{TEXT - 2}px", "legend": f"{TEXT - 2}px", "title": f"{TEXT}px"}
+OPTIONS: dict[str, Any] = {
+    "width": WIDTH,
+    "height": HEIGHT,
+    "fontsize": FONTS,
+    "toolbar": "above",
+    "tools": ["hover"],
+    "default_tools": ["pan", "wheel_zoom", "box_zoom", "reset"],
+}
+
+
+def bounds(centres: npt.NDArray[np.float64], logarithmic: bool) -> npt.NDArray[np.float64]:
+    """The edges of cells around their centres; the cells at the ends are half inside."""
+    at = np.log(centres) if logarithmic else centres
+    inner = 0.5 * (at[1:] + at[:-1])
+    edges = np.concatenate([at[:1], inner, at[-1:]])
+    return np.exp(edges) if logarithmic else edges
+
+
+class Plane:
+    """A map of the growth rate over two parameters with thresholds, tongues and a cursor; a click calls ``jump``."""
+
+    def __init__(self, jump: Callable[[float, float], None]) -> None:
+        self._jump = jump
+        self.map: dict[str, Any] | None = None
+        self.curves: list[dict[str, Any]] = []
+        self.labels = ("", "")
+        self.ends: tuple[Ends, Ends] = ((0.0, 1.0, False), (0.0, 1.0, False))
+        self.cursor = (0.0, 0.0)
+
+    def picture(self) -> Any:
+        """A new picture; the old one does not fit other axes."""
+        self._pipe = hv.streams.Pipe(data=None)
+        self._mark = hv.streams.Pipe(data=None)
+        options = dict(OPTIONS)
+        across, up = self.ends
+        drawn = hv.DynamicMap(lambda data: self._layers(), streams=[self._pipe])
+        cursor = hv.DynamicMap(lambda data: self._cursor(), streams=[self._mark])
+        # The stream has to live as long as the picture.
+        self._tap = hv.streams.Tap(source=drawn, x=None, y=None)
+        self._tap.add_subscriber(self._tapped)
+        return (drawn * cursor).opts(
+            hv.opts.Overlay(
+                **{name: value for name, value in options.items() if name not in ("tools", "default_tools")},
+                logx=across[2],
+                logy=up[2],
+                xlim=across[:2],
+                ylim=up[:2],
+                xlabel=self.labels[0],
+                ylabel=self.labels[1],
+                show_legend=False,
+            )
+        )
+
+    def refresh(self) -> None:
+        """Draws the map and the curves again."""
+        self._pipe.send(None)
+
+    def mark(self, x: float, y: float) -> None:
+        """Moves the cursor."""
+        self.cursor = (x, y)
+        self._mark.send(None)
+
+    def _tapped(self, x: float | None = None, y: float | None = None) -> None:
+        if x is not None and y is not None:
+            self._jump(float(x), float(y))
+
+    def _cursor(self) -> Any:
+        x, y = self.cursor
+        return hv.Points([(x, y)]).opts(marker="cross", size=18, line_width=3, color="#222")
+
+    def _layers(self) -> Any:
+        across, up = self.ends
+        if self.map is None:
+            empty = np.full((2, 2), np.nan)
+            return hv.QuadMesh((list(across[:2]), list(up[:2]), empty), ["x", "y"], "growth") * hv.Path([]) * hv.Path([]) * hv.Path([])
+        x, y, growth = self.map["x"], self.map["y"], self.map["growth"]
+        largest = float(np.nanmax(np.abs(growth))) if np.isfinite(growth).any() else 1.0
+        mesh = hv.QuadMesh((bounds(x, across[2]), bounds(y, up[2]), growth), ["x", "y"], "growth").opts(
+            cmap=["#2b83ba", "#abd9e9", "#eef5f8", "#fbf1ec", "#fdae61", "#d7301f"],
+            clim=(-largest, largest),
+            colorbar=True,
+            clabel=labelled("growth rate", self.map["unit"]),
+            colorbar_opts={"title_text_font_size": f"{TEXT - 2}px", "major_label_text_font_size": f"{TEXT - 3}px"},
+            tools=OPTIONS["tools"],
+            default_tools=OPTIONS["default_tools"],
+        )
+        masked = np.ma.masked_invalid(growth)
+        zero = [line for line in contour_generator(x, y, masked).lines(0.0) if len(line) > 1]
+        averaged = hv.Path(zero).opts(color="#222", line_width=2, line_dash="dashed")
+        exact = hv.Path([np.column_stack([it["x"], it["y"]]) for it in self.curves]).opts(color="#222", line_width=3)
+        tongues = hv.Path([[(it["speed"], up[0]), (it["speed"], up[1])] for it in self.map["tongues"]]).opts(
+            color=ACCENT, line_width=1.2, line_dash="dotted"
+        )
+        return mesh * averaged * exact * tongues
+
+
+class Basins:
+    """The motions on which starts end; a click calls ``jump``."""
+
+    def __init__(self, jump: Callable[[float, float], None]) -> None:
+        self._jump = jump
+        self.answer: dict[str, Any] | None = None
+
+    def picture(self) -> Any:
+        """A new picture."""
+        self._pipe = hv.streams.Pipe(data=None)
+        drawn = hv.DynamicMap(lambda data: self._mesh(), streams=[self._pipe])
+        self._tap = hv.streams.Tap(source=drawn, x=None, y=None)
+        self._tap.add_subscriber(self._tapped)
+        return drawn
+
+    def refresh(self) -> None:
+        """Draws the answer."""
+        self._pipe.send(None)
+
+    def _tapped(self, x: float | None = None, y: float | None = None) -> None:
+        if x is not None and y is not None and self.answer is not None:
+            self._jump(float(x), float(y))
+
+    def colours(self) -> list[str]:
+        """The colour of each motion: the accent for quiet ones."""
+        others = list(ENDS[1:])
+        quiet = self.answer["quiet"] if self.answer else []
+        return [ACCENT if is_quiet else others[place % len(others)] for place, is_quiet in enumerate(quiet)] or [STICK]
+
+    def _mesh(self) -> Any:
+        if self.answer is None:
+            return hv.QuadMesh(([0.0, 1.0], [0.0, 1.0], np.full((2, 2), np.nan)), ["x", "y"], "end").opts(**OPTIONS)
+        answer = self.answer
+        colours = self.colours()
+        first, second = (labelled(name, unit) for name, unit in zip(answer["names"], answer["units"], strict=True))
+        ends = np.where(answer["ends"] < len(colours), answer["ends"], np.nan)
+        return hv.QuadMesh((answer["x"], answer["y"], ends), ["x", "y"], "end").opts(
+            **OPTIONS,
+            cmap=colours if len(colours) > 1 else colours * 2,
+            clim=(-0.5, max(len(colours), 2) - 0.5),
+            xlabel=first,
+            ylabel=second,
+        )
