@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
-from bokeh.models import ColumnDataSource, Legend, LegendItem, Span
+from bokeh.models import ColumnDataSource, Legend, LegendItem, LogTicker, Span
 from bokeh.plotting import figure
 
 from ._style import ACCENT, BEFORE, FONT, HEIGHT, STICK, TEXT, WIDTH
@@ -16,17 +17,25 @@ TOOLS = "pan,wheel_zoom,box_zoom,reset"
 def blank(across: str, up: str, width: int = WIDTH, height: int = HEIGHT, **options: Any) -> Any:
     """A figure with labels that can be read on a projector."""
     plot: Any = figure(width=width, height=height, tools=TOOLS, toolbar_location="above", **options)
+    plot.xaxis.axis_label, plot.yaxis.axis_label = across, up
+    dress(plot)
+    return plot
+
+
+def dress(plot: Any) -> None:
+    """Sets fonts, grid and toolbar."""
     plot.toolbar.logo = None
     plot.toolbar.autohide = True
-    for axis, label in ((plot.xaxis, across), (plot.yaxis, up)):
-        axis.axis_label = label
+    for axis in (plot.xaxis, plot.yaxis):
         axis.axis_label_text_font = axis.major_label_text_font = FONT
         axis.axis_label_text_font_style = "normal"
         axis.axis_label_text_font_size = f"{TEXT}px"
         axis.major_label_text_font_size = f"{TEXT - 2}px"
+        for one in axis:
+            if isinstance(one.ticker, LogTicker):
+                one.ticker.mantissas = [1, 2, 5]
     plot.grid.grid_line_alpha = 0.4
     plot.min_border_right = 12
-    return plot
 
 
 def legend(plot: Any, items: list[tuple[str, list[Any]]]) -> None:
@@ -44,10 +53,28 @@ def labelled(name: str, unit: str) -> str:
     return f"{name} [{unit}]" if unit else name
 
 
+PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+MEASURED = ("m", "s", "m/s", "N", "rad/s", "1/s", "Hz")
+"""Units that take a prefix."""
+
+
+def prefixed(values: Any, unit: str) -> tuple[float, str]:
+    """The factor by which to divide values for an axis, and their unit with its prefix."""
+    finite = np.abs(np.asarray(values, dtype=np.float64))
+    finite = finite[np.isfinite(finite)]
+    largest = float(finite.max(initial=0.0))
+    if unit not in MEASURED or largest == 0.0 or 0.05 <= largest < 5e4:
+        return 1.0, unit
+    power = min(max(3 * math.floor(math.log10(largest * 1.0001) / 3.0), -12), 9)
+    return 10.0**power, f"{PREFIXES[power]}{unit}"
+
+
 class Motion:
     """A trajectory over time and in the phase plane."""
 
     def __init__(self) -> None:
+        self.factors = (1.0, 1.0)
+        """Factors of the axes of the phase plane."""
         self.run = ColumnDataSource({"time": [], "x": [], "v": []})
         self.stick = ColumnDataSource({"time": [], "x": [], "v": []})
         self.events = ColumnDataSource({"time": [], "x": [], "v": []})
@@ -60,7 +87,7 @@ class Motion:
         for plot, across, up in ((self.over_time, "time", "x"), (self.plane, "x", "v")):
             first = plot.line(across, up, source=self.run, line_color=ACCENT, line_width=1.5)
             second = plot.line(across, up, source=self.stick, line_color=STICK, line_width=4)
-            third = plot.scatter(across, up, source=self.events, size=5, fill_color="white", line_color="#222")
+            third = plot.scatter(across, up, source=self.events, size=4, fill_color="white", line_color="#222", line_alpha=0.7)
             lines.append([("motion", [first]), ("stick", [second]), ("event", [third])])
         fourth = self.plane.scatter("x", "v", source=self.start, size=13, marker="cross", line_width=3, line_color="#222")
         legend(self.over_time, lines[0])
@@ -68,22 +95,25 @@ class Motion:
 
     def show(self, answer: dict[str, Any]) -> None:
         """Draws a run."""
-        time, x, v = answer["time"], answer["x"], answer["v"]
+        scales = [prefixed(answer[name], unit) for name, unit in zip(("time", "x", "v"), answer["units"], strict=True)]
+        time, x, v = (answer[name] / scale[0] for name, scale in zip(("time", "x", "v"), scales, strict=True))
+        units = [it[1] for it in scales]
+        self.factors = (scales[1][0], scales[2][0])
         sticking = answer["sticking"]
         gaps = np.where(sticking, 0.0, np.nan)
-        at = answer["event_time"]
+        at = answer["event_time"] / scales[0][0]
         at = at[(at >= time[0]) & (at <= time[-1])]
         self.run.data = {"time": time, "x": x, "v": v}
         self.stick.data = {"time": time + gaps, "x": x + gaps, "v": v + gaps} if sticking.any() else {"time": [], "x": [], "v": []}
         self.events.data = {"time": at, "x": np.interp(at, time, x), "v": np.interp(at, time, v)}
         self.start.data = {"x": x[:1], "v": v[:1]}
-        names, units = answer["names"], answer["units"]
+        names = answer["names"]
         self.over_time.xaxis.axis_label = labelled("time", units[0])
         self.over_time.yaxis.axis_label = self.plane.xaxis.axis_label = labelled(names[0], units[1])
         self.plane.yaxis.axis_label = labelled(names[1], units[2])
         self.surface.visible = answer["sliding"] is not None
         if answer["sliding"] is not None:
-            self.surface.location = answer["sliding"]
+            self.surface.location = answer["sliding"] / scales[2][0]
 
 
 class Spectrum:
@@ -133,13 +163,24 @@ class Law:
         self.plot.xaxis.axis_label = labelled("slip velocity", law["unit"])
 
 
+def usual(values: Any) -> tuple[float, float]:
+    """A range that shows most of the values, with 0. Growth rates have no bound where an average has a jump."""
+    finite = values[np.isfinite(values)]
+    if finite.size == 0:
+        return -1.0, 1.0
+    low, high = (float(it) for it in np.quantile(finite, (0.03, 0.97)))
+    low, high = min(low, 0.0), max(high, 0.0)
+    room = 0.1 * (high - low) or 1.0
+    return low - room, high + room
+
+
 class Eigenvalues:
     """Growth rates and frequencies of a system over a parameter."""
 
     def __init__(self) -> None:
         self.growth = ColumnDataSource({"xs": [], "ys": []})
         self.frequency = ColumnDataSource({"xs": [], "ys": []})
-        self.plots = [blank("parameter", "growth rate", height=230), blank("parameter", "frequency", height=230)]
+        self.plots = [blank("parameter", name, height=230, y_range=(-1.0, 1.0)) for name in ("growth rate", "frequency")]
         self.cursors = []
         for plot, source in zip(self.plots, (self.growth, self.frequency), strict=True):
             plot.multi_line("xs", "ys", source=source, line_color=ACCENT, line_width=1.8)
@@ -154,6 +195,9 @@ class Eigenvalues:
         for source, name in ((self.growth, "growth"), (self.frequency, "frequency")):
             branches = answer[name].T
             source.data = {"xs": [at] * len(branches), "ys": list(branches)}
+        for plot, name in zip(self.plots, ("growth", "frequency"), strict=True):
+            low, high = usual(answer[name])
+            plot.y_range.start, plot.y_range.end = low, high
         for plot in self.plots:
             plot.xaxis.axis_label = label
         self.plots[0].yaxis.axis_label = labelled("growth rate", answer["unit"])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import functools
+from collections import deque
 from collections.abc import Callable
 from typing import Any
 
@@ -16,7 +16,7 @@ from ._controls import Controls
 from ._files import Downloads
 from ._lanes import Event, Here, Lane, Process
 from ._numbers import Knob, knobs
-from ._panes import EigenPane, LawPane, MotionPane, SoundPane, SpectrumPane, Verdict, words
+from ._panes import EigenPane, LawPane, MotionPane, SoundPane, SpectrumPane, Verdict, headed, words
 from ._plane_panes import BasinsPane, PlanePane
 from ._share import commands, python, toml
 from ._state import State
@@ -24,7 +24,11 @@ from ._style import SIDE, STICK, TEXT, WIDTH
 
 pn.extension()
 
-TEXT_STYLE = {"font-size": f"{TEXT}px"}
+STICKY = """
+:host { flex: none; position: sticky; top: 0; max-height: 100vh; overflow-y: auto; overflow-x: hidden; }
+@media (max-width: 820px) { :host { position: static; max-height: none; } }
+"""
+"""The column of numbers stays in view next to the panes; on a narrow screen it is above them."""
 
 
 class Page:
@@ -35,6 +39,7 @@ class Page:
         self._tell = changed
         self._document = pn.state.curdoc
         self._closed = False
+        self._events: deque[Event] = deque()
         self.fast = Lane(self._deliver, Here())
         self.exact = Lane(self._deliver, Process())
         self.maps = Lane(self._deliver, Process())
@@ -49,7 +54,7 @@ class Page:
         self.complaints = pn.pane.HTML("", visible=False, sizing_mode="stretch_width", css_classes=["quell-complaints"])
         self.title = pn.pane.HTML("", sizing_mode="stretch_width", css_classes=["quell-title"])
         self._wire()
-        self.side = pn.Column(self._zoo(), self.controls.view, width=SIDE + 12, styles={"flex": "none"})
+        self.side = pn.Column(self._zoo(), self.controls.view, width=SIDE + 12, stylesheets=[STICKY], css_classes=["quell-side"])
         self.right = pn.FlexBox(align_items="flex-start", justify_content="flex-start", gap="8px")
         self.view = self._layout()
         self._fill()
@@ -58,9 +63,9 @@ class Page:
     # Layout.
 
     def _wire(self) -> None:
-        self.motion.coordinate.param.watch(lambda event: self.request_motion(), "value")
+        self.motion.coordinate.param.watch(lambda event: None if self.motion.is_shown else self.request_motion(), "value")
         self.motion.again.on_click(lambda event: self.start_at(None))
-        self.motion.picture.plane.on_event("tap", lambda event: self.start_at((float(event.x), float(event.y))))
+        self.motion.picture.plane.on_event("tap", self._tapped)
         self.eigen.parameter.param.watch(lambda event: self.request_eigenvalues(), "value")
         self.sound.button.on_click(lambda event: self.request_sound())
         self.undo = pn.widgets.Button(name="undo", width=90, css_classes=["quell-undo"])
@@ -95,7 +100,9 @@ class Page:
         """Fills the panes for the kind of study."""
         study = self.state.study
         kind = study._native.kind
-        numbers = {f"{it.group} {it.label}": it for it in knobs(study)}
+        found = knobs(study)
+        labels = [it.label for it in found]
+        numbers = {it.label if labels.count(it.label) == 1 else f"{it.group} {it.label}": it for it in found}
         self.plane.offer(kind, numbers)
         self.downloads.offer(kind)
         self._parameters = {name: it.path for name, it in numbers.items()}
@@ -117,7 +124,7 @@ class Page:
 
     def _sketch(self) -> Any:
         self.sketch = pn.pane.HTML("", width=WIDTH, css_classes=["quell-sketch"])
-        return pn.Column(pn.pane.HTML(words("Sketch", TEXT + 2, weight=600)), self.sketch, width=WIDTH + 16)
+        return pn.Column(pn.pane.HTML(headed("Sketch", ""), width=WIDTH), self.sketch, width=WIDTH + 16)
 
     # Changes.
 
@@ -140,6 +147,11 @@ class Page:
         self.state.set_start(given)
         self.request_motion()
         self._share()
+
+    def _tapped(self, event: Any) -> None:
+        if event.x is not None and event.y is not None:
+            factors = self.motion.picture.factors
+            self.start_at((float(event.x) * factors[0], float(event.y) * factors[1]))
 
     def _jump(self, across: float, up: float) -> None:
         """Takes the two parameters of a point of the map."""
@@ -267,10 +279,17 @@ class Page:
     def _deliver(self, event: Event) -> None:
         """Called from the threads of the lanes."""
         if not self._closed:
-            self._document.add_next_tick_callback(functools.partial(self._receive, event))
+            # Callbacks of a document may change their order, events may not.
+            self._events.append(event)
+            self._document.add_next_tick_callback(self._drain)
+
+    def _drain(self) -> None:
+        while self._events:
+            self._receive(self._events.popleft())
 
     def _receive(self, event: Event) -> None:
-        if self._closed or event.kind in ("dropped", "waiting"):
+        # A short answer is there before its state could be read.
+        if self._closed or event.kind in ("dropped", "waiting") or (event.name, event.kind) == ("averaged", "running"):
             return
         name, answer = event.name, event.answer
         pane: Any = {
@@ -289,7 +308,7 @@ class Page:
         if name == "averaged":
             self.verdict.show_averaged(answer, event.seconds)
         if name == "response":
-            self.verdict.show_exact(answer)
+            self.verdict.show_exact(answer["sentence"] if self.state.study._native.kind != "disc" else "")
         pane.show(answer) if name != "curves" else self.plane.show_curves(answer)
 
     def close(self) -> None:

@@ -11,7 +11,7 @@ import panel as pn
 
 from ._figures import Eigenvalues, Law, Motion, Spectrum
 from ._lanes import Event
-from ._style import ACCENT, BEFORE, FONT, STICK, TEXT, WIDTH
+from ._style import ACCENT, FONT, STICK, TEXT, WIDTH
 
 DIM = {"opacity": "0.4"}
 CLEAR = {"opacity": "1"}
@@ -34,6 +34,15 @@ def time_words(seconds: float) -> str:
     return f"{seconds * 1e3:.0f} ms" if seconds < 1.0 else f"{seconds:.1f} s"
 
 
+def headed(title: str, state: str, colour: str = "#555") -> str:
+    """The title of a pane and its state."""
+    return (
+        f'<div style="font-family:{FONT};line-height:1.3;border-bottom:2px solid {ACCENT}">'
+        f'<span style="font-size:{TEXT + 2}px;font-weight:600;color:#222">{html.escape(title)}</span>'
+        f'<span style="font-size:{TEXT - 2}px;color:{colour}">&ensp;{html.escape(state)}</span></div>'
+    )
+
+
 class Pane:
     """A pane with a title and the state of its answers."""
 
@@ -48,11 +57,7 @@ class Pane:
         self.view = pn.Column(self._line, *body, width=WIDTH + 16, margin=(0, 0, 8, 0), css_classes=[css])
 
     def _head(self, state: str, colour: str = "#555") -> str:
-        return (
-            f'<div style="font-family:{FONT};line-height:1.3;border-bottom:2px solid {ACCENT}">'
-            f'<span style="font-size:{TEXT + 2}px;font-weight:600;color:#222">{html.escape(self.title)}</span>'
-            f'<span style="font-size:{TEXT - 2}px;color:{colour}">&ensp;{html.escape(state)}</span></div>'
-        )
+        return headed(self.title, state, colour)
 
     def state(self, event: Event) -> None:
         """Shows what happens to a request of this pane."""
@@ -85,13 +90,14 @@ class MotionPane(Pane):
     def __init__(self) -> None:
         self.picture = Motion()
         self.names: tuple[str, ...] = ()
+        self.is_shown = False
         self.coordinate = pn.widgets.Select(name="coordinate", options=[], width=180, visible=False, margin=MARGIN)
         self.again = pn.widgets.Button(name="start of the study", width=170, margin=(8, 8, 2, 8), css_classes=["quell-restart"])
         self.sentence = paragraph(WIDTH, "quell-motion-words")
         over_time = pn.pane.Bokeh(self.picture.over_time, margin=MARGIN)
         plane = pn.pane.Bokeh(self.picture.plane, margin=MARGIN)
         self.plane_view = pn.Column(
-            pn.pane.HTML(words("Phase plane: click a start.", TEXT + 1, weight=600), margin=MARGIN), plane, width=WIDTH + 16
+            pn.pane.HTML(headed("Phase plane", "click a start"), width=WIDTH, margin=MARGIN), plane, width=WIDTH + 16
         )
         super().__init__("Trajectory", "quell-motion", over_time, self.sentence, pn.Row(self.coordinate, self.again))
         self._bodies = [over_time, plane]
@@ -102,8 +108,11 @@ class MotionPane(Pane):
         self.picture.show(answer)
         self.sentence.object = words(answer["sentence"], TEXT - 1)
         self.coordinate.visible = len(answer["pairs"]) > 1
+        self.is_shown = True
         if self.coordinate.options != answer["pairs"]:
             self.coordinate.options = answer["pairs"]
+        self.coordinate.value = answer["names"][0]
+        self.is_shown = False
 
 
 class SpectrumPane(Pane):
@@ -216,9 +225,9 @@ class Verdict:
         self.averaged.object = words(answer["sentence"] + notes, TEXT + 1, colours.get(answer["verdict"], "#222"), 600)
         self.averaged.styles = CLEAR
 
-    def show_exact(self, answer: dict[str, Any]) -> None:
-        """The exact response."""
-        self.exact.object = words(answer["sentence"], TEXT + 1)
+    def show_exact(self, sentence: str) -> None:
+        """The exact response in a sentence."""
+        self.exact.object = words(sentence, TEXT + 1) if sentence else ""
         self.exact.styles = CLEAR
 
     def dim(self) -> None:
@@ -234,6 +243,3 @@ def legend_of(names: list[str], colours: list[str], fractions: list[float]) -> s
         for name, colour, fraction in zip(names, colours, fractions, strict=True)
     ]
     return f'<div style="font-family:{FONT};font-size:{TEXT - 1}px;line-height:1.35">{"".join(rows)}</div>'
-
-
-__all__ = ["BEFORE", "EigenPane", "LawPane", "MotionPane", "Pane", "SoundPane", "SpectrumPane", "Verdict", "legend_of", "words"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+import numpy as np
 import panel as pn
 
 from .._study import Study
@@ -44,11 +45,12 @@ class PlanePane(Pane):
         self._ask = ask
         self._numbers: dict[str, Knob] = {}
         self._key: object = None
+        self._scale = ""
         self._silent = False
         width = (WIDTH - 24) // 2
         self.across = pn.widgets.Select(name="across", options=[], width=width, margin=MARGIN, css_classes=["quell-across"])
         self.up = pn.widgets.Select(name="up", options=[], width=width, margin=MARGIN)
-        self.picture = pn.pane.HoloViews(self._plane.picture(), margin=MARGIN, css_classes=["quell-plane-picture"])
+        self.picture = pn.pane.HoloViews(self._plane.picture(), linked_axes=False, margin=MARGIN, css_classes=["quell-plane-picture"])
         self.sentence = pn.pane.HTML("", width=WIDTH, margin=MARGIN)
         super().__init__("Threshold map", "quell-plane", pn.Row(self.across, self.up), self.picture, self.sentence, kind="averaged")
         self._bodies = [self.picture]
@@ -130,10 +132,12 @@ class PlanePane(Pane):
         """Draws the map."""
         self._plane.map = answer
         self._plane.refresh()
-        lines = "Dashed: averaged threshold. Click to go there."
-        if answer["tongues"]:
-            lines = f"Dotted: speeds at which waves meet; {len(answer['tongues'])} meetings can be unstable. Click to go there."
-        self.sentence.object = words(lines, TEXT - 1)
+        finite = answer["growth"][np.isfinite(answer["growth"])]
+        largest = float(np.abs(finite).max(initial=0.0))
+        unit = f" {answer['unit']}" if answer["unit"] else ""
+        self._scale = f"Growth rate: blue decays, red grows, up to {largest:.3g}{unit}. "
+        tongues = f"Dotted: speeds at which waves meet; {len(answer['tongues'])} meetings can be unstable. " if answer["tongues"] else ""
+        self.sentence.object = words(f"{self._scale}Dashed: threshold of the map. {tongues}Click to go there.", TEXT - 1)
 
     def show_curves(self, answer: dict[str, Any]) -> None:
         """Draws the exact thresholds."""
@@ -141,7 +145,7 @@ class PlanePane(Pane):
         self._plane.refresh()
         kinds = ", ".join(sorted({it["kind"] for it in answer["curves"]}))
         exact = f"Solid: exact threshold ({kinds}). " if kinds else "No exact threshold is in this window. "
-        self.sentence.object = words(f"{exact}Dashed: averaged threshold. Click to go there.", TEXT - 1)
+        self.sentence.object = words(f"{self._scale}{exact}Dashed: averaged threshold. Click to go there.", TEXT - 1)
 
 
 class BasinsPane(Pane):
@@ -151,7 +155,7 @@ class BasinsPane(Pane):
         self._basins = Basins(lambda x, y: jump((x, y)))
         self.grid = (25, 19)
         self._bound = False
-        self.picture = pn.pane.HoloViews(self._basins.picture(), margin=MARGIN)
+        self.picture = pn.pane.HoloViews(self._basins.picture(), linked_axes=False, margin=MARGIN, css_classes=["quell-basins-picture"])
         self.legend = pn.pane.HTML("", width=WIDTH, margin=MARGIN)
         self.button = pn.widgets.Button(name="compute", width=110, margin=MARGIN, css_classes=["quell-compute-basins"])
         self.halt = pn.widgets.Button(name="stop", width=80, margin=MARGIN)

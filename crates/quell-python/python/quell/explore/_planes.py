@@ -11,10 +11,13 @@ import numpy as np
 import numpy.typing as npt
 from contourpy import contour_generator
 
-from ._figures import labelled
+from ._figures import dress, labelled, prefixed
 from ._style import ACCENT, ENDS, HEIGHT, STICK, TEXT, WIDTH
 
 hv.Store.set_current_backend("bokeh")
+
+GROWTH = ("#2b83ba", "#abd9e9", "#eef5f8", "#fdeee6", "#fdae61", "#d7301f")
+"""Colours of growth rates: strong decay to strong growth."""
 
 Ends = tuple[float, float, bool]
 """The ends of an axis, and whether it is logarithmic."""
@@ -30,12 +33,23 @@ OPTIONS: dict[str, Any] = {
 }
 
 
+def plain(plot: Any, element: Any) -> None:
+    """Gives a picture the fonts of the others."""
+    dress(plot.state)
+
+
 def bounds(centres: npt.NDArray[np.float64], logarithmic: bool) -> npt.NDArray[np.float64]:
     """The edges of cells around their centres; the cells at the ends are half inside."""
     at = np.log(centres) if logarithmic else centres
     inner = 0.5 * (at[1:] + at[:-1])
     edges = np.concatenate([at[:1], inner, at[-1:]])
     return np.exp(edges) if logarithmic else edges
+
+
+def limits(centres: npt.NDArray[np.float64]) -> tuple[float, float]:
+    """The ends of an axis that show whole cells."""
+    half = 0.5 * float(centres[1] - centres[0])
+    return float(centres[0]) - half, float(centres[-1]) + half
 
 
 class Plane:
@@ -70,6 +84,7 @@ class Plane:
                 xlabel=self.labels[0],
                 ylabel=self.labels[1],
                 show_legend=False,
+                hooks=[plain],
             )
         )
 
@@ -93,16 +108,20 @@ class Plane:
     def _layers(self) -> Any:
         across, up = self.ends
         if self.map is None:
-            empty = np.full((2, 2), np.nan)
-            return hv.QuadMesh((list(across[:2]), list(up[:2]), empty), ["x", "y"], "growth") * hv.Path([]) * hv.Path([]) * hv.Path([])
+            empty = np.zeros((1, 1))
+            mesh = hv.QuadMesh((list(across[:2]), list(up[:2]), empty), ["x", "y"], "growth").opts(
+                xlim=across[:2], ylim=up[:2], logx=across[2], logy=up[2], cmap=["#f4f6f8"]
+            )
+            return mesh * hv.Path([]) * hv.Path([]) * hv.Path([])
         x, y, growth = self.map["x"], self.map["y"], self.map["growth"]
         largest = float(np.nanmax(np.abs(growth))) if np.isfinite(growth).any() else 1.0
         mesh = hv.QuadMesh((bounds(x, across[2]), bounds(y, up[2]), growth), ["x", "y"], "growth").opts(
-            cmap=["#2b83ba", "#abd9e9", "#eef5f8", "#fbf1ec", "#fdae61", "#d7301f"],
+            cmap=list(GROWTH),
             clim=(-largest, largest),
-            colorbar=True,
-            clabel=labelled("growth rate", self.map["unit"]),
-            colorbar_opts={"title_text_font_size": f"{TEXT - 2}px", "major_label_text_font_size": f"{TEXT - 3}px"},
+            xlim=across[:2],
+            ylim=up[:2],
+            logx=across[2],
+            logy=up[2],
             tools=OPTIONS["tools"],
             default_tools=OPTIONS["default_tools"],
         )
@@ -122,6 +141,7 @@ class Basins:
     def __init__(self, jump: Callable[[float, float], None]) -> None:
         self._jump = jump
         self.answer: dict[str, Any] | None = None
+        self.factors = (1.0, 1.0)
 
     def picture(self) -> Any:
         """A new picture."""
@@ -137,7 +157,7 @@ class Basins:
 
     def _tapped(self, x: float | None = None, y: float | None = None) -> None:
         if x is not None and y is not None and self.answer is not None:
-            self._jump(float(x), float(y))
+            self._jump(float(x) * self.factors[0], float(y) * self.factors[1])
 
     def colours(self) -> list[str]:
         """The colour of each motion: the accent for quiet ones."""
@@ -147,15 +167,23 @@ class Basins:
 
     def _mesh(self) -> Any:
         if self.answer is None:
-            return hv.QuadMesh(([0.0, 1.0], [0.0, 1.0], np.full((2, 2), np.nan)), ["x", "y"], "end").opts(**OPTIONS)
+            empty = hv.QuadMesh(([0.0, 1.0], [0.0, 1.0], np.zeros((1, 1))), ["x", "y"], "end")
+            return empty.opts(**OPTIONS, cmap=["#f4f6f8"], framewise=True, hooks=[plain])
         answer = self.answer
         colours = self.colours()
-        first, second = (labelled(name, unit) for name, unit in zip(answer["names"], answer["units"], strict=True))
+        scales = [prefixed(answer[name], unit) for name, unit in zip(("x", "y"), answer["units"], strict=True)]
+        self.factors = (scales[0][0], scales[1][0])
+        x, y = answer["x"] / self.factors[0], answer["y"] / self.factors[1]
+        first, second = (labelled(name, scale[1]) for name, scale in zip(answer["names"], scales, strict=True))
         ends = np.where(answer["ends"] < len(colours), answer["ends"], np.nan)
-        return hv.QuadMesh((answer["x"], answer["y"], ends), ["x", "y"], "end").opts(
+        return hv.QuadMesh((x, y, ends), ["x", "y"], "end").opts(
             **OPTIONS,
             cmap=colours if len(colours) > 1 else colours * 2,
             clim=(-0.5, max(len(colours), 2) - 0.5),
             xlabel=first,
             ylabel=second,
+            framewise=True,
+            xlim=limits(x),
+            ylim=limits(y),
+            hooks=[plain],
         )

@@ -95,6 +95,9 @@ class Explorer:
         import asyncio
 
         try:
+            # The first page does not wait for it.
+            from . import _page  # noqa: F401
+
             loop = asyncio.new_event_loop()
             asyncio.set_event_loop(loop)
             self._server = self._made()

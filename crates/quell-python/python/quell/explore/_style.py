@@ -20,7 +20,7 @@ FONT = "system-ui, 'DejaVu Sans', sans-serif"
 TEXT = 15
 """Size of text in pixels."""
 
-WIDTH = 452
+WIDTH = 436
 """Width of a picture in pixels."""
 
 HEIGHT = 300
