@@ -51,9 +51,10 @@ class Ended(Exception):
 
 
 class Process:
-    """A process that computes answers."""
+    """A process that computes answers; ``patient`` is its niceness."""
 
-    def __init__(self) -> None:
+    def __init__(self, patient: int = 0) -> None:
+        self._patient = patient
         self._process: subprocess.Popen[bytes] | None = None
         self._lock = threading.Lock()
         self._closed = False
@@ -65,7 +66,7 @@ class Process:
                 raise Ended
             if self._process is None or self._process.poll() is not None:
                 environment = {**os.environ, "PYTHONPATH": os.pathsep.join(it for it in sys.path if it)}
-                command = [sys.executable, "-m", "quell.explore._worker"]
+                command = [sys.executable, "-m", "quell.explore._worker", str(self._patient)]
                 self._process = subprocess.Popen(
                     command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment
                 )

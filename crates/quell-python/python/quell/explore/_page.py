@@ -24,6 +24,9 @@ from ._style import SIDE, STICK, TEXT, WIDTH
 
 pn.extension()
 
+REST = 150
+"""Time in milliseconds after which a slider that does not move is at rest."""
+
 STICKY = """
 :host { flex: none; position: sticky; top: 0; max-height: 100vh; overflow-y: auto; overflow-x: hidden; }
 @media (max-width: 820px) { :host { position: static; max-height: none; } }
@@ -39,10 +42,11 @@ class Page:
         self._tell = changed
         self._document = pn.state.curdoc
         self._closed = False
+        self._later: Any = None
         self._events: deque[Event] = deque()
         self.fast = Lane(self._deliver, Here())
-        self.exact = Lane(self._deliver, Process())
-        self.maps = Lane(self._deliver, Process())
+        self.exact = Lane(self._deliver, Process(2))
+        self.maps = Lane(self._deliver, Process(15))
         self.verdict = Verdict()
         self.motion, self.spectrum, self.law, self.sound = MotionPane(), SpectrumPane(), LawPane(), SoundPane()
         self.plane = PlanePane(self._jump, self.request_plane)
@@ -205,24 +209,32 @@ class Page:
     # Requests.
 
     def refresh(self) -> None:
-        """Asks for every answer of the study."""
+        """Asks for every answer of the study: first for the short ones, and for the others when the sliders rest."""
         study = self.state.study
-        self._shown_shape = self.controls.shape(study)
-        self.title.object = words(study.title or "A study without a title", TEXT + 5, weight=700)
         self.fast.submit("averaged", study)
         self.request_motion()
         self.exact.submit("response", study)
-        self.request_plane()
-        if study._native.kind == "belt":
-            self.request_basins()
-        else:
-            self.basins.outdated()
-        if study._native.kind == "system":
-            self.request_eigenvalues()
-            self._draw_sketch(study)
-        self.sound.dim(True)
-        self._share()
         self._tell(self.state)
+        if self._later is not None:
+            self._document.remove_timeout_callback(self._later)
+        self._later = self._document.add_timeout_callback(self._refresh_later, REST)
+
+    def _refresh_later(self) -> None:
+        self._later = None
+        study = self.state.study
+        with pn.io.hold():
+            self._shown_shape = self.controls.shape(study)
+            self.title.object = words(study.title or "A study without a title", TEXT + 5, weight=700)
+            self.request_plane()
+            if study._native.kind == "belt":
+                self.request_basins()
+            else:
+                self.basins.outdated()
+            if study._native.kind == "system":
+                self.request_eigenvalues()
+                self._draw_sketch(study)
+            self.sound.dim(True)
+            self._share()
 
     def request_motion(self) -> None:
         """Asks for the trajectory."""
@@ -284,8 +296,10 @@ class Page:
             self._document.add_next_tick_callback(self._drain)
 
     def _drain(self) -> None:
-        while self._events:
-            self._receive(self._events.popleft())
+        # One event for each callback, so that a short answer is sent before a long one is drawn.
+        if self._events:
+            with pn.io.hold():
+                self._receive(self._events.popleft())
 
     def _receive(self, event: Event) -> None:
         # A short answer is there before its state could be read.

@@ -9,12 +9,16 @@ import holoviews as hv
 import holoviews.plotting.bokeh  # registers how pictures are drawn
 import numpy as np
 import numpy.typing as npt
+from bokeh.models import ColumnDataSource
 from contourpy import contour_generator
 
 from ._figures import dress, labelled, prefixed
 from ._style import ACCENT, ENDS, HEIGHT, STICK, TEXT, WIDTH
 
 hv.Store.set_current_backend("bokeh")
+
+CURSOR = "cursor"
+"""Name of the glyph at the values of the study."""
 
 GROWTH = ("#2b83ba", "#abd9e9", "#eef5f8", "#fdeee6", "#fdae61", "#d7301f")
 """Colours of growth rates: strong decay to strong growth."""
@@ -39,17 +43,34 @@ def plain(plot: Any, element: Any) -> None:
 
 
 def bounds(centres: npt.NDArray[np.float64], logarithmic: bool) -> npt.NDArray[np.float64]:
-    """The edges of cells around their centres; the cells at the ends are half inside."""
-    at = np.log(centres) if logarithmic else centres
-    inner = 0.5 * (at[1:] + at[:-1])
-    edges = np.concatenate([at[:1], inner, at[-1:]])
-    return np.exp(edges) if logarithmic else edges
+    """The edges of cells around their centres."""
+    return np.exp(edges(np.log(centres))) if logarithmic else edges(centres)
 
 
 def limits(centres: npt.NDArray[np.float64]) -> tuple[float, float]:
     """The ends of an axis that show whole cells."""
     half = 0.5 * float(centres[1] - centres[0])
     return float(centres[0]) - half, float(centres[-1]) + half
+
+
+def edges(centres: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """The edges of cells of equal size."""
+    return np.linspace(*limits(centres), centres.size + 1)
+
+
+def cells(
+    x: npt.NDArray[np.float64], y: npt.NDArray[np.float64], found: npt.NDArray[np.float64], uneven: bool, name: str
+) -> Any:
+    """Values of cells between edges: as an image, which is faster, where all cells have the same size."""
+    if uneven or not (uniform(x) and uniform(y)):
+        return hv.QuadMesh((x, y, found), ["x", "y"], name)
+    return hv.Image(found[::-1], bounds=(x[0], y[0], x[-1], y[-1]), kdims=["x", "y"], vdims=name)
+
+
+def uniform(found: npt.NDArray[np.float64]) -> bool:
+    """Whether the steps are equal."""
+    steps = np.diff(found)
+    return bool(np.allclose(steps, steps[0], rtol=1e-6, atol=0.0))
 
 
 class Plane:
@@ -66,17 +87,16 @@ class Plane:
     def picture(self) -> Any:
         """A new picture; the old one does not fit other axes."""
         self._pipe = hv.streams.Pipe(data=None)
-        self._mark = hv.streams.Pipe(data=None)
-        options = dict(OPTIONS)
+        # The cursor moves with every slider, for which a source of Bokeh is faster.
+        self._source = ColumnDataSource({"x": [self.cursor[0]], "y": [self.cursor[1]]})
         across, up = self.ends
         drawn = hv.DynamicMap(lambda data: self._layers(), streams=[self._pipe])
-        cursor = hv.DynamicMap(lambda data: self._cursor(), streams=[self._mark])
         # The stream has to live as long as the picture.
         self._tap = hv.streams.Tap(source=drawn, x=None, y=None)
         self._tap.add_subscriber(self._tapped)
-        return (drawn * cursor).opts(
+        return drawn.opts(
             hv.opts.Overlay(
-                **{name: value for name, value in options.items() if name not in ("tools", "default_tools")},
+                **{name: value for name, value in OPTIONS.items() if name not in ("tools", "default_tools")},
                 logx=across[2],
                 logy=up[2],
                 xlim=across[:2],
@@ -84,9 +104,17 @@ class Plane:
                 xlabel=self.labels[0],
                 ylabel=self.labels[1],
                 show_legend=False,
-                hooks=[plain],
+                hooks=[self._finish],
             )
         )
+
+    def _finish(self, plot: Any, element: Any) -> None:
+        """Adds the cursor once, above the layers."""
+        dress(plot.state)
+        if not any(it.name == CURSOR for it in plot.state.renderers):
+            plot.state.scatter(
+                "x", "y", source=self._source, name=CURSOR, marker="cross", size=18, line_width=3, line_color="#222", level="overlay"
+            )
 
     def refresh(self) -> None:
         """Draws the map and the curves again."""
@@ -95,27 +123,23 @@ class Plane:
     def mark(self, x: float, y: float) -> None:
         """Moves the cursor."""
         self.cursor = (x, y)
-        self._mark.send(None)
+        self._source.data = {"x": [x], "y": [y]}
 
     def _tapped(self, x: float | None = None, y: float | None = None) -> None:
         if x is not None and y is not None:
             self._jump(float(x), float(y))
 
-    def _cursor(self) -> Any:
-        x, y = self.cursor
-        return hv.Points([(x, y)]).opts(marker="cross", size=18, line_width=3, color="#222")
-
     def _layers(self) -> Any:
         across, up = self.ends
         if self.map is None:
-            empty = np.zeros((1, 1))
-            mesh = hv.QuadMesh((list(across[:2]), list(up[:2]), empty), ["x", "y"], "growth").opts(
+            first, second = (np.array(it[:2]) for it in (across, up))
+            mesh = cells(first, second, np.zeros((1, 1)), across[2] or up[2], "growth").opts(
                 xlim=across[:2], ylim=up[:2], logx=across[2], logy=up[2], cmap=["#f4f6f8"]
             )
             return mesh * hv.Path([]) * hv.Path([]) * hv.Path([])
         x, y, growth = self.map["x"], self.map["y"], self.map["growth"]
         largest = float(np.nanmax(np.abs(growth))) if np.isfinite(growth).any() else 1.0
-        mesh = hv.QuadMesh((bounds(x, across[2]), bounds(y, up[2]), growth), ["x", "y"], "growth").opts(
+        mesh = cells(bounds(x, across[2]), bounds(y, up[2]), growth, across[2] or up[2], "growth").opts(
             cmap=list(GROWTH),
             clim=(-largest, largest),
             xlim=across[:2],
@@ -167,7 +191,7 @@ class Basins:
 
     def _mesh(self) -> Any:
         if self.answer is None:
-            empty = hv.QuadMesh(([0.0, 1.0], [0.0, 1.0], np.zeros((1, 1))), ["x", "y"], "end")
+            empty = cells(np.array([0.0, 1.0]), np.array([0.0, 1.0]), np.zeros((1, 1)), False, "end")
             return empty.opts(**OPTIONS, cmap=["#f4f6f8"], framewise=True, hooks=[plain])
         answer = self.answer
         colours = self.colours()
@@ -176,7 +200,7 @@ class Basins:
         x, y = answer["x"] / self.factors[0], answer["y"] / self.factors[1]
         first, second = (labelled(name, scale[1]) for name, scale in zip(answer["names"], scales, strict=True))
         ends = np.where(answer["ends"] < len(colours), answer["ends"], np.nan)
-        return hv.QuadMesh((x, y, ends), ["x", "y"], "end").opts(
+        return cells(edges(x), edges(y), ends, False, "end").opts(
             **OPTIONS,
             cmap=colours if len(colours) > 1 else colours * 2,
             clim=(-0.5, max(len(colours), 2) - 0.5),

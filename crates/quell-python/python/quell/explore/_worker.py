@@ -50,6 +50,9 @@ def answer(name: str, study: Any, arguments: tuple[Any, ...], out: BinaryIO) -> 
 
 def main() -> None:
     """Serves requests until the standard input ends."""
+    if hasattr(os, "nice"):
+        # The page answers first.
+        os.nice(int(sys.argv[1]) if len(sys.argv) > 1 else 0)
     out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     # Only messages may reach the pipe.
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
