@@ -202,18 +202,14 @@ class Page:
     def _complain(self) -> None:
         found = self.state.complaints
         self.complaints.visible = bool(found)
-        if found:
-            text = "\n".join([*found, "The answers below are those of the last valid numbers."])
-            self.complaints.object = words(text, TEXT + 1, STICK, 600)
+        text = "\n".join([*found, "The answers below are those of the last valid numbers."])
+        self.complaints.object = words(text, TEXT + 1, STICK, 600) if found else ""
 
     # Requests.
 
     def refresh(self) -> None:
         """Asks for every answer of the study: first for the short ones, and for the others when the sliders rest."""
-        study = self.state.study
-        self.fast.submit("averaged", study)
-        self.request_motion()
-        self.exact.submit("response", study)
+        self.fast.submit("averaged", self.state.study)
         self._tell(self.state)
         if self._later is not None:
             self._document.remove_timeout_callback(self._later)
@@ -235,6 +231,12 @@ class Page:
                 self._draw_sketch(study)
             self.sound.dim(True)
             self._share()
+
+    def request_exact(self) -> None:
+        """Asks for the trajectory and the response."""
+        if not self._closed:
+            self.request_motion()
+            self.exact.submit("response", self.state.study)
 
     def request_motion(self) -> None:
         """Asks for the trajectory."""
@@ -317,6 +319,9 @@ class Page:
             "sound": self.sound,
         }[name]
         pane.state(event)
+        if name == "averaged" and event.kind in ("done", "failed"):
+            # The exact answers begin when the averaged one is there, so that they do not delay it.
+            self._document.add_next_tick_callback(self.request_exact)
         if answer is None:
             return
         if name == "averaged":

@@ -37,11 +37,6 @@ OPTIONS: dict[str, Any] = {
 }
 
 
-def plain(plot: Any, element: Any) -> None:
-    """Gives a picture the fonts of the others."""
-    dress(plot.state)
-
-
 def bounds(centres: npt.NDArray[np.float64], logarithmic: bool) -> npt.NDArray[np.float64]:
     """The edges of cells around their centres."""
     return np.exp(edges(np.log(centres))) if logarithmic else edges(centres)
@@ -91,9 +86,6 @@ class Plane:
         self._source = ColumnDataSource({"x": [self.cursor[0]], "y": [self.cursor[1]]})
         across, up = self.ends
         drawn = hv.DynamicMap(lambda data: self._layers(), streams=[self._pipe])
-        # The stream has to live as long as the picture.
-        self._tap = hv.streams.Tap(source=drawn, x=None, y=None)
-        self._tap.add_subscriber(self._tapped)
         return drawn.opts(
             hv.opts.Overlay(
                 **{name: value for name, value in OPTIONS.items() if name not in ("tools", "default_tools")},
@@ -115,6 +107,7 @@ class Plane:
             plot.state.scatter(
                 "x", "y", source=self._source, name=CURSOR, marker="cross", size=18, line_width=3, line_color="#222", level="overlay"
             )
+            plot.state.on_event("tap", self._tapped)
 
     def refresh(self) -> None:
         """Draws the map and the curves again."""
@@ -125,9 +118,9 @@ class Plane:
         self.cursor = (x, y)
         self._source.data = {"x": [x], "y": [y]}
 
-    def _tapped(self, x: float | None = None, y: float | None = None) -> None:
-        if x is not None and y is not None:
-            self._jump(float(x), float(y))
+    def _tapped(self, event: Any) -> None:
+        if event.x is not None and event.y is not None:
+            self._jump(float(event.x), float(event.y))
 
     def _layers(self) -> Any:
         across, up = self.ends
@@ -170,18 +163,22 @@ class Basins:
     def picture(self) -> Any:
         """A new picture."""
         self._pipe = hv.streams.Pipe(data=None)
-        drawn = hv.DynamicMap(lambda data: self._mesh(), streams=[self._pipe])
-        self._tap = hv.streams.Tap(source=drawn, x=None, y=None)
-        self._tap.add_subscriber(self._tapped)
-        return drawn
+        return hv.DynamicMap(lambda data: self._mesh(), streams=[self._pipe])
 
     def refresh(self) -> None:
         """Draws the answer."""
         self._pipe.send(None)
 
-    def _tapped(self, x: float | None = None, y: float | None = None) -> None:
-        if x is not None and y is not None and self.answer is not None:
-            self._jump(float(x) * self.factors[0], float(y) * self.factors[1])
+    def _finish(self, plot: Any, element: Any) -> None:
+        """Listens to clicks, once."""
+        dress(plot.state)
+        if plot.state.tags != [CURSOR]:
+            plot.state.tags = [CURSOR]
+            plot.state.on_event("tap", self._tapped)
+
+    def _tapped(self, event: Any) -> None:
+        if event.x is not None and event.y is not None and self.answer is not None:
+            self._jump(float(event.x) * self.factors[0], float(event.y) * self.factors[1])
 
     def colours(self) -> list[str]:
         """The colour of each motion: the accent for quiet ones."""
@@ -192,7 +189,7 @@ class Basins:
     def _mesh(self) -> Any:
         if self.answer is None:
             empty = cells(np.array([0.0, 1.0]), np.array([0.0, 1.0]), np.zeros((1, 1)), False, "end")
-            return empty.opts(**OPTIONS, cmap=["#f4f6f8"], framewise=True, hooks=[plain])
+            return empty.opts(**OPTIONS, cmap=["#f4f6f8"], framewise=True, hooks=[self._finish])
         answer = self.answer
         colours = self.colours()
         scales = [prefixed(answer[name], unit) for name, unit in zip(("x", "y"), answer["units"], strict=True)]
@@ -209,5 +206,5 @@ class Basins:
             framewise=True,
             xlim=limits(x),
             ylim=limits(y),
-            hooks=[plain],
+            hooks=[self._finish],
         )

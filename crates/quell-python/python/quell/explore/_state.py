@@ -129,7 +129,7 @@ class State:
 
 def rebuilt(study: Study, document: Mapping[str, Any]) -> Study:
     """The study of a document whose files are in the folder of another study."""
-    text = _toml.study(dict(document))
+    text = _toml.study({name: table for name, table in document.items() if name != "schema"})
     return Study._of(NativeStudy.parse((text, study._native.folder, [], None, False, None)))
 
 
