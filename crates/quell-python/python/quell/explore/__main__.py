@@ -7,6 +7,7 @@ import sys
 import webbrowser
 
 from .._errors import QuellError
+from .._study import Study
 from . import explore
 
 
@@ -21,12 +22,10 @@ def main(arguments: list[str] | None = None) -> int:
         changes = dict(it.split("=", 1) for it in given.set)
     except ValueError:
         parser.error("--set: expected PATH=VALUE")
+    if changes and given.study is None:
+        parser.error("--set: needs a study file")
     try:
-        explorer = explore(given.study)
-        if changes and not explorer._state.set(changes):
-            explorer.stop()
-            print("\n".join(explorer._state.complaints), file=sys.stderr)
-            return 2
+        explorer = explore(Study.from_toml(given.study, changes) if given.study else None)
     except (QuellError, ImportError) as refused:
         print(refused, file=sys.stderr)
         return 2

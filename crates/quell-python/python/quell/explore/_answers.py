@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import tempfile
+import wave
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -41,6 +43,12 @@ MOST_BINS = 1500
 """Most points of a spectrum; each is the largest of its bin."""
 
 SOUND_SECONDS = 2.0
+SLOW_BAND = 1.9
+"""Upper end of the band of slow vibration in ω₀, as in the response."""
+
+QUANTUM = (1.0 / 32768.0) ** 2 / 12.0
+"""Power of the rounding of samples of 16 bits: less is silence."""
+
 FLOOR_DB = -120.0
 """Least level that a spectrum shows."""
 
@@ -449,6 +457,8 @@ def sound(study: Study) -> Answer:
     common = min(known, default=None)
     files = {}
     levels = {}
+    slow = {}
+    natural = next((it.facts["sound"].get("natural_frequency_hz") for it in runs.values() if it.facts.get("sound")), None)
     for name, run in runs.items():
         if common is not None and gains[name] != common:
             other = study if name == "with dither" else quiet
@@ -456,7 +466,9 @@ def sound(study: Study) -> Answer:
             run = other.simulate(until, start=start, samples=False, events=False, gain=common)
         files[name] = wave_of(run)
         levels[name] = level_of(files[name])
-    return {"files": files, "levels": levels, "gain": common}
+        if natural:
+            slow[name] = level_of(files[name], SLOW_BAND * float(natural))
+    return {"files": files, "levels": levels, "slow": slow, "gain": common}
 
 
 def heard(study: Study) -> float:
@@ -480,16 +492,26 @@ def wave_of(run: Simulation) -> bytes:
             return file.read()
 
 
-def level_of(wave_file: bytes) -> float:
-    """The level of the second half of a sound in dB re full scale; −∞ for silence."""
-    import io
-    import wave
+def level_of(wave_file: bytes, below: float | None = None) -> float:
+    """The level of the second half of a sound in dB re full scale; −∞ for silence.
 
+    With ``below``, only frequencies above 0 and up to this one count, in Hz.
+    """
     with wave.open(io.BytesIO(wave_file)) as file:
         samples = np.frombuffer(file.readframes(file.getnframes()), dtype="<i2").astype(np.float64) / 32768.0
+        rate = file.getframerate()
     half = samples[samples.size // 2 :]
-    power = float(np.mean(half**2)) if half.size else 0.0
-    return 10.0 * math.log10(power) if power > 0.0 else -math.inf
+    if half.size == 0:
+        return -math.inf
+    if below is None:
+        power = float(np.mean(half**2))
+    else:
+        window = np.hanning(half.size)
+        lines = np.abs(np.fft.rfft(half * window)) ** 2
+        frequency = np.fft.rfftfreq(half.size, 1.0 / rate)
+        inside = (frequency > 0.0) & (frequency <= below)
+        power = 2.0 * float(lines[inside].sum()) / (half.size * float(np.sum(window**2)))
+    return 10.0 * math.log10(power) if power > QUANTUM else -math.inf
 
 
 TASKS: dict[str, Callable[..., Answer]] = {

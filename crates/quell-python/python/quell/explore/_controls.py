@@ -127,14 +127,14 @@ class Controls:
 
     def _law(self, groups: dict[str, list[Any]], study: Study, path: str, law: str) -> None:
         options = laws() if law in laws() else [law, *laws()]
-        select = pn.widgets.Select(name="law", options=options, value=law, width=SIDE - 20, margin=(2, 4, 8, 4))
+        select = pn.widgets.Select(label="law", options=options, value=law, width=SIDE - 20, margin=(2, 4, 8, 4))
         select.param.watch(lambda event: None if self._silent else self._choose_law(path, event.new), "value")
         self._selects[f"{path}.law"] = select
         groups.setdefault(label_of(study, [*tokens(path), "law"], "")[1], []).append(select)
 
     def _choice(self, groups: dict[str, list[Any]], choice: Choice) -> None:
         select = pn.widgets.Select(
-            name=choice.label, options=list(choice.options), value=choice.value, width=SIDE - 20, margin=(2, 4, 8, 4)
+            label=choice.label, options=list(choice.options), value=choice.value, width=SIDE - 20, margin=(2, 4, 8, 4)
         )
         select.param.watch(lambda event: None if self._silent else self._change({choice.path: event.new}), "value")
         self._selects[choice.path] = select

@@ -163,9 +163,14 @@ class Law:
         self.plot.xaxis.axis_label = labelled("slip velocity", law["unit"])
 
 
-def usual(values: Any) -> tuple[float, float]:
-    """A range that shows most of the values, with 0. Growth rates have no bound where an average has a jump."""
-    finite = values[np.isfinite(values)]
+def usual(at: Any, values: Any) -> tuple[float, float]:
+    """A range that shows the values (n, branches) over most of the parameter, with 0.
+
+    Growth rates have no bound where an average has a jump, near which the points are dense.
+    """
+    even = np.linspace(at[0], at[-1], 400)
+    nearest = values[np.clip(np.searchsorted(at, even), 0, at.size - 1)]
+    finite = nearest[np.isfinite(nearest)]
     if finite.size == 0:
         return -1.0, 1.0
     low, high = (float(it) for it in np.quantile(finite, (0.03, 0.97)))
@@ -196,7 +201,7 @@ class Eigenvalues:
             branches = answer[name].T
             source.data = {"xs": [at] * len(branches), "ys": list(branches)}
         for plot, name in zip(self.plots, ("growth", "frequency"), strict=True):
-            low, high = usual(answer[name])
+            low, high = usual(at, answer[name])
             plot.y_range.start, plot.y_range.end = low, high
         for plot in self.plots:
             plot.xaxis.axis_label = label

@@ -57,8 +57,8 @@ class Downloads:
 
     def __init__(self, study: Callable[[], Study]) -> None:
         self._study = study
-        self.verb = pn.widgets.Select(name="answer", options=list(VERBS[study()._native.kind]), width=150, margin=MARGIN)
-        self.format = pn.widgets.Select(name="file", options=list(FORMATS), width=100, margin=MARGIN)
+        self.verb = pn.widgets.Select(label="answer", options=list(VERBS[study()._native.kind]), width=150, margin=MARGIN)
+        self.format = pn.widgets.Select(label="file", options=list(FORMATS), width=100, margin=MARGIN)
         self.file = pn.widgets.FileDownload(
             callback=self._content, filename="quell.svg", label="download", auto=True, width=150, margin=(20, 8, 2, 8)
         )

@@ -6,7 +6,7 @@ import copy
 from typing import Any
 
 from .._study import Study
-from ._numbers import alternatives, definitions, tokens
+from ._numbers import definitions, tokens
 
 NUMBERS = ("static_coefficient", "minimum_coefficient", "coefficient", "reference_velocity", "reference_velocity_m_per_s")
 """Numbers that laws share."""
@@ -60,10 +60,11 @@ def table_of(study: Study, old: dict[str, Any], law: str) -> dict[str, Any]:
         formula = "{minimum_coefficient} + ({static_coefficient} - {minimum_coefficient})*exp(-abs(v)/{speed})"
         return {"law": law, "coefficient": formula.format(**known, speed=known[velocity])}
     table: dict[str, Any] = {"law": law}
-    name = "friction_si" if is_si else "friction_scaled"
-    for node in alternatives(definitions()[name], table):
-        if node.get("properties", {}).get("law", {}).get("const") == law:
-            table.update({key: known[key] for key in node["required"] if key in known})
+    # In SI a force may stand for a coefficient, so that the schema requires neither.
+    for node in definitions()["friction_scaled"]["oneOf"]:
+        if node["properties"]["law"]["const"] == law:
+            names = (velocity if key == "reference_velocity" else key for key in node["required"])
+            table.update({key: known[key] for key in names if key in known})
     if law in ("coulomb", "stribeck-exponential") and "static_coefficient" in old:
         table["static_coefficient"] = static
     return table

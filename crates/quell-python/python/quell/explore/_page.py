@@ -72,8 +72,8 @@ class Page:
         self.motion.picture.plane.on_event("tap", self._tapped)
         self.eigen.parameter.param.watch(lambda event: self.request_eigenvalues(), "value")
         self.sound.button.on_click(lambda event: self.request_sound())
-        self.undo = pn.widgets.Button(name="undo", width=90, css_classes=["quell-undo"])
-        self.redo = pn.widgets.Button(name="redo", width=90, css_classes=["quell-redo"])
+        self.undo = pn.widgets.Button(label="undo", width=90, css_classes=["quell-undo"])
+        self.redo = pn.widgets.Button(label="redo", width=90, css_classes=["quell-redo"])
         self.undo.on_click(lambda event: self._went(self.state.undo()))
         self.redo.on_click(lambda event: self._went(self.state.redo()))
 
@@ -81,7 +81,7 @@ class Page:
         self._sources = {**_zoo.questions(), **_zoo.neighbours(self.state.step.source)}
         here = next((name for name, it in self._sources.items() if it == self.state.step.source), "this study")
         options = list(dict.fromkeys(["this study", *self._sources]))
-        self.zoo = pn.widgets.Select(name="open a study", options=options, value=here, width=SIDE, css_classes=["quell-zoo"])
+        self.zoo = pn.widgets.Select(label="open a study", options=options, value=here, width=SIDE, css_classes=["quell-zoo"])
         self.zoo.param.watch(self._open, "value")
         return pn.Column(self.zoo, pn.Row(self.undo, self.redo), width=SIDE + 8)
 

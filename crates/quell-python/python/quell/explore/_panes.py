@@ -91,8 +91,8 @@ class MotionPane(Pane):
         self.picture = Motion()
         self.names: tuple[str, ...] = ()
         self.is_shown = False
-        self.coordinate = pn.widgets.Select(name="coordinate", options=[], width=180, visible=False, margin=MARGIN)
-        self.again = pn.widgets.Button(name="start of the study", width=170, margin=(8, 8, 2, 8), css_classes=["quell-restart"])
+        self.coordinate = pn.widgets.Select(label="coordinate", options=[], width=180, visible=False, margin=MARGIN)
+        self.again = pn.widgets.Button(label="start of the study", width=170, margin=(8, 8, 2, 8), css_classes=["quell-restart"])
         self.sentence = paragraph(WIDTH, "quell-motion-words")
         over_time = pn.pane.Bokeh(self.picture.over_time, margin=MARGIN)
         plane = pn.pane.Bokeh(self.picture.plane, margin=MARGIN)
@@ -132,7 +132,7 @@ class LawPane(Pane):
 
     def __init__(self) -> None:
         self.picture = Law()
-        self.contact = pn.widgets.Select(name="contact", options=[], width=180, visible=False, margin=MARGIN)
+        self.contact = pn.widgets.Select(label="contact", options=[], width=180, visible=False, margin=MARGIN)
         self._laws: list[dict[str, Any]] = []
         super().__init__("Effective friction", "quell-law", pn.pane.Bokeh(self.picture.plot, margin=MARGIN), self.contact, kind="averaged")
         self.contact.param.watch(lambda event: self._draw(), "value")
@@ -156,7 +156,7 @@ class EigenPane(Pane):
 
     def __init__(self) -> None:
         self.picture = Eigenvalues()
-        self.parameter = pn.widgets.Select(name="over", options={}, width=WIDTH - 40, margin=MARGIN)
+        self.parameter = pn.widgets.Select(label="over", options={}, width=WIDTH - 40, margin=MARGIN)
         self.sentence = paragraph(WIDTH)
         bodies = [pn.pane.Bokeh(plot, margin=MARGIN) for plot in self.picture.plots]
         super().__init__("Eigenvalues", "quell-eigen", self.parameter, *bodies, self.sentence, kind="averaged")
@@ -173,7 +173,7 @@ class SoundPane(Pane):
     """The sound with and without dither, with the same gain."""
 
     def __init__(self) -> None:
-        self.button = pn.widgets.Button(name="make the sound", width=170, margin=MARGIN, css_classes=["quell-listen"])
+        self.button = pn.widgets.Button(label="make the sound", width=170, margin=MARGIN, css_classes=["quell-listen"])
         self.players = pn.pane.HTML("", width=WIDTH, margin=MARGIN, css_classes=["quell-players"])
         super().__init__("Sound", "quell-sound", self.players, self.button)
         self._bodies = [self.players]
@@ -188,24 +188,27 @@ class SoundPane(Pane):
                     f'<div style="font-size:{TEXT}px;font-family:{FONT};margin-bottom:4px">{name}<br>'
                     f'<audio controls style="width:{WIDTH - 20}px;height:40px" src="data:audio/wav;base64,{data}"></audio></div>'
                 )
-        self.players.object = "".join(rows) + words(difference(answer["levels"]), TEXT, weight=600)
+        self.players.object = "".join(rows) + words(difference(answer["levels"], answer["slow"]), TEXT, weight=600)
 
 
-def difference(levels: dict[str, float]) -> str:
-    """The difference of two levels in words."""
+def difference(levels: dict[str, float], slow: dict[str, float]) -> str:
+    """The difference of two sounds in words: of their whole levels, and of those below 1.9 ω₀."""
     if "without dither" not in levels:
         return "The study has no dither: this is its only sound."
+    whole = f"With dither it is {change(levels)}, with the same gain."
+    return f"{whole} Below 1.9 ω₀, without the tone of the dither, it is {change(slow)}." if len(slow) == 2 else whole
+
+
+def change(levels: dict[str, float]) -> str:
+    """What dither does to a level, in words."""
     before, after = levels["without dither"], levels["with dither"]
-    if math.isinf(before) and math.isinf(after):
-        return "Both are silent."
+    if before == after or abs(after - before) < 0.5:
+        return "silent, as without" if math.isinf(after) else "as loud as without"
     if math.isinf(after):
-        return "With dither it is silent."
+        return "silent"
     if math.isinf(before):
-        return "Without dither it is silent."
-    change = after - before
-    if abs(change) < 0.5:
-        return "With dither it is as loud as without."
-    return f"With dither it is {abs(change):.0f} dB {'quieter' if change < 0.0 else 'louder'} in the second half, with the same gain."
+        return "to be heard, and without dither it is silent"
+    return f"{abs(after - before):.0f} dB {'quieter' if after < before else 'louder'}"
 
 
 class Verdict:

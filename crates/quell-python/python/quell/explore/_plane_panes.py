@@ -48,8 +48,8 @@ class PlanePane(Pane):
         self._scale = ""
         self._silent = False
         width = (WIDTH - 24) // 2
-        self.across = pn.widgets.Select(name="across", options=[], width=width, margin=MARGIN, css_classes=["quell-across"])
-        self.up = pn.widgets.Select(name="up", options=[], width=width, margin=MARGIN)
+        self.across = pn.widgets.Select(label="across", options=[], width=width, margin=MARGIN, css_classes=["quell-across"])
+        self.up = pn.widgets.Select(label="up", options=[], width=width, margin=MARGIN)
         self.picture = pn.pane.HoloViews(self._plane.picture(), linked_axes=False, margin=MARGIN, css_classes=["quell-plane-picture"])
         self.sentence = pn.pane.HTML("", width=WIDTH, margin=MARGIN)
         super().__init__("Threshold map", "quell-plane", pn.Row(self.across, self.up), self.picture, self.sentence, kind="averaged")
@@ -157,8 +157,8 @@ class BasinsPane(Pane):
         self._bound = False
         self.picture = pn.pane.HoloViews(self._basins.picture(), linked_axes=False, margin=MARGIN, css_classes=["quell-basins-picture"])
         self.legend = pn.pane.HTML("", width=WIDTH, margin=MARGIN)
-        self.button = pn.widgets.Button(name="compute", width=110, margin=MARGIN, css_classes=["quell-compute-basins"])
-        self.halt = pn.widgets.Button(name="stop", width=80, margin=MARGIN)
+        self.button = pn.widgets.Button(label="compute", width=110, margin=MARGIN, css_classes=["quell-compute-basins"])
+        self.halt = pn.widgets.Button(label="stop", width=80, margin=MARGIN)
         self.button.on_click(lambda event: ask())
         self.halt.on_click(lambda event: stop())
         super().__init__("Basins", "quell-basins", self.picture, self.legend, pn.Row(self.button, self.halt))
@@ -167,8 +167,9 @@ class BasinsPane(Pane):
     def offer(self, kind: str) -> None:
         """Basins of a belt are computed at once, those of a system on request."""
         self.grid = (25, 19) if kind == "belt" else (9, 7)
-        self._basins.answer = None
-        self._basins.refresh()
+        if self._basins.answer is not None:
+            self._basins.answer = None
+            self.picture.object = self._basins.picture()
         self.legend.object = ""
 
     def outdated(self) -> None:

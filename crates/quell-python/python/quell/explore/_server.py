@@ -213,13 +213,15 @@ def provider(explorer: Explorer) -> Any:
 
 def started(study: Study | str | os.PathLike[str] | None, height: int) -> Explorer:
     """A running explorer of a study."""
+    if study is None:
+        source = Source("question", _zoo.FIRST)
+        state = State(_zoo.read(source), source)
+    else:
+        state = State(*opened(study))
     try:
         import bokeh  # noqa: F401
         import holoviews  # noqa: F401
         import panel  # noqa: F401
     except ImportError as missing:
         raise ImportError(f"{ADVICE} ({missing})") from missing
-    if study is None:
-        source = Source("question", _zoo.FIRST)
-        return Explorer(State(_zoo.read(source), source), height).start()
-    return Explorer(State(*opened(study)), height).start()
+    return Explorer(state, height).start()
