@@ -197,6 +197,17 @@ def test_what_is_shared_gives_the_same_answer(kind: str, tmp_path: Path) -> None
     assert wanted.sentence.split(". ")[0] in shown
 
 
+def test_a_study_that_names_files_can_be_saved_anywhere(tmp_path: Path) -> None:
+    state = state_of(STUDIES / "bowed-string.toml")
+    assert state.set_law("contact[0].friction", "coulomb")
+    file = tmp_path / "study.toml"
+    file.write_text(_share.toml(state.step))
+    assert quell.Study.from_toml(file).stability().facts == state.study.stability().facts
+    space: dict[str, Any] = {}
+    exec(_share.python(state.step).split("result =")[0], space)  # noqa: S102  the program under test
+    assert space["study"].stability().facts == state.study.stability().facts
+
+
 def test_a_chosen_start_is_shared(tmp_path: Path) -> None:
     state = state_of(BELT)
     state.set_start({"displacement": -0.1, "velocity": 0.02})

@@ -318,8 +318,8 @@ def small_motion(study: Study) -> Answer:
     pairs = pairs_of(after, "disc")
     name = array_name(max((it[0] for it in pairs), key=lambda it: float(np.ptp(values(after, array_name(it))))))
     window = np.hanning(at.size)
-    frequency = 2.0 * math.pi * np.fft.rfftfreq(at.size, float(at[1] - at[0]))
-    spectra = [np.abs(np.fft.rfft(window * values(run, name))) for run in (before, after)]
+    frequency: Array = (2.0 * math.pi * np.fft.rfftfreq(at.size, float(at[1] - at[0]))).astype(np.float64)
+    spectra: list[Array] = [np.abs(np.fft.rfft(window * values(run, name))).astype(np.float64) for run in (before, after)]
     inside = frequency <= 4.0 * 2.0 * math.pi / times(study)[0]
     words = study.stability().facts["sentence"]
     return {

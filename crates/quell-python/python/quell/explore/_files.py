@@ -60,12 +60,13 @@ class Downloads:
         self.verb = pn.widgets.Select(label="answer", options=list(VERBS[study()._native.kind]), width=150, margin=MARGIN)
         self.format = pn.widgets.Select(label="file", options=list(FORMATS), width=100, margin=MARGIN)
         self.file = pn.widgets.FileDownload(
-            callback=self._content, filename="quell.svg", label="download", auto=True, width=150, margin=(20, 8, 2, 8)
+            callback=self._content, filename="quell.svg", label="download", auto=True, width=150, margin=(20, 8, 2, 8),
+            css_classes=["quell-download"],
         )
-        self.note = pn.pane.HTML("", width=400, margin=(20, 8, 2, 8))
+        self.note = pn.pane.HTML("", width=300, margin=(20, 8, 2, 8))
         for select in (self.verb, self.format):
             select.param.watch(lambda event: self._name(), "value")
-        self.view = pn.Row(self.verb, self.format, self.file, self.note)
+        self.view = pn.FlexBox(self.verb, self.format, self.file, self.note, sizing_mode="stretch_width")
         self._name()
 
     def offer(self, kind: str) -> None:

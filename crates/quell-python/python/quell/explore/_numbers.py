@@ -61,8 +61,8 @@ class Knob:
     def grid(self) -> list[float]:
         """The values of the slider in ascending order; the value of the study is one of them."""
         if self.whole:
-            step = max(1, round((self.stop - self.start) / STEPS))
-            found = {float(it) for it in range(int(self.start), int(self.stop) + 1, step)}
+            stride = max(1, round((self.stop - self.start) / STEPS))
+            found = {float(it) for it in range(int(self.start), int(self.stop) + 1, stride)}
         elif self.logarithmic:
             ends = math.log(self.start), math.log(self.stop)
             found = {rounded(math.exp(ends[0] + (ends[1] - ends[0]) * it / STEPS)) for it in range(STEPS + 1)}

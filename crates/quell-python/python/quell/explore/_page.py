@@ -54,7 +54,7 @@ class Page:
         self.eigen = EigenPane()
         self.controls = Controls(state.study, self.change, self.choose_law)
         self.downloads = Downloads(lambda: self.state.study)
-        self.shared = {name: pn.pane.HTML("", width=2 * WIDTH) for name in ("TOML", "command line", "Python")}
+        self.shared = {name: pn.pane.HTML("", sizing_mode="stretch_width") for name in ("TOML", "command line", "Python")}
         self.complaints = pn.pane.HTML("", visible=False, sizing_mode="stretch_width", css_classes=["quell-complaints"])
         self.title = pn.pane.HTML("", sizing_mode="stretch_width", css_classes=["quell-title"])
         self._wire()
@@ -86,9 +86,15 @@ class Page:
         return pn.Column(self.zoo, pn.Row(self.undo, self.redo), width=SIDE + 8)
 
     def _layout(self) -> Any:
-        share = pn.Tabs(*self.shared.items(), width=2 * WIDTH + 24, css_classes=["quell-share"])
+        share = pn.Tabs(*self.shared.items(), sizing_mode="stretch_width", css_classes=["quell-share"])
         self.bottom = pn.Card(
-            share, self.downloads.view, title="Share and download", collapsed=False, width=2 * WIDTH + 30, css_classes=["quell-sharing"]
+            share,
+            self.downloads.view,
+            title="Share and download",
+            collapsed=False,
+            sizing_mode="stretch_width",
+            max_width=2 * WIDTH + 30,
+            css_classes=["quell-sharing"],
         )
         main = pn.Column(
             self.title,

@@ -95,7 +95,7 @@ class MotionPane(Pane):
         self.again = pn.widgets.Button(label="start of the study", width=170, margin=(8, 8, 2, 8), css_classes=["quell-restart"])
         self.sentence = paragraph(WIDTH, "quell-motion-words")
         over_time = pn.pane.Bokeh(self.picture.over_time, margin=MARGIN)
-        plane = pn.pane.Bokeh(self.picture.plane, margin=MARGIN)
+        plane = pn.pane.Bokeh(self.picture.plane, margin=MARGIN, css_classes=["quell-phase"])
         self.plane_view = pn.Column(
             pn.pane.HTML(headed("Phase plane", "click a start"), width=WIDTH, margin=MARGIN), plane, width=WIDTH + 16
         )

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import shlex
+from typing import Any
 
 from .. import _toml
+from .._checked import FILES
 from ._state import Step
 
 VERBS = {"belt": ("response", "stability"), "disc": ("stability", "resonances"), "system": ("response", "stability")}
@@ -18,8 +21,24 @@ FILE = "study.toml"
 
 
 def toml(step: Step) -> str:
-    """The study as the text of a file."""
-    return step.study().to_toml()
+    """The study as the text of a file. Files that it names have absolute paths, so that it can be saved anywhere."""
+    study = step.study()
+    document = study._document()
+    return _toml.study(document) if absolute(document, study._native.folder) else study.to_toml()
+
+
+def absolute(node: Any, folder: str) -> bool:
+    """Gives the files of a document absolute paths; whether there are any."""
+    if isinstance(node, list):
+        return any([absolute(inner, folder) for inner in node])
+    if not isinstance(node, dict):
+        return False
+    found = [absolute(inner, folder) for inner in node.values()]
+    for key in FILES:
+        if isinstance(node.get(key), str):
+            node[key] = os.path.abspath(os.path.join(folder, node[key]))
+            found.append(True)
+    return any(found)
 
 
 def commands(step: Step) -> str:
@@ -54,7 +73,7 @@ def python(step: Step) -> str:
     elif step.source.kind == "question":
         lines.append(f"study = quell.Study.from_text(quell.new({step.source.name!r})[\"text\"])")
     else:
-        text = step.study().to_toml()
+        text = toml(step)
         plain = '"""' not in text and "\\" not in text
         lines.append(f'study = quell.Study.from_text("""{text}""")' if plain else f"study = quell.Study.from_text({text!r})")
     if step.changes and step.source.kind != "text":
