@@ -12,7 +12,8 @@ from .._study import Study
 from .._tables import Number
 from ._figures import labelled
 from ._numbers import Knob, knob
-from ._panes import MARGIN, Pane, legend_of, words
+from ._lanes import Event
+from ._panes import MARGIN, Pane, legend_of, time_words, words
 from ._planes import Basins, Plane
 from ._style import TEXT, WIDTH
 
@@ -21,9 +22,6 @@ ACROSS = ("belt_velocity", "belt_velocity_m_per_s", "speed", "speed_rpm", "speed
 
 UP = ("amplitude", "amplitude_n", "friction", "friction_n", "coefficient", "static_coefficient", "normal_load", "normal_load_n")
 """Keys of the second axis."""
-
-MOST_CURVES = 6.0
-"""Time in seconds after which a curve is given up; the map remains."""
 
 Axis = tuple[str, float, float, bool]
 
@@ -56,6 +54,17 @@ class PlanePane(Pane):
         self._bodies = [self.picture]
         for select in (self.across, self.up):
             select.param.watch(self._chosen, "value")
+
+    def state(self, event: Event) -> None:
+        """Shows what happens to a request. The map is valid without its curves."""
+        if event.name == "plane":
+            super().state(event)
+        elif event.kind == "running":
+            self.say("averaged; exact threshold: computing…")
+        elif event.kind == "done":
+            self.say(f"averaged; exact threshold: {time_words(event.seconds)}")
+        elif event.kind == "failed":
+            self.say(f"averaged; no exact threshold: {event.words}")
 
     def _chosen(self, event: Any) -> None:
         if not self._silent:
