@@ -13,6 +13,7 @@ import secrets
 import socket
 import threading
 import time
+from importlib import import_module
 from typing import Any
 
 from .._study import Study
@@ -96,7 +97,7 @@ class Explorer:
 
         try:
             # The first page does not wait for it.
-            from . import _page  # noqa: F401
+            part("._page")
 
             loop = asyncio.new_event_loop()
             asyncio.set_event_loop(loop)
@@ -121,15 +122,13 @@ class Explorer:
         raise why
 
     def _at(self, port: int) -> Any:
-        import panel as pn
-
-        return pn.io.server.get_server(
+        return part("panel").io.server.get_server(
             {"/": self._page},
             port=port,
             address=ADDRESS,
             prefix=self._token,
             websocket_origin=[f"{ADDRESS}:{port}", f"localhost:{port}"],
-            auth_provider=provider(self),
+            auth_provider=part("._secret").provider(self),
             start=False,
             show=False,
             verbose=False,
@@ -137,13 +136,9 @@ class Explorer:
         )
 
     def _page(self) -> Any:
-        import panel as pn
-
-        from ._page import Page
-
-        page = Page(self._state.copy(), self._changed)
+        page = part("._page").Page(self._state.copy(), self._changed)
         self._pages.append(page)
-        pn.state.on_session_destroyed(lambda context: self._left(page))
+        part("panel").state.on_session_destroyed(lambda context: self._left(page))
         return page.view
 
     def _left(self, page: Any) -> None:
@@ -167,48 +162,9 @@ class Explorer:
         return hmac.compare_digest(first.encode(), self._token.encode())
 
 
-def provider(explorer: Explorer) -> Any:
-    """The check of every request, in the form that Bokeh asks for."""
-    from bokeh.server.auth_provider import AuthProvider
-    from tornado.web import HTTPError
-
-    class Secret(AuthProvider):  # type: ignore[misc, unused-ignore]
-        """Refuses every request that the explorer does not admit."""
-
-        @property
-        def get_user(self) -> Any:
-            def user(handler: Any) -> str:
-                if not explorer.admits(handler.request):
-                    raise HTTPError(403)
-                return "user"
-
-            return user
-
-        @property
-        def login_url(self) -> str:
-            return "/"
-
-        @property
-        def get_user_async(self) -> Any:
-            return None
-
-        @property
-        def get_login_url(self) -> Any:
-            return None
-
-        @property
-        def login_handler(self) -> Any:
-            return None
-
-        @property
-        def logout_url(self) -> Any:
-            return None
-
-        @property
-        def logout_handler(self) -> Any:
-            return None
-
-    return Secret()
+def part(name: str) -> Any:
+    """A module that needs Panel. Type checkers of programs that use Quell do not have to read Panel."""
+    return import_module(name, __package__)
 
 
 def started(study: Study | str | os.PathLike[str] | None, height: int) -> Explorer:
@@ -219,9 +175,8 @@ def started(study: Study | str | os.PathLike[str] | None, height: int) -> Explor
     else:
         state = State(*opened(study))
     try:
-        import bokeh  # noqa: F401
-        import holoviews  # noqa: F401
-        import panel  # noqa: F401
+        for name in ("bokeh", "holoviews", "panel"):
+            part(name)
     except ImportError as missing:
         raise ImportError(f"{ADVICE} ({missing})") from missing
     return Explorer(state, height).start()
