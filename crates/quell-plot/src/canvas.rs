@@ -3,7 +3,7 @@
 use std::fmt::{self, Write as _};
 
 use super::palette::{Colour, FRAME};
-use super::svg::{Document, FIGURE_NAME, Hex, Number, TextAnchor};
+use super::svg::{Document, Escaped, FIGURE_NAME, Hex, Number, TextAnchor};
 use super::typeset::RichText;
 
 /// A rectangle in pixels, y downwards.
@@ -216,6 +216,16 @@ impl Canvas {
 
     pub(super) fn end_group(&mut self) {
         self.document.write(format_args!("</g>"));
+    }
+
+    /// Names the current group for readers of the file, and describes it unless the description is empty.
+    pub(super) fn describe(&mut self, title: &str, description: &str) {
+        if !title.is_empty() {
+            self.document.write(format_args!("<title>{}</title>", Escaped(title)));
+        }
+        if !description.is_empty() {
+            self.document.write(format_args!("<desc>{}</desc>", Escaped(description)));
+        }
     }
 
     /// The finished SVG.

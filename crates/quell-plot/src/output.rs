@@ -26,7 +26,7 @@ impl Figure {
     }
 }
 
-fn png(svg: &str) -> Result<Vec<u8>, PlotError> {
+pub(super) fn png(svg: &str) -> Result<Vec<u8>, PlotError> {
     let options = Options {
         font_family: fonts::BUNDLED_FAMILY.to_string(),
         fontdb: fonts::database(),
