@@ -6,8 +6,9 @@
 use super::axis_limits::{AxisLimits, axis_limits};
 use super::canvas::Rectangle;
 use super::colour_bar::ColourBar;
-use super::figure::{Figure, Legend, Panel, SharedLegend, Sharing, Size};
+use super::figure::{CaptionPlacement, Figure, Legend, Panel, SharedLegend, Sharing, Size};
 use super::font_sizes::FontSizes;
+use super::grid::Grid;
 use super::layer::Layer;
 use super::layout::{FigureLayout, LABEL_GAP, LegendLayout, NUMBER_GAP, PanelLayout};
 use super::legend::{self, LegendEntry};
@@ -16,7 +17,6 @@ use super::ticks::{Room, Ticks};
 use super::typeset::{RichText, wrap};
 
 const EDGE: f64 = 10.0;
-const LEAST_FRAME: f64 = 60.0;
 
 /// Margins of all columns and rows.
 #[derive(Debug, Clone, Default)]
@@ -27,15 +27,37 @@ struct Margins {
     bottom: Vec<f64>,
 }
 
+/// Space that a figure needs around its frames, across and upright.
+pub(super) fn surroundings(
+    figure: &Figure,
+    columns: usize,
+    frame: (f64, f64),
+    sizes: FontSizes,
+) -> (f64, f64) {
+    let (_, margins) = measure(figure, columns, frame, sizes);
+    let across: f64 = margins.left.iter().chain(&margins.right).sum();
+    let width = across + frame.0 * columns as f64;
+    let outer = outer(figure, width, (margins.left[0], width - margins.right[columns - 1]), sizes);
+    let below = match figure.legend {
+        SharedLegend::Below => outer.shared_height,
+        _ => 0.0,
+    };
+    let margins: f64 = margins.top.iter().chain(&margins.bottom).sum();
+    (across, margins + outer.head + outer.caption_height + below)
+}
+
 /// Arranges a figure.
 pub(super) fn arrange(figure: &Figure) -> FigureLayout {
-    let columns = figure.columns.max(1).min(figure.panels.len().max(1));
+    let Grid { columns, frame, sizes } = Grid::of(figure);
     let rows = figure.panels.len().div_ceil(columns).max(1);
-    let (frame, sizes) = frame_size(figure, columns, rows);
     let (mut panels, margins) = measure(figure, columns, frame, sizes);
 
     let body_left = margins.left.first().copied().unwrap_or(0.0);
-    let width = margins.left.iter().chain(&margins.right).sum::<f64>() + frame.0 * columns as f64;
+    let width = match figure.size {
+        Size::Wide(width) => width,
+        _ => (margins.left.iter().chain(&margins.right).sum::<f64>() + frame.0 * columns as f64)
+            .ceil(),
+    };
     let last_right = margins.right.last().copied().unwrap_or(0.0);
     let body = (body_left, width - last_right);
     let outer = outer(figure, width, body, sizes);
@@ -71,7 +93,7 @@ pub(super) fn arrange(figure: &Figure) -> FigureLayout {
     }
     FigureLayout {
         width,
-        height: top + outer.caption_height,
+        height: (top + outer.caption_height).ceil(),
         sizes,
         panels,
         title: outer.title,
@@ -98,10 +120,16 @@ fn outer(figure: &Figure, width: f64, body: (f64, f64), sizes: FontSizes) -> Out
     let line = |size: u32| 1.35 * f64::from(size);
     let room = width - 2.0 * EDGE;
     let title = lines(&figure.title, sizes.figure_title, true, room);
-    let caption = lines(&figure.caption, sizes.caption, false, room);
+    let caption = match figure.caption_placement {
+        CaptionPlacement::Below => lines(&figure.caption, sizes.caption, false, room),
+        CaptionPlacement::Apart => Vec::new(),
+    };
     let shared = match figure.legend {
         SharedLegend::None => Vec::new(),
-        SharedLegend::Above | SharedLegend::Below => legend::entries(&figure.panels),
+        SharedLegend::Above | SharedLegend::Below => {
+            let limits = axis_limits(figure, super::grid::columns_of(figure));
+            legend::entries(figure.panels.iter().zip(limits))
+        }
     };
     let shared_height = if shared.is_empty() {
         0.0
@@ -123,51 +151,6 @@ fn lines(source: &str, size: u32, bold: bool, room: f64) -> Vec<RichText> {
     lines.into_iter().filter(|line| !line.is_empty()).collect()
 }
 
-fn frame_size(figure: &Figure, columns: usize, rows: usize) -> ((f64, f64), FontSizes) {
-    let usual = match columns {
-        1 => (440.0, 280.0),
-        2 => (300.0, 205.0),
-        _ => (225.0, 160.0),
-    };
-    let sensible = |pixels: f64, usual: f64| {
-        if pixels.is_finite() { pixels.clamp(LEAST_FRAME, 2e4) } else { usual }
-    };
-    match figure.size {
-        Size::Auto => (usual, FontSizes::for_frame(usual.0)),
-        Size::Frame(width, height) => {
-            let frame = (sensible(width, usual.0), sensible(height, usual.1));
-            (frame, FontSizes::for_frame(frame.0))
-        }
-        Size::Whole(width, height) => {
-            let mut frame = (
-                sensible(0.85 * width / columns as f64, usual.0),
-                sensible(0.8 * height / rows as f64, usual.1),
-            );
-            let sizes = FontSizes::for_frame(frame.0);
-            // Margins depend on the tick labels and these on the frame size: three iterations converge.
-            for _ in 0..3 {
-                let (_, margins) = measure(figure, columns, frame, sizes);
-                let across: f64 = margins.left.iter().chain(&margins.right).sum();
-                let body = (margins.left[0], width - margins.right[columns - 1]);
-                let outer = outer(figure, width, body, sizes);
-                let below = match figure.legend {
-                    SharedLegend::Below => outer.shared_height,
-                    _ => 0.0,
-                };
-                let upright: f64 = margins.top.iter().chain(&margins.bottom).sum::<f64>()
-                    + outer.head
-                    + outer.caption_height
-                    + below;
-                frame = (
-                    sensible((width - across) / columns as f64, usual.0),
-                    sensible((height - upright) / rows as f64, usual.1),
-                );
-            }
-            (frame, sizes)
-        }
-    }
-}
-
 /// Lays out every panel for a frame at the origin, and computes the margins around the frames.
 fn measure(
     figure: &Figure,
@@ -177,7 +160,14 @@ fn measure(
 ) -> (Vec<PanelLayout>, Margins) {
     let count = figure.panels.len();
     let rows = count.div_ceil(columns).max(1);
-    let axis_limits = axis_limits(figure, columns);
+    let intended = super::grid::columns_of(figure);
+    let axis_limits = axis_limits(figure, intended);
+    // Panels in fewer columns than intended have other neighbours, whose limits may differ.
+    let shares = |sharing: Sharing| match sharing {
+        Sharing::Separate => false,
+        Sharing::Aligned => columns == intended,
+        Sharing::All => true,
+    };
     let mut margins = Margins {
         left: vec![EDGE; columns],
         right: vec![EDGE; columns],
@@ -187,10 +177,15 @@ fn measure(
     let mut layouts: Vec<PanelLayout> = Vec::with_capacity(count);
     for (index, panel) in figure.panels.iter().enumerate() {
         let (row, column) = (index / columns, index % columns);
-        let x_numbers = figure.sharing_x == Sharing::Separate || index + columns >= count;
-        let y_numbers = figure.sharing_y == Sharing::Separate || column == 0;
-        let layout =
+        let x_numbers = !shares(figure.sharing_x) || index + columns >= count;
+        let y_numbers = !shares(figure.sharing_y) || column == 0;
+        let mut layout =
             lay_out_panel(figure, panel, axis_limits[index], frame, sizes, (x_numbers, y_numbers));
+        if columns != intended && layout.title.is_empty() {
+            // A panel that has left its column takes the title of that column.
+            let head = &figure.panels[index % intended];
+            layout.title = lines(&head.title, sizes.title, false, frame.0);
+        }
         grow(&mut margins, (row, column), &layout, frame.0, sizes);
         layouts.push(layout);
     }
@@ -221,7 +216,7 @@ fn lay_out_panel(
     };
     let entries = match (figure.legend, panel.legend) {
         (SharedLegend::None, Legend::Auto | Legend::Inside(_) | Legend::Above) => {
-            legend::entries([panel])
+            legend::entries([(panel, (x_limits, y_limits))])
         }
         _ => Vec::new(),
     };

@@ -79,8 +79,13 @@ pub(super) struct Canvas {
 
 impl Canvas {
     pub(super) fn new(width: f64, height: f64) -> Self {
-        let document = Document::new(width.ceil(), height.ceil());
+        let document = Document::new(width, height);
         Self { document, clips: 0, hatches: Vec::new(), images: 0 }
+    }
+
+    /// Sets the description of the figure.
+    pub(super) fn describe(&mut self, text: &str) {
+        self.document.describe(text);
     }
 
     pub(super) fn text(&mut self, label: &RichText, (x, y): (f64, f64), setting: TextStyle) {

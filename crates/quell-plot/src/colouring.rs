@@ -58,6 +58,8 @@ pub struct Shading {
     pub range: Option<(f64, f64)>,
     /// Another colour for numbers below this one.
     pub below: Option<(f64, Tint)>,
+    /// Words in the legend for negative and for positive numbers of a palette whose middle is zero.
+    pub signs: Option<(String, String)>,
 }
 
 impl Shading {
@@ -79,6 +81,27 @@ impl Shading {
     pub fn range(mut self, lower: f64, upper: f64) -> Self {
         self.range = Some((lower, upper));
         self
+    }
+
+    /// Sets the words in the legend for negative and for positive numbers.
+    #[must_use]
+    pub fn signs(mut self, negative: impl Into<String>, positive: impl Into<String>) -> Self {
+        self.signs = Some((negative.into(), positive.into()));
+        self
+    }
+
+    /// The words for negative and for positive numbers, each with a typical colour.
+    pub(super) fn sign_keys(&self) -> [Option<(&str, Colour)>; 2] {
+        let Some((negative, positive)) =
+            self.signs.as_ref().filter(|_| self.palette.is_two_sided())
+        else {
+            return [None, None];
+        };
+        let shades = self.palette.shades(SHADES);
+        [
+            Some((negative.as_str(), shades[SHADES / 5])),
+            Some((positive.as_str(), shades[4 * SHADES / 5])),
+        ]
     }
 
     /// Sets another colour for numbers below this one.
@@ -216,7 +239,7 @@ fn range_of(shading: &Shading, extremes: Option<(f64, f64)>) -> (f64, f64) {
     let finite = |range: &(f64, f64)| range.0.is_finite() && range.1.is_finite();
     let found = shading.range.filter(finite).or(extremes).unwrap_or((0.0, 1.0));
     let (mut lower, mut upper) = (found.0.min(found.1), found.0.max(found.1));
-    if shading.palette == Palette::Diverging {
+    if shading.palette.is_two_sided() {
         upper = upper.abs().max(lower.abs());
         lower = -upper;
     }

@@ -3,9 +3,10 @@
 use super::arrange::arrange;
 use super::axis::Mapping;
 use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
-use super::figure::{Figure, Panel};
+use super::envelope::{self, Trace};
+use super::figure::{CaptionPlacement, Figure, Panel};
 use super::font_sizes::FontSizes;
-use super::layer::{Layer, ReferenceLine, Region, RegionShape};
+use super::layer::{Layer, Polyline, ReferenceLine, Region, RegionShape};
 use super::layout::{FigureLayout, LABEL_GAP, LegendLayout, NUMBER_GAP, PanelLayout};
 use super::obstacles::Obstacles;
 use super::palette::{Colour, FAINT, FRAME, PlotRole};
@@ -22,6 +23,9 @@ const MINOR_TICK: f64 = 2.5;
 pub(super) fn figure(figure: &Figure) -> String {
     let layout = arrange(figure);
     let mut canvas = Canvas::new(layout.width, layout.height);
+    if figure.caption_placement == CaptionPlacement::Apart {
+        canvas.describe(&figure.plain_caption());
+    }
     draw_outer(&mut canvas, &layout);
     for (panel, panel_layout) in figure.panels.iter().zip(&layout.panels) {
         draw_panel(&mut canvas, panel, panel_layout, layout.sizes);
@@ -84,8 +88,7 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, layout: &PanelLayout, sizes: F
     isolines.draw(canvas);
     for layer in &panel.layers {
         if let Layer::Polyline(line) = layer {
-            let pieces = projection::pixels(&line.pieces, &x, &y, layout.frame);
-            canvas.stroke(&path(&pieces, false), &legend::stroke_of(line));
+            draw_curve(canvas, line, &projection::pixels(&line.pieces, &x, &y, layout.frame));
         }
     }
     canvas.end_group();
@@ -112,6 +115,27 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, layout: &PanelLayout, sizes: F
             legend::draw_lines(canvas, &layout.entries, corner, layout.frame.width(), sizes);
         }
     }
+}
+
+/// Draws a curve: strokes, and bands where it oscillates too fast to be resolved.
+fn draw_curve(canvas: &mut Canvas, line: &Polyline, pieces: &[Vec<(f64, f64)>]) {
+    const OPACITY: f64 = 0.45;
+    const EDGE: f64 = 0.6;
+    let stroke = legend::stroke_of(line);
+    let mut strokes = Vec::new();
+    for trace in pieces.iter().flat_map(|piece| envelope::traces(piece)) {
+        match trace {
+            Trace::Line(points) => strokes.push(points),
+            Trace::Band { upper, lower } => {
+                let outline: Vec<(f64, f64)> =
+                    upper.iter().chain(lower.iter().rev()).copied().collect();
+                canvas.fill(&path(&[outline], true), stroke.colour, OPACITY);
+                let edges = path(&[thin::polyline(&upper), thin::polyline(&lower)], false);
+                canvas.stroke(&edges, &Stroke::solid(stroke.colour, EDGE.min(stroke.width)));
+            }
+        }
+    }
+    canvas.stroke(&path(&strokes, false), &stroke);
 }
 
 fn draw_region(canvas: &mut Canvas, region: &Region, x: &Mapping, y: &Mapping, frame: Rectangle) {

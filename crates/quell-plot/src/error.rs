@@ -19,6 +19,11 @@ pub enum PlotError {
         /// The reason.
         why: String,
     },
+    /// The figure could not be converted to a page of PDF.
+    Page {
+        /// Error of the converter.
+        source: Box<dyn Error + Send + Sync>,
+    },
     /// The figure could not be rasterised.
     Raster {
         /// Error of the rasteriser.
@@ -33,6 +38,7 @@ impl fmt::Display for PlotError {
                 write!(out, "cannot create an image of {width} by {height} pixels")
             }
             Self::Field { why } => write!(out, "the values of a map do not form a grid: {why}"),
+            Self::Page { source } => write!(out, "cannot convert the figure to PDF: {source}"),
             Self::Raster { source } => write!(out, "cannot rasterise the figure: {source}"),
         }
     }
@@ -41,7 +47,7 @@ impl fmt::Display for PlotError {
 impl Error for PlotError {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         match self {
-            Self::Raster { source } => Some(source.as_ref()),
+            Self::Page { source } | Self::Raster { source } => Some(source.as_ref()),
             Self::PixelSize { .. } | Self::Field { .. } => None,
         }
     }

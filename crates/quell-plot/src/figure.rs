@@ -2,6 +2,7 @@
 
 use super::axis::PlotAxis;
 use super::layer::Layer;
+use super::typeset::RichText;
 
 /// Placement of the legend of one panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -114,6 +115,16 @@ pub enum SharedLegend {
     Below,
 }
 
+/// Placement of the caption.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CaptionPlacement {
+    /// Below all panels.
+    #[default]
+    Below,
+    /// Not drawn: the text next to the figure has it. An SVG has it as its description.
+    Apart,
+}
+
 /// Size of a figure.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Size {
@@ -124,6 +135,9 @@ pub enum Size {
     Frame(f64, f64),
     /// Width and height of the whole figure (pixels of 1/96 inch).
     Whole(f64, f64),
+    /// Width of the whole figure (pixels of 1/96 inch), such as the column of a journal. The height follows from the panels,
+    /// which are placed in fewer columns where their frames would become too narrow. The text keeps its size.
+    Wide(f64),
 }
 
 /// A figure: panels in rows and columns.
@@ -131,8 +145,10 @@ pub enum Size {
 pub struct Figure {
     /// Title above all panels; empty for none.
     pub title: String,
-    /// Caption or footnote below all panels, broken into lines as needed; empty for none.
+    /// Caption or footnote, broken into lines as needed; empty for none.
     pub caption: String,
+    /// Where the caption is.
+    pub caption_placement: CaptionPlacement,
     /// The panels, row by row from the upper left.
     pub panels: Vec<Panel>,
     /// Number of columns.
@@ -160,6 +176,7 @@ impl Figure {
         Self {
             title: String::new(),
             caption: String::new(),
+            caption_placement: CaptionPlacement::Below,
             panels: panels.into_iter().collect(),
             columns: columns.max(1),
             sharing_x: Sharing::Separate,
@@ -181,6 +198,19 @@ impl Figure {
     pub fn caption(mut self, caption: impl Into<String>) -> Self {
         self.caption = caption.into();
         self
+    }
+
+    /// Sets where the caption is.
+    #[must_use]
+    pub fn caption_placement(mut self, placement: CaptionPlacement) -> Self {
+        self.caption_placement = placement;
+        self
+    }
+
+    /// The caption without the syntax of symbols, as plain text.
+    #[must_use]
+    pub fn plain_caption(&self) -> String {
+        RichText::parse(&self.caption).plain()
     }
 
     /// Sets which panels share the limits of x.

@@ -1,5 +1,6 @@
 //! Legends: one entry per label with its keys, in a box or in rows.
 
+use super::axis_limits::AxisLimits;
 use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
 use super::colouring::{Colouring, Shading, Tint};
 use super::figure::{LegendPosition, Panel};
@@ -10,6 +11,7 @@ use super::marks;
 use super::palette::{Colour, FRAME, GAP, LEGEND_EDGE, PAPER, PlotRole};
 use super::svg::TextAnchor;
 use super::typeset::RichText;
+use super::visibility;
 
 const SAMPLE: f64 = 26.0;
 const SAMPLE_GAP: f64 = 6.0;
@@ -17,6 +19,8 @@ const ENTRY_GAP: f64 = 18.0;
 /// Edge of a tinted key.
 const GREY_EDGE: Colour = (0x80, 0x80, 0x80);
 const PADDING: f64 = 6.0;
+/// Least diameter of a marker in the legend (pixels).
+const LEAST_KEY: f64 = 4.0;
 const LINE_GAP: f64 = 5.0;
 
 /// The symbol next to a label.
@@ -37,10 +41,16 @@ pub(super) struct LegendEntry {
     samples: Vec<LegendKey>,
 }
 
-/// The entries of these panels: equal labels share an entry, equal keys are shown once.
-pub(super) fn entries<'a>(panels: impl IntoIterator<Item = &'a Panel>) -> Vec<LegendEntry> {
+/// The entries of these panels: equal labels share an entry, equal keys are shown once. Layers of which nothing is inside the
+/// limits of their panel have no entry.
+pub(super) fn entries<'a>(
+    panels: impl IntoIterator<Item = (&'a Panel, AxisLimits)>,
+) -> Vec<LegendEntry> {
     let mut entries: Vec<LegendEntry> = Vec::new();
-    for layer in panels.into_iter().flat_map(|panel| &panel.layers) {
+    let layers = panels.into_iter().flat_map(|(panel, limits)| {
+        panel.layers.iter().filter(move |layer| visibility::is_visible(layer, panel, limits))
+    });
+    for layer in layers {
         for (text, sample) in samples(layer).into_iter().filter(|(text, _)| !text.is_empty()) {
             match entries.iter_mut().find(|entry| entry.text == text) {
                 Some(entry) if entry.samples.contains(&sample) => {}
@@ -88,7 +98,15 @@ fn samples_of_grid(grid: &Heatmap) -> Vec<(&str, LegendKey)> {
         Colouring::Shaded(Shading { below: Some((limit, below)), .. }) => {
             if has(&|value| value < *limit) { vec![tint(below)] } else { Vec::new() }
         }
-        Colouring::Shaded(_) => Vec::new(),
+        Colouring::Shaded(shading) => {
+            let [negative, positive] = shading.sign_keys();
+            let occurring = [
+                negative.filter(|_| has(&|value| value < 0.0)),
+                positive.filter(|_| has(&|value| value > 0.0)),
+            ];
+            let keys = occurring.into_iter().flatten();
+            keys.map(|(word, colour)| (word, LegendKey::Tint(colour))).collect()
+        }
     };
     samples.extend(
         grid.all_gaps().into_iter().map(|(style, label, _)| (label, LegendKey::Hatch(style))),
@@ -218,7 +236,7 @@ fn draw_entry(canvas: &mut Canvas, entry: &LegendEntry, (left, top): (f64, f64),
             }
             LegendKey::Point(role, marker, diameter) => {
                 let at = [(left + 0.5 * SAMPLE, middle)];
-                marks::markers(canvas, &at, *role, *marker, diameter.max(3.0));
+                marks::markers(canvas, &at, *role, *marker, diameter.max(LEAST_KEY));
             }
             LegendKey::Tint(colour) => {
                 canvas.rectangle(patch, Some((*colour, 1.0)), Some((GREY_EDGE, 0.6)));

@@ -1,7 +1,7 @@
 //! The style of letters: italics, a bar above, and the level of subscripts and superscripts.
 
-/// Size of a subscript or superscript, as a fraction of the text size.
-const SMALL: f64 = 0.72;
+/// Size of a subscript or superscript, as a fraction of the text size: 6 pt in the smallest text of a figure, 7.5 pt.
+const SMALL: f64 = 0.8;
 /// Baseline shift of a subscript (em of the text, downwards).
 const LOWERED: f64 = 0.20;
 /// Baseline shift of a superscript (em of the text, downwards).

@@ -22,7 +22,8 @@
 //!
 //! Labels are plain text with `$…$` for symbols; the module `typeset` documents the syntax between the dollars.
 //!
-//! The crate lays out the figure and writes the SVG itself; resvg converts it to PNG with the bundled DejaVu fonts.
+//! The crate lays out the figure and writes the SVG itself; resvg converts it to PNG and svg2pdf to PDF, with
+//! the bundled DejaVu fonts.
 
 mod arrange;
 mod axis;
@@ -32,11 +33,13 @@ mod colour_bar;
 mod colouring;
 mod describe;
 mod draw;
+mod envelope;
 mod error;
 mod field;
 mod figure;
 mod font_sizes;
 mod fonts;
+mod grid;
 mod isoline;
 mod layer;
 mod layout;
@@ -59,12 +62,15 @@ mod thin;
 mod ticks;
 mod tspan;
 mod typeset;
+mod visibility;
 
 pub use axis::{AxisRange, PlotAxis, Scale};
 pub use colouring::{Colouring, Shading, Spread, Tint};
 pub use error::PlotError;
 pub use field::Field;
-pub use figure::{Figure, Legend, LegendPosition, Panel, SharedLegend, Sharing, Size};
+pub use figure::{
+    CaptionPlacement, Figure, Legend, LegendPosition, Panel, SharedLegend, Sharing, Size,
+};
 pub use isoline::{Isoline, isolines};
 pub use layer::{
     Fill, Layer, Marker, Note, Orientation, Points, Polyline, ReferenceLine, Region, RegionShape,

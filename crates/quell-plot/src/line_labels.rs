@@ -2,7 +2,8 @@
 //!
 //! An occupancy map records the pixels of the frame that are drawn on. Along each line, candidate positions are tried in
 //! order of increasing cost (bend, slope, distance from the middle); the label is placed at the first one that covers
-//! nothing else, and the line is interrupted there.
+//! nothing else, and the line is interrupted there. A level for which no such position exists has one label over other strokes:
+//! a level without its number would be of no use.
 
 use super::canvas::Rectangle;
 use super::typeset::RichText;
@@ -47,7 +48,19 @@ pub(super) struct OccupancyMap {
 }
 
 const FREE: u32 = 0;
+/// A text, which no other text may cover.
 const TAKEN: u32 = u32::MAX;
+/// Strokes other than a single isoline.
+const CROSSED: u32 = u32::MAX - 1;
+
+/// What a label may cover.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Cover {
+    /// Its own line only.
+    OwnLine,
+    /// Any stroke, but no text.
+    Strokes,
+}
 
 impl OccupancyMap {
     pub(super) fn new(frame: Rectangle) -> Self {
@@ -78,13 +91,19 @@ impl OccupancyMap {
     fn mark(&mut self, point: (f64, f64), owner: u32) {
         if let Some(index) = self.index(point) {
             let before = self.owners[index];
-            self.owners[index] = if before == FREE || before == owner { owner } else { TAKEN };
+            self.owners[index] = match before {
+                FREE => owner,
+                _ if before == owner => owner,
+                TAKEN => TAKEN,
+                _ if owner == TAKEN => TAKEN,
+                _ => CROSSED,
+            };
         }
     }
 
-    /// Marks a stroke that no label may cover.
+    /// Marks a stroke that no label should cover.
     pub(super) fn stroke(&mut self, points: &[(f64, f64)]) {
-        self.stroke_of(points, TAKEN);
+        self.stroke_of(points, CROSSED);
     }
 
     fn stroke_of(&mut self, points: &[(f64, f64)], owner: u32) {
@@ -117,13 +136,15 @@ impl OccupancyMap {
         }
     }
 
-    /// Whether a rotated rectangle lies in the frame and covers nothing but this line.
-    fn is_free(&self, candidate: &Candidate, half: (f64, f64), owner: u32) -> bool {
+    /// Whether a rotated rectangle lies in the frame and covers nothing that the label may not cover.
+    fn is_free(&self, candidate: &Candidate, half: (f64, f64), owner: u32, cover: Cover) -> bool {
+        let allowed = |found: u32| match cover {
+            Cover::OwnLine => found == FREE || found == owner,
+            Cover::Strokes => found != TAKEN,
+        };
         let mut free = true;
         candidate.each_pixel(half, |point| {
-            free &= self
-                .index(point)
-                .is_some_and(|index| self.owners[index] == FREE || self.owners[index] == owner);
+            free &= self.index(point).is_some_and(|index| allowed(self.owners[index]));
         });
         free
     }
@@ -238,40 +259,57 @@ pub(super) fn place(
         }
         owners.push(mine);
     }
-    let mut placed = Vec::new();
-    for (number, level) in levels.iter().enumerate() {
-        if level.text.is_empty() {
-            continue;
+    let mut placed: Vec<PlacedLabel> = Vec::new();
+    for cover in [Cover::OwnLine, Cover::Strokes] {
+        for (number, level) in levels.iter().enumerate() {
+            let unlabelled = placed.iter().all(|label| label.level != number);
+            if !level.text.is_empty() && unlabelled {
+                placed.extend(label((number, level), &owners[number], occupied, size, cover));
+            }
         }
-        let half = (0.5 * level.text.width(size, false) + MARGIN, 0.58 * size);
-        let mut paths: Vec<(usize, MeasuredPath<'_>)> = level
-            .pieces
-            .iter()
-            .enumerate()
-            .filter(|(_, piece)| piece.len() > 1)
-            .map(|(piece, points)| (piece, MeasuredPath::new(points)))
-            .filter(|(_, path)| path.length() > 4.0 * half.0 + 8.0)
-            .collect();
-        paths.sort_by(|one, other| other.1.length().total_cmp(&one.1.length()));
-        let mut count = 0;
-        for (piece, path) in &paths {
-            for (from, to) in parts(path.length()) {
-                if count == MOST {
-                    break;
-                }
-                let owner = owners[number][*piece];
-                if let Some(candidate) = best(path, (from, to), half, owner, occupied, size) {
-                    occupied.take(&candidate, (half.0 + 2.0, half.1 + 1.0));
-                    count += 1;
-                    placed.push(PlacedLabel {
-                        level: number,
-                        centre: candidate.centre,
-                        rotation: candidate.direction.1.atan2(candidate.direction.0).to_degrees(),
-                        piece: *piece,
-                        from: candidate.at - half.0,
-                        to: candidate.at + half.0,
-                    });
-                }
+    }
+    placed
+}
+
+/// Places the labels of one level: up to [`MOST`] that cover nothing else, or a single one over other strokes.
+fn label(
+    (number, level): (usize, &LevelLines),
+    owners: &[u32],
+    occupied: &mut OccupancyMap,
+    size: f64,
+    cover: Cover,
+) -> Vec<PlacedLabel> {
+    let half = (0.5 * level.text.width(size, false) + MARGIN, 0.58 * size);
+    let (most, least_length) = match cover {
+        Cover::OwnLine => (MOST, 4.0 * half.0 + 8.0),
+        Cover::Strokes => (1, 2.0 * half.0 + 6.0),
+    };
+    let mut paths: Vec<(usize, MeasuredPath<'_>)> = level
+        .pieces
+        .iter()
+        .enumerate()
+        .filter(|(_, piece)| piece.len() > 1)
+        .map(|(piece, points)| (piece, MeasuredPath::new(points)))
+        .filter(|(_, path)| path.length() > least_length)
+        .collect();
+    paths.sort_by(|one, other| other.1.length().total_cmp(&one.1.length()));
+    let mut placed = Vec::new();
+    for (piece, path) in &paths {
+        for (from, to) in parts(path.length()) {
+            if placed.len() == most {
+                return placed;
+            }
+            let search = LabelSearch { half, owner: owners[*piece], size, cover };
+            if let Some(candidate) = search.best(path, (from, to), occupied) {
+                occupied.take(&candidate, (half.0 + 2.0, half.1 + 1.0));
+                placed.push(PlacedLabel {
+                    level: number,
+                    centre: candidate.centre,
+                    rotation: candidate.direction.1.atan2(candidate.direction.0).to_degrees(),
+                    piece: *piece,
+                    from: candidate.at - half.0,
+                    to: candidate.at + half.0,
+                });
             }
         }
     }
@@ -288,33 +326,46 @@ fn parts(length: f64) -> Vec<(f64, f64)> {
     parts
 }
 
-/// The free candidate of least cost on a part of a line; straight sections are tried before bent ones.
-fn best(
-    path: &MeasuredPath<'_>,
-    (from, to): (f64, f64),
+/// The search for a position of a label on its line.
+struct LabelSearch {
+    /// Half the width and height of the text (pixels).
     half: (f64, f64),
+    /// The line of the label in the occupancy map.
     owner: u32,
-    occupied: &OccupancyMap,
+    /// Size of the text (pixels).
     size: f64,
-) -> Option<Candidate> {
-    let (first, last) = (from.max(half.0 + 2.0), to.min(path.length() - half.0 - 2.0));
-    for most_bend in [0.12 * size, 0.3 * size] {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "lines in a frame are some thousand pixels chord"
-        )]
-        let count = ((last - first) / STEP).clamp(0.0, 1e4) as usize;
-        let mut candidates: Vec<Candidate> = (0..=count)
-            .filter_map(|step| path.candidate(first + STEP * step as f64, half.0, most_bend))
-            .collect();
-        candidates.sort_by(|one, other| one.cost.total_cmp(&other.cost));
-        let free = |candidate: &&Candidate| occupied.is_free(candidate, half, owner);
-        if let Some(candidate) = candidates.iter().find(free) {
-            return Some(*candidate);
+    cover: Cover,
+}
+
+impl LabelSearch {
+    /// The free candidate of least cost on a part of a line; straight sections are tried before bent ones.
+    fn best(
+        &self,
+        path: &MeasuredPath<'_>,
+        (from, to): (f64, f64),
+        occupied: &OccupancyMap,
+    ) -> Option<Candidate> {
+        let half = self.half;
+        let (first, last) = (from.max(half.0 + 2.0), to.min(path.length() - half.0 - 2.0));
+        for most_bend in [0.12 * self.size, 0.3 * self.size] {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "lines in a frame are some thousand pixels chord"
+            )]
+            let count = ((last - first) / STEP).clamp(0.0, 1e4) as usize;
+            let mut candidates: Vec<Candidate> = (0..=count)
+                .filter_map(|step| path.candidate(first + STEP * step as f64, half.0, most_bend))
+                .collect();
+            candidates.sort_by(|one, other| one.cost.total_cmp(&other.cost));
+            let free =
+                |candidate: &&Candidate| occupied.is_free(candidate, half, self.owner, self.cover);
+            if let Some(candidate) = candidates.iter().find(free) {
+                return Some(*candidate);
+            }
         }
+        None
     }
-    None
 }
 
 /// The lines of a level, interrupted at its labels.

@@ -62,7 +62,7 @@ impl Isolines {
     /// The isolines of all layers, with labels placed clear of everything else.
     pub(super) fn of(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> Self {
         let (x, y) = projection::mappings(panel, layout);
-        let mut isolines = Self { size: f64::from(number_size(sizes)), ..Self::default() };
+        let mut isolines = Self { size: f64::from(sizes.number), ..Self::default() };
         for layer in &panel.layers {
             let Layer::Contours(lines) = layer else {
                 continue;
@@ -108,7 +108,7 @@ impl Isolines {
             let colour = self.strokes[text.level].0;
             let setting = TextStyle {
                 colour: if colour == (0, 0, 0) { FRAME } else { colour },
-                ..TextStyle::new(number_size(sizes), TextAnchor::Middle)
+                ..TextStyle::new(sizes.number, TextAnchor::Middle)
             };
             canvas.text(&self.levels[text.level].text, position, setting.rotated(text.rotation));
         }
@@ -130,11 +130,6 @@ impl Isolines {
             }
         })
     }
-}
-
-/// Labels of isolines are slightly smaller than tick labels.
-fn number_size(sizes: FontSizes) -> u32 {
-    sizes.number - 1
 }
 
 /// Everything that labels of isolines must not cover, except the isolines themselves.

@@ -1,7 +1,8 @@
-//! Figures as SVG text and PNG bytes; `quell::picture::write` writes them to files.
+//! Figures as SVG text, PDF and PNG bytes; `quell::picture::write` writes them to files.
 
 use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg::{Options, Tree};
+use resvg::usvg::{self, Options, Tree};
+use svg2pdf::{ConversionOptions, PageOptions};
 
 use super::error::PlotError;
 use super::figure::Figure;
@@ -24,16 +25,38 @@ impl Figure {
     pub fn to_png(&self) -> Result<Vec<u8>, PlotError> {
         png(&self.to_svg())
     }
+
+    /// Renders the figure as PDF: one page of the figure's size, with curves and text as vectors and its fonts embedded.
+    /// Equal figures give equal bytes.
+    ///
+    /// # Errors
+    /// [`PlotError::Page`] when the figure cannot be converted.
+    pub fn to_pdf(&self) -> Result<Vec<u8>, PlotError> {
+        pdf(&self.to_svg())
+    }
 }
 
-pub(super) fn png(svg: &str) -> Result<Vec<u8>, PlotError> {
+/// Dots per inch of a figure's unit, the pixel of CSS.
+const UNITS_PER_INCH: f32 = 96.0;
+
+fn tree(svg: &str) -> Result<Tree, usvg::Error> {
     let options = Options {
         font_family: fonts::BUNDLED_FAMILY.to_string(),
         fontdb: fonts::database(),
         ..Options::default()
     };
-    let tree = Tree::from_str(svg, &options)
-        .map_err(|source| PlotError::Raster { source: Box::new(source) })?;
+    Tree::from_str(svg, &options)
+}
+
+pub(super) fn pdf(svg: &str) -> Result<Vec<u8>, PlotError> {
+    let tree = tree(svg).map_err(|source| PlotError::Page { source: Box::new(source) })?;
+    let page = PageOptions { dpi: UNITS_PER_INCH };
+    svg2pdf::to_pdf(&tree, ConversionOptions::default(), page)
+        .map_err(|error| PlotError::Page { source: error.to_string().into() })
+}
+
+pub(super) fn png(svg: &str) -> Result<Vec<u8>, PlotError> {
+    let tree = tree(svg).map_err(|source| PlotError::Raster { source: Box::new(source) })?;
     let pixels = |units: f32| {
         #[expect(
             clippy::cast_possible_truncation,

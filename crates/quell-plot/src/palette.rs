@@ -38,7 +38,7 @@ pub enum PlotRole {
     Dithered,
     /// The response without dither: dashed grey.
     Undithered,
-    /// The prediction of averaging: solid vermillion, wider.
+    /// The prediction of averaging: dash-dotted vermillion, wider.
     Averaged,
     /// The result of exact numerics: solid black.
     Exact,
@@ -54,7 +54,8 @@ pub enum PlotRole {
     Undecided,
     /// A line that only guides the eye: thin dotted grey.
     Guide,
-    /// Member number `n`, from 0, of a family of curves; colours repeat after seven members, with other dashes.
+    /// Member number `n`, from 0, of a family of curves: seven colours and seven styles of dashes. Colours repeat after seven
+    /// members, with other dashes.
     Series(usize),
 }
 
@@ -69,7 +70,24 @@ pub enum LineStyle {
     Dotted,
     /// Dash, dot.
     DashDotted,
+    /// Longer dashes with short gaps.
+    LongDashed,
+    /// Dash, dot, dot.
+    DashDotDotted,
+    /// Short dashes.
+    ShortDashed,
 }
+
+/// Dashes of numbered series, in order: neighbours differ most.
+const SERIES_STYLES: [LineStyle; 7] = [
+    LineStyle::Solid,
+    LineStyle::Dashed,
+    LineStyle::Dotted,
+    LineStyle::DashDotted,
+    LineStyle::LongDashed,
+    LineStyle::ShortDashed,
+    LineStyle::DashDotDotted,
+];
 
 impl LineStyle {
     /// Dash lengths for a line of this width (pixels); `None` for a solid line.
@@ -88,6 +106,9 @@ impl LineStyle {
             Self::Dashed => &[4.5, 2.8],
             Self::Dotted => &[1.2, 2.2],
             Self::DashDotted => &[5.5, 2.2, 1.2, 2.2],
+            Self::LongDashed => &[10.0, 2.5],
+            Self::DashDotDotted => &[5.5, 1.8, 1.2, 1.8, 1.2, 1.8],
+            Self::ShortDashed => &[2.6, 1.6],
         }
     }
 }
@@ -107,11 +128,11 @@ impl PlotRole {
         match self {
             Self::Undithered => LineStyle::Dashed,
             Self::Guide => LineStyle::Dotted,
-            Self::Series(number) => match number / SERIES.len() % 3 {
-                0 => LineStyle::Solid,
-                1 => LineStyle::Dashed,
-                _ => LineStyle::DashDotted,
-            },
+            Self::Averaged => LineStyle::DashDotted,
+            // After one round the dashes move on by one, so that no two of 49 members look alike.
+            Self::Series(number) => {
+                SERIES_STYLES[(number + number / SERIES.len()) % SERIES_STYLES.len()]
+            }
             _ => LineStyle::Solid,
         }
     }

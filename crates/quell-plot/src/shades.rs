@@ -9,6 +9,8 @@
 //!   (The Cartographic Journal 40, 2003): black lines and numbers stay readable on it.
 //! - [`Palette::Diverging`]: `RdBu` of ColorBrewer without its darkest ends, on which black lines would be
 //!   invisible; red for positive numbers, nearly white at zero.
+//! - [`Palette::Sign`]: the light blues and the darker reds of ColorBrewer with a step at zero, so that the sign is seen in
+//!   grey: every negative number is lighter than every positive one.
 
 use super::palette::Colour;
 
@@ -20,14 +22,18 @@ pub enum Palette {
     Viridis,
     /// Pale yellow to light blue, for maps with lines over them.
     Pale,
-    /// Blue through nearly white to red, for numbers whose sign matters.
+    /// Blue through nearly white to red, for numbers on both sides of zero.
     Diverging,
+    /// Pale blues below zero, darker reds above: for numbers whose sign is what matters. The two sides differ in grey.
+    Sign,
 }
 
 const VIRIDIS: &[u32] =
     &[0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x27ad81, 0x5cc863, 0xaadc32, 0xfde725];
 const PALE: &[u32] = &[0xffffd9, 0xedf8b1, 0xc7e9b4, 0x7fcdbb, 0x41b6c4];
 const BELOW_ZERO: &[u32] = &[0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7];
+const NEGATIVE: &[u32] = &[0x9ecae1, 0xc6dbef, 0xdeebf7, 0xf7fbff];
+const POSITIVE: &[u32] = &[0xec8f6a, 0xd6604d, 0xb2182b];
 const ABOVE_ZERO: &[u32] = &[0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b];
 
 impl Palette {
@@ -36,17 +42,26 @@ impl Palette {
         match self {
             Self::Viridis => interpolate(VIRIDIS, &shares(count)),
             Self::Pale => interpolate(PALE, &shares(count)),
-            Self::Diverging => {
-                let (below, above): (Vec<f64>, Vec<f64>) =
-                    shares(count).into_iter().partition(|share| *share < 0.5);
-                let below: Vec<f64> = below.iter().map(|share| 2.0 * share).collect();
-                let above: Vec<f64> = above.iter().map(|share| 2.0 * share - 1.0).collect();
-                let mut shades = interpolate(BELOW_ZERO, &below);
-                shades.extend(interpolate(ABOVE_ZERO, &above));
-                shades
-            }
+            Self::Diverging => two_sided(BELOW_ZERO, ABOVE_ZERO, count),
+            Self::Sign => two_sided(NEGATIVE, POSITIVE, count),
         }
     }
+
+    /// Whether the colours belong to fixed signs, so that zero is in the middle of the palette.
+    pub(super) fn is_two_sided(self) -> bool {
+        matches!(self, Self::Diverging | Self::Sign)
+    }
+}
+
+/// `count` colours of which those of the lower half are on one curve and the others on another.
+fn two_sided(below: &[u32], above: &[u32], count: usize) -> Vec<Colour> {
+    let (lower, upper): (Vec<f64>, Vec<f64>) =
+        shares(count).into_iter().partition(|share| *share < 0.5);
+    let lower: Vec<f64> = lower.iter().map(|share| 2.0 * share).collect();
+    let upper: Vec<f64> = upper.iter().map(|share| 2.0 * share - 1.0).collect();
+    let mut shades = interpolate(below, &lower);
+    shades.extend(interpolate(above, &upper));
+    shades
 }
 
 fn shares(count: usize) -> Vec<f64> {
@@ -191,6 +206,19 @@ mod tests {
                 assert!(most < 1.2 * least, "{palette:?} {least} {most}");
             }
         }
+    }
+
+    #[test]
+    fn the_sign_is_seen_in_grey() {
+        // Luma of ITU-R BT.601, the grey of common converters.
+        let grey = |(red, green, blue): Colour| {
+            0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue)
+        };
+        let shades: Vec<f64> = Palette::Sign.shades(250).into_iter().map(grey).collect();
+        let (below, above) = shades.split_at(125);
+        let darkest = below.iter().copied().fold(f64::INFINITY, f64::min);
+        let lightest = above.iter().copied().fold(0.0, f64::max);
+        assert!(darkest > lightest + 20.0, "{darkest} {lightest}");
     }
 
     #[test]

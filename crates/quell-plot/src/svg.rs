@@ -69,13 +69,25 @@ impl Display for TextAnchor {
 pub(super) struct Document {
     width: f64,
     height: f64,
+    description: String,
     definitions: String,
     body: String,
 }
 
 impl Document {
     pub(super) fn new(width: f64, height: f64) -> Self {
-        Self { width, height, definitions: String::new(), body: String::new() }
+        Self {
+            width,
+            height,
+            description: String::new(),
+            definitions: String::new(),
+            body: String::new(),
+        }
+    }
+
+    /// Sets the description, which a screen reader reads; empty for none.
+    pub(super) fn describe(&mut self, text: &str) {
+        self.description = text.to_owned();
     }
 
     /// Adds an element to the definitions.
@@ -100,8 +112,12 @@ impl Document {
             "" => String::new(),
             definitions => format!("<defs>{definitions}</defs>"),
         };
+        let description = match self.description.as_str() {
+            "" => String::new(),
+            text => format!("<desc>{}</desc>", Escaped(text)),
+        };
         let contents = format!(
-            "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\" />{definitions}{}</svg>",
+            "{description}<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\" />{definitions}{}</svg>",
             self.body
         );
         let name =

@@ -73,6 +73,29 @@ impl RichText {
         pen.into_text()
     }
 
+    /// The text without styles: `_` before a subscript, `^` before a superscript, and a combining macron for a bar.
+    pub(super) fn plain(&self) -> String {
+        let mut plain = String::new();
+        let mut level = ScriptLevel::Base;
+        for run in &self.runs {
+            if run.look.level != level {
+                level = run.look.level;
+                plain.push_str(match level {
+                    ScriptLevel::Base => "",
+                    ScriptLevel::Lowered | ScriptLevel::RaisedLowered => "_",
+                    ScriptLevel::Raised => "^",
+                });
+            }
+            for letter in run.text.chars() {
+                plain.push(letter);
+                if run.look.barred {
+                    plain.push('\u{304}');
+                }
+            }
+        }
+        plain
+    }
+
     /// The text as HTML.
     pub(super) fn html(&self) -> String {
         let mut html = String::new();
@@ -296,7 +319,7 @@ mod tests {
     #[test]
     fn the_baseline_shift_is_undone_after_a_subscript() {
         let svg = RichText::parse("$x_1y$").svg();
-        assert!(svg.contains("dy=\"0.278em\"") && svg.contains("dy=\"-0.200em\""), "{svg}");
+        assert!(svg.contains("dy=\"0.250em\"") && svg.contains("dy=\"-0.200em\""), "{svg}");
         assert_eq!(svg.matches("<tspan").count(), svg.matches("</tspan>").count());
     }
 
@@ -304,6 +327,15 @@ mod tests {
     fn lines_break_at_spaces_outside_symbols() {
         let lines = wrap("aaaa bbbb $x + y$", 10.0, false, 60.0);
         assert_eq!(lines, vec![RichText::parse("aaaa bbbb"), RichText::parse("$x + y$")]);
+    }
+
+    #[test]
+    fn plain_text_keeps_subscripts_and_bars() {
+        let plain = |source: &str| RichText::parse(source).plain();
+        assert_eq!(
+            plain("slip $v_m$ = 0.2, $\\bar{μ}$ at $10^{-4}$"),
+            "slip v_m = 0.2, μ\u{304} at 10^\u{2212}4"
+        );
     }
 
     #[test]

@@ -1,0 +1,198 @@
+//! Envelopes: an oscillation too fast to be resolved in the figure is drawn as the band between its extremes.
+//!
+//! Strokes closer to each other than about their own width merge, and what remains visible is an interference of the
+//! oscillation with the pixels (moiré). Where a curve swings more often than that, the band between its upper and its lower
+//! extremes is what the eye can take from it.
+
+/// Largest distance along x between an extreme and the next for which the strokes merge (pixels).
+const MERGING: f64 = 2.2;
+/// Least height of a swing that makes a band; a smaller one is hidden by the width of the stroke (pixels).
+const LEAST_SWING: f64 = 3.0;
+/// Least number of successive swings that make a band.
+const LEAST_COUNT: usize = 8;
+
+/// A part of a curve as it is drawn (pixels).
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Trace {
+    /// A stroke.
+    Line(Vec<(f64, f64)>),
+    /// The band between two curves, both from left to right.
+    Band {
+        /// Through the upper extremes.
+        upper: Vec<(f64, f64)>,
+        /// Through the lower extremes.
+        lower: Vec<(f64, f64)>,
+    },
+}
+
+/// Splits a curve into strokes and bands. A curve that reverses in x is one stroke.
+pub(super) fn traces(points: &[(f64, f64)]) -> Vec<Trace> {
+    if points.windows(2).any(|pair| pair[1].0 < pair[0].0) {
+        return vec![Trace::Line(points.to_vec())];
+    }
+    let extremes = extremes(points);
+    let mut traces = Vec::new();
+    let mut drawn = 0;
+    for (from, to) in dense_runs(points, &extremes) {
+        let (first, last) = (extremes[from], extremes[to]);
+        if first > drawn {
+            traces.push(Trace::Line(points[drawn..=first].to_vec()));
+        }
+        traces.push(band(points, &extremes[from..=to]));
+        drawn = last;
+    }
+    if drawn + 1 < points.len() || traces.is_empty() {
+        traces.push(Trace::Line(points[drawn..].to_vec()));
+    }
+    traces
+}
+
+/// Indices of the points at which the curve turns from rising to falling or back, with both ends.
+fn extremes(points: &[(f64, f64)]) -> Vec<usize> {
+    let mut found = vec![0];
+    let mut direction = 0.0_f64;
+    for index in 1..points.len() {
+        let step = points[index].1 - points[index - 1].1;
+        if step == 0.0 {
+            continue;
+        }
+        if direction * step < 0.0 {
+            found.push(index - 1);
+        }
+        direction = step;
+    }
+    if points.len() > 1 {
+        found.push(points.len() - 1);
+    }
+    found
+}
+
+/// Ranges of extremes (first and last) between which every swing merges with its neighbours.
+fn dense_runs(points: &[(f64, f64)], extremes: &[usize]) -> Vec<(usize, usize)> {
+    let merges: Vec<bool> = extremes
+        .windows(2)
+        .map(|pair| {
+            let (from, to) = (points[pair[0]], points[pair[1]]);
+            to.0 - from.0 < MERGING && (to.1 - from.1).abs() >= LEAST_SWING
+        })
+        .collect();
+    let mut runs = Vec::new();
+    let mut from = 0;
+    for run in merges.chunk_by(|one, other| one == other) {
+        if run[0] && run.len() >= LEAST_COUNT {
+            runs.push((from, from + run.len()));
+        }
+        from += run.len();
+    }
+    runs
+}
+
+/// The band through these extremes: the upper and the lower ones alternate, and both curves begin and end at the ends.
+fn band(points: &[(f64, f64)], extremes: &[usize]) -> Trace {
+    let at = |place: usize| points[extremes[place]];
+    let last = extremes.len() - 1;
+    // Pixels grow downwards.
+    let first_is_upper = at(0).1 < at(1).1;
+    let side = |upper: bool| -> Vec<(f64, f64)> {
+        let parity = usize::from(upper != first_is_upper);
+        let mut side: Vec<(f64, f64)> = (parity..=last).step_by(2).map(at).collect();
+        if parity == 1 {
+            let level = side[0].1;
+            side.insert(0, (at(0).0, level));
+        }
+        if (last - parity) % 2 == 1 {
+            let level = side[side.len() - 1].1;
+            side.push((at(last).0, level));
+        }
+        side
+    };
+    Trace::Band { upper: side(true), lower: side(false) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wave(length: f64, height: f64) -> Vec<(f64, f64)> {
+        (0..4000)
+            .map(|step| {
+                let x = 0.1 * f64::from(step);
+                (x, 100.0 - height * (std::f64::consts::TAU * x / length).sin())
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_slow_oscillation_is_a_stroke() {
+        let points = wave(9.0, 50.0);
+        assert_eq!(traces(&points), [Trace::Line(points.clone())]);
+    }
+
+    #[test]
+    fn a_fast_oscillation_is_the_band_between_its_extremes() {
+        let points = wave(2.0, 50.0);
+        let bands: Vec<_> = traces(&points)
+            .into_iter()
+            .filter_map(|trace| match trace {
+                Trace::Band { upper, lower } => Some((upper, lower)),
+                Trace::Line(_) => None,
+            })
+            .collect();
+        let [(upper, lower)] = bands.as_slice() else { panic!("{} bands", bands.len()) };
+        let inner = |side: &[(f64, f64)], level: f64| {
+            side[2..side.len() - 2].iter().all(|point| (point.1 - level).abs() < 1.0)
+        };
+        assert!(inner(upper, 50.0) && inner(lower, 150.0), "{upper:?} {lower:?}");
+        assert!(upper[0].0 < 2.0 && upper[upper.len() - 1].0 > 398.0);
+    }
+
+    #[test]
+    fn a_fast_ripple_on_a_slow_motion_follows_it() {
+        let points: Vec<(f64, f64)> = (0..4000)
+            .map(|step| {
+                let x = 0.1 * f64::from(step);
+                (x, 100.0 + 60.0 * (0.02 * x).sin() + 10.0 * (4.0 * x).sin())
+            })
+            .collect();
+        for trace in traces(&points) {
+            if let Trace::Band { upper, lower } = trace {
+                let off = |side: &[(f64, f64)], offset: f64| {
+                    // The first and the last swing are not complete.
+                    side[2..side.len() - 2]
+                        .iter()
+                        .map(|(x, y)| (y - 100.0 - 60.0 * (0.02 * x).sin() - offset).abs())
+                        .fold(0.0, f64::max)
+                };
+                assert!(off(&upper, -10.0) < 3.0 && off(&lower, 10.0) < 3.0);
+                return;
+            }
+        }
+        panic!("no band");
+    }
+
+    #[test]
+    fn the_ends_of_strokes_and_bands_meet() {
+        let mut points = wave(30.0, 40.0);
+        let shift = 400.0;
+        points.extend(wave(2.0, 40.0).into_iter().map(|(x, y)| (x + shift, y)));
+        points.extend(wave(30.0, 40.0).into_iter().map(|(x, y)| (x + 2.0 * shift, y)));
+        let found = traces(&points);
+        assert_eq!(found.len(), 3);
+        let ends = |trace: &Trace| match trace {
+            Trace::Line(points) => (points[0].0, points[points.len() - 1].0),
+            Trace::Band { upper, .. } => (upper[0].0, upper[upper.len() - 1].0),
+        };
+        for pair in found.windows(2) {
+            assert_eq!(ends(&pair[0]).1, ends(&pair[1]).0);
+        }
+    }
+
+    #[test]
+    fn a_loop_is_a_stroke() {
+        let points: Vec<(f64, f64)> = (0..900)
+            .map(|step| 0.5 * f64::from(step))
+            .map(|angle: f64| (50.0 * angle.cos(), 50.0 * angle.sin()))
+            .collect();
+        assert_eq!(traces(&points).len(), 1);
+    }
+}

@@ -1,0 +1,108 @@
+//! The grid of a figure: how many columns it has, how large its frames are, and the font sizes that suit them.
+
+use super::arrange::surroundings;
+use super::figure::{Figure, Size};
+use super::font_sizes::FontSizes;
+
+/// Least width and height of a frame (pixels).
+const LEAST_FRAME: f64 = 60.0;
+/// Largest width and height of a frame (pixels).
+const LARGEST_FRAME: f64 = 2e4;
+/// Width from which a frame is comfortable to read (pixels, 34 mm).
+const COMFORTABLE: f64 = 130.0;
+/// Height of a page of a journal (pixels, 230 mm).
+const PAGE: f64 = 870.0;
+
+/// Columns, frames and font sizes of a figure.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Grid {
+    pub(super) columns: usize,
+    /// Width and height of every frame (pixels).
+    pub(super) frame: (f64, f64),
+    pub(super) sizes: FontSizes,
+}
+
+/// The number of columns that a figure is intended to have.
+pub(super) fn columns_of(figure: &Figure) -> usize {
+    figure.columns.max(1).min(figure.panels.len().max(1))
+}
+
+impl Grid {
+    pub(super) fn of(figure: &Figure) -> Self {
+        let columns = columns_of(figure);
+        let usual = usual_frame(columns);
+        let of_frame =
+            |frame: (f64, f64)| Self { columns, frame, sizes: FontSizes::for_frame(frame.0) };
+        match figure.size {
+            Size::Auto => of_frame(usual),
+            Size::Frame(width, height) => {
+                of_frame((sensible(width, usual.0), sensible(height, usual.1)))
+            }
+            Size::Whole(width, height) => Self::whole(figure, columns, (width, height)),
+            Size::Wide(width) => Self::wide(figure, columns, width),
+        }
+    }
+
+    /// A grid that fills a figure of this width and height.
+    fn whole(figure: &Figure, columns: usize, (width, height): (f64, f64)) -> Self {
+        let rows = figure.panels.len().div_ceil(columns).max(1) as f64;
+        let usual = usual_frame(columns);
+        let mut frame = (
+            sensible(0.85 * width / columns as f64, usual.0),
+            sensible(0.8 * height / rows, usual.1),
+        );
+        let sizes = FontSizes::for_frame(frame.0);
+        // Margins depend on the tick labels and these on the frame size: three iterations converge.
+        for _ in 0..3 {
+            let (across, upright) = surroundings(figure, columns, frame, sizes);
+            frame = (
+                sensible((width - across) / columns as f64, usual.0),
+                sensible((height - upright) / rows, usual.1),
+            );
+        }
+        Self { columns, frame, sizes }
+    }
+
+    /// The grid with most columns whose frames are comfortable; if it does not fit on a page, the one with the fewest columns
+    /// that does, or else the lowest one.
+    fn wide(figure: &Figure, columns: usize, width: f64) -> Self {
+        let candidates: Vec<(Self, f64)> = (1..=columns)
+            .map(|columns| Self::of_width(figure, columns, width))
+            .filter(|(grid, _)| grid.columns == 1 || grid.frame.0 > LEAST_FRAME)
+            .collect();
+        let comfortable = candidates.iter().rposition(|(grid, _)| grid.frame.0 >= COMFORTABLE);
+        let first = comfortable.unwrap_or(0);
+        let fitting = candidates[first..].iter().find(|(_, height)| *height <= PAGE);
+        let lowest = || candidates.iter().min_by(|one, other| one.1.total_cmp(&other.1));
+        fitting.or_else(lowest).map_or(Self::of_width(figure, 1, width).0, |(grid, _)| *grid)
+    }
+
+    /// A grid of a figure of this width, and the height of the figure.
+    fn of_width(figure: &Figure, columns: usize, width: f64) -> (Self, f64) {
+        let usual = usual_frame(columns);
+        let mut frame = (sensible(0.85 * width / columns as f64, usual.0), usual.1);
+        let sizes = FontSizes::for_frame(frame.0);
+        let mut around = 0.0;
+        for _ in 0..3 {
+            let (across, upright) = surroundings(figure, columns, frame, sizes);
+            frame.0 = sensible((width - across) / columns as f64, usual.0);
+            frame.1 = frame.0 * usual.1 / usual.0;
+            around = upright;
+        }
+        let rows = figure.panels.len().div_ceil(columns).max(1);
+        (Self { columns, frame, sizes }, around + frame.1 * rows as f64)
+    }
+}
+
+/// Width and height of a frame that suits this number of columns (pixels).
+fn usual_frame(columns: usize) -> (f64, f64) {
+    match columns {
+        1 => (440.0, 280.0),
+        2 => (300.0, 205.0),
+        _ => (225.0, 160.0),
+    }
+}
+
+fn sensible(pixels: f64, usual: f64) -> f64 {
+    if pixels.is_finite() { pixels.clamp(LEAST_FRAME, LARGEST_FRAME) } else { usual }
+}
