@@ -223,13 +223,10 @@ impl Canvas {
         self.document.write(format_args!("</g>"));
     }
 
-    /// Names the current group for readers of the file, and describes it unless the description is empty.
-    pub(super) fn describe(&mut self, title: &str, description: &str) {
-        if !title.is_empty() {
-            self.document.write(format_args!("<title>{}</title>", Escaped(title)));
-        }
-        if !description.is_empty() {
-            self.document.write(format_args!("<desc>{}</desc>", Escaped(description)));
+    /// Names the current group for readers of the file; nothing is written of an empty name.
+    pub(super) fn name_group(&mut self, name: &str) {
+        if !name.is_empty() {
+            self.document.write(format_args!("<title>{}</title>", Escaped(name)));
         }
     }
 

@@ -40,13 +40,14 @@ pub(super) fn svg(sketch: &Sketch) -> String {
     let scale = sketch.scale();
     let height = sheet_height(&placed, &lines);
     let mut canvas = Canvas::new(sketch.room() * scale, height * scale);
+    canvas.describe(&sketch.description);
     canvas.begin_group(&format!(
         "transform=\"scale({scale:.4})\" stroke-linejoin=\"round\" stroke-linecap=\"round\""
     ));
-    canvas.describe(&sketch.title, &sketch.description);
+    canvas.name_group(&sketch.title);
     for (part, labels) in placed.parts.iter().zip(&placed.labels) {
         canvas.begin_group(&format!("class=\"{}\"", Escaped(part.class)));
-        canvas.describe(&part.name, "");
+        canvas.name_group(&part.name);
         draw_part(&mut canvas, part);
         for label in labels {
             let style =
@@ -139,7 +140,10 @@ mod tests {
     #[test]
     fn names_and_titles_are_escaped() {
         let svg = sketch(85.0).to_svg();
-        assert!(svg.contains("<title>&lt;one&gt;</title><desc>A mass</desc>"), "{svg}");
+        assert!(
+            svg.contains("<title>&lt;one&gt;</title>") && svg.contains("<desc>A mass</desc>"),
+            "{svg}"
+        );
         assert!(svg.contains("<g class=\"mass\"><title>mass &amp; name</title>"), "{svg}");
     }
 

@@ -108,4 +108,12 @@ impl Sketch {
     pub fn to_png(&self) -> Result<Vec<u8>, PlotError> {
         output::png(&self.to_svg())
     }
+
+    /// Renders the sketch as PDF. Equal sketches give equal bytes.
+    ///
+    /// # Errors
+    /// [`PlotError::Page`] when the sketch cannot be converted.
+    pub fn to_pdf(&self) -> Result<Vec<u8>, PlotError> {
+        output::pdf(&self.to_svg())
+    }
 }

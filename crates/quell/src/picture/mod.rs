@@ -14,6 +14,7 @@ mod orbit;
 mod response;
 mod ruler;
 mod simulate;
+pub mod sketch;
 mod stability;
 mod sweep;
 pub mod system;
