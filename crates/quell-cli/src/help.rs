@@ -16,6 +16,13 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
         &[
             ("new", &["quell new", "quell new quench --save quench.toml"]),
             ("check", &["quell check quench.toml", "quell check drive.toml --json"]),
+            (
+                "sketch",
+                &[
+                    "quell sketch quench.toml --out quench.svg",
+                    "quell sketch two-mass-drive.toml --out drive.png --width 85mm",
+                ],
+            ),
             ("schema", &["quell schema"]),
             ("completions", &["quell completions bash"]),
         ],

@@ -3,7 +3,7 @@
 use std::fmt::{self, Write as _};
 
 use super::palette::{Colour, FRAME};
-use super::svg::{Document, FIGURE_NAME, Hex, Number, TextAnchor};
+use super::svg::{Document, Escaped, FIGURE_NAME, Hex, Number, TextAnchor};
 use super::typeset::RichText;
 
 /// A rectangle in pixels, y downwards.
@@ -221,6 +221,13 @@ impl Canvas {
 
     pub(super) fn end_group(&mut self) {
         self.document.write(format_args!("</g>"));
+    }
+
+    /// Names the current group for readers of the file; nothing is written of an empty name.
+    pub(super) fn name_group(&mut self, name: &str) {
+        if !name.is_empty() {
+            self.document.write(format_args!("<title>{}</title>", Escaped(name)));
+        }
     }
 
     /// The finished SVG.

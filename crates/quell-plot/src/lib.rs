@@ -56,6 +56,7 @@ mod projection;
 mod raster;
 mod reference_line_labels;
 mod shades;
+mod sketch;
 mod svg;
 mod thin;
 mod ticks;
@@ -77,6 +78,9 @@ pub use layer::{
 pub use map_layers::{Contours, Gap, Heatmap};
 pub use palette::{LineStyle, PlotRole};
 pub use shades::Palette;
+pub use sketch::{
+    LabelSide, Sketch, SketchInk, SketchKey, SketchLabel, SketchPart, SketchShape, WaveGlyph,
+};
 
 /// Converts a label to HTML, with the same italics, subscripts, superscripts and bars as in a figure.
 ///

@@ -66,6 +66,11 @@ impl Obstacles {
         self.texts.push(area);
     }
 
+    /// Adds a line.
+    pub(super) fn add_stroke(&mut self, line: Vec<(f64, f64)>) {
+        self.strokes.push(line);
+    }
+
     /// Weighted number of strokes and texts that this rectangle would cover.
     pub(super) fn covered_by(&self, area: Rectangle) -> usize {
         let texts = self.texts.iter().filter(|text| overlap(text, &area)).count();

@@ -48,14 +48,14 @@ fn tree(svg: &str) -> Result<Tree, usvg::Error> {
     Tree::from_str(svg, &options)
 }
 
-fn pdf(svg: &str) -> Result<Vec<u8>, PlotError> {
+pub(super) fn pdf(svg: &str) -> Result<Vec<u8>, PlotError> {
     let tree = tree(svg).map_err(|source| PlotError::Page { source: Box::new(source) })?;
     let page = PageOptions { dpi: UNITS_PER_INCH };
     svg2pdf::to_pdf(&tree, ConversionOptions::default(), page)
         .map_err(|error| PlotError::Page { source: error.to_string().into() })
 }
 
-fn png(svg: &str) -> Result<Vec<u8>, PlotError> {
+pub(super) fn png(svg: &str) -> Result<Vec<u8>, PlotError> {
     let tree = tree(svg).map_err(|source| PlotError::Raster { source: Box::new(source) })?;
     let pixels = |units: f32| {
         #[expect(

@@ -19,7 +19,7 @@ use crate::verbs::map::Asked;
 use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
 use crate::verbs::{
     attractor, basins, bifurcation, check, cite, friction, map, modes, orbit, resonances, response,
-    simulate, stability, thresholds,
+    simulate, sketch, stability, thresholds,
 };
 use crate::{call, convert, errors};
 
@@ -156,6 +156,18 @@ impl NativeStudy {
     fn check(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
         let study = self.study();
         call::here(py, move || Ok(check::run(&study)))
+    }
+
+    /// The mechanism as SVG; `path`: a file for it; `width`: a length with its unit.
+    #[pyo3(signature = (path, width))]
+    fn sketch(
+        &self,
+        py: Python<'_>,
+        path: Option<PathBuf>,
+        width: Option<String>,
+    ) -> PyResult<String> {
+        let study = self.study();
+        call::run(py, move || sketch::run(&study, path.as_deref(), width.as_deref()))
     }
 
     fn cite(&self, py: Python<'_>) -> PyResult<NativeAnswer> {

@@ -27,6 +27,9 @@ ELSEWHERE = {
 OTHER_NAMES = {"--from": "from_"}
 """Options whose name is a keyword of Python."""
 
+DRAWINGS = {"sketch"}
+"""Verbs whose answer is a file; Python returns its text, and `--out` is the argument `path`."""
+
 BESIDE = {"quell.sweep", "quell.quantities"}
 """Functions that only Python has, all of them about axes and names of maps."""
 
@@ -39,7 +42,7 @@ def offered() -> dict[str, Any]:
     verbs = {
         name: method
         for name, method in members
-        if not name.startswith("_") and "results." in str(method.__annotations__.get("return"))
+        if name in DRAWINGS or (not name.startswith("_") and "results." in str(method.__annotations__.get("return")))
     }
     functions = {
         name: it for name, it in vars(quell).items() if inspect.isfunction(it) and name in quell.__all__
@@ -67,7 +70,8 @@ def test_the_verbs_are_the_same() -> None:
 @pytest.mark.parametrize("verb", sorted(offered()))
 def test_the_options_are_the_same(verb: str) -> None:
     options = set(re.findall(r"^\s+(?:-\w, )?(--[a-z-]+)", help_of(verb), flags=re.MULTILINE))
-    wanted = {OTHER_NAMES.get(it, it[2:].replace("-", "_")) for it in options - set(ELSEWHERE)}
+    names = {**OTHER_NAMES, "--out": "path"} if verb in DRAWINGS else OTHER_NAMES
+    wanted = {names.get(it, it[2:].replace("-", "_")) for it in options - set(ELSEWHERE)}
     given = set(inspect.signature(offered()[verb]).parameters) - {"self"}
     python_only = {
         "map": {"axes", "store", "progress", "client"},
@@ -125,7 +129,7 @@ def test_the_answers_are_the_same(verb: str, path: str, options: list[str], call
 
 
 def test_cases_are_of_every_verb_of_a_study() -> None:
-    functions = {"schema", "new", "reproduce", "map"}
+    functions = {"schema", "new", "reproduce", "map", *DRAWINGS}
     assert {case[0] for case in CASES} == set(offered()) - functions
 
 
@@ -195,3 +199,19 @@ def test_reproduce_writes_the_same_files(cli: Any, tmp_path: Any) -> None:
         assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "cli" / name).read_bytes()
     with pytest.raises(quell.StudyError, match="2.3"):
         quell.reproduce("2.33", out=tmp_path)
+
+
+@pytest.mark.parametrize("path", [BELT, DISC, str(STUDIES / "two-mass-drive.toml")])
+def test_a_sketch_is_the_same(cli: Any, tmp_path: Any, path: str) -> None:
+    study = quell.Study.from_toml(path)
+    by_command, by_python = tmp_path / "command.svg", tmp_path / "python.svg"
+    facts = cli("sketch", path, "--out", str(by_command), "--width", "85mm")
+    assert facts["saved"] == [str(by_command)]
+    assert study.sketch(by_python, width="85mm") == by_python.read_text() == by_command.read_text()
+    study.sketch(tmp_path / "sketch.pdf")
+    assert (tmp_path / "sketch.pdf").read_bytes().startswith(b"%PDF")
+    for wrong in ("85", "1mm", "wide"):
+        with pytest.raises(quell.StudyError, match="width"):
+            study.sketch(width=wrong)
+    with pytest.raises(quell.StudyError, match="path"):
+        study.sketch(tmp_path / "sketch.gif")

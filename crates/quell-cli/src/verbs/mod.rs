@@ -18,5 +18,6 @@ pub(crate) mod response;
 pub(crate) mod schema;
 mod shard;
 pub(crate) mod simulate;
+pub(crate) mod sketch;
 pub(crate) mod stability;
 pub(crate) mod thresholds;

@@ -49,6 +49,41 @@ class Study(CheckedStudy):
         return results.Check(self, self._native.check())
 
     @keywords
+    def sketch(self, path: str | os.PathLike[str] | None = None, *, width: str | None = None) -> str:
+        """Draws the mechanism that the study describes, with the values of its parts.
+
+        Parameters
+        ----------
+        path : path, optional
+            File for the drawing: SVG, PDF or PNG by the end of its name. A file there is replaced.
+        width : str, optional
+            Width with its unit, such as ``"85mm"`` for the column of a journal; 120 mm by default.
+
+        Returns
+        -------
+        str
+            The drawing as SVG.
+
+        Raises
+        ------
+        quell.StudyError
+            A width out of range, or a path at which no such file can be written.
+
+        Examples
+        --------
+        >>> belt = quell.Belt(
+        ...     damping_ratio=0.005, normal_load=1.0, belt_velocity=0.05, friction=quell.Coulomb(coefficient=0.4)
+        ... )
+        >>> belt.sketch(width="85mm").startswith("<svg")
+        True
+        """
+        arguments = Arguments()
+        place = None if path is None else arguments.path("path", path)
+        wide = None if width is None else arguments.text("width", width, "a length with its unit, such as 85mm")
+        arguments.done()
+        return self._native.sketch(place, wide)
+
+    @keywords
     def cite(self) -> results.Citations:
         """Equations and papers that the computations use, with BibTeX, and corrections of the printed equations."""
         return results.Citations(self, self._native.cite())

@@ -15,6 +15,7 @@ pub(crate) mod resonances;
 pub(crate) mod response;
 pub(crate) mod schema;
 pub(crate) mod simulate;
+pub(crate) mod sketch;
 pub(crate) mod stability;
 pub(crate) mod thresholds;
 

@@ -20,6 +20,7 @@ impl Verbs for BeltStudy {
     fn names(&self) -> &'static [&'static str] {
         &[
             "check",
+            "sketch",
             "cite",
             "friction",
             "stability",

@@ -15,7 +15,7 @@ impl Verbs for DiscStudy {
     }
 
     fn names(&self) -> &'static [&'static str] {
-        &["check", "cite", "modes", "stability", "simulate", "resonances", "map"]
+        &["check", "sketch", "cite", "modes", "stability", "simulate", "resonances", "map"]
     }
 
     fn check(&self) -> Box<dyn Outcome> {

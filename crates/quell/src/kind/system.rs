@@ -37,6 +37,7 @@ impl Verbs for SystemStudy {
     fn names(&self) -> &'static [&'static str] {
         &[
             "check",
+            "sketch",
             "cite",
             "modes",
             "stability",

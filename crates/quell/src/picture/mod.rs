@@ -15,6 +15,7 @@ mod page;
 mod response;
 mod ruler;
 mod simulate;
+pub mod sketch;
 mod stability;
 mod sweep;
 pub mod system;

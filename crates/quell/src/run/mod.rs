@@ -21,6 +21,7 @@ pub mod protocol;
 pub mod response;
 mod sample_times;
 pub mod simulate;
+pub mod sketch;
 mod sound_tap;
 pub mod stability;
 pub mod system;

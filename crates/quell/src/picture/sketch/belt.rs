@@ -1,0 +1,183 @@
+//! The sketch of a mass on a moving belt.
+
+use quell_model::Direction;
+use quell_model::units::Quantity;
+
+use super::glyph;
+use super::symbols::{index, indexed, item, number};
+use crate::picture::ruler::words;
+use crate::plot::{LabelSide, Sketch, SketchInk, SketchKey, SketchPart, SketchShape};
+use crate::study::BeltStudy;
+
+use LabelSide::{Above, Below, Inside, Left, Right};
+
+/// Left end of the mass.
+const MASS: f64 = 76.0;
+/// Width of the mass.
+const WIDTH: f64 = 66.0;
+/// Height of the mass for a row of forces; each further tangential dither adds another row.
+const HEIGHT: f64 = 58.0;
+/// Height of a row.
+const ROW: f64 = 20.0;
+
+/// The letters of the dissertation: with dimensions in SI, else those of the numbers of the equations.
+struct Letters {
+    load: &'static str,
+    velocity: &'static str,
+    force: &'static str,
+    rate: &'static str,
+}
+
+/// Draws a belt.
+pub(super) fn draw(sheet: Sketch, study: &BeltStudy) -> Sketch {
+    let letters = match study.scales() {
+        Some(_) => Letters { load: "N_0", velocity: "V_0", force: "A", rate: "f" },
+        None => Letters { load: "F", velocity: "v_0", force: "D", rate: "R" },
+    };
+    let tangential = study.belt().dithers_along(Direction::Tangential).count();
+    let height = HEIGHT + ROW * tangential.saturating_sub(1) as f64;
+    let sheet = structure(sheet, study, height);
+    let sheet = contact(sheet, &letters, height);
+    let sheet = dithers(sheet, study, &letters);
+    key(sheet, study, &letters)
+}
+
+fn structure(sheet: Sketch, study: &BeltStudy, height: f64) -> Sketch {
+    let si = study.scales().is_some();
+    let wall = SketchShape::Ground { from: (0.0, height + 2.0), to: (0.0, -2.0) };
+    let mass = SketchShape::Block { corner: (MASS, 0.0), size: (WIDTH, height) };
+    let spring = SketchShape::Spring { from: (0.0, 9.0), to: (MASS, 9.0) };
+    let damper = SketchShape::Damper { from: (0.0, 27.0), to: (MASS, 27.0) };
+    let (m, k, c) = if si { ("$m$", "$k$", "$c$") } else { ("1", "1", "$2ζ$") };
+    let way = SketchShape::Arrow { from: (MASS + 0.5 * WIDTH, -9.0), to: (MASS + WIDTH, -9.0) };
+    let foot = SketchShape::Line {
+        points: vec![(MASS + 0.5 * WIDTH, -13.0), (MASS + 0.5 * WIDTH, -5.0)],
+        style: crate::plot::LineStyle::Solid,
+    };
+    sheet
+        .with(SketchPart::new("ground", "wall", wall))
+        .with(
+            SketchPart::new("spring", "spring between the wall and the mass", spring)
+                .label(k, &[Above]),
+        )
+        .with(
+            SketchPart::new("damper", "damper between the wall and the mass", damper)
+                .label(c, &[Below]),
+        )
+        .with(SketchPart::new("mass", "mass on the belt", mass).label(m, &[Inside]))
+        .with(
+            SketchPart::new("coordinate", "displacement x of the mass", way)
+                .and(foot)
+                .label("$x$", &[Right, Above]),
+        )
+}
+
+fn contact(sheet: Sketch, letters: &Letters, height: f64) -> Sketch {
+    let belt =
+        SketchShape::Belt { ends: (MASS - 46.0, MASS + WIDTH + 66.0), top: height, radius: 11.0 };
+    let velocity = SketchShape::Arrow {
+        from: (MASS + WIDTH + 16.0, height - 6.0),
+        to: (MASS + WIDTH + 46.0, height - 6.0),
+    };
+    let load =
+        SketchShape::Arrow { from: (MASS + 0.25 * WIDTH, -34.0), to: (MASS + 0.25 * WIDTH, -1.0) };
+    let friction =
+        SketchShape::Arrow { from: (MASS - 24.0, height - 6.0), to: (MASS - 1.0, height - 6.0) };
+    let ink = SketchInk::Contact;
+    sheet
+        .with(SketchPart::new("surface", "moving belt", belt))
+        .with(
+            SketchPart::new("velocity", "belt velocity", velocity)
+                .ink(ink)
+                .label(format!("${}$", letters.velocity), &[Right, Above]),
+        )
+        .with(
+            SketchPart::new("load", "normal load", load)
+                .ink(ink)
+                .label(format!("${}$", letters.load), &[Left]),
+        )
+        .with(
+            SketchPart::new("friction", "friction force on the mass", friction)
+                .ink(ink)
+                .label("$T$", &[Left, Above]),
+        )
+}
+
+fn dithers(mut sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
+    let dithers = study.belt().dithers();
+    let (mut rows, mut columns) = (0.0, 0.0);
+    for (place, dither) in dithers.iter().enumerate() {
+        let number = index(place, dithers.len());
+        let symbol = indexed(letters.force, &number);
+        let name = format!("{} {} dither", dither.direction.name(), dither.waveform.name());
+        let (shape, wave) = match dither.direction {
+            Direction::Tangential => {
+                let level = 12.0 + ROW * rows;
+                rows += 1.0;
+                let from = (MASS + WIDTH + 1.0, level);
+                let to = (MASS + WIDTH + 27.0, level);
+                (SketchShape::Arrow { from, to }, (to.0 + 13.0, level))
+            }
+            Direction::Normal => {
+                let across = MASS + 0.25 * WIDTH + 22.0 + 46.0 * columns;
+                columns += 1.0;
+                // The vertical arrow is next to that of the load and ends above the mass.
+                let arrow =
+                    SketchShape::Arrow { from: (across - 12.0, -40.0), to: (across - 12.0, -16.0) };
+                (arrow, (across, -32.0))
+            }
+        };
+        let wave = SketchShape::Wave { at: wave, glyph: glyph(dither.waveform) };
+        let label = SketchPart::new("dither", name, wave).and(shape).ink(SketchInk::Input);
+        sheet = sheet.with(label.label(symbol, &[Right, Above]));
+    }
+    sheet
+}
+
+fn key(sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
+    let belt = study.belt();
+    let equal = |symbol: &str, quantity: Quantity, value: f64| {
+        format!("${symbol}$ = {}", words(study, quantity, value))
+    };
+    let mass = match study.scales() {
+        Some(scales) => {
+            let damping = scales.to_si(Quantity::DampingRatio, belt.damping_ratio());
+            vec![
+                format!("$m$ = {} kg", number(scales.mass_kg())),
+                item("$k$", scales.stiffness_n_per_m(), Some("N/m")),
+                format!("$c$ = {} N s/m ($ζ$ = {})", number(damping), number(belt.damping_ratio())),
+            ]
+        }
+        None => vec![
+            "mass, stiffness and natural frequency 1".to_owned(),
+            format!("$ζ$ = {}", number(belt.damping_ratio())),
+        ],
+    };
+    let law = belt.friction().kind();
+    let mut friction = vec![
+        equal(letters.load, Quantity::Force, belt.normal_load()),
+        equal(letters.velocity, Quantity::Velocity, belt.belt_velocity()),
+        format!("$T$ by the law “{}”", law.name()),
+    ];
+    let numbers = law.parameters().iter().zip(belt.friction().values());
+    friction.extend(
+        numbers.map(|(parameter, value)| equal(parameter.symbol, parameter.quantity, value)),
+    );
+    let mut sheet =
+        sheet.with_key(SketchKey::new("Mass", mass)).with_key(SketchKey::new("Contact", friction));
+    let dithers = belt.dithers();
+    for (place, dither) in dithers.iter().enumerate() {
+        let number_of = index(place, dithers.len());
+        let bare = |letter: &str| indexed(letter, &number_of).trim_matches('$').to_owned();
+        let mut items = vec![
+            equal(&bare(letters.force), Quantity::Force, dither.amplitude),
+            equal(&bare(letters.rate), Quantity::FrequencyRatio, dither.frequency_ratio),
+        ];
+        if dither.phase != 0.0 {
+            items.push(format!("$φ$ = {} rad", number(dither.phase)));
+        }
+        let head = format!("{} {} dither", dither.direction.name(), dither.waveform.name());
+        sheet = sheet.with_key(SketchKey::new(crate::words::capital(&head), items));
+    }
+    sheet
+}

@@ -1,0 +1,332 @@
+//! Springs, dampers and other couplings between coordinates, and between a coordinate and the ground, read from the matrices.
+//!
+//! A symmetric pair of negative entries −k is a spring k between two coordinates; what is left on the diagonal is a spring to the
+//! ground. Any other pair of entries is a coupling that no spring between the two represents: both entries are written.
+
+use quell_model::system::{Mechanical, Structure};
+use quell_numerics::matrix::Matrix;
+
+use super::Drawing;
+use super::bodies::{Body, BodyKind, counted};
+use super::grid::{Row, Seat};
+use super::symbols::{indexed, pair};
+use crate::plot::{LabelSide, LineStyle, Sketch, SketchInk, SketchPart, SketchShape};
+use crate::study::SystemStudy;
+
+use LabelSide::{Above, Below, Left, Right};
+
+/// The most links that are listed below the boxes.
+const MOST_LISTED: usize = 12;
+/// Width and height of one of them.
+const LISTED_WIDTH: f64 = 144.0;
+const LISTED_HEIGHT: f64 = 28.0;
+/// Entries below this fraction of the diagonal are rounding errors of sums.
+const ROUNDING: f64 = 1e-9;
+
+/// A spring and a damper between a body and another one or the ground, or another coupling.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Link {
+    pub(super) from: usize,
+    /// The other body; `None` for the ground.
+    pub(super) to: Option<usize>,
+    pub(super) stiffness: Option<f64>,
+    pub(super) damping: Option<f64>,
+    /// Letter of the matrix, and its entries (from, to) and (to, from).
+    pub(super) couplings: Vec<(&'static str, f64, f64)>,
+}
+
+impl Link {
+    fn is_drawn(&self) -> bool {
+        self.stiffness.is_some() || self.damping.is_some() || !self.couplings.is_empty()
+    }
+
+    /// Symbol of its spring (`k`) or damper (`c`).
+    pub(super) fn symbol(&self, letter: &str) -> String {
+        match self.to {
+            Some(to) => indexed(letter, &pair(self.from, to)),
+            None => indexed(letter, &(self.from + 1).to_string()),
+        }
+    }
+}
+
+/// What two matrix entries are: a spring or damper, another coupling, or nothing.
+enum Pair {
+    Element(f64),
+    Coupling(f64, f64),
+    Nothing,
+}
+
+fn judged(matrix: &Matrix, i: usize, j: usize) -> Pair {
+    let (one, other) = (matrix[(i, j)], matrix[(j, i)]);
+    let size = (matrix[(i, i)].abs() + matrix[(j, j)].abs()) * ROUNDING;
+    if one.abs() <= size && other.abs() <= size {
+        Pair::Nothing
+    } else if (one - other).abs() <= size.max(ROUNDING * one.abs()) && one < 0.0 {
+        Pair::Element(-one)
+    } else {
+        Pair::Coupling(one, other)
+    }
+}
+
+/// The links of a study whose coordinates are drawn one by one; none otherwise.
+pub(super) fn of(study: &SystemStudy, bodies: &[Body]) -> Vec<Link> {
+    let Structure::Mechanical(mechanical) = &study.system().structure else { return Vec::new() };
+    if bodies.iter().any(|body| body.kind != BodyKind::Mass) {
+        return Vec::new();
+    }
+    let n = mechanical.size();
+    let mut links: Vec<Link> = (0..n).map(|place| ground(mechanical, place)).collect();
+    let mass = mechanical.mass().matrix();
+    for i in 0..n {
+        for j in i + 1..n {
+            links.push(between(mechanical, &mass, i, j));
+        }
+    }
+    links.retain(Link::is_drawn);
+    links
+}
+
+fn between(mechanical: &Mechanical, mass: &Matrix, i: usize, j: usize) -> Link {
+    let mut link = Link { from: i, to: Some(j), ..Link::default() };
+    match judged(mechanical.stiffness(), i, j) {
+        Pair::Element(stiffness) => link.stiffness = Some(stiffness),
+        Pair::Coupling(one, other) => link.couplings.push(("K", one, other)),
+        Pair::Nothing => {}
+    }
+    match judged(mechanical.damping(), i, j) {
+        Pair::Element(damping) => link.damping = Some(damping),
+        Pair::Coupling(one, other) => link.couplings.push(("C", one, other)),
+        Pair::Nothing => {}
+    }
+    if mass[(i, j)] != 0.0 {
+        link.couplings.push(("M", mass[(i, j)], mass[(j, i)]));
+    }
+    link
+}
+
+/// What is left of the diagonal when the springs and dampers to other coordinates are taken out.
+fn ground(mechanical: &Mechanical, place: usize) -> Link {
+    let left = |matrix: &Matrix| {
+        let others = (0..mechanical.size()).filter(|other| *other != place);
+        let elements = others.map(|other| match judged(matrix, place, other) {
+            Pair::Element(value) => value,
+            Pair::Coupling(..) | Pair::Nothing => 0.0,
+        });
+        let total = matrix[(place, place)];
+        let rest = total - elements.sum::<f64>();
+        (rest.abs() > ROUNDING * total.abs()).then_some(rest)
+    };
+    Link {
+        from: place,
+        to: None,
+        stiffness: left(mechanical.stiffness()),
+        damping: left(mechanical.damping()),
+        couplings: Vec::new(),
+    }
+}
+
+/// Draws the links.
+pub(super) fn draw(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
+    let mut listed: Vec<(&Link, usize)> = Vec::new();
+    for link in &drawing.links {
+        let Some(other) = link.to else {
+            sheet = support(sheet, drawing, link);
+            continue;
+        };
+        let (from, to) = (drawing.grid.seat(link.from), drawing.grid.seat(other));
+        if from.row == to.row && from.column + 1 == to.column {
+            sheet = neighbours(sheet, drawing, link, (from, to));
+        } else if let Some(track) = drawing.grid.track(link) {
+            sheet = tracked(sheet, drawing, link, (from, to), track);
+        } else if drawing.grid.wraps(link.from, other) {
+            sheet = stubs(sheet, drawing, link, (from, to));
+        } else {
+            listed.push((link, other));
+        }
+    }
+    list(sheet, drawing, &listed)
+}
+
+/// The name of a link and what it connects.
+fn named(drawing: &Drawing<'_>, link: &Link, noun: &str) -> String {
+    let name = |place: usize| drawing.bodies[place].name.as_str();
+    match link.to {
+        Some(to) => format!("{noun} between {} and {}", name(link.from), name(to)),
+        None => format!("{noun} between {} and the ground", name(link.from)),
+    }
+}
+
+/// A spring and a damper above a body, on a support.
+fn support(mut sheet: Sketch, drawing: &Drawing<'_>, link: &Link) -> Sketch {
+    let seat = drawing.grid.seat(link.from);
+    let top = seat.top - Row::SUPPORT;
+    let (left, right) = (seat.left + 12.0, seat.left + 30.0);
+    if link.stiffness.is_some() {
+        let shape = SketchShape::Spring { from: (left, seat.top), to: (left, top) };
+        let part = SketchPart::new("spring", named(drawing, link, "spring"), shape);
+        sheet = sheet.with(part.label(link.symbol("k"), &[Left]));
+    }
+    if link.damping.is_some() {
+        let shape = SketchShape::Damper { from: (right, seat.top), to: (right, top) };
+        let part = SketchPart::new("damper", named(drawing, link, "damper"), shape);
+        sheet = sheet.with(part.label(link.symbol("c"), &[Right]));
+    }
+    let shape = SketchShape::Ground { from: (left - 10.0, top), to: (right + 10.0, top) };
+    sheet.with(SketchPart::new("ground", "ground", shape))
+}
+
+/// A link between two boxes next to each other.
+fn neighbours(
+    mut sheet: Sketch,
+    drawing: &Drawing<'_>,
+    link: &Link,
+    (from, to): (Seat, Seat),
+) -> Sketch {
+    let line = |level: f64| ((from.right(), level), (to.left, level));
+    let both = link.stiffness.is_some() || !link.couplings.is_empty();
+    let (upper, lower) = (from.top + 8.0, from.top + if both { 28.0 } else { 8.0 });
+    if link.stiffness.is_some() {
+        let (from, to) = line(upper);
+        let shape = SketchShape::Spring { from, to };
+        let part = SketchPart::new("spring", named(drawing, link, "spring"), shape);
+        sheet = sheet.with(part.label(link.symbol("k"), &[Above]));
+    }
+    if link.damping.is_some() {
+        let (from, to) = line(lower);
+        let shape = SketchShape::Damper { from, to };
+        let part = SketchPart::new("damper", named(drawing, link, "damper"), shape);
+        sheet = sheet.with(part.label(link.symbol("c"), &[Below]));
+    }
+    if link.couplings.is_empty() {
+        return sheet;
+    }
+    let level = if link.stiffness.is_some() { from.top + 18.0 } else { upper };
+    let (from, to) = line(level);
+    let part = coupling(drawing, link, vec![from, to]);
+    sheet.with(part.label(letters(link), &[Above, Below]))
+}
+
+/// A dashed line for a coupling without spring.
+fn coupling(drawing: &Drawing<'_>, link: &Link, points: Vec<(f64, f64)>) -> SketchPart {
+    let shape = SketchShape::Line { points, style: LineStyle::Dashed };
+    SketchPart::new("coupling", named(drawing, link, "coupling"), shape).ink(SketchInk::Guide)
+}
+
+/// Letters of the matrices of a coupling.
+fn letters(link: &Link) -> String {
+    let letters: Vec<String> =
+        link.couplings.iter().map(|(letter, ..)| format!("${letter}$")).collect();
+    letters.join(", ")
+}
+
+/// A link over the heads of the boxes between its ends.
+fn tracked(
+    sheet: Sketch,
+    drawing: &Drawing<'_>,
+    link: &Link,
+    (from, to): (Seat, Seat),
+    (slot, level): (usize, f64),
+) -> Sketch {
+    let aside = 4.0 + 6.0 * slot as f64;
+    let (left, right) = (from.right() - aside, to.right() - aside);
+    let middle = 0.5 * (left + right);
+    let legs = |inner: f64| {
+        [
+            vec![(left, from.top), (left, level), (middle - inner, level)],
+            vec![(middle + inner, level), (right, level), (right, to.top)],
+        ]
+    };
+    let line = |points: Vec<(f64, f64)>| SketchShape::Line { points, style: LineStyle::Solid };
+    let (shape, class, noun, label) = match (link.stiffness, link.damping) {
+        (Some(_), damping) => {
+            let shape =
+                SketchShape::Spring { from: (middle - 16.0, level), to: (middle + 16.0, level) };
+            let damper = damping.map(|_| format!(", {}", link.symbol("c"))).unwrap_or_default();
+            (shape, "spring", "spring", link.symbol("k") + &damper)
+        }
+        (None, Some(_)) => {
+            let shape =
+                SketchShape::Damper { from: (middle - 16.0, level), to: (middle + 16.0, level) };
+            (shape, "damper", "damper", link.symbol("c"))
+        }
+        (None, None) => {
+            let points = vec![(left, from.top), (left, level), (right, level), (right, to.top)];
+            let part = coupling(drawing, link, points);
+            return sheet.with(part.label(letters(link), &[Above]));
+        }
+    };
+    let [one, other] = legs(16.0);
+    let part = SketchPart::new(class, named(drawing, link, noun), shape);
+    let part = part.label(label, &[Above, Below]);
+    let sheet = sheet.with(part.and(line(one)).and(line(other)));
+    if link.couplings.is_empty() {
+        return sheet;
+    }
+    let spot = SketchShape::Spot { at: (middle + 20.0, level) };
+    let part =
+        SketchPart::new("coupling", named(drawing, link, "coupling"), spot).ink(SketchInk::Guide);
+    sheet.with(part.label(letters(link), &[Above, Below]))
+}
+
+/// The class of the part that represents a link by itself, and the letter of its symbol.
+fn main_part(link: &Link) -> (&'static str, String) {
+    match (link.stiffness, link.damping) {
+        (Some(_), _) => ("spring", link.symbol("k")),
+        (None, Some(_)) => ("damper", link.symbol("c")),
+        (None, None) => ("coupling", letters(link)),
+    }
+}
+
+/// A spring, a damper or a dashed line between two points.
+fn element(class: &str, from: (f64, f64), to: (f64, f64)) -> SketchShape {
+    match class {
+        "spring" => SketchShape::Spring { from, to },
+        "damper" => SketchShape::Damper { from, to },
+        _ => SketchShape::Line { points: vec![from, to], style: LineStyle::Dashed },
+    }
+}
+
+/// The two ends of a link between the end of a row and the beginning of the next, each with the name of the other body.
+fn stubs(mut sheet: Sketch, drawing: &Drawing<'_>, link: &Link, ends: (Seat, Seat)) -> Sketch {
+    let Some(to) = link.to else { return sheet };
+    let (class, label) = main_part(link);
+    let name = named(drawing, link, class);
+    for (seat, sign, other) in [(ends.0, 1.0, to), (ends.1, -1.0, link.from)] {
+        let level = seat.top + 18.0;
+        let edge = if sign > 0.0 { seat.right() } else { seat.left };
+        let (from, end) = ((edge, level), (edge + sign * 26.0, level));
+        let dot = SketchShape::Dot { at: end, radius: 2.0 };
+        let part = SketchPart::new(class, name.clone(), element(class, from, end)).and(dot);
+        let part = part.label(label.clone(), &[Above]);
+        sheet = sheet.with(part.label(drawing.bodies[other].lines[0].clone(), &[Below]));
+    }
+    sheet
+}
+
+/// Links that no line between their boxes could show clearly: in rows below the boxes, each with the names of its ends.
+fn list(mut sheet: Sketch, drawing: &Drawing<'_>, links: &[(&Link, usize)]) -> Sketch {
+    let room = sheet.room();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+    let columns = ((room / LISTED_WIDTH).floor() as usize).max(1);
+    let across = columns.min(links.len()) as f64;
+    let first = drawing.grid.middle() - 0.5 * LISTED_WIDTH * across;
+    for (place, (link, to)) in links.iter().take(MOST_LISTED).enumerate() {
+        let left = first + LISTED_WIDTH * (place % columns) as f64;
+        let level = drawing.grid.bottom() + 16.0 + LISTED_HEIGHT * (place / columns) as f64;
+        let (from, end) = ((left + 52.0, level), (left + 92.0, level));
+        let (class, label) = main_part(link);
+        let shape = element(class, from, end);
+        let name = named(drawing, link, class);
+        let part = SketchPart::new(class, name, shape).label(label, &[Above]);
+        let part = part.label(drawing.bodies[link.from].lines[0].clone(), &[Left]);
+        sheet = sheet.with(part.label(drawing.bodies[*to].lines[0].clone(), &[Right]));
+    }
+    if links.len() > MOST_LISTED {
+        let rows = MOST_LISTED.div_ceil(columns);
+        let level = drawing.grid.bottom() + 16.0 + LISTED_HEIGHT * rows as f64;
+        let words = counted(links.len() - MOST_LISTED, "further link");
+        let spot = SketchShape::Spot { at: (drawing.grid.middle(), level) };
+        sheet = sheet.with(SketchPart::new("coupling", words.clone(), spot).label(words, &[Below]));
+    }
+    sheet
+}
