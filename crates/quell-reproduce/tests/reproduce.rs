@@ -4,7 +4,7 @@ use std::path::Path;
 
 use quell::picture::PicturePage;
 use quell::{Failure, Study};
-use quell_reproduce::claims::{self, ClaimVerdict, LEDGER};
+use quell_reproduce::claims::{self, Claim, ClaimVerdict, LEDGER};
 use quell_reproduce::{CatalogueEntry, Cell, ENTRIES, Resolution, find, run};
 
 fn entry(name: &str) -> &'static CatalogueEntry {
@@ -222,10 +222,13 @@ fn paper_quotes(claims: &[Claim], summary: &str) {
         let made = match line {
             "<!-- comparison -->" => comparison.clone(),
             "<!-- summary -->" => format!("> {summary}\n"),
-            _ => match line.strip_prefix("<!-- claims: ").and_then(|rest| rest.strip_suffix(" -->")) {
-                Some(names) => table(names),
-                None => continue,
-            },
+            _ => {
+                match line.strip_prefix("<!-- claims: ").and_then(|rest| rest.strip_suffix(" -->"))
+                {
+                    Some(names) => table(names),
+                    None => continue,
+                }
+            }
         };
         present += &made;
         while lines.next_if(|line| line.starts_with(['|', '>'])).is_some() {}

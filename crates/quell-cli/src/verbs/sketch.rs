@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use quell::output::Output;
-use quell::picture::sketch;
+use quell::picture::{EXTENSIONS, sketch};
 use quell::{Failure, run};
 
 use crate::answer::Answer;
@@ -29,8 +29,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
-    let output =
-        complaints.take(Output::prepare(&arguments.out, "--out", sketch::FORMATS, &inputs));
+    let output = complaints.take(Output::prepare(&arguments.out, "--out", EXTENSIONS, &inputs));
     let width = complaints.take(arguments.width.as_deref().map(sketch::width).transpose());
     let (study, (output, width)) = complaints.finish(study.zip(output.zip(width)))?;
 
