@@ -15,9 +15,9 @@ from . import _zoo
 from ._controls import Controls
 from ._files import Downloads
 from ._lanes import Event, Here, Lane, Process
-from ._numbers import Knob, knobs
+from ._numbers import knobs, within
 from ._panes import EigenPane, LawPane, MotionPane, SoundPane, SpectrumPane, Verdict, headed, words
-from ._plane_panes import BasinsPane, PlanePane
+from ._plane_panes import ACROSS, BasinsPane, PlanePane, preferred
 from ._share import commands, python, toml
 from ._state import State
 from ._style import SIDE, STICK, TEXT, WIDTH
@@ -115,7 +115,6 @@ class Page:
         numbers = {it.label if labels.count(it.label) == 1 else f"{it.group} {it.label}": it for it in found}
         self.plane.offer(kind, numbers)
         self.downloads.offer(kind)
-        self._parameters = {name: it.path for name, it in numbers.items()}
         self.motion.coordinate.options = []
         panes: list[Any] = [self.motion.view, self.motion.plane_view, self.spectrum.view]
         if kind != "disc":
@@ -125,10 +124,12 @@ class Page:
             self.basins.offer(kind)
             panes.append(self.basins.view)
         if kind == "system":
-            self.eigen.parameter.options = self._parameters
-            chosen = next((it for it in self._parameters.values() if it.split(".")[-1].startswith("belt_velocity")), None)
-            if chosen is not None:
-                self.eigen.parameter.value = chosen
+            offered = {name: it for name, it in numbers.items() if not it.whole and not it.suffix}
+            chosen = preferred(offered, ACROSS, None)
+            self.eigen.parameter.param.update(
+                options={name: it.path for name, it in offered.items()},
+                value=None if chosen is None else offered[chosen].path,
+            )
             panes += [self.eigen.view, self._sketch()]
         self.right[:] = [*panes, self.sound.view]
 
@@ -270,7 +271,7 @@ class Page:
         slider = self.controls.sliders.get(self.eigen.parameter.value)
         if slider is None or self.state.study._native.kind != "system":
             return
-        one: Knob = slider.knob
+        one = within(self.state.study, slider.knob)
         ends = (one.given(one.start), one.given(one.stop))
         self.eigen.picture.mark(one.value)
         self.maps.submit("eigenvalues", self.state.study, one.path, *ends)
