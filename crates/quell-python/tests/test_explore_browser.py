@@ -193,6 +193,11 @@ def test_discs_and_systems_are_shown_and_nothing_fails(belt_page: Page) -> None:
     assert belt_page.explorer.study == quell.Study.from_toml(STUDIES / "two-mass-drive.toml")
     belt_page.page.locator(".quell-undo button").click()
     belt_page.wait("quell-averaged", lambda it: "the disc is unstable" in it)
+    # A page that is loaded again begins with the same study.
+    belt_page.page.reload()
+    belt_page.page.wait_for_selector(".quell-motion", timeout=1e3 * LIMIT)
+    belt_page.page.evaluate(TOOLS)
+    belt_page.wait("quell-averaged", lambda it: "the disc is unstable" in it)
     assert [it for it in belt_page.errors if "favicon" not in it and "404" not in it] == []
 
 

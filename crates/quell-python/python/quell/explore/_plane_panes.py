@@ -149,7 +149,7 @@ class PlanePane(Pane):
         largest = float(np.abs(finite).max(initial=0.0))
         unit = f" {answer['unit']}" if answer["unit"] else ""
         self._scale = f"Growth rate: blue decays, red grows, up to {largest:.3g}{unit}. "
-        tongues = f"Dotted: speeds at which waves meet; {len(answer['tongues'])} meetings can be unstable. " if answer["tongues"] else ""
+        tongues = "Dotted: speeds at which waves meet and can become unstable. Bars: their tongues at the numbers of the study. " if answer["tongues"] else ""
         self.sentence.object = words(f"{self._scale}Dashed: threshold of the map. {tongues}Click to go there.", TEXT - 1)
 
     def show_curves(self, answer: dict[str, Any]) -> None:
