@@ -215,6 +215,16 @@ def span(value: float, low: float | None, high: float | None, positive: bool, wh
     return rounded(start), rounded(stop), logarithmic
 
 
+def kept(study: Study, old: Knob) -> Knob | None:
+    """A number as it is in a study, with the ends that its slider had if they contain it; ``None`` if it is not there."""
+    now = knob(study, old.path, study.settings.get(old.path))
+    if now is None:
+        return None
+    if old.start <= now.value <= old.stop:
+        now = replace(now, start=old.start, stop=old.stop, logarithmic=old.logarithmic)
+    return replace(now, twin=old.twin)
+
+
 def within(study: Study, one: Knob) -> Knob:
     """The slider with ends at which the study is valid: relations between numbers may refuse some of its range."""
     ends = []

@@ -15,7 +15,7 @@ from . import _zoo
 from ._controls import Controls
 from ._files import Downloads
 from ._lanes import Event, Here, Lane, Process
-from ._numbers import knobs, within
+from ._numbers import Knob, kept, knobs, within
 from ._panes import EigenPane, LawPane, MotionPane, SoundPane, SpectrumPane, Verdict, headed, words
 from ._plane_panes import ACROSS, BasinsPane, PlanePane, preferred
 from ._share import commands, python, toml
@@ -43,6 +43,7 @@ class Page:
         self._document = pn.state.curdoc
         self._closed = False
         self._later: Any = None
+        self._offered: dict[str, Knob] = {}
         self._events: deque[Event] = deque()
         self.fast = Lane(self._deliver, Here())
         self.exact = Lane(self._deliver, Process(2))
@@ -61,6 +62,7 @@ class Page:
         self.side = pn.Column(self._zoo(), self.controls.view, width=SIDE + 12, stylesheets=[STICKY], css_classes=["quell-side"])
         self.right = pn.FlexBox(align_items="flex-start", justify_content="flex-start", gap="8px")
         self.view = self._layout()
+        self._shown_shape = self.controls.shape(state.study)
         self._fill()
         self.refresh()
 
@@ -124,11 +126,11 @@ class Page:
             self.basins.offer(kind)
             panes.append(self.basins.view)
         if kind == "system":
-            offered = {name: it for name, it in numbers.items() if not it.whole and not it.suffix}
-            chosen = preferred(offered, ACROSS, None)
+            self._offered = {name: it for name, it in numbers.items() if not it.whole and not it.suffix}
+            chosen = preferred(self._offered, ACROSS, None)
             self.eigen.parameter.param.update(
-                options={name: it.path for name, it in offered.items()},
-                value=None if chosen is None else offered[chosen].path,
+                options={name: it.path for name, it in self._offered.items()},
+                value=None if chosen is None else self._offered[chosen].path,
             )
             panes += [self.eigen.view, self._sketch()]
         self.right[:] = [*panes, self.sound.view]
@@ -182,16 +184,14 @@ class Page:
 
     def _went(self, done: bool) -> None:
         """Shows the numbers again after a change that was made elsewhere than at a slider."""
-        if done:
-            old = self._kind_and_shape
-            self.controls.show(self.state.study)
-            if self._kind_and_shape != old or self._shown_shape != self.controls.shape(self.state.study):
-                self._fill()
-        self._after(done)
-
-    @property
-    def _kind_and_shape(self) -> tuple[object, ...]:
-        return (self.state.study._native.kind,)
+        with pn.io.hold():
+            if done:
+                self.controls.show(self.state.study)
+                shape = self.controls.shape(self.state.study)
+                if self._shown_shape != shape:
+                    self._shown_shape = shape
+                    self._fill()
+            self._after(done)
 
     def _after(self, done: bool) -> None:
         self._complain()
@@ -226,7 +226,6 @@ class Page:
         self._later = None
         study = self.state.study
         with pn.io.hold():
-            self._shown_shape = self.controls.shape(study)
             self.title.object = words(study.title or "A study without a title", TEXT + 5, weight=700)
             self.request_plane()
             if study._native.kind == "belt":
@@ -268,10 +267,11 @@ class Page:
 
     def request_eigenvalues(self) -> None:
         """Asks for the eigenvalues over the chosen parameter."""
-        slider = self.controls.sliders.get(self.eigen.parameter.value)
-        if slider is None or self.state.study._native.kind != "system":
+        old = next((it for it in self._offered.values() if it.path == self.eigen.parameter.value), None)
+        now = None if old is None else kept(self.state.study, old)
+        if now is None or self.state.study._native.kind != "system":
             return
-        one = within(self.state.study, slider.knob)
+        one = within(self.state.study, now)
         ends = (one.given(one.start), one.given(one.stop))
         self.eigen.picture.mark(one.value)
         self.maps.submit("eigenvalues", self.state.study, one.path, *ends)

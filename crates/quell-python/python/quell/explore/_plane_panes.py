@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +12,7 @@ from .._study import Study
 from .._tables import Number
 from ._figures import labelled
 from ._lanes import Event
-from ._numbers import Knob, knob, within
+from ._numbers import Knob, kept, within
 from ._panes import MARGIN, Pane, legend_of, time_words, words
 from ._planes import Basins, Plane
 from ._style import TEXT, WIDTH
@@ -92,11 +91,9 @@ class PlanePane(Pane):
         found = []
         for select in (self.across, self.up):
             old = self._numbers.get(select.value)
-            now = None if old is None else knob(study, old.path, study.settings.get(old.path))
-            if old is None or now is None:
+            now = None if old is None else kept(study, old)
+            if now is None:
                 return None
-            if old.start <= now.value <= old.stop:
-                now = replace(now, start=old.start, stop=old.stop, logarithmic=old.logarithmic)
             found.append(within(study, now))
         return (found[0], found[1]) if found[0].path != found[1].path else None
 
