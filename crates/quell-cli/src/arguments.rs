@@ -7,7 +7,7 @@ use quell::input::Inputs;
 use quell::kind::verbs;
 use quell::outcome::Outcome;
 use quell::output::Output;
-use quell::picture::{self, EXTENSIONS};
+use quell::picture::{self, EXTENSIONS, PicturePage, PictureWidth};
 use quell::plot::Figure;
 use quell::study::document::Node;
 use quell::{Change, Complaint, Failure, Fault, Origin, Study};
@@ -73,8 +73,14 @@ pub(crate) fn inputs(study: Option<&Study>) -> Inputs {
 #[derive(Debug, Args)]
 pub(crate) struct PlotArguments {
     /// Draws the answer into a picture file
-    #[arg(long, value_name = "FILE.svg|.png")]
+    #[arg(long, value_name = "FILE.svg|.pdf|.png")]
     plot: Option<PathBuf>,
+    /// Width of the picture with its unit, such as 85mm for the column of a journal [default: suits its panels]
+    #[arg(long, value_name = "LENGTH", requires = "plot", allow_hyphen_values = true)]
+    width: Option<String>,
+    /// Draws the caption below the picture [default: only in the answer]
+    #[arg(long, requires = "plot")]
+    caption: bool,
 }
 
 impl PlotArguments {
@@ -85,9 +91,11 @@ impl PlotArguments {
 
     /// Checks that the picture can be written and does not replace one of the inputs.
     pub(crate) fn prepare(&self, inputs: &Inputs) -> Result<Plot, Failure> {
+        let width = self.width.as_deref().map(|text| PictureWidth::parse(text, "--width"));
+        let page = PicturePage { width: width.transpose()?, caption: self.caption };
         let prepare = |path| Output::prepare(path, "--plot", EXTENSIONS, inputs);
         let output = self.plot.as_deref().map(prepare);
-        Ok(Plot { output: output.transpose()? })
+        Ok(Plot { output: output.transpose()?, page })
     }
 }
 
@@ -95,6 +103,7 @@ impl PlotArguments {
 #[derive(Debug)]
 pub(crate) struct Plot {
     output: Option<Output>,
+    page: PicturePage,
 }
 
 impl Plot {
@@ -113,7 +122,7 @@ impl Plot {
 
     /// No picture.
     pub(crate) fn none() -> Self {
-        Self { output: None }
+        Self { output: None, page: PicturePage::default() }
     }
 
     /// Draws the picture of an outcome and adds its path to the object.
@@ -125,7 +134,7 @@ impl Plot {
     fn drawn(self, outcome: &dyn Outcome) -> Result<Drawn, Failure> {
         let Some(output) = self.output else { return Ok(Drawn(None)) };
         let figure = outcome.figure().unwrap_or_else(|| Err(no_picture()));
-        Ok(Drawn(Some((figure?, output))))
+        Ok(Drawn(Some((self.page.laid_out(figure?), output))))
     }
 }
 
@@ -133,10 +142,11 @@ impl Plot {
 struct Drawn(Option<(Figure, Output)>);
 
 impl Drawn {
-    /// Writes the picture and adds its path to the object.
+    /// Writes the picture and adds its path and its caption to the object.
     fn write(self, object: &mut Json) -> Result<(), Failure> {
         if let Some((figure, output)) = self.0 {
             object["plotted"] = picture::write(&figure, output)?.into();
+            object["caption"] = figure.plain_caption().into();
         }
         Ok(())
     }
@@ -238,7 +248,18 @@ pub(crate) fn answer(
     let drawn = plot.drawn(outcome)?;
     outputs.write(outcome, &mut object)?;
     drawn.write(&mut object)?;
-    Ok(Answer::new(json, &object, || outcome.text()))
+    Ok(Answer::new(json, &object, || with_caption(outcome.text(), &object)))
+}
+
+/// The text of an answer, followed by the caption of its picture if there is one.
+pub(crate) fn with_caption(text: String, object: &Json) -> String {
+    match object["caption"].as_str() {
+        Some(caption) if !caption.is_empty() => {
+            let picture = object["plotted"].as_str().unwrap_or_default();
+            format!("{text}Caption of {picture}: {caption}\n")
+        }
+        _ => text,
+    }
 }
 
 /// Complaints collected from several arguments, to be reported together.

@@ -50,6 +50,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 &[
                     "quell friction own-law.toml --at 0,0.05,0.1",
                     "quell friction measured-law.toml --plot friction.svg",
+                    "quell friction quench.toml --measured --at 0.02,0.05,0.1",
                 ],
             ),
             (

@@ -83,6 +83,15 @@ pub struct SiTwin {
     pub unit: &'static str,
     /// Whether it is a root mean square, which the waveform converts to a peak.
     pub rms: bool,
+    /// Symbol and description in SI where they differ from those of the parameter: A, a force, instead of D = A/k.
+    pub own: Option<(&'static str, &'static str)>,
+}
+
+impl SiTwin {
+    /// The same key with a symbol and a description of its own.
+    const fn named(self, symbol: &'static str, about: &'static str) -> Self {
+        Self { own: Some((symbol, about)), ..self }
+    }
 }
 
 /// An interval of finite numbers.
@@ -140,7 +149,7 @@ impl fmt::Display for Bounds {
 }
 
 const fn si(key: &'static str, unit: &'static str) -> SiTwin {
-    SiTwin { key, unit, rms: false }
+    SiTwin { key, unit, rms: false, own: None }
 }
 
 /// Damping ratio.
@@ -150,27 +159,27 @@ pub const DAMPING_RATIO: Parameter = Parameter {
     about: "damping ratio c/(2mω₀)",
     quantity: Quantity::DampingRatio,
     bounds: Bounds::NOT_NEGATIVE,
-    si: &[si("damping_n_s_per_m", "N·s/m")],
+    si: &[si("damping_n_s_per_m", "N·s/m").named("c", "damping coefficient")],
 };
 
 /// Normal load.
 pub const NORMAL_LOAD: Parameter = Parameter {
     path: "belt.normal_load",
     symbol: "F",
-    about: "steady normal load N₀/k, a length",
+    about: "steady normal load N₀/k",
     quantity: Quantity::Force,
     bounds: Bounds::POSITIVE,
-    si: &[si("normal_force_n", "N")],
+    si: &[si("normal_force_n", "N").named("N₀", "steady normal load")],
 };
 
 /// Belt velocity.
 pub const BELT_VELOCITY: Parameter = Parameter {
     path: "belt.belt_velocity",
     symbol: "v₀",
-    about: "belt velocity V₀/ω₀, a length",
+    about: "belt velocity V₀/ω₀",
     quantity: Quantity::Velocity,
     bounds: Bounds::NOT_NEGATIVE,
-    si: &[si("belt_velocity_m_per_s", "m/s")],
+    si: &[si("belt_velocity_m_per_s", "m/s").named("V₀", "belt velocity")],
 };
 
 /// Initial displacement.
@@ -268,10 +277,13 @@ pub const MAXIMUM_VELOCITY: Parameter = Parameter {
 pub const DITHER_AMPLITUDE: Parameter = Parameter {
     path: "dither.amplitude",
     symbol: "D",
-    about: "peak dither force A/k, a length",
+    about: "peak dither force A/k",
     quantity: Quantity::Force,
     bounds: Bounds::NOT_NEGATIVE,
-    si: &[si("amplitude_n", "N"), SiTwin { key: "amplitude_n_rms", unit: "N (rms)", rms: true }],
+    si: &[
+        si("amplitude_n", "N").named("A", "peak dither force"),
+        SiTwin { rms: true, ..si("amplitude_n_rms", "N (rms)").named("A_{rms}", "dither force") },
+    ],
 };
 
 /// Dither frequency over the natural frequency.
@@ -283,7 +295,7 @@ pub const DITHER_FREQUENCY_RATIO: Parameter = Parameter {
     // Time of a run and memory of its record grow with R: beyond this a slow period alone takes minutes, and the response
     // differs from the limit of high frequency by less than 10⁻¹⁰.
     bounds: Bounds { lower: 0.0, lower_included: false, upper: 1e5 },
-    si: &[si("frequency_hz", "Hz")],
+    si: &[si("frequency_hz", "Hz").named("f", "dither frequency")],
 };
 
 /// Dither phase.
@@ -313,7 +325,7 @@ pub const SETTLE: Parameter = Parameter {
     about: "time discarded before a response is measured",
     quantity: Quantity::Time,
     bounds: Bounds { lower: 0.0, lower_included: true, upper: 1e9 },
-    si: &[si("settle_s", "s")],
+    si: &[si("settle_s", "s").named("t_s", "time discarded before a response is measured")],
 };
 
 /// Length of the record.

@@ -228,7 +228,7 @@ fn lay_out_panel(
         y_ticks,
         x_numbers,
         y_numbers,
-        x_label: label(x_numbers, panel.x.label(), frame.0 + 30.0),
+        x_label: label(x_numbers, panel.x.label(), frame.0 + 1.6 * EDGE),
         y_label: label(y_numbers, panel.y.label(), frame.1 + 30.0),
         title: lines(&panel.title, sizes.title, false, frame.0),
         y_label_distance: NUMBER_GAP + widest + LABEL_GAP + 0.2 * f64::from(sizes.label),

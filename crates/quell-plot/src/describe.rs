@@ -10,7 +10,7 @@ use super::arrange::arrange;
 use super::axis::{PlotAxis, Scale};
 use super::canvas::Rectangle;
 use super::colouring::{Colouring, Spread};
-use super::figure::{Figure, Legend, LegendPosition, Panel, SharedLegend};
+use super::figure::{CaptionPlacement, Figure, Legend, LegendPosition, Panel, SharedLegend};
 use super::layer::{
     Layer, Marker, Note, Orientation, Points, Polyline, ReferenceLine, Region, RegionShape,
 };
@@ -37,7 +37,10 @@ impl Figure {
         let sizes = layout.sizes;
         json!({
             "title": self.title,
-            "caption": self.caption,
+            "caption": match self.caption_placement {
+                CaptionPlacement::Below => self.caption.as_str(),
+                CaptionPlacement::Apart => "",
+            },
             "columns": self.columns,
             "legend": match self.legend {
                 SharedLegend::None => "none",
@@ -202,7 +205,11 @@ fn described_heatmap(heatmap: &Heatmap) -> Json {
             let below = shading.below.as_ref().map(|(limit, under)| {
                 json!({ "limit": limit, "label": under.label, "colour": hex(under.colour()) })
             });
+            let signs = shading.sign_keys().map(|key| {
+                key.map(|(label, colour)| json!({ "label": label, "colour": hex(colour) }))
+            });
             json!({
+                "signs": signs,
                 "shades": shades,
                 "range": [colour_map.range.0, colour_map.range.1],
                 "spread": spread,

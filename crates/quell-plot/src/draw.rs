@@ -42,6 +42,14 @@ fn draw_outer(canvas: &mut Canvas, layout: &FigureLayout) {
             bold: true,
             ..TextStyle::new(layout.sizes.figure_title, TextAnchor::Middle)
         };
+        // A title wider than the frames is centred between the edges instead.
+        let half = 0.5 * line.width(size, true);
+        let outermost = (10.0 + half, layout.width - 10.0 - half);
+        let middle = if outermost.0 <= outermost.1 {
+            middle.clamp(outermost.0, outermost.1)
+        } else {
+            0.5 * layout.width
+        };
         canvas.text(line, (middle, baseline), setting);
     }
     let room = layout.body.1 - layout.body.0;
@@ -331,7 +339,7 @@ fn draw_outlined_text(
 ) {
     let setting = TextStyle { colour, ..TextStyle::new(sizes.note, TextAnchor::Start) };
     canvas.begin_group(
-        "stroke=\"#fff\" stroke-width=\"2.5\" stroke-opacity=\"0.75\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
+        "stroke=\"#fff\" stroke-width=\"3\" stroke-opacity=\"0.9\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
     );
     canvas.text(
         &RichText::parse(text),

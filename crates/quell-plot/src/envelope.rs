@@ -47,21 +47,35 @@ pub(super) fn traces(points: &[(f64, f64)]) -> Vec<Trace> {
     traces
 }
 
-/// Indices of the points at which the curve turns from rising to falling or back, with both ends.
+/// Indices of the points at which the curve turns from rising to falling or back, with both ends. Reversals by less than
+/// [`LEAST_SWING`] are passed over.
 fn extremes(points: &[(f64, f64)]) -> Vec<usize> {
     let mut found = vec![0];
-    let mut direction = 0.0_f64;
-    for index in 1..points.len() {
-        let step = points[index].1 - points[index - 1].1;
-        if step == 0.0 {
-            continue;
+    // The lowest and the highest point since the last extreme.
+    let (mut lowest, mut highest) = (0, 0);
+    let mut rising: Option<bool> = None;
+    for (index, point) in points.iter().enumerate() {
+        if point.1 < points[lowest].1 {
+            lowest = index;
         }
-        if direction * step < 0.0 {
-            found.push(index - 1);
+        if point.1 > points[highest].1 {
+            highest = index;
         }
-        direction = step;
+        let has_risen = point.1 - points[lowest].1 >= LEAST_SWING;
+        let has_fallen = points[highest].1 - point.1 >= LEAST_SWING;
+        let turned = match rising {
+            None if has_risen || has_fallen => Some((has_risen, None)),
+            Some(true) if has_fallen => Some((false, Some(highest))),
+            Some(false) if has_risen => Some((true, Some(lowest))),
+            _ => None,
+        };
+        if let Some((up, extreme)) = turned {
+            found.extend(extreme.filter(|extreme| *extreme > 0));
+            rising = Some(up);
+            (lowest, highest) = (index, index);
+        }
     }
-    if points.len() > 1 {
+    if points.len() > 1 && found.last() != Some(&(points.len() - 1)) {
         found.push(points.len() - 1);
     }
     found
@@ -73,7 +87,7 @@ fn dense_runs(points: &[(f64, f64)], extremes: &[usize]) -> Vec<(usize, usize)> 
         .windows(2)
         .map(|pair| {
             let (from, to) = (points[pair[0]], points[pair[1]]);
-            to.0 - from.0 < MERGING && (to.1 - from.1).abs() >= LEAST_SWING
+            to.0 - from.0 < MERGING
         })
         .collect();
     let mut runs = Vec::new();

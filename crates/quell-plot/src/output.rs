@@ -26,8 +26,8 @@ impl Figure {
         png(&self.to_svg())
     }
 
-    /// Renders the figure as PDF: one page of the figure's size, with curves and text as vectors and its fonts embedded.
-    /// Equal figures give equal bytes.
+    /// Renders the figure as PDF: one page of the figure's size, with curves and text as vectors and its fonts embedded. Equal
+    /// figures give equal pages; the order of the objects in the file may differ.
     ///
     /// # Errors
     /// [`PlotError::Page`] when the figure cannot be converted.

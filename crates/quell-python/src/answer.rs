@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use quell::dataset::Dataset;
 use quell::outcome::Outcome;
 use quell::output::Output;
-use quell::picture::{self, EXTENSIONS};
+use quell::picture::{self, EXTENSIONS, PicturePage, PictureWidth};
 use quell::plot::Figure;
 use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
@@ -56,9 +56,18 @@ impl NativeAnswer {
     }
 
     /// The picture as data, for matplotlib.
-    fn description(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+    #[pyo3(signature = (width=None, caption=false))]
+    fn description(
+        &self,
+        py: Python<'_>,
+        width: Option<String>,
+        caption: bool,
+    ) -> PyResult<Py<PyAny>> {
         let inner = Self { inner: Arc::clone(&self.inner) };
-        let data = call::run(py, move || Ok(inner.figure()?.described()))?;
+        let data = call::run(py, move || {
+            let page = page(width.as_deref(), caption)?;
+            Ok(page.laid_out(inner.figure()?).described())
+        })?;
         convert::to_python(py, &data)
     }
 
@@ -69,11 +78,19 @@ impl NativeAnswer {
     }
 
     /// Writes the picture.
-    fn picture(&self, py: Python<'_>, path: PathBuf) -> PyResult<String> {
+    #[pyo3(signature = (path, width=None, caption=false))]
+    fn picture(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        width: Option<String>,
+        caption: bool,
+    ) -> PyResult<String> {
         let inner = Self { inner: Arc::clone(&self.inner) };
         call::run(py, move || {
+            let page = page(width.as_deref(), caption)?;
             let output = Output::prepare(&path, "path", EXTENSIONS, &inner.inner.inputs())?;
-            picture::write(&inner.figure()?, output)
+            picture::write(&page.laid_out(inner.figure()?), output)
         })
     }
 
@@ -117,4 +134,10 @@ impl NativeAnswer {
             Ok(saved)
         })
     }
+}
+
+/// The page of a picture from the arguments of Python.
+fn page(width: Option<&str>, caption: bool) -> Result<PicturePage, Failure> {
+    let width = width.map(|text| PictureWidth::parse(text, "width")).transpose()?;
+    Ok(PicturePage { width, caption })
 }

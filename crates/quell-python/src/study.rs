@@ -176,16 +176,18 @@ impl NativeStudy {
     }
 
     /// `at`: slip velocities in the units of the study; `texts`: slip velocities with units. If both are empty, a grid is used.
-    #[pyo3(signature = (at, texts))]
+    /// `measured`: whether friction is also measured on steady responses.
+    #[pyo3(signature = (at, texts, measured))]
     fn friction(
         &self,
         py: Python<'_>,
         at: Option<PyReadonlyArray1<'_, f64>>,
         texts: Vec<String>,
+        measured: bool,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
         let at = at.map(|at| at.as_array().to_vec());
-        call::run(py, move || friction::run(&study, at, &texts))
+        call::run(py, move || friction::run(&study, at, &texts, measured))
     }
 
     /// `exact`: whether Floquet exponents of a dithered system decide.

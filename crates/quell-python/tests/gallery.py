@@ -137,6 +137,7 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "cite": lambda: belt().cite(),
     "friction": lambda: belt().friction(),
     "friction in SI": lambda: belt_in_si().friction(),
+    "friction measured": lambda: belt().friction(at=[0.02, 0.1], measured=True),
     "stability": lambda: belt().stability(),
     "stability in SI": lambda: belt_in_si().stability(),
     "stability without dither": lambda: study("does-it-squeal").stability(),

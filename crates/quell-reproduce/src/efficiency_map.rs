@@ -103,7 +103,8 @@ fn figure(source: &EntrySource, cases: &[MapPanel], columns: usize) -> Result<Pr
                 case.belt_velocity
             )),
         };
-        let panel = panel(source, &study, &done, lines)?;
+        let ends_a_row = index % columns == columns - 1 || index == cases.len() - 1;
+        let panel = panel(source, &study, &done, lines, ends_a_row)?;
         panels.push(match title {
             Some(title) => panel.title(title).legend(Legend::None),
             None => panel.legend(Legend::Above),
@@ -185,10 +186,10 @@ fn boundary(done: &FinishedMap, panel: &str, table: &mut DataTable) -> Vec<Polyl
     for boundary in boundaries(grid) {
         let (name, label, role, style) = match boundary.response {
             FastResponse::Limit => {
-                ("averaging", "averaging, $D$ = $α^*R$", PlotRole::Boundary, LineStyle::Solid)
+                ("averaging", "averaging, $D$ = $α^*R$", PlotRole::Averaged, LineStyle::DashDotted)
             }
             FastResponse::Oscillator => {
-                ("sharper", "with the exact fast motion", PlotRole::Exact, LineStyle::Dashed)
+                ("sharper", "finite-$R$ averaging", PlotRole::Averaged, LineStyle::ShortDashed)
             }
         };
         if boundary.becomes != Becomes::Stable {
@@ -209,6 +210,7 @@ fn panel(
     study: &BeltStudy,
     done: &FinishedMap,
     lines: Vec<Polyline>,
+    bar: bool,
 ) -> Result<Panel, Failure> {
     let grid = done.plan().grid();
     let entry = &done.plan().sheet().entries()[0];
@@ -239,9 +241,10 @@ fn panel(
         kind: MapKind::Efficiency,
         values: (0..grid.len()).map(value).collect(),
         reasons: unknown.iter().map(|status| status.about().to_owned()).collect(),
+        zero: None,
         over: lines.into_iter().map(Into::into).collect(),
     };
-    picture::map_panel(&map, false).map_err(|error| failed(source.name, &error))
+    picture::map_panel(&map, bar).map_err(|error| failed(source.name, &error))
 }
 
 fn caption(source: &EntrySource, study: &BeltStudy) -> String {
@@ -259,8 +262,8 @@ fn caption(source: &EntrySource, study: &BeltStudy) -> String {
     };
     format!(
         "Figure {}. Residual vibration $E$ (2.27) under {direction} dither with the {} law, from rest: contours in per cent. \
-         Solid: averaged boundary $D$ = $α^*R$, which the dissertation compares with $E$ = {FIVE_PER_CENT} %; dashed: with the \
-         exact fast motion of the oscillator. $ζ$ = {}, {}. Record: $τ$ < {} discarded, {} slow periods, mean removed, Hann \
+         Dash-dotted: averaged boundary $D$ = $α^*R$, which the dissertation compares with $E$ = {FIVE_PER_CENT} %; dashed: \
+         finite-$R$ averaging, with the exact fast motion of the oscillator. $ζ$ = {}, {}. Record: $τ$ < {} discarded, {} slow periods, mean removed, Hann \
          window; the dissertation specifies neither its record nor the ranges of its axes.{closing}",
         source.name,
         law_name(belt.friction().kind()),

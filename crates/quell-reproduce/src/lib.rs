@@ -27,6 +27,7 @@ use std::time::Instant;
 use serde_json::{Value as Json, json};
 
 use quell::complaint::{Complaint, Complaints, Failure};
+use quell::picture::PicturePage;
 use quell::study::suggest;
 
 mod amplitude_columns;
@@ -142,8 +143,7 @@ pub struct Reproduction {
 impl Reproduction {
     /// Claims whose verdict is not the expected one.
     pub fn changed(&self) -> Vec<&claims::Claim> {
-        let claims = self.written.iter().flat_map(|done| &done.product.claims);
-        claims.filter(|claim| !claim.as_expected()).collect()
+        self.claims().filter(|claim| !claim.as_expected()).collect()
     }
 
     /// A warning for each claim whose verdict is not the expected one.
@@ -153,6 +153,17 @@ impl Reproduction {
             format!("{}: {}, expected: {expected}", claim.name, claim.verdict)
         };
         self.changed().into_iter().map(warning).collect()
+    }
+
+    /// The claims of the entries that were written.
+    fn claims(&self) -> impl Iterator<Item = &claims::Claim> {
+        self.written.iter().flat_map(|done| &done.product.claims)
+    }
+
+    /// How many statements of the dissertation hold, in one sentence; `None` if no claim was measured.
+    pub fn summary(&self) -> Option<String> {
+        let statements = claims::statements(self.claims());
+        (!statements.is_empty()).then(|| claims::summary(&statements))
     }
 
     /// As JSON, for files written to `directory`.
@@ -165,6 +176,7 @@ impl Reproduction {
             "table": self.table.display().to_string(),
             "quick": resolution == Resolution::Quick,
             "entries": entries,
+            "summary": self.summary(),
             "warnings": self.warnings(),
         })
     }
@@ -179,6 +191,7 @@ pub fn run(
     entries: &[CatalogueEntry],
     directory: &Path,
     resolution: Resolution,
+    page: PicturePage,
     progress: impl Fn(EntryProgress) + Sync,
 ) -> Result<Reproduction, Failure> {
     write::prepare(directory)?;
@@ -192,7 +205,7 @@ pub fn run(
         while let Some(&index) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
             let entry = &entries[index];
             progress(EntryProgress::Begun(entry));
-            let outcome = one(entry, directory, resolution, &shared);
+            let outcome = one(entry, directory, (resolution, page), &shared);
             match &outcome {
                 Ok(written) => progress(EntryProgress::Done(written)),
                 Err(_) => next.store(entries.len(), Ordering::Relaxed),
@@ -221,11 +234,11 @@ pub fn run(
 fn one(
     entry: &CatalogueEntry,
     directory: &Path,
-    resolution: Resolution,
+    (resolution, page): (Resolution, PicturePage),
     shared: &SharedMeasurements,
 ) -> Result<WrittenEntry, Failure> {
     let began = Instant::now();
     let product = entry.at(resolution, shared)?;
-    let files = write::product(&product, &entry.stem(), directory)?;
+    let files = write::product(&product, &entry.stem(), directory, page)?;
     Ok(WrittenEntry { entry: *entry, files, product, elapsed: began.elapsed() })
 }

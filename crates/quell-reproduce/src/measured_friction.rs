@@ -1,13 +1,24 @@
-//! Figures 4.5 and 4.6: effective friction measured on trajectories under normal dither (4.30), (4.31).
+//! Figures 4.5 and 4.6: effective friction measured on responses under normal dither (4.30), (4.31), in two readings.
 //!
-//! The dissertation does not specify the trajectories. Here they are free decays from the study's displacements at its belt
-//! velocities. Means over windows of one dither period without sticking, and their medians in bins of the slip velocity, are
-//! compared with the averaging approximation with both terms of (4.23) and with the law itself. Windows across which the slow
-//! velocity changes by more than 0.02 are excluded, because averaging assumes that it is constant.
+//! The text says "over one period of the fundamental frequency when the self-excited oscillations have been canceled and the system
+//! is in its steady state", and shows only windows without stick. Its trajectories are not specified.
+//!
+//! * Steady responses: at each slip velocity the belt moves at it, and f/N is averaged over one period of the dither of the response
+//!   that continues steady sliding, stick included. This reading has values at all slip velocities, also below the maximum, where
+//!   every period sticks.
+//! * Free decays from the study's displacements at its belt velocities: means over windows of one dither period without stick, and
+//!   their medians in bins of the slip velocity. Windows across which the slow velocity changes by more than 0.02 are excluded,
+//!   because averaging assumes that it is constant. Without the windows that stick, little is left below the maximum.
+//!
+//! Both are compared with the averaging approximation with both terms of (4.23) and with the law itself.
 
-use quell_dynamics::response::{WindowMean, measured_effective_friction};
+use quell_dynamics::response::{
+    WindowMean, measured_effective_friction, steady_effective_friction,
+};
 use quell_dynamics::simulation::Start;
 use quell_linear::averaging::{AveragingOptions, FastMotion, NormalOrder, effective};
+use quell_model::Belt;
+use rayon::prelude::*;
 
 use super::axis::values;
 use super::caption::{law_name, letter, parameters};
@@ -19,14 +30,15 @@ use quell::complaint::Failure;
 use quell::plot::{
     Figure, Panel, PlotAxis, PlotRole, Points, Polyline, SharedLegend, Sharing, Size,
 };
-use quell::study::BeltStudy;
 
 /// Duration of a decay.
 const DURATION: f64 = 40.0;
 /// Window edges per dither period.
 const WINDOWS_PER_PERIOD: usize = 8;
 /// Width of a bin of the slip velocity.
-pub(super) const BIN: f64 = 0.004;
+const BIN: f64 = 0.004;
+/// Tolerance of the period over which a steady response is averaged.
+pub(super) const TOLERANCE: f64 = 1e-12;
 /// Smallest number of windows in a bin that is shown.
 const FEWEST: usize = 5;
 /// Largest change of the slow slip velocity across a window that counts.
@@ -35,14 +47,18 @@ const DRIFT: f64 = 0.02;
 const TO: f64 = 0.3;
 const POINTS: u32 = 300;
 
-/// One panel: the measurement, and the averaging approximation.
+/// One panel: the measurements, and the averaging approximation.
 pub(super) struct FrictionPanel {
     /// D_N.
     pub(super) amplitude: f64,
-    /// Windows with positive slip.
+    /// The belt with this dither.
+    pub(super) belt: Belt,
+    /// (v_r, ⟨f/N⟩, fraction of the period in stick) of steady responses; where there is none, the point is missing.
+    pub(super) steady: Vec<(f64, f64, f64)>,
+    /// Windows of the decays with positive slip and without stick.
     windows: Vec<WindowMean>,
     /// (v_r, median of f/N, number of windows) of each bin.
-    pub(super) bins: Vec<(f64, f64, usize)>,
+    bins: Vec<(f64, f64, usize)>,
     /// (v_r, μ̄) of the averaging approximation.
     pub(super) averaged: Vec<(f64, f64)>,
 }
@@ -75,10 +91,25 @@ pub(super) fn cases(source: &EntrySource) -> Result<Vec<FrictionPanel>, Failure>
             }
             windows.retain(|window| {
                 let slow = window.drift.is_some_and(|drift| drift.abs() < DRIFT);
-                slow && window.slip_velocity > 0.0 && window.slip_velocity < TO
+                window.stick_fraction == 0.0
+                    && slow
+                    && window.slip_velocity > 0.0
+                    && window.slip_velocity < TO
             });
-            let averaged = averaged(source, &study.with("dither.amplitude", amplitude)?)?;
-            Ok(FrictionPanel { amplitude, bins: medians(&windows), windows, averaged })
+            let belt = study.with("dither.amplitude", amplitude)?.belt().clone();
+            let steady = grid().into_par_iter().filter_map(|v| {
+                let found = steady_effective_friction(&belt, v, TOLERANCE).ok()?;
+                Some((v, found.coefficient, found.stick_fraction))
+            });
+            let (steady, averaged) = (steady.collect(), averaged(source.name, &belt)?);
+            Ok(FrictionPanel {
+                amplitude,
+                belt,
+                steady,
+                bins: medians(&windows),
+                windows,
+                averaged,
+            })
         })
         .collect()
 }
@@ -86,25 +117,36 @@ pub(super) fn cases(source: &EntrySource) -> Result<Vec<FrictionPanel>, Failure>
 pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let law = study.belt().friction();
-    let mut bins = DataTable::new(
+    let mut steady = DataTable::new(
         "",
         &[
             ("amplitude", "length (force/k)"),
             ("slip_velocity", "length (velocity/ω0)"),
             ("measured_coefficient", "1"),
-            ("windows", "1"),
+            ("stick_fraction", "1"),
             ("averaged_coefficient", "1"),
             ("law_coefficient", "1"),
         ],
     );
+    let mut decays = DataTable::new(
+        "decays",
+        &[
+            ("amplitude", "length (force/k)"),
+            ("slip_velocity", "length (velocity/ω0)"),
+            ("measured_coefficient", "1"),
+            ("windows", "1"),
+        ],
+    );
     let mut panels = Vec::new();
     for (index, case) in cases(source)?.iter().enumerate() {
-        for &(v, median, count) in &case.bins {
+        for &(v, measured, stick) in &case.steady {
             let averaged = interpolated(&case.averaged, v);
-            bins.row(
-                [case.amplitude, v, median, count as f64, averaged, law.coefficient(v)]
-                    .map(Into::into),
+            steady.row(
+                [case.amplitude, v, measured, stick, averaged, law.coefficient(v)].map(Into::into),
             );
+        }
+        for &(v, median, count) in &case.bins {
+            decays.row([case.amplitude, v, median, count as f64].map(Into::into));
         }
         let law_curve = (0..=POINTS)
             .map(|k| TO * f64::from(k) / f64::from(POINTS))
@@ -122,19 +164,26 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
                     case.windows.iter().map(|w| (w.slip_velocity, w.coefficient)),
                 )
                 .size(1.2)
-                .label("single windows"),
+                .label("free decays, windows without stick"),
             )
             .with(
                 Polyline::new(PlotRole::Undithered, law_curve)
                     .label(format!("{} law", law_name(law.kind()))),
             )
             .with(
-                Points::new(PlotRole::Exact, case.bins.iter().map(|&(v, median, _)| (v, median)))
-                    .size(2.8)
-                    .label("simulation, medians"),
+                Points::new(
+                    PlotRole::Dithered,
+                    case.bins.iter().map(|&(v, median, _)| (v, median)),
+                )
+                .size(2.4)
+                .label("free decays, medians"),
             )
             .with(
                 Polyline::new(PlotRole::Averaged, case.averaged.iter().copied()).label("averaging"),
+            )
+            .with(
+                Polyline::new(PlotRole::Exact, case.steady.iter().map(|&(v, mean, _)| (v, mean)))
+                    .label("steady responses"),
             ),
         );
     }
@@ -146,10 +195,11 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let displacements = values(&study, "belt.initial.displacement");
     let caption = format!(
         "Figure {}. Effective friction with the {} law under sinusoidal normal dither: means of $f/N$ and of the slip velocity \
-         over one dither period of free decays from $x_0$ between {} and {} at {} belt velocities (4.30), (4.31); windows with \
-         sticking, and those across which the slow velocity changes by more than {DRIFT}, are excluded; dots are medians in \
-         bins of {BIN}. Solid: averaging with both terms of (4.23). $ζ$ = {}, $R_N$ = {}, {}. The dissertation does not \
-         specify the trajectories of its points.",
+         over one dither period (4.30), (4.31). Black: steady responses at belt velocities equal to the slip velocity, stick \
+         included, which need not be stable. Dots: free decays from $x_0$ between {} and {} at {} belt velocities, without windows \
+         that stick or across which the slow velocity changes by more than {DRIFT}, and medians in bins of {BIN}. Vermillion: \
+         averaging with both terms of (4.23). $ζ$ = {}, $R_N$ = {}, {}. The dissertation does not specify the trajectories of its \
+         points.",
         source.name,
         law_name(law.kind()),
         displacements.first().copied().unwrap_or_default(),
@@ -160,22 +210,27 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         parameters(&study),
     );
     let product = Product::new(figure, caption, &study);
-    Ok(product.by(&[Task::Simulate, Task::Friction]).table(bins))
+    Ok(product.by(&[Task::Simulate, Task::Friction]).table(steady).table(decays))
+}
+
+/// The slip velocities of the curves.
+fn grid() -> Vec<f64> {
+    (1..=POINTS).map(|k| TO * f64::from(k) / f64::from(POINTS)).collect()
 }
 
 /// μ̄(v) of (4.28) with φ′ of (4.23).
-fn averaged(source: &EntrySource, study: &BeltStudy) -> Result<Vec<(f64, f64)>, Failure> {
+fn averaged(name: &str, belt: &Belt) -> Result<Vec<(f64, f64)>, Failure> {
+    grid().into_iter().map(|v| Ok((v, averaged_at(name, belt, v)?))).collect()
+}
+
+/// The same at one slip velocity.
+pub(super) fn averaged_at(name: &str, belt: &Belt, v: f64) -> Result<f64, Failure> {
     let options =
         AveragingOptions { normal_order: NormalOrder::Second, ..AveragingOptions::default() };
-    (1..=POINTS)
-        .map(|k| {
-            let v = TO * f64::from(k) / f64::from(POINTS);
-            let found = FastMotion::of(study.belt(), v, options)
-                .and_then(|motion| effective(study.belt().friction(), &motion, v))
-                .map_err(|error| failed(source.name, &error))?;
-            Ok((v, found.coefficient))
-        })
-        .collect()
+    let found = FastMotion::of(belt, v, options)
+        .and_then(|motion| effective(belt.friction(), &motion, v))
+        .map_err(|error| failed(name, &error))?;
+    Ok(found.coefficient)
 }
 
 fn medians(windows: &[WindowMean]) -> Vec<(f64, f64, usize)> {

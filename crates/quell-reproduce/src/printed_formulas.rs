@@ -91,8 +91,14 @@ pub(super) fn upper_edge_347(law: LawNumbers, damping_ratio: f64, alpha: f64) ->
     law.vm * square.max(0.0).sqrt()
 }
 
-/// (3.44), (4.34): α^L, Stribeck law, sine (times μ(v₀) for normal dither). Wrong: a root inside the root.
+/// (3.44), (4.34): α^L, Stribeck law, sine (times μ(v₀) for normal dither), v_m√(2/3)√(1 − κ). Correct.
 pub(super) fn everywhere_344(law: LawNumbers, damping_ratio: f64) -> f64 {
+    law.vm * (2.0f64 / 3.0).sqrt() * (1.0 - law.kappa(damping_ratio)).sqrt()
+}
+
+/// The same in the optical reading of the print, with the second root inside the first: v_m√((2/3)√(1 − κ)). Wrong; a brace was
+/// probably lost in the reading.
+pub(super) fn everywhere_344_read(law: LawNumbers, damping_ratio: f64) -> f64 {
     law.vm * (2.0 / 3.0 * (1.0 - law.kappa(damping_ratio)).sqrt()).sqrt()
 }
 

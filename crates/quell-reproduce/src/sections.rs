@@ -19,7 +19,7 @@ use super::source::EntrySource;
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
-    Figure, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
+    Figure, Layer, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
     SharedLegend, Sharing, Size,
 };
 use quell::run;
@@ -33,6 +33,9 @@ const SAMPLES_PER_PERIOD: f64 = 12.0;
 
 /// Periods of the transient section from the start of the run, drawn as a grey trail.
 const TRANSIENT: usize = 900;
+
+/// Space on each side of the range of the sections, as a fraction of it.
+const MARGIN: f64 = 0.05;
 
 /// Largest number of states of a settled section that are drawn.
 const SETTLED: usize = 400;
@@ -98,6 +101,7 @@ fn of_waveforms(
         }
         panels.extend(rows.into_iter().flatten());
     }
+    common_range(&mut panels, columns);
     let figure = Figure::grid(columns, panels.into_iter().map(|panel| panel.legend(Legend::None)))
         .sharing_y(Sharing::Aligned)
         .legend(SharedLegend::Above)
@@ -108,6 +112,26 @@ fn of_waveforms(
         .table(summary)
         .table(sections)
         .table(DataTable::of_columns("history", histories)))
+}
+
+/// Gives all sections (every third row of panels) one range of x.
+fn common_range(panels: &mut [Panel], columns: usize) {
+    let is_section = |index: usize| index / columns % 3 == 2;
+    let states = panels
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| is_section(*index))
+        .flat_map(|(_, panel)| &panel.layers)
+        .filter_map(|layer| if let Layer::Points(points) = layer { Some(points) } else { None })
+        .flat_map(|points| points.points.iter().map(|point| point.0));
+    let range = states.fold(None, |range: Option<(f64, f64)>, x| {
+        Some(range.map_or((x, x), |(low, high)| (low.min(x), high.max(x))))
+    });
+    let Some((low, high)) = range else { return };
+    let margin = MARGIN * (high - low);
+    for (_, panel) in panels.iter_mut().enumerate().filter(|(index, _)| is_section(*index)) {
+        panel.x = panel.x.clone().between(low - margin, high + margin);
+    }
 }
 
 /// AmplitudeColumns of the table of sections.
@@ -188,7 +212,7 @@ fn drawn(
     let settled = case.attractor.as_ref().map_or(&[][..], |attractor| attractor.section.as_slice());
     let step = settled.len().div_ceil(SETTLED).max(1);
     let states: Vec<(f64, f64)> = settled.iter().step_by(step).copied().collect();
-    let (marker, size) = if states.len() == 1 { (Marker::Disc, 5.0) } else { (Marker::Disc, 1.8) };
+    let (marker, size) = if states.len() == 1 { (Marker::Disc, 6.0) } else { (Marker::Disc, 2.6) };
     let label = if case.quiet { "settles" } else { "vibrates" };
     let section = Panel::new(
         PlotAxis::new("displacement").symbol("x"),
@@ -196,7 +220,7 @@ fn drawn(
     )
     .with(
         Points::new(PlotRole::Guide, transient.iter().copied())
-            .size(1.2)
+            .size(2.0)
             .label("section from rest"),
     )
     .with(Points::new(role, states).marker(marker).size(size).label(label));

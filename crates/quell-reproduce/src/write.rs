@@ -1,4 +1,4 @@
-//! Files of a product: figure as SVG and PNG, data as CSV, claims as Markdown, JSON and CSV.
+//! Files of a product: figure as SVG, PDF and PNG, data as CSV, claims as Markdown, JSON and CSV.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,6 +8,7 @@ use super::product::Product;
 use quell::complaint::{Complaint, Failure, Fault, Origin};
 use quell::input::Inputs;
 use quell::output::Output;
+use quell::picture::PicturePage;
 
 const OPTION: &str = "--out";
 
@@ -35,6 +36,7 @@ pub(super) fn product(
     product: &Product,
     stem: &str,
     directory: &Path,
+    page: PicturePage,
 ) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     let mut put = |name: String, bytes: &[u8]| -> Result<(), Failure> {
@@ -42,9 +44,11 @@ pub(super) fn product(
         Ok(())
     };
     if let Some(figure) = &product.figure {
+        let failed = |error| super::failure::failed(stem, &error);
+        let figure = page.laid_out(figure.clone());
         put(format!("{stem}.svg"), figure.to_svg().as_bytes())?;
-        let png = figure.to_png().map_err(|error| super::failure::failed(stem, &error))?;
-        put(format!("{stem}.png"), &png)?;
+        put(format!("{stem}.pdf"), &figure.to_pdf().map_err(failed)?)?;
+        put(format!("{stem}.png"), &figure.to_png().map_err(failed)?)?;
     }
     for table in &product.tables {
         let name = if table.part.is_empty() {

@@ -453,11 +453,13 @@ fn with_units(number: Json) -> Json {
 
 fn about(key: &Key) -> String {
     match key.role {
-        Role::Twin(parameter, twin) if twin.rms => {
-            format!("{}: {}, as root mean square, in N", parameter.symbol, key.about)
+        Role::Twin(_, twin) if twin.rms => {
+            let symbol = key.symbol().unwrap_or_default();
+            format!("{symbol}: {}, as root mean square, in N", key.about)
         }
-        Role::Number(parameter) | Role::Twin(parameter, _) => {
-            format!("{}: {}, in {}", parameter.symbol, key.about, key.unit_in_words())
+        Role::Number(_) | Role::Twin(..) => {
+            let symbol = key.symbol().unwrap_or_default();
+            format!("{symbol}: {}, in {}", key.about, key.unit_in_words())
         }
         Role::Scale(scale) => format!("{}: {}, in {}", scale.symbol, key.about, key.unit()),
         Role::Speeds { .. } | Role::Band { .. } | Role::FrictionForce(..) => {

@@ -33,6 +33,7 @@ fn plane(
         quantity: PlotAxis::new("efficiency").symbol("E"),
         kind,
         reasons: vec!["$E$ undefined".into(), "not settled".into()],
+        zero: None,
         over: Vec::new(),
     }
 }

@@ -17,6 +17,9 @@ pub(crate) struct Arguments {
     /// Slip velocities, separated by commas; in a study in SI in m/s, or with a unit such as 20mm/s
     #[arg(long, value_name = "V,…", value_delimiter = ',', allow_hyphen_values = true)]
     at: Vec<String>,
+    /// Also measures the friction on steady responses, stick included, instead of averaging
+    #[arg(long)]
+    measured: bool,
     #[command(flatten)]
     plot: PlotArguments,
     #[command(flatten)]
@@ -34,7 +37,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let (study, (outputs, plot)) = complaints.finish(study.zip(outputs.zip(plot)))?;
 
     let at = (!at.is_empty()).then_some(at);
-    let done = verbs(&study).friction(at)?;
+    let done = verbs(&study).friction(at, arguments.measured)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }
 

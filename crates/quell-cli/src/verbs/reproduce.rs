@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use quell::Failure;
+use quell::picture::{PicturePage, PictureWidth};
 use quell_reproduce::{ENTRIES, Reproduction, Resolution, find, run as reproduce};
 
 use crate::answer::Answer;
@@ -23,6 +24,12 @@ pub(crate) struct Arguments {
     /// Uses coarser grids for the maps
     #[arg(long)]
     quick: bool,
+    /// Width of the figures with its unit, such as 85mm for the column of a journal [default: suits their panels]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    width: Option<String>,
+    /// Draws the captions below the figures [default: only in the report]
+    #[arg(long)]
+    caption: bool,
     /// Prints one JSON object on standard output and nothing else
     #[arg(long)]
     json: bool,
@@ -32,8 +39,10 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let entries = find(&arguments.names)?;
     let pace = if arguments.quick { Resolution::Quick } else { Resolution::Full };
+    let width = arguments.width.as_deref().map(|text| PictureWidth::parse(text, "--width"));
+    let page = PicturePage { width: width.transpose()?, caption: arguments.caption };
     let bar = Entries::new(entries.len());
-    let done = reproduce(&entries, &arguments.out, pace, |step| bar.update(step));
+    let done = reproduce(&entries, &arguments.out, pace, page, |step| bar.update(step));
     bar.end();
     let done = done?;
     let object = done.json(&arguments.out, pace);
@@ -50,6 +59,9 @@ fn text(arguments: &Arguments, done: &Reproduction) -> String {
             "  {:<14} {}:{printed}{} measured {}: {}",
             claim.place, claim.statement, claim.printed, claim.measured, claim.verdict
         );
+    }
+    if let Some(summary) = done.summary() {
+        let _ = writeln!(text, "{summary}");
     }
     let _ = writeln!(text, "Report: {}", done.report.display());
     text

@@ -30,7 +30,9 @@ pub use quell_numerics::spectrum::{Peak, Spectrum};
 
 pub use crate::band::BAND_END;
 pub use effect::{Effect, QUENCHED, RunEnding, Uncertain, Vibrations, effect};
-pub use effective::{WindowMean, measured_effective_friction};
+pub use effective::{
+    SteadyFriction, WindowMean, measured_effective_friction, steady_effective_friction,
+};
 pub use isocline::amplitude_at_efficiency;
 pub use measure::{
     Compared, MeasuredRecord, Observables, ResponseCase, Undefined, compare_many, measure_many,

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _quell, results
 from ._arguments import Arguments, keywords
@@ -44,6 +44,9 @@ from ._laws import (
 from ._quell import __version__
 from ._study import Study
 from ._system import Component, Contact, Contacts, System, SystemDither, SystemInitial, SystemMode
+
+if TYPE_CHECKING:
+    from .explore import explore
 
 __all__ = [
     "Axis",
@@ -77,6 +80,7 @@ __all__ = [
     "SystemInitial",
     "SystemMode",
     "__version__",
+    "explore",
     "new",
     "quantities",
     "reproduce",
@@ -84,6 +88,16 @@ __all__ = [
     "schema",
     "sweep",
 ]
+
+# The explorer is imported when it is used. Its module is the function.
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> Any:
+        if name == "explore":
+            from importlib import import_module
+
+            return import_module(".explore", __name__)
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def schema() -> dict[str, Any]:

@@ -303,6 +303,9 @@ class Drawing:
                 self.mesh(borders, np.where(under, 1.0, np.nan), [below["colour"]], order)
                 self.sample(below["label"], below["colour"])
             values = np.where(under, np.nan, values)
+        for sign, found in zip(colouring["signs"], (values < 0.0, values > 0.0), strict=True):
+            if sign is not None and found.any():
+                self.sample(sign["label"], sign["colour"])
         return self.mesh(borders, values, colouring["shades"], order, norm)
 
     def bar(self, axis: dict[str, Any], mapped: Any) -> None:

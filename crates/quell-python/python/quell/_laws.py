@@ -396,7 +396,9 @@ class StudyFriction(Friction):
         return type(self), (self._study, self.given)
 
     @keywords
-    def __call__(self, at: npt.ArrayLike | str | Sequence[str] | None = None) -> results.FrictionCurve:
+    def __call__(
+        self, at: npt.ArrayLike | str | Sequence[str] | None = None, measured: bool = False
+    ) -> results.FrictionCurve:
         """The friction law and the effective friction under the dither, equations (2.21), (3.19)–(3.27), (4.27).
 
         Parameters
@@ -404,11 +406,14 @@ class StudyFriction(Friction):
         at :
             Slip velocities of any shape, which is flattened; in m/s in a study in SI, or texts with units such as
             ``"20mm/s"`` [default: a grid that shows the law].
+        measured :
+            Whether friction is also measured on steady responses, equations (4.30) and (4.31), stick included, instead of
+            averaged [default: False].
 
         Returns
         -------
         quell.results.FrictionCurve
-            μ, μ̄ and μ̄′ over ``slip_velocity`` (n,).
+            μ, μ̄ and μ̄′ over ``slip_velocity`` (n,), and the measured ⟨f/N⟩ if requested.
         """
         from . import results
 
@@ -418,10 +423,10 @@ class StudyFriction(Friction):
         if isinstance(at, str):
             at = [at]
         if isinstance(at, Sequence) and at and all(isinstance(it, str) for it in at):
-            return results.FrictionCurve(study, native.friction(None, [str(it) for it in at]))
+            return results.FrictionCurve(study, native.friction(None, [str(it) for it in at], bool(measured)))
         if at is not None:
             try:
                 where = np.atleast_1d(np.asarray(at, dtype=np.float64)).ravel()
             except (TypeError, ValueError, OverflowError):
                 raise StudyError([complaint("at", at, "slip velocities: finite numbers")]) from None
-        return results.FrictionCurve(study, native.friction(where, []))
+        return results.FrictionCurve(study, native.friction(where, [], bool(measured)))

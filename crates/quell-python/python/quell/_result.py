@@ -146,18 +146,24 @@ class Result:
         return quantity(self, name, registry)
 
     @overload
-    def plot(self, ax: None = None, **style: Any) -> matplotlib.figure.Figure: ...
+    def plot(
+        self, ax: None = None, *, width: str | None = None, caption: bool = False, **style: Any
+    ) -> matplotlib.figure.Figure: ...
 
     @overload
     def plot(self, ax: T, **style: Any) -> T: ...
 
-    def plot(self, ax: Any = None, **style: Any) -> Any:
+    def plot(self, ax: Any = None, *, width: str | None = None, caption: bool = False, **style: Any) -> Any:
         """Draws the picture of ``--plot`` on the command line with matplotlib.
 
         Parameters
         ----------
         ax :
             Axes to draw into; of a picture with several panels a sequence or array of as many axes [default: a new figure].
+        width :
+            Width of a new figure with its unit, such as ``"85mm"`` [default: suits its panels].
+        caption :
+            Draws the caption, :attr:`caption`, below a new figure.
         style :
             Properties of every curve, such as ``color``, ``linewidth`` and ``alpha``; ``label`` is that of the first.
 
@@ -169,16 +175,43 @@ class Result:
         Raises
         ------
         quell.StudyError
-            The number of axes is not that of the panels, or the result has no picture.
+            The number of axes is not that of the panels, the width has no unit or is out of range, or the result has no
+            picture.
         """
         from .plotting import draw
 
-        return draw(self._described(), ax, style)
+        return draw(self._described(width, caption), ax, style)
 
-    def save(self, path: str | os.PathLike[str]) -> list[str]:
-        """Writes the arrays as .csv, with units and the study in the header, the picture as .svg or .png, or a run as .wav.
+    @property
+    def caption(self) -> str:
+        """The caption of the picture, with symbols between dollars."""
+        return str(self._described(None, True)["caption"])
 
-        The files are those of ``--save`` and ``--plot`` on the command line. Returns the paths of the written files.
+    def save(
+        self, path: str | os.PathLike[str], *, width: str | None = None, caption: bool = False
+    ) -> list[str]:
+        """Writes the arrays as .csv, with units and the study in the header, the picture as .svg, .pdf or .png, or a run as .wav.
+
+        The files are those of ``--save`` and ``--plot`` on the command line.
+
+        Parameters
+        ----------
+        path :
+            The file.
+        width :
+            Width of the picture with its unit, such as ``"85mm"`` [default: suits its panels].
+        caption :
+            Draws the caption below the picture.
+
+        Returns
+        -------
+        list of str
+            The paths of the written files.
+
+        Raises
+        ------
+        quell.StudyError
+            The file cannot be written, or the width has no unit or is outside 50 mm to 1000 mm.
         """
         try:
             place = os.fspath(path)
@@ -186,8 +219,12 @@ class Result:
             raise StudyError([complaint("path", path, "a path", "path")]) from None
         if self._native is None:
             raise StudyError([complaint("save", None, "a result that was not unpickled: repeat the call", "usage")])
-        if str(place).lower().endswith((".svg", ".png")):
-            return [self._native.picture(str(place))]
+        if str(place).lower().endswith((".svg", ".pdf", ".png")):
+            return [self._native.picture(str(place), width, caption)]
+        if width is not None or caption:
+            given = {"width": width} if width is not None else {"caption": caption}
+            name, value = next(iter(given.items()))
+            raise StudyError([complaint(name, value, "left out: only pictures have a width and a caption", "conflict")])
         if str(place).lower().endswith(".wav"):
             return [self._native.sound(str(place))]
         return self._native.csv(str(place))
@@ -197,13 +234,23 @@ class Result:
             raise RuntimeError("an unpickled result has only its facts, its arrays and its picture")
         return self._native
 
-    def _described(self) -> dict[str, Any]:
+    def _described(self, width: str | None = None, caption: bool = True) -> dict[str, Any]:
+        """The picture as data; without a caption if it is not wanted."""
+        if width is not None and self._native is not None:
+            return self._native.description(width, caption)
+        if width is not None:
+            allowed = "left out: a result that was unpickled has one width; repeat the call"
+            raise StudyError([complaint("width", width, allowed, "usage")])
         if self._description is None:
             if self._native is None:
                 allowed = "this result has no picture"
                 raise StudyError([complaint("plot", None, allowed, "usage")])
-            self._description = self._native.description()
-        return self._description
+            self._description = self._native.description(None, True)
+        if caption:
+            return self._description
+        if self._native is not None:
+            return self._native.description(None, False)
+        return {**self._description, "caption": ""}
 
     # Names. The one place that decides between a fact and an array of the same name.
 

@@ -12,6 +12,7 @@ pub(crate) fn run(
     study: &Study,
     at: Option<Vec<f64>>,
     texts: &[String],
+    measured: bool,
 ) -> Result<NativeAnswer, Failure> {
     let verbs = verbs(study);
     let scales = study.scales();
@@ -25,5 +26,5 @@ pub(crate) fn run(
         (None, []) => None,
         (None, texts) => Some(texts.iter().map(read).collect::<Result<Vec<f64>, _>>()?),
     };
-    Ok(NativeAnswer::new(verbs.friction(at)?))
+    Ok(NativeAnswer::new(verbs.friction(at, measured)?))
 }

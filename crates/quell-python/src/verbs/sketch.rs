@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use quell::output::Output;
-use quell::picture::sketch;
+use quell::picture::{EXTENSIONS, PictureWidth, sketch};
 use quell::{Failure, Study, run};
 
 /// Runs the verb: the drawing as SVG, and in a file if `path` is given, in the format of its name.
@@ -13,9 +13,10 @@ pub(crate) fn run(
     width: Option<&str>,
 ) -> Result<String, Failure> {
     let inputs = study.inputs();
-    let output = path.map(|path| Output::prepare(path, "path", sketch::FORMATS, &inputs));
+    let output = path.map(|path| Output::prepare(path, "path", EXTENSIONS, &inputs));
     let output = output.transpose()?;
-    let drawn = run::sketch::run(study, width.map(sketch::width).transpose()?)?;
+    let width = width.map(|text| PictureWidth::parse(text, "width")).transpose()?;
+    let drawn = run::sketch::run(study, width.map(PictureWidth::millimetres))?;
     if let Some(output) = output {
         sketch::write(&drawn.sketch, output)?;
     }

@@ -179,7 +179,34 @@ pub(super) fn normal(sheet: &mut ClaimSheet, waveform: Waveform) -> Result<(), F
             pattern,
         )
         .note(format!("the stability of the base response changes at D_N = {}", list(&thresholds)));
+    if study.belt().dithers()[0].waveform == Waveform::Sine {
+        several_responses(sheet, &columns);
+    }
     Ok(())
+}
+
+/// "Although multiple solutions have not been encountered in this study, their existence in other parameter regions is still an open
+/// question": they exist where the base response is stable and the run from rest does not end on it.
+fn several_responses(sheet: &mut ClaimSheet, columns: &AmplitudeColumns) {
+    let ends = |changes: &[AmplitudeThreshold]| -> Option<f64> {
+        changes.iter().find(|change| !change.holds_above).map(|change| change.amplitude)
+    };
+    let found: Vec<f64> =
+        [ends(&columns.from_rest), ends(&columns.local)].into_iter().flatten().collect();
+    let holds = found.len() == 2 && found[0] < found[1];
+    sheet
+        .statement(
+            [
+                "4-open-question",
+                "after Figure 4.11",
+                "multiple solutions under normal dither may exist in other parameter regions (left open)",
+            ],
+            format!("they exist from D_N = {}, for the values of figure 4.11 and a sine", list(&found).replace(", ", " to ")),
+            &found,
+            holds,
+        )
+        .note("the base response is stable up to the second amplitude, and runs from rest leave it from the first one on: between \
+               them a quasi-periodic vibration coexists with it");
 }
 
 /// Extent along x of the section of a response, if the run converged to one.

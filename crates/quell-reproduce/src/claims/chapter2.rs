@@ -13,6 +13,7 @@ use super::super::failure::failed;
 use super::super::figures::FIGURES;
 use super::super::responses::{ResponseColumn, cases, fundamental};
 use super::super::source::EntrySource;
+use super::record::largest_line;
 use super::sheet::{ClaimSheet, digits, list, shares};
 use quell::complaint::Failure;
 
@@ -91,6 +92,23 @@ fn stick_slip_frequency(belt: &Belt) -> Result<f64, Failure> {
     }
 }
 
+/// A printed frequency against the largest lines of the records of these belts from rest, see [`super::record`].
+pub(super) fn record_line(
+    sheet: &mut ClaimSheet,
+    words: [&str; 3],
+    printed: &str,
+    belts: &[Belt],
+) -> Result<(), Failure> {
+    let found = belts
+        .iter()
+        .map(|belt| largest_line(belt).map(|line| line.frequency))
+        .collect::<Result<Vec<f64>, Failure>>()?;
+    sheet
+        .truncated(words, printed, &found)
+        .note("lines are 2/75 apart; further digits of the line are dropped, not rounded");
+    Ok(())
+}
+
 /// Figures 2.2, 2.3: friction laws and the undithered limit cycle.
 pub(super) fn friction_laws(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let undithered = belt(LawKind::Stribeck, LIGHT, 0.05, None)?;
@@ -103,7 +121,17 @@ pub(super) fn friction_laws(sheet: &mut ClaimSheet) -> Result<(), Failure> {
             "0.666",
             &[frequency],
         )
-        .note("a record of length 66 or 94.25 has a spectral line at 0.666");
+        .note("the exact times of sticking; the next line is the reading of the dissertation");
+    record_line(
+        sheet,
+        [
+            "2.3-undithered-record",
+            "Figures 2.3, 3.7",
+            "the same as the largest line of a record of length 75π without window",
+        ],
+        "0.666",
+        std::slice::from_ref(&undithered),
+    )?;
     let misprinted = undithered
         .with("friction.minimum_coefficient", 0.2587)
         .map_err(|_| failed("claims", &"the misprinted law is not valid"))?;
@@ -141,7 +169,17 @@ pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
             "0.746",
             dithered.as_slice(),
         )
-        .note("locked to the dither at 10·5/68");
+        .note("locked to the dither at 10·5/68; the next line is the reading of the dissertation");
+    record_line(
+        sheet,
+        [
+            "2.3-dithered-record",
+            "Figure 2.3(a)",
+            "the same as the largest line of a record of length 75π without window",
+        ],
+        "0.746",
+        std::slice::from_ref(cases[0].study.belt()),
+    )?;
     let stuck = |case: &ResponseColumn| {
         let samples = &case.response.undithered_record.samples;
         samples.iter().filter(|sample| sample.sticking).count() as f64 / samples.len() as f64
@@ -184,34 +222,36 @@ pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     Ok(())
 }
 
-/// "The amplitude of the steady-state response can be reduced further by decreasing the dither frequency ratio."
+/// "As will be shown in the following section, the amplitude of the steady-state response can be reduced further by decreasing the
+/// dither frequency ratio": the following section shows E over D and R.
 pub(super) fn forced_response(sheet: &mut ClaimSheet) -> Result<(), Failure> {
-    let amplitude = |ratio: f64| -> Result<f64, Failure> {
-        let dither = Some((Direction::Tangential, Waveform::Sine, 0.5, ratio));
+    let (amplitude, ratios) = (0.35, [14.0, 12.0, 10.0, 9.0, 8.0, 7.0]);
+    let respond_at = |ratio: f64| -> Result<f64, Failure> {
+        let dither = Some((Direction::Tangential, Waveform::Sine, amplitude, ratio));
         let belt = belt(LawKind::Stribeck, LIGHT, 0.05, dither)?;
         let response = respond(&belt, Start::REST, &Solver::default())
             .map_err(|error| failed("claims", &error))?;
-        let near = response.peaks.iter().filter(|peak| (peak.frequency - ratio).abs() < 0.1);
-        Ok(near.map(|peak| peak.amplitude).fold(0.0, f64::max))
+        response.efficiency.map_err(|error| failed("claims", &error))
     };
-    let ratios = [10.0, 9.0, 8.0];
-    let amplitudes = ratios.map(amplitude).into_iter().collect::<Result<Vec<f64>, Failure>>()?;
-    let holds = amplitudes.windows(2).all(|pair| pair[1] < pair[0]);
-    let linear: Vec<f64> = ratios.iter().map(|r| 0.5 / (r * r - 1.0)).collect();
+    let found = ratios.map(respond_at).into_iter().collect::<Result<Vec<f64>, Failure>>()?;
+    let holds = found.windows(2).all(|pair| pair[1] < pair[0]);
+    let forced: Vec<f64> = [10.0, 7.0].map(|r| amplitude / (r * r - 1.0)).to_vec();
     sheet
         .statement(
             [
                 "2.3-forced-amplitude",
-                "before Figure 2.3",
-                "the steady amplitude can be reduced further by decreasing the frequency ratio",
+                "before Figure 2.3, Figure 2.8",
+                "at constant D_T the amplitude of the steady-state response, as E, can be reduced further by decreasing the \
+                 frequency ratio",
             ],
-            format!("amplitude at R = 10, 9, 8: {}", list(&amplitudes)),
-            &amplitudes,
+            format!("E at D_T = {amplitude} and R = 14, 12, 10, 9, 8, 7: {}", shares(&found)),
+            &found,
             holds,
         )
         .note(format!(
-            "for the linear oscillator it is D/(R² − 1) = {}: it increases",
-            list(&linear)
+            "E is meant, \"as will be shown in the following section\"; the forced part D/(R² − 1) alone increases: {} at R = 10 \
+             and 7",
+            list(&forced)
         ));
     Ok(())
 }
@@ -291,7 +331,7 @@ pub(super) fn decreasing_map(sheet: &mut ClaimSheet) -> Result<(), Failure> {
 }
 
 /// ζ = 0.005, R = 10, a sine.
-fn belt_at(kind: LawKind, belt_velocity: f64) -> Result<Belt, Failure> {
+pub(super) fn belt_at(kind: LawKind, belt_velocity: f64) -> Result<Belt, Failure> {
     belt(kind, LIGHT, belt_velocity, Some((Direction::Tangential, Waveform::Sine, 1.0, 10.0)))
 }
 
@@ -334,39 +374,5 @@ pub(super) fn destabilisation(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         .note(
             "a stick-slip cycle coexists with stable sliding; averaging applies to small motions only",
         );
-    averaged_thresholds(sheet)
-}
-
-/// "Unstable for α_T = 0.43", "stable for α_T > 0.98" at v₀ = 1; 10 ≤ D_T ≤ 15 at v₀ = 1.5.
-fn averaged_thresholds(sheet: &mut ClaimSheet) -> Result<(), Failure> {
-    let rows = [
-        (1.0, 0, "2.10", Some("0.43"), "4.3"),
-        (1.0, 1, "2.10", Some("0.98"), "9.8"),
-        (1.5, 0, "2.11", None, "10"),
-        (1.5, 1, "2.11", None, "15"),
-    ];
-    for (velocity, which, figure, ratio, amplitude) in rows {
-        let belt = belt_at(LawKind::Decreasing, velocity)?;
-        let found = critical(&belt, FastResponse::Limit)?.get(which).copied();
-        let sharper = critical(&belt, FastResponse::Oscillator)?.get(which).copied();
-        let place = format!("Figures 2.7, {figure}");
-        let becomes = ["unstable", "stable again"][which];
-        let statement = format!("averaging, v₀ = {velocity}: {becomes} from");
-        let stem = format!("2.7-v{velocity}-{}", ["unstable", "stable"][which]);
-        if let Some(printed) = ratio {
-            let value = found.map(|change| change.amplitude_ratio);
-            let (name, statement) = (format!("{stem}-ratio"), format!("{statement} α ="));
-            let claim = sheet.number(&name, &place, &statement, printed, value.as_slice());
-            if which == 1 {
-                claim.note("averaging gives α = v₀ exactly; 0.98 is a point of a plotting grid");
-            }
-        }
-        let value = found.map(|change| change.amplitude);
-        let sharper = sharper.map_or_else(String::new, |change| {
-            format!("with the exact fast motion {}", digits(change.amplitude, 6))
-        });
-        let statement = format!("{statement} D_T =");
-        sheet.number(&stem, &place, &statement, amplitude, value.as_slice()).note(sharper);
-    }
     Ok(())
 }

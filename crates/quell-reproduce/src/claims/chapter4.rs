@@ -1,5 +1,6 @@
 //! Claims of chapter 4: normal dither.
 
+use quell_dynamics::response::steady_effective_friction;
 use quell_linear::averaging::{
     AveragingOptions, EverywhereStable, FastResponse, FastWave, criterion,
     everywhere_stable_amplitude, unstable_bands,
@@ -7,18 +8,21 @@ use quell_linear::averaging::{
 use quell_model::{Direction, LawKind, Waveform};
 
 use super::super::failure::failed;
-use super::super::measured_friction::{self, BIN, FrictionPanel, interpolated};
+use super::super::measured_friction::{self, FrictionPanel, TOLERANCE, averaged_at, interpolated};
 use super::super::printed_formulas::{self, LawNumbers};
-use super::super::responses::cases;
+use super::super::responses::{ResponseColumn, cases};
 use super::chapter2::{LIGHT, SUPPRESSED, belt, critical, efficiencies, law, partial, source};
-use super::sheet::{ClaimSheet, digits, list, shares};
+use super::chapter3::lost_brace;
+use super::record::largest_line;
+use super::sheet::{ClaimSheet, USUAL_LIMIT, digits, list, shares};
 use quell::complaint::Failure;
 
 const NUMBERS: LawNumbers = LawNumbers::DISSERTATION;
 
 /// Figures 4.3 and 4.4.
 pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
-    let found = efficiencies(&cases(&source("4.3")?)?);
+    let columns = cases(&source("4.3")?)?;
+    let found = efficiencies(&columns);
     sheet.statement(
         [
             "4.3-never-suppressed",
@@ -40,7 +44,18 @@ pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
             "0.5",
             &[1.0 - found[2]],
         )
-        .note("printed as approximate");
+        .note("printed as approximate; the next line is the reading of the dissertation");
+    let belt_of = |column: &ResponseColumn| column.study.belt().clone();
+    let with = largest_line(&belt_of(&columns[2]))?.amplitude;
+    let without = largest_line(&belt_of(&columns[2]).undithered())?.amplitude;
+    let words = [
+        "4.3-record",
+        "Figure 4.3(c)",
+        "the same by the largest lines of records of length 75π without window",
+    ];
+    sheet
+        .number_within(0.2, words, "0.5", &[1.0 - with / without])
+        .note("the undithered vibration lies between two lines of such a record, which lowers its largest line");
     let found = efficiencies(&cases(&source("4.4")?)?);
     let words = [
         "4.4-partial",
@@ -63,30 +78,18 @@ pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Figures 4.5 and 4.6.
+/// Figures 4.5 and 4.6, on steady responses with stick.
 pub(super) fn effective_friction(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for figure in ["4.5", "4.6"] {
         let cases = measured_friction::cases(&source(figure)?)?;
         let place = format!("Figure {figure}");
-        let pairs: Vec<(f64, f64)> = cases.iter().map(tops).collect();
-        let worst = pairs
+        let pairs = cases.iter().map(tops).collect::<Result<Vec<[f64; 2]>, Failure>>()?;
+        slope_change(sheet, figure, &place, &pairs);
+        let worst = cases
             .iter()
-            .map(|(measured, averaged)| (measured - averaged).abs())
+            .zip(&pairs)
+            .map(|(case, tops)| outer_deviation(case, tops[0].max(tops[1])))
             .fold(0.0, f64::max);
-        let (measured, averaged): (Vec<f64>, Vec<f64>) = pairs.into_iter().unzip();
-        sheet
-            .statement(
-                [
-                    &format!("{figure}-slope-change"),
-                    &place,
-                    "simulation and averaging agree on the slip velocity at which the slope of the friction changes sign",
-                ],
-                format!("v_r = {} and {}", list(&measured), list(&averaged)),
-                &measured,
-                worst <= 2.0 * BIN,
-            )
-            .note(format!("largest difference {}; bins are {BIN} wide", digits(worst, 2)));
-        let worst = cases.iter().map(outer_deviation).fold(0.0, f64::max);
         sheet.statement(
             [
                 &format!("{figure}-falling-region"),
@@ -97,30 +100,118 @@ pub(super) fn effective_friction(sheet: &mut ClaimSheet) -> Result<(), Failure> 
             &[worst],
             worst < 0.01,
         );
+        let low: Vec<[f64; 2]> =
+            cases.iter().zip(&pairs).filter_map(|(case, tops)| low_region(case, *tops)).collect();
+        let [measured, averaged] =
+            [0, 1].map(|k: usize| low.iter().map(|pair| pair[k]).collect::<Vec<f64>>());
+        let holds = low.len() == cases.len()
+            && measured
+                .iter()
+                .zip(&averaged)
+                .all(|(measured, averaged)| measured.signum() != averaged.signum());
+        sheet
+            .statement(
+                [
+                    &format!("{figure}-convexity"),
+                    &place,
+                    "at low slip velocities simulation and averaging differ in the convexity of the curve",
+                ],
+                format!(
+                    "friction halfway to the maximum, less the mean of its ends: measured {}; averaged {}",
+                    list(&measured),
+                    list(&averaged)
+                ),
+                &measured,
+                holds,
+            )
+            .note("positive: concave; between the first slip velocity and that of the maximum");
     }
     Ok(())
 }
 
-/// Slip velocity of the largest friction: measured and averaged.
-fn tops(case: &FrictionPanel) -> (f64, f64) {
-    let top = |points: &[(f64, f64)]| {
-        points.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(f64::NAN, |point| point.0)
-    };
-    // The Stribeck law increases again beyond v_m.
-    let below = |v: f64| v < 0.15;
-    let measured: Vec<(f64, f64)> =
-        case.bins.iter().map(|&(v, mu, _)| (v, mu)).filter(|point| below(point.0)).collect();
-    let averaged: Vec<(f64, f64)> =
-        case.averaged.iter().copied().filter(|point| below(point.0)).collect();
-    (top(&measured), top(&averaged))
+/// Where the slope changes sign, and for which amplitude averaging is more accurate.
+fn slope_change(sheet: &mut ClaimSheet, figure: &str, place: &str, pairs: &[[f64; 2]]) {
+    let [measured, averaged] =
+        [0, 1].map(|k: usize| pairs.iter().map(|pair| pair[k]).collect::<Vec<f64>>());
+    let relative: Vec<f64> = pairs.iter().map(|[m, a]| (a / m - 1.0).abs()).collect();
+    let differences: Vec<f64> = pairs.iter().map(|[m, a]| (a - m).abs()).collect();
+    let worst = relative.iter().copied().fold(0.0, f64::max);
+    sheet
+        .statement(
+            [
+                &format!("{figure}-slope-change"),
+                place,
+                "simulation and averaging agree on the slip velocity at which the slope of the friction changes sign",
+            ],
+            format!("v_r = {} and {}", list(&measured), list(&averaged)),
+            &measured,
+            worst <= USUAL_LIMIT,
+        )
+        .note(format!("largest relative difference {}; steady responses, stick included", digits(worst, 2)));
+    sheet.statement(
+        [
+            &format!("{figure}-smaller-amplitude"),
+            place,
+            "the predicted change of slope is more accurate in case (a) than in case (d)",
+        ],
+        format!("differences of v_r: {}", list(&differences)),
+        &differences,
+        differences.first() < differences.last(),
+    );
 }
 
-/// Largest difference between measured and averaged friction, from one bin beyond the maximum up to v_m.
-fn outer_deviation(case: &FrictionPanel) -> f64 {
-    let (measured, averaged) = tops(case);
-    let from = measured.max(averaged) + BIN;
-    let outer = case.bins.iter().filter(|(v, _, _)| *v > from && *v < NUMBERS.vm);
+/// Slip velocity of the largest friction below that of the law's minimum: measured and averaged.
+fn tops(case: &FrictionPanel) -> Result<[f64; 2], Failure> {
+    // The Stribeck law increases again beyond v_m.
+    let below = |v: f64| v < 0.75 * NUMBERS.vm;
+    let measured = case.steady.iter().map(|&(v, mu, _)| (v, mu)).filter(|point| below(point.0));
+    let measured = top(measured.collect(), |v| {
+        steady_effective_friction(&case.belt, v, TOLERANCE)
+            .map(|found| found.coefficient)
+            .map_err(|error| failed("claims", &error))
+    })?;
+    let averaged = case.averaged.iter().copied().filter(|point| below(point.0));
+    let averaged = top(averaged.collect(), |v| averaged_at("claims", &case.belt, v))?;
+    Ok([measured, averaged])
+}
+
+/// Where a function is largest: by golden sections about the largest of some of its points.
+fn top(
+    points: Vec<(f64, f64)>,
+    value: impl Fn(f64) -> Result<f64, Failure>,
+) -> Result<f64, Failure> {
+    let largest = (0..points.len()).max_by(|&a, &b| points[a].1.total_cmp(&points[b].1));
+    let Some(largest) = largest.filter(|index| 0 < *index && index + 1 < points.len()) else {
+        return Err(failed("claims", &"the friction has no maximum"));
+    };
+    let (mut from, mut to) = (points[largest - 1].0, points[largest + 1].0);
+    let golden = 0.5 * (5.0f64.sqrt() - 1.0);
+    while to - from > 1e-6 {
+        let (left, right) = (to - golden * (to - from), from + golden * (to - from));
+        if value(left)? > value(right)? {
+            to = right;
+        } else {
+            from = left;
+        }
+    }
+    Ok(0.5 * (from + to))
+}
+
+/// Largest difference between measured and averaged friction, from a tenth beyond the maximum up to v_m.
+fn outer_deviation(case: &FrictionPanel, top: f64) -> f64 {
+    let outer = case.steady.iter().filter(|(v, _, _)| *v > 1.1 * top && *v < NUMBERS.vm);
     outer.map(|&(v, mu, _)| (mu - interpolated(&case.averaged, v)).abs()).fold(0.0, f64::max)
+}
+
+/// Value halfway between the first point and the maximum, less the mean of the two: measured and averaged.
+fn low_region(case: &FrictionPanel, tops: [f64; 2]) -> Option<[f64; 2]> {
+    let measured: Vec<(f64, f64)> = case.steady.iter().map(|&(v, mu, _)| (v, mu)).collect();
+    let from = measured.first()?.0;
+    let bulge = |curve: &[(f64, f64)], top: f64| {
+        let at = |v: f64| interpolated(curve, v);
+        at(0.5 * (from + top)) - 0.5 * (at(from) + at(top))
+    };
+    Some([bulge(&measured, tops[0]), bulge(&case.averaged, tops[1])])
 }
 
 /// Figures 4.7, 4.8, and the predictions for figure 4.11.
@@ -159,21 +250,24 @@ pub(super) fn stability_maps(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         )
         .note("by a small margin: it would be unstable with ζ = 0.19 or μ_m = 0.2587");
     let found = critical(&belt, FastResponse::Limit)?;
-    let rows = [(0, "0.115", true), (0, "0.575", false), (1, "0.13", true), (1, "0.65", false)];
-    for (which, printed, is_ratio) in rows {
-        let (symbol, suffix) = if is_ratio { ("α_N", "-ratio") } else { ("D_N", "") };
-        let value = found
-            .get(which)
-            .map(|change| if is_ratio { change.amplitude_ratio } else { change.amplitude });
+    for (which, ratio, amplitude) in [(0, "0.115", "0.575"), (1, "0.13", "0.65")] {
         let becomes = ["unstable", "stable"][which];
-        let statement = format!("averaging, square, R_N = 5: {becomes} from {symbol} =");
-        sheet.number(
-            &format!("4.41-{becomes}{suffix}"),
-            "(4.41)",
-            &statement,
-            printed,
-            value.as_slice(),
+        let found = found.get(which).map(|change| change.amplitude_ratio);
+        let statement =
+            |symbol: &str| format!("averaging, square, R_N = 5: {becomes} from {symbol} =");
+        let name = format!("4.41-{becomes}");
+        sheet.truncated(
+            [&format!("{name}-ratio"), "(4.41)", &statement("α_N")],
+            ratio,
+            found.as_slice(),
         );
+        // "i.e. D_N = α_N R_N": R_N times the truncated α_N.
+        let scale = 10f64.powi(i32::try_from(ratio.len()).unwrap_or(2) - 2);
+        let product = found.map(|alpha| 5.0 * (alpha * scale).trunc() / scale);
+        let exact = found.map_or_else(String::new, |alpha| digits(5.0 * alpha, 4));
+        sheet
+            .truncated([&name, "(4.41)", &statement("D_N")], amplitude, product.as_slice())
+            .note(format!("R_N times the truncated α_N; without truncation {exact}"));
     }
     Ok(())
 }
@@ -191,32 +285,31 @@ fn everywhere(waveform: Waveform, direction: Direction) -> Result<f64, Failure> 
 
 /// (4.34)–(4.38), with μ(v₀) at the tip v₀ = α^L G_max, which the dissertation leaves open.
 pub(super) fn formulas(sheet: &mut ClaimSheet) -> Result<(), Failure> {
-    /// Equation, waveform, α^L as printed for ζ, the error.
-    type Row = (&'static str, Waveform, fn(LawNumbers, f64) -> f64, &'static str);
+    /// Equation, waveform, α^L as printed for ζ.
+    type Row = (&'static str, Waveform, fn(LawNumbers, f64) -> f64);
     let rows: [Row; 3] = [
-        ("4.34", Waveform::Sine, printed_formulas::everywhere_344, "the nested root of (3.44)"),
-        (
-            "4.36",
-            Waveform::Triangle,
-            printed_formulas::everywhere_348,
-            "the same error as in (3.48)",
-        ),
-        (
-            "4.38",
-            Waveform::Square,
-            printed_formulas::everywhere_348,
-            "2/π should be 1/π; it repeats (4.36)",
-        ),
+        ("4.34", Waveform::Sine, printed_formulas::everywhere_344),
+        ("4.36", Waveform::Triangle, printed_formulas::everywhere_348),
+        ("4.38", Waveform::Square, printed_formulas::everywhere_348),
     ];
     let law = law(LawKind::Stribeck)?;
-    for (equation, waveform, printed, note) in rows {
+    for (equation, waveform, printed) in rows {
         let tip = everywhere(waveform, Direction::Tangential)? * waveform.peak_integral();
+        let at_tip = law.coefficient(tip);
+        let right = everywhere(waveform, Direction::Normal)?;
+        let note = match waveform {
+            Waveform::Sine => {
+                lost_brace(printed_formulas::everywhere_344_read(NUMBERS, LIGHT) / at_tip / right)
+            }
+            Waveform::Triangle => "the same error as in (3.48)".to_owned(),
+            Waveform::Square => "2/π should be 1/π; it repeats (4.36)".to_owned(),
+        };
         let statement = format!("α_N^L, Stribeck law, {}, ζ = 0.005, at its tip", waveform.name());
         sheet
             .formula(
                 [equation, &format!("({equation})"), &statement],
-                printed(NUMBERS, LIGHT) / law.coefficient(tip),
-                everywhere(waveform, Direction::Normal)?,
+                printed(NUMBERS, LIGHT) / at_tip,
+                right,
             )
             .note(note);
     }

@@ -1,9 +1,12 @@
-//! Claims about the contour E = 5 % of figures 2.8, 2.9, 3.10, 3.11, 4.9 and 4.10 compared with D = α*R.
+//! Claims about the contours of E of figures 2.8, 2.9, 3.10, 3.11, 4.9 and 4.10: E = 5 % compared with D = α*R, how E changes with
+//! D and R, and how straight the isoclines are.
 //!
 //! E decreases continuously to 0 at the threshold of averaging, so that 5 % is reached below it, also for
 //! R → ∞; the ratio D(5 %)/(α*R) measures by how much.
 
-use quell_dynamics::response::{Solver, amplitude_at_efficiency};
+use quell_dynamics::response::{
+    Observables, ResponseCase, Solver, amplitude_at_efficiency, compare_many,
+};
 use quell_dynamics::simulation::Start;
 use quell_linear::averaging::{Becomes, FastResponse};
 use quell_model::{Direction, LawKind, Waveform};
@@ -11,7 +14,7 @@ use rayon::prelude::*;
 
 use super::super::failure::failed;
 use super::chapter2::{LIGHT, SUPPRESSED, belt, critical};
-use super::sheet::ClaimSheet;
+use super::sheet::{ClaimSheet, list, shares};
 use quell::complaint::Failure;
 
 /// Relative tolerance of D.
@@ -115,4 +118,190 @@ pub(super) fn normal(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         sheet.number_within(COINCIDES, [name, place, statement], "1.00", &found);
     }
     Ok(())
+}
+
+/// A contour figure: its claims, direction, law, and the points at which E is compared.
+struct Contours {
+    /// Number of the figure.
+    figure: &'static str,
+    direction: Direction,
+    law: LawKind,
+    /// D at the ratio in the middle of `ratios`, increasing.
+    amplitudes: &'static [f64],
+    /// R at the amplitude in the middle of `amplitudes`, decreasing.
+    ratios: &'static [f64],
+    /// "When R > 5" or 3: the ratios of the isoclines.
+    isocline_ratios: &'static [f64],
+    /// "Small reduction ratios, less than 20 %" or 40 %.
+    small: f64,
+}
+
+const CONTOURS: [Contours; 4] = [
+    Contours {
+        figure: "2.8",
+        direction: Direction::Tangential,
+        law: LawKind::Stribeck,
+        amplitudes: &[0.1, 0.2, 0.3, 0.4, 0.5],
+        ratios: &[16.0, 14.0, 12.0, 10.0, 8.0, 6.5],
+        isocline_ratios: &[6.0, 8.0, 10.0, 12.0, 14.0, 16.0, 20.0],
+        small: 0.2,
+    },
+    Contours {
+        figure: "2.9",
+        direction: Direction::Tangential,
+        law: LawKind::Decreasing,
+        amplitudes: &[0.1, 0.2, 0.3, 0.4, 0.5],
+        ratios: &[16.0, 14.0, 12.0, 10.0, 8.0, 6.5],
+        isocline_ratios: &[6.0, 8.0, 10.0, 12.0, 14.0, 16.0, 20.0],
+        small: 0.2,
+    },
+    Contours {
+        figure: "4.9",
+        direction: Direction::Normal,
+        law: LawKind::Stribeck,
+        amplitudes: &[0.2, 0.4, 0.6, 0.8, 0.95],
+        ratios: &[10.0, 9.0, 8.0, 7.0, 6.0, 5.0],
+        isocline_ratios: &[3.5, 4.0, 5.0, 6.0, 7.0],
+        small: 0.4,
+    },
+    Contours {
+        figure: "4.10",
+        direction: Direction::Normal,
+        law: LawKind::Decreasing,
+        amplitudes: &[0.2, 0.4, 0.6, 0.8, 0.95],
+        ratios: &[10.0, 9.0, 8.0, 7.0, 6.0, 5.0],
+        isocline_ratios: &[3.5, 4.0, 5.0, 6.0, 7.0],
+        small: 0.4,
+    },
+];
+
+/// E at pairs of D and R; v₀ = 0.05, a sine.
+fn efficiencies_at(contours: &Contours, points: &[[f64; 2]]) -> Result<Vec<f64>, Failure> {
+    let solver = Solver { settle: SETTLE, ..Solver::default() };
+    let cases = points
+        .iter()
+        .map(|&[amplitude, ratio]| {
+            let dither = (contours.direction, Waveform::Sine, amplitude, ratio);
+            let belt = belt(contours.law, LIGHT, 0.05, Some(dither))?;
+            Ok(ResponseCase { belt, start: Start::REST })
+        })
+        .collect::<Result<Vec<ResponseCase>, Failure>>()?;
+    compare_many(&cases, &solver, Observables::default())
+        .into_iter()
+        .map(|compared| {
+            let compared = compared.map_err(|error| failed("claims", &error))?;
+            compared.efficiency().map_err(|error| failed("claims", &error))
+        })
+        .collect()
+}
+
+/// "For a constant frequency ratio, E decreases as D is increased; for a constant amplitude, as the frequency ratio is decreased."
+pub(super) fn trends(sheet: &mut ClaimSheet) -> Result<(), Failure> {
+    for contours in &CONTOURS {
+        let (figure, place) = (contours.figure, format!("Figure {}", contours.figure));
+        let ratio = contours.ratios[contours.ratios.len() / 2];
+        let amplitude = contours.amplitudes[contours.amplitudes.len() / 2];
+        let over_amplitudes: Vec<[f64; 2]> =
+            contours.amplitudes.iter().map(|&amplitude| [amplitude, ratio]).collect();
+        let over_ratios: Vec<[f64; 2]> =
+            contours.ratios.iter().map(|&ratio| [amplitude, ratio]).collect();
+        for (name, statement, points) in [
+            ("amplitude", "at constant R, E decreases as D is increased", over_amplitudes),
+            ("ratio", "at constant D, E decreases as R is decreased", over_ratios),
+        ] {
+            let found = efficiencies_at(contours, &points)?;
+            let at: Vec<String> = points.iter().map(|[d, r]| format!("({d}, {r})")).collect();
+            sheet
+                .statement(
+                    [&format!("{figure}-falls-with-{name}"), &place, statement],
+                    format!("E: {}", shares(&found)),
+                    &found,
+                    found.windows(2).all(|pair| pair[1] < pair[0]),
+                )
+                .note(format!("at (D, R) = {}; v₀ = 0.05, sine", at.join(", ")));
+        }
+    }
+    Ok(())
+}
+
+/// Levels of E whose isoclines are compared with straight lines, and the last of them is called "fairly distorted".
+const LEVELS: [f64; 4] = [0.05, 0.1, 0.2, 0.5];
+
+/// "Small reduction ratios exhibit approximately linear relationships between dither amplitude and frequency ratio", and "the
+/// isoclines become less straight as the performance worsens; for example, when E = 0.5, the contours are fairly distorted".
+pub(super) fn straight(sheet: &mut ClaimSheet) -> Result<(), Failure> {
+    let deviations = CONTOURS
+        .par_iter()
+        .map(|contours| LEVELS.iter().map(|level| deviation(contours, *level)).collect())
+        .collect::<Result<Vec<Vec<f64>>, Failure>>()?;
+    for (contours, found) in CONTOURS.iter().zip(&deviations) {
+        let figure = contours.figure;
+        let place = format!("Figure {figure}");
+        let small: Vec<f64> = LEVELS
+            .iter()
+            .zip(found)
+            .filter(|(level, _)| **level <= contours.small)
+            .map(|(_, deviation)| *deviation)
+            .collect();
+        let words = format!(
+            "isoclines of E below {} % are approximately straight for R > {}",
+            100.0 * contours.small,
+            if contours.direction == Direction::Normal { 3 } else { 5 }
+        );
+        sheet
+            .statement(
+                [&format!("{figure}-straight"), &place, &words],
+                format!("largest deviation of D from a straight line, relative: {}", list(&small)),
+                &small,
+                small.iter().all(|deviation| *deviation < 0.05),
+            )
+            .note(format!("E = 5, 10, 20 % at R = {}", plain(contours.isocline_ratios)));
+        sheet.statement(
+            [
+                &format!("{figure}-less-straight"),
+                &place,
+                "the isoclines become less straight as E increases; at E = 0.5 they are fairly distorted",
+            ],
+            format!("largest deviation at E = 5, 10, 20, 50 %: {}", list(found)),
+            found,
+            found.last() > found[..3].iter().max_by(|a, b| a.total_cmp(b)),
+        );
+    }
+    Ok(())
+}
+
+fn plain(values: &[f64]) -> String {
+    values.iter().map(f64::to_string).collect::<Vec<_>>().join(", ")
+}
+
+/// Largest relative deviation of D on an isocline from the straight line of least squares in R.
+fn deviation(contours: &Contours, level: f64) -> Result<f64, Failure> {
+    let solver = Solver { settle: SETTLE, ..Solver::default() };
+    let mut points = Vec::new();
+    for &ratio in contours.isocline_ratios {
+        let dither = (contours.direction, Waveform::Sine, 0.5, ratio);
+        let belt = belt(contours.law, LIGHT, 0.05, Some(dither))?;
+        let threshold = critical(&belt, FastResponse::Limit)?
+            .into_iter()
+            .find(|found| found.becomes == Becomes::Stable)
+            .ok_or_else(|| failed("claims", &"no averaged threshold"))?
+            .amplitude;
+        let most = match contours.direction {
+            Direction::Tangential => f64::INFINITY,
+            Direction::Normal => 0.999 * belt.normal_load(),
+        };
+        let range = 0.1 * threshold..=most.min(1.15 * threshold);
+        let found = amplitude_at_efficiency(&belt, Start::REST, &solver, level, range, CLOSENESS);
+        points.extend(found.map(|amplitude| (ratio, amplitude)));
+    }
+    if points.len() < 3 {
+        return Err(failed("claims", &format!("E = {level} is reached at too few ratios")));
+    }
+    let count = points.len() as f64;
+    let mean = |value: fn(&(f64, f64)) -> f64| points.iter().map(value).sum::<f64>() / count;
+    let [ratio, amplitude] = [mean(|point| point.0), mean(|point| point.1)];
+    let covariance: f64 = points.iter().map(|(r, d)| (r - ratio) * (d - amplitude)).sum();
+    let slope = covariance / points.iter().map(|(r, _)| (r - ratio).powi(2)).sum::<f64>();
+    let off = |(r, d): &(f64, f64)| ((amplitude + slope * (r - ratio)) / d - 1.0).abs();
+    Ok(points.iter().map(off).fold(0.0, f64::max))
 }

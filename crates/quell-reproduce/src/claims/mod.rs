@@ -1,8 +1,8 @@
 //! The table of claims: the statements of the dissertation, independent numerical measurements, and the verdicts.
 //!
-//! The functions of `chapter2` to `chapter5`, `attractors` and `isocline` measure the claims. The verdict follows only from
-//! printed and measured values by the rules of [`ClaimVerdict`]. The verdicts on record are in [`LEDGER`]; a test compares every
-//! claim with it, so that no verdict changes unnoticed.
+//! The functions of the modules listed in `SECTIONS` measure the claims. The verdict follows only from printed and measured values
+//! by the rules of [`ClaimVerdict`]. The verdicts on record are in [`LEDGER`]; a test compares every claim with it, so that no
+//! verdict changes unnoticed. `statements` groups the claims by the statements that they measure.
 
 use quell_model::Waveform;
 use rayon::prelude::*;
@@ -21,10 +21,15 @@ mod chapter4;
 mod chapter5;
 mod isocline;
 mod ledger;
+mod record;
+mod revived;
 mod sheet;
+mod statements;
+mod thresholds;
 
 pub use super::claim::{Claim, ClaimVerdict, Expected};
 pub use ledger::LEDGER;
+pub use statements::{SEVERAL, StatementVerdict, count, statement_of, statements, summary};
 
 use sheet::ClaimSheet;
 
@@ -39,12 +44,16 @@ const SECTIONS: &[ClaimMeasurement] = &[
     chapter2::stribeck_map,
     chapter2::decreasing_map,
     chapter2::destabilisation,
+    thresholds::tangential,
     chapter3::waveforms,
     chapter3_formulas::formulas,
     chapter3::everywhere_stable,
     chapter3::thresholds,
+    chapter3::destabilising_ranges,
     chapter3::responses,
     isocline::tangential,
+    isocline::trends,
+    isocline::straight,
     chapter4::responses,
     chapter4::effective_friction,
     chapter4::stability_maps,
@@ -61,8 +70,11 @@ const SECTIONS: &[ClaimMeasurement] = &[
     chapter5::thresholds,
     chapter5::normal,
     chapter5::tangential,
+    revived::undamped,
     chapter5::damping,
-    chapter5::revived,
+    revived::damped,
+    chapter5::floquet,
+    chapter5::tangential_force,
 ];
 
 /// Measures every claim, in parallel on all cores. The claims are in the order of the dissertation.
@@ -108,11 +120,6 @@ pub(super) fn product(source: &EntrySource) -> Result<Product, Failure> {
     Ok(Product { caption, tables: vec![table], claims, ..Product::default() })
 }
 
-/// Number of claims with a verdict of this kind.
-pub(super) fn count<'a>(claims: impl IntoIterator<Item = &'a Claim>, name: &str) -> usize {
-    claims.into_iter().filter(|claim| claim.verdict.name() == name).count()
-}
-
 /// The table as JSON.
 pub fn json(claims: &[Claim]) -> Json {
     claims
@@ -120,6 +127,7 @@ pub fn json(claims: &[Claim]) -> Json {
         .map(|claim| {
             json!({
                 "claim": claim.name,
+                "statement_name": statement_of(&claim.name),
                 "where": claim.place,
                 "statement": claim.statement,
                 "printed": claim.printed,
@@ -139,16 +147,10 @@ pub fn json(claims: &[Claim]) -> Json {
 
 /// The table as Markdown.
 pub fn markdown(claims: &[Claim]) -> String {
-    let count = |name| count(claims, name);
     let mut text = format!(
-        "# Claims of the dissertation\n\n{} claims: {} reproduced, {} reproduced within a stated deviation, \
-         {} not reproduced, {} printed formulas wrong.\n\n\
+        "# Claims of the dissertation\n\n{}\n\n\
          | where | claim | printed | measured | verdict | note |\n|---|---|---|---|---|---|\n",
-        claims.len(),
-        count("reproduced"),
-        count("reproduced within"),
-        count("not reproduced"),
-        count("printed formula wrong"),
+        summary(&statements(claims)),
     );
     for claim in claims {
         let verdict = claim.verdict.to_string();

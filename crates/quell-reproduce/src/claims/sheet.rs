@@ -14,7 +14,7 @@ pub(super) struct ClaimSheet {
 }
 
 /// Largest relative deviation at which a number still counts as reproduced.
-const USUAL_LIMIT: f64 = 0.05;
+pub(super) const USUAL_LIMIT: f64 = 0.05;
 /// Relative difference below which a printed formula counts as correct.
 const FORMULA_AGREES: f64 = 1e-9;
 
@@ -53,6 +53,29 @@ impl ClaimSheet {
         };
         let claim = self.push(words, printed.to_owned(), list(measured), measured, verdict);
         claim.tolerance = Some(limit);
+        claim
+    }
+
+    /// Compares a printed number with measured ones whose further digits are dropped instead of rounded, as the dissertation does
+    /// with many numbers. A number that agrees in neither way is judged as by [`ClaimSheet::number`]. `words` are name, place,
+    /// statement.
+    pub(super) fn truncated(
+        &mut self,
+        [name, place, statement]: [&str; 3],
+        printed: &str,
+        measured: &[f64],
+    ) -> &mut Claim {
+        let (value, half_digit) = read(printed);
+        let agrees = !measured.is_empty()
+            && measured.iter().all(|&m| {
+                let below = m - value;
+                // A number that ends in zeros may round to just below itself.
+                below > -1e-9 * half_digit && below < 2.0 * half_digit
+            });
+        let claim = self.number(name, place, statement, printed, measured);
+        if agrees {
+            claim.verdict = ClaimVerdict::Reproduced;
+        }
         claim
     }
 
@@ -159,6 +182,12 @@ mod tests {
         assert_eq!(rounds, ClaimVerdict::Reproduced);
         let within = sheet.number("b", "", "", "0.666", &[0.6544]).verdict;
         assert_eq!(within.to_string(), "reproduced within 1.8 %");
+        let cut = sheet.truncated(["b", "", ""], "0.666", &[2.0 / 3.0]).verdict;
+        assert_eq!(cut, ClaimVerdict::Reproduced);
+        let below = sheet.truncated(["b", "", ""], "0.666", &[0.665_9]).verdict;
+        assert_eq!(below, ClaimVerdict::Reproduced, "it rounds");
+        let next = sheet.truncated(["b", "", ""], "0.666", &[2.0 / 3.0, 0.667_1]).verdict;
+        assert_eq!(next.name(), "reproduced within");
         let off = sheet.number("c", "", "", "1.0", &[1.0, 1.2]).verdict;
         assert_eq!(off.name(), "not reproduced");
         let nothing = sheet.number("d", "", "", "1.0", &[]).verdict;

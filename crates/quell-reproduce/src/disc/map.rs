@@ -6,8 +6,11 @@
 
 use quell_disc::dithered;
 use quell_disc::equations::linearised;
+use quell_disc::resonance::{Order, Resonance, Waves};
 use quell_linear::eigenvalues;
+use quell_linear::floquet::FollowerDither;
 use quell_linear::growth::{Growth, Verdict};
+use quell_linear::linearised::Linearised;
 use quell_model::Disc;
 use quell_model::disc::{Contributions, DiscDither};
 use quell_numerics::floquet::Effort;
@@ -17,6 +20,7 @@ use super::super::caption::letter;
 use super::super::failure::failed;
 use super::super::product::{DataTable, Product};
 use super::super::source::EntrySource;
+use super::zero_lines::{speeds_of_tongues, zero_lines};
 use super::{FRICTION_PER_PRINTED, OPEN, STRENGTH_PER_PRINTED, study};
 use quell::cite::Task;
 use quell::complaint::Failure;
@@ -27,6 +31,8 @@ use quell::sweep::Grid;
 
 /// Growth rates below this are drawn on a linear scale.
 const LINEAR: f64 = 1e-5;
+/// Frictions below the first of a linear axis, as fractions of it.
+const LOW_FRICTIONS: [f64; 4] = [0.002, 0.03, 0.15, 0.5];
 /// Number of frictions at which the edges of predicted tongues are evaluated.
 const EDGES: usize = 80;
 
@@ -40,32 +46,71 @@ pub(crate) struct Growths {
     pub(crate) values: Vec<Growth>,
 }
 
+/// Growth of a disc at one speed, for any friction.
+pub(super) enum DiscGrowth {
+    Dithered(FollowerDither),
+    Undithered(Linearised),
+}
+
+impl DiscGrowth {
+    /// The disc at this speed; `name` is that of the figure, for failures.
+    pub(super) fn at(name: &str, disc: &Disc, speed: f64) -> Result<Self, Failure> {
+        let unit = disc.at_speed(speed).and_then(|disc| disc.with("disc.load.friction", 1.0));
+        let unit = unit.map_err(|_| failed(name, &"a disc of the map is not valid"))?;
+        if let Some(dithered) = dithered::prepared(&unit).map_err(|why| failed(name, &why))? {
+            return Ok(Self::Dithered(dithered));
+        }
+        let linear = linearised(&unit, Contributions::ALL).map_err(|why| failed(name, &why))?;
+        Ok(Self::Undithered(linear))
+    }
+
+    /// The growth at a friction f*.
+    pub(super) fn growth(&self, name: &str, friction: f64) -> Result<Growth, Failure> {
+        match self {
+            Self::Dithered(disc) => disc.growth(friction, Effort::default()),
+            Self::Undithered(disc) => eigenvalues::growth(disc, &[friction]),
+        }
+        .map_err(|why| failed(name, &why))
+    }
+}
+
 /// Growth of a disc over speeds and frictions, in parallel over the speeds.
 pub(crate) fn growths(
-    source: &EntrySource,
+    name: &str,
     disc: &Disc,
     speeds: Vec<f64>,
     frictions: Vec<f64>,
 ) -> Result<Growths, Failure> {
-    let failure = |why: &dyn std::fmt::Display| failed(source.name, &why);
     let rows: Result<Vec<Vec<Growth>>, Failure> = speeds
         .par_iter()
         .map(|&speed| {
-            let unit = disc.at_speed(speed).and_then(|disc| disc.with("disc.load.friction", 1.0));
-            let unit = unit.map_err(|_| failure(&"a disc of the map is not valid"))?;
-            let dithered = dithered::prepared(&unit).map_err(|why| failure(&why))?;
-            let linear = linearised(&unit, Contributions::ALL).map_err(|why| failure(&why))?;
-            frictions
-                .iter()
-                .map(|&friction| match &dithered {
-                    Some(dithered) => dithered.growth(friction, Effort::default()),
-                    None => eigenvalues::growth(&linear, &[friction]),
-                })
-                .map(|growth| growth.map_err(|why| failure(&why)))
-                .collect()
+            let disc = DiscGrowth::at(name, disc, speed)?;
+            frictions.iter().map(|&friction| disc.growth(name, friction)).collect()
         })
         .collect();
     Ok(Growths { values: rows?.concat(), speeds, frictions })
+}
+
+/// Speeds of the resonances of undithered waves, and those that dither induces.
+fn marks(disc: &Disc, speeds: &[f64]) -> Vec<(String, f64)> {
+    let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else { return Vec::new() };
+    let Ok(waves) = Waves::new(disc) else { return Vec::new() };
+    // Counted from the slowest, as in tables 5.1 and 5.2; a disc at rest is no resonance.
+    let numbered = |found: Vec<Resonance>, star: &str| -> Vec<(String, f64)> {
+        let found = found.into_iter().filter(|resonance| resonance.speed > 0.0);
+        let numbered = found.enumerate().filter(|(_, resonance)| resonance.can_be_unstable());
+        numbered
+            .map(|(index, resonance)| (format!("$Ω_{}{star}$", index + 1), resonance.speed))
+            .collect()
+    };
+    let order = match disc.dither() {
+        DiscDither::Tangential { .. } => Order::Second,
+        DiscDither::None | DiscDither::Normal { .. } => Order::First,
+    };
+    let mut marks = numbered(waves.clone().with_order(order).undithered(0.0..=last), "");
+    marks.extend(numbered(waves.dithered(0.0..=last), "^*"));
+    marks.retain(|(_, speed)| *speed >= first);
+    marks
 }
 
 /// The axes of a study: speeds, including those near meetings of waves, and frictions.
@@ -97,7 +142,7 @@ pub(crate) fn sizes(source: &EntrySource) -> Result<Product, Failure> {
     let modes = first.disc().modes().len();
     let caption = format!(
         "Figure {}. Growth rate of the undithered disc over speed and friction, {modes} modes, (a) $m$ = $c$ = $k$ = 0.1, (b) \
-         0.01 as printed; red: growing, blue: decaying. Speeds are in units of the lowest critical speed of this set of modes, \
+         0.01 as printed; dark red: growth, pale blue: decay, with the exact line of zero growth. Speeds are in units of the lowest critical speed of this set of modes, \
          which changes by a factor of 1.188 from $N_θ$ = 2 to 5. {OPEN}",
         source.name
     );
@@ -122,7 +167,7 @@ pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let damping = disc.get("disc.modal_damping").unwrap_or(0.0);
     let caption = format!(
         "Figure {}. Growth rate of the disc over speed and friction, (a) without dither, (b) with {kind} dither, $α$ = 1, $R$ \
-         = {ratio}; $m$ = $c$ = $k$ = {printed:.1} as printed, $ξ$ = {damping}; red: growing, blue: decaying. Dashed: tongues \
+         = {ratio}; $m$ = $c$ = $k$ = {printed:.1} as printed, $ξ$ = {damping}; dark red: growth, pale blue: decay, with the exact line of zero growth. Dashed: tongues \
          by first-order theory{revived}. {OPEN}",
         source.name
     );
@@ -148,7 +193,10 @@ fn draw(
     let mut panels = Vec::new();
     for (index, (study, disc)) in studies.iter().enumerate() {
         let [speeds, frictions] = axes(source, study)?;
-        let done = growths(source, disc, speeds, frictions)?;
+        let frictions = with_low_frictions(frictions);
+        let ends = (frictions[0], frictions[frictions.len() - 1]);
+        let speeds = speeds_of_tongues(source.name, disc, speeds, ends)?;
+        let done = growths(source.name, disc, speeds, frictions)?;
         let name = letter(index).to_string();
         let mut values = done.values.iter();
         for speed in &done.speeds {
@@ -164,7 +212,9 @@ fn draw(
                 ]);
             }
         }
-        let panel = panel(&done, disc, index == 1).map_err(|why| failed(source.name, &why))?;
+        let zero = zero_lines(source.name, &done, disc)?;
+        let panel =
+            panel(&done, disc, zero, index == 1).map_err(|why| failed(source.name, &why))?;
         panels.push(panel.title(format!("({name}) {}", titles[index])).legend(Legend::None));
     }
     let figure = Figure::grid(2, panels)
@@ -175,10 +225,27 @@ fn draw(
     Ok(Product::of_disc(figure, caption, study).by(&[Task::Stability]).table(table))
 }
 
-fn panel(done: &Growths, disc: &Disc, bar: bool) -> Result<Panel, quell::plot::PlotError> {
-    let logarithmic = done.frictions.len() > 2
-        && (done.frictions[1] / done.frictions[0] - done.frictions[2] / done.frictions[1]).abs()
-            < 1e-6;
+/// Whether frictions are spaced by a ratio.
+fn is_logarithmic(frictions: &[f64]) -> bool {
+    frictions.len() > 2 && (frictions[1] / frictions[0] - frictions[2] / frictions[1]).abs() < 1e-6
+}
+
+/// Equally spaced frictions with smaller ones below the first, so that tongues are seen to begin at zero.
+fn with_low_frictions(frictions: Vec<f64>) -> Vec<f64> {
+    let Some(&first) = frictions.first().filter(|_| !is_logarithmic(&frictions)) else {
+        return frictions;
+    };
+    LOW_FRICTIONS.iter().map(|share| share * first).chain(frictions).collect()
+}
+
+fn panel(
+    done: &Growths,
+    disc: &Disc,
+    zero: Vec<Vec<(f64, f64)>>,
+    bar: bool,
+) -> Result<Panel, quell::plot::PlotError> {
+    let logarithmic =
+        is_logarithmic(&done.frictions[done.frictions.len().min(LOW_FRICTIONS.len())..]);
     // Printed f in units of 10⁻⁴.
     let unit = 1e4 / FRICTION_PER_PRINTED;
     let across = PlotAxis::new("speed").symbol("Ω").log();
@@ -194,7 +261,17 @@ fn panel(done: &Growths, disc: &Disc, bar: bool) -> Result<Panel, quell::plot::P
         }
         _ => Vec::new(),
     };
+    let mut over = over;
+    over.extend(
+        marks(disc, &done.speeds)
+            .into_iter()
+            .map(|(label, speed)| quell::plot::ReferenceLine::vertical(speed).label(label).into()),
+    );
+    let zero = zero
+        .into_iter()
+        .map(|line| line.into_iter().map(|(speed, friction)| (speed, friction * unit)).collect());
     let map = picture::MappedQuantity {
+        zero: Some(zero.collect()),
         axes: vec![
             MapAxis { axis: across, values: done.speeds.clone() },
             MapAxis { axis: up, values: done.frictions.iter().map(|f| f * unit).collect() },

@@ -9,6 +9,7 @@ pub(super) mod map;
 mod modes;
 mod responses;
 mod tables;
+mod zero_lines;
 
 pub(super) use map::{figure as maps, sizes};
 pub(super) use modes::figure as modes;

@@ -2,6 +2,7 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use quell::picture::PicturePage;
 use std::fmt::Write as _;
 
 use super::super::WrittenEntry;
@@ -91,7 +92,7 @@ fn shown(done: &WrittenEntry) -> String {
     match &done.product.figure {
         Some(figure) => {
             // The caption is below the figure as text.
-            let svg = figure.clone().caption("").to_svg();
+            let svg = PicturePage::default().laid_out(figure.clone()).to_svg();
             format!(
                 "<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">",
                 escape(&done.product.plain_caption()),

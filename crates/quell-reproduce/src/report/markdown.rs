@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::super::{Resolution, WrittenEntry};
 use super::claims;
+use crate::claims::{statements, summary};
 
 /// The table.
 pub(crate) fn markdown(written: &[WrittenEntry], resolution: Resolution) -> String {
@@ -11,6 +12,10 @@ pub(crate) fn markdown(written: &[WrittenEntry], resolution: Resolution) -> Stri
     let mut text = "# The dissertation, reproduced\n\n".to_owned();
     if resolution == Resolution::Quick {
         text += "Quick: maps have coarser grids than their study files specify.\n\n";
+    }
+    if !all.is_empty() {
+        text += &summary(&statements(all.iter().copied()));
+        text += "\n\n";
     }
     text += "| name | what | claims that hold | corrections applied | files | seconds |\n|---|---|---|---|---|---|\n";
     for done in written {

@@ -1,8 +1,8 @@
-//! The first section of the report: how many claims hold, which do not, and why.
+//! The first section of the report: how many statements hold, which claims do not, and why.
 
 use std::time::Duration;
 
-use super::super::claims::{Claim, ClaimVerdict, count};
+use super::super::claims::{Claim, ClaimVerdict, count, statements};
 use super::super::{Resolution, WrittenEntry};
 use super::claims::{all, chip};
 use super::html::{Page, escape, symbols, table};
@@ -10,8 +10,12 @@ use quell::cite::MICHAUX_2005;
 
 /// Kinds of verdict in the order of the summary, with their meaning.
 const KINDS: [(&str, &str, &str); 4] = [
-    ("reproduced", "holds", "rounds to the printed number, or the statement holds"),
-    ("reproduced within", "within", "deviates by no more than the tolerance of the claim"),
+    ("reproduced", "holds", "every claim about it rounds to the printed number or holds"),
+    (
+        "reproduced within",
+        "within",
+        "the largest deviation is no more than the tolerance of the claim",
+    ),
     (
         "printed formula wrong",
         "wrong",
@@ -20,7 +24,7 @@ const KINDS: [(&str, &str, &str); 4] = [
     (
         "not reproduced",
         "fails",
-        "deviates by more than the tolerance, or the statement does not hold",
+        "a claim about it deviates by more than its tolerance, or does not hold",
     ),
 ];
 
@@ -65,9 +69,10 @@ fn extent(written: &[WrittenEntry], resolution: Resolution) -> String {
 }
 
 fn overview(page: &mut Page, claims: &[&Claim]) {
-    let total = claims.len();
+    let statements = statements(claims.iter().copied());
+    let total = statements.len();
     let share = |count: usize| 100.0 * count as f64 / total as f64;
-    let counts = KINDS.map(|(name, ..)| count(claims.iter().copied(), name));
+    let counts = KINDS.map(|(name, ..)| count(&statements, name));
     let bar = KINDS
         .iter()
         .zip(counts)
@@ -88,7 +93,9 @@ fn overview(page: &mut Page, claims: &[&Claim]) {
         .collect::<Vec<String>>()
         .concat();
     page.put(&format!(
-        "<p>Of <strong>{total}</strong> claims:</p><div class=\"bar\">{bar}</div><ul class=\"cards\">{cards}</ul>"
+        "<p>Of <strong>{total}</strong> statements, measured by {} claims:</p><div class=\"bar\">{bar}</div><ul \
+         class=\"cards\">{cards}</ul>",
+        claims.len()
     ));
 }
 

@@ -42,7 +42,7 @@ impl AxisTarget {
     /// Symbol in the equations, if it is a number of the registry.
     pub fn symbol(&self) -> Option<&'static str> {
         match self {
-            Self::Key(address) => address.key.parameter().map(|parameter| parameter.symbol),
+            Self::Key(address) => address.key.symbol(),
             Self::System(address) => address.symbol,
         }
     }

@@ -63,7 +63,7 @@ pub const CORRECTIONS: &[Correction] = &[
     Correction {
         equations: "text before figure 2.3",
         printed: "a lower frequency ratio reduces the steady amplitude further",
-        right: "the forced part is D/(R² − 1), which grows as R falls",
+        right: "true of E at constant D, figure 2.8; the forced part alone is D/(R² − 1), which grows as R falls",
         tasks: &[],
         bears: TANGENTIAL,
         proof: motion("forced_amplitude_grows_as_the_ratio_falls"),
@@ -97,7 +97,7 @@ pub const CORRECTIONS: &[Correction] = &[
     Correction {
         equations: "text of figure 2.10",
         printed: "stable again from α = 0.98 at v₀ = 1",
-        right: "α = v₀ exactly, by a jump of the criterion; 0.98 is a point of a plotting grid",
+        right: "α = v₀ exactly, by a jump of the criterion; 0.98 is a central difference with the step v_m/10 across the corner",
         tasks: STABILITY,
         bears: under(LawKind::Decreasing, Waveform::Sine),
         proof: belt("quench_amplitude_is_a_jump"),
@@ -154,7 +154,7 @@ pub const CORRECTIONS: &[Correction] = &[
     Correction {
         equations: "(3.44), (4.34)",
         printed: "α^L = v_m √((2/3)√(1 − κ))",
-        right: "α^L = v_m √((2/3)(1 − κ)), without the nested root",
+        right: "α^L = v_m √(2/3) √(1 − κ): the second root is not inside the first (probably a brace lost in the optical reading)",
         tasks: STABILITY,
         bears: under(LawKind::Stribeck, Waveform::Sine),
         proof: belt("everywhere_stable_amplitudes"),
@@ -322,7 +322,7 @@ pub const CORRECTIONS: &[Correction] = &[
     Correction {
         equations: "text before (5.30), (5.30), (5.32)",
         printed: "F_θ cos Rτ as the fundamental of a friction that alternates between ±F_θ",
-        right: "the fundamental of that square wave is (4/π)F_θ cos Rτ: every threshold under tangential dither is printed 4/π too \
+        right: "an assumption; the fundamental of that square wave is (4/π)F_θ cos Rτ: every threshold under tangential dither is printed 4/π too \
                 high; α = 4/π corrects it",
         tasks: MOTION,
         bears: Bears::Disc(DiscKind::Tangential),
@@ -389,7 +389,8 @@ pub const CORRECTIONS: &[Correction] = &[
     Correction {
         equations: "text of figures 5.9–5.12",
         printed: "without modal damping the tongues of Ω₁ and Ω₄ begin at f = 10⁻⁴ and 3·10⁻⁵",
-        right: "they have no threshold: of second order in f, there for every f > 0, their growth goes with f⁴",
+        right: "they have no threshold: of second order in f, there for every f > 0, their growth goes with f⁴; at \
+                the printed values it exceeds 10⁻⁷",
         tasks: MOTION,
         bears: Bears::Disc(DiscKind::Tangential),
         proof: disc("revived_tongues_have_no_threshold"),

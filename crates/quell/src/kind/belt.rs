@@ -47,9 +47,10 @@ impl Verbs for BeltStudy {
         Box::new(Answered::new(self, self.sources()))
     }
 
-    fn friction(&self, at: Option<Vec<f64>>) -> Reply {
+    fn friction(&self, at: Option<Vec<f64>>, measured: bool) -> Reply {
         let at = at.unwrap_or_else(|| friction::grid(self.belt()));
-        answer(self, Ok(friction::run(self, &at)))
+        let run = if measured { friction::run_measured } else { friction::run };
+        answer(self, Ok(run(self, &at)))
     }
 
     fn stability(&self) -> Reply {

@@ -51,12 +51,13 @@ pub trait Verbs: Send + Sync {
     /// [`Verbs::sources`] as an answer.
     fn cite(&self) -> Box<dyn Outcome>;
 
-    /// The friction law and the effective friction, at these slip velocities or on a grid.
+    /// The friction law and the effective friction, at these slip velocities or on a grid; with `measured` also the friction of
+    /// steady responses.
     ///
     /// # Errors
     /// A kind without this verb.
-    fn friction(&self, at: Option<Vec<f64>>) -> Reply {
-        let _ = at;
+    fn friction(&self, at: Option<Vec<f64>>, measured: bool) -> Reply {
+        let _ = (at, measured);
         Err(self.lacks("friction"))
     }
 

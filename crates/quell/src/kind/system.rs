@@ -73,7 +73,7 @@ impl Verbs for SystemStudy {
         Box::new(Answered::new(self, self.sources()))
     }
 
-    fn friction(&self, _: Option<Vec<f64>>) -> Reply {
+    fn friction(&self, _: Option<Vec<f64>>, _: bool) -> Reply {
         let instead = "; `stability` gives the friction of every contact, under dither its average";
         match self.lacks("friction") {
             Failure::Wrong(complaints) => {

@@ -44,15 +44,23 @@ fn table(study: &BeltStudy, curve: &FrictionCurve) -> String {
     for (label, words) in law::words(study) {
         let _ = writeln!(text, "{}: {words}", label.trim());
     }
+    let measured = curve.measured_coefficients().zip(curve.measured_stick_fractions());
+    let (words, names) = match measured {
+        None => ("", String::new()),
+        Some(_) => (
+            "; the friction ⟨f/N⟩ of steady responses, and the fraction of the period in stick",
+            format!("  {:>14}  {:>14}", "measured", "in stick"),
+        ),
+    };
     let _ = write!(
         text,
         "Friction versus slip velocity v_r in {unit}: the law μ, the effective friction μ̄ under the dither, \
-         and its slope\n  {:>14}  {:>14}  {:>14}  {:>14}\n",
+         and its slope{words}\n  {:>14}  {:>14}  {:>14}  {:>14}{names}\n",
         "v_r", "μ", "μ̄", "μ̄′"
     );
     // The full grid goes to files and programs; the table shows every tenth point.
     let stride = if curve.points.len() > 100 { 10 } else { 1 };
-    for point in curve.points.iter().step_by(stride) {
+    for (index, point) in curve.points.iter().enumerate().step_by(stride) {
         let law =
             point.coefficient.as_ref().map_or_else(|_| "any".to_owned(), |value| figure(*value));
         let (mean, slope) = match &point.effective {
@@ -60,7 +68,13 @@ fn table(study: &BeltStudy, curve: &FrictionCurve) -> String {
             Err(_) => ("any".to_owned(), "none".to_owned()),
         };
         let v = figure(point.slip_velocity * per_unit);
-        let _ = writeln!(text, "  {v:>14}  {law:>14}  {mean:>14}  {slope:>14}");
+        let _ = write!(text, "  {v:>14}  {law:>14}  {mean:>14}  {slope:>14}");
+        if let Some((coefficients, stuck)) = &measured {
+            let shown = |value: f64| if value.is_nan() { "none".to_owned() } else { figure(value) };
+            let [coefficient, stuck] = [coefficients[index], stuck[index]].map(shown);
+            let _ = write!(text, "  {coefficient:>14}  {stuck:>14}");
+        }
+        text.push('\n');
     }
     text
 }

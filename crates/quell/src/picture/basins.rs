@@ -108,6 +108,7 @@ pub(crate) fn plane(
         quantity: PlotAxis::new("outcome"),
         kind: MapKind::Outcome((0..basins.len()).map(outcome).collect()),
         reasons: vec![UNKNOWN.to_owned()],
+        zero: None,
         over,
     };
     Ok(map_panel(&picture, false).map_err(undrawable)?.legend(Legend::Above))

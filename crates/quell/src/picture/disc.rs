@@ -9,9 +9,9 @@ use super::caption::caption_of_disc;
 use super::undrawable;
 use crate::complaint::Failure;
 use crate::plot::{
-    Colouring, Contours, Field, Figure, Heatmap, Layer, Legend, LineStyle, Marker, Palette, Panel,
-    PlotAxis, PlotError, PlotRole, Points, Polyline, ReferenceLine, Shading, SharedLegend, Sharing,
-    Size,
+    Colouring, Contours, Field, Figure, Heatmap, Layer, Legend, LineStyle, Marker, Note, Palette,
+    Panel, PlotAxis, PlotError, PlotRole, Points, Polyline, ReferenceLine, Shading, SharedLegend,
+    Sharing, Size,
 };
 use crate::run::disc::campbell::Campbell;
 use crate::run::disc::modes::Modes;
@@ -102,7 +102,42 @@ pub fn shape(mode: &PlateMode, inner: f64) -> Result<Panel, PlotError> {
         .with(grid)
         .with(Contours::new(field, [0.0]).plain())
         .with(Polyline::pieces(PlotRole::Boundary, [circle(inner), circle(1.0)]))
+        .with_all(signs(mode, inner))
         .legend(Legend::None))
+}
+
+/// The sign of the deflection at every antinode, for prints without colours.
+fn signs(mode: &PlateMode, inner: f64) -> Vec<Note> {
+    const RADII: usize = 100;
+    // A sign at the outer edge would cover it.
+    const OUTERMOST: f64 = 0.92;
+    let radii: Vec<f64> =
+        (0..=RADII).map(|k| inner + (OUTERMOST - inner) * (k as f64 / RADII as f64)).collect();
+    let sizes: Vec<f64> =
+        radii.iter().map(|r| mode.shape.deflection(*r, 0.0).unwrap_or(0.0)).collect();
+    let is_antinode = |k: usize| {
+        let size = |k: usize| sizes[k].abs();
+        size(k) > size(k - 1) && (k == RADII || size(k) >= size(k + 1))
+    };
+    let diameters = mode.diameters;
+    let angles: Vec<(f64, f64)> = match diameters {
+        // A shape without nodal diameters has one sign around; four marks show it.
+        0 => (0..4).map(|k| (std::f64::consts::FRAC_PI_4 * f64::from(2 * k + 1), 1.0)).collect(),
+        _ => (0..2 * diameters)
+            .map(|k| {
+                let angle = std::f64::consts::PI * f64::from(k) / f64::from(diameters);
+                (angle, if k % 2 == 0 { 1.0 } else { -1.0 })
+            })
+            .collect(),
+    };
+    (1..=RADII)
+        .filter(|k| is_antinode(*k))
+        .flat_map(|k| angles.iter().map(move |angle| (k, *angle)))
+        .map(|(k, (angle, side))| {
+            let sign = if sizes[k] * side > 0.0 { "+" } else { "\u{2212}" };
+            Note::new(radii[k] * libm::cos(angle), radii[k] * libm::sin(angle), sign)
+        })
+        .collect()
 }
 
 /// Frequency and growth rate of every motion over speed, with the speed of the study marked.

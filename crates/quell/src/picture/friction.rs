@@ -41,6 +41,9 @@ pub fn friction(study: &BeltStudy, curve: &FrictionCurve) -> Figure {
                 .label("effective: $\\bar{μ}$"),
         );
     }
+    if let Some(measured) = curve.measured_coefficients() {
+        panel = panel.with(line(PlotRole::Exact, measured).label("steady responses: $⟨f/N⟩$"));
+    }
     Figure::single(panel)
         .title(study.title().unwrap_or_default())
         .caption(format!("{}.", caption(study)))

@@ -1,8 +1,8 @@
 //! Pictures of maps: one quantity over one axis, over two axes, or over two axes for each value of the others.
 //!
-//! Two axes give a map: an efficiency as labelled contour lines over light colours, a growth rate in blue (decay) and red
-//! (growth) with the zero contour, an outcome in flat colours, and any other number in colours with contour lines at round
-//! values. One axis gives a curve with gaps where the value is unknown. Points without a value are hatched, with the reason in
+//! Two axes give a map: an efficiency as labelled contour lines over light colours, a growth rate in pale blue (decay) and
+//! darker red (growth) with the zero contour, an outcome in flat colours, and any other number in colours with contour lines at
+//! round values. One axis gives a curve with gaps where the value is unknown. Points without a value are hatched, with the reason in
 //! the legend. Theoretical curves are drawn on top.
 
 use std::ops::Range;
@@ -14,8 +14,12 @@ use crate::plot::{
     Spread, Tint,
 };
 
-/// Contour levels of an efficiency (per cent).
-const EFFICIENCY_LEVELS: &[f64] = &[5.0, 20.0, 40.0, 60.0, 80.0, 95.0];
+/// Contour levels of an efficiency by which maps are read (per cent): quenched, halved, without effect.
+const EFFICIENCY_LEVELS: &[f64] = &[5.0, 50.0, 95.0];
+/// Contour levels between them (per cent).
+const EFFICIENCY_BETWEEN: &[f64] = &[20.0, 80.0];
+/// Widths of these contours (pixels).
+const EFFICIENCY_WIDTHS: (f64, f64) = (1.3, 0.6);
 /// Approximate number of round contour levels of a number.
 const LEVELS: usize = 7;
 /// Width of the contour of zero growth, which is wider than other contour lines (pixels).
@@ -39,7 +43,7 @@ pub struct MapAxis {
 /// Kind of the numbers of a map, which determines how they are drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MapKind {
-    /// A fraction of one: contours at 5, 20, 40, 60, 80 and 95 per cent.
+    /// A fraction of one: contours at 5, 50 and 95 per cent, and thinner ones at 20 and 80 per cent.
     Efficiency,
     /// A rate whose sign determines stability: colours centred on zero with the given spread, and the zero contour.
     Growth(Spread),
@@ -63,6 +67,8 @@ pub struct MappedQuantity {
     pub values: Vec<Result<f64, usize>>,
     /// Reasons for missing numbers, as shown in the legend.
     pub reasons: Vec<String>,
+    /// The zero lines of a rate, if they are known more accurately than by interpolation between the points of the map.
+    pub zero: Option<Vec<Vec<(f64, f64)>>>,
     /// Theoretical curves and regions, drawn over each panel.
     pub over: Vec<Layer>,
 }
@@ -185,11 +191,24 @@ fn plane(
     let panel = Panel::new(x.axis.clone(), y.axis.clone()).with(grid);
     let panel = match &map.kind {
         MapKind::Efficiency => {
-            panel.with(Contours::new(field, EFFICIENCY_LEVELS.iter().copied()).unit("%"))
+            let contours = |levels: &[f64], width: f64| {
+                Contours::new(field.clone(), levels.iter().copied()).unit("%").width(width)
+            };
+            panel
+                .with(contours(EFFICIENCY_LEVELS, EFFICIENCY_WIDTHS.0))
+                .with(contours(EFFICIENCY_BETWEEN, EFFICIENCY_WIDTHS.1))
         }
         MapKind::Growth(_) => {
-            let zero = Contours::new(field, [0.0]).plain().width(ZERO_WIDTH);
-            panel.with(zero.label(format!("zero {}", map.quantity.name)))
+            let label = format!("zero {}", map.quantity.name);
+            match &map.zero {
+                Some(lines) => {
+                    let exact = Polyline::pieces(PlotRole::Boundary, lines.iter().cloned());
+                    panel.with(exact.width(ZERO_WIDTH).label(label))
+                }
+                None => {
+                    panel.with(Contours::new(field, [0.0]).plain().width(ZERO_WIDTH).label(label))
+                }
+            }
         }
         MapKind::Outcome(_) => panel,
         MapKind::Number(Spread::Linear) => panel.with(Contours::about(field, LEVELS)),
@@ -224,7 +243,7 @@ fn colouring(map: &MappedQuantity) -> Colouring {
     let shading = match &map.kind {
         MapKind::Efficiency => Shading::new(Palette::Pale).range(0.0, 100.0),
         MapKind::Growth(spread) => {
-            let shading = Shading::new(Palette::Diverging).spread(*spread);
+            let shading = Shading::new(Palette::Sign).spread(*spread).signs("decay", "growth");
             range.map_or(shading.clone(), |(least, most)| shading.range(least, most))
         }
         MapKind::Number(spread) => {

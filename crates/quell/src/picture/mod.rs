@@ -11,6 +11,7 @@ pub mod exponents;
 mod friction;
 mod map;
 mod orbit;
+mod page;
 mod response;
 mod ruler;
 mod simulate;
@@ -30,6 +31,7 @@ pub use bifurcation::bifurcation;
 pub use friction::friction;
 pub use map::{MOST_PANELS, MapAxis, MapKind, MappedQuantity, map, map_panel};
 pub use orbit::{orbit, response as periodic_response};
+pub use page::{PicturePage, PictureWidth};
 pub use response::response;
 pub use simulate::simulate;
 pub use stability::stability;
@@ -42,17 +44,17 @@ use crate::plot::{Figure, Panel, PlotError, PlotRole, Polyline, Region};
 use crate::study::BeltStudy;
 
 /// File name extensions of the supported picture formats.
-pub const EXTENSIONS: &[&str] = &["svg", "png"];
+pub const EXTENSIONS: &[&str] = &["svg", "pdf", "png"];
 
 /// Writes a figure in the format of the output's extension.
 ///
 /// # Errors
 /// [`Failure::Failed`] if the figure cannot be drawn or written.
 pub fn write(figure: &Figure, output: Output) -> Result<String, Failure> {
-    let bytes = if output.extension() == "png" {
-        figure.to_png().map_err(undrawable)?
-    } else {
-        figure.to_svg().into_bytes()
+    let bytes = match output.extension().as_str() {
+        "png" => figure.to_png().map_err(undrawable)?,
+        "pdf" => figure.to_pdf().map_err(undrawable)?,
+        _ => figure.to_svg().into_bytes(),
     };
     output.write(&bytes).map(|path| path.display().to_string())
 }

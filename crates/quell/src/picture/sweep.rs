@@ -100,6 +100,7 @@ fn picture(done: &FinishedMap, entry: &VariableArrays) -> MappedQuantity {
         kind,
         values: (0..grid.len()).map(value).collect(),
         reasons: unknown.iter().map(|status| status.about().to_owned()).collect(),
+        zero: None,
         over: over(done),
     }
 }
@@ -127,21 +128,17 @@ fn over(done: &FinishedMap) -> Vec<Layer> {
             })
             .collect();
         let (role, style) = match response {
-            FastResponse::Limit => (PlotRole::Boundary, LineStyle::Solid),
-            FastResponse::Oscillator => (PlotRole::Exact, LineStyle::Dashed),
+            FastResponse::Limit => (PlotRole::Averaged, LineStyle::DashDotted),
+            FastResponse::Oscillator => (PlotRole::Averaged, LineStyle::ShortDashed),
         };
         let any = points.iter().any(|piece: &Vec<_>| piece.len() > 1);
         any.then(|| Layer::from(Polyline::pieces(role, points).style(style).label(label)))
     };
     [
         line(FastResponse::Limit, Becomes::Stable, "quenches, by averaging"),
-        line(FastResponse::Oscillator, Becomes::Stable, "quenches, with the exact fast motion"),
+        line(FastResponse::Oscillator, Becomes::Stable, "quenches, by finite-$R$ averaging"),
         line(FastResponse::Limit, Becomes::Unstable, "destabilises, by averaging"),
-        line(
-            FastResponse::Oscillator,
-            Becomes::Unstable,
-            "destabilises, with the exact fast motion",
-        ),
+        line(FastResponse::Oscillator, Becomes::Unstable, "destabilises, by finite-$R$ averaging"),
     ]
     .into_iter()
     .flatten()

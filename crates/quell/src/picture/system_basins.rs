@@ -67,6 +67,7 @@ fn plane(
         quantity: PlotAxis::new("outcome"),
         kind: MapKind::Outcome(outcomes.collect()),
         reasons: vec![UNKNOWN.to_owned()],
+        zero: None,
         over: Vec::new(),
     };
     map_panel(&picture, false).map_err(undrawable)

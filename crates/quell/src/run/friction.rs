@@ -1,20 +1,26 @@
 //! `friction`: the friction law and the effective friction under the dither, versus slip velocity.
 
+use quell_dynamics::response::{SteadyFriction, steady_effective_friction};
 use quell_linear::averaging::{AveragingOptions, Effective, FastMotion, SlopeSide, effective};
-use quell_model::Belt;
 use quell_model::units::Quantity;
+use quell_model::{Belt, Direction};
+use rayon::prelude::*;
 use serde_json::Value as Json;
 
 use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::range;
 use crate::study::BeltStudy;
+use crate::words::in_words;
 
 /// Points of the default grid on each side of v_r = 0.
 const POINTS: u32 = 200;
 
 /// Points clustered at the corner of the effective friction, each at half the distance of the one before.
 const CORNER: i32 = 16;
+
+/// Relative difference up to which measured and averaged friction agree.
+const AGREES: f64 = 0.1;
 
 /// Friction at one slip velocity.
 #[derive(Clone, Debug)]
@@ -32,6 +38,8 @@ pub struct FrictionPoint {
 pub struct FrictionCurve {
     /// Points in the requested order.
     pub points: Vec<FrictionPoint>,
+    /// ⟨f/N⟩ of the steady response at each point, or why there is none; `None` if it was not requested.
+    pub measured: Option<Vec<Result<SteadyFriction, String>>>,
 }
 
 /// Slip velocities of a picture: beyond the velocities of the law, the belt and the fast motion, up to where slip
@@ -80,7 +88,19 @@ pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
             .and_then(|motion| effective(law, &motion, v))
             .map_err(|why| why.to_string()),
     });
-    FrictionCurve { points: points.collect() }
+    FrictionCurve { points: points.collect(), measured: None }
+}
+
+/// The same with friction measured on steady responses (4.30), (4.31), in parallel on all cores.
+pub fn run_measured(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
+    let tolerance = study.solver().tolerance;
+    let measured = at.par_iter().map(|&v| {
+        if v == 0.0 {
+            return Err("at zero slip velocity the belt does not move".to_owned());
+        }
+        steady_effective_friction(study.belt(), v, tolerance).map_err(|why| why.to_string())
+    });
+    FrictionCurve { measured: Some(measured.collect()), ..run(study, at) }
 }
 
 impl FrictionCurve {
@@ -102,6 +122,21 @@ impl FrictionCurve {
     /// μ̄′ at each point; NaN where it is undefined.
     pub fn effective_slopes(&self) -> Vec<f64> {
         self.column(|point| point.effective.as_ref().map_or(f64::NAN, |found| found.slope))
+    }
+
+    /// ⟨f/N⟩ of the steady response at each point, NaN where there is none; `None` if it was not requested.
+    pub fn measured_coefficients(&self) -> Option<Vec<f64>> {
+        self.measured_column(|found| found.coefficient)
+    }
+
+    /// Fraction of the period that the steady response sticks, in the same way.
+    pub fn measured_stick_fractions(&self) -> Option<Vec<f64>> {
+        self.measured_column(|found| found.stick_fraction)
+    }
+
+    fn measured_column(&self, value: fn(&SteadyFriction) -> f64) -> Option<Vec<f64>> {
+        let measured = self.measured.as_ref()?;
+        Some(measured.iter().map(|found| found.as_ref().map_or(f64::NAN, value)).collect())
     }
 
     fn column(&self, value: impl Fn(&FrictionPoint) -> f64) -> Vec<f64> {
@@ -132,6 +167,7 @@ impl FrictionCurve {
             point.effective.as_ref().is_ok_and(|found| found.side == SlopeSide::Outer)
         });
         fields.plain("effective_slope_one_sided", one_sided.collect::<Vec<bool>>());
+        self.measured_json(&mut fields);
         for (index, point) in self.points.iter().enumerate() {
             if let Err(why) = &point.coefficient {
                 fields.why(&format!("coefficient[{index}]"), why);
@@ -145,19 +181,114 @@ impl FrictionCurve {
         fields.finish()
     }
 
-    /// Warnings where the slip velocities, or that of the belt, leave the range of the law when the fast motion is added.
+    /// The columns of the measured friction, if it was requested.
+    fn measured_json(&self, fields: &mut Fields) {
+        let (Some(measured), Some(coefficients), Some(stuck)) =
+            (&self.measured, self.measured_coefficients(), self.measured_stick_fractions())
+        else {
+            return;
+        };
+        let verdict = |found: &Result<SteadyFriction, String>| {
+            found.as_ref().map_or(Json::Null, |found| found.verdict.name().into())
+        };
+        fields
+            .numbers("measured_coefficient", Quantity::Ratio, &coefficients)
+            .numbers("measured_stick_fraction", Quantity::Ratio, &stuck)
+            .plain("measured_verdict", measured.iter().map(verdict).collect::<Vec<Json>>());
+        for (index, found) in measured.iter().enumerate() {
+            if let Err(why) = found {
+                for name in ["coefficient", "stick_fraction", "verdict"] {
+                    fields.why(&format!("measured_{name}[{index}]"), why);
+                }
+            }
+        }
+    }
+
+    /// Warnings where the slip velocities, or that of the belt, leave the range of the law when the fast motion is added, and
+    /// where averaging under normal dither is not valid.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let speeds = self.points.iter().map(|point| point.slip_velocity.abs());
         let fastest = speeds.fold(study.belt().belt_velocity(), f64::max);
-        range::averaged_at(study, fastest)
+        let mut warnings = range::averaged_at(study, fastest);
+        warnings.extend(match &self.measured {
+            None => self.slow_slip(study),
+            Some(measured) => self.averaging_is_off(study, measured),
+        });
+        warnings
+    }
+
+    /// Averaging under normal dither assumes slip throughout: the fast velocity must not reach the slip velocity. Where it does,
+    /// the contact sticks for a part of each period, most of it while the load is large.
+    fn slow_slip(&self, study: &BeltStudy) -> Option<String> {
+        let belt = study.belt();
+        let fast: f64 =
+            belt.dithers_along(Direction::Normal).map(|dither| belt.fast_velocity_of(dither)).sum();
+        let slow = |point: &FrictionPoint| {
+            let speed = point.slip_velocity.abs();
+            0.0 < speed && speed < fast
+        };
+        self.points.iter().any(slow).then(|| {
+            let fast = in_words(study, Quantity::Velocity, fast);
+            format!(
+                "below |v_r| = {fast}, the fast velocity under the normal dither, the contact may stick for a part of each period: \
+                 averaging assumes that it slips, and can be several times too low; the option measured gives the friction of \
+                 steady responses"
+            )
+        })
+    }
+
+    /// Where the measured friction under normal dither differs most from the averaged one, and from which slip velocity on they
+    /// agree.
+    fn averaging_is_off(
+        &self,
+        study: &BeltStudy,
+        measured: &[Result<SteadyFriction, String>],
+    ) -> Option<String> {
+        if !study.belt().has_normal_dither() {
+            return None;
+        }
+        // (|v_r|, measured/averaged)
+        let ratios: Vec<(f64, f64)> = self
+            .points
+            .iter()
+            .zip(measured)
+            .filter_map(|(point, measured)| {
+                let averaged = point.effective.as_ref().ok()?.coefficient;
+                let ratio = measured.as_ref().ok()?.coefficient / averaged;
+                ratio.is_finite().then(|| (point.slip_velocity.abs(), ratio))
+            })
+            .collect();
+        let off = |ratio: f64| (ratio - 1.0).abs() > AGREES;
+        let worst = ratios
+            .iter()
+            .filter(|(_, ratio)| off(*ratio))
+            .max_by(|a, b| (a.1 - 1.0).abs().total_cmp(&(b.1 - 1.0).abs()))?;
+        let last =
+            ratios.iter().filter(|(_, ratio)| off(*ratio)).map(|(v, _)| *v).fold(0.0, f64::max);
+        let [at, last] = [worst.0, last].map(|v| in_words(study, Quantity::Velocity, v));
+        Some(format!(
+            "at |v_r| = {at} the measured friction is {} times the averaged one; of the points given, those above |v_r| = {last} \
+             agree within {} %",
+            quell_model::digits::digits(worst.1, 3),
+            100.0 * AGREES
+        ))
     }
 
     /// As a dataset.
     pub fn dataset(&self, study: &BeltStudy) -> Dataset {
-        Dataset::new(study, "friction")
+        let mut dataset = Dataset::new(study, "friction")
             .axis("slip_velocity", Quantity::Velocity, self.slip_velocities())
             .array("coefficient", Quantity::Ratio, self.coefficients())
             .array("effective_coefficient", Quantity::Ratio, self.effective_coefficients())
-            .per_velocity("effective_slope", self.effective_slopes())
+            .per_velocity("effective_slope", self.effective_slopes());
+        for (name, values) in [
+            ("measured_coefficient", self.measured_coefficients()),
+            ("measured_stick_fraction", self.measured_stick_fractions()),
+        ] {
+            if let Some(values) = values {
+                dataset = dataset.array(name, Quantity::Ratio, values);
+            }
+        }
+        dataset
     }
 }

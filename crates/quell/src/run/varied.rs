@@ -92,7 +92,7 @@ impl Varied {
         Ok(Self {
             path: path.clone(),
             about: address.key.about,
-            symbol: address.key.parameter().map(|parameter| parameter.symbol),
+            symbol: address.key.symbol(),
             unit: address.key.unit_in_words(),
             values: evenly((from, to), points),
         })

@@ -76,6 +76,8 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
     """Bound on the error of μ̄′ (n,)."""
     effective_slope_one_sided: list[bool]
     """Whether μ̄′ is the slope on one side of a kink (n,)."""
+    measured_verdict: list[Verdict | None] | None
+    """Measured: stability of the steady response on which friction is measured (n,)."""
 
     @property
     def slip_velocity(self) -> npt.NDArray[np.float64]:
@@ -96,6 +98,18 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
     def effective_slope(self) -> npt.NDArray[np.float64]:
         """μ̄′ (n,) per unit of ``slip_velocity``; NaN where it is undefined."""
         return self.arrays["effective_slope"].values
+
+    @property
+    def measured_coefficient(self) -> npt.NDArray[np.float64] | None:
+        """⟨f/N⟩ (n,) over a period of the steady response; NaN where there is none, ``None`` without ``measured=True``."""
+        found = self.arrays.get("measured_coefficient")
+        return None if found is None else found.values
+
+    @property
+    def measured_stick_fraction(self) -> npt.NDArray[np.float64] | None:
+        """Fraction of the period (n,) that this response sticks; ``None`` without ``measured=True``."""
+        found = self.arrays.get("measured_stick_fraction")
+        return None if found is None else found.values
 
 
 class Stability(_columns.StabilityColumns, Result):

@@ -169,6 +169,14 @@ impl Key {
         }
     }
 
+    /// Symbol of its number in the equations, in SI or not.
+    pub fn symbol(&self) -> Option<&'static str> {
+        match self.role {
+            Role::Twin(_, SiTwin { own: Some((symbol, _)), .. }) => Some(symbol),
+            _ => self.parameter().map(|parameter| parameter.symbol),
+        }
+    }
+
     /// Whether it takes a number that can be varied.
     pub fn takes_number(&self) -> bool {
         let scale = matches!(self.role, Role::Scale(_) | Role::Constant | Role::FrictionForce(..));

@@ -85,7 +85,7 @@ fn numbers() -> Vec<Key> {
             section,
             name: twin.key,
             role: Role::Twin(parameter, twin),
-            about,
+            about: twin.own.map_or(about, |(_, own)| own),
         }));
     }
     keys

@@ -17,27 +17,6 @@ use crate::study::{Kind, Study};
 pub const DEFAULT_WIDTH_MM: f64 = 120.0;
 /// The narrowest and the widest sketch (mm).
 pub const WIDTHS_MM: (f64, f64) = (80.0, 400.0);
-/// File name extensions of the formats of a sketch.
-pub const FORMATS: &[&str] = &["svg", "pdf", "png"];
-
-/// A width with its unit in mm: mm, cm, in or pt (1/72 in).
-///
-/// # Errors
-/// A complaint without a unit, or outside [`WIDTHS_MM`].
-pub fn width(text: &str) -> Result<f64, Box<Complaint>> {
-    let units = [("mm", 1.0), ("cm", 10.0), ("in", 25.4), ("pt", 25.4 / 72.0)];
-    let read = units.iter().find_map(|(unit, length)| {
-        let number: f64 = text.trim().strip_suffix(unit)?.trim_end().parse().ok()?;
-        Some(number * length)
-    });
-    let (least, most) = WIDTHS_MM;
-    read.filter(|width| (least..=most).contains(width)).ok_or_else(|| {
-        let allowed = format!(
-            "a length from {least} mm to {most} mm with its unit (mm, cm, in or pt), such as 85mm"
-        );
-        Box::new(Complaint::option("--width", text, allowed))
-    })
-}
 
 /// The sketch of a study on a sheet of this width (mm).
 ///

@@ -1,0 +1,45 @@
+"""``python -m quell.explore [study.toml]``: opens the explorer of a study in the browser."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import webbrowser
+
+from .._errors import QuellError
+from .._study import Study
+from . import explore
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Runs the explorer until Ctrl-C."""
+    parser = argparse.ArgumentParser(prog="python -m quell.explore", description="Explores a study in the browser.")
+    parser.add_argument("study", nargs="?", help="study file (TOML) [default: the first study of `quell new`]")
+    parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", help="changes a value of the study")
+    parser.add_argument("--no-browser", action="store_true", help="only print the address")
+    given = parser.parse_args(arguments)
+    try:
+        changes = dict(it.split("=", 1) for it in given.set)
+    except ValueError:
+        parser.error("--set: expected PATH=VALUE")
+    if changes and given.study is None:
+        parser.error("--set: needs a study file")
+    try:
+        explorer = explore(Study.from_toml(given.study, changes) if given.study else None)
+    except (QuellError, ImportError) as refused:
+        print(refused, file=sys.stderr)
+        return 2
+    print(f"The explorer is at {explorer.url}\nCtrl-C ends it.", flush=True)
+    if not given.no_browser:
+        webbrowser.open(explorer.url)
+    try:
+        explorer.wait()
+    except KeyboardInterrupt:
+        pass
+    finally:
+        explorer.stop()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,172 @@
+"""The column on the left: every number of the study as a slider with its unit and range, and its choices."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable
+from typing import Any
+
+import panel as pn
+
+from .._study import Study
+from .._tables import Number
+from ._laws import laws, tables_of_laws
+from ._numbers import Choice, Knob, choices, knob, knobs, label_of, tokens
+from ._style import FONT, SIDE, TEXT
+
+MOST_OPEN = 12
+"""Largest number of sliders of a group that is open at first."""
+
+CLOSED = ("mass", "damping", "stiffness", "tangent", "normal", "slope", "at", "matrix", "force", "solver", "shape", "observe")
+"""Groups that are closed at first: elements of matrices and rows, and settings of the solver."""
+
+Change = Callable[[dict[str, Number | str]], bool]
+
+
+class Slider:
+    """A slider and a field for one number."""
+
+    def __init__(self, one: Knob, change: Change) -> None:
+        self.knob = one
+        self._change = change
+        self._silent = False
+        name = f"quell-{one.path.replace('.', '-').replace('[', '-').replace(']', '')}"
+        self._label = pn.pane.HTML("", width=SIDE - 130, margin=(0, 0, 0, 4))
+        self.field = pn.widgets.FloatInput(value=one.value, width=112, margin=(0, 2, 0, 2), css_classes=[f"{name}-field"])
+        self.slider = pn.widgets.DiscreteSlider(
+            options=one.grid(), value=one.value, width=SIDE - 20, margin=(0, 4, 0, 4), show_value=False, css_classes=[name]
+        )
+        self._ends = pn.pane.HTML("", width=SIDE - 20, margin=(0, 4, 8, 4))
+        self._describe()
+        self.slider.param.watch(self._moved, "value")
+        self.field.param.watch(self._typed, "value")
+        self.view = pn.Column(pn.Row(self._label, self.field, width=SIDE), self.slider, self._ends, width=SIDE)
+
+    def _describe(self) -> None:
+        one = self.knob
+        unit = f' <span style="color:#555">[{html.escape(one.unit)}]</span>' if one.unit else ""
+        about = html.escape(one.about, quote=True)
+        self._label.object = (
+            f'<div title="{about}" style="font-family:{FONT};font-size:{TEXT}px;line-height:1.15"><b>{html.escape(one.label)}</b>{unit}</div>'
+        )
+        scale = "logarithmic" if one.logarithmic else ""
+        self._ends.object = (
+            f'<div style="font-family:{FONT};font-size:{TEXT - 3}px;color:#555;display:flex;justify-content:space-between">'
+            f"<span>{one.start:g}</span><span>{scale}</span><span>{one.stop:g}</span></div>"
+        )
+
+    def _given(self, number: float) -> bool:
+        changes: dict[str, Number | str] = {self.knob.path: self.knob.given(number)}
+        if self.knob.twin is not None:
+            changes[self.knob.twin] = self.knob.given(number)
+        return self._change(changes)
+
+    def _moved(self, event: Any) -> None:
+        if not self._silent:
+            self._silent = True
+            self.field.value = event.new
+            self._silent = False
+            self._given(event.new)
+
+    def _typed(self, event: Any) -> None:
+        if not self._silent and event.new is not None:
+            self._given(float(event.new))
+
+    def show(self, one: Knob) -> None:
+        """Shows a number, with the range as it was if it is inside."""
+        self._silent = True
+        old = self.knob
+        if old.start <= one.value <= old.stop:
+            one = Knob(**{**one.__dict__, "start": old.start, "stop": old.stop, "logarithmic": old.logarithmic})
+        self.knob = one
+        if one.value not in self.slider.options:
+            self.slider.options = one.grid()
+        self.slider.value = one.value
+        self.field.value = one.value
+        self._describe()
+        self._silent = False
+
+
+class Controls:
+    """The column of numbers and choices of a study."""
+
+    def __init__(self, study: Study, change: Change, choose_law: Callable[[str, str], None]) -> None:
+        self._change = change
+        self._choose_law = choose_law
+        self.sliders: dict[str, Slider] = {}
+        self._selects: dict[str, Any] = {}
+        self._silent = False
+        self.view = pn.Column(width=SIDE + 8)
+        self._build(study)
+
+    def _build(self, study: Study) -> None:
+        self.sliders, self._selects = {}, {}
+        groups: dict[str, list[Any]] = {}
+        for path, law in tables_of_laws(study).items():
+            self._law(groups, study, path, law)
+        for choice in choices(study):
+            self._choice(groups, choice)
+        for one in knobs(study):
+            slider = Slider(one, self._change)
+            self.sliders[one.path] = slider
+            groups.setdefault(one.group, []).append(slider.view)
+        self._paths = self.shape(study)
+        self.view[:] = [self._card(group, found) for group, found in sorted(groups.items(), key=lambda it: rank(it[0]))]
+
+    def _card(self, group: str, found: list[Any]) -> Any:
+        closed = group.split(" ")[-1] in CLOSED or len(found) > MOST_OPEN + 4
+        return pn.Card(
+            *found,
+            title=group,
+            collapsed=closed,
+            width=SIDE + 4,
+            margin=(0, 0, 6, 0),
+            header_background="#eef3f7",
+            styles={"font-family": FONT, "font-size": f"{TEXT + 1}px"},
+        )
+
+    def _law(self, groups: dict[str, list[Any]], study: Study, path: str, law: str) -> None:
+        options = laws() if law in laws() else [law, *laws()]
+        select = pn.widgets.Select(label="law", options=options, value=law, width=SIDE - 20, margin=(2, 4, 8, 4))
+        select.param.watch(lambda event: None if self._silent else self._choose_law(path, event.new), "value")
+        self._selects[f"{path}.law"] = select
+        groups.setdefault(label_of(study, [*tokens(path), "law"], "")[1], []).append(select)
+
+    def _choice(self, groups: dict[str, list[Any]], choice: Choice) -> None:
+        select = pn.widgets.Select(
+            label=choice.label, options=list(choice.options), value=choice.value, width=SIDE - 20, margin=(2, 4, 8, 4)
+        )
+        select.param.watch(lambda event: None if self._silent else self._change({choice.path: event.new}), "value")
+        self._selects[choice.path] = select
+        groups.setdefault(choice.group, []).append(select)
+
+    @staticmethod
+    def shape(study: Study) -> tuple[object, ...]:
+        """What the column has: it is built again if this changes."""
+        return (*tables_of_laws(study).items(), *(it.path for it in choices(study)), *((it.path, it.twin) for it in knobs(study)))
+
+    def show(self, study: Study) -> None:
+        """Shows the numbers of a study."""
+        if self.shape(study) != self._paths:
+            self._build(study)
+            return
+        for one in knobs(study):
+            if self.sliders[one.path].knob.value != one.value or self.sliders[one.path].slider.value != one.value:
+                self.sliders[one.path].show(one)
+        self._silent = True
+        for choice in choices(study):
+            self._selects[choice.path].value = choice.value
+        self._silent = False
+
+    def show_one(self, study: Study, path: str) -> None:
+        """Shows one number again, after a change that was refused or typed."""
+        found = knob(study, path, study.settings.get(path))
+        if found is not None and path in self.sliders:
+            self.sliders[path].show(Knob(**{**found.__dict__, "twin": self.sliders[path].knob.twin}))
+
+
+def rank(group: str) -> int:
+    """The place of a group: dither first, then laws, the model, and what is closed."""
+    order = ("dither", "friction", "contact", "belt", "disc", "parameters", "system")
+    first, last = group.split(" ")[0], group.split(" ")[-1]
+    return (100 if last in CLOSED else 0) + (order.index(first) if first in order else len(order))

@@ -1,0 +1,85 @@
+"""Another friction law in place of that of a study, with numbers that fit."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any
+
+from .._study import Study
+from ._numbers import definitions, tokens
+
+NUMBERS = ("static_coefficient", "minimum_coefficient", "coefficient", "reference_velocity", "reference_velocity_m_per_s")
+"""Numbers that laws share."""
+
+
+def tables_of_laws(study: Study) -> dict[str, str]:
+    """The friction laws of a study, by the path of their table."""
+    document = study._native.document()
+    found = {"friction": document["friction"]["law"]} if "law" in document.get("friction", {}) else {}
+    contacts = document.get("contact", [])
+    listed = isinstance(contacts, list)
+    for place, contact in enumerate(contacts if listed else [contacts]):
+        if isinstance(contact, dict) and "law" in contact.get("friction", {}):
+            found[f"contact[{place}].friction" if listed else "contact.friction"] = contact["friction"]["law"]
+    return found
+
+
+def laws() -> list[str]:
+    """The laws that need no file and no formula of their own, and the law of a formula."""
+    names = [node["properties"]["law"]["const"] for node in definitions()["friction_scaled"]["oneOf"]]
+    return [name for name in names if name != "samples"]
+
+
+def other_law(study: Study, path: str, law: str) -> dict[str, Any]:
+    """The document of a study in which the table at ``path`` has another law."""
+    document: dict[str, Any] = copy.deepcopy(study._native.document())
+    outer: Any = document
+    *above, last = tokens(path)
+    for token in above:
+        outer = outer[token]
+    outer[last] = table_of(study, outer[last], law)
+    return document
+
+
+def table_of(study: Study, old: dict[str, Any], law: str) -> dict[str, Any]:
+    """The table of a law; numbers that it shares with the old one are kept."""
+    is_si = any(key.endswith("_m_per_s") for key in leaf_keys(study._native.document()))
+    velocity = "reference_velocity_m_per_s" if is_si else "reference_velocity"
+    sliding = next((old[it] for it in ("minimum_coefficient", "coefficient") if isinstance(old.get(it), (int, float))), 0.3)
+    static = old.get("static_coefficient", sliding)
+    speed = next((old[it] for it in (velocity, "reference_velocity") if it in old), None)
+    known = {
+        "static_coefficient": static,
+        "minimum_coefficient": sliding,
+        "coefficient": sliding,
+        velocity: speed if speed is not None else usual_speed(study),
+    }
+    if law == "expression":
+        if not all(isinstance(it, (int, float)) for it in known.values()):
+            known = {"minimum_coefficient": 0.3, "static_coefficient": 0.4, velocity: 1.0}
+        formula = "{minimum_coefficient} + ({static_coefficient} - {minimum_coefficient})*exp(-abs(v)/{speed})"
+        return {"law": law, "coefficient": formula.format(**known, speed=known[velocity])}
+    table: dict[str, Any] = {"law": law}
+    # In SI a force may stand for a coefficient, so that the schema requires neither.
+    for node in definitions()["friction_scaled"]["oneOf"]:
+        if node["properties"]["law"]["const"] == law:
+            names = (velocity if key == "reference_velocity" else key for key in node["required"])
+            table.update({key: known[key] for key in names if key in known})
+    if law in ("coulomb", "stribeck-exponential") and "static_coefficient" in old:
+        table["static_coefficient"] = static
+    return table
+
+
+def usual_speed(study: Study) -> float:
+    """A slip speed for a law that needs one: four times that of the surface."""
+    for path, value in study.settings.items():
+        if tokens(path)[-1] in ("belt_velocity", "belt_velocity_m_per_s") and isinstance(value, (int, float)) and value:
+            return 4.0 * abs(float(value))
+    return 1.0
+
+
+def leaf_keys(node: Any) -> list[str]:
+    """Every key below a node of a document."""
+    if isinstance(node, dict):
+        return [key for name, inner in node.items() for key in (name, *leaf_keys(inner))]
+    return [key for inner in node for key in leaf_keys(inner)] if isinstance(node, list) else []

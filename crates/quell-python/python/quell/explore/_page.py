@@ -1,0 +1,353 @@
+"""The page of a browser session: controls on the left, panes on the right, and the requests between them."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+import panel as pn
+
+from .._errors import QuellError
+from .._study import Study
+from .._tables import Number
+from . import _zoo
+from ._controls import Controls
+from ._files import Downloads
+from ._lanes import Event, Here, Lane, Process
+from ._numbers import Knob, knobs
+from ._panes import EigenPane, LawPane, MotionPane, SoundPane, SpectrumPane, Verdict, headed, words
+from ._plane_panes import BasinsPane, PlanePane
+from ._share import commands, python, toml
+from ._state import State
+from ._style import SIDE, STICK, TEXT, WIDTH
+
+pn.extension()
+
+REST = 150
+"""Time in milliseconds after which a slider that does not move is at rest."""
+
+STICKY = """
+:host { flex: none; position: sticky; top: 0; max-height: 100vh; overflow-y: auto; overflow-x: hidden; }
+@media (max-width: 820px) { :host { position: static; max-height: none; } }
+"""
+"""The column of numbers stays in view next to the panes; on a narrow screen it is above them."""
+
+
+class Page:
+    """The explorer in one browser session."""
+
+    def __init__(self, state: State, changed: Callable[[State], None]) -> None:
+        self.state = state
+        self._tell = changed
+        self._document = pn.state.curdoc
+        self._closed = False
+        self._later: Any = None
+        self._events: deque[Event] = deque()
+        self.fast = Lane(self._deliver, Here())
+        self.exact = Lane(self._deliver, Process(2))
+        self.maps = Lane(self._deliver, Process(15))
+        self.verdict = Verdict()
+        self.motion, self.spectrum, self.law, self.sound = MotionPane(), SpectrumPane(), LawPane(), SoundPane()
+        self.plane = PlanePane(self._jump, self.request_plane)
+        self.basins = BasinsPane(self.start_at, self.request_basins, lambda: self.maps.cancel("basins"))
+        self.eigen = EigenPane()
+        self.controls = Controls(state.study, self.change, self.choose_law)
+        self.downloads = Downloads(lambda: self.state.study)
+        self.shared = {name: pn.pane.HTML("", sizing_mode="stretch_width") for name in ("TOML", "command line", "Python")}
+        self.complaints = pn.pane.HTML("", visible=False, sizing_mode="stretch_width", css_classes=["quell-complaints"])
+        self.title = pn.pane.HTML("", sizing_mode="stretch_width", css_classes=["quell-title"])
+        self._wire()
+        self.side = pn.Column(self._zoo(), self.controls.view, width=SIDE + 12, stylesheets=[STICKY], css_classes=["quell-side"])
+        self.right = pn.FlexBox(align_items="flex-start", justify_content="flex-start", gap="8px")
+        self.view = self._layout()
+        self._fill()
+        self.refresh()
+
+    # Layout.
+
+    def _wire(self) -> None:
+        self.motion.coordinate.param.watch(lambda event: None if self.motion.is_shown else self.request_motion(), "value")
+        self.motion.again.on_click(lambda event: self.start_at(None))
+        self.motion.picture.plane.on_event("tap", self._tapped)
+        self.eigen.parameter.param.watch(lambda event: self.request_eigenvalues(), "value")
+        self.sound.button.on_click(lambda event: self.request_sound())
+        self.undo = pn.widgets.Button(label="undo", width=90, css_classes=["quell-undo"])
+        self.redo = pn.widgets.Button(label="redo", width=90, css_classes=["quell-redo"])
+        self.undo.on_click(lambda event: self._went(self.state.undo()))
+        self.redo.on_click(lambda event: self._went(self.state.redo()))
+
+    def _zoo(self) -> Any:
+        self._sources = {**_zoo.questions(), **_zoo.neighbours(self.state.step.source)}
+        here = next((name for name, it in self._sources.items() if it == self.state.step.source), "this study")
+        options = list(dict.fromkeys(["this study", *self._sources]))
+        self.zoo = pn.widgets.Select(label="open a study", options=options, value=here, width=SIDE, css_classes=["quell-zoo"])
+        self.zoo.param.watch(self._open, "value")
+        return pn.Column(self.zoo, pn.Row(self.undo, self.redo), width=SIDE + 8)
+
+    def _layout(self) -> Any:
+        share = pn.Tabs(*self.shared.items(), sizing_mode="stretch_width", css_classes=["quell-share"])
+        self.bottom = pn.Card(
+            share,
+            self.downloads.view,
+            title="Share and download",
+            collapsed=False,
+            sizing_mode="stretch_width",
+            max_width=2 * WIDTH + 30,
+            css_classes=["quell-sharing"],
+        )
+        main = pn.Column(
+            self.title,
+            self.complaints,
+            self.verdict.view,
+            self.right,
+            self.bottom,
+            styles={"flex": f"1 1 {WIDTH + 20}px", "min-width": "0"},
+        )
+        return pn.FlexBox(self.side, main, align_items="flex-start", flex_wrap="wrap", gap="10px", sizing_mode="stretch_width")
+
+    def _fill(self) -> None:
+        """Fills the panes for the kind of study."""
+        study = self.state.study
+        kind = study._native.kind
+        found = knobs(study)
+        labels = [it.label for it in found]
+        numbers = {it.label if labels.count(it.label) == 1 else f"{it.group} {it.label}": it for it in found}
+        self.plane.offer(kind, numbers)
+        self.downloads.offer(kind)
+        self._parameters = {name: it.path for name, it in numbers.items()}
+        self.motion.coordinate.options = []
+        panes: list[Any] = [self.motion.view, self.motion.plane_view, self.spectrum.view]
+        if kind != "disc":
+            panes.append(self.law.view)
+        panes.append(self.plane.view)
+        if kind != "disc":
+            self.basins.offer(kind)
+            panes.append(self.basins.view)
+        if kind == "system":
+            self.eigen.parameter.options = self._parameters
+            chosen = next((it for it in self._parameters.values() if it.split(".")[-1].startswith("belt_velocity")), None)
+            if chosen is not None:
+                self.eigen.parameter.value = chosen
+            panes += [self.eigen.view, self._sketch()]
+        self.right[:] = [*panes, self.sound.view]
+
+    def _sketch(self) -> Any:
+        self.sketch = pn.pane.HTML("", width=WIDTH, css_classes=["quell-sketch"])
+        return pn.Column(pn.pane.HTML(headed("Sketch", ""), width=WIDTH), self.sketch, width=WIDTH + 16)
+
+    # Changes.
+
+    def change(self, changes: dict[str, Number | str]) -> bool:
+        """Changes numbers of the study, and asks for the answers."""
+        done = self.state.set(changes)
+        self._after(done)
+        return done
+
+    def choose_law(self, path: str, law: str) -> None:
+        """Chooses a friction law."""
+        self._went(self.state.set_law(path, law))
+
+    def start_at(self, start: tuple[float, float] | None) -> None:
+        """Takes a state in the phase plane as the start of the run."""
+        names = self.motion.names
+        if start is not None and not names:
+            return
+        given = None if start is None else dict(zip(names, start, strict=True))
+        self.state.set_start(given)
+        self.request_motion()
+        self._share()
+
+    def _tapped(self, event: Any) -> None:
+        if event.x is not None and event.y is not None:
+            factors = self.motion.picture.factors
+            self.start_at((float(event.x) * factors[0], float(event.y) * factors[1]))
+
+    def _jump(self, across: float, up: float) -> None:
+        """Takes the two parameters of a point of the map."""
+        self._went(self.state.set(self.plane.changes(across, up)))
+
+    def _open(self, event: Any) -> None:
+        source = self._sources.get(event.new)
+        if source is None:
+            return
+        try:
+            study = _zoo.read(source)
+        except QuellError as refused:
+            self.state.complaints = [str(refused)]
+            self._complain()
+            return
+        self._went(self.state.open(study, source))
+
+    def _went(self, done: bool) -> None:
+        """Shows the numbers again after a change that was made elsewhere than at a slider."""
+        if done:
+            old = self._kind_and_shape
+            self.controls.show(self.state.study)
+            if self._kind_and_shape != old or self._shown_shape != self.controls.shape(self.state.study):
+                self._fill()
+        self._after(done)
+
+    @property
+    def _kind_and_shape(self) -> tuple[object, ...]:
+        return (self.state.study._native.kind,)
+
+    def _after(self, done: bool) -> None:
+        self._complain()
+        if done:
+            self.refresh()
+        else:
+            self.dim()
+
+    def dim(self) -> None:
+        """Dims every answer: the numbers that the sliders show are not valid."""
+        for pane in (self.motion, self.spectrum, self.law, self.plane, self.basins, self.eigen, self.sound):
+            pane.dim(True)
+        self.verdict.dim()
+
+    def _complain(self) -> None:
+        found = self.state.complaints
+        self.complaints.visible = bool(found)
+        text = "\n".join([*found, "The answers below are those of the last valid numbers."])
+        self.complaints.object = words(text, TEXT + 1, STICK, 600) if found else ""
+
+    # Requests.
+
+    def refresh(self) -> None:
+        """Asks for every answer of the study: first for the short ones, and for the others when the sliders rest."""
+        self.fast.submit("averaged", self.state.study)
+        self._tell(self.state)
+        if self._later is not None:
+            self._document.remove_timeout_callback(self._later)
+        self._later = self._document.add_timeout_callback(self._refresh_later, REST)
+
+    def _refresh_later(self) -> None:
+        self._later = None
+        study = self.state.study
+        with pn.io.hold():
+            self._shown_shape = self.controls.shape(study)
+            self.title.object = words(study.title or "A study without a title", TEXT + 5, weight=700)
+            self.request_plane()
+            if study._native.kind == "belt":
+                self.request_basins()
+            else:
+                self.basins.outdated()
+            if study._native.kind == "system":
+                self.request_eigenvalues()
+                self._draw_sketch(study)
+            self.sound.dim(True)
+            self._share()
+
+    def request_exact(self) -> None:
+        """Asks for the trajectory and the response."""
+        if not self._closed:
+            self.request_motion()
+            self.exact.submit("response", self.state.study)
+
+    def request_motion(self) -> None:
+        """Asks for the trajectory."""
+        pairs = self.motion.coordinate.options
+        pair = pairs.index(self.motion.coordinate.value) if self.motion.coordinate.value in pairs else -1
+        self.exact.submit("trajectory", self.state.study, self.state.step.start, pair)
+
+    def request_plane(self) -> None:
+        """Asks for the map and its curves, or only moves the cursor if nothing else changed."""
+        study = self.state.study
+        asked = self.plane.asked(study)
+        if asked is None:
+            return
+        across, up = asked
+        self.maps.submit("plane", study, across, up)
+        if study._native.kind != "disc":
+            self.maps.submit("curves", study, across, up)
+
+    def request_basins(self) -> None:
+        """Asks for the basins."""
+        self.maps.submit("basins", self.state.study, self.basins.grid)
+
+    def request_eigenvalues(self) -> None:
+        """Asks for the eigenvalues over the chosen parameter."""
+        slider = self.controls.sliders.get(self.eigen.parameter.value)
+        if slider is None or self.state.study._native.kind != "system":
+            return
+        one: Knob = slider.knob
+        ends = (one.given(one.start), one.given(one.stop))
+        self.eigen.picture.mark(one.value)
+        self.maps.submit("eigenvalues", self.state.study, one.path, *ends)
+
+    def request_sound(self) -> None:
+        """Asks for the sound."""
+        self.exact.submit("sound", self.state.study)
+
+    def _draw_sketch(self, study: Study) -> None:
+        draw = getattr(type(study), "sketch", None)
+        if draw is None:
+            self.sketch.object = words("This version of Quell draws no sketch.", TEXT, "#555")
+            return
+        try:
+            self.sketch.object = draw(study, width=WIDTH)
+        except QuellError as refused:
+            self.sketch.object = words(str(refused), TEXT, STICK)
+
+    def _share(self) -> None:
+        step = self.state.step
+        for name, text in (("TOML", toml(step)), ("command line", commands(step)), ("Python", python(step))):
+            self.shared[name].object = preformatted(text)
+
+    # Answers.
+
+    def _deliver(self, event: Event) -> None:
+        """Called from the threads of the lanes."""
+        if not self._closed:
+            # Callbacks of a document may change their order, events may not.
+            self._events.append(event)
+            self._document.add_next_tick_callback(self._drain)
+
+    def _drain(self) -> None:
+        # One event for each callback, so that a short answer is sent before a long one is drawn.
+        if self._events:
+            with pn.io.hold():
+                self._receive(self._events.popleft())
+
+    def _receive(self, event: Event) -> None:
+        # A short answer is there before its state could be read.
+        if self._closed or event.kind in ("dropped", "waiting") or (event.name, event.kind) == ("averaged", "running"):
+            return
+        name, answer = event.name, event.answer
+        pane: Any = {
+            "averaged": self.law,
+            "trajectory": self.motion,
+            "response": self.spectrum,
+            "plane": self.plane,
+            "curves": self.plane,
+            "basins": self.basins,
+            "eigenvalues": self.eigen,
+            "sound": self.sound,
+        }[name]
+        pane.state(event)
+        if name == "averaged" and event.kind in ("done", "failed"):
+            # The exact answers begin when the averaged one is there, so that they do not delay it.
+            self._document.add_next_tick_callback(self.request_exact)
+        if answer is None:
+            return
+        if name == "averaged":
+            self.verdict.show_averaged(answer, event.seconds)
+        if name == "response":
+            self.verdict.show_exact(answer["sentence"] if self.state.study._native.kind != "disc" else "")
+        pane.show(answer) if name != "curves" else self.plane.show_curves(answer)
+
+    def close(self) -> None:
+        """Ends the lanes of this session."""
+        self._closed = True
+        for lane in (self.fast, self.exact, self.maps):
+            lane.close()
+
+
+def preformatted(text: str) -> str:
+    """Text as it is, which can be selected with one click."""
+    import html
+
+    return (
+        f'<pre style="font-size:{TEXT - 1}px;background:#f4f6f8;padding:8px;max-height:340px;overflow:auto;'
+        f'user-select:all;white-space:pre-wrap">{html.escape(text)}</pre>'
+    )

@@ -1,0 +1,248 @@
+"""The panes on the right of the explorer. Each has a title, a line of its state, and a body that an answer fills."""
+
+from __future__ import annotations
+
+import base64
+import html
+import math
+from typing import Any
+
+import panel as pn
+
+from ._figures import Eigenvalues, Law, Motion, Spectrum
+from ._lanes import Event
+from ._style import ACCENT, FONT, STICK, TEXT, WIDTH
+
+DIM = {"opacity": "0.4"}
+CLEAR = {"opacity": "1"}
+MARGIN = (2, 8, 2, 8)
+
+
+def words(text: str, size: int = TEXT, colour: str = "#222", weight: int = 400) -> str:
+    """Words as HTML, with their line breaks."""
+    inside = html.escape(text).replace("\n", "<br>")
+    return f'<div style="font-family:{FONT};font-size:{size}px;color:{colour};font-weight:{weight};line-height:1.35">{inside}</div>'
+
+
+def paragraph(width: int, *css: str) -> Any:
+    """An empty piece of HTML."""
+    return pn.pane.HTML("", width=width, margin=MARGIN, css_classes=list(css))
+
+
+def time_words(seconds: float) -> str:
+    """A time in words."""
+    return f"{seconds * 1e3:.0f} ms" if seconds < 1.0 else f"{seconds:.1f} s"
+
+
+def headed(title: str, state: str, colour: str = "#555") -> str:
+    """The title of a pane and its state."""
+    return (
+        f'<div style="font-family:{FONT};line-height:1.3;border-bottom:2px solid {ACCENT}">'
+        f'<span style="font-size:{TEXT + 2}px;font-weight:600;color:#222">{html.escape(title)}</span>'
+        f'<span style="font-size:{TEXT - 2}px;color:{colour}">&ensp;{html.escape(state)}</span></div>'
+    )
+
+
+class Pane:
+    """A pane with a title and the state of its answers."""
+
+    def __init__(self, title: str, css: str, *body: Any, kind: str = "exact") -> None:
+        self.title = title
+        self._kind = kind
+        self._line = paragraph(WIDTH, f"{css}-status")
+        self._bodies = list(body)
+        self.css = css
+        self._states: dict[str, str] = {}
+        self._line.object = self._head("")
+        self.view = pn.Column(self._line, *body, width=WIDTH + 16, margin=(0, 0, 8, 0), css_classes=[css])
+
+    def _head(self, state: str, colour: str = "#555") -> str:
+        return headed(self.title, state, colour)
+
+    def state(self, event: Event) -> None:
+        """Shows what happens to a request of this pane."""
+        if event.kind == "running":
+            self._line.object = self._head("computing…")
+        elif event.kind == "progress":
+            self._line.object = self._head(f"computing… {event.words}")
+        elif event.kind == "done":
+            self._line.object = self._head(f"{self._kind}, {time_words(event.seconds)}")
+            self.dim(False)
+        elif event.kind == "failed":
+            self._line.object = self._head(event.words, STICK)
+            self.dim(True)
+
+    def say(self, text: str) -> None:
+        """Shows words in place of a state."""
+        self._line.object = self._head(text)
+
+    def dim(self, is_old: bool) -> None:
+        """Dims the answer of earlier numbers."""
+        wanted = DIM if is_old else CLEAR
+        for body in self._bodies:
+            if body.styles != wanted:
+                body.styles = wanted
+
+
+class MotionPane(Pane):
+    """The trajectory and the phase plane."""
+
+    def __init__(self) -> None:
+        self.picture = Motion()
+        self.names: tuple[str, ...] = ()
+        self.is_shown = False
+        self.coordinate = pn.widgets.Select(label="coordinate", options=[], width=180, visible=False, margin=MARGIN)
+        self.again = pn.widgets.Button(label="start of the study", width=170, margin=(8, 8, 2, 8), css_classes=["quell-restart"])
+        self.sentence = paragraph(WIDTH, "quell-motion-words")
+        over_time = pn.pane.Bokeh(self.picture.over_time, margin=MARGIN)
+        plane = pn.pane.Bokeh(self.picture.plane, margin=MARGIN, css_classes=["quell-phase"])
+        self.plane_view = pn.Column(
+            pn.pane.HTML(headed("Phase plane", "click a start"), width=WIDTH, margin=MARGIN), plane, width=WIDTH + 16
+        )
+        super().__init__("Trajectory", "quell-motion", over_time, self.sentence, pn.Row(self.coordinate, self.again))
+        self._bodies = [over_time, plane]
+
+    def show(self, answer: dict[str, Any]) -> None:
+        """Draws a run."""
+        self.names = answer["names"]
+        self.picture.show(answer)
+        self.sentence.object = words(answer["sentence"], TEXT - 1)
+        self.coordinate.visible = len(answer["pairs"]) > 1
+        self.is_shown = True
+        if self.coordinate.options != answer["pairs"]:
+            self.coordinate.options = answer["pairs"]
+        self.coordinate.value = answer["names"][0]
+        self.is_shown = False
+
+
+class SpectrumPane(Pane):
+    """The spectrum with and without dither."""
+
+    def __init__(self) -> None:
+        self.picture = Spectrum()
+        super().__init__("Spectrum", "quell-spectrum", pn.pane.Bokeh(self.picture.plot, margin=MARGIN))
+
+    def show(self, answer: dict[str, Any]) -> None:
+        """Draws the spectra."""
+        self.picture.show(answer)
+
+
+class LawPane(Pane):
+    """Effective friction."""
+
+    def __init__(self) -> None:
+        self.picture = Law()
+        self.contact = pn.widgets.Select(label="contact", options=[], width=180, visible=False, margin=MARGIN)
+        self._laws: list[dict[str, Any]] = []
+        super().__init__("Effective friction", "quell-law", pn.pane.Bokeh(self.picture.plot, margin=MARGIN), self.contact, kind="averaged")
+        self.contact.param.watch(lambda event: self._draw(), "value")
+
+    def show(self, answer: dict[str, Any]) -> None:
+        """Draws the law of the contact."""
+        self._laws = answer["laws"]
+        names = [it["name"] for it in self._laws]
+        self.contact.visible = len(names) > 1
+        if self.contact.options != names:
+            self.contact.options = names
+        self._draw()
+
+    def _draw(self) -> None:
+        chosen = next((it for it in self._laws if it["name"] == self.contact.value), None)
+        self.picture.show(chosen or (self._laws[0] if self._laws else None))
+
+
+class EigenPane(Pane):
+    """Eigenvalues of a system over a parameter."""
+
+    def __init__(self) -> None:
+        self.picture = Eigenvalues()
+        self.parameter = pn.widgets.Select(label="over", options={}, width=WIDTH - 40, margin=MARGIN)
+        self.sentence = paragraph(WIDTH)
+        bodies = [pn.pane.Bokeh(plot, margin=MARGIN) for plot in self.picture.plots]
+        super().__init__("Eigenvalues", "quell-eigen", self.parameter, *bodies, self.sentence, kind="averaged")
+        self._bodies = bodies
+
+    def show(self, answer: dict[str, Any]) -> None:
+        """Draws the branches."""
+        label = next((name for name, path in self.parameter.options.items() if path == self.parameter.value), "")
+        self.picture.show(answer, label)
+        self.sentence.object = words(answer["sentence"], TEXT - 1)
+
+
+class SoundPane(Pane):
+    """The sound with and without dither, with the same gain."""
+
+    def __init__(self) -> None:
+        self.button = pn.widgets.Button(label="make the sound", width=170, margin=MARGIN, css_classes=["quell-listen"])
+        self.players = pn.pane.HTML("", width=WIDTH, margin=MARGIN, css_classes=["quell-players"])
+        super().__init__("Sound", "quell-sound", self.players, self.button)
+        self._bodies = [self.players]
+
+    def show(self, answer: dict[str, Any]) -> None:
+        """Shows a player for each sound."""
+        rows = []
+        for name in ("without dither", "with dither"):
+            if name in answer["files"]:
+                data = base64.b64encode(answer["files"][name]).decode()
+                rows.append(
+                    f'<div style="font-size:{TEXT}px;font-family:{FONT};margin-bottom:4px">{name}<br>'
+                    f'<audio controls style="width:{WIDTH - 20}px;height:40px" src="data:audio/wav;base64,{data}"></audio></div>'
+                )
+        self.players.object = "".join(rows) + words(difference(answer["levels"], answer["slow"]), TEXT, weight=600)
+
+
+def difference(levels: dict[str, float], slow: dict[str, float]) -> str:
+    """The difference of two sounds in words: of their whole levels, and of those below 1.9 ω₀."""
+    if "without dither" not in levels:
+        return "The study has no dither: this is its only sound."
+    whole = f"With dither it is {change(levels)}, with the same gain."
+    return f"{whole} Below 1.9 ω₀, without the tone of the dither, it is {change(slow)}." if len(slow) == 2 else whole
+
+
+def change(levels: dict[str, float]) -> str:
+    """What dither does to a level, in words."""
+    before, after = levels["without dither"], levels["with dither"]
+    if before == after or abs(after - before) < 0.5:
+        return "silent, as without" if math.isinf(after) else "as loud as without"
+    if math.isinf(after):
+        return "silent"
+    if math.isinf(before):
+        return "to be heard, and without dither it is silent"
+    return f"{abs(after - before):.0f} dB {'quieter' if after < before else 'louder'}"
+
+
+class Verdict:
+    """The answers in one sentence each, above the panes."""
+
+    def __init__(self) -> None:
+        self.averaged = paragraph(900, "quell-averaged")
+        self.exact = paragraph(900, "quell-exact")
+        for one in (self.averaged, self.exact):
+            one.sizing_mode = "stretch_width"
+        self.view = pn.Column(self.averaged, self.exact, sizing_mode="stretch_width")
+
+    def show_averaged(self, answer: dict[str, Any], seconds: float) -> None:
+        """The averaged verdict."""
+        colours = {"unstable": STICK, "stable": ACCENT}
+        notes = f" ({answer['warnings'][0]})" if answer["warnings"] else ""
+        self.averaged.object = words(answer["sentence"] + notes, TEXT + 1, colours.get(answer["verdict"], "#222"), 600)
+        self.averaged.styles = CLEAR
+
+    def show_exact(self, sentence: str) -> None:
+        """The exact response in a sentence."""
+        self.exact.object = words(sentence, TEXT + 1) if sentence else ""
+        self.exact.styles = CLEAR
+
+    def dim(self) -> None:
+        """Dims both sentences."""
+        self.averaged.styles = self.exact.styles = DIM
+
+
+def legend_of(names: list[str], colours: list[str], fractions: list[float]) -> str:
+    """Colours and what they mean."""
+    rows = [
+        f'<div><span style="display:inline-block;width:14px;height:14px;background:{colour};margin-right:6px"></span>'
+        f"{html.escape(name)}: {fraction:.0%}</div>"
+        for name, colour, fraction in zip(names, colours, fractions, strict=True)
+    ]
+    return f'<div style="font-family:{FONT};font-size:{TEXT - 1}px;line-height:1.35">{"".join(rows)}</div>'

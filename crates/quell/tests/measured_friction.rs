@@ -1,0 +1,72 @@
+//! `friction --measured`: friction of steady responses next to averaged friction, and the warnings about the latter.
+
+use quell::run::friction;
+use quell::study::{BeltStudy, Change};
+use serde_json::Value as Json;
+
+const NORMAL: &str = include_str!("../../../studies/figure-4.5.toml");
+
+fn study(changes: &[&str]) -> BeltStudy {
+    let changes: Vec<Change> =
+        changes.iter().map(|text| Change::parse(text, "--set").expect("a change")).collect();
+    BeltStudy::parse(NORMAL, &changes).expect("a study")
+}
+
+fn warnings(json: &Json) -> Vec<&str> {
+    json["warnings"].as_array().expect("a list").iter().filter_map(Json::as_str).collect()
+}
+
+#[test]
+fn measured_friction_is_reported_next_to_the_average() {
+    let study = study(&["dither.amplitude=0.9"]);
+    let at = [-0.15, -0.02, 0.0, 0.02, 0.15];
+    let curve = friction::run_measured(&study, &at);
+    let json = curve.json(&study);
+    let measured = json["measured_coefficient"].as_array().expect("a list");
+    assert!(measured[2].is_null());
+    let why = json["why"]["measured_coefficient[2]"].as_str().expect("a reason");
+    assert_eq!(why, "at zero slip velocity the belt does not move");
+    let value = |index: usize| measured[index].as_f64().expect("a number");
+    assert!((value(0) + value(4)).abs() < 1e-9 && (value(1) + value(3)).abs() < 1e-9);
+    // Beyond the fast velocity averaging holds, to terms of the order α_N²; below it, it is far too low.
+    let averaged = |index: usize| json["effective_coefficient"][index].as_f64().expect("a number");
+    assert!((value(4) / averaged(4) - 1.0).abs() < 0.01);
+    assert!(value(3) > 3.0 * averaged(3), "{} {}", value(3), averaged(3));
+    assert_eq!(json["measured_verdict"][3], "stable");
+    assert!(json["measured_stick_fraction"][3].as_f64() > Some(0.2));
+    assert_eq!(json["measured_stick_fraction"][4], 0.0);
+    let csv = curve.dataset(&study).csv();
+    assert!(
+        csv.contains("measured_coefficient") && csv.contains("measured_stick_fraction"),
+        "{csv}"
+    );
+    let csv = friction::run(&study, &at).dataset(&study).csv();
+    assert!(!csv.contains("measured_"), "{csv}");
+}
+
+#[test]
+fn averaging_under_normal_dither_warns_below_its_fast_velocity() {
+    let strong = study(&["dither.amplitude=0.9"]);
+    // μ_s D/R = 0.4 · 0.9/5.
+    let said = friction::run(&strong, &[0.02]).json(&strong);
+    assert!(warnings(&said)[0].starts_with("below |v_r| = 0.072, the fast velocity"), "{said}");
+    for at in [0.073, -0.2, 0.0] {
+        let quiet = friction::run(&strong, &[at]).json(&strong);
+        assert!(warnings(&quiet).is_empty(), "{quiet}");
+    }
+    let curve = friction::run_measured(&strong, &[0.02, 0.05, 0.1, 0.15]);
+    let said = curve.json(&strong);
+    let measured = curve.measured_coefficients().expect("measured");
+    let ratio = measured[0] / curve.effective_coefficients()[0];
+    let text = warnings(&said)[0];
+    assert!(text.starts_with("at |v_r| = 0.02 the measured friction is "), "{text}");
+    assert!(text.contains(&format!("{ratio:.2} times")), "{ratio} {text}");
+    assert!(text.contains("above |v_r| = 0.05 agree within 10 %"), "{text}");
+    // Tangential dither moves the contact by itself: no such warning.
+    let tangential = study(&["dither.direction=tangential", "dither.amplitude=0.3"]);
+    for curve in [friction::run(&tangential, &[0.02]), friction::run_measured(&tangential, &[0.02])]
+    {
+        let json = curve.json(&tangential);
+        assert!(warnings(&json).is_empty(), "{json}");
+    }
+}
