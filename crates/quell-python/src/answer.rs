@@ -137,7 +137,7 @@ impl NativeAnswer {
 }
 
 /// The page of a picture from the arguments of Python.
-fn page(width: Option<&str>, caption: bool) -> Result<PicturePage, Failure> {
+pub(crate) fn page(width: Option<&str>, caption: bool) -> Result<PicturePage, Failure> {
     let width = width.map(|text| PictureWidth::parse(text, "width")).transpose()?;
     Ok(PicturePage { width, caption })
 }

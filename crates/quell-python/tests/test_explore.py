@@ -132,6 +132,15 @@ def test_a_refused_change_leaves_the_study_and_gives_its_reason() -> None:
     assert state.set({"belt.normal_load": 2.0}) and not state.complaints
 
 
+def test_a_range_of_a_map_is_valid_at_its_ends() -> None:
+    study = of("drill-string.toml")
+    wide = next(it for it in _numbers.knobs(study) if it.path.endswith("static_coefficient"))
+    found = _numbers.within(study, wide)
+    # The static coefficient is at least the minimum one.
+    assert wide.start == 0.0 and found.start == pytest.approx(0.5, abs=0.01) and found.stop == wide.stop
+    assert _numbers.accepts(study, found, found.start) and not _numbers.accepts(study, found, 0.4)
+
+
 def test_many_changes_do_not_make_the_study_longer() -> None:
     state = state_of(BELT)
     for step in range(200):
@@ -316,6 +325,16 @@ def test_levels_in_words() -> None:
     assert "silent" in panes.difference({"without dither": -10.0, "with dither": -math.inf}, {})
 
 
+@pytest.mark.parametrize(("format_", "begins"), [("svg", b"<svg"), ("png", b"\x89PNG"), ("pdf", b"%PDF"), ("csv", b"#"), ("nc", b"\x89HDF"), ("toml", b"")])
+@pytest.mark.parametrize("name", ["stribeck-belt.toml", "figure-5.3.toml", "two-mass-drive.toml"])
+def test_every_download_has_its_format(name: str, format_: str, begins: bytes) -> None:
+    files = pytest.importorskip("quell.explore._files", exc_type=ImportError)
+    study = of(name)
+    assert files.content(study, "simulate", format_).startswith(begins)
+    if format_ == "toml":
+        assert quell.Study.from_text(files.content(study, "simulate", format_).decode()) == study
+
+
 # Lanes.
 
 
@@ -450,6 +469,8 @@ def test_only_requests_with_the_secret_and_the_host_are_answered(explorer: Any) 
     assert status(explorer, path) == 200
     assert status(explorer, "/") in (403, 404) and status(explorer, "/wrong/") in (403, 404)
     assert status(explorer, path[:-2] + "x/") in (403, 404)
+    assert status(explorer, f"{path}static/js/bokeh.min.js") == 200
+    assert status(explorer, "/static/js/bokeh.min.js") in (403, 404)
     assert status(explorer, path, Host="evil.example") == 403
     assert status(explorer, path, Host=f"evil.example:{explorer.port}") == 403
     assert status(explorer, path, Origin="http://evil.example") == 403

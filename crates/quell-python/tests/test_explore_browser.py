@@ -95,6 +95,13 @@ class Page:
         box = canvas.bounding_box()
         self.page.mouse.click(box["x"] + across * box["width"], box["y"] + up * box["height"])
 
+    def undone(self, path: str, value: float) -> bool:
+        """Undoes steps until a number has a value."""
+        if self.explorer.study.settings[path] != value:
+            self.page.locator(".quell-undo button").click()
+            time.sleep(0.3)
+        return bool(self.explorer.study.settings[path] == value)
+
     def settled(self) -> None:
         """Waits until every answer of a belt is there."""
         for name in ("motion", "spectrum", "law", "plane", "basins"):
@@ -146,12 +153,16 @@ def test_an_invalid_number_is_refused_in_words_and_undo_works(belt_page: Page) -
     belt_page.wait("quell-complaints", lambda it: "normal_load" in it and "last valid numbers" in it)
     assert belt_page.words("quell-averaged") == kept and belt_page.explorer.study.settings["belt.normal_load"] == 1
     belt_page.until(lambda: float(belt_page.opacity("quell-averaged")) < 0.5)
+    # A number beyond the end of the slider moves its ends.
+    belt_page.type("belt-normal_load", 25)
+    belt_page.until(lambda: belt_page.explorer.study.settings["belt.normal_load"] == 25)
+    belt_page.page.locator(".quell-belt-normal_load .noUi-handle").first.press("ArrowRight")
+    belt_page.until(lambda: 25 < belt_page.explorer.study.settings["belt.normal_load"] < 27)
     belt_page.type("belt-normal_load", 2.5)
     belt_page.wait("quell-complaints", lambda it: it == "")
     belt_page.until(lambda: belt_page.explorer.study.settings["belt.normal_load"] == 2.5)
     belt_page.until(lambda: float(belt_page.opacity("quell-averaged")) == 1.0)
-    belt_page.page.locator(".quell-undo button").click()
-    belt_page.until(lambda: belt_page.explorer.study.settings["belt.normal_load"] == 1)
+    belt_page.until(lambda: belt_page.undone("belt.normal_load", 1))
     belt_page.wait("quell-averaged", lambda it: it == kept)
 
 
@@ -192,6 +203,11 @@ def test_discs_and_systems_are_shown_and_nothing_fails(belt_page: Page) -> None:
     belt_page.wait("quell-eigen-status", lambda it: " ms" in it or " s" in it)
     assert belt_page.explorer.study == quell.Study.from_toml(STUDIES / "two-mass-drive.toml")
     belt_page.page.locator(".quell-undo button").click()
+    belt_page.wait("quell-averaged", lambda it: "the disc is unstable" in it)
+    # A page that is loaded again begins with the same study.
+    belt_page.page.reload()
+    belt_page.page.wait_for_selector(".quell-motion", timeout=1e3 * LIMIT)
+    belt_page.page.evaluate(TOOLS)
     belt_page.wait("quell-averaged", lambda it: "the disc is unstable" in it)
     assert [it for it in belt_page.errors if "favicon" not in it and "404" not in it] == []
 

@@ -304,3 +304,18 @@ except ImportError:
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
     assert done.stdout == "as it should be\n", done.stderr
+
+
+def test_friction_is_measured_on_steady_responses() -> None:
+    belt = gallery.belt()
+    at = [-0.1, 0.0, 0.02, 0.1]
+    averaged, measured = belt.friction(at), belt.friction(at, measured=True)
+    assert averaged.measured_coefficient is None and averaged.measured_stick_fraction is None
+    assert np.array_equal(averaged.effective_coefficient, measured.effective_coefficient, equal_nan=True)
+    found, stuck = measured.measured_coefficient, measured.measured_stick_fraction
+    assert found is not None and stuck is not None
+    assert found[0] == pytest.approx(-found[3], abs=1e-9) and np.isnan(found[1]) and np.isnan(stuck[1])
+    # Slip throughout: averaging holds to the order 1/R².
+    assert stuck[3] == 0.0 and found[3] == pytest.approx(measured.effective_coefficient[3], rel=0.01)
+    assert measured.measured_verdict is not None and measured.measured_verdict[1] is None
+    assert "zero slip velocity" in measured.facts["why"]["measured_coefficient[1]"]

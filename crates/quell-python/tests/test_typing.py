@@ -82,7 +82,7 @@ def test_the_package_is_clean_and_misuse_is_found(tmp_path: Path) -> None:
 
 def test_the_stub_is_what_the_native_module_has() -> None:
     done = subprocess.run(
-        [sys.executable, "-m", "mypy.stubtest", "quell._quell", "--ignore-missing-stub"],
+        [sys.executable, "-m", "mypy.stubtest", "quell._quell", "--ignore-missing-stub", "--mypy-config-file", str(CONFIGURATION)],
         capture_output=True,
         text=True,
         check=False,

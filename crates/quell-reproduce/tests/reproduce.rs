@@ -4,7 +4,7 @@ use std::path::Path;
 
 use quell::picture::PicturePage;
 use quell::{Failure, Study};
-use quell_reproduce::claims::{self, ClaimVerdict, LEDGER};
+use quell_reproduce::claims::{self, Claim, ClaimVerdict, LEDGER};
 use quell_reproduce::{CatalogueEntry, Cell, ENTRIES, Resolution, find, run};
 
 fn entry(name: &str) -> &'static CatalogueEntry {
@@ -179,11 +179,66 @@ fn verdicts_are_those_on_record() {
     let words: Vec<&str> = book.split_whitespace().filter(|word| *word != ">").collect();
     let summary = claims::summary(&claims::statements(&claims));
     assert!(words.join(" ").contains(&summary), "the book does not say: {summary}");
+    paper_quotes(&claims, &summary);
     let mut names: Vec<&str> = claims.iter().map(|claim| claim.name.as_str()).collect();
     names.sort_unstable();
     names.dedup();
     assert_eq!(names.len(), claims.len(), "names are unique");
     assert!(claims::markdown(&claims).contains("| (3.38a), (B.10a) |"));
+}
+
+/// The paper quotes the counts, rows of the ledger, and the comparison with other programs of the README.
+fn paper_quotes(claims: &[Claim], summary: &str) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let path = root.join("docs/paper/paper.md");
+    let paper = std::fs::read_to_string(&path).expect("the paper");
+    let readme = std::fs::read_to_string(root.join("README.md")).expect("the README");
+    let comparison: String = readme
+        .split("## Comparison with other tools")
+        .nth(1)
+        .expect("the comparison")
+        .lines()
+        .skip_while(|line| !line.starts_with('|'))
+        .take_while(|line| line.starts_with('|'))
+        .map(|line| format!("{line}\n"))
+        .collect();
+    let table = |names: &str| -> String {
+        let rows = names.split(',').map(|name| {
+            let name = name.trim();
+            let claim = claims.iter().find(|claim| claim.name == name).expect(name);
+            format!(
+                "| {} | {} | {} | {} | {} |\n",
+                claim.place, claim.statement, claim.printed, claim.measured, claim.verdict
+            )
+        });
+        let head = "| place | claim | printed | measured | verdict |\n|---|---|---|---|---|\n";
+        head.to_owned() + &rows.collect::<String>()
+    };
+    let mut present = String::new();
+    let mut lines = paper.lines().peekable();
+    while let Some(line) = lines.next() {
+        present += line;
+        present.push('\n');
+        let made = match line {
+            "<!-- comparison -->" => comparison.clone(),
+            "<!-- summary -->" => format!("> {summary}\n"),
+            _ => {
+                match line.strip_prefix("<!-- claims: ").and_then(|rest| rest.strip_suffix(" -->"))
+                {
+                    Some(names) => table(names),
+                    None => continue,
+                }
+            }
+        };
+        present += &made;
+        while lines.next_if(|line| line.starts_with(['|', '>'])).is_some() {}
+    }
+    if std::env::var_os("QUELL_BLESS").is_some() {
+        std::fs::write(&path, &present).expect("written");
+    }
+    let paper = std::fs::read_to_string(&path).expect("the paper");
+    assert!(paper == present, "QUELL_BLESS=1 writes the present claims into the paper");
+    assert!(present.matches("| ").count() > 60);
 }
 
 #[test]
@@ -219,7 +274,7 @@ fn files_are_written_to_a_new_directory() {
     let expected: Vec<String> = ["2.2", "2.6", "3.2"]
         .iter()
         .flat_map(|name| {
-            ["csv", "png", "svg"].map(|extension| format!("figure-{name}.{extension}"))
+            ["csv", "pdf", "png", "svg"].map(|extension| format!("figure-{name}.{extension}"))
         })
         .chain(["report.html".to_owned(), "report.md".to_owned()])
         .collect();

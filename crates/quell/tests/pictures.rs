@@ -70,11 +70,11 @@ fn output(path: &std::path::Path) -> Result<Output, Box<Complaint>> {
 #[test]
 fn an_unknown_extension_is_refused_before_anything_is_written() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    for name in ["picture.pdf", "picture", "picture.svg.txt"] {
+    for name in ["picture.jpg", "picture", "picture.svg.txt"] {
         let refused = output(&folder.path().join(name)).expect_err(name);
-        assert!(refused.to_string().contains(".svg or .png"), "{refused}");
+        assert!(refused.to_string().contains(".svg, .pdf or .png"), "{refused}");
     }
-    for name in ["A.SVG", "a.Png"] {
+    for name in ["A.SVG", "a.Png", "b.PDF"] {
         assert!(output(&folder.path().join(name)).is_ok(), "{name}");
     }
     assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 0);
@@ -100,16 +100,18 @@ fn a_path_that_cannot_be_written_is_an_error_and_leaves_nothing() {
 fn files_hold_what_the_memory_holds() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let figure = rich();
-    let (svg, png) = (folder.path().join("a.svg"), folder.path().join("a.png"));
+    let path = |name: &str| folder.path().join(name);
+    let (svg, png, pdf) = (path("a.svg"), path("a.png"), path("a.pdf"));
     fs::write(&svg, "older").expect("a file");
-    for path in [&svg, &png] {
+    for path in [&svg, &png, &pdf] {
         write(&figure, output(path).expect("writable")).expect("written");
     }
     assert_eq!(fs::read_to_string(&svg).expect("the SVG"), figure.to_svg());
     let bytes = fs::read(&png).expect("the PNG");
     assert!(bytes.starts_with(b"\x89PNG\r\n"));
     assert_eq!(bytes, figure.to_png().expect("a PNG"));
-    assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 2);
+    assert!(fs::read(&pdf).expect("the PDF").starts_with(b"%PDF-"));
+    assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 3);
 }
 
 #[test]

@@ -271,6 +271,11 @@ fn widths_out_of_range_are_refused() {
         let refused = run(&study, Some(width)).expect_err("refused").to_string();
         assert!(refused.contains("80 to 400 mm"), "{refused}");
     }
+    for text in ["85", "", "mm", "NaNmm", "79mm", "85 furlongs"] {
+        assert!(quell::picture::sketch::width(text).is_err(), "{text}");
+    }
+    let read = quell::picture::sketch::width(" 8.5 cm").expect("a width");
+    assert!((read - 85.0).abs() < 1e-12);
 }
 
 #[test]

@@ -87,6 +87,7 @@ pub(crate) const CONFINED: &[Confined] = &[
     confined("zarrs",      &["quell"],              false, "stores are written by one crate, atomically"),
     confined("png",        &["quell-plot"],         true,  "pictures are drawn by one crate; tests decode them"),
     confined("resvg",      &["quell-plot"],         false, "pictures are drawn by one crate"),
+    confined("svg2pdf",    &["quell-plot"],         false, "pictures are drawn by one crate"),
     confined("rustix",     &["quell", "quell-study"], false, "untrusted files are opened by two crates: studies and stores"),
     confined("nix",        &["quell-cli"],          false, "signals are handled by the program that owns the process"),
     confined("clap",       &["quell-cli"],          false, "arguments are parsed by the command line alone"),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use quell::output::Output;
-use quell::picture::{EXTENSIONS, PictureWidth, sketch};
+use quell::picture::{EXTENSIONS, sketch};
 use quell::{Failure, run};
 
 use crate::answer::Answer;
@@ -30,11 +30,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
     let output = complaints.take(Output::prepare(&arguments.out, "--out", EXTENSIONS, &inputs));
-    let width = arguments.width.as_deref().map(|text| PictureWidth::parse(text, "--width"));
-    let width = complaints.take(width.transpose());
+    let width = complaints.take(arguments.width.as_deref().map(sketch::width).transpose());
     let (study, (output, width)) = complaints.finish(study.zip(output.zip(width)))?;
 
-    let drawn = run::sketch::run(&study, width.map(PictureWidth::millimetres))?;
+    let drawn = run::sketch::run(&study, width)?;
     let mut object = drawn.json();
     let written = sketch::write(&drawn.sketch, output)?;
     object["saved"] = vec![written.as_str()].into();

@@ -159,7 +159,13 @@ def sweep(
 
 
 @keywords
-def reproduce(*names: str, out: str | os.PathLike[str] = "reproduction", quick: bool = False) -> dict[str, Any]:
+def reproduce(
+    *names: str,
+    out: str | os.PathLike[str] = "reproduction",
+    quick: bool = False,
+    width: str | None = None,
+    caption: bool = False,
+) -> dict[str, Any]:
     """Reproduces figures and tables of the dissertation, with their data, the table of claims and a report.
 
     Parameters
@@ -170,9 +176,13 @@ def reproduce(*names: str, out: str | os.PathLike[str] = "reproduction", quick: 
         Directory for the report, pictures, data and tables; it is created if it is missing.
     quick :
         Whether to use coarser grids for the maps, which takes less than a minute.
+    width :
+        Width of the figures with its unit, such as ``"85mm"`` [default: suits their panels].
+    caption :
+        Whether to draw the captions below the figures.
     """
     arguments = Arguments()
     place = arguments.path("out", out)
     asked = [arguments.text("names", name, "the name of a figure or table") for name in names]
     arguments.done()
-    return _quell.reproduce(asked, place, bool(quick))
+    return _quell.reproduce(asked, place, bool(quick), width, bool(caption))

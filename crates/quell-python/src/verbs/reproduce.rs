@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use quell_reproduce::{ENTRIES, Resolution, find, run};
 
+use crate::answer::page;
 use crate::{call, convert};
 
 /// Reproduces entries and writes them into a folder. Returns the object of the command line.
@@ -14,11 +15,14 @@ pub(crate) fn reproduce(
     names: Vec<String>,
     out: PathBuf,
     quick: bool,
+    width: Option<String>,
+    caption: bool,
 ) -> PyResult<Py<PyAny>> {
     let object = call::run(py, move || {
         let entries = find(&names)?;
         let pace = if quick { Resolution::Quick } else { Resolution::Full };
-        let done = run(&entries, &out, pace, |_| ())?;
+        let page = page(width.as_deref(), caption)?;
+        let done = run(&entries, &out, pace, page, |_| ())?;
         Ok(done.json(&out, pace))
     })?;
     convert::to_python(py, &object)

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use quell::output::Output;
-use quell::picture::{EXTENSIONS, PictureWidth, sketch};
+use quell::picture::{EXTENSIONS, sketch};
 use quell::{Failure, Study, run};
 
 /// Runs the verb: the drawing as SVG, and in a file if `path` is given, in the format of its name.
@@ -15,8 +15,7 @@ pub(crate) fn run(
     let inputs = study.inputs();
     let output = path.map(|path| Output::prepare(path, "path", EXTENSIONS, &inputs));
     let output = output.transpose()?;
-    let width = width.map(|text| PictureWidth::parse(text, "width")).transpose()?;
-    let drawn = run::sketch::run(study, width.map(PictureWidth::millimetres))?;
+    let drawn = run::sketch::run(study, width.map(sketch::width).transpose()?)?;
     if let Some(output) = output {
         sketch::write(&drawn.sketch, output)?;
     }

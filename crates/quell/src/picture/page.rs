@@ -1,8 +1,6 @@
 //! The page of a picture: its width and the place of its caption.
 
-use serde_json::Value as Json;
-
-use crate::complaint::{Complaint, Fault, Origin};
+use crate::complaint::Complaint;
 use crate::plot::{CaptionPlacement, Figure, Size};
 
 /// Millimetres of an inch.
@@ -32,30 +30,29 @@ impl PictureWidth {
     /// # Errors
     /// A complaint about `key` without a unit, or outside 50 mm to 1000 mm: a narrower picture has no room for text of 7 pt.
     pub fn parse(text: &str, key: &'static str) -> Result<Self, Box<Complaint>> {
-        let refuse = |allowed: String| {
-            Box::new(Complaint::new(
-                Fault::Value,
-                key,
-                Origin::Argument(key),
-                Json::from(text),
-                allowed,
-            ))
-        };
-        let (least, largest) = WIDTHS;
-        let allowed = || {
-            format!(
-                "a length from {least} mm to {largest} mm with its unit (mm, cm, in or pt), such as 85mm"
-            )
-        };
+        Self::parse_between(text, key, WIDTHS)
+    }
+
+    /// Reads a number with its unit between two widths (mm).
+    ///
+    /// # Errors
+    /// A complaint about `key` without a unit, or outside the range.
+    pub(super) fn parse_between(
+        text: &str,
+        key: &'static str,
+        (least, largest): (f64, f64),
+    ) -> Result<Self, Box<Complaint>> {
         let trimmed = text.trim();
         let width = LENGTHS.iter().find_map(|(unit, length)| {
             let number: f64 = trimmed.strip_suffix(unit)?.trim_end().parse().ok()?;
             Some(number * length)
         });
-        match width {
-            Some(width) if (least..=largest).contains(&width) => Ok(Self(width)),
-            _ => Err(refuse(allowed())),
-        }
+        width.filter(|width| (least..=largest).contains(width)).map(Self).ok_or_else(|| {
+            let allowed = format!(
+                "a length from {least} mm to {largest} mm with its unit (mm, cm, in or pt), such as 85mm"
+            );
+            Box::new(Complaint::option(key, text, allowed))
+        })
     }
 
     /// The width in mm.

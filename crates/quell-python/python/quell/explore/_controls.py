@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import panel as pn
@@ -11,7 +12,7 @@ import panel as pn
 from .._study import Study
 from .._tables import Number
 from ._laws import laws, tables_of_laws
-from ._numbers import Choice, Knob, choices, knob, knobs, label_of, tokens
+from ._numbers import Choice, Knob, choices, knobs, label_of, span, tokens
 from ._style import FONT, SIDE, TEXT
 
 MOST_OPEN = 12
@@ -69,15 +70,22 @@ class Slider:
             self._given(event.new)
 
     def _typed(self, event: Any) -> None:
-        if not self._silent and event.new is not None:
-            self._given(float(event.new))
+        if self._silent or event.new is None:
+            return
+        number, one = float(event.new), self.knob
+        if self._given(number):
+            ends = (one.start, one.stop, one.logarithmic)
+            if not one.start <= number <= one.stop:
+                ends = span(number, one.low, one.high, one.logarithmic, one.whole)
+            start, stop, logarithmic = ends
+            self.show(replace(one, value=number, start=start, stop=stop, logarithmic=logarithmic))
 
     def show(self, one: Knob) -> None:
         """Shows a number, with the range as it was if it is inside."""
         self._silent = True
         old = self.knob
         if old.start <= one.value <= old.stop:
-            one = Knob(**{**one.__dict__, "start": old.start, "stop": old.stop, "logarithmic": old.logarithmic})
+            one = replace(one, start=old.start, stop=old.stop, logarithmic=old.logarithmic)
         self.knob = one
         if one.value not in self.slider.options:
             self.slider.options = one.grid()
@@ -106,17 +114,19 @@ class Controls:
             self._law(groups, study, path, law)
         for choice in choices(study):
             self._choice(groups, choice)
-        for one in knobs(study):
-            slider = Slider(one, self._change)
-            self.sliders[one.path] = slider
-            groups.setdefault(one.group, []).append(slider.view)
+        self._knobs = {it.path: it for it in knobs(study)}
+        for one in self._knobs.values():
+            groups.setdefault(one.group, [])
         self._paths = self.shape(study)
         self.view[:] = [self._card(group, found) for group, found in sorted(groups.items(), key=lambda it: rank(it[0]))]
 
-    def _card(self, group: str, found: list[Any]) -> Any:
-        closed = group.split(" ")[-1] in CLOSED or len(found) > MOST_OPEN + 4
-        return pn.Card(
-            *found,
+    def _card(self, group: str, choices_: list[Any]) -> Any:
+        """A group. The sliders of a closed group are made when it is opened."""
+        paths = [it.path for it in self._knobs.values() if it.group == group]
+        closed = group.split(" ")[-1] in CLOSED or len(paths) > MOST_OPEN
+        card = pn.Card(
+            *choices_,
+            *([] if closed else self._sliders(paths)),
             title=group,
             collapsed=closed,
             width=SIDE + 4,
@@ -124,6 +134,20 @@ class Controls:
             header_background="#eef3f7",
             styles={"font-family": FONT, "font-size": f"{TEXT + 1}px"},
         )
+
+        def opened(event: Any) -> None:
+            if not event.new and len(card) == len(choices_):
+                card.extend(self._sliders(paths))
+
+        if closed:
+            card.param.watch(opened, "collapsed")
+        return card
+
+    def _sliders(self, paths: list[str]) -> list[Any]:
+        """Sliders of these numbers."""
+        for path in paths:
+            self.sliders[path] = Slider(self._knobs[path], self._change)
+        return [self.sliders[path].view for path in paths]
 
     def _law(self, groups: dict[str, list[Any]], study: Study, path: str, law: str) -> None:
         options = laws() if law in laws() else [law, *laws()]
@@ -150,19 +174,15 @@ class Controls:
         if self.shape(study) != self._paths:
             self._build(study)
             return
-        for one in knobs(study):
-            if self.sliders[one.path].knob.value != one.value or self.sliders[one.path].slider.value != one.value:
-                self.sliders[one.path].show(one)
+        self._knobs = {it.path: it for it in knobs(study)}
+        for path, slider in self.sliders.items():
+            value = self._knobs[path].value
+            if slider.knob.value != value or slider.slider.value != value:
+                slider.show(self._knobs[path])
         self._silent = True
         for choice in choices(study):
             self._selects[choice.path].value = choice.value
         self._silent = False
-
-    def show_one(self, study: Study, path: str) -> None:
-        """Shows one number again, after a change that was refused or typed."""
-        found = knob(study, path, study.settings.get(path))
-        if found is not None and path in self.sliders:
-            self.sliders[path].show(Knob(**{**found.__dict__, "twin": self.sliders[path].knob.twin}))
 
 
 def rank(group: str) -> int:

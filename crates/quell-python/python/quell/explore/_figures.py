@@ -198,10 +198,12 @@ class Eigenvalues:
         """Draws the branches."""
         at = answer["parameter"]
         for source, name in ((self.growth, "growth"), (self.frequency, "frequency")):
-            branches = answer[name].T
+            # Frequencies come in pairs of both signs.
+            shown = answer[name] if name == "growth" else np.where(answer[name] >= 0.0, answer[name], np.nan)
+            branches = shown.T
             source.data = {"xs": [at] * len(branches), "ys": list(branches)}
         for plot, name in zip(self.plots, ("growth", "frequency"), strict=True):
-            low, high = usual(at, answer[name])
+            low, high = usual(at, answer[name] if name == "growth" else np.maximum(answer[name], 0.0))
             plot.y_range.start, plot.y_range.end = low, high
         for plot in self.plots:
             plot.xaxis.axis_label = label

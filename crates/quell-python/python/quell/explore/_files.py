@@ -10,7 +10,7 @@ from typing import Any
 
 import panel as pn
 
-from .._errors import QuellError
+from .._errors import QuellError, StudyError
 from .._study import Study
 from ._answers import moments
 from ._panes import MARGIN, words
@@ -43,13 +43,21 @@ def content(study: Study, verb: str, format_: str) -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, f"quell.{format_}")
         if format_ == "pdf":
-            result.plot().savefig(path)
+            pdf(result, path)
         elif format_ == "nc":
             result.to_netcdf(path)
         else:
             result.save(path)
         with open(path, "rb") as file:
             return file.read()
+
+
+def pdf(result: Any, path: str) -> None:
+    """Writes the picture as PDF: by Quell, or with matplotlib where this version of Quell writes none."""
+    try:
+        result.save(path)
+    except StudyError:
+        result.plot().savefig(path)
 
 
 class Downloads:

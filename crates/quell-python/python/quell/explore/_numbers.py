@@ -14,6 +14,7 @@ from typing import Any
 
 from .. import _quell
 from .._checked import leaves
+from .._errors import StudyError
 from .._study import Study
 from .._tables import Number
 
@@ -23,10 +24,16 @@ STEPS = 200
 DECADES = 1.0
 """Decades on each side of the value on a logarithmic slider."""
 
+HALVINGS = 10
+"""Halvings in the search for the valid part of a range."""
+
 DIGITS = 4
 """Significant digits of the values of a slider."""
 
 HIDDEN = ("schema",)
+FIXED = ("law", "units", "normalisation")
+"""Words that are no choices here: laws have their own, and the others change what the numbers mean."""
+
 MEASURED = re.compile(r"\s*([-+]?(?:[0-9]+[.]?[0-9]*|[.][0-9]+)(?:[eE][-+]?[0-9]+)?)(\s*[^-+.\s0-9eE*/()].*?)\s*$")
 """A number followed by its unit."""
 
@@ -145,6 +152,9 @@ def unit_of(kind: str, path: list[Token]) -> str:
     table = ".".join(str(it) for it in path[:-1] if isinstance(it, str))
     if kind != "system" and (table, key) in exact:
         found = exact[table, key]
+        if kind == "disc" and table == "dither":
+            # The amplitude is relative to the friction force, the frequency to ω_ref.
+            found = "1" if key == "amplitude" else found.replace("ω₀", "ω_ref")
         return "" if found == "1" else found.removeprefix("1 (").removesuffix(")") if found.startswith("1 (") else found
     fitting = [ending for ending in endings if key.endswith(ending)]
     return endings[max(fitting, key=len)] if fitting else ""
@@ -203,6 +213,44 @@ def span(value: float, low: float | None, high: float | None, positive: bool, wh
     start = start if low is None else max(start, low)
     stop = stop if high is None else min(stop, high)
     return rounded(start), rounded(stop), logarithmic
+
+
+def kept(study: Study, old: Knob) -> Knob | None:
+    """A number as it is in a study, with the ends that its slider had if they contain it; ``None`` if it is not there."""
+    now = knob(study, old.path, study.settings.get(old.path))
+    if now is None:
+        return None
+    if old.start <= now.value <= old.stop:
+        now = replace(now, start=old.start, stop=old.stop, logarithmic=old.logarithmic)
+    return replace(now, twin=old.twin)
+
+
+def within(study: Study, one: Knob) -> Knob:
+    """The slider with ends at which the study is valid: relations between numbers may refuse some of its range."""
+    ends = []
+    for end in (one.start, one.stop):
+        inside, outside = one.value, end
+        if accepts(study, one, end):
+            inside = end
+        else:
+            for _ in range(HALVINGS):
+                middle = 0.5 * (inside + outside)
+                if accepts(study, one, middle):
+                    inside = middle
+                else:
+                    outside = middle
+        ends.append(inside)
+    return replace(one, start=ends[0], stop=ends[1])
+
+
+def accepts(study: Study, one: Knob, number: float) -> bool:
+    """Whether the study is valid with this number."""
+    changes = {path: one.given(number) for path in (one.path, one.twin) if path is not None}
+    try:
+        study.set(changes)
+    except StudyError:
+        return False
+    return True
 
 
 def swept(study: Study, path: str) -> tuple[float, float, bool] | None:
@@ -325,7 +373,7 @@ def choices(study: Study) -> list[Choice]:
         if not isinstance(value, str):
             continue
         parts = tokens(path)
-        if parts[-1] == "law":
+        if parts[-1] in FIXED:
             continue
         options = next((it["enum"] for it in described(study, parts) if "enum" in it), None)
         if options and value in options:

@@ -15,9 +15,9 @@ from . import _zoo
 from ._controls import Controls
 from ._files import Downloads
 from ._lanes import Event, Here, Lane, Process
-from ._numbers import Knob, knobs
+from ._numbers import Knob, kept, knobs, within
 from ._panes import EigenPane, LawPane, MotionPane, SoundPane, SpectrumPane, Verdict, headed, words
-from ._plane_panes import BasinsPane, PlanePane
+from ._plane_panes import ACROSS, BasinsPane, PlanePane, preferred
 from ._share import commands, python, toml
 from ._state import State
 from ._style import SIDE, STICK, TEXT, WIDTH
@@ -43,6 +43,7 @@ class Page:
         self._document = pn.state.curdoc
         self._closed = False
         self._later: Any = None
+        self._offered: dict[str, Knob] = {}
         self._events: deque[Event] = deque()
         self.fast = Lane(self._deliver, Here())
         self.exact = Lane(self._deliver, Process(2))
@@ -61,6 +62,7 @@ class Page:
         self.side = pn.Column(self._zoo(), self.controls.view, width=SIDE + 12, stylesheets=[STICKY], css_classes=["quell-side"])
         self.right = pn.FlexBox(align_items="flex-start", justify_content="flex-start", gap="8px")
         self.view = self._layout()
+        self._shown_shape = self.controls.shape(state.study)
         self._fill()
         self.refresh()
 
@@ -115,7 +117,6 @@ class Page:
         numbers = {it.label if labels.count(it.label) == 1 else f"{it.group} {it.label}": it for it in found}
         self.plane.offer(kind, numbers)
         self.downloads.offer(kind)
-        self._parameters = {name: it.path for name, it in numbers.items()}
         self.motion.coordinate.options = []
         panes: list[Any] = [self.motion.view, self.motion.plane_view, self.spectrum.view]
         if kind != "disc":
@@ -125,10 +126,12 @@ class Page:
             self.basins.offer(kind)
             panes.append(self.basins.view)
         if kind == "system":
-            self.eigen.parameter.options = self._parameters
-            chosen = next((it for it in self._parameters.values() if it.split(".")[-1].startswith("belt_velocity")), None)
-            if chosen is not None:
-                self.eigen.parameter.value = chosen
+            self._offered = {name: it for name, it in numbers.items() if not it.whole and not it.suffix}
+            chosen = preferred(self._offered, ACROSS, None)
+            self.eigen.parameter.param.update(
+                options={name: it.path for name, it in self._offered.items()},
+                value=None if chosen is None else self._offered[chosen].path,
+            )
             panes += [self.eigen.view, self._sketch()]
         self.right[:] = [*panes, self.sound.view]
 
@@ -181,16 +184,14 @@ class Page:
 
     def _went(self, done: bool) -> None:
         """Shows the numbers again after a change that was made elsewhere than at a slider."""
-        if done:
-            old = self._kind_and_shape
-            self.controls.show(self.state.study)
-            if self._kind_and_shape != old or self._shown_shape != self.controls.shape(self.state.study):
-                self._fill()
-        self._after(done)
-
-    @property
-    def _kind_and_shape(self) -> tuple[object, ...]:
-        return (self.state.study._native.kind,)
+        with pn.io.hold():
+            if done:
+                self.controls.show(self.state.study)
+                shape = self.controls.shape(self.state.study)
+                if self._shown_shape != shape:
+                    self._shown_shape = shape
+                    self._fill()
+            self._after(done)
 
     def _after(self, done: bool) -> None:
         self._complain()
@@ -225,7 +226,6 @@ class Page:
         self._later = None
         study = self.state.study
         with pn.io.hold():
-            self._shown_shape = self.controls.shape(study)
             self.title.object = words(study.title or "A study without a title", TEXT + 5, weight=700)
             self.request_plane()
             if study._native.kind == "belt":
@@ -267,10 +267,11 @@ class Page:
 
     def request_eigenvalues(self) -> None:
         """Asks for the eigenvalues over the chosen parameter."""
-        slider = self.controls.sliders.get(self.eigen.parameter.value)
-        if slider is None or self.state.study._native.kind != "system":
+        old = next((it for it in self._offered.values() if it.path == self.eigen.parameter.value), None)
+        now = None if old is None else kept(self.state.study, old)
+        if now is None or self.state.study._native.kind != "system":
             return
-        one: Knob = slider.knob
+        one = within(self.state.study, now)
         ends = (one.given(one.start), one.given(one.stop))
         self.eigen.picture.mark(one.value)
         self.maps.submit("eigenvalues", self.state.study, one.path, *ends)

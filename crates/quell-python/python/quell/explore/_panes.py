@@ -109,9 +109,8 @@ class MotionPane(Pane):
         self.sentence.object = words(answer["sentence"], TEXT - 1)
         self.coordinate.visible = len(answer["pairs"]) > 1
         self.is_shown = True
-        if self.coordinate.options != answer["pairs"]:
-            self.coordinate.options = answer["pairs"]
-        self.coordinate.value = answer["names"][0]
+        if self.coordinate.options != answer["pairs"] or self.coordinate.value != answer["names"][0]:
+            self.coordinate.param.update(options=answer["pairs"], value=answer["names"][0])
         self.is_shown = False
 
 

@@ -11,8 +11,8 @@ import panel as pn
 from .._study import Study
 from .._tables import Number
 from ._figures import labelled
-from ._numbers import Knob, knob
 from ._lanes import Event
+from ._numbers import Knob, kept, within
 from ._panes import MARGIN, Pane, legend_of, time_words, words
 from ._planes import Basins, Plane
 from ._style import TEXT, WIDTH
@@ -44,6 +44,7 @@ class PlanePane(Pane):
         self._numbers: dict[str, Knob] = {}
         self._key: object = None
         self._scale = ""
+        self._last: tuple[Knob, ...] = ()
         self._silent = False
         width = (WIDTH - 24) // 2
         self.across = pn.widgets.Select(label="across", options=[], width=width, margin=MARGIN, css_classes=["quell-across"])
@@ -59,11 +60,11 @@ class PlanePane(Pane):
         """Shows what happens to a request. The map is valid without its curves."""
         if event.name == "plane":
             super().state(event)
-        elif event.kind == "running":
+        elif event.kind == "running" and self._plane.map is not None:
             self.say("averaged; exact threshold: computing…")
-        elif event.kind == "done":
+        elif event.kind == "done" and self._plane.map is not None:
             self.say(f"averaged; exact threshold: {time_words(event.seconds)}")
-        elif event.kind == "failed":
+        elif event.kind == "failed" and self._plane.map is not None:
             self.say(f"averaged; no exact threshold: {event.words}")
 
     def _chosen(self, event: Any) -> None:
@@ -90,11 +91,10 @@ class PlanePane(Pane):
         found = []
         for select in (self.across, self.up):
             old = self._numbers.get(select.value)
-            now = None if old is None else knob(study, old.path, study.settings.get(old.path))
-            if old is None or now is None:
+            now = None if old is None else kept(study, old)
+            if now is None:
                 return None
-            kept = old.start <= now.value <= old.stop
-            found.append(Knob(**{**now.__dict__, **({"start": old.start, "stop": old.stop, "logarithmic": old.logarithmic} if kept else {})}))
+            found.append(within(study, now))
         return (found[0], found[1]) if found[0].path != found[1].path else None
 
     def asked(self, study: Study) -> tuple[Axis, Axis] | None:
@@ -114,6 +114,7 @@ class PlanePane(Pane):
         ends = tuple((it[1], it[2], it[3]) for it in axes)
         labels = tuple(labelled(it.label, it.unit) for it in pair)
         self._plane.curves = []
+        self._last = pair
         self._plane.cursor = (pair[0].value, pair[1].value)
         if ends != self._plane.ends or labels != self._plane.labels:
             self._plane.ends = (ends[0], ends[1])
@@ -130,7 +131,7 @@ class PlanePane(Pane):
         """The changes that a point of the map means."""
         found: dict[str, Number | str] = {}
         for select, number in ((self.across, across), (self.up, up)):
-            one = self._numbers[select.value]
+            one = next((it for it in self._last if it.path == self._numbers[select.value].path), self._numbers[select.value])
             value = float(f"{min(max(number, one.start), one.stop):.4g}")
             found[one.path] = one.given(value)
             if one.twin is not None:
@@ -145,7 +146,7 @@ class PlanePane(Pane):
         largest = float(np.abs(finite).max(initial=0.0))
         unit = f" {answer['unit']}" if answer["unit"] else ""
         self._scale = f"Growth rate: blue decays, red grows, up to {largest:.3g}{unit}. "
-        tongues = f"Dotted: speeds at which waves meet; {len(answer['tongues'])} meetings can be unstable. " if answer["tongues"] else ""
+        tongues = "Dotted: speeds at which waves meet and can become unstable. Bars: their tongues at the numbers of the study. " if answer["tongues"] else ""
         self.sentence.object = words(f"{self._scale}Dashed: threshold of the map. {tongues}Click to go there.", TEXT - 1)
 
     def show_curves(self, answer: dict[str, Any]) -> None:

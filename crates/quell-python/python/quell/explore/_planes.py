@@ -129,7 +129,7 @@ class Plane:
             mesh = cells(first, second, np.zeros((1, 1)), across[2] or up[2], "growth").opts(
                 xlim=across[:2], ylim=up[:2], logx=across[2], logy=up[2], cmap=["#f4f6f8"]
             )
-            return mesh * hv.Path([]) * hv.Path([]) * hv.Path([])
+            return mesh * hv.Path([]) * hv.Path([]) * hv.Path([]) * hv.Path([])
         x, y, growth = self.map["x"], self.map["y"], self.map["growth"]
         largest = float(np.nanmax(np.abs(growth))) if np.isfinite(growth).any() else 1.0
         mesh = cells(bounds(x, across[2]), bounds(y, up[2]), growth, across[2] or up[2], "growth").opts(
@@ -149,7 +149,10 @@ class Plane:
         tongues = hv.Path([[(it["speed"], up[0]), (it["speed"], up[1])] for it in self.map["tongues"]]).opts(
             color=ACCENT, line_width=1.2, line_dash="dotted"
         )
-        return mesh * averaged * exact * tongues
+        # The edges hold at the friction of the study, which is that of the cursor if friction is the other axis.
+        edges_ = [it["edges"] for it in self.map["tongues"] if it["edges"]]
+        widths = hv.Path([[(low, self.cursor[1]), (high, self.cursor[1])] for low, high in edges_]).opts(color=ACCENT, line_width=7)
+        return mesh * averaged * exact * tongues * widths
 
 
 class Basins:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import pickle
 import queue
+import signal
 import sys
 import threading
 import time
@@ -50,6 +51,8 @@ def answer(name: str, study: Any, arguments: tuple[Any, ...], out: BinaryIO) -> 
 
 def main() -> None:
     """Serves requests until the standard input ends."""
+    # Ctrl-C ends the explorer, and with it this process.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(os, "nice"):
         # The page answers first.
         os.nice(int(sys.argv[1]) if len(sys.argv) > 1 else 0)

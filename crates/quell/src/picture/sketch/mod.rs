@@ -8,6 +8,7 @@ mod system;
 
 use quell_model::Waveform;
 
+use super::PictureWidth;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::output::Output;
 use crate::plot::{Sketch, WaveGlyph};
@@ -17,6 +18,14 @@ use crate::study::{Kind, Study};
 pub const DEFAULT_WIDTH_MM: f64 = 120.0;
 /// The narrowest and the widest sketch (mm).
 pub const WIDTHS_MM: (f64, f64) = (80.0, 400.0);
+
+/// A width with its unit in mm: mm, cm, in or pt (1/72 in).
+///
+/// # Errors
+/// A complaint without a unit, or outside [`WIDTHS_MM`].
+pub fn width(text: &str) -> Result<f64, Box<Complaint>> {
+    PictureWidth::parse_between(text, "--width", WIDTHS_MM).map(PictureWidth::millimetres)
+}
 
 /// The sketch of a study on a sheet of this width (mm).
 ///
