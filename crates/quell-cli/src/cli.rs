@@ -13,7 +13,7 @@ use serde_json::Value as Json;
 
 use crate::verbs::{
     attractor, basins, bifurcation, check, cite, completions, friction, map, modes, new, orbit,
-    reproduce, resonances, response, schema, simulate, sketch, stability, thresholds,
+    report, reproduce, resonances, response, schema, simulate, sketch, stability, thresholds,
 };
 use crate::{answer, help};
 
@@ -35,6 +35,7 @@ enum Verb {
     Check(check::Arguments),
     Schema(schema::Arguments),
     Sketch(sketch::Arguments),
+    Report(report::Arguments),
     Cite(cite::Arguments),
     Friction(friction::Arguments),
     Stability(stability::Arguments),
@@ -74,6 +75,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Check(arguments) => check::run(arguments),
         Verb::Schema(arguments) => Ok(schema::run(arguments)),
         Verb::Sketch(arguments) => sketch::run(arguments),
+        Verb::Report(arguments) => report::run(arguments),
         Verb::Cite(arguments) => cite::run(arguments),
         Verb::Friction(arguments) => friction::run(arguments),
         Verb::Stability(arguments) => stability::run(arguments),

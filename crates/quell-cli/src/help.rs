@@ -23,6 +23,13 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                     "quell sketch two-mass-drive.toml --out drive.png --width 85mm",
                 ],
             ),
+            (
+                "report",
+                &[
+                    "quell report quench.toml --out quench.html",
+                    "quell report two-mass-drive.toml --out drive.html --without thresholds",
+                ],
+            ),
             ("schema", &["quell schema"]),
             ("completions", &["quell completions bash"]),
         ],

@@ -18,8 +18,8 @@ use crate::verbs::attractor::TimeTexts;
 use crate::verbs::map::Asked;
 use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
 use crate::verbs::{
-    attractor, basins, bifurcation, check, cite, friction, map, modes, orbit, resonances, response,
-    simulate, sketch, stability, thresholds,
+    attractor, basins, bifurcation, check, cite, friction, map, modes, orbit, report, resonances,
+    response, simulate, sketch, stability, thresholds,
 };
 use crate::{call, convert, errors};
 
@@ -168,6 +168,18 @@ impl NativeStudy {
     ) -> PyResult<String> {
         let study = self.study();
         call::run(py, move || sketch::run(&study, path.as_deref(), width.as_deref()))
+    }
+
+    /// The page of a report as HTML; `path`: a file for it; `without`: verbs to leave out.
+    #[pyo3(signature = (path, without))]
+    fn report(
+        &self,
+        py: Python<'_>,
+        path: Option<PathBuf>,
+        without: Vec<String>,
+    ) -> PyResult<String> {
+        let study = self.study();
+        call::run(py, move || report::run(&study, path.as_deref(), without))
     }
 
     fn cite(&self, py: Python<'_>) -> PyResult<NativeAnswer> {

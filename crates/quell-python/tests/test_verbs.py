@@ -27,7 +27,7 @@ ELSEWHERE = {
 OTHER_NAMES = {"--from": "from_"}
 """Options whose name is a keyword of Python."""
 
-DRAWINGS = {"sketch"}
+DRAWINGS = {"sketch", "report"}
 """Verbs whose answer is a file; Python returns its text, and `--out` is the argument `path`."""
 
 BESIDE = {"quell.sweep", "quell.quantities"}
@@ -215,3 +215,16 @@ def test_a_sketch_is_the_same(cli: Any, tmp_path: Any, path: str) -> None:
             study.sketch(width=wrong)
     with pytest.raises(quell.StudyError, match="path"):
         study.sketch(tmp_path / "sketch.gif")
+
+
+@pytest.mark.parametrize("path", [BELT, DISC])
+def test_a_report_is_the_same(cli: Any, tmp_path: Any, path: str) -> None:
+    study = quell.Study.from_toml(path)
+    by_command, by_python = tmp_path / "command.html", tmp_path / "python.html"
+    facts = cli("report", path, "--out", str(by_command), "--without", "stability")
+    assert "stability" not in {answer["verb"] for answer in facts["answers"]}
+    assert study.report(by_python, without=["stability"]) == by_python.read_text() == by_command.read_text()
+    with pytest.raises(quell.StudyError, match="without"):
+        study.report(without=["basins"])
+    with pytest.raises(quell.StudyError, match="path"):
+        study.report(tmp_path / "report.pdf")

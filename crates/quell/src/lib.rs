@@ -146,6 +146,7 @@
 //! | [`sweep`], [`store`] | maps: points, quantities, threads; stores that survive interruptions |
 //! | [`picture`], [`plot`] | pictures of outcomes; figures as data (`quell-plot`) |
 //! | [`dataset`], [`fields`], [`output`] | labelled arrays, JSON objects, files that are complete or absent |
+//! | [`report`], [`html`] | one page about a study; pages in HTML |
 //! | [`sound`] | the velocity of a motion as a sound file |
 //! | [`cite`], [`template`] | sources of a study's computations; commented studies to start from |
 
@@ -153,11 +154,13 @@ pub mod cite;
 pub mod dataset;
 mod effort;
 pub mod fields;
+pub mod html;
 pub mod kind;
 pub mod outcome;
 pub mod output;
 pub mod picture;
 mod range;
+pub mod report;
 pub mod run;
 pub mod sound;
 pub mod store;

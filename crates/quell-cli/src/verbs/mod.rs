@@ -12,6 +12,7 @@ pub(crate) mod modes;
 pub(crate) mod new;
 mod numbers;
 pub(crate) mod orbit;
+pub(crate) mod report;
 pub(crate) mod reproduce;
 pub(crate) mod resonances;
 pub(crate) mod response;

@@ -84,6 +84,44 @@ class Study(CheckedStudy):
         return self._native.sketch(place, wide)
 
     @keywords
+    def report(self, path: str | os.PathLike[str] | None = None, *, without: Sequence[str] = ()) -> str:
+        """One page about the study: its sketch, values, verdicts, cost and pictures, what was not examined, and sources.
+
+        The page is made of the answers of the verbs, and needs no other file. It takes seconds.
+
+        Parameters
+        ----------
+        path : path, optional
+            File for the page, whose name ends in ``.html``. A file there is replaced.
+        without : sequence of str, optional
+            Verbs to leave out, such as ``["thresholds"]``.
+
+        Returns
+        -------
+        str
+            The page as HTML.
+
+        Raises
+        ------
+        quell.StudyError
+            A verb that the report does not have, or a path at which no such file can be written.
+
+        Examples
+        --------
+        >>> belt = quell.Belt(
+        ...     damping_ratio=0.005, normal_load=1.0, belt_velocity=0.05, friction=quell.Coulomb(coefficient=0.4)
+        ... )
+        >>> "What was not examined" in belt.report()
+        True
+        """
+        arguments = Arguments()
+        place = None if path is None else arguments.path("path", path)
+        names = [without] if isinstance(without, str) else list(without)
+        verbs = [arguments.text("without", name, "names of verbs") for name in names]
+        arguments.done()
+        return self._native.report(place, verbs)
+
+    @keywords
     def cite(self) -> results.Citations:
         """Equations and papers that the computations use, with BibTeX, and corrections of the printed equations."""
         return results.Citations(self, self._native.cite())

@@ -10,6 +10,7 @@ pub(crate) mod map;
 pub(crate) mod modes;
 pub(crate) mod new;
 pub(crate) mod orbit;
+pub(crate) mod report;
 pub(crate) mod reproduce;
 pub(crate) mod resonances;
 pub(crate) mod response;

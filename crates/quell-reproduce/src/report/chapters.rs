@@ -8,8 +8,8 @@ use std::fmt::Write as _;
 use super::super::WrittenEntry;
 use super::super::claims::Claim;
 use super::claims;
-use super::html::{Page, escape, symbols, table};
 use crate::Cell;
+use quell::html::{HtmlPage, escape, symbols, table};
 use quell::plot;
 
 /// Largest number of rows shown of a table without a figure.
@@ -24,7 +24,7 @@ const CHAPTERS: [(char, &str); 4] = [
 ];
 
 /// Writes the figures and tables, chapter by chapter.
-pub(super) fn write(page: &mut Page, written: &[WrittenEntry]) {
+pub(super) fn write(page: &mut HtmlPage, written: &[WrittenEntry]) {
     let all = claims::all(written);
     for (digit, title) in CHAPTERS {
         let of: Vec<&WrittenEntry> = written
@@ -41,7 +41,7 @@ pub(super) fn write(page: &mut Page, written: &[WrittenEntry]) {
     }
 }
 
-fn write_one(page: &mut Page, done: &WrittenEntry, claims: &[&Claim]) {
+fn write_one(page: &mut HtmlPage, done: &WrittenEntry, claims: &[&Claim]) {
     let anchor = done.entry.stem();
     let number = done.entry.name.trim_start_matches("table-");
     let kind = if done.entry.name.starts_with("table") { "Table" } else { "Figure" };

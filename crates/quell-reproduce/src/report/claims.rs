@@ -2,7 +2,7 @@
 
 use super::super::claims::{Claim, ClaimVerdict};
 use super::super::{CatalogueEntry, WrittenEntry};
-use super::html::{Page, escape, symbols, table};
+use quell::html::{HtmlPage, escape, symbols, table};
 
 /// All claims among the written entries.
 pub(super) fn all(written: &[WrittenEntry]) -> Vec<&Claim> {
@@ -10,7 +10,7 @@ pub(super) fn all(written: &[WrittenEntry]) -> Vec<&Claim> {
 }
 
 /// Writes the table of all claims.
-pub(super) fn write(page: &mut Page, written: &[WrittenEntry]) {
+pub(super) fn write(page: &mut HtmlPage, written: &[WrittenEntry]) {
     let claims = all(written);
     if claims.is_empty() {
         return;

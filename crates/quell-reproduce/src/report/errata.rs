@@ -1,10 +1,10 @@
 //! The errata in the report.
 
-use super::html::{Page, escape, symbols, table};
 use quell::cite::{CORRECTIONS, Proof};
+use quell::html::{HtmlPage, escape, symbols, table};
 
 /// Writes the table.
-pub(super) fn write(page: &mut Page) {
+pub(super) fn write(page: &mut HtmlPage) {
     page.section("errata", "Errata");
     page.put("<p>All errors found in the dissertation. Where an erratum affects a computation, a test compares the printed and \
               the correct form with an independent reference.</p>");

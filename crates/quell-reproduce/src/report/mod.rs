@@ -7,18 +7,21 @@
 mod chapters;
 mod claims;
 mod errata;
-mod html;
 mod markdown;
 mod summary;
 
 use super::{Resolution, WrittenEntry};
 use quell::cite::Sources;
+use quell::html::{HtmlPage, escape};
 
 pub(super) use markdown::markdown;
 
+/// The style sheet.
+const STYLE: &str = include_str!("style.css");
+
 /// The page.
 pub(super) fn html(written: &[WrittenEntry], resolution: Resolution) -> String {
-    let mut page = html::Page::new("The dissertation, reproduced");
+    let mut page = HtmlPage::new("The dissertation, reproduced", STYLE);
     summary::write(&mut page, written, resolution);
     chapters::write(&mut page, written);
     claims::write(&mut page, written);
@@ -28,7 +31,7 @@ pub(super) fn html(written: &[WrittenEntry], resolution: Resolution) -> String {
 }
 
 /// The literature on which the results are based.
-fn sources(page: &mut html::Page, written: &[WrittenEntry]) {
+fn sources(page: &mut HtmlPage, written: &[WrittenEntry]) {
     let mut all = Sources::default();
     for done in written {
         all.extend(&done.product.sources);
@@ -40,9 +43,7 @@ fn sources(page: &mut html::Page, written: &[WrittenEntry]) {
     page.section("sources", "Sources");
     let items: Vec<String> = unique
         .iter()
-        .map(|source| {
-            format!("<li><code>{}</code> {}</li>", source.key, html::escape(source.reference))
-        })
+        .map(|source| format!("<li><code>{}</code> {}</li>", source.key, escape(source.reference)))
         .collect();
     page.put(&format!("<ul class=\"sources\">{}</ul>", items.concat()));
 }

@@ -5,8 +5,8 @@ use std::time::Duration;
 use super::super::claims::{Claim, ClaimVerdict, count, statements};
 use super::super::{Resolution, WrittenEntry};
 use super::claims::{all, chip};
-use super::html::{Page, escape, symbols, table};
 use quell::cite::MICHAUX_2005;
+use quell::html::{HtmlPage, escape, symbols, table};
 
 /// Kinds of verdict in the order of the summary, with their meaning.
 const KINDS: [(&str, &str, &str); 4] = [
@@ -29,7 +29,7 @@ const KINDS: [(&str, &str, &str); 4] = [
 ];
 
 /// Writes the section.
-pub(super) fn write(page: &mut Page, written: &[WrittenEntry], resolution: Resolution) {
+pub(super) fn write(page: &mut HtmlPage, written: &[WrittenEntry], resolution: Resolution) {
     let claims: Vec<&Claim> = all(written);
     page.put(&format!(
         "<header><p class=\"kicker\">Quell {} · reproduce{}</p><h1>The dissertation, reproduced</h1><p \
@@ -68,7 +68,7 @@ fn extent(written: &[WrittenEntry], resolution: Resolution) -> String {
     )
 }
 
-fn overview(page: &mut Page, claims: &[&Claim]) {
+fn overview(page: &mut HtmlPage, claims: &[&Claim]) {
     let statements = statements(claims.iter().copied());
     let total = statements.len();
     let share = |count: usize| 100.0 * count as f64 / total as f64;
@@ -100,7 +100,7 @@ fn overview(page: &mut Page, claims: &[&Claim]) {
 }
 
 /// Lists verdicts that are not the expected ones, first and prominently.
-fn changed(page: &mut Page, claims: &[&Claim]) {
+fn changed(page: &mut HtmlPage, claims: &[&Claim]) {
     let changed: Vec<&&Claim> = claims.iter().filter(|claim| !claim.as_expected()).collect();
     if changed.is_empty() {
         page.put("<p class=\"calm\">Every verdict is the expected one.</p>");
@@ -123,7 +123,7 @@ fn changed(page: &mut Page, claims: &[&Claim]) {
 }
 
 /// Lists the claims that do not hold, with the reasons.
-fn exceptions(page: &mut Page, claims: &[&Claim]) {
+fn exceptions(page: &mut HtmlPage, claims: &[&Claim]) {
     let rows = |listed: fn(&ClaimVerdict) -> bool| {
         claims.iter().filter(move |claim| listed(&claim.verdict)).map(|claim| {
             let reason = match claim.why() {

@@ -21,6 +21,7 @@ impl Verbs for BeltStudy {
         &[
             "check",
             "sketch",
+            "report",
             "cite",
             "friction",
             "stability",

@@ -15,7 +15,17 @@ impl Verbs for DiscStudy {
     }
 
     fn names(&self) -> &'static [&'static str] {
-        &["check", "sketch", "cite", "modes", "stability", "simulate", "resonances", "map"]
+        &[
+            "check",
+            "sketch",
+            "report",
+            "cite",
+            "modes",
+            "stability",
+            "simulate",
+            "resonances",
+            "map",
+        ]
     }
 
     fn check(&self) -> Box<dyn Outcome> {

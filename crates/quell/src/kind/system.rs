@@ -38,6 +38,7 @@ impl Verbs for SystemStudy {
         &[
             "check",
             "sketch",
+            "report",
             "cite",
             "modes",
             "stability",

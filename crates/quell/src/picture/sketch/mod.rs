@@ -18,6 +18,7 @@ use crate::study::{Kind, Study};
 pub const DEFAULT_WIDTH_MM: f64 = 120.0;
 /// The narrowest and the widest sketch (mm).
 pub const WIDTHS_MM: (f64, f64) = (80.0, 400.0);
+
 /// A width with its unit in mm: mm, cm, in or pt (1/72 in).
 ///
 /// # Errors

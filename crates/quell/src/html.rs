@@ -1,31 +1,37 @@
-//! Builder for an HTML page: head, table of contents, escaping.
+//! HTML pages: head, table of contents, sections, tables, and text with symbols. Reports are made with it.
 
 use std::fmt::Write as _;
 
-/// The style sheet.
-const STYLE: &str = include_str!("style.css");
-
 /// A page with sections and a table of contents.
-pub(super) struct Page {
-    title: &'static str,
+#[derive(Clone, Debug)]
+pub struct HtmlPage {
+    title: String,
+    style: &'static str,
     contents: String,
     body: String,
     open: bool,
 }
 
-impl Page {
-    pub(super) fn new(title: &'static str) -> Self {
-        Self { title, contents: String::new(), body: String::new(), open: false }
+impl HtmlPage {
+    /// An empty page with this title and style sheet.
+    pub fn new(title: &str, style: &'static str) -> Self {
+        Self {
+            title: escape(title),
+            style,
+            contents: String::new(),
+            body: String::new(),
+            open: false,
+        }
     }
 
     /// Adds HTML.
-    pub(super) fn put(&mut self, html: &str) {
+    pub fn put(&mut self, html: &str) {
         self.body += html;
         self.body.push('\n');
     }
 
     /// Begins a section with a line in the table of contents.
-    pub(super) fn section(&mut self, anchor: &str, title: &str) {
+    pub fn section(&mut self, anchor: &str, title: &str) {
         self.close();
         self.open = true;
         let title = escape(title);
@@ -34,7 +40,7 @@ impl Page {
     }
 
     /// A line in the table of contents below the section.
-    pub(super) fn entry(&mut self, anchor: &str, number: &str, title: &str) {
+    pub fn entry(&mut self, anchor: &str, number: &str, title: &str) {
         let _ = writeln!(
             self.contents,
             "<a href=\"#{anchor}\"><span>{}</span>{}</a>",
@@ -50,13 +56,13 @@ impl Page {
     }
 
     /// The whole page.
-    pub(super) fn finish(mut self) -> String {
+    pub fn finish(mut self) -> String {
         self.close();
-        let Self { title, contents, body, .. } = self;
+        let Self { title, style, contents, body, .. } = self;
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-             <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
+             <title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n\
              <nav aria-label=\"Contents\"><a class=\"top\" href=\"#top\">{title}</a>\n{contents}</nav>\n\
              <main id=\"top\">\n{body}</main>\n</body>\n</html>\n"
         )
@@ -64,12 +70,12 @@ impl Page {
 }
 
 /// Text as HTML.
-pub(super) fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// A sentence with symbols as HTML: subscripts and superscripts as in `v_m`, `α^L`, `e^{γ−w}`, and minus signs before numbers.
-pub(super) fn symbols(text: &str) -> String {
+pub fn symbols(text: &str) -> String {
     let letters: Vec<char> = text.chars().collect();
     let mut html = String::new();
     let mut at = 0;
@@ -107,11 +113,7 @@ fn group(letters: &[char]) -> (String, usize) {
 }
 
 /// A table with the given column names and rows of HTML cells.
-pub(super) fn table(
-    class: &str,
-    names: &[&str],
-    rows: impl IntoIterator<Item = Vec<String>>,
-) -> String {
+pub fn table(class: &str, names: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let head =
         names.iter().map(|name| format!("<th>{name}</th>")).collect::<Vec<String>>().concat();
     let body = rows

@@ -1,0 +1,211 @@
+//! What a report did not examine, as facts of its study.
+
+use quell_model::units::Quantity;
+use serde_json::{Value as Json, json};
+
+use super::ReportedAnswer;
+use crate::complaint::Failure;
+use crate::study::disc::ModeSource;
+use crate::study::{BeltStudy, DiscStudy, Kind, Study, SystemStudy};
+use crate::words::{digits, in_words, plural, start_in_words};
+
+/// The most names that are written of a list.
+const MOST_NAMES: usize = 12;
+
+/// Something that was not examined, and the fact behind it.
+pub(super) struct Unexamined {
+    pub(super) subject: String,
+    pub(super) fact: String,
+}
+
+impl Unexamined {
+    pub(super) fn new(subject: &str, fact: impl Into<String>) -> Self {
+        Self { subject: subject.to_owned(), fact: fact.into() }
+    }
+
+    /// A verb that refused or failed.
+    pub(super) fn refused(heading: &str, verb: &str, why: &Failure) -> Self {
+        Self::new(heading, format!("`{verb}` gave no answer: {why}"))
+    }
+
+    pub(super) fn json(&self) -> Json {
+        json!({ "subject": self.subject, "fact": self.fact })
+    }
+}
+
+/// What no verb of the report examines.
+pub(super) fn of(study: &Study, answers: &[ReportedAnswer]) -> Vec<Unexamined> {
+    let mut all = match study.kind() {
+        Kind::Belt(setup) => of_belt(&study.narrowed(setup.as_ref())),
+        Kind::Disc(setup) => of_disc(&study.narrowed(setup.as_ref())),
+        Kind::System(setup) => of_system(&study.narrowed(setup.as_ref()), answers),
+    };
+    all.extend(windows(answers));
+    all.push(parameters(study));
+    all
+}
+
+fn of_belt(study: &BeltStudy) -> Vec<Unexamined> {
+    let start = start_in_words(study);
+    let mut all = vec![Unexamined::new(
+        "Other starts",
+        format!(
+            "The runs began {start}. Another start may end on another motion; `quell basins` examines them."
+        ),
+    )];
+    let belt = study.belt();
+    let law = belt.friction().kind().name();
+    all.push(Unexamined::new(
+        "Other friction laws",
+        match belt.friction().range() {
+            Some(range) => format!(
+                "Only the law “{law}” was used. It holds for slip velocities from {} to {} ({}).",
+                in_words(study, Quantity::Velocity, range.lower),
+                in_words(study, Quantity::Velocity, range.upper),
+                range.limit
+            ),
+            None => format!("Only the law “{law}” was used, with the numbers of the study."),
+        },
+    ));
+    all.push(Unexamined::new(
+        "Other motions of the structure",
+        format!(
+            "The structure has one degree of freedom, of natural frequency {}; its other modes are not in the model.",
+            in_words(study, Quantity::FrequencyRatio, 1.0)
+        ),
+    ));
+    let ratio = if study.scales().is_some() { "" } else { " ratio R =" };
+    for dither in belt.dithers() {
+        all.push(Unexamined::new(
+            "Other dither frequencies",
+            format!(
+                "The {} dither has the frequency{} {} only; `quell map` computes maps over amplitude and frequency.",
+                dither.direction.name(),
+                ratio,
+                in_words(study, Quantity::FrequencyRatio, dither.frequency_ratio)
+            ),
+        ));
+    }
+    all
+}
+
+fn of_disc(study: &DiscStudy) -> Vec<Unexamined> {
+    let disc = study.disc();
+    let modes = disc.modes();
+    let most = modes.iter().map(|mode| mode.diameters).max().unwrap_or(0);
+    let highest = modes.iter().map(|mode| mode.ratio).fold(0.0, f64::max);
+    let left_out = match study.source() {
+        ModeSource::Plate(plate) => format!(
+            "The model has {} mode{}: up to {} radial modes and {most} nodal diameters, up to the frequency ratio {}.",
+            modes.len(),
+            plural(u32::try_from(modes.len()).unwrap_or(u32::MAX)),
+            plate.radial_modes,
+            digits(highest)
+        ),
+        _ => format!(
+            "The model has the {} listed mode{}, up to {most} nodal diameters and the frequency ratio {}.",
+            modes.len(),
+            plural(u32::try_from(modes.len()).unwrap_or(u32::MAX)),
+            digits(highest)
+        ),
+    };
+    let mut all = vec![
+        Unexamined::new("Modes left out", left_out),
+        Unexamined::new(
+            "Large motions",
+            "All verdicts are about small motions. How large an unstable motion becomes was not computed.",
+        ),
+        Unexamined::new(
+            "Other speeds",
+            format!(
+                "Verdicts hold at Ω = {} only; `quell map` computes maps over speed and friction.",
+                digits(disc.speed())
+            ),
+        ),
+    ];
+    let without = study.without();
+    if !without.is_empty() {
+        all.push(Unexamined::new(
+            "Contributions left out",
+            format!("The study leaves out {}.", without.join(", ")),
+        ));
+    }
+    all
+}
+
+fn of_system(study: &SystemStudy, answers: &[ReportedAnswer]) -> Vec<Unexamined> {
+    let start =
+        answers.iter().find(|answer| answer.verb == "response").map(|answer| answer.start.as_str());
+    let mut all = Vec::new();
+    if let Some(start) = start {
+        all.push(Unexamined::new(
+            "Other starts",
+            format!("The runs began {start}. Another start may end on another motion; `quell basins --plane` examines them."),
+        ));
+    }
+    let system = study.system();
+    let names = system.structure.names();
+    let modal = !names.is_empty() && names.iter().all(|name| name.contains('.'));
+    if let (true, Some(mechanical)) = (modal, system.structure.mechanical()) {
+        let highest = (0..names.len())
+            .map(|place| mechanical.stiffness()[(place, place)].max(0.0).sqrt())
+            .fold(0.0, f64::max);
+        let fastest = system.acting_frequencies().fold(0.0, f64::max);
+        let dither = if fastest > highest {
+            format!(", below the dither's {}", digits(fastest))
+        } else {
+            String::new()
+        };
+        all.push(Unexamined::new(
+            "Modes left out",
+            format!(
+                "The model has {} mode{}, up to the angular frequency {}{dither}.",
+                names.len(),
+                plural(u32::try_from(names.len()).unwrap_or(u32::MAX)),
+                digits(highest)
+            ),
+        ));
+    }
+    for contact in &system.contacts {
+        let law = contact.friction.kind().name();
+        let load = if contact.normal.is_some() {
+            "follows the approach of its surfaces"
+        } else {
+            "is prescribed"
+        };
+        all.push(Unexamined::new(
+            "Other friction laws",
+            format!("Contact {} has the law “{law}” only; its normal load {load}.", contact.name),
+        ));
+    }
+    all
+}
+
+/// Amplitudes outside the windows of thresholds.
+fn windows(answers: &[ReportedAnswer]) -> Vec<Unexamined> {
+    answers
+        .iter()
+        .filter_map(|answer| answer.chosen.as_ref())
+        .map(|window| {
+            Unexamined::new("Other amplitudes", format!("Thresholds were searched for {window}."))
+        })
+        .collect()
+}
+
+/// The numbers of the study, all taken as exact.
+fn parameters(study: &Study) -> Unexamined {
+    let numbers: Vec<String> = study
+        .settings()
+        .into_iter()
+        .filter(|(path, value)| {
+            path != "schema" && !path.starts_with("sweep") && value.parse::<f64>().is_ok()
+        })
+        .map(|(path, _)| format!("`{path}`"))
+        .collect();
+    let named = numbers.iter().take(MOST_NAMES).cloned().collect::<Vec<_>>().join(", ");
+    let rest = if numbers.len() > MOST_NAMES { ", …" } else { "" };
+    Unexamined::new(
+        "Uncertainty of the parameters",
+        format!("The {} numbers of the study were taken as exact: {named}{rest}.", numbers.len()),
+    )
+}

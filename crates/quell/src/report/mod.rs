@@ -1,0 +1,193 @@
+//! One page about a study: its question, sketch, values, verdicts, cost and pictures, what was not examined, and its sources.
+//!
+//! A report is made of the answers of the verbs. It computes nothing by itself and judges nothing: every sentence, table, number
+//! and warning is that of a verb, and a verb that refuses is listed with its reason.
+//!
+//! ```
+//! use quell::Study;
+//! use quell::report::{ReportRequest, run};
+//!
+//! let text = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.3\n\
+//!     [friction]\nlaw = \"coulomb\"\ncoefficient = 0.4\n";
+//! let study = Study::parse(text, &[])?;
+//! let report = run(&study, &ReportRequest::default())?;
+//! assert!(report.html().contains("What was not examined"));
+//! # Ok::<(), quell::Failure>(())
+//! ```
+
+mod facts;
+mod limits;
+mod page;
+mod plan;
+
+use serde_json::{Value as Json, json};
+
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::kind::verbs;
+use crate::outcome::Outcome;
+use crate::output::Output;
+use crate::plot::Sketch;
+use crate::run::sketch;
+use crate::study::{Kind, Study};
+
+use limits::Unexamined;
+use plan::planned;
+
+/// File name extensions of a report.
+pub const EXTENSIONS: &[&str] = &["html"];
+
+/// Width of the sketch in a report (mm).
+const SKETCH_WIDTH_MM: f64 = 150.0;
+
+/// Options of a report.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ReportRequest {
+    /// Verbs that are left out, such as `thresholds` where they take long.
+    pub without: Vec<String>,
+}
+
+/// The answer of a verb in a report.
+struct ReportedAnswer {
+    verb: &'static str,
+    /// What is asked, in a few words.
+    heading: &'static str,
+    /// Start of the runs, or the motion about which the verb linearises.
+    start: String,
+    /// What was chosen for the report, such as the window of thresholds.
+    chosen: Option<String>,
+    outcome: Box<dyn Outcome>,
+    facts: Json,
+}
+
+/// A report about a study.
+pub struct StudyReport {
+    study: Study,
+    question: String,
+    sketch: Sketch,
+    check: Box<dyn Outcome>,
+    answers: Vec<ReportedAnswer>,
+    unexamined: Vec<Unexamined>,
+}
+
+/// Runs the verbs of a report.
+///
+/// # Errors
+/// A complaint about a verb to be left out that the report does not have. A verb that refuses or fails does not end the report.
+pub fn run(study: &Study, request: &ReportRequest) -> Result<StudyReport, Failure> {
+    let plan = planned(study);
+    for name in &request.without {
+        if !plan.iter().any(|step| step.verb == name) {
+            let known: Vec<&str> = plan.iter().map(|step| step.verb).collect();
+            let allowed = format!("one of {}", known.join(", "));
+            let origin = Origin::Argument("--without");
+            return Err(
+                Complaint::new(Fault::Value, "--without", origin, name.as_str(), allowed).into()
+            );
+        }
+    }
+    let verbs = verbs(study);
+    let (mut answers, mut unexamined) = (Vec::new(), Vec::new());
+    for step in plan {
+        let plan::Step { verb, heading, start, chosen, request: asked } = step;
+        if request.without.iter().any(|name| name == verb) {
+            unexamined
+                .push(Unexamined::new(heading, format!("`{verb}` was left out by --without.")));
+            continue;
+        }
+        match plan::ask(verbs.as_ref(), asked) {
+            Ok(outcome) => {
+                let facts = outcome.facts();
+                answers.push(ReportedAnswer { verb, heading, start, chosen, outcome, facts });
+            }
+            Err(why) => unexamined.push(Unexamined::refused(heading, verb, &why)),
+        }
+    }
+    unexamined.extend(limits::of(study, &answers));
+    Ok(StudyReport {
+        question: question(study),
+        sketch: sketch::run(study, Some(SKETCH_WIDTH_MM))?.sketch,
+        check: verbs.check(),
+        study: study.clone(),
+        answers,
+        unexamined,
+    })
+}
+
+/// The question that the first comment of the study asks, or the one that a study of its kind answers.
+fn question(study: &Study) -> String {
+    let first = study.text().lines().next().unwrap_or_default();
+    if let Some(asked) = first.strip_prefix('#').map(str::trim).filter(|line| line.ends_with('?')) {
+        return asked.to_owned();
+    }
+    let dithered = match study.kind() {
+        Kind::Belt(setup) => setup.belt().dithers().iter().any(|dither| dither.amplitude != 0.0),
+        Kind::Disc(setup) => setup.disc().dither().frequency_ratio().is_some(),
+        Kind::System(setup) => setup.system().is_dithered(),
+    };
+    match (study.kind(), dithered) {
+        (Kind::Disc(_), true) => {
+            "Is the disc stable under this dither, and which motion grows first?"
+        }
+        (Kind::Disc(_), false) => "Is the disc stable, and which motion grows first?",
+        (_, true) => {
+            "What does this dither do to the vibration, how sure is that, and at what cost?"
+        }
+        (_, false) => "Does this system vibrate by its friction, and how sure is that?",
+    }
+    .to_owned()
+}
+
+impl StudyReport {
+    /// The page in HTML, complete in itself: without scripts and references to other files.
+    pub fn html(&self) -> String {
+        page::html(self)
+    }
+
+    /// As JSON: what was asked, the sentence and facts of every verb, and what was not examined.
+    pub fn json(&self) -> Json {
+        let answers = self.answers.iter().map(|answer| {
+            json!({
+                "verb": answer.verb,
+                "heading": answer.heading,
+                "start": answer.start,
+                "chosen": answer.chosen,
+                "sentence": answer.outcome.sentence(),
+                "facts": answer.facts,
+            })
+        });
+        let unexamined = self.unexamined.iter().map(Unexamined::json);
+        let mut object = json!({
+            "ok": true,
+            "title": self.study.title(),
+            "question": self.question,
+            "answers": answers.collect::<Vec<_>>(),
+            "not_examined": unexamined.collect::<Vec<_>>(),
+        });
+        let mut why = serde_json::Map::new();
+        if self.study.title().is_none() {
+            why.insert("title".to_owned(), "the study has no title".into());
+        }
+        for (place, answer) in self.answers.iter().enumerate() {
+            if answer.chosen.is_none() {
+                let path = format!("answers[{place}].chosen");
+                why.insert(path, "nothing was chosen for the report".into());
+            }
+            if answer.outcome.sentence().is_none() {
+                let path = format!("answers[{place}].sentence");
+                why.insert(path, "the answer is a table".into());
+            }
+        }
+        if !why.is_empty() {
+            object["why"] = why.into();
+        }
+        object
+    }
+
+    /// Writes the page.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] if the file cannot be written.
+    pub fn write(&self, output: Output) -> Result<String, Failure> {
+        output.write(self.html().as_bytes()).map(|path| path.display().to_string())
+    }
+}

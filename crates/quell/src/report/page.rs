@@ -1,0 +1,278 @@
+//! The page of a report.
+
+use serde_json::Value as Json;
+
+use crate::cite::Sources;
+use crate::html::{HtmlPage, escape, symbols, table};
+use crate::kind::verbs;
+use crate::plot;
+use crate::words::{capital, digits};
+
+use super::facts::{self, FactRow};
+use super::{ReportedAnswer, StudyReport};
+
+/// The style sheet, with rules for paper.
+const STYLE: &str = include_str!("report.css");
+
+/// Fields of an answer that are costs of a dither.
+const COSTS: &[&str] = &[
+    "mean_friction",
+    "steady_sliding_friction",
+    "friction_loss",
+    "friction_power",
+    "dither_power",
+    "dither_stroke",
+    "power",
+    "stroke",
+    "minimum_normal_load",
+];
+/// Fields that state a verdict, and its error: the first that an answer has.
+const VERDICTS: &[&str] = &["/verdict", "/effect", "/local/0/becomes", "/thresholds/0/becomes"];
+const ERRORS: &[&str] = &[
+    "/growth_rate_error",
+    "/multiplier_error",
+    "/error",
+    "/residual",
+    "/local/0/error",
+    "/thresholds/0/error",
+];
+
+/// The page.
+pub(super) fn html(report: &StudyReport) -> String {
+    let title = report.study.title().unwrap_or("Report about a study");
+    let mut page = HtmlPage::new(title, STYLE);
+    page.put(&format!(
+        "<header><p class=\"kicker\">Report of Quell {}</p><h1>{}</h1><p class=\"lead\">{}</p></header>",
+        env!("CARGO_PKG_VERSION"),
+        escape(title),
+        escape(&report.question)
+    ));
+    sketch(&mut page, report);
+    assumptions(&mut page, report);
+    values(&mut page, report);
+    verdicts(&mut page, report);
+    cost(&mut page, report);
+    answers(&mut page, report);
+    unexamined(&mut page, report);
+    sources(&mut page, report);
+    numbers(&mut page, report);
+    study(&mut page, report);
+    page.finish()
+}
+
+fn sketch(page: &mut HtmlPage, report: &StudyReport) {
+    page.section("sketch", "The system");
+    let label = escape(&report.sketch.title);
+    page.put(&format!(
+        "<figure aria-label=\"Sketch: {label}\">{}<figcaption>The mechanism of the study, not to scale.</figcaption></figure>",
+        report.sketch.to_svg()
+    ));
+}
+
+/// What the computations take for granted: the equations and their uses, from the sources, and what the check warns about.
+fn assumptions(page: &mut HtmlPage, report: &StudyReport) {
+    page.section("assumptions", "Assumptions");
+    let sources = cited(report);
+    let mut used: Vec<&str> = Vec::new();
+    for citation in &sources.citations {
+        if !used.contains(&citation.used) {
+            used.push(citation.used);
+        }
+    }
+    let starts = report.answers.iter().map(|answer| format!("{}: {}", answer.verb, answer.start));
+    page.put("<p>The answers use these equations and methods:</p>");
+    page.put(&list(used.iter().map(|text| symbols(text))));
+    page.put("<p>Where each computation starts:</p>");
+    page.put(&list(starts.map(|text| symbols(&text))));
+    page.put(&warnings(&report.check.warnings()));
+}
+
+fn values(page: &mut HtmlPage, report: &StudyReport) {
+    page.section("values", "Values of the study");
+    page.put(&fact_table(&facts::rows(&report.check.facts())));
+}
+
+/// One row for each answer: verdict, start, error.
+fn verdicts(page: &mut HtmlPage, report: &StudyReport) {
+    page.section("verdicts", "Verdicts");
+    if report.answers.is_empty() {
+        page.put("<p>No verb gave an answer.</p>");
+        return;
+    }
+    let rows = report.answers.iter().map(|answer| {
+        let first = |pointers: &[&str]| {
+            let found = pointers.iter().find_map(|pointer| match answer.facts.pointer(pointer) {
+                Some(Json::String(text)) => Some(text.clone()),
+                Some(Json::Number(number)) => {
+                    Some(number.as_f64().map_or_else(String::new, digits))
+                }
+                _ => None,
+            });
+            found.map_or_else(|| "–".to_owned(), |text| escape(&text))
+        };
+        vec![
+            format!("<a href=\"#{}\">{}</a>", anchor(report, answer), escape(answer.heading)),
+            first(VERDICTS),
+            symbols(&answer.start),
+            first(ERRORS),
+            answer.outcome.sentence().map_or_else(String::new, |text| symbols(&text)),
+        ]
+    });
+    page.put(&table("verdicts", &["question", "verdict", "start", "error", "answer"], rows));
+}
+
+fn cost(page: &mut HtmlPage, report: &StudyReport) {
+    page.section("cost", "Cost of the dither");
+    let response = report.answers.iter().find(|answer| answer.verb == "response");
+    let rows = response.map(|answer| facts::named(&answer.facts, COSTS)).unwrap_or_default();
+    if rows.is_empty() {
+        page.put(
+            "<p>No response was computed, so that friction, power and stroke are not known.</p>",
+        );
+    } else {
+        page.put(&fact_table(&rows));
+    }
+}
+
+/// The answers with their pictures.
+fn answers(page: &mut HtmlPage, report: &StudyReport) {
+    page.section("answers", "Answers");
+    for answer in &report.answers {
+        let anchor = anchor(report, answer);
+        page.entry(&anchor, "", answer.heading);
+        page.put(&format!("<article id=\"{anchor}\"><h3>{}</h3>", escape(answer.heading)));
+        page.put(&format!(
+            "<p class=\"name\">quell {}, start: {}</p>",
+            answer.verb,
+            symbols(&answer.start)
+        ));
+        if let Some(chosen) = &answer.chosen {
+            page.put(&format!("<p class=\"name\">{}</p>", marked(chosen)));
+        }
+        if let Some(sentence) = answer.outcome.sentence() {
+            page.put(&format!("<p>{}</p>", symbols(&sentence)));
+        }
+        page.put(&warnings(&answer.outcome.warnings()));
+        page.put(&picture(answer));
+        page.put(&format!("<pre><code>{}</code></pre>", escape(&answer.outcome.table())));
+        page.put("</article>");
+    }
+}
+
+/// The picture of an answer, if it has one.
+fn picture(answer: &ReportedAnswer) -> String {
+    match answer.outcome.figure() {
+        None => String::new(),
+        Some(Ok(figure)) => format!(
+            "<figure aria-label=\"{}\">{}<figcaption>{}</figcaption></figure>",
+            escape(answer.heading),
+            figure.clone().caption("").to_svg(),
+            plot::html(&figure.caption)
+        ),
+        Some(Err(why)) => {
+            format!("<p class=\"calm\">The picture was not drawn: {}</p>", escape(&why.to_string()))
+        }
+    }
+}
+
+fn unexamined(page: &mut HtmlPage, report: &StudyReport) {
+    page.section("not-examined", "What was not examined");
+    let rows = report.unexamined.iter().map(|gap| vec![escape(&gap.subject), marked(&gap.fact)]);
+    page.put(&table("gaps", &["subject", "what is known"], rows));
+}
+
+/// The sources of the verbs in the report.
+fn cited(report: &StudyReport) -> Sources {
+    let mut sources = verbs(&report.study).sources();
+    let has = |name: &str| report.answers.iter().any(|answer| answer.verb == name);
+    sources.citations.retain(|citation| has(citation.task.name()));
+    sources
+}
+
+fn sources(page: &mut HtmlPage, report: &StudyReport) {
+    page.section("sources", "Versions and sources");
+    page.put(&format!("<p>Computed by Quell {}.</p>", env!("CARGO_PKG_VERSION")));
+    let sources = cited(report);
+    let items = sources
+        .unique()
+        .into_iter()
+        .map(|source| format!("<code>{}</code> {}", escape(source.key), escape(source.reference)));
+    page.put(&list(items));
+    if !sources.corrections.is_empty() {
+        page.put("<p>Corrections of the printed equations that were applied:</p>");
+        let items = sources.corrections.iter().map(|correction| {
+            format!("<b>{}</b> {}", symbols(correction.equations), symbols(correction.right))
+        });
+        page.put(&list(items));
+    }
+}
+
+/// Every number of every answer.
+fn numbers(page: &mut HtmlPage, report: &StudyReport) {
+    page.section("numbers", "All numbers");
+    page.put("<p>As <code>--json</code> of each verb prints them.</p>");
+    for answer in &report.answers {
+        page.put(&format!("<h3>{}</h3>", escape(&capital(answer.verb))));
+        page.put(&fact_table(&facts::rows(&answer.facts)));
+    }
+}
+
+fn study(page: &mut HtmlPage, report: &StudyReport) {
+    page.section("study", "The study file");
+    let changes = report.study.changes();
+    if !changes.is_empty() {
+        page.put("<p>Changed by <code>--set</code>:</p>");
+        page.put(&list(changes.iter().map(|change| format!("<code>{}</code>", escape(change)))));
+    }
+    page.put(&format!("<pre><code>{}</code></pre>", escape(report.study.text())));
+}
+
+/// The anchor of an answer: its verb, numbered from the second on.
+fn anchor(report: &StudyReport, answer: &ReportedAnswer) -> String {
+    let same = report.answers.iter().filter(|other| other.verb == answer.verb);
+    let place = same.take_while(|other| !std::ptr::eq(*other, answer)).count();
+    match place {
+        0 => format!("answer-{}", answer.verb),
+        place => format!("answer-{}-{}", answer.verb, place + 1),
+    }
+}
+
+fn fact_table(rows: &[FactRow]) -> String {
+    let has_si = rows.iter().any(|row| !row.si.is_empty());
+    let names: &[&str] = if has_si {
+        &["quantity", "value", "unit", "in SI"]
+    } else {
+        &["quantity", "value", "unit"]
+    };
+    let cells = rows.iter().map(|row| {
+        let name = escape(&row.path).replace('_', "_<wbr>").replace('.', ".<wbr>");
+        let mut cells = vec![name, escape(&row.value), escape(&row.unit)];
+        if has_si {
+            cells.push(escape(&row.si));
+        }
+        cells
+    });
+    table("facts", names, cells)
+}
+
+fn warnings(texts: &[String]) -> String {
+    if texts.is_empty() {
+        return String::new();
+    }
+    let items = texts.iter().map(|text| symbols(&capital(text)));
+    format!("<div class=\"alarm\"><p>Warnings</p>{}</div>", list(items))
+}
+
+/// A sentence with symbols, and code between grave accents.
+fn marked(text: &str) -> String {
+    let parts = text.split('`').enumerate();
+    let part = |(place, part): (usize, &str)| {
+        if place % 2 == 1 { format!("<code>{}</code>", escape(part)) } else { symbols(part) }
+    };
+    parts.map(part).collect()
+}
+
+fn list(items: impl IntoIterator<Item = String>) -> String {
+    let items: String = items.into_iter().map(|item| format!("<li>{item}</li>")).collect();
+    if items.is_empty() { String::new() } else { format!("<ul>{items}</ul>") }
+}

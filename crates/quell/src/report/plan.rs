@@ -1,0 +1,137 @@
+//! The verbs of a report with their requests.
+
+use quell_model::Direction;
+use quell_model::units::Quantity;
+
+use crate::kind::{Reply, Verbs};
+use crate::run::disc::resonances::ResonancesRequest;
+use crate::run::orbit::Wanted;
+use crate::run::thresholds::{ThresholdsRequest, path_in_words};
+use crate::study::{BeltStudy, Kind, Study, SystemStart, SystemStudy};
+use crate::words::{digits, start_in_words};
+
+/// The window of thresholds, in amplitudes of the study.
+const WINDOW: (f64, f64) = (0.1, 2.0);
+
+/// What a verb is asked.
+pub(super) enum Asked {
+    Modes,
+    Stability,
+    Response,
+    Orbit,
+    Friction,
+    Resonances,
+    Thresholds(ThresholdsRequest),
+}
+
+/// A verb of the report.
+pub(super) struct Step {
+    pub(super) verb: &'static str,
+    pub(super) heading: &'static str,
+    pub(super) start: String,
+    pub(super) chosen: Option<String>,
+    pub(super) request: Asked,
+}
+
+impl Step {
+    fn new(verb: &'static str, heading: &'static str, start: &str, request: Asked) -> Self {
+        Self { verb, heading, start: start.to_owned(), chosen: None, request }
+    }
+}
+
+const SMALL: &str = "small motions about steady sliding";
+const NO_START: &str = "none: no motion is computed";
+const BRANCH: &str = "the base response, continued from steady sliding";
+
+/// The verbs that a study of this kind has, in the order of the report.
+pub(super) fn planned(study: &Study) -> Vec<Step> {
+    match study.kind() {
+        Kind::Belt(setup) => of_belt(&study.narrowed(setup.as_ref())),
+        Kind::Disc(_) => vec![
+            Step::new("stability", "Stability of steady sliding", SMALL, Asked::Stability),
+            Step::new("modes", "Natural frequencies", NO_START, Asked::Modes),
+            Step::new("resonances", "Speeds at which waves meet", SMALL, Asked::Resonances),
+        ],
+        Kind::System(setup) => of_system(&study.narrowed(setup.as_ref())),
+    }
+}
+
+fn of_belt(study: &BeltStudy) -> Vec<Step> {
+    let start = start_in_words(study);
+    let mut steps = vec![
+        Step::new("stability", "Stability of steady sliding", SMALL, Asked::Stability),
+        Step::new("response", "Steady response", &start, Asked::Response),
+        Step::new("orbit", "Periodic response", BRANCH, Asked::Orbit),
+    ];
+    let belt = study.belt();
+    for (place, dither) in belt.dithers().iter().enumerate() {
+        // More normal dither than load would open the contact.
+        let room = match dither.direction {
+            Direction::Tangential => f64::INFINITY,
+            Direction::Normal => {
+                belt.normal_load() - belt.total_amplitude(Direction::Normal) + dither.amplitude
+            }
+        };
+        let path = path_in_words(study, &belt.dither_path(place, "amplitude"));
+        let unit = study.scales().map_or(1.0, |scales| scales.si_per_unit(Quantity::Force));
+        steps.extend(thresholds(&path, unit * dither.amplitude, unit * room));
+    }
+    steps.push(Step::new("friction", "Friction law", NO_START, Asked::Friction));
+    steps
+}
+
+fn of_system(study: &SystemStudy) -> Vec<Step> {
+    let start = match study.initial() {
+        SystemStart::Rest => "from rest",
+        SystemStart::Sliding => "from steady sliding",
+        SystemStart::Squealing => "from the undithered limit cycle",
+        SystemStart::Base => "from the base response",
+        SystemStart::Values(_) | SystemStart::Described { .. } => "from the state of the study",
+    };
+    let mut steps = vec![
+        Step::new("stability", "Stability of steady sliding", SMALL, Asked::Stability),
+        Step::new("modes", "Natural frequencies", NO_START, Asked::Modes),
+        Step::new("response", "Steady response", start, Asked::Response),
+        Step::new("orbit", "Periodic response", BRANCH, Asked::Orbit),
+    ];
+    let inputs = &study.system().inputs;
+    for (place, input) in inputs.iter().enumerate() {
+        let path = match inputs.len() {
+            1 => "dither.amplitude".to_owned(),
+            _ => format!("dither[{place}].amplitude"),
+        };
+        let amplitude = input.profile.waves().first().map_or(0.0, |wave| wave.amplitude);
+        steps.extend(thresholds(&path, amplitude, f64::INFINITY));
+    }
+    steps
+}
+
+/// Thresholds of an amplitude between a tenth and twice its value, or up to the largest that the contact allows; none of an
+/// amplitude that is 0.
+fn thresholds(path: &str, amplitude: f64, room: f64) -> Option<Step> {
+    // Numbers with few digits; rounding must not lead beyond the largest amplitude.
+    let rounded = |value: f64| digits(value).parse::<f64>().unwrap_or(value);
+    let (from, to) = (rounded(WINDOW.0 * amplitude), rounded(WINDOW.1 * amplitude).min(room));
+    if !(amplitude > 0.0 && from < to) {
+        return None;
+    }
+    let parameter = path.to_owned();
+    let request = ThresholdsRequest { parameter, from, to, ..ThresholdsRequest::default() };
+    let heading = "Amplitudes that change the outcome";
+    let mut step = Step::new("thresholds", heading, BRANCH, Asked::Thresholds(request));
+    step.chosen = Some(format!("`{path}` from {} to {}", digits(from), digits(to)));
+    Some(step)
+}
+
+/// The answer of a verb.
+pub(super) fn ask(verbs: &dyn Verbs, asked: Asked) -> Reply {
+    match asked {
+        Asked::Modes => verbs.modes(),
+        Asked::Stability => verbs.stability(),
+        Asked::Response => verbs.response(),
+        Asked::Orbit => verbs.orbit(Wanted::default()),
+        Asked::Friction => verbs.friction(None, false),
+        Asked::Resonances => verbs.resonances(ResonancesRequest::default()),
+        Asked::Thresholds(request) => verbs.thresholds(request),
+    }
+}
