@@ -27,7 +27,7 @@ Axis = tuple[str, float, float, bool]
 
 
 def preferred(numbers: Mapping[str, Knob], keys: tuple[str, ...], other: str | None) -> str | None:
-    """The name of the number with the first of these keys; any other if there is none."""
+    """The name of the number with the first of these keys, otherwise of any other number."""
     for key in keys:
         for name, one in numbers.items():
             if one.path.split(".")[-1] == key and name != other:
