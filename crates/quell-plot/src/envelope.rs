@@ -101,26 +101,25 @@ fn dense_runs(points: &[(f64, f64)], extremes: &[usize]) -> Vec<(usize, usize)> 
     runs
 }
 
-/// The band through these extremes: the upper and the lower ones alternate, and both curves begin and end at the ends.
+/// The band through these extremes. At each of them the band reaches to the outermost extreme within [`MERGING`]: what lies
+/// between neighbours that merge cannot be seen, and an edge that follows every swing would be a moiré again.
 fn band(points: &[(f64, f64)], extremes: &[usize]) -> Trace {
-    let at = |place: usize| points[extremes[place]];
-    let last = extremes.len() - 1;
-    // Pixels grow downwards.
-    let first_is_upper = at(0).1 < at(1).1;
-    let side = |upper: bool| -> Vec<(f64, f64)> {
-        let parity = usize::from(upper != first_is_upper);
-        let mut side: Vec<(f64, f64)> = (parity..=last).step_by(2).map(at).collect();
-        if parity == 1 {
-            let level = side[0].1;
-            side.insert(0, (at(0).0, level));
-        }
-        if (last - parity) % 2 == 1 {
-            let level = side[side.len() - 1].1;
-            side.push((at(last).0, level));
-        }
-        side
+    let found: Vec<(f64, f64)> = extremes.iter().map(|&index| points[index]).collect();
+    let side = |outer: fn(f64, f64) -> f64| -> Vec<(f64, f64)> {
+        let (mut from, mut to) = (0, 0);
+        let outermost = |&(x, y): &(f64, f64)| {
+            while found[from].0 < x - MERGING {
+                from += 1;
+            }
+            while to < found.len() && found[to].0 <= x + MERGING {
+                to += 1;
+            }
+            (x, found[from..to].iter().map(|point| point.1).fold(y, outer))
+        };
+        found.iter().map(outermost).collect()
     };
-    Trace::Band { upper: side(true), lower: side(false) }
+    // Pixels grow downwards.
+    Trace::Band { upper: side(f64::min), lower: side(f64::max) }
 }
 
 #[cfg(test)]
