@@ -23,7 +23,7 @@ pub(super) struct FactRow {
 pub(super) fn rows(facts: &Json) -> Vec<FactRow> {
     let empty = Map::new();
     let of = |name: &str| facts[name].as_object().unwrap_or(&empty).clone();
-    let reader = Reader { units: of("units"), why: of("why") };
+    let reader = FactReader { units: of("units"), why: of("why") };
     let mut rows = Vec::new();
     for (name, value) in facts.as_object().unwrap_or(&empty) {
         if !ELSEWHERE.contains(&name.as_str()) && !is_twin(name, facts, &reader.units) {
@@ -60,12 +60,12 @@ fn twin_of(name: &str, other: &str, units: &Map<String, Json>) -> bool {
 }
 
 /// Units and reasons of an answer.
-struct Reader {
+struct FactReader {
     units: Map<String, Json>,
     why: Map<String, Json>,
 }
 
-impl Reader {
+impl FactReader {
     fn walk(&self, path: &str, key: &str, value: &Json, parent: &Json, rows: &mut Vec<FactRow>) {
         match value {
             Json::Object(object) => {
