@@ -13,17 +13,6 @@ fn place(name: &str) -> Place {
     Place::with(name, &[("quench.toml", text)])
 }
 
-/// The object of a command with `--json` and its exit status.
-fn answered(place: &Place, words: &[&str]) -> (Json, Option<i32>) {
-    let words: Vec<&str> = words.iter().copied().chain(["--json"]).collect();
-    let output = place.quell(&words);
-    let text = String::from_utf8(output.stdout).expect("text");
-    (
-        serde_json::from_str(&text).unwrap_or_else(|why| panic!("{why}: {text}")),
-        output.status.code(),
-    )
-}
-
 #[test]
 fn a_sketch_is_written_in_each_format() {
     let place = place("pages-sketch");
@@ -31,8 +20,8 @@ fn a_sketch_is_written_in_each_format() {
         [("a.svg", &b"<svg"[..]), ("a.png", &b"\x89PNG"[..]), ("a.pdf", &b"%PDF"[..])]
     {
         let (object, status) =
-            answered(&place, &["sketch", "quench.toml", "--out", name, "--width", "85mm"]);
-        assert_eq!((status, &object["saved"][0]), (Some(0), &Json::from(name)), "{object}");
+            place.json(&["sketch", "quench.toml", "--out", name, "--width", "85mm"]);
+        assert_eq!((status, &object["saved"][0]), (0, &Json::from(name)), "{object}");
         assert_eq!(object["width_mm"], 85.0);
         assert!(object["text_size_pt"].as_f64().expect("a size") >= 7.0);
         let kinds: Vec<&str> = object["parts"]
@@ -44,18 +33,16 @@ fn a_sketch_is_written_in_each_format() {
         for kind in ["mass", "spring", "damper", "surface", "load", "friction", "dither"] {
             assert!(kinds.contains(&kind), "{kind}: {kinds:?}");
         }
-        assert!(fs::read(place.path(name)).expect("a file").starts_with(begins), "{name}");
+        assert!(fs::read(place.folder.join(name)).expect("a file").starts_with(begins), "{name}");
     }
 }
 
 #[test]
 fn a_changed_value_changes_the_sketch() {
     let place = place("pages-change");
-    let (before, _) = answered(&place, &["sketch", "quench.toml", "--out", "a.svg"]);
-    let (after, _) = answered(
-        &place,
-        &["sketch", "quench.toml", "--out", "b.svg", "--set", "dither.amplitude=0.125"],
-    );
+    let before = place.good(&["sketch", "quench.toml", "--out", "a.svg"]);
+    let after =
+        place.good(&["sketch", "quench.toml", "--out", "b.svg", "--set", "dither.amplitude=0.125"]);
     assert!(!before["key"].to_string().contains("0.125"));
     assert!(after["key"].to_string().contains("$D$ = 0.125"), "{after}");
 }
@@ -63,8 +50,8 @@ fn a_changed_value_changes_the_sketch() {
 #[test]
 fn outputs_that_cannot_be_written_are_refused_before_anything_is_computed() {
     let place = place("pages-refused");
-    fs::create_dir(place.path("folder.svg")).expect("made");
-    fs::create_dir(place.path("folder.html")).expect("made");
+    fs::create_dir(place.folder.join("folder.svg")).expect("made");
+    fs::create_dir(place.folder.join("folder.html")).expect("made");
     for words in [
         &["sketch", "quench.toml", "--out", "folder.svg"][..],
         &["sketch", "quench.toml", "--out", "quench.toml"],
@@ -75,27 +62,14 @@ fn outputs_that_cannot_be_written_are_refused_before_anything_is_computed() {
         &["report", "quench.toml", "--out", "a.pdf"],
         &["report", "quench.toml", "--out", "none/a.html"],
     ] {
-        let (object, status) = answered(&place, words);
-        assert_eq!(status, Some(2), "{words:?}: {object}");
-        assert_eq!(object["errors"][0]["key"], "--out", "{object}");
+        assert_eq!(place.refused(words)[0]["key"], "--out", "{words:?}");
     }
     for width in ["85", "40mm", "wide"] {
-        let (object, status) =
-            answered(&place, &["sketch", "quench.toml", "--out", "a.svg", "--width", width]);
-        assert_eq!(
-            (status, &object["errors"][0]["key"]),
-            (Some(2), &Json::from("--width")),
-            "{object}"
-        );
+        let words = ["sketch", "quench.toml", "--out", "a.svg", "--width", width];
+        assert_eq!(place.refused(&words)[0]["key"], "--width");
     }
-    let (object, status) =
-        answered(&place, &["report", "quench.toml", "--out", "a.html", "--without", "basins"]);
-    assert_eq!(
-        (status, &object["errors"][0]["key"]),
-        (Some(2), &Json::from("--without")),
-        "{object}"
-    );
-    assert!(!place.path("a.html").exists() && !place.path("a.svg").exists());
+    let words = ["report", "quench.toml", "--out", "a.html", "--without", "basins"];
+    assert_eq!(place.refused(&words)[0]["key"], "--without");
 }
 
 #[test]
@@ -103,9 +77,9 @@ fn a_report_is_one_file() {
     let place = place("pages-report");
     let without = "response,orbit,thresholds";
     let (object, status) =
-        answered(&place, &["report", "quench.toml", "--out", "page.html", "--without", without]);
-    assert_eq!(status, Some(0), "{object}");
-    let page = fs::read_to_string(place.path("page.html")).expect("a page");
+        place.json(&["report", "quench.toml", "--out", "page.html", "--without", without]);
+    assert_eq!(status, 0, "{object}");
+    let page = fs::read_to_string(place.folder.join("page.html")).expect("a page");
     assert!(page.starts_with("<!DOCTYPE html>"));
     assert!(page.contains(object["question"].as_str().expect("a question")));
     let verbs: Vec<&str> = object["answers"]
