@@ -26,6 +26,16 @@ fn figures_and_claims_are_written() {
     }
     let claims = object["entries"][1]["claims"].as_array().expect("claims");
     assert!(claims.len() > 60 && claims.iter().all(|claim| claim["verdict"].is_string()));
+    // Statements are counted, not claims.
+    let names: std::collections::BTreeSet<&str> =
+        claims.iter().filter_map(|claim| claim["statement_name"].as_str()).collect();
+    let summary = object["summary"].as_str().expect("a sentence");
+    let counts = format!(
+        "{} statements of the dissertation, measured by {} claims: ",
+        names.len(),
+        claims.len()
+    );
+    assert!(names.len() < claims.len() && summary.starts_with(&counts), "{summary}");
 }
 
 #[test]

@@ -106,9 +106,9 @@ fn the_mean_displacement_balances_the_measured_friction() {
     let orbit = from_sliding(&belt, 8).expect("an orbit");
     let found = steady(&belt, 0.02);
     assert!(0.01 < found.stick_fraction && found.stick_fraction < 0.99, "{found:?}");
-    let count = 20_000;
+    let count = 20_000u16;
     let step = orbit.period / f64::from(count);
-    let mut sampler = Sampler::new(0.0, step, count as usize);
+    let mut sampler = Sampler::new(0.0, step, usize::from(count));
     simulate(&belt, orbit.start, orbit.period, 1e-12, &mut sampler).expect("runs");
     let mean =
         sampler.samples.iter().map(|sample| sample.displacement).sum::<f64>() / f64::from(count);

@@ -22,7 +22,7 @@ import pytest
 from conftest import STUDIES, command
 
 import quell
-from quell.explore import _answers, _laws, _numbers, _share, _state, _zoo
+from quell.explore import _answers, _maps, _numbers, _other_law, _reading, _share, _sound, _state, _zoo
 from quell.explore._lanes import Event, Here, Lane, Process
 
 BELT = STUDIES / "stribeck-belt.toml"
@@ -148,11 +148,11 @@ def test_many_changes_do_not_make_the_study_longer() -> None:
     assert len(state.study.changes) == 1
 
 
-@pytest.mark.parametrize("law", _laws.laws())
+@pytest.mark.parametrize("law", _other_law.laws())
 @pytest.mark.parametrize("name", ["stribeck-belt.toml", "squealing-pad-si.toml", "two-mass-drive.toml", "bowed-string.toml"])
 def test_every_law_can_be_chosen(law: str, name: str) -> None:
     state = state_of(STUDIES / name)
-    for path in _laws.tables_of_laws(state.study):
+    for path in _other_law.tables_of_laws(state.study):
         assert state.set_law(path, law), state.complaints
         assert state.study.settings[f"{path}.law"] == law
     assert state.study.stability().sentence
@@ -241,7 +241,7 @@ def test_answers_are_those_of_the_verbs(name: str) -> None:
     at = _answers.moments(study)
     direct: Any = study.simulate(t_eval=at)
     assert run["x"].shape == run["v"].shape == run["time"].shape == at.shape
-    np.testing.assert_array_equal(run["x"], np.asarray(direct.arrays[_answers.array_name(run["names"][0])].values))
+    np.testing.assert_array_equal(run["x"], np.asarray(direct.arrays[_reading.array_name(run["names"][0])].values))
     assert np.all(np.diff(run["time"]) > 0.0)
     assert pickle.loads(pickle.dumps(run))["sentence"] == run["sentence"]
 
@@ -258,7 +258,7 @@ def test_the_spectrum_is_in_db_of_the_largest_line_without_dither() -> None:
 
 def test_the_map_changes_sign_at_the_averaged_threshold() -> None:
     study = of("stribeck-belt.toml")
-    found = _answers.plane(study, ("belt.belt_velocity", 0.04, 0.06, False), ("dither.amplitude", 0.1, 0.9, False))
+    found = _maps.plane(study, ("belt.belt_velocity", 0.04, 0.06, False), ("dither.amplitude", 0.1, 0.9, False))
     critical = study.stability().facts["sharper"]["critical_amplitudes"][0]["amplitude"]
     column = found["growth"][:, int(np.argmin(np.abs(found["x"] - 0.05)))]
     assert np.all(column[found["y"] < critical - 0.03] > 0.0) and np.all(column[found["y"] > critical + 0.03] < 0.0)
@@ -266,7 +266,7 @@ def test_the_map_changes_sign_at_the_averaged_threshold() -> None:
 
 def test_exact_curves_contain_the_threshold() -> None:
     study = of("stribeck-belt.toml")
-    found = _answers.curves(study, ("belt.belt_velocity", 0.02, 0.1, False), ("dither.amplitude", 0.1, 0.9, False))
+    found = _maps.curves(study, ("belt.belt_velocity", 0.02, 0.1, False), ("dither.amplitude", 0.1, 0.9, False))
     exact = study.thresholds("dither.amplitude", 0.3, 0.7).facts["local"][0]["value"]
     curve = found["curves"][0]
     order = np.argsort(curve["x"])
@@ -287,7 +287,7 @@ def samples_of(file: bytes) -> tuple[np.ndarray[Any, Any], int]:
 
 def test_both_sounds_have_the_same_gain() -> None:
     study = of("stribeck-belt.toml")
-    found = _answers.sound(study)
+    found = _sound.sound(study)
     for name, one in (("with dither", study), ("without dither", study.set({"dither.amplitude": 0}))):
         samples, rate = samples_of(found["files"][name])
         end = samples.size / rate * 2.0 * math.pi * 110.0
@@ -311,10 +311,10 @@ def tone(*parts: tuple[float, float]) -> bytes:
 
 def test_levels_are_those_of_known_tones() -> None:
     both = tone((110.0, 0.1), (1100.0, 0.5))
-    assert _answers.level_of(tone((110.0, 0.1))) == pytest.approx(-23.01, abs=0.05)
-    assert _answers.level_of(both, 209.0) == pytest.approx(-23.01, abs=0.1)
-    assert _answers.level_of(both) == pytest.approx(10.0 * math.log10(0.5 * (0.01 + 0.25)), abs=0.05)
-    assert _answers.level_of(tone((110.0, 0.0))) == -math.inf
+    assert _sound.level_of(tone((110.0, 0.1))) == pytest.approx(-23.01, abs=0.05)
+    assert _sound.level_of(both, 209.0) == pytest.approx(-23.01, abs=0.1)
+    assert _sound.level_of(both) == pytest.approx(10.0 * math.log10(0.5 * (0.01 + 0.25)), abs=0.05)
+    assert _sound.level_of(tone((110.0, 0.0))) == -math.inf
 
 
 def test_levels_in_words() -> None:

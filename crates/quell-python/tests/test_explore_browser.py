@@ -202,6 +202,8 @@ def test_discs_and_systems_are_shown_and_nothing_fails(belt_page: Page) -> None:
     belt_page.wait("quell-averaged", lambda it: "averaging over the dither" in it)
     belt_page.wait("quell-eigen-status", lambda it: " ms" in it or " s" in it)
     assert belt_page.explorer.study == quell.Study.from_toml(STUDIES / "two-mass-drive.toml")
+    if hasattr(quell.Study, "sketch"):
+        belt_page.until(lambda: bool(belt_page.page.evaluate("() => window.found('quell-sketch').shadowRoot.querySelector('svg') !== null")))
     belt_page.page.locator(".quell-undo button").click()
     belt_page.wait("quell-averaged", lambda it: "the disc is unstable" in it)
     # A page that is loaded again begins with the same study.

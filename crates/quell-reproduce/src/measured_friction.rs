@@ -53,7 +53,7 @@ pub(super) struct FrictionPanel {
     pub(super) amplitude: f64,
     /// The belt with this dither.
     pub(super) belt: Belt,
-    /// (v_r, ⟨f/N⟩, fraction of the period in stick) of steady responses; where there is none, the point is missing.
+    /// (v_r, ⟨f/N⟩, fraction of the period in stick) of steady responses; slip velocities without such a response are left out.
     pub(super) steady: Vec<(f64, f64, f64)>,
     /// Windows of the decays with positive slip and without stick.
     windows: Vec<WindowMean>,

@@ -164,22 +164,21 @@ fn slope_change(sheet: &mut ClaimSheet, figure: &str, place: &str, pairs: &[[f64
 fn tops(case: &FrictionPanel) -> Result<[f64; 2], Failure> {
     // The Stribeck law increases again beyond v_m.
     let below = |v: f64| v < 0.75 * NUMBERS.vm;
-    let measured = case.steady.iter().map(|&(v, mu, _)| (v, mu)).filter(|point| below(point.0));
-    let measured = top(measured.collect(), |v| {
+    let steady = case.steady.iter().map(|&(v, mu, _)| (v, mu));
+    let steady: Vec<(f64, f64)> = steady.filter(|point| below(point.0)).collect();
+    let measured = top(&steady, |v| {
         steady_effective_friction(&case.belt, v, TOLERANCE)
             .map(|found| found.coefficient)
             .map_err(|error| failed("claims", &error))
     })?;
-    let averaged = case.averaged.iter().copied().filter(|point| below(point.0));
-    let averaged = top(averaged.collect(), |v| averaged_at("claims", &case.belt, v))?;
+    let curve: Vec<(f64, f64)> =
+        case.averaged.iter().copied().filter(|point| below(point.0)).collect();
+    let averaged = top(&curve, |v| averaged_at("claims", &case.belt, v))?;
     Ok([measured, averaged])
 }
 
 /// Where a function is largest: by golden sections about the largest of some of its points.
-fn top(
-    points: Vec<(f64, f64)>,
-    value: impl Fn(f64) -> Result<f64, Failure>,
-) -> Result<f64, Failure> {
+fn top(points: &[(f64, f64)], value: impl Fn(f64) -> Result<f64, Failure>) -> Result<f64, Failure> {
     let largest = (0..points.len()).max_by(|&a, &b| points[a].1.total_cmp(&points[b].1));
     let Some(largest) = largest.filter(|index| 0 < *index && index + 1 < points.len()) else {
         return Err(failed("claims", &"the friction has no maximum"));

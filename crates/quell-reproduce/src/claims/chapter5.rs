@@ -422,7 +422,7 @@ pub(super) fn floquet(sheet: &mut ClaimSheet) -> Result<(), Failure> {
 }
 
 /// (5.26), (5.29): with φ = φ₀ sin ωt and φ₀ = O(ω^n₁), −1 < n₁ < 0, the force is of the order of φ″, O(ω^n₂) with 1 < n₂ < 2.
-pub(super) fn tangential_force(sheet: &mut ClaimSheet) -> Result<(), Failure> {
+pub(super) fn tangential_force(sheet: &mut ClaimSheet) {
     // The largest |φ″| over a cycle by second differences, whose step is a fixed fraction of the cycle.
     let peak = |n1: f64, omega: f64| {
         let angle = |time: f64| omega.powf(n1) * (omega * time).sin();
@@ -441,5 +441,4 @@ pub(super) fn tangential_force(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         &orders,
         orders.iter().all(|order| 1.0 < *order && *order < 2.0),
     );
-    Ok(())
 }

@@ -121,7 +121,7 @@ pub(super) fn normal(sheet: &mut ClaimSheet) -> Result<(), Failure> {
 }
 
 /// A contour figure: its claims, direction, law, and the points at which E is compared.
-struct Contours {
+struct ContourFigure {
     /// Number of the figure.
     figure: &'static str,
     direction: Direction,
@@ -136,8 +136,8 @@ struct Contours {
     small: f64,
 }
 
-const CONTOURS: [Contours; 4] = [
-    Contours {
+const CONTOURS: [ContourFigure; 4] = [
+    ContourFigure {
         figure: "2.8",
         direction: Direction::Tangential,
         law: LawKind::Stribeck,
@@ -146,7 +146,7 @@ const CONTOURS: [Contours; 4] = [
         isocline_ratios: &[6.0, 8.0, 10.0, 12.0, 14.0, 16.0, 20.0],
         small: 0.2,
     },
-    Contours {
+    ContourFigure {
         figure: "2.9",
         direction: Direction::Tangential,
         law: LawKind::Decreasing,
@@ -155,7 +155,7 @@ const CONTOURS: [Contours; 4] = [
         isocline_ratios: &[6.0, 8.0, 10.0, 12.0, 14.0, 16.0, 20.0],
         small: 0.2,
     },
-    Contours {
+    ContourFigure {
         figure: "4.9",
         direction: Direction::Normal,
         law: LawKind::Stribeck,
@@ -164,7 +164,7 @@ const CONTOURS: [Contours; 4] = [
         isocline_ratios: &[3.5, 4.0, 5.0, 6.0, 7.0],
         small: 0.4,
     },
-    Contours {
+    ContourFigure {
         figure: "4.10",
         direction: Direction::Normal,
         law: LawKind::Decreasing,
@@ -176,7 +176,7 @@ const CONTOURS: [Contours; 4] = [
 ];
 
 /// E at pairs of D and R; v₀ = 0.05, a sine.
-fn efficiencies_at(contours: &Contours, points: &[[f64; 2]]) -> Result<Vec<f64>, Failure> {
+fn efficiencies_at(contours: &ContourFigure, points: &[[f64; 2]]) -> Result<Vec<f64>, Failure> {
     let solver = Solver { settle: SETTLE, ..Solver::default() };
     let cases = points
         .iter()
@@ -275,7 +275,7 @@ fn plain(values: &[f64]) -> String {
 }
 
 /// Largest relative deviation of D on an isocline from the straight line of least squares in R.
-fn deviation(contours: &Contours, level: f64) -> Result<f64, Failure> {
+fn deviation(contours: &ContourFigure, level: f64) -> Result<f64, Failure> {
     let solver = Solver { settle: SETTLE, ..Solver::default() };
     let mut points = Vec::new();
     for &ratio in contours.isocline_ratios {

@@ -97,7 +97,7 @@ pub fn statements<'a>(claims: impl IntoIterator<Item = &'a Claim>) -> Vec<Statem
                 }
             }
             None => {
-                found.push(StatementVerdict { name, claims: vec![claim], verdict: claim.verdict })
+                found.push(StatementVerdict { name, claims: vec![claim], verdict: claim.verdict });
             }
         }
     }

@@ -38,7 +38,7 @@ pub struct FrictionPoint {
 pub struct FrictionCurve {
     /// Points in the requested order.
     pub points: Vec<FrictionPoint>,
-    /// ⟨f/N⟩ of the steady response at each point, or why there is none; `None` if it was not requested.
+    /// ⟨f/N⟩ of the steady response at each point, or why it has no value; `None` if it was not requested.
     pub measured: Option<Vec<Result<SteadyFriction, String>>>,
 }
 
@@ -124,7 +124,7 @@ impl FrictionCurve {
         self.column(|point| point.effective.as_ref().map_or(f64::NAN, |found| found.slope))
     }
 
-    /// ⟨f/N⟩ of the steady response at each point, NaN where there is none; `None` if it was not requested.
+    /// ⟨f/N⟩ of the steady response at each point, NaN where it has no value; `None` if it was not requested.
     pub fn measured_coefficients(&self) -> Option<Vec<f64>> {
         self.measured_column(|found| found.coefficient)
     }

@@ -1,30 +1,18 @@
-"""The answers of the explorer: functions from a study to plain arrays and words. Each can run in another process."""
+"""The answers about one motion: functions from a study to plain arrays and words. Each can run in another process."""
 
 from __future__ import annotations
 
-import io
 import math
-import os
-import tempfile
-import wave
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from .._errors import QuellError
-from .._result import Result
 from .._study import Study
 from .._system import System
-from .._tables import Number
 from ..results import Simulation
-
-Answer = dict[str, Any]
-"""An answer: arrays, numbers and words by name."""
-
-Progress = Callable[[int, int], object]
-Array = npt.NDArray[np.float64]
+from ._friction import contacts_of, friction_of_belt
+from ._reading import Answer, Array, array_name, number_of, unit, values
 
 SLOW_PERIODS = 20
 """Slow periods in a trajectory."""
@@ -33,6 +21,7 @@ FAST_PERIODS = 600
 """Most dither periods in a trajectory, which is shorter if the dither is fast."""
 
 MOST_SAMPLES = 8000
+
 LONGEST_SMALL = 150
 """Longest small motion of a disc, in slow periods."""
 
@@ -42,33 +31,8 @@ LARGEST_GROWTH = 1e3
 MOST_BINS = 1500
 """Most points of a spectrum; each is the largest of its bin."""
 
-SOUND_SECONDS = 2.0
-SLOW_BAND = 1.9
-"""Upper end of the band of slow vibration in ω₀, as in the response."""
-
-QUANTUM = (1.0 / 32768.0) ** 2 / 12.0
-"""Power of the rounding of samples of 16 bits: less is silence."""
-
 FLOOR_DB = -120.0
 """Least level that a spectrum shows."""
-
-
-def values(result: Result, name: str) -> Array:
-    """An array of a result in the units of the study."""
-    return np.asarray(result.arrays[name].values, dtype=np.float64)
-
-
-def unit(result: Result, name: str) -> str:
-    """The unit of an array; empty if it has none."""
-    attributes = result.arrays[name].attrs
-    found = str(attributes.get("units", ""))
-    scaled = str(attributes.get("scaling", ""))
-    return bare(scaled if found in ("dimensionless", "") else found)
-
-
-def bare(unit_: str) -> str:
-    """A unit without the sign of a ratio: "c/(2mω₀)" for "1 (c/(2mω₀))", and nothing for "1"."""
-    return unit_[3:-1] if unit_.startswith("1 (") else "" if unit_ == "1" else unit_
 
 
 def averaged(study: Study) -> Answer:
@@ -86,80 +50,6 @@ def averaged(study: Study) -> Answer:
         "laws": laws,
         "warnings": found.warnings,
     }
-
-
-def friction_of_belt(study: Study) -> list[Answer]:
-    """The friction law of a belt with and without averaging over the dither."""
-    found = study.friction()
-    law: Answer = {
-        "name": "friction",
-        "velocity": values(found, "slip_velocity"),
-        "coefficient": values(found, "coefficient"),
-        "unit": unit(found, "slip_velocity"),
-        "effective": values(found, "effective_coefficient") if "effective_coefficient" in found.arrays else None,
-        "sliding": number_of(study, "belt.belt_velocity", "belt.belt_velocity_m_per_s"),
-    }
-    return [law]
-
-
-def number_of(study: Study, *paths: str) -> float | None:
-    """The first of these numbers that the study has."""
-    settings = study.settings
-    return next((float(settings[it]) for it in paths if isinstance(settings.get(it), (int, float))), None)
-
-
-SHARED_KEYS = ("law", "static_coefficient", "minimum_coefficient", "coefficient", "exponent", "constants", "terms")
-VELOCITIES = {"reference_velocity": 1.0, "maximum_velocity": 1.0, "viscous": 1.0}
-
-
-def contacts_of(study: Study, facts: Mapping[str, Any]) -> list[Answer]:
-    """The friction law of each contact, with its average if its slip by the dither is a sine."""
-    if not isinstance(study, System):
-        return []
-    found = []
-    listed = facts.get("contacts") or []
-    sine = all(dither.waveform == "sine" for dither in study.dithers) and len(study.dithers) == 1
-    for contact, averages in zip(study.contacts, listed, strict=False):
-        table = dict(getattr(contact.given.get("friction"), "given", {}) or {})
-        name = str(contact.given["name"])
-        speed = contact.given.get("belt_velocity", contact.given.get("belt_velocity_m_per_s"))
-        slip = averages.get("slip_amplitude_m_per_s", averages.get("slip_amplitude"))
-        law = curve_of(table, slip if sine else None, speed)
-        if law is not None:
-            si = any(key.endswith("_m_per_s") for key in (*table, *contact.given))
-            found.append({**law, "name": name, "unit": "m/s" if si else "", "point": averages.get("effective_coefficient")})
-    return found
-
-
-def curve_of(table: Mapping[str, Any], slip: float | None, speed: object) -> Answer | None:
-    """A friction law and its average over a sinusoidal slip velocity; ``None`` if it has formulas of parameters."""
-    from .. import _toml
-
-    scaled = {}
-    for key, value in table.items():
-        short = key.removesuffix("_m_per_s").removesuffix("_s_per_m")
-        if short not in VELOCITIES and key not in SHARED_KEYS:
-            return None
-        scaled[short] = value
-    # Friction depends on the velocity alone, so that a belt whose lengths per τ are these velocities has the same averages.
-    text = "[belt]\ndamping_ratio = 0\nnormal_load = 1\nbelt_velocity = 1\n" + f"[friction]\n{lines_of(scaled, _toml)}"
-    if slip:
-        text += f'[dither]\ndirection = "tangential"\nwaveform = "sine"\namplitude = {float(slip)!r}\nfrequency_ratio = 1.0\n'
-    try:
-        found = Study.from_text(text).friction()
-    except QuellError:
-        return None
-    return {
-        "velocity": values(found, "slip_velocity"),
-        "coefficient": values(found, "coefficient"),
-        "effective": values(found, "effective_coefficient") if slip and "effective_coefficient" in found.arrays else None,
-        "sliding": float(speed) if isinstance(speed, (int, float)) else None,
-    }
-
-
-def lines_of(table: Mapping[str, Any], toml: Any) -> str:
-    """The lines of a table."""
-    return "".join(f"{key} = {toml.value(value)}\n" for key, value in table.items())
 
 
 def times(study: Study) -> tuple[float, float]:
@@ -220,11 +110,6 @@ def pairs_of(run: Simulation, kind: str) -> list[tuple[str, str]]:
     names = [str(it) for it in run.facts["state_names"]]
     found = [(it, f"velocity.{it}") for it in names if f"velocity.{it}" in names]
     return found or [(names[place], names[place + 1]) for place in range(len(names) - 1)]
-
-
-def array_name(state: str) -> str:
-    """The array of a number of the state."""
-    return state.replace(".", "_")
 
 
 def trajectory(study: Study, start: Mapping[str, float] | None, pair: int = -1) -> Answer:
@@ -350,181 +235,3 @@ def without_dither(study: Study) -> Study | None:
     keys = [path for path in study.settings if path.split("[")[0].split(".")[0] == "dither"]
     paths = [path for path in keys if path.rsplit(".", 1)[-1].startswith("amplitude")]
     return study.set(dict.fromkeys(paths, 0)) if paths else None
-
-
-QUANTITY = {"belt": "growth-sharper", "disc": "growth", "system": "growth"}
-GRID = (44, 32)
-
-
-def spaced(start: float, stop: float, count: int, logarithmic: bool) -> Array:
-    """Values of an axis."""
-    if logarithmic and start > 0.0:
-        return np.geomspace(start, stop, count)
-    return np.linspace(start, stop, count)
-
-
-def plane(study: Study, across: tuple[str, float, float, bool], up: tuple[str, float, float, bool]) -> Answer:
-    """The averaged growth rate over two parameters."""
-    first, second = (spaced(it[1], it[2], count, it[3]) for it, count in zip((across, up), GRID, strict=True))
-    quantity = QUANTITY[study._native.kind]
-    found: Any = study.map(quantity, {across[0]: first, up[0]: second}, threads=1)
-    name = quantity.replace("-", "_")
-    return {
-        "x": first,
-        "y": second,
-        "growth": values(found, name).T,
-        "unit": unit(found, name),
-        "tongues": tongues(study, across),
-        "warnings": found.warnings,
-    }
-
-
-def tongues(study: Study, across: tuple[str, float, float, bool]) -> list[Answer]:
-    """Speeds of a disc at which waves meet, with the edges of the tongue at its friction."""
-    if study._native.kind != "disc" or across[0] != "disc.load.speed":
-        return []
-    facts = study.resonances(speeds=(max(0.0, across[1]), across[2])).facts
-    both = [*((it, False) for it in facts["undithered"]), *((it, True) for it in facts["dithered"])]
-    return [
-        {"speed": it["speed"], "edges": it.get("edges"), "pair": it["pair"], "dithered": dithered}
-        for it, dithered in both
-        if it["can_be_unstable"] and it["speed"] > 0.0
-    ]
-
-
-def curves(study: Study, across: tuple[str, float, float, bool], up: tuple[str, float, float, bool]) -> Answer:
-    """The exact thresholds in two parameters as curves."""
-    found: Any = study.thresholds(up[0], up[1], up[2], along=across[0], between=(across[1], across[2]))
-    exact = [{"x": np.array(twin(it, "along")), "y": np.array(twin(it, "value")), "kind": it["kind"]} for it in found.facts["curves"]]
-    return {"curves": exact, "sentence": found.facts["sentence"], "warnings": found.warnings}
-
-
-def twin(facts: Mapping[str, Any], name: str) -> Any:
-    """A fact in SI, if it is there, otherwise as it is."""
-    return next((value for key, value in facts.items() if key.startswith(f"{name}_")), facts[name])
-
-
-def basins(study: Study, grid: tuple[int, int], progress: Progress | None = None) -> Answer:
-    """The motions on which starts end."""
-    found: Any = study.basins(grid=grid, threads=1, progress=progress)
-    first, second = ("displacement", "velocity")
-    plane_names = found.facts.get("plane")
-    if plane_names:
-        first, second = (str(it) for it in plane_names)
-    x, y = values(found, array_name(first)), values(found, array_name(second))
-    return {
-        "x": x,
-        "y": y,
-        "ends": values(found, "attractor"),
-        "words": [str(it["words"]) for it in found.facts["attractors"]],
-        "quiet": [bool(it.get("quiet")) for it in found.facts["attractors"]],
-        "fractions": [float(it["fraction"]) for it in found.facts["attractors"]],
-        "names": (first, second),
-        "units": (unit(found, array_name(first)), unit(found, array_name(second))),
-        "sentence": found.facts["sentence"],
-        "warnings": found.warnings,
-    }
-
-
-def eigenvalues(study: Study, parameter: str, start: float, stop: float) -> Answer:
-    """Growth rates and frequencies of a system over a parameter."""
-    found: Any = study.stability(parameter, start, stop)
-    return {
-        "parameter": values(found, "parameter"),
-        "growth": values(found, "growth_rate"),
-        "frequency": values(found, "frequency"),
-        "unit": unit(found, "growth_rate"),
-        "local": [float(it["value"]) for it in found.facts["local"]],
-        "sentence": found.facts["sentence"],
-        "warnings": found.warnings,
-    }
-
-
-def sound(study: Study) -> Answer:
-    """The same run with and without dither as sound with the same gain, and the difference of their levels."""
-    quiet = without_dither(study)
-    until: Number | None = None
-    start: Any = None
-    if study._native.kind == "belt":
-        until = SOUND_SECONDS * heard(study)
-    elif study._native.kind == "disc":
-        until, start = small_start(study)
-    runs = {"with dither": study.simulate(until, start=start, samples=False, events=False, sound=True)}
-    if quiet is not None:
-        runs["without dither"] = quiet.simulate(until, start=start, samples=False, events=False, sound=True)
-    gains = {name: gain_of(run) for name, run in runs.items()}
-    known = [it for it in gains.values() if it]
-    common = min(known, default=None)
-    files = {}
-    levels = {}
-    slow = {}
-    natural = next((it.facts["sound"].get("natural_frequency_hz") for it in runs.values() if it.facts.get("sound")), None)
-    for name, run in runs.items():
-        if common is not None and gains[name] != common:
-            other = study if name == "with dither" else quiet
-            assert other is not None
-            run = other.simulate(until, start=start, samples=False, events=False, gain=common)
-        files[name] = wave_of(run)
-        levels[name] = level_of(files[name])
-        if natural:
-            slow[name] = level_of(files[name], SLOW_BAND * float(natural))
-    return {"files": files, "levels": levels, "slow": slow, "gain": common}
-
-
-def heard(study: Study) -> float:
-    """Time of the study that a second of sound takes: seconds in SI, otherwise ω₀ sounds at 110 Hz."""
-    return 1.0 if study.check().facts["system"] == "si" else 2.0 * math.pi * 110.0
-
-
-def gain_of(run: Simulation) -> float | None:
-    """The gain of the sound of a run, in the unit in which it is given."""
-    found = run.facts.get("sound") or {}
-    gain = next((found[it] for it in ("gain_s_per_m", "gain") if found.get(it)), None)
-    return None if gain is None else float(gain)
-
-
-def wave_of(run: Simulation) -> bytes:
-    """The sound of a run as a WAV file."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "run.wav")
-        run.save(path)
-        with open(path, "rb") as file:
-            return file.read()
-
-
-def level_of(wave_file: bytes, below: float | None = None) -> float:
-    """The level of the second half of a sound in dB re full scale; −∞ for silence.
-
-    With ``below``, only frequencies above 0 and up to this one count, in Hz.
-    """
-    with wave.open(io.BytesIO(wave_file)) as file:
-        samples = np.frombuffer(file.readframes(file.getnframes()), dtype="<i2").astype(np.float64) / 32768.0
-        rate = file.getframerate()
-    half = samples[samples.size // 2 :]
-    if half.size == 0:
-        return -math.inf
-    if below is None:
-        power = float(np.mean(half**2))
-    else:
-        window = np.hanning(half.size)
-        lines = np.abs(np.fft.rfft(half * window)) ** 2
-        frequency = np.fft.rfftfreq(half.size, 1.0 / rate)
-        inside = (frequency > 0.0) & (frequency <= below)
-        power = 2.0 * float(lines[inside].sum()) / (half.size * float(np.sum(window**2)))
-    return 10.0 * math.log10(power) if power > QUANTUM else -math.inf
-
-
-TASKS: dict[str, Callable[..., Answer]] = {
-    "averaged": averaged,
-    "trajectory": trajectory,
-    "response": response,
-    "plane": plane,
-    "curves": curves,
-    "basins": basins,
-    "eigenvalues": eigenvalues,
-    "sound": sound,
-}
-"""Every answer by name."""
-
-REPORTING = ("basins",)
-"""Answers that report progress."""

@@ -11,7 +11,7 @@ import panel as pn
 
 from .._study import Study
 from .._tables import Number
-from ._laws import laws, tables_of_laws
+from ._other_law import laws, tables_of_laws
 from ._numbers import Choice, Knob, choices, knobs, label_of, span, tokens
 from ._style import FONT, SIDE, TEXT
 

@@ -120,7 +120,7 @@ class Here:
     def compute(self, request: Request, progress: Callable[[int, int], None]) -> tuple[str, Any, float]:
         """The answer to a request."""
         from .._errors import QuellError
-        from ._answers import TASKS
+        from ._tasks import TASKS
 
         begin = time.perf_counter()
         try:

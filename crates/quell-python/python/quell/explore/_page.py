@@ -24,6 +24,9 @@ from ._style import SIDE, STICK, TEXT, WIDTH
 
 pn.extension()
 
+SKETCH_WIDTH = f"{round(WIDTH * 25.4 / 96.0)}mm"
+"""Width of the sketch, which is that of a picture."""
+
 REST = 150
 """Time in milliseconds after which a slider that does not move is at rest."""
 
@@ -43,6 +46,7 @@ class Page:
         self._document = pn.state.curdoc
         self._closed = False
         self._later: Any = None
+        self._draw: Any = getattr(type(state.study), "sketch", None)
         self._offered: dict[str, Knob] = {}
         self._events: deque[Event] = deque()
         self.fast = Lane(self._deliver, Here())
@@ -132,11 +136,14 @@ class Page:
                 options={name: it.path for name, it in self._offered.items()},
                 value=None if chosen is None else self._offered[chosen].path,
             )
-            panes += [self.eigen.view, self._sketch()]
+            panes.append(self.eigen.view)
+        if self._draw is not None:
+            panes.append(self._sketch())
         self.right[:] = [*panes, self.sound.view]
 
     def _sketch(self) -> Any:
-        self.sketch = pn.pane.HTML("", width=WIDTH, css_classes=["quell-sketch"])
+        fitting = "svg { max-width: 100%; height: auto; }"
+        self.sketch = pn.pane.HTML("", width=WIDTH, css_classes=["quell-sketch"], stylesheets=[fitting])
         return pn.Column(pn.pane.HTML(headed("Sketch", ""), width=WIDTH), self.sketch, width=WIDTH + 16)
 
     # Changes.
@@ -234,7 +241,7 @@ class Page:
                 self.basins.outdated()
             if study._native.kind == "system":
                 self.request_eigenvalues()
-                self._draw_sketch(study)
+            self._draw_sketch(study)
             self.sound.dim(True)
             self._share()
 
@@ -281,12 +288,11 @@ class Page:
         self.exact.submit("sound", self.state.study)
 
     def _draw_sketch(self, study: Study) -> None:
-        draw = getattr(type(study), "sketch", None)
-        if draw is None:
-            self.sketch.object = words("This version of Quell draws no sketch.", TEXT, "#555")
+        """Draws the mechanism, where this version of Quell can."""
+        if self._draw is None:
             return
         try:
-            self.sketch.object = draw(study, width=WIDTH)
+            self.sketch.object = self._draw(study, width=SKETCH_WIDTH)
         except QuellError as refused:
             self.sketch.object = words(str(refused), TEXT, STICK)
 

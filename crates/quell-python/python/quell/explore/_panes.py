@@ -206,7 +206,7 @@ def change(levels: dict[str, float]) -> str:
     if math.isinf(after):
         return "silent"
     if math.isinf(before):
-        return "to be heard, and without dither it is silent"
+        return "audible, and without dither it is silent"
     return f"{abs(after - before):.0f} dB {'quieter' if after < before else 'louder'}"
 
 

@@ -12,6 +12,7 @@ from .._study import Study
 from .._tables import Number
 from ._figures import labelled
 from ._lanes import Event
+from ._maps import Axis
 from ._numbers import Knob, kept, within
 from ._panes import MARGIN, Pane, legend_of, time_words, words
 from ._planes import Basins, Plane
@@ -23,11 +24,8 @@ ACROSS = ("belt_velocity", "belt_velocity_m_per_s", "speed", "speed_rpm", "speed
 UP = ("amplitude", "amplitude_n", "friction", "friction_n", "coefficient", "static_coefficient", "normal_load", "normal_load_n")
 """Keys of the second axis."""
 
-Axis = tuple[str, float, float, bool]
-
-
 def preferred(numbers: Mapping[str, Knob], keys: tuple[str, ...], other: str | None) -> str | None:
-    """The name of the number with the first of these keys; any other if there is none."""
+    """The name of the number with the first of these keys, otherwise of any other number."""
     for key in keys:
         for name, one in numbers.items():
             if one.path.split(".")[-1] == key and name != other:

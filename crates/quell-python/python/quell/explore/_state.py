@@ -13,7 +13,7 @@ from .._errors import QuellError, StudyError
 from .._quell import NativeStudy
 from .._study import Study
 from .._tables import Number
-from ._laws import other_law
+from ._other_law import other_law
 
 MERGED = 1.0
 """Time in seconds within which changes of the same number are one step of undo."""

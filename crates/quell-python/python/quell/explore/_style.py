@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import html
-
 ACCENT = "#0072b2"
 """The dithered motion, and everything that can be chosen."""
 
@@ -28,11 +26,3 @@ HEIGHT = 300
 
 SIDE = 316
 """Width of the column of numbers in pixels."""
-
-
-def text(words: str, size: int = TEXT, colour: str = "#222", weight: int = 400) -> str:
-    """Words as HTML."""
-    return (
-        f"<div style=\"font-family:{FONT};font-size:{size}px;color:{colour};font-weight:{weight};line-height:1.3\">"
-        f"{html.escape(words)}</div>"
-    )

@@ -34,7 +34,7 @@ def listen(requests: queue.Queue[Any]) -> None:
 def answer(name: str, study: Any, arguments: tuple[Any, ...], out: BinaryIO) -> object:
     """The message that answers a request."""
     from .._errors import QuellError
-    from ._answers import REPORTING, TASKS
+    from ._tasks import REPORTING, TASKS
 
     begin = time.perf_counter()
     keywords: dict[str, Any] = {}

@@ -101,7 +101,7 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
 
     @property
     def measured_coefficient(self) -> npt.NDArray[np.float64] | None:
-        """⟨f/N⟩ (n,) over a period of the steady response; NaN where there is none, ``None`` without ``measured=True``."""
+        """⟨f/N⟩ (n,) over a period of the steady response; NaN where it has no value, ``None`` without ``measured=True``."""
         found = self.arrays.get("measured_coefficient")
         return None if found is None else found.values
 

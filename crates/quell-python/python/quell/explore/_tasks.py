@@ -1,0 +1,25 @@
+"""Every answer of the explorer by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ._answers import averaged, response, trajectory
+from ._maps import basins, curves, eigenvalues, plane
+from ._reading import Answer
+from ._sound import sound
+
+TASKS: dict[str, Callable[..., Answer]] = {
+    "averaged": averaged,
+    "trajectory": trajectory,
+    "response": response,
+    "plane": plane,
+    "curves": curves,
+    "basins": basins,
+    "eigenvalues": eigenvalues,
+    "sound": sound,
+}
+"""Every answer by name."""
+
+REPORTING = ("basins",)
+"""Answers that report progress."""
