@@ -2,7 +2,7 @@
 
 use crate::canvas::{Canvas, Stroke, TextStyle, path};
 use crate::palette::{Colour, FAINT, LineStyle};
-use crate::sketch::labels::{Placed, place};
+use crate::sketch::labels::{PlacedSketch, place};
 use crate::sketch::{Sketch, SketchKey, SketchPart};
 use crate::svg::{Escaped, TextAnchor};
 use crate::typeset::{RichText, wrap};
@@ -15,7 +15,7 @@ pub(super) const MARGIN: f64 = 6.0;
 const PITCH: f64 = 13.5;
 /// Indent of all lines of an entry but its first.
 const INDENT: f64 = 10.0;
-/// Width of the margin beside the key.
+/// Width of the margin next to the key.
 const SIDE: f64 = 4.0;
 const LINE: f64 = 1.2;
 const THIN: f64 = 0.7;
@@ -29,7 +29,7 @@ pub(super) fn height(sketch: &Sketch) -> f64 {
     sheet_height(&placed, &lines)
 }
 
-fn sheet_height(placed: &Placed, lines: &[(f64, RichText)]) -> f64 {
+fn sheet_height(placed: &PlacedSketch, lines: &[(f64, RichText)]) -> f64 {
     let key = if lines.is_empty() { 0.0 } else { MARGIN + PITCH * lines.len() as f64 };
     placed.bottom + key + MARGIN
 }

@@ -13,23 +13,23 @@ const GAP: f64 = 3.0;
 const HALF: f64 = 0.52;
 
 /// A label with its position.
-pub(super) struct PlacedLabel {
+pub(super) struct SketchText {
     pub(super) text: RichText,
     /// Left end of the baseline.
     pub(super) at: (f64, f64),
 }
 
 /// The parts of a sketch in their final positions, and its labels, part by part.
-pub(super) struct Placed {
+pub(super) struct PlacedSketch {
     pub(super) parts: Vec<SketchPart>,
-    pub(super) labels: Vec<Vec<PlacedLabel>>,
+    pub(super) labels: Vec<Vec<SketchText>>,
     pub(super) collisions: Vec<String>,
     /// Lower edge of the drawing.
     pub(super) bottom: f64,
 }
 
 /// Centres the parts of a sketch and places the labels.
-pub(super) fn place(sketch: &Sketch) -> Placed {
+pub(super) fn place(sketch: &Sketch) -> PlacedSketch {
     let room = sketch.room();
     let areas = sketch.parts.iter().flat_map(|part| &part.shapes).map(super::SketchShape::area);
     let ends: Vec<(f64, f64)> =
@@ -44,10 +44,10 @@ pub(super) fn place(sketch: &Sketch) -> Placed {
             ..part.clone()
         })
         .collect();
-    // Labels may reach above the shapes; the whole is moved down afterwards.
-    let mut labels = Labels::new(&parts, room);
-    let placed: Vec<Vec<PlacedLabel>> = parts.iter().map(|part| labels.of(part)).collect();
-    let Labels { mut collisions, texts, .. } = labels;
+    // LabelPlacer may reach above the shapes; the whole is moved down afterwards.
+    let mut labels = LabelPlacer::new(&parts, room);
+    let placed: Vec<Vec<SketchText>> = parts.iter().map(|part| labels.of(part)).collect();
+    let LabelPlacer { mut collisions, texts, .. } = labels;
     if whole.left + shift.0 < 0.0 {
         collisions.push(format!("the parts are wider than the sheet of {room:.0} pixels"));
     }
@@ -58,8 +58,8 @@ pub(super) fn place(sketch: &Sketch) -> Placed {
         shapes: part.shapes.iter().map(|shape| shape.moved((0.0, down))).collect(),
         ..part
     };
-    let lowered = |label: PlacedLabel| PlacedLabel { at: (label.at.0, label.at.1 + down), ..label };
-    Placed {
+    let lowered = |label: SketchText| SketchText { at: (label.at.0, label.at.1 + down), ..label };
+    PlacedSketch {
         parts: parts.into_iter().map(moved).collect(),
         labels: placed.into_iter().map(|part| part.into_iter().map(lowered).collect()).collect(),
         collisions,
@@ -68,14 +68,14 @@ pub(super) fn place(sketch: &Sketch) -> Placed {
 }
 
 /// The labels placed so far.
-struct Labels {
+struct LabelPlacer {
     obstacles: Obstacles,
     texts: Vec<Rectangle>,
     collisions: Vec<String>,
     room: f64,
 }
 
-impl Labels {
+impl LabelPlacer {
     fn new(parts: &[SketchPart], room: f64) -> Self {
         let mut obstacles = Obstacles::default();
         for shape in parts.iter().flat_map(|part| &part.shapes) {
@@ -86,7 +86,7 @@ impl Labels {
     }
 
     /// Places the labels of a part. Several labels inside it share its height.
-    fn of(&mut self, part: &SketchPart) -> Vec<PlacedLabel> {
+    fn of(&mut self, part: &SketchPart) -> Vec<SketchText> {
         let Some(first) = part.shapes.first() else { return Vec::new() };
         let area = first.area();
         let inside = part.labels.iter().filter(|label| label.sides.contains(&LabelSide::Inside));
@@ -106,7 +106,7 @@ impl Labels {
                 self.texts.push(spot);
                 self.obstacles.add(spot);
                 let middle = 0.5 * (spot.top + spot.bottom);
-                PlacedLabel { text, at: (spot.left, middle + 0.35 * f64::from(TEXT)) }
+                SketchText { text, at: (spot.left, middle + 0.35 * f64::from(TEXT)) }
             })
             .collect()
     }

@@ -152,7 +152,7 @@ pub enum SketchShape {
 }
 
 /// A closed area and its fill.
-pub(super) struct Filled {
+pub(super) struct FilledArea {
     pub(super) outline: Vec<Spot>,
     /// Whether it has the ink of the part; else it is a pale surface.
     pub(super) inked: bool,
@@ -160,12 +160,12 @@ pub(super) struct Filled {
 
 /// What is drawn of a shape.
 #[derive(Default)]
-pub(super) struct Strokes {
+pub(super) struct ShapeStrokes {
     /// Solid lines of the usual width.
     pub(super) lines: Vec<Vec<Spot>>,
     /// Thin lines, such as hatching.
     pub(super) thin: Vec<Vec<Spot>>,
-    pub(super) fills: Vec<Filled>,
+    pub(super) fills: Vec<FilledArea>,
     /// Closed lines with a hole: the outlines of a ring.
     pub(super) style: Option<LineStyle>,
 }
@@ -175,12 +175,12 @@ const HATCH: f64 = 5.0;
 
 impl SketchShape {
     /// Lines and areas of the shape.
-    pub(super) fn strokes(&self) -> Strokes {
-        let mut drawn = Strokes::default();
+    pub(super) fn strokes(&self) -> ShapeStrokes {
+        let mut drawn = ShapeStrokes::default();
         match self {
             Self::Block { .. } => {
                 let outline = corners(self.area());
-                drawn.fills.push(Filled { outline: outline.clone(), inked: false });
+                drawn.fills.push(FilledArea { outline: outline.clone(), inked: false });
                 drawn.lines.push(outline);
             }
             Self::Spring { from, to } => drawn.lines.push(zigzag(*from, *to)),
@@ -204,15 +204,15 @@ impl SketchShape {
             Self::Ring { centre, radii } => {
                 let (outer, inner) = (circle(*centre, radii.0), circle(*centre, radii.1));
                 let outline = outer.iter().chain(inner.iter().rev()).copied().collect();
-                drawn.fills.push(Filled { outline, inked: false });
+                drawn.fills.push(FilledArea { outline, inked: false });
                 drawn.lines.extend([outer, inner]);
             }
             Self::Sector { centre, radii, angles } => {
                 let outline = sector(*centre, *radii, *angles);
-                drawn.fills.push(Filled { outline, inked: true });
+                drawn.fills.push(FilledArea { outline, inked: true });
             }
             Self::Dot { at, radius } => {
-                drawn.fills.push(Filled { outline: circle(*at, *radius), inked: true });
+                drawn.fills.push(FilledArea { outline: circle(*at, *radius), inked: true });
             }
             Self::Spot { .. } => {}
         }
@@ -316,7 +316,7 @@ fn length(from: Spot, to: Spot) -> f64 {
 
 fn zigzag(from: Spot, to: Spot) -> Vec<Spot> {
     let whole = length(from, to);
-    // The coils do not stretch with a long lead.
+    // A long lead does not lengthen the coils.
     let coils = whole.min(34.0) * 0.7;
     let lead = 0.5 * (whole - coils);
     let turns = 4;
@@ -357,12 +357,12 @@ fn hatching(from: Spot, to: Spot) -> Vec<Vec<Spot>> {
     strokes
 }
 
-fn belt(drawn: &mut Strokes, (left, right): (f64, f64), top: f64, radius: f64) {
+fn belt(drawn: &mut ShapeStrokes, (left, right): (f64, f64), top: f64, radius: f64) {
     let middle = top + radius;
     let centres = [(left + radius, middle), (right - radius, middle)];
     for centre in centres {
         drawn.thin.push(circle(centre, radius - 2.5));
-        drawn.fills.push(Filled { outline: circle(centre, 1.5), inked: true });
+        drawn.fills.push(FilledArea { outline: circle(centre, 1.5), inked: true });
     }
     let mut outline = arc(centres[0], radius, 90.0, 270.0);
     outline.extend(arc(centres[1], radius, 270.0, 450.0));
@@ -370,15 +370,15 @@ fn belt(drawn: &mut Strokes, (left, right): (f64, f64), top: f64, radius: f64) {
     drawn.lines.push(outline);
 }
 
-fn arrow(drawn: &mut Strokes, from: Spot, to: Spot) {
+fn arrow(drawn: &mut ShapeStrokes, from: Spot, to: Spot) {
     let whole = length(from, to);
     drawn.lines.push(vec![from, along(from, to, (whole - 4.0).max(0.0), 0.0)]);
     let foot = whole - 7.0;
     let head = vec![to, along(from, to, foot, -3.0), along(from, to, foot, 3.0), to];
-    drawn.fills.push(Filled { outline: head, inked: true });
+    drawn.fills.push(FilledArea { outline: head, inked: true });
 }
 
-fn turn(drawn: &mut Strokes, centre: Spot, radius: f64, (from, to): (f64, f64)) {
+fn turn(drawn: &mut ShapeStrokes, centre: Spot, radius: f64, (from, to): (f64, f64)) {
     let points = arc(centre, radius, from, to);
     let Some(&end) = points.last() else { return };
     // The head points along the tangent at its middle.
@@ -391,7 +391,7 @@ fn turn(drawn: &mut Strokes, centre: Spot, radius: f64, (from, to): (f64, f64)) 
     let tip = back(-4.0, 0.0);
     drawn
         .fills
-        .push(Filled { outline: vec![tip, back(3.0, 3.0), back(3.0, -3.0), tip], inked: true });
+        .push(FilledArea { outline: vec![tip, back(3.0, 3.0), back(3.0, -3.0), tip], inked: true });
     drawn.lines.push(points);
 }
 

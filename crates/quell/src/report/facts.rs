@@ -23,7 +23,7 @@ pub(super) struct FactRow {
 pub(super) fn rows(facts: &Json) -> Vec<FactRow> {
     let empty = Map::new();
     let of = |name: &str| facts[name].as_object().unwrap_or(&empty).clone();
-    let reader = Reader { units: of("units"), why: of("why") };
+    let reader = FactReader { units: of("units"), why: of("why") };
     let mut rows = Vec::new();
     for (name, value) in facts.as_object().unwrap_or(&empty) {
         if !ELSEWHERE.contains(&name.as_str()) && !is_twin(name, facts, &reader.units) {
@@ -59,13 +59,27 @@ fn twin_of(name: &str, other: &str, units: &Map<String, Json>) -> bool {
     rest.is_some_and(|rest| SUFFIXES.contains(&rest)) && units.contains_key(other)
 }
 
+/// A path whose places in lists are left out, as reasons about all entries of a list have it: `modes[].speed`.
+fn without_places(path: &str) -> String {
+    let mut general = String::new();
+    let mut inside = false;
+    for letter in path.chars() {
+        inside &= letter != ']';
+        if !inside {
+            general.push(letter);
+        }
+        inside |= letter == '[';
+    }
+    general
+}
+
 /// Units and reasons of an answer.
-struct Reader {
+struct FactReader {
     units: Map<String, Json>,
     why: Map<String, Json>,
 }
 
-impl Reader {
+impl FactReader {
     fn walk(&self, path: &str, key: &str, value: &Json, parent: &Json, rows: &mut Vec<FactRow>) {
         match value {
             Json::Object(object) => {
@@ -96,8 +110,9 @@ impl Reader {
                 }
             }
             Json::Null => {
-                let why = self.why.get(path).or_else(|| self.why.get(key));
-                let why = why.and_then(Json::as_str).unwrap_or("not known");
+                let of_list = without_places(path);
+                let why = [path, &of_list, key].into_iter().find_map(|name| self.why.get(name));
+                let why = why.and_then(Json::as_str).unwrap_or("the answer does not give it");
                 rows.push(self.row(path, key, format!("unknown: {why}"), String::new()));
             }
             Json::String(text) => rows.push(self.row(path, key, text.clone(), String::new())),
@@ -142,8 +157,9 @@ mod tests {
             "numbers": [1, 2],
             "long": vec![0; 40],
             "none": null,
+            "modes": [{ "speed": null }],
             "settled": false,
-            "why": { "none": "no dither" },
+            "why": { "none": "no dither", "modes[].speed": "no diameters" },
             "units": { "amplitude": "length", "amplitude_n": "N", "value": "1" },
         });
         let row = |path: &str, value: &str, unit: &str, si: &str| FactRow {
@@ -160,11 +176,12 @@ mod tests {
             row("numbers", "1, 2", "", ""),
             row("long", "40 entries, which --json prints", "", ""),
             row("none", "unknown: no dither", "", ""),
+            row("modes[0].speed", "unknown: no diameters", "", ""),
             row("settled", "no", "", ""),
         ] {
             assert!(found.contains(&wanted), "{wanted:?}: {found:?}");
         }
-        assert_eq!(found.len(), 7);
+        assert_eq!(found.len(), 8);
         assert_eq!(named(&facts, &["amplitude"]).len(), 1);
     }
 }

@@ -88,7 +88,7 @@ pub fn run(study: &Study, request: &ReportRequest) -> Result<StudyReport, Failur
     let verbs = verbs(study);
     let (mut answers, mut unexamined) = (Vec::new(), Vec::new());
     for step in plan {
-        let plan::Step { verb, heading, start, chosen, request: asked } = step;
+        let plan::ReportStep { verb, heading, start, chosen, request: asked } = step;
         if request.without.iter().any(|name| name == verb) {
             unexamined
                 .push(Unexamined::new(heading, format!("`{verb}` was left out by --without.")));

@@ -259,7 +259,7 @@ fn warnings(texts: &[String]) -> String {
     if texts.is_empty() {
         return String::new();
     }
-    let items = texts.iter().map(|text| symbols(&capital(text)));
+    let items = texts.iter().map(|text| marked(&capital(text)));
     format!("<div class=\"alarm\"><p>Warnings</p>{}</div>", list(items))
 }
 
@@ -273,6 +273,6 @@ fn marked(text: &str) -> String {
 }
 
 fn list(items: impl IntoIterator<Item = String>) -> String {
-    let items: String = items.into_iter().map(|item| format!("<li>{item}</li>")).collect();
-    if items.is_empty() { String::new() } else { format!("<ul>{items}</ul>") }
+    let items: Vec<String> = items.into_iter().map(|item| format!("<li>{item}</li>")).collect();
+    if items.is_empty() { String::new() } else { format!("<ul>{}</ul>", items.concat()) }
 }

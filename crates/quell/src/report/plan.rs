@@ -14,7 +14,7 @@ use crate::words::{digits, start_in_words};
 const WINDOW: (f64, f64) = (0.1, 2.0);
 
 /// What a verb is asked.
-pub(super) enum Asked {
+pub(super) enum ReportedVerb {
     Modes,
     Stability,
     Response,
@@ -25,16 +25,16 @@ pub(super) enum Asked {
 }
 
 /// A verb of the report.
-pub(super) struct Step {
+pub(super) struct ReportStep {
     pub(super) verb: &'static str,
     pub(super) heading: &'static str,
     pub(super) start: String,
     pub(super) chosen: Option<String>,
-    pub(super) request: Asked,
+    pub(super) request: ReportedVerb,
 }
 
-impl Step {
-    fn new(verb: &'static str, heading: &'static str, start: &str, request: Asked) -> Self {
+impl ReportStep {
+    fn new(verb: &'static str, heading: &'static str, start: &str, request: ReportedVerb) -> Self {
         Self { verb, heading, start: start.to_owned(), chosen: None, request }
     }
 }
@@ -44,24 +44,34 @@ const NO_START: &str = "none: no motion is computed";
 const BRANCH: &str = "the base response, continued from steady sliding";
 
 /// The verbs that a study of this kind has, in the order of the report.
-pub(super) fn planned(study: &Study) -> Vec<Step> {
+pub(super) fn planned(study: &Study) -> Vec<ReportStep> {
     match study.kind() {
         Kind::Belt(setup) => of_belt(&study.narrowed(setup.as_ref())),
         Kind::Disc(_) => vec![
-            Step::new("stability", "Stability of steady sliding", SMALL, Asked::Stability),
-            Step::new("modes", "Natural frequencies", NO_START, Asked::Modes),
-            Step::new("resonances", "Speeds at which waves meet", SMALL, Asked::Resonances),
+            ReportStep::new(
+                "stability",
+                "Stability of steady sliding",
+                SMALL,
+                ReportedVerb::Stability,
+            ),
+            ReportStep::new("modes", "Natural frequencies", NO_START, ReportedVerb::Modes),
+            ReportStep::new(
+                "resonances",
+                "Speeds at which waves meet",
+                SMALL,
+                ReportedVerb::Resonances,
+            ),
         ],
         Kind::System(setup) => of_system(&study.narrowed(setup.as_ref())),
     }
 }
 
-fn of_belt(study: &BeltStudy) -> Vec<Step> {
+fn of_belt(study: &BeltStudy) -> Vec<ReportStep> {
     let start = start_in_words(study);
     let mut steps = vec![
-        Step::new("stability", "Stability of steady sliding", SMALL, Asked::Stability),
-        Step::new("response", "Steady response", &start, Asked::Response),
-        Step::new("orbit", "Periodic response", BRANCH, Asked::Orbit),
+        ReportStep::new("stability", "Stability of steady sliding", SMALL, ReportedVerb::Stability),
+        ReportStep::new("response", "Steady response", &start, ReportedVerb::Response),
+        ReportStep::new("orbit", "Periodic response", BRANCH, ReportedVerb::Orbit),
     ];
     let belt = study.belt();
     for (place, dither) in belt.dithers().iter().enumerate() {
@@ -76,11 +86,11 @@ fn of_belt(study: &BeltStudy) -> Vec<Step> {
         let unit = study.scales().map_or(1.0, |scales| scales.si_per_unit(Quantity::Force));
         steps.extend(thresholds(&path, unit * dither.amplitude, unit * room));
     }
-    steps.push(Step::new("friction", "Friction law", NO_START, Asked::Friction));
+    steps.push(ReportStep::new("friction", "Friction law", NO_START, ReportedVerb::Friction));
     steps
 }
 
-fn of_system(study: &SystemStudy) -> Vec<Step> {
+fn of_system(study: &SystemStudy) -> Vec<ReportStep> {
     let start = match study.initial() {
         SystemStart::Rest => "from rest",
         SystemStart::Sliding => "from steady sliding",
@@ -89,10 +99,10 @@ fn of_system(study: &SystemStudy) -> Vec<Step> {
         SystemStart::Values(_) | SystemStart::Described { .. } => "from the state of the study",
     };
     let mut steps = vec![
-        Step::new("stability", "Stability of steady sliding", SMALL, Asked::Stability),
-        Step::new("modes", "Natural frequencies", NO_START, Asked::Modes),
-        Step::new("response", "Steady response", start, Asked::Response),
-        Step::new("orbit", "Periodic response", BRANCH, Asked::Orbit),
+        ReportStep::new("stability", "Stability of steady sliding", SMALL, ReportedVerb::Stability),
+        ReportStep::new("modes", "Natural frequencies", NO_START, ReportedVerb::Modes),
+        ReportStep::new("response", "Steady response", start, ReportedVerb::Response),
+        ReportStep::new("orbit", "Periodic response", BRANCH, ReportedVerb::Orbit),
     ];
     let inputs = &study.system().inputs;
     for (place, input) in inputs.iter().enumerate() {
@@ -108,7 +118,7 @@ fn of_system(study: &SystemStudy) -> Vec<Step> {
 
 /// Thresholds of an amplitude between a tenth and twice its value, or up to the largest that the contact allows; none of an
 /// amplitude that is 0.
-fn thresholds(path: &str, amplitude: f64, room: f64) -> Option<Step> {
+fn thresholds(path: &str, amplitude: f64, room: f64) -> Option<ReportStep> {
     // Numbers with few digits; rounding must not lead beyond the largest amplitude.
     let rounded = |value: f64| digits(value).parse::<f64>().unwrap_or(value);
     let (from, to) = (rounded(WINDOW.0 * amplitude), rounded(WINDOW.1 * amplitude).min(room));
@@ -118,20 +128,21 @@ fn thresholds(path: &str, amplitude: f64, room: f64) -> Option<Step> {
     let parameter = path.to_owned();
     let request = ThresholdsRequest { parameter, from, to, ..ThresholdsRequest::default() };
     let heading = "Amplitudes that change the outcome";
-    let mut step = Step::new("thresholds", heading, BRANCH, Asked::Thresholds(request));
+    let mut step =
+        ReportStep::new("thresholds", heading, BRANCH, ReportedVerb::Thresholds(request));
     step.chosen = Some(format!("`{path}` from {} to {}", digits(from), digits(to)));
     Some(step)
 }
 
 /// The answer of a verb.
-pub(super) fn ask(verbs: &dyn Verbs, asked: Asked) -> Reply {
+pub(super) fn ask(verbs: &dyn Verbs, asked: ReportedVerb) -> Reply {
     match asked {
-        Asked::Modes => verbs.modes(),
-        Asked::Stability => verbs.stability(),
-        Asked::Response => verbs.response(),
-        Asked::Orbit => verbs.orbit(Wanted::default()),
-        Asked::Friction => verbs.friction(None, false),
-        Asked::Resonances => verbs.resonances(ResonancesRequest::default()),
-        Asked::Thresholds(request) => verbs.thresholds(request),
+        ReportedVerb::Modes => verbs.modes(),
+        ReportedVerb::Stability => verbs.stability(),
+        ReportedVerb::Response => verbs.response(),
+        ReportedVerb::Orbit => verbs.orbit(Wanted::default()),
+        ReportedVerb::Friction => verbs.friction(None, false),
+        ReportedVerb::Resonances => verbs.resonances(ResonancesRequest::default()),
+        ReportedVerb::Thresholds(request) => verbs.thresholds(request),
     }
 }

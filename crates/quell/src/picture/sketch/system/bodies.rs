@@ -3,7 +3,7 @@
 use quell_model::system::{Mechanical, StateSpace, Structure};
 
 use super::symbols::{indexed, number};
-use super::{Drawing, grid};
+use super::{SystemDrawing, grid};
 use crate::plot::{LabelSide, Sketch, SketchPart, SketchShape};
 use crate::study::{SystemStudy, SystemUnits};
 use crate::words::plural;
@@ -30,7 +30,7 @@ pub(super) enum BodyKind {
 
 /// A body.
 #[derive(Clone, Debug)]
-pub(super) struct Body {
+pub(super) struct SketchBody {
     pub(super) kind: BodyKind,
     /// Its name.
     pub(super) name: String,
@@ -41,7 +41,7 @@ pub(super) struct Body {
 }
 
 /// The bodies of a study.
-pub(super) fn of(study: &SystemStudy, room: f64) -> Vec<Body> {
+pub(super) fn of(study: &SystemStudy, room: f64) -> Vec<SketchBody> {
     let system = study.system();
     let names = system.structure.names();
     if study.frequency_response().is_some() {
@@ -64,13 +64,13 @@ pub(super) fn of(study: &SystemStudy, room: f64) -> Vec<Body> {
     }
 }
 
-fn mass(names: &[String], place: usize) -> Body {
+fn mass(names: &[String], place: usize) -> SketchBody {
     let name = &names[place];
     let place_name = (place + 1).to_string();
     let shown =
         if name.chars().count() <= SHORT_NAME { name.clone() } else { indexed("q", &place_name) };
     let lines = vec![shown, indexed("m", &place_name)];
-    Body { kind: BodyKind::Mass, name: name.clone(), lines, indices: vec![place] }
+    SketchBody { kind: BodyKind::Mass, name: name.clone(), lines, indices: vec![place] }
 }
 
 /// Modes by component, where every coordinate is a mode: modal coordinates are `mode.1`, `mode.2`, … or `component.1`, …, and no
@@ -87,7 +87,12 @@ fn components(mechanical: &Mechanical) -> Option<Vec<(String, Vec<usize>)>> {
     Some(components)
 }
 
-fn modes(study: &SystemStudy, mechanical: &Mechanical, name: String, indices: Vec<usize>) -> Body {
+fn modes(
+    study: &SystemStudy,
+    mechanical: &Mechanical,
+    name: String,
+    indices: Vec<usize>,
+) -> SketchBody {
     let frequencies = indices.iter().map(|&place| mechanical.stiffness()[(place, place)].sqrt());
     let (least, most) = frequencies
         .fold((f64::INFINITY, 0.0_f64), |(least, most), next| (least.min(next), most.max(next)));
@@ -107,10 +112,10 @@ fn modes(study: &SystemStudy, mechanical: &Mechanical, name: String, indices: Ve
     let lines =
         if name == "mode" { vec![count, frequency] } else { vec![name.clone(), count, frequency] };
     let name = if name == "mode" { "modes".to_owned() } else { name };
-    Body { kind: BodyKind::Modes, name, lines, indices }
+    SketchBody { kind: BodyKind::Modes, name, lines, indices }
 }
 
-fn many(names: &[String], noun: &str) -> Body {
+fn many(names: &[String], noun: &str) -> SketchBody {
     let (first, last) = (&names[0], &names[names.len() - 1]);
     let between = format!("{first} to {last}");
     let mut lines = vec![counted(names.len(), noun)];
@@ -120,12 +125,12 @@ fn many(names: &[String], noun: &str) -> Body {
     group(&lines[0].clone(), lines, (0..names.len()).collect())
 }
 
-fn group(name: &str, lines: Vec<String>, indices: Vec<usize>) -> Body {
-    Body { kind: BodyKind::Group, name: name.to_owned(), lines, indices }
+fn group(name: &str, lines: Vec<String>, indices: Vec<usize>) -> SketchBody {
+    SketchBody { kind: BodyKind::Group, name: name.to_owned(), lines, indices }
 }
 
 /// A state with its equation over several lines; friction and inputs are drawn as arrows.
-fn state(study: &SystemStudy, states: &StateSpace, place: usize, room: f64) -> Body {
+fn state(study: &SystemStudy, states: &StateSpace, place: usize, room: f64) -> SketchBody {
     const MOST_TERMS: usize = 12;
     let name = states.names()[place].clone();
     let mut terms = super::symbols::terms(states.matrix().row(place), states.names(), MOST_TERMS);
@@ -149,7 +154,7 @@ fn state(study: &SystemStudy, states: &StateSpace, place: usize, room: f64) -> B
             _ => lines.push(term),
         }
     }
-    Body { kind: BodyKind::State, name, lines, indices: vec![place] }
+    SketchBody { kind: BodyKind::State, name, lines, indices: vec![place] }
 }
 
 /// A count with its noun.
@@ -158,7 +163,7 @@ pub(super) fn counted(count: usize, noun: &str) -> String {
 }
 
 /// Draws the bodies.
-pub(super) fn draw(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
+pub(super) fn draw(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
     for (place, body) in drawing.bodies.iter().enumerate() {
         let seat = drawing.grid.seat(place);
         let shape =

@@ -2,9 +2,9 @@
 
 use quell_model::Contact;
 
-use super::Drawing;
-use super::bodies::{Body, BodyKind, counted};
-use super::grid::Seat;
+use super::SystemDrawing;
+use super::bodies::{BodyKind, SketchBody, counted};
+use super::grid::BodySeat;
 use super::symbols::{index, indexed};
 use crate::plot::{LabelSide, LineStyle, Sketch, SketchInk, SketchPart, SketchShape};
 use crate::study::SystemStudy;
@@ -23,14 +23,14 @@ const NOTE: f64 = 20.0;
 /// Height below the surface for the load and the velocity.
 const BELOW: f64 = 36.0;
 
-/// The row that tells where a contact is drawn: its tangent, or what friction acts on, or its normal.
+/// The row that determines where a contact is drawn: its tangent, or what friction acts on, or its normal.
 fn main_row(contact: &Contact) -> &[f64] {
     let rows = [&contact.force, &contact.tangent, &contact.normal, &contact.slope];
     rows.into_iter().flatten().next().map_or(&[], Vec::as_slice)
 }
 
 /// The body of a contact among some bodies: the one with the largest entry of its row.
-fn home(contact: &Contact, bodies: &[Body]) -> Option<usize> {
+fn home(contact: &Contact, bodies: &[SketchBody]) -> Option<usize> {
     let row = main_row(contact);
     let entries = row.iter().enumerate().filter(|(_, factor)| **factor != 0.0);
     let largest =
@@ -43,7 +43,11 @@ fn is_compliant(contact: &Contact) -> bool {
 }
 
 /// Height of the contacts below a row of bodies.
-pub(super) fn depth(study: &SystemStudy, bodies: &[Body], members: std::ops::Range<usize>) -> f64 {
+pub(super) fn depth(
+    study: &SystemStudy,
+    bodies: &[SketchBody],
+    members: std::ops::Range<usize>,
+) -> f64 {
     let here: Vec<&Contact> = study
         .system()
         .contacts
@@ -68,7 +72,7 @@ pub(super) fn depth(study: &SystemStudy, bodies: &[Body], members: std::ops::Ran
 }
 
 /// The contacts of each body.
-pub(super) fn by_body<'a>(drawing: &Drawing<'a>) -> Vec<(usize, Vec<(usize, &'a Contact)>)> {
+pub(super) fn by_body<'a>(drawing: &SystemDrawing<'a>) -> Vec<(usize, Vec<(usize, &'a Contact)>)> {
     let mut groups: Vec<(usize, Vec<(usize, &Contact)>)> = Vec::new();
     for (place, contact) in drawing.study.system().contacts.iter().enumerate() {
         let body = home(contact, &drawing.bodies).unwrap_or(0);
@@ -81,7 +85,7 @@ pub(super) fn by_body<'a>(drawing: &Drawing<'a>) -> Vec<(usize, Vec<(usize, &'a 
 }
 
 /// Where the contacts of a body are drawn: the middle of the pads, side by side.
-fn places(drawing: &Drawing<'_>, body: usize, count: usize) -> Vec<f64> {
+fn places(drawing: &SystemDrawing<'_>, body: usize, count: usize) -> Vec<f64> {
     let seat = drawing.grid.seat(body);
     if count <= fit(&drawing.bodies[body], &seat) {
         let pitch = 60.0;
@@ -93,7 +97,7 @@ fn places(drawing: &Drawing<'_>, body: usize, count: usize) -> Vec<f64> {
 }
 
 /// How many contacts fit below a body.
-fn fit(body: &Body, seat: &Seat) -> usize {
+fn fit(body: &SketchBody, seat: &BodySeat) -> usize {
     match body.kind {
         BodyKind::Mass => MOST_CONTACTS,
         #[expect(
@@ -106,7 +110,7 @@ fn fit(body: &Body, seat: &Seat) -> usize {
 }
 
 /// Draws the contacts.
-pub(super) fn draw(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
+pub(super) fn draw(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
     let count = drawing.study.system().contacts.len();
     for (body, group) in by_body(drawing) {
         let spots = places(drawing, body, group.len());
@@ -123,7 +127,7 @@ pub(super) fn draw(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
 }
 
 /// The level of the pad's upper side.
-fn pad_level(drawing: &Drawing<'_>, body: usize, is_soft: bool) -> f64 {
+fn pad_level(drawing: &SystemDrawing<'_>, body: usize, is_soft: bool) -> f64 {
     let row = drawing.grid.seat(body).row;
     let contacts = &drawing.study.system().contacts;
     let in_row = |contact: &&Contact| {
@@ -136,7 +140,7 @@ fn pad_level(drawing: &Drawing<'_>, body: usize, is_soft: bool) -> f64 {
 /// Draws one contact below a body at a horizontal position.
 fn one(
     sheet: Sketch,
-    drawing: &Drawing<'_>,
+    drawing: &SystemDrawing<'_>,
     contact: &Contact,
     (body, across): (usize, f64),
     index: &str,
@@ -217,7 +221,7 @@ pub(super) fn stiffness_symbol(index: &str) -> String {
 }
 
 /// Whether a line from the pad of a contact below one body reaches another one: its neighbour, high enough for a spring.
-fn reaches(drawing: &Drawing<'_>, (body, other): (usize, usize), pad: f64) -> bool {
+fn reaches(drawing: &SystemDrawing<'_>, (body, other): (usize, usize), pad: f64) -> bool {
     let (seat, far) = (drawing.grid.seat(body), drawing.grid.seat(other));
     let is_next = seat.row == far.row && seat.column.abs_diff(far.column) == 1;
     is_next && pad - far.bottom() >= SPRING
@@ -226,7 +230,7 @@ fn reaches(drawing: &Drawing<'_>, (body, other): (usize, usize), pad: f64) -> bo
 /// A normal row that acts on a neighbour: the spring below it and a line to the pad.
 fn approach(
     sheet: Sketch,
-    drawing: &Drawing<'_>,
+    drawing: &SystemDrawing<'_>,
     contact: &Contact,
     other: usize,
     (across, pad): (f64, f64),
@@ -246,7 +250,7 @@ fn approach(
 /// A dashed line from a contact to another body that it acts on, or a note at that body.
 fn lead(
     sheet: Sketch,
-    drawing: &Drawing<'_>,
+    drawing: &SystemDrawing<'_>,
     contact: &Contact,
     (body, other): (usize, usize),
     (across, pad): (f64, f64),
@@ -316,7 +320,7 @@ fn loads(
 /// Several contacts below one body as one.
 fn several(
     sheet: Sketch,
-    drawing: &Drawing<'_>,
+    drawing: &SystemDrawing<'_>,
     group: &[(usize, &Contact)],
     (body, across): (usize, f64),
 ) -> Sketch {
@@ -347,7 +351,7 @@ fn names(group: &[(usize, &Contact)]) -> String {
 }
 
 /// Where the normal load and the friction of a contact are drawn: below the tail of the load's arrow, and left of the pad.
-pub(super) fn spot(drawing: &Drawing<'_>, contact: usize) -> Option<ContactSpot> {
+pub(super) fn spot(drawing: &SystemDrawing<'_>, contact: usize) -> Option<ContactSpot> {
     for (body, group) in by_body(drawing) {
         let Some(place) = group.iter().position(|(known, _)| *known == contact) else { continue };
         let spots = places(drawing, body, group.len());

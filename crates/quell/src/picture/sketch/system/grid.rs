@@ -2,9 +2,9 @@
 
 use quell_model::system::InputTarget;
 
-use super::bodies::{Body, BodyKind};
+use super::bodies::{BodyKind, SketchBody};
 use super::contacts;
-use super::links::Link;
+use super::links::SketchLink;
 use crate::study::SystemStudy;
 
 /// Room between two boxes, for springs, forces and ends of links.
@@ -29,7 +29,7 @@ pub(super) fn state_width(room: f64) -> f64 {
 
 /// The box of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Seat {
+pub(super) struct BodySeat {
     pub(super) row: usize,
     pub(super) column: usize,
     pub(super) left: f64,
@@ -38,7 +38,7 @@ pub(super) struct Seat {
     pub(super) height: f64,
 }
 
-impl Seat {
+impl BodySeat {
     pub(super) fn right(&self) -> f64 {
         self.left + self.width
     }
@@ -54,9 +54,9 @@ impl Seat {
 
 /// Measures of a row.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Row;
+pub(super) struct RowHeights;
 
-impl Row {
+impl RowHeights {
     /// Height of a support above a box.
     pub(super) const SUPPORT: f64 = 32.0;
     /// Height of the springs between neighbours, below which forces act.
@@ -67,33 +67,38 @@ impl Row {
 
 /// The boxes of all bodies and the tracks of links.
 #[derive(Clone, Debug)]
-pub(super) struct Grid {
-    seats: Vec<Seat>,
+pub(super) struct BodyGrid {
+    seats: Vec<BodySeat>,
     /// Links with a track (from, to), and its height.
     tracks: Vec<((usize, usize), f64)>,
     bottom: f64,
 }
 
-impl Grid {
+impl BodyGrid {
     /// Places the bodies on a sheet with this room.
-    pub(super) fn new(room: f64, study: &SystemStudy, bodies: &[Body], links: &[Link]) -> Self {
+    pub(super) fn new(
+        room: f64,
+        study: &SystemStudy,
+        bodies: &[SketchBody],
+        links: &[SketchLink],
+    ) -> Self {
         let (width, columns) = columns(room, bodies);
         let mut grid = Self { seats: Vec::new(), tracks: Vec::new(), bottom: 0.0 };
         let mut bottom = 0.0;
-        let own_track = |link: &Link, members: &std::ops::Range<usize>| {
+        let own_track = |link: &SketchLink, members: &std::ops::Range<usize>| {
             link.to.is_some_and(|to| {
                 members.contains(&link.from) && members.contains(&to) && to > link.from + 1
             })
         };
         for row in 0..bodies.len().div_ceil(columns) {
             let members = row * columns..((row + 1) * columns).min(bodies.len());
-            let own: Vec<&Link> =
+            let own: Vec<&SketchLink> =
                 links.iter().filter(|link| own_track(link, &members)).take(MOST_TRACKS).collect();
             let supported =
                 links.iter().any(|link| link.to.is_none() && members.contains(&link.from));
             let modal = bodies[members.clone()].iter().any(|body| body.kind == BodyKind::Modes);
             let head = if supported {
-                Row::SUPPORT + 8.0
+                RowHeights::SUPPORT + 8.0
             } else if modal {
                 RESONATORS
             } else {
@@ -107,7 +112,7 @@ impl Grid {
             let height = height(study, bodies, members.clone());
             for column in 0..members.len() {
                 let left = (width + GAP) * column as f64;
-                grid.seats.push(Seat { row, column, left, top, width, height });
+                grid.seats.push(BodySeat { row, column, left, top, width, height });
             }
             let depth = contacts::depth(study, bodies, members);
             bottom = top + height + depth + BETWEEN;
@@ -117,12 +122,12 @@ impl Grid {
     }
 
     /// The box of a body.
-    pub(super) fn seat(&self, body: usize) -> Seat {
+    pub(super) fn seat(&self, body: usize) -> BodySeat {
         self.seats[body]
     }
 
     /// The track of a link within a row, if it has one: its number in the row and its height.
-    pub(super) fn track(&self, link: &Link) -> Option<(usize, f64)> {
+    pub(super) fn track(&self, link: &SketchLink) -> Option<(usize, f64)> {
         let ends = (link.from, link.to?);
         let (place, (_, level)) =
             self.tracks.iter().enumerate().find(|(_, (known, _))| *known == ends)?;
@@ -139,7 +144,7 @@ impl Grid {
 
     /// Middle of the widest row.
     pub(super) fn middle(&self) -> f64 {
-        0.5 * self.seats.iter().map(Seat::right).fold(0.0, f64::max)
+        0.5 * self.seats.iter().map(BodySeat::right).fold(0.0, f64::max)
     }
 
     /// Whether one body ends a row and the other begins the next.
@@ -149,7 +154,7 @@ impl Grid {
 }
 
 /// Width of a box, and the number of boxes in a row.
-fn columns(room: f64, bodies: &[Body]) -> (f64, usize) {
+fn columns(room: f64, bodies: &[SketchBody]) -> (f64, usize) {
     let single = bodies.iter().all(|body| body.kind == BodyKind::Mass);
     if bodies.iter().any(|body| body.kind == BodyKind::State) {
         return (state_width(room), 1);
@@ -161,8 +166,8 @@ fn columns(room: f64, bodies: &[Body]) -> (f64, usize) {
 }
 
 /// Height of the boxes of a row: springs at the top, below them the forces of the body that has most.
-fn height(study: &SystemStudy, bodies: &[Body], members: std::ops::Range<usize>) -> f64 {
-    let forces = |body: &Body| {
+fn height(study: &SystemStudy, bodies: &[SketchBody], members: std::ops::Range<usize>) -> f64 {
+    let forces = |body: &SketchBody| {
         let acts = |row: &[f64]| {
             body.indices.iter().any(|&place| row.get(place).is_some_and(|b| *b != 0.0))
         };
@@ -176,7 +181,7 @@ fn height(study: &SystemStudy, bodies: &[Body], members: std::ops::Range<usize>)
     let most = bodies[members.clone()].iter().map(forces).max().unwrap_or(0);
     match &bodies[members.start] {
         // Forces on a state are next to its equation.
-        Body { kind: BodyKind::State, lines, .. } => {
+        SketchBody { kind: BodyKind::State, lines, .. } => {
             (10.0 + 12.5 * lines.len() as f64).max(FORCE * most as f64)
         }
         _ => HEIGHT + FORCE * most as f64,

@@ -3,10 +3,10 @@
 use quell_model::Waveform;
 use quell_model::system::InputTarget;
 
-use super::Drawing;
+use super::SystemDrawing;
 use super::bodies::BodyKind;
 use super::contacts;
-use super::grid::Row;
+use super::grid::RowHeights;
 use super::symbols::{index, indexed};
 use crate::picture::sketch::glyph;
 use crate::plot::{LabelSide, Sketch, SketchInk, SketchPart, SketchShape};
@@ -14,7 +14,7 @@ use crate::plot::{LabelSide, Sketch, SketchInk, SketchPart, SketchShape};
 use LabelSide::{Above, Below, Left, Right};
 
 /// Draws the inputs and the constant forces.
-pub(super) fn draw(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
+pub(super) fn draw(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
     let inputs = &drawing.study.system().inputs;
     let mut rows = vec![0_usize; drawing.bodies.len()];
     for (place, input) in inputs.iter().enumerate() {
@@ -42,7 +42,7 @@ pub(super) fn draw(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
 /// An arrow at the left side of a body.
 fn force(
     sheet: Sketch,
-    drawing: &Drawing<'_>,
+    drawing: &SystemDrawing<'_>,
     (body, row): (usize, usize),
     form: Waveform,
     label: &str,
@@ -51,7 +51,7 @@ fn force(
     let level = if drawing.bodies[body].kind == BodyKind::State {
         seat.top + 0.5 * seat.height
     } else {
-        seat.top + Row::SPRINGS + Row::FORCE * row as f64 + 12.0
+        seat.top + RowHeights::SPRINGS + RowHeights::FORCE * row as f64 + 12.0
     };
     let wave = SketchShape::Wave { at: (seat.left - 31.0, level), glyph: glyph(form) };
     let arrow =
@@ -64,7 +64,7 @@ fn force(
 /// A wave next to the load or the friction of a contact.
 fn modulation(
     sheet: Sketch,
-    drawing: &Drawing<'_>,
+    drawing: &SystemDrawing<'_>,
     contact: usize,
     form: Waveform,
     (symbol, is_load): (&str, bool),
@@ -83,7 +83,7 @@ fn modulation(
 }
 
 /// Arrows at the right side of the bodies with a constant force.
-fn constant_forces(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
+fn constant_forces(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
     let force = drawing.study.system().structure.force();
     for (place, body) in drawing.bodies.iter().enumerate() {
         let acts = body.indices.iter().any(|&index| force[index] != 0.0);
@@ -92,7 +92,7 @@ fn constant_forces(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
             continue;
         }
         let seat = drawing.grid.seat(place);
-        let level = seat.top + Row::SPRINGS + 12.0;
+        let level = seat.top + RowHeights::SPRINGS + 12.0;
         let shape = SketchShape::Arrow {
             from: (seat.right() + 1.0, level),
             to: (seat.right() + 24.0, level),

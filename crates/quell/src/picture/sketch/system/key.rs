@@ -6,7 +6,7 @@ use quell_model::system::{InputTarget, Structure};
 use quell_model::units::Quantity;
 use quell_model::{Contact, Input};
 
-use super::Drawing;
+use super::SystemDrawing;
 use super::bodies::{BodyKind, counted};
 use super::contacts::stiffness_symbol;
 use super::key_rows::{KeyRow, add_rows};
@@ -18,7 +18,7 @@ use crate::study::SystemUnits;
 const MOST_ROWS: usize = 12;
 
 /// Adds the key.
-pub(super) fn add(sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
+pub(super) fn add(sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
     let sheet = bodies(sheet, drawing);
     let sheet = links(sheet, drawing);
     let sheet = contacts(sheet, drawing);
@@ -30,7 +30,7 @@ pub(super) fn add(sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
     sheet
 }
 
-fn bodies(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
+fn bodies(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
     let structure = &drawing.study.system().structure;
     let force = structure.force();
     match structure {
@@ -85,7 +85,7 @@ fn bodies(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
     sheet
 }
 
-fn links(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
+fn links(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
     let between: Vec<_> = drawing.links.iter().filter_map(|link| Some((link, link.to?))).collect();
     let mut rows = Vec::new();
     for (link, to) in between.iter().take(MOST_ROWS) {
@@ -116,7 +116,7 @@ fn links(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
     sheet
 }
 
-fn contacts(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
+fn contacts(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
     let contacts = &drawing.study.system().contacts;
     let mut rows = Vec::new();
     for (place, contact) in contacts.iter().enumerate().take(MOST_ROWS) {
@@ -130,7 +130,7 @@ fn contacts(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
     sheet
 }
 
-fn contact_row(drawing: &Drawing<'_>, contact: &Contact, index: String) -> KeyRow {
+fn contact_row(drawing: &SystemDrawing<'_>, contact: &Contact, index: String) -> KeyRow {
     let units = drawing.study.units();
     let names = drawing.study.system().structure.names();
     let modal = drawing.bodies.iter().any(|body| body.kind == BodyKind::Modes);
@@ -165,7 +165,7 @@ fn contact_row(drawing: &Drawing<'_>, contact: &Contact, index: String) -> KeyRo
     KeyRow { head: contact.name.clone(), rows: rows.collect(), index, items }
 }
 
-fn inputs(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
+fn inputs(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
     let inputs = &drawing.study.system().inputs;
     for (place, input) in inputs.iter().enumerate().take(MOST_ROWS) {
         let symbol = indexed("u", &index(place, inputs.len()));
@@ -179,7 +179,7 @@ fn inputs(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
     sheet
 }
 
-fn input_row(drawing: &Drawing<'_>, input: &Input, symbol: &str) -> (String, Vec<String>) {
+fn input_row(drawing: &SystemDrawing<'_>, input: &Input, symbol: &str) -> (String, Vec<String>) {
     let system = drawing.study.system();
     let units = drawing.study.units();
     let modal = drawing.bodies.iter().any(|body| body.kind == BodyKind::Modes);

@@ -6,9 +6,9 @@
 use quell_model::system::{Mechanical, Structure};
 use quell_numerics::matrix::Matrix;
 
-use super::Drawing;
-use super::bodies::{Body, BodyKind, counted};
-use super::grid::{Row, Seat};
+use super::SystemDrawing;
+use super::bodies::{BodyKind, SketchBody, counted};
+use super::grid::{BodySeat, RowHeights};
 use super::symbols::{indexed, pair};
 use crate::plot::{LabelSide, LineStyle, Sketch, SketchInk, SketchPart, SketchShape};
 use crate::study::SystemStudy;
@@ -25,7 +25,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// A spring and a damper between a body and another one or the ground, or another coupling.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Link {
+pub(super) struct SketchLink {
     pub(super) from: usize,
     /// The other body; `None` for the ground.
     pub(super) to: Option<usize>,
@@ -35,7 +35,7 @@ pub(super) struct Link {
     pub(super) couplings: Vec<(&'static str, f64, f64)>,
 }
 
-impl Link {
+impl SketchLink {
     fn is_drawn(&self) -> bool {
         self.stiffness.is_some() || self.damping.is_some() || !self.couplings.is_empty()
     }
@@ -50,53 +50,53 @@ impl Link {
 }
 
 /// What two matrix entries are: a spring or damper, another coupling, or nothing.
-enum Pair {
+enum EntryPair {
     Element(f64),
     Coupling(f64, f64),
     Nothing,
 }
 
-fn judged(matrix: &Matrix, i: usize, j: usize) -> Pair {
+fn judged(matrix: &Matrix, i: usize, j: usize) -> EntryPair {
     let (one, other) = (matrix[(i, j)], matrix[(j, i)]);
     let size = (matrix[(i, i)].abs() + matrix[(j, j)].abs()) * ROUNDING;
     if one.abs() <= size && other.abs() <= size {
-        Pair::Nothing
+        EntryPair::Nothing
     } else if (one - other).abs() <= size.max(ROUNDING * one.abs()) && one < 0.0 {
-        Pair::Element(-one)
+        EntryPair::Element(-one)
     } else {
-        Pair::Coupling(one, other)
+        EntryPair::Coupling(one, other)
     }
 }
 
 /// The links of a study whose coordinates are drawn one by one; none otherwise.
-pub(super) fn of(study: &SystemStudy, bodies: &[Body]) -> Vec<Link> {
+pub(super) fn of(study: &SystemStudy, bodies: &[SketchBody]) -> Vec<SketchLink> {
     let Structure::Mechanical(mechanical) = &study.system().structure else { return Vec::new() };
     if bodies.iter().any(|body| body.kind != BodyKind::Mass) {
         return Vec::new();
     }
     let n = mechanical.size();
-    let mut links: Vec<Link> = (0..n).map(|place| ground(mechanical, place)).collect();
+    let mut links: Vec<SketchLink> = (0..n).map(|place| ground(mechanical, place)).collect();
     let mass = mechanical.mass().matrix();
     for i in 0..n {
         for j in i + 1..n {
             links.push(between(mechanical, &mass, i, j));
         }
     }
-    links.retain(Link::is_drawn);
+    links.retain(SketchLink::is_drawn);
     links
 }
 
-fn between(mechanical: &Mechanical, mass: &Matrix, i: usize, j: usize) -> Link {
-    let mut link = Link { from: i, to: Some(j), ..Link::default() };
+fn between(mechanical: &Mechanical, mass: &Matrix, i: usize, j: usize) -> SketchLink {
+    let mut link = SketchLink { from: i, to: Some(j), ..SketchLink::default() };
     match judged(mechanical.stiffness(), i, j) {
-        Pair::Element(stiffness) => link.stiffness = Some(stiffness),
-        Pair::Coupling(one, other) => link.couplings.push(("K", one, other)),
-        Pair::Nothing => {}
+        EntryPair::Element(stiffness) => link.stiffness = Some(stiffness),
+        EntryPair::Coupling(one, other) => link.couplings.push(("K", one, other)),
+        EntryPair::Nothing => {}
     }
     match judged(mechanical.damping(), i, j) {
-        Pair::Element(damping) => link.damping = Some(damping),
-        Pair::Coupling(one, other) => link.couplings.push(("C", one, other)),
-        Pair::Nothing => {}
+        EntryPair::Element(damping) => link.damping = Some(damping),
+        EntryPair::Coupling(one, other) => link.couplings.push(("C", one, other)),
+        EntryPair::Nothing => {}
     }
     if mass[(i, j)] != 0.0 {
         link.couplings.push(("M", mass[(i, j)], mass[(j, i)]));
@@ -105,18 +105,18 @@ fn between(mechanical: &Mechanical, mass: &Matrix, i: usize, j: usize) -> Link {
 }
 
 /// What is left of the diagonal when the springs and dampers to other coordinates are taken out.
-fn ground(mechanical: &Mechanical, place: usize) -> Link {
+fn ground(mechanical: &Mechanical, place: usize) -> SketchLink {
     let left = |matrix: &Matrix| {
         let others = (0..mechanical.size()).filter(|other| *other != place);
         let elements = others.map(|other| match judged(matrix, place, other) {
-            Pair::Element(value) => value,
-            Pair::Coupling(..) | Pair::Nothing => 0.0,
+            EntryPair::Element(value) => value,
+            EntryPair::Coupling(..) | EntryPair::Nothing => 0.0,
         });
         let total = matrix[(place, place)];
         let rest = total - elements.sum::<f64>();
         (rest.abs() > ROUNDING * total.abs()).then_some(rest)
     };
-    Link {
+    SketchLink {
         from: place,
         to: None,
         stiffness: left(mechanical.stiffness()),
@@ -126,8 +126,8 @@ fn ground(mechanical: &Mechanical, place: usize) -> Link {
 }
 
 /// Draws the links.
-pub(super) fn draw(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
-    let mut listed: Vec<(&Link, usize)> = Vec::new();
+pub(super) fn draw(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
+    let mut listed: Vec<(&SketchLink, usize)> = Vec::new();
     for link in &drawing.links {
         let Some(other) = link.to else {
             sheet = support(sheet, drawing, link);
@@ -148,7 +148,7 @@ pub(super) fn draw(mut sheet: Sketch, drawing: &Drawing<'_>) -> Sketch {
 }
 
 /// The name of a link and what it connects.
-fn named(drawing: &Drawing<'_>, link: &Link, noun: &str) -> String {
+fn named(drawing: &SystemDrawing<'_>, link: &SketchLink, noun: &str) -> String {
     let name = |place: usize| drawing.bodies[place].name.as_str();
     match link.to {
         Some(to) => format!("{noun} between {} and {}", name(link.from), name(to)),
@@ -157,9 +157,9 @@ fn named(drawing: &Drawing<'_>, link: &Link, noun: &str) -> String {
 }
 
 /// A spring and a damper above a body, on a support.
-fn support(mut sheet: Sketch, drawing: &Drawing<'_>, link: &Link) -> Sketch {
+fn support(mut sheet: Sketch, drawing: &SystemDrawing<'_>, link: &SketchLink) -> Sketch {
     let seat = drawing.grid.seat(link.from);
-    let top = seat.top - Row::SUPPORT;
+    let top = seat.top - RowHeights::SUPPORT;
     let (left, right) = (seat.left + 12.0, seat.left + 30.0);
     if link.stiffness.is_some() {
         let shape = SketchShape::Spring { from: (left, seat.top), to: (left, top) };
@@ -178,9 +178,9 @@ fn support(mut sheet: Sketch, drawing: &Drawing<'_>, link: &Link) -> Sketch {
 /// A link between two boxes next to each other.
 fn neighbours(
     mut sheet: Sketch,
-    drawing: &Drawing<'_>,
-    link: &Link,
-    (from, to): (Seat, Seat),
+    drawing: &SystemDrawing<'_>,
+    link: &SketchLink,
+    (from, to): (BodySeat, BodySeat),
 ) -> Sketch {
     let line = |level: f64| ((from.right(), level), (to.left, level));
     let both = link.stiffness.is_some() || !link.couplings.is_empty();
@@ -207,13 +207,13 @@ fn neighbours(
 }
 
 /// A dashed line for a coupling without spring.
-fn coupling(drawing: &Drawing<'_>, link: &Link, points: Vec<(f64, f64)>) -> SketchPart {
+fn coupling(drawing: &SystemDrawing<'_>, link: &SketchLink, points: Vec<(f64, f64)>) -> SketchPart {
     let shape = SketchShape::Line { points, style: LineStyle::Dashed };
     SketchPart::new("coupling", named(drawing, link, "coupling"), shape).ink(SketchInk::Guide)
 }
 
 /// Letters of the matrices of a coupling.
-fn letters(link: &Link) -> String {
+fn letters(link: &SketchLink) -> String {
     let letters: Vec<String> =
         link.couplings.iter().map(|(letter, ..)| format!("${letter}$")).collect();
     letters.join(", ")
@@ -222,9 +222,9 @@ fn letters(link: &Link) -> String {
 /// A link over the heads of the boxes between its ends.
 fn tracked(
     sheet: Sketch,
-    drawing: &Drawing<'_>,
-    link: &Link,
-    (from, to): (Seat, Seat),
+    drawing: &SystemDrawing<'_>,
+    link: &SketchLink,
+    (from, to): (BodySeat, BodySeat),
     (slot, level): (usize, f64),
 ) -> Sketch {
     let aside = 4.0 + 6.0 * slot as f64;
@@ -269,7 +269,7 @@ fn tracked(
 }
 
 /// The class of the part that represents a link by itself, and the letter of its symbol.
-fn main_part(link: &Link) -> (&'static str, String) {
+fn main_part(link: &SketchLink) -> (&'static str, String) {
     match (link.stiffness, link.damping) {
         (Some(_), _) => ("spring", link.symbol("k")),
         (None, Some(_)) => ("damper", link.symbol("c")),
@@ -287,7 +287,12 @@ fn element(class: &str, from: (f64, f64), to: (f64, f64)) -> SketchShape {
 }
 
 /// The two ends of a link between the end of a row and the beginning of the next, each with the name of the other body.
-fn stubs(mut sheet: Sketch, drawing: &Drawing<'_>, link: &Link, ends: (Seat, Seat)) -> Sketch {
+fn stubs(
+    mut sheet: Sketch,
+    drawing: &SystemDrawing<'_>,
+    link: &SketchLink,
+    ends: (BodySeat, BodySeat),
+) -> Sketch {
     let Some(to) = link.to else { return sheet };
     let (class, label) = main_part(link);
     let name = named(drawing, link, class);
@@ -304,7 +309,7 @@ fn stubs(mut sheet: Sketch, drawing: &Drawing<'_>, link: &Link, ends: (Seat, Sea
 }
 
 /// Links that no line between their boxes could show clearly: in rows below the boxes, each with the names of its ends.
-fn list(mut sheet: Sketch, drawing: &Drawing<'_>, links: &[(&Link, usize)]) -> Sketch {
+fn list(mut sheet: Sketch, drawing: &SystemDrawing<'_>, links: &[(&SketchLink, usize)]) -> Sketch {
     let room = sheet.room();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
     let columns = ((room / LISTED_WIDTH).floor() as usize).max(1);

@@ -16,19 +16,19 @@ use super::symbols;
 use crate::plot::Sketch;
 use crate::study::SystemStudy;
 
-use bodies::Body;
-use grid::Grid;
-use links::Link;
+use bodies::SketchBody;
+use grid::BodyGrid;
+use links::SketchLink;
 
 /// What is drawn of a system.
-struct Drawing<'a> {
+struct SystemDrawing<'a> {
     study: &'a SystemStudy,
-    bodies: Vec<Body>,
-    links: Vec<Link>,
-    grid: Grid,
+    bodies: Vec<SketchBody>,
+    links: Vec<SketchLink>,
+    grid: BodyGrid,
 }
 
-impl Drawing<'_> {
+impl SystemDrawing<'_> {
     /// The body that a coordinate or state belongs to.
     fn body_of(&self, coordinate: usize) -> Option<usize> {
         self.bodies.iter().position(|body| body.indices.contains(&coordinate))
@@ -54,8 +54,8 @@ impl Drawing<'_> {
 pub(super) fn draw(sheet: Sketch, study: &SystemStudy) -> Sketch {
     let bodies = bodies::of(study, sheet.room());
     let links = links::of(study, &bodies);
-    let grid = Grid::new(sheet.room(), study, &bodies, &links);
-    let drawing = Drawing { study, bodies, links, grid };
+    let grid = BodyGrid::new(sheet.room(), study, &bodies, &links);
+    let drawing = SystemDrawing { study, bodies, links, grid };
     let sheet = bodies::draw(sheet, &drawing);
     let sheet = links::draw(sheet, &drawing);
     let sheet = contacts::draw(sheet, &drawing);
