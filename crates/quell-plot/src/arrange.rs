@@ -8,7 +8,7 @@ use super::canvas::Rectangle;
 use super::colour_bar::ColourBar;
 use super::figure::{CaptionPlacement, Figure, Legend, Panel, SharedLegend, Sharing, Size};
 use super::font_sizes::FontSizes;
-use super::grid::Grid;
+use super::grid::{FrameGrid, columns_of};
 use super::layer::Layer;
 use super::layout::{FigureLayout, LABEL_GAP, LegendLayout, NUMBER_GAP, PanelLayout};
 use super::legend::{self, LegendEntry};
@@ -28,7 +28,7 @@ struct Margins {
 }
 
 /// Space that a figure needs around its frames, across and upright.
-pub(super) fn surroundings(
+fn surroundings(
     figure: &Figure,
     columns: usize,
     frame: (f64, f64),
@@ -48,7 +48,7 @@ pub(super) fn surroundings(
 
 /// Arranges a figure.
 pub(super) fn arrange(figure: &Figure) -> FigureLayout {
-    let Grid { columns, frame, sizes } = Grid::of(figure);
+    let FrameGrid { columns, frame, sizes } = FrameGrid::of(figure, surroundings);
     let rows = figure.panels.len().div_ceil(columns).max(1);
     let (mut panels, margins) = measure(figure, columns, frame, sizes);
 
@@ -127,7 +127,7 @@ fn outer(figure: &Figure, width: f64, body: (f64, f64), sizes: FontSizes) -> Out
     let shared = match figure.legend {
         SharedLegend::None => Vec::new(),
         SharedLegend::Above | SharedLegend::Below => {
-            let limits = axis_limits(figure, super::grid::columns_of(figure));
+            let limits = axis_limits(figure, columns_of(figure));
             legend::entries(figure.panels.iter().zip(limits))
         }
     };
@@ -160,7 +160,7 @@ fn measure(
 ) -> (Vec<PanelLayout>, Margins) {
     let count = figure.panels.len();
     let rows = count.div_ceil(columns).max(1);
-    let intended = super::grid::columns_of(figure);
+    let intended = columns_of(figure);
     let axis_limits = axis_limits(figure, intended);
     // Panels in fewer columns than intended have other neighbours, whose limits may differ.
     let shares = |sharing: Sharing| match sharing {

@@ -3,7 +3,7 @@
 use super::arrange::arrange;
 use super::axis::Mapping;
 use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
-use super::envelope::{self, Trace};
+use super::envelope::{self, CurveTrace};
 use super::figure::{CaptionPlacement, Figure, Panel};
 use super::font_sizes::FontSizes;
 use super::layer::{Layer, Polyline, ReferenceLine, Region, RegionShape};
@@ -133,8 +133,8 @@ fn draw_curve(canvas: &mut Canvas, line: &Polyline, pieces: &[Vec<(f64, f64)>]) 
     let mut strokes = Vec::new();
     for trace in pieces.iter().flat_map(|piece| envelope::traces(piece)) {
         match trace {
-            Trace::Line(points) => strokes.push(points),
-            Trace::Band { upper, lower } => {
+            CurveTrace::Line(points) => strokes.push(points),
+            CurveTrace::Band { upper, lower } => {
                 let outline: Vec<(f64, f64)> =
                     upper.iter().chain(lower.iter().rev()).copied().collect();
                 canvas.fill(&path(&[outline], true), stroke.colour, OPACITY);

@@ -13,7 +13,7 @@ const LEAST_COUNT: usize = 8;
 
 /// A part of a curve as it is drawn (pixels).
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Trace {
+pub(super) enum CurveTrace {
     /// A stroke.
     Line(Vec<(f64, f64)>),
     /// The band between two curves, both from left to right.
@@ -26,9 +26,9 @@ pub(super) enum Trace {
 }
 
 /// Splits a curve into strokes and bands. A curve that reverses in x is one stroke.
-pub(super) fn traces(points: &[(f64, f64)]) -> Vec<Trace> {
+pub(super) fn traces(points: &[(f64, f64)]) -> Vec<CurveTrace> {
     if points.windows(2).any(|pair| pair[1].0 < pair[0].0) {
-        return vec![Trace::Line(points.to_vec())];
+        return vec![CurveTrace::Line(points.to_vec())];
     }
     let extremes = extremes(points);
     let mut traces = Vec::new();
@@ -36,13 +36,13 @@ pub(super) fn traces(points: &[(f64, f64)]) -> Vec<Trace> {
     for (from, to) in dense_runs(points, &extremes) {
         let (first, last) = (extremes[from], extremes[to]);
         if first > drawn {
-            traces.push(Trace::Line(points[drawn..=first].to_vec()));
+            traces.push(CurveTrace::Line(points[drawn..=first].to_vec()));
         }
         traces.push(band(points, &extremes[from..=to]));
         drawn = last;
     }
     if drawn + 1 < points.len() || traces.is_empty() {
-        traces.push(Trace::Line(points[drawn..].to_vec()));
+        traces.push(CurveTrace::Line(points[drawn..].to_vec()));
     }
     traces
 }
@@ -103,7 +103,7 @@ fn dense_runs(points: &[(f64, f64)], extremes: &[usize]) -> Vec<(usize, usize)> 
 
 /// The band through these extremes. At each of them the band reaches to the outermost extreme within [`MERGING`]: what lies
 /// between neighbours that merge cannot be seen, and an edge that follows every swing would be a moiré again.
-fn band(points: &[(f64, f64)], extremes: &[usize]) -> Trace {
+fn band(points: &[(f64, f64)], extremes: &[usize]) -> CurveTrace {
     let found: Vec<(f64, f64)> = extremes.iter().map(|&index| points[index]).collect();
     let side = |outer: fn(f64, f64) -> f64| -> Vec<(f64, f64)> {
         let (mut from, mut to) = (0, 0);
@@ -119,7 +119,7 @@ fn band(points: &[(f64, f64)], extremes: &[usize]) -> Trace {
         found.iter().map(outermost).collect()
     };
     // Pixels grow downwards.
-    Trace::Band { upper: side(f64::min), lower: side(f64::max) }
+    CurveTrace::Band { upper: side(f64::min), lower: side(f64::max) }
 }
 
 #[cfg(test)]
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn a_slow_oscillation_is_a_stroke() {
         let points = wave(9.0, 50.0);
-        assert_eq!(traces(&points), [Trace::Line(points.clone())]);
+        assert_eq!(traces(&points), [CurveTrace::Line(points.clone())]);
     }
 
     #[test]
@@ -147,8 +147,8 @@ mod tests {
         let bands: Vec<_> = traces(&points)
             .into_iter()
             .filter_map(|trace| match trace {
-                Trace::Band { upper, lower } => Some((upper, lower)),
-                Trace::Line(_) => None,
+                CurveTrace::Band { upper, lower } => Some((upper, lower)),
+                CurveTrace::Line(_) => None,
             })
             .collect();
         let [(upper, lower)] = bands.as_slice() else { panic!("{} bands", bands.len()) };
@@ -168,7 +168,7 @@ mod tests {
             })
             .collect();
         for trace in traces(&points) {
-            if let Trace::Band { upper, lower } = trace {
+            if let CurveTrace::Band { upper, lower } = trace {
                 let off = |side: &[(f64, f64)], offset: f64| {
                     // The first and the last swing are not complete.
                     side[2..side.len() - 2]
@@ -191,9 +191,9 @@ mod tests {
         points.extend(wave(30.0, 40.0).into_iter().map(|(x, y)| (x + 2.0 * shift, y)));
         let found = traces(&points);
         assert_eq!(found.len(), 3);
-        let ends = |trace: &Trace| match trace {
-            Trace::Line(points) => (points[0].0, points[points.len() - 1].0),
-            Trace::Band { upper, .. } => (upper[0].0, upper[upper.len() - 1].0),
+        let ends = |trace: &CurveTrace| match trace {
+            CurveTrace::Line(points) => (points[0].0, points[points.len() - 1].0),
+            CurveTrace::Band { upper, .. } => (upper[0].0, upper[upper.len() - 1].0),
         };
         for pair in found.windows(2) {
             assert_eq!(ends(&pair[0]).1, ends(&pair[1]).0);

@@ -1,6 +1,5 @@
 //! The grid of a figure: how many columns it has, how large its frames are, and the font sizes that suit them.
 
-use super::arrange::surroundings;
 use super::figure::{Figure, Size};
 use super::font_sizes::FontSizes;
 
@@ -13,9 +12,12 @@ const COMFORTABLE: f64 = 130.0;
 /// Height of a page of a journal (pixels, 230 mm).
 const PAGE: f64 = 870.0;
 
+/// Space that a figure needs around its frames, across and upright (pixels), for a number of columns, a frame and its sizes.
+pub(super) type FrameSurroundings = fn(&Figure, usize, (f64, f64), FontSizes) -> (f64, f64);
+
 /// Columns, frames and font sizes of a figure.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Grid {
+pub(super) struct FrameGrid {
     pub(super) columns: usize,
     /// Width and height of every frame (pixels).
     pub(super) frame: (f64, f64),
@@ -27,8 +29,8 @@ pub(super) fn columns_of(figure: &Figure) -> usize {
     figure.columns.max(1).min(figure.panels.len().max(1))
 }
 
-impl Grid {
-    pub(super) fn of(figure: &Figure) -> Self {
+impl FrameGrid {
+    pub(super) fn of(figure: &Figure, around: FrameSurroundings) -> Self {
         let columns = columns_of(figure);
         let usual = usual_frame(columns);
         let of_frame =
@@ -38,13 +40,18 @@ impl Grid {
             Size::Frame(width, height) => {
                 of_frame((sensible(width, usual.0), sensible(height, usual.1)))
             }
-            Size::Whole(width, height) => Self::whole(figure, columns, (width, height)),
-            Size::Wide(width) => Self::wide(figure, columns, width),
+            Size::Whole(width, height) => Self::whole(figure, columns, (width, height), around),
+            Size::Wide(width) => Self::wide(figure, columns, width, around),
         }
     }
 
     /// A grid that fills a figure of this width and height.
-    fn whole(figure: &Figure, columns: usize, (width, height): (f64, f64)) -> Self {
+    fn whole(
+        figure: &Figure,
+        columns: usize,
+        (width, height): (f64, f64),
+        around: FrameSurroundings,
+    ) -> Self {
         let rows = figure.panels.len().div_ceil(columns).max(1) as f64;
         let usual = usual_frame(columns);
         let mut frame = (
@@ -54,7 +61,7 @@ impl Grid {
         let sizes = FontSizes::for_frame(frame.0);
         // Margins depend on the tick labels and these on the frame size: three iterations converge.
         for _ in 0..3 {
-            let (across, upright) = surroundings(figure, columns, frame, sizes);
+            let (across, upright) = around(figure, columns, frame, sizes);
             frame = (
                 sensible((width - across) / columns as f64, usual.0),
                 sensible((height - upright) / rows, usual.1),
@@ -65,32 +72,39 @@ impl Grid {
 
     /// The grid with most columns whose frames are comfortable; if it does not fit on a page, the one with the fewest columns
     /// that does, or else the lowest one.
-    fn wide(figure: &Figure, columns: usize, width: f64) -> Self {
+    fn wide(figure: &Figure, columns: usize, width: f64, around: FrameSurroundings) -> Self {
         let candidates: Vec<(Self, f64)> = (1..=columns)
-            .map(|columns| Self::of_width(figure, columns, width))
+            .map(|columns| Self::of_width(figure, columns, width, around))
             .filter(|(grid, _)| grid.columns == 1 || grid.frame.0 > LEAST_FRAME)
             .collect();
         let comfortable = candidates.iter().rposition(|(grid, _)| grid.frame.0 >= COMFORTABLE);
         let first = comfortable.unwrap_or(0);
         let fitting = candidates[first..].iter().find(|(_, height)| *height <= PAGE);
         let lowest = || candidates.iter().min_by(|one, other| one.1.total_cmp(&other.1));
-        fitting.or_else(lowest).map_or(Self::of_width(figure, 1, width).0, |(grid, _)| *grid)
+        fitting
+            .or_else(lowest)
+            .map_or(Self::of_width(figure, 1, width, around).0, |(grid, _)| *grid)
     }
 
     /// A grid of a figure of this width, and the height of the figure.
-    fn of_width(figure: &Figure, columns: usize, width: f64) -> (Self, f64) {
+    fn of_width(
+        figure: &Figure,
+        columns: usize,
+        width: f64,
+        around: FrameSurroundings,
+    ) -> (Self, f64) {
         let usual = usual_frame(columns);
         let mut frame = (sensible(0.85 * width / columns as f64, usual.0), usual.1);
         let sizes = FontSizes::for_frame(frame.0);
-        let mut around = 0.0;
+        let mut height = 0.0;
         for _ in 0..3 {
-            let (across, upright) = surroundings(figure, columns, frame, sizes);
+            let (across, upright) = around(figure, columns, frame, sizes);
             frame.0 = sensible((width - across) / columns as f64, usual.0);
             frame.1 = frame.0 * usual.1 / usual.0;
-            around = upright;
+            height = upright;
         }
         let rows = figure.panels.len().div_ceil(columns).max(1);
-        (Self { columns, frame, sizes }, around + frame.1 * rows as f64)
+        (Self { columns, frame, sizes }, height + frame.1 * rows as f64)
     }
 }
 

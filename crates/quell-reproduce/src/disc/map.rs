@@ -4,22 +4,16 @@
 //! hatching where its sign is undetermined within its error. The speeds are those of the study's axis and additional ones near
 //! every meeting of waves.
 
-use quell_disc::dithered;
-use quell_disc::equations::linearised;
 use quell_disc::resonance::{Order, Resonance, Waves};
-use quell_linear::eigenvalues;
-use quell_linear::floquet::FollowerDither;
-use quell_linear::growth::{Growth, Verdict};
-use quell_linear::linearised::Linearised;
+use quell_linear::growth::Verdict;
 use quell_model::Disc;
-use quell_model::disc::{Contributions, DiscDither};
-use quell_numerics::floquet::Effort;
-use rayon::prelude::*;
+use quell_model::disc::DiscDither;
 
 use super::super::caption::letter;
 use super::super::failure::failed;
 use super::super::product::{DataTable, Product};
 use super::super::source::EntrySource;
+use super::growth::{Growths, growths};
 use super::zero_lines::{speeds_of_tongues, zero_lines};
 use super::{FRICTION_PER_PRINTED, OPEN, STRENGTH_PER_PRINTED, study};
 use quell::cite::Task;
@@ -35,61 +29,6 @@ const LINEAR: f64 = 1e-5;
 const LOW_FRICTIONS: [f64; 4] = [0.002, 0.03, 0.15, 0.5];
 /// Number of frictions at which the edges of predicted tongues are evaluated.
 const EDGES: usize = 80;
-
-/// Growth over the axes of a study.
-pub(crate) struct Growths {
-    /// Speeds Ω.
-    pub(crate) speeds: Vec<f64>,
-    /// Frictions f*.
-    pub(crate) frictions: Vec<f64>,
-    /// Growth rates, ordered by speed, then friction.
-    pub(crate) values: Vec<Growth>,
-}
-
-/// Growth of a disc at one speed, for any friction.
-pub(super) enum DiscGrowth {
-    Dithered(FollowerDither),
-    Undithered(Linearised),
-}
-
-impl DiscGrowth {
-    /// The disc at this speed; `name` is that of the figure, for failures.
-    pub(super) fn at(name: &str, disc: &Disc, speed: f64) -> Result<Self, Failure> {
-        let unit = disc.at_speed(speed).and_then(|disc| disc.with("disc.load.friction", 1.0));
-        let unit = unit.map_err(|_| failed(name, &"a disc of the map is not valid"))?;
-        if let Some(dithered) = dithered::prepared(&unit).map_err(|why| failed(name, &why))? {
-            return Ok(Self::Dithered(dithered));
-        }
-        let linear = linearised(&unit, Contributions::ALL).map_err(|why| failed(name, &why))?;
-        Ok(Self::Undithered(linear))
-    }
-
-    /// The growth at a friction f*.
-    pub(super) fn growth(&self, name: &str, friction: f64) -> Result<Growth, Failure> {
-        match self {
-            Self::Dithered(disc) => disc.growth(friction, Effort::default()),
-            Self::Undithered(disc) => eigenvalues::growth(disc, &[friction]),
-        }
-        .map_err(|why| failed(name, &why))
-    }
-}
-
-/// Growth of a disc over speeds and frictions, in parallel over the speeds.
-pub(crate) fn growths(
-    name: &str,
-    disc: &Disc,
-    speeds: Vec<f64>,
-    frictions: Vec<f64>,
-) -> Result<Growths, Failure> {
-    let rows: Result<Vec<Vec<Growth>>, Failure> = speeds
-        .par_iter()
-        .map(|&speed| {
-            let disc = DiscGrowth::at(name, disc, speed)?;
-            frictions.iter().map(|&friction| disc.growth(name, friction)).collect()
-        })
-        .collect();
-    Ok(Growths { values: rows?.concat(), speeds, frictions })
-}
 
 /// Speeds of the resonances of undithered waves, and those that dither induces.
 fn marks(disc: &Disc, speeds: &[f64]) -> Vec<(String, f64)> {

@@ -5,6 +5,7 @@
 //! consistent value (f* = 4244 × printed), fit the statements of the text. These values were fitted, not read; every caption says
 //! so.
 
+mod growth;
 pub(super) mod map;
 mod modes;
 mod responses;

@@ -14,7 +14,7 @@ use quell_model::Disc;
 use quell_numerics::roots::{Closeness, try_find_root};
 use rayon::prelude::*;
 
-use super::map::{DiscGrowth, Growths};
+use super::growth::{DiscGrowth, Growths};
 
 /// Ratio of the frictions at which an interval of growth is followed.
 const FRICTION_RATIO: f64 = 0.65;
@@ -182,7 +182,8 @@ mod tests {
         let ends = (frictions[0], frictions[5]);
         let grid = (1..40).map(|k| 0.025 * f64::from(k)).collect();
         let speeds = speeds_of_tongues("5.9", disc, grid, ends).expect("speeds");
-        let growths = super::super::map::growths("5.9", disc, speeds, frictions).expect("growth");
+        let growths =
+            super::super::growth::growths("5.9", disc, speeds, frictions).expect("growth");
         let lines = zero_lines("5.9", &growths, disc).expect("lines");
         assert!(!lines.is_empty());
         // Without modal damping the tongues begin at zero friction.
