@@ -59,7 +59,7 @@ pub struct Shading {
     /// Another colour for numbers below this one.
     pub below: Option<(f64, Tint)>,
     /// Words in the legend for negative and for positive numbers of a palette whose middle is zero.
-    pub signs: Option<(String, String)>,
+    pub signs: Option<Box<(String, String)>>,
 }
 
 impl Shading {
@@ -86,17 +86,16 @@ impl Shading {
     /// Sets the words in the legend for negative and for positive numbers.
     #[must_use]
     pub fn signs(mut self, negative: impl Into<String>, positive: impl Into<String>) -> Self {
-        self.signs = Some((negative.into(), positive.into()));
+        self.signs = Some(Box::new((negative.into(), positive.into())));
         self
     }
 
     /// The words for negative and for positive numbers, each with a typical colour.
     pub(super) fn sign_keys(&self) -> [Option<(&str, Colour)>; 2] {
-        let Some((negative, positive)) =
-            self.signs.as_ref().filter(|_| self.palette.is_two_sided())
-        else {
+        let Some(words) = self.signs.as_deref().filter(|_| self.palette.is_two_sided()) else {
             return [None, None];
         };
+        let (negative, positive) = words;
         let shades = self.palette.shades(SHADES);
         [
             Some((negative.as_str(), shades[SHADES / 5])),

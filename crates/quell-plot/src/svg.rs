@@ -87,7 +87,7 @@ impl Document {
 
     /// Sets the description, which a screen reader reads; empty for none.
     pub(super) fn describe(&mut self, text: &str) {
-        self.description = text.to_owned();
+        text.clone_into(&mut self.description);
     }
 
     /// Adds an element to the definitions.
