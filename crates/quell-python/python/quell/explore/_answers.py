@@ -20,6 +20,9 @@ SLOW_PERIODS = 20
 FAST_PERIODS = 600
 """Most dither periods in a trajectory, which is shorter if the dither is fast."""
 
+PER_PERIOD = 28.0
+"""Samples of a trajectory for each dither period."""
+
 MOST_SAMPLES = 8000
 
 LONGEST_SMALL = 150
@@ -99,8 +102,8 @@ def moments(study: Study) -> Array:
     end = SLOW_PERIODS * slow
     if fast:
         end = max(min(end, FAST_PERIODS * fast), 3.0 * slow)
-    per_period = 16.0 * (end / fast if fast else end / slow * 4.0)
-    return np.linspace(0.0, end, int(np.clip(per_period, 1500, MOST_SAMPLES)))
+    wanted = PER_PERIOD * (end / fast if fast else end / slow * 4.0)
+    return np.linspace(0.0, end, int(np.clip(wanted, 1500, MOST_SAMPLES)))
 
 
 def pairs_of(run: Simulation, kind: str) -> list[tuple[str, str]]:

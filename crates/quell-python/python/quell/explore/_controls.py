@@ -18,6 +18,9 @@ from ._style import FONT, SIDE, TEXT
 MOST_OPEN = 12
 """Largest number of sliders of a group that is open at first."""
 
+GATHERED = 10
+"""Time in milliseconds over which the moves of a slider are gathered."""
+
 CLOSED = ("mass", "damping", "stiffness", "tangent", "normal", "slope", "at", "matrix", "force", "solver", "shape", "observe")
 """Groups that are closed at first: elements of matrices and rows, and settings of the solver."""
 
@@ -37,6 +40,9 @@ class Slider:
         self.slider = pn.widgets.DiscreteSlider(
             options=one.grid(), value=one.value, width=SIDE - 20, margin=(0, 4, 0, 4), show_value=False, css_classes=[name]
         )
+        for inner in self.slider.select():
+            # Panel gathers the moves of a slider over 50 ms; the lanes of the explorer drop old requests anyway.
+            inner._debounce = GATHERED
         self._ends = pn.pane.HTML("", width=SIDE - 20, margin=(0, 4, 8, 4))
         self._describe()
         self.slider.param.watch(self._moved, "value")
