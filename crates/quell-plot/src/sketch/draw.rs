@@ -1,16 +1,13 @@
 //! Renders a sketch as SVG.
 
+use super::labels::{PlacedSketch, place};
+use super::part::{SketchKey, SketchPart};
+use super::sheet::{MARGIN, Sketch, TEXT};
 use crate::canvas::{Canvas, Stroke, TextStyle, path};
 use crate::palette::{Colour, FAINT, LineStyle};
-use crate::sketch::labels::{PlacedSketch, place};
-use crate::sketch::{Sketch, SketchKey, SketchPart};
 use crate::svg::{Escaped, TextAnchor};
 use crate::typeset::{RichText, wrap};
 
-/// Size of all texts (pixels); 7.5 points at scale 1.
-pub(super) const TEXT: u32 = 10;
-/// Distance of the drawing from the upper edge.
-pub(super) const MARGIN: f64 = 6.0;
 /// Pitch of the lines of the key.
 const PITCH: f64 = 13.5;
 /// Indent of all lines of an entry but its first.
@@ -124,7 +121,8 @@ fn unbroken(item: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sketch::{LabelSide, SketchShape};
+    use crate::sketch::part::LabelSide;
+    use crate::sketch::shape::SketchShape;
 
     fn sketch(width_mm: f64) -> Sketch {
         let block = SketchShape::Block { corner: (0.0, 0.0), size: (60.0, 30.0) };

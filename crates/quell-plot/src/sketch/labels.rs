@@ -1,10 +1,11 @@
 //! Positions of the labels of a sketch: each at the first free side of its part.
 
+use super::outline::bounds;
+use super::part::{LabelSide, SketchPart};
+use super::shape::SketchShape;
+use super::sheet::{MARGIN, Sketch, TEXT};
 use crate::canvas::Rectangle;
 use crate::obstacles::Obstacles;
-use crate::sketch::draw::{MARGIN, TEXT};
-use crate::sketch::shape::bounds;
-use crate::sketch::{LabelSide, Sketch, SketchPart};
 use crate::typeset::RichText;
 
 /// Distance of a label from its part.
@@ -31,7 +32,7 @@ pub(super) struct PlacedSketch {
 /// Centres the parts of a sketch and places the labels.
 pub(super) fn place(sketch: &Sketch) -> PlacedSketch {
     let room = sketch.room();
-    let areas = sketch.parts.iter().flat_map(|part| &part.shapes).map(super::SketchShape::area);
+    let areas = sketch.parts.iter().flat_map(|part| &part.shapes).map(SketchShape::area);
     let ends: Vec<(f64, f64)> =
         areas.flat_map(|area| [(area.left, area.top), (area.right, area.bottom)]).collect();
     let whole = bounds(ends.iter());
@@ -205,7 +206,9 @@ fn overlap(one: &Rectangle, other: &Rectangle) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::sketch::{LabelSide, Sketch, SketchPart, SketchShape};
+    use crate::sketch::part::{LabelSide, SketchPart};
+    use crate::sketch::shape::SketchShape;
+    use crate::sketch::sheet::Sketch;
 
     fn spot(x: f64, text: &str) -> SketchPart {
         let sides = [LabelSide::Above, LabelSide::Below];

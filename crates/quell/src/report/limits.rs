@@ -1,37 +1,14 @@
 //! What a report did not examine, as facts of its study.
 
 use quell_model::units::Quantity;
-use serde_json::{Value as Json, json};
 
-use super::ReportedAnswer;
-use crate::complaint::Failure;
+use super::parts::{ReportedAnswer, Unexamined};
 use crate::study::disc::ModeSource;
 use crate::study::{BeltStudy, DiscStudy, Kind, Study, SystemStudy};
 use crate::words::{digits, in_words, plural, start_in_words};
 
 /// The most names that are written of a list.
 const MOST_NAMES: usize = 12;
-
-/// Something that was not examined, and the fact behind it.
-pub(super) struct Unexamined {
-    pub(super) subject: String,
-    pub(super) fact: String,
-}
-
-impl Unexamined {
-    pub(super) fn new(subject: &str, fact: impl Into<String>) -> Self {
-        Self { subject: subject.to_owned(), fact: fact.into() }
-    }
-
-    /// A verb that refused or failed.
-    pub(super) fn refused(heading: &str, verb: &str, why: &Failure) -> Self {
-        Self::new(heading, format!("`{verb}` gave no answer: {why}"))
-    }
-
-    pub(super) fn json(&self) -> Json {
-        json!({ "subject": self.subject, "fact": self.fact })
-    }
-}
 
 /// What no verb of the report examines.
 pub(super) fn of(study: &Study, answers: &[ReportedAnswer]) -> Vec<Unexamined> {

@@ -18,19 +18,20 @@
 mod facts;
 mod limits;
 mod page;
+mod parts;
 mod plan;
 
 use serde_json::{Value as Json, json};
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::kind::verbs;
-use crate::outcome::Outcome;
 use crate::output::Output;
-use crate::plot::Sketch;
 use crate::run::sketch;
 use crate::study::{Kind, Study};
 
-use limits::Unexamined;
+pub use parts::StudyReport;
+
+use parts::{ReportedAnswer, Unexamined};
 use plan::planned;
 
 /// File name extensions of a report.
@@ -44,29 +45,6 @@ const SKETCH_WIDTH_MM: f64 = 150.0;
 pub struct ReportRequest {
     /// Verbs that are left out, such as `thresholds` where they take long.
     pub without: Vec<String>,
-}
-
-/// The answer of a verb in a report.
-struct ReportedAnswer {
-    verb: &'static str,
-    /// What is asked, in a few words.
-    heading: &'static str,
-    /// Start of the runs, or the motion about which the verb linearises.
-    start: String,
-    /// What was chosen for the report, such as the window of thresholds.
-    chosen: Option<String>,
-    outcome: Box<dyn Outcome>,
-    facts: Json,
-}
-
-/// A report about a study.
-pub struct StudyReport {
-    study: Study,
-    question: String,
-    sketch: Sketch,
-    check: Box<dyn Outcome>,
-    answers: Vec<ReportedAnswer>,
-    unexamined: Vec<Unexamined>,
 }
 
 /// Runs the verbs of a report.

@@ -9,7 +9,7 @@ use crate::plot;
 use crate::words::{capital, digits};
 
 use super::facts::{self, FactRow};
-use super::{ReportedAnswer, StudyReport};
+use super::parts::{ReportedAnswer, StudyReport};
 
 /// The style sheet, with rules for paper.
 const STYLE: &str = include_str!("report.css");

@@ -3,8 +3,7 @@
 use quell_model::Direction;
 use quell_model::units::Quantity;
 
-use super::glyph;
-use super::symbols::{index, indexed, item, number};
+use super::symbols::{glyph, index, indexed, item, number};
 use crate::picture::ruler::words;
 use crate::plot::{LabelSide, Sketch, SketchInk, SketchKey, SketchPart, SketchShape};
 use crate::study::BeltStudy;

@@ -3,8 +3,7 @@
 use quell_model::Disc;
 use quell_model::disc::{DiscDither, Load};
 
-use super::glyph;
-use super::symbols::indexed;
+use super::symbols::{glyph, indexed};
 use crate::plot::{LabelSide, Sketch, SketchInk, SketchPart, SketchShape};
 
 use LabelSide::{Above, Below, Inside, Left, Right};

@@ -6,12 +6,10 @@ mod disc_load;
 mod symbols;
 mod system;
 
-use quell_model::Waveform;
-
 use super::PictureWidth;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::output::Output;
-use crate::plot::{Sketch, WaveGlyph};
+use crate::plot::Sketch;
 use crate::study::{Kind, Study};
 
 /// Width of a sketch where none is requested (mm).
@@ -61,13 +59,4 @@ pub fn write(sketch: &Sketch, output: Output) -> Result<String, Failure> {
         _ => sketch.to_svg().into_bytes(),
     };
     output.write(&bytes).map(|path| path.display().to_string())
-}
-
-/// The symbol of a waveform.
-fn glyph(waveform: Waveform) -> WaveGlyph {
-    match waveform {
-        Waveform::Sine => WaveGlyph::Sine,
-        Waveform::Triangle => WaveGlyph::Triangle,
-        Waveform::Square => WaveGlyph::Square,
-    }
 }

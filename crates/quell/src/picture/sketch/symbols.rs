@@ -1,9 +1,21 @@
 //! Symbols with numbers, and their values, as texts of a sketch.
 
+use quell_model::Waveform;
 use quell_model::digits::digits;
+
+use crate::plot::WaveGlyph;
 
 /// Significant digits of a value in a key.
 const DIGITS: usize = 4;
+
+/// The symbol of a waveform.
+pub(super) fn glyph(waveform: Waveform) -> WaveGlyph {
+    match waveform {
+        Waveform::Sine => WaveGlyph::Sine,
+        Waveform::Triangle => WaveGlyph::Triangle,
+        Waveform::Square => WaveGlyph::Square,
+    }
+}
 
 /// A value with four significant digits and a minus sign.
 pub(super) fn number(value: f64) -> String {

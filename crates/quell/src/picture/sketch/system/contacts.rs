@@ -2,75 +2,17 @@
 
 use quell_model::Contact;
 
-use super::SystemDrawing;
-use super::bodies::{BodyKind, SketchBody, counted};
+use super::body::{BodyKind, SketchBody, counted};
+use super::contact_place::{PAD, ROD, SPRING, home, is_compliant};
+use super::drawing::SystemDrawing;
 use super::grid::BodySeat;
-use super::symbols::{index, indexed};
+use crate::picture::sketch::symbols::{index, indexed};
 use crate::plot::{LabelSide, LineStyle, Sketch, SketchInk, SketchPart, SketchShape};
-use crate::study::SystemStudy;
 
 use LabelSide::{Above, Below, Left, Right};
 
 /// The most contacts that are drawn below one body; more are drawn as one with their count.
 const MOST_CONTACTS: usize = 1;
-/// Length of the rod or the spring of a contact.
-const ROD: f64 = 10.0;
-const SPRING: f64 = 30.0;
-/// Height of the pad.
-const PAD: f64 = 6.0;
-/// Height of a note that a contact elsewhere acts on a body.
-const NOTE: f64 = 20.0;
-/// Height below the surface for the load and the velocity.
-const BELOW: f64 = 36.0;
-
-/// The row that determines where a contact is drawn: its tangent, or what friction acts on, or its normal.
-fn main_row(contact: &Contact) -> &[f64] {
-    let rows = [&contact.force, &contact.tangent, &contact.normal, &contact.slope];
-    rows.into_iter().flatten().next().map_or(&[], Vec::as_slice)
-}
-
-/// The body of a contact among some bodies: the one with the largest entry of its row.
-fn home(contact: &Contact, bodies: &[SketchBody]) -> Option<usize> {
-    let row = main_row(contact);
-    let entries = row.iter().enumerate().filter(|(_, factor)| **factor != 0.0);
-    let largest =
-        entries.reduce(|best, next| if next.1.abs() > best.1.abs() { next } else { best })?;
-    bodies.iter().position(|body| body.indices.contains(&largest.0))
-}
-
-fn is_compliant(contact: &Contact) -> bool {
-    contact.normal.is_some() && contact.normal_stiffness != 0.0
-}
-
-/// Height of the contacts below a row of bodies.
-pub(super) fn depth(
-    study: &SystemStudy,
-    bodies: &[SketchBody],
-    members: std::ops::Range<usize>,
-) -> f64 {
-    let here: Vec<&Contact> = study
-        .system()
-        .contacts
-        .iter()
-        .filter(|contact| home(contact, bodies).is_some_and(|body| members.contains(&body)))
-        .collect();
-    if here.is_empty() {
-        let acts = |contact: &Contact| {
-            let rows = [&contact.tangent, &contact.normal, &contact.slope, &contact.force];
-            let touched =
-                |place: usize| rows.iter().copied().flatten().any(|row| row[place] != 0.0);
-            bodies[members.clone()]
-                .iter()
-                .flat_map(|body| &body.indices)
-                .any(|&place| touched(place))
-        };
-        // Notes that name the contacts of other rows.
-        return if study.system().contacts.iter().any(acts) { NOTE } else { 0.0 };
-    }
-    let rod = if here.iter().any(|contact| is_compliant(contact)) { SPRING } else { ROD };
-    rod + PAD + BELOW
-}
-
 /// The contacts of each body.
 pub(super) fn by_body<'a>(drawing: &SystemDrawing<'a>) -> Vec<(usize, Vec<(usize, &'a Contact)>)> {
     let mut groups: Vec<(usize, Vec<(usize, &Contact)>)> = Vec::new();

@@ -2,13 +2,12 @@
 
 use quell_model::system::InputTarget;
 
-use super::bodies::{BodyKind, SketchBody};
-use super::contacts;
-use super::links::SketchLink;
+use super::body::{BodyKind, SketchBody};
+use super::contact_place;
+use super::link::SketchLink;
+use super::widths::{GAP, state_width};
 use crate::study::SystemStudy;
 
-/// Room between two boxes, for springs, forces and ends of links.
-const GAP: f64 = 39.0;
 /// Height of a box without forces.
 const HEIGHT: f64 = 38.0;
 /// Height of one force below the springs.
@@ -21,11 +20,6 @@ const BETWEEN: f64 = 12.0;
 const RESONATORS: f64 = 32.0;
 /// The most tracks above a row.
 const MOST_TRACKS: usize = 3;
-
-/// Width of the box of a state.
-pub(super) fn state_width(room: f64) -> f64 {
-    (room - 2.0 * GAP - 6.0).min(300.0)
-}
 
 /// The box of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,7 +108,7 @@ impl BodyGrid {
                 let left = (width + GAP) * column as f64;
                 grid.seats.push(BodySeat { row, column, left, top, width, height });
             }
-            let depth = contacts::depth(study, bodies, members);
+            let depth = contact_place::depth(study, bodies, members);
             bottom = top + height + depth + BETWEEN;
         }
         grid.bottom = bottom;

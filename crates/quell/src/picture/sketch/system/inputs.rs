@@ -3,12 +3,11 @@
 use quell_model::Waveform;
 use quell_model::system::InputTarget;
 
-use super::SystemDrawing;
-use super::bodies::BodyKind;
+use super::body::BodyKind;
 use super::contacts;
+use super::drawing::SystemDrawing;
 use super::grid::RowHeights;
-use super::symbols::{index, indexed};
-use crate::picture::sketch::glyph;
+use crate::picture::sketch::symbols::{glyph, index, indexed};
 use crate::plot::{LabelSide, Sketch, SketchInk, SketchPart, SketchShape};
 
 use LabelSide::{Above, Below, Left, Right};

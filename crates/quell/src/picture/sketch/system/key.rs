@@ -6,11 +6,11 @@ use quell_model::system::{InputTarget, Structure};
 use quell_model::units::Quantity;
 use quell_model::{Contact, Input};
 
-use super::SystemDrawing;
-use super::bodies::{BodyKind, counted};
+use super::body::{BodyKind, counted};
 use super::contacts::stiffness_symbol;
+use super::drawing::SystemDrawing;
 use super::key_rows::{KeyRow, add_rows};
-use super::symbols::{combination, index, indexed, item, number};
+use crate::picture::sketch::symbols::{combination, index, indexed, item, number};
 use crate::plot::{Sketch, SketchKey};
 use crate::study::SystemUnits;
 
@@ -94,8 +94,10 @@ fn links(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
         items.extend(link.stiffness.map(|value| item(&link.symbol("k"), value, None)));
         items.extend(link.damping.map(|value| item(&link.symbol("c"), value, None)));
         for (letter, one, other) in &link.couplings {
-            let (there, back) =
-                (super::symbols::pair(link.from, *to), super::symbols::pair(*to, link.from));
+            let (there, back) = (
+                crate::picture::sketch::symbols::pair(link.from, *to),
+                crate::picture::sketch::symbols::pair(*to, link.from),
+            );
             let (there, back) = (indexed(letter, &there), indexed(letter, &back));
             if one == other {
                 items.push(format!("coupling {there} = {back} = {}", number(*one)));
@@ -105,7 +107,7 @@ fn links(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
             }
         }
         let head = format!("{} – {}", name(link.from), name(*to));
-        let index = super::symbols::pair(link.from, *to);
+        let index = crate::picture::sketch::symbols::pair(link.from, *to);
         rows.push(KeyRow { head, index, items, rows: Vec::new() });
     }
     sheet = add_rows(sheet, &rows, "");
