@@ -118,7 +118,7 @@ fn texts_are_inside_the_page() {
             let mut count = 0;
             each_text(tree.root(), &mut |text| {
                 let area = text.abs_bounding_box();
-                let words: String = text.chunks().iter().map(|chunk| chunk.text()).collect();
+                let words: String = text.chunks().iter().map(usvg::TextChunk::text).collect();
                 let inside = area.left() >= -0.5
                     && area.right() <= size.width() + 0.5
                     && area.top() >= -0.5

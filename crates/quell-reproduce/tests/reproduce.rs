@@ -193,15 +193,15 @@ fn paper_quotes(claims: &[Claim], summary: &str) {
     let path = root.join("docs/paper/paper.md");
     let paper = std::fs::read_to_string(&path).expect("the paper");
     let readme = std::fs::read_to_string(root.join("README.md")).expect("the README");
-    let comparison: String = readme
+    let comparison: Vec<&str> = readme
         .split("## Comparison with other tools")
         .nth(1)
         .expect("the comparison")
         .lines()
         .skip_while(|line| !line.starts_with('|'))
         .take_while(|line| line.starts_with('|'))
-        .map(|line| format!("{line}\n"))
         .collect();
+    let comparison = comparison.join("\n") + "\n";
     let table = |names: &str| -> String {
         let rows = names.split(',').map(|name| {
             let name = name.trim();

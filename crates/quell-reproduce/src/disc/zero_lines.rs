@@ -125,10 +125,7 @@ fn growing(
     };
     let rates: Result<Vec<Option<f64>>, Failure> = speeds
         .par_iter()
-        .map(|&speed| match is_near(speed) {
-            true => Ok(Some(rate(source, disc, speed, friction)?)),
-            false => Ok(None),
-        })
+        .map(|&speed| is_near(speed).then(|| rate(source, disc, speed, friction)).transpose())
         .collect();
     let rates = rates?;
     let grows = |index: usize| rates[index].is_some_and(|rate| rate > 0.0);
