@@ -24,6 +24,12 @@ ELSEWHERE = {
 }
 """Options whose equivalent belongs to every result or study in Python, and that equivalent."""
 
+OF_PICTURES = {
+    "--width": "width= of Result.plot and Result.save",
+    "--caption": "caption= of Result.plot and Result.save",
+}
+"""The same for the options of `--plot`."""
+
 OTHER_NAMES = {"--from": "from_"}
 """Options whose name is a keyword of Python."""
 
@@ -70,8 +76,9 @@ def test_the_verbs_are_the_same() -> None:
 @pytest.mark.parametrize("verb", sorted(offered()))
 def test_the_options_are_the_same(verb: str) -> None:
     options = set(re.findall(r"^\s+(?:-\w, )?(--[a-z-]+)", help_of(verb), flags=re.MULTILINE))
+    elsewhere = {**ELSEWHERE, **OF_PICTURES} if "--plot" in options else ELSEWHERE
     names = {**OTHER_NAMES, "--out": "path"} if verb in DRAWINGS else OTHER_NAMES
-    wanted = {names.get(it, it[2:].replace("-", "_")) for it in options - set(ELSEWHERE)}
+    wanted = {names.get(it, it[2:].replace("-", "_")) for it in options - set(elsewhere)}
     given = set(inspect.signature(offered()[verb]).parameters) - {"self"}
     python_only = {
         "map": {"axes", "store", "progress", "client"},
