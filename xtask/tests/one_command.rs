@@ -12,6 +12,19 @@ fn commands(script: &str) -> Vec<&str> {
         .collect()
 }
 
+/// The commands without the one block that installs a Debian package where it is missing.
+fn without_installation(commands: Vec<&str>) -> Vec<&str> {
+    let installs = |line: &&str| line.starts_with("if ! command -v") && line.contains("apt-get");
+    let begin = commands.iter().position(installs);
+    let end = commands.iter().position(|line| *line == "fi");
+    match (begin, end) {
+        (Some(begin), Some(end)) if begin < end => {
+            [&commands[..begin], &commands[end + 1..]].concat()
+        }
+        _ => commands,
+    }
+}
+
 /// The words before the command in the README.
 const INTRODUCTION: &str = "everything that must pass:";
 
@@ -36,8 +49,9 @@ fn read(name: &str) -> String {
 #[test]
 fn readme_and_ci_run_the_same_one_command() {
     let (script, readme) = (read(".ci/run"), read("README.md"));
-    assert_eq!(commands(&script), ["cargo xtask test"], ".ci/run");
-    assert_eq!(readme_test_commands(&readme), commands(&script), "README.md");
+    let commands = without_installation(commands(&script));
+    assert_eq!(commands, ["cargo xtask test"], ".ci/run");
+    assert_eq!(readme_test_commands(&readme), commands, "README.md");
 }
 
 #[test]

@@ -293,7 +293,7 @@ fn pictures_are_complete_or_absent() {
         fs::remove_file(place.folder.join(name)).expect("there");
     }
     assert_eq!(place.files(), before);
-    for path in ["picture.pdf", "nowhere/picture.svg", "picture"] {
+    for path in ["picture.jpg", "nowhere/picture.svg", "picture"] {
         let errors = place.refused(&["response", "study.toml", "--plot", path]);
         assert_eq!(errors[0]["key"], "--plot");
     }

@@ -72,7 +72,7 @@ fn an_unknown_extension_is_refused_before_anything_is_written() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for name in ["picture.jpg", "picture", "picture.svg.txt"] {
         let refused = output(&folder.path().join(name)).expect_err(name);
-        assert!(refused.to_string().contains(".svg, .pdf or .png"), "{refused}");
+        assert!(refused.to_string().contains(".svg or .pdf or .png"), "{refused}");
     }
     for name in ["A.SVG", "a.Png", "b.PDF"] {
         assert!(output(&folder.path().join(name)).is_ok(), "{name}");

@@ -151,7 +151,7 @@ mod tests {
             let sketch = sketch(width);
             assert!(sketch.text_size() >= 7.0);
             let svg = sketch.to_svg();
-            let pixels = format!("width=\"{}\"", (width * 96.0 / 25.4).ceil());
+            let pixels = format!("width=\"{:.2}\"", width * 96.0 / 25.4);
             assert!(svg.contains(&pixels), "{svg}");
             assert!(svg.contains("font-size=\"10\""), "{svg}");
         }

@@ -21,7 +21,7 @@ const FRICTION_RATIO: f64 = 0.65;
 /// An interval of growth wider than this fraction of its speed is resolved by the grid.
 const WIDE: f64 = 0.1;
 /// Relative accuracy of a root.
-const CLOSENESS: Closeness = Closeness { absolute: 0.0, relative: 1e-7 };
+const CLOSENESS: Closeness = Closeness { absolute: 0.0, relative: 1e-11 };
 /// Speeds closer than this fraction are one.
 const SAME_SPEED: f64 = 1e-9;
 
@@ -187,12 +187,17 @@ mod tests {
         let lowest = lines.iter().flatten().map(|point| point.1).fold(f64::INFINITY, f64::min);
         assert!(lowest < 0.03 * unit, "{}", lowest / unit);
         for &(speed, friction) in lines.iter().flatten() {
-            let rate = |factor: f64| {
+            let growth = |speed: f64| {
                 let prepared = DiscGrowth::at("5.9", disc, speed).expect("a speed");
-                prepared.growth("5.9", factor * friction).expect("growth").rate
+                prepared.growth("5.9", friction).expect("growth")
             };
-            let side = |factor: f64| rate(factor).abs();
-            assert!(side(1.0) < 1e-3 * side(0.5).max(side(1.5)).max(1e-12), "{speed} {friction}");
+            let (found, below, above) =
+                (growth(speed), growth(0.999 * speed), growth(1.001 * speed));
+            let beside = below.rate.abs().max(above.rate.abs());
+            assert!(
+                found.rate.abs() <= 1e-4 * beside + found.error,
+                "{speed} {friction}: {found:?}, beside it {beside}"
+            );
         }
     }
 }
