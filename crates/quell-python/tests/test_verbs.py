@@ -201,8 +201,8 @@ def test_reproduce_writes_the_same_files(cli: Any, tmp_path: Any) -> None:
     cli("reproduce", "2.2", "--out", str(tmp_path / "cli"))
     names = sorted(path.name for path in (tmp_path / "python").iterdir())
     assert names and names == sorted(path.name for path in (tmp_path / "cli").iterdir())
-    # Reports contain the run time.
-    for name in (it for it in names if it.startswith("figure")):
+    # Reports contain the run time, and the order of the objects in a PDF is arbitrary.
+    for name in (it for it in names if it.startswith("figure") and not it.endswith(".pdf")):
         assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "cli" / name).read_bytes()
     with pytest.raises(quell.StudyError, match="2.3"):
         quell.reproduce("2.33", out=tmp_path)

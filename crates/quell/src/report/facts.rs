@@ -2,6 +2,8 @@
 
 use serde_json::{Map, Value as Json};
 
+use crate::words::digits;
+
 /// Lists longer than this are not written; their length is.
 const MOST_ENTRIES: usize = 12;
 /// Fields that are written elsewhere in the report.
@@ -33,13 +35,17 @@ pub(super) fn rows(facts: &Json) -> Vec<FactRow> {
     rows
 }
 
-/// The rows whose last key begins with one of these words.
+/// The rows whose last key begins with one of these words, for readers: numbers have six digits.
 pub(super) fn named(facts: &Json, words: &[&str]) -> Vec<FactRow> {
     let is_named = |row: &FactRow| {
         let key = row.path.rsplit('.').next().unwrap_or_default();
         words.iter().any(|word| key.starts_with(word))
     };
-    rows(facts).into_iter().filter(is_named).collect()
+    let rounded = |row: FactRow| match row.value.parse() {
+        Ok(value) => FactRow { value: digits(value), ..row },
+        Err(_) => row,
+    };
+    rows(facts).into_iter().filter(is_named).map(rounded).collect()
 }
 
 /// Whether a field is the SI twin of another one next to it: the same name and the suffix of its unit.

@@ -156,7 +156,7 @@ class Explorer:
         if request.host not in allowed:
             return False
         origin = request.headers.get("Origin")
-        if origin is not None and origin not in {f"http://{it}" for it in allowed}:
+        if origin is not None and origin not in {f"http://{host}" for host in allowed}:
             return False
         first = request.path.split("/")[1] if request.path.startswith("/") else ""
         return hmac.compare_digest(first.encode(), self._token.encode())

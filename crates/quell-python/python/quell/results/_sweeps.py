@@ -234,6 +234,8 @@ class Shard(Result):
         self._facts = facts
         self._arrays = _dataset.arrays(self.verb, facts, [])
 
-    def save(self, path: str | os.PathLike[str]) -> list[str]:
+    def save(
+        self, path: str | os.PathLike[str], *, width: str | None = None, caption: bool = False
+    ) -> list[str]:
         """Raises an error: the chunks are in the store, and only the whole map has a table."""
         raise StudyError([complaint("save", None, "a shard has no table: read the map with resume=True", "usage")])
