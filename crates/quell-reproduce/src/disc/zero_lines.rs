@@ -193,10 +193,10 @@ mod tests {
             };
             let (found, below, above) =
                 (growth(speed), growth(0.999 * speed), growth(1.001 * speed));
-            let beside = below.rate.abs().max(above.rate.abs());
+            let neighbours = below.rate.abs().max(above.rate.abs());
             assert!(
-                found.rate.abs() <= 1e-4 * beside + found.error,
-                "{speed} {friction}: {found:?}, beside it {beside}"
+                found.rate.abs() <= 1e-4 * neighbours + found.error,
+                "{speed} {friction}: {found:?}, next to it {neighbours}"
             );
         }
     }
