@@ -274,7 +274,8 @@ pub(super) fn path(pieces: &[Vec<(f64, f64)>], closed: bool) -> String {
         if closed && !piece.is_empty() {
             path.push('Z');
         } else if piece.len() == 1 {
-            path.push_str("h0");
+            // Programs that convert SVG leave out a path without length, and a round end needs one.
+            path.push_str("h0.01");
         }
     }
     path
@@ -307,7 +308,7 @@ mod tests {
     #[test]
     fn a_path_is_short_and_exact_to_a_hundredth() {
         let pieces = vec![vec![(1.0, 2.0), (1.5, 1.25), (-0.004, 1.25)], vec![(3.0, 4.0)]];
-        assert_eq!(path(&pieces, false), "M1 2l0.5-0.75l-1.5 0M3 4h0");
+        assert_eq!(path(&pieces, false), "M1 2l0.5-0.75l-1.5 0M3 4h0.01");
     }
 
     #[test]

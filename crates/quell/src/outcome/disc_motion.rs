@@ -5,6 +5,7 @@ use serde_json::Value as Json;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::outcome::Presented;
+use crate::picture;
 use crate::plot::Figure;
 use crate::run::disc::motion::DiscSimulation;
 use crate::study::{DiscSetup, DiscStudy};
@@ -32,7 +33,8 @@ impl Presented<DiscSetup> for DiscSimulation {
         self.motion.sound(&self.system)
     }
 
-    fn figure(&self, _: &DiscStudy) -> Option<Result<Figure, Failure>> {
-        self.motion.figure(&self.system)
+    fn figure(&self, study: &DiscStudy) -> Option<Result<Figure, Failure>> {
+        let figure = self.motion.figure(&self.system)?;
+        Some(figure.map(|figure| picture::disc::of_disc(figure, study)))
     }
 }

@@ -107,14 +107,10 @@ fn capitalised(word: &str) -> String {
 
 /// The caption of a study of a system.
 pub(super) fn caption_of_system(study: &SystemStudy) -> String {
-    let system = study.system();
-    let count = |count: usize, noun: &str| format!("{count} {noun}{}", plural(count));
-    let parts = [
-        count(system.structure.size(), "coordinate"),
-        count(system.contacts.len(), "contact"),
-        count(system.inputs.len(), "dither"),
-    ];
-    format!("{}.", parts.join(", "))
+    let size = study.system().structure.size();
+    let mut parts = vec![format!("{size} coordinate{}", plural(size))];
+    parts.extend(super::sketch::contacts_and_dithers(study));
+    format!("{}.", parts.join(". "))
 }
 
 /// The caption of a study of any kind.

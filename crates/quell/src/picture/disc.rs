@@ -140,6 +140,11 @@ fn signs(mode: &PlateMode, inner: f64) -> Vec<Note> {
         .collect()
 }
 
+/// The picture of a disc that was computed as a system, with the caption of the disc.
+pub fn of_disc(figure: Figure, study: &DiscStudy) -> Figure {
+    figure.caption(caption_of_disc(study))
+}
+
 /// Frequency and growth rate of every motion over speed, with the speed of the study marked.
 pub fn stability(study: &DiscStudy, done: &DiscStability, campbell: &Campbell) -> Figure {
     let last = campbell.speeds.last().copied().unwrap_or(1.0);

@@ -70,7 +70,12 @@ fn picture(done: &FinishedMap, entry: &VariableArrays) -> MappedQuantity {
     let unit = &plan.sheet().fields()[array].unit;
     let kind = match variable.kind {
         VariableKind::Word { words, .. } => {
-            MapKind::Outcome(words.iter().map(|&word| (role_of(word), word.to_owned())).collect())
+            let outcomes = words.iter().enumerate();
+            MapKind::Outcome(
+                outcomes
+                    .map(|(index, &word)| (role_of(word, index, words.len()), word.to_owned()))
+                    .collect(),
+            )
         }
         VariableKind::Rate => MapKind::Growth(Spread::Linear),
         // Growth rates in tongues are 10⁻⁹ to 10⁻², decay rates about 10⁻².
@@ -157,10 +162,12 @@ fn over_disc(grid: &Grid, study: &DiscStudy) -> Vec<Layer> {
     super::disc::tongues(study.disc(), (least, most), &friction.values, |friction| friction)
 }
 
-fn role_of(word: &str) -> PlotRole {
-    match word {
-        "stable" | "yes" => PlotRole::Stable,
-        _ => PlotRole::Unstable,
+/// The role of one of several words: the two of a verdict have theirs, more of them differ in colour.
+fn role_of(word: &str, index: usize, count: usize) -> PlotRole {
+    match (word, count) {
+        ("stable" | "yes", _) => PlotRole::Stable,
+        (_, ..=2) => PlotRole::Unstable,
+        _ => PlotRole::Series(index),
     }
 }
 

@@ -27,7 +27,7 @@ const COSTS: &[&str] = &[
     "minimum_normal_load",
 ];
 /// Fields that state a verdict, and its error: the first that an answer has.
-const VERDICTS: &[&str] = &["/verdict", "/effect", "/local/0/becomes", "/thresholds/0/becomes"];
+const VERDICTS: &[&str] = &["/verdict", "/effect"];
 const ERRORS: &[&str] = &[
     "/growth_rate_error",
     "/multiplier_error",
@@ -118,7 +118,11 @@ fn verdicts(page: &mut HtmlPage, report: &StudyReport) {
             answer.outcome.sentence().map_or_else(String::new, |text| symbols(&text)),
         ]
     });
-    page.put(&table("verdicts", &["question", "verdict", "start", "error", "answer"], rows));
+    page.put(&table(
+        "verdicts",
+        &["question", "verdict", "start", "numerical error", "answer"],
+        rows,
+    ));
 }
 
 fn cost(page: &mut HtmlPage, report: &StudyReport) {

@@ -10,7 +10,7 @@ use super::PictureWidth;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::output::Output;
 use crate::plot::Sketch;
-use crate::study::{Kind, Study};
+use crate::study::{Kind, Study, SystemStudy};
 
 /// Width of a sketch where none is requested (mm).
 pub const DEFAULT_WIDTH_MM: f64 = 120.0;
@@ -46,6 +46,15 @@ pub fn sketch(study: &Study, width_mm: f64) -> Result<Sketch, Failure> {
     let names = sheet.parts.iter().map(|part| part.name.as_str());
     sheet.description = names.filter(|name| !name.is_empty()).collect::<Vec<_>>().join("; ");
     Ok(sheet)
+}
+
+/// The contacts and dithers of a system with their values, as in the key of its sketch.
+pub(super) fn contacts_and_dithers(study: &SystemStudy) -> Vec<String> {
+    let key = system::draw(Sketch::new(DEFAULT_WIDTH_MM), study).key;
+    let rows = key
+        .into_iter()
+        .filter(|row| ["Contact", "Dither"].iter().any(|word| row.head.starts_with(word)));
+    rows.map(|row| format!("{}: {}", row.head, row.items.join(", "))).collect()
 }
 
 /// Writes a sketch in the format of the output's extension.
