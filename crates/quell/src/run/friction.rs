@@ -237,16 +237,13 @@ impl FrictionCurve {
         })
     }
 
-    /// Where the measured friction under normal dither differs most from the averaged one, and from which slip velocity on they
+    /// Where the measured friction differs most from the averaged one, and from which slip velocity on they
     /// agree.
     fn averaging_is_off(
         &self,
         study: &BeltStudy,
         measured: &[Result<SteadyFriction, String>],
     ) -> Option<String> {
-        if !study.belt().has_normal_dither() {
-            return None;
-        }
         // (|v_r|, measured/averaged)
         let ratios: Vec<(f64, f64)> = self
             .points
@@ -265,13 +262,18 @@ impl FrictionCurve {
             .max_by(|a, b| (a.1 - 1.0).abs().total_cmp(&(b.1 - 1.0).abs()))?;
         let last =
             ratios.iter().filter(|(_, ratio)| off(*ratio)).map(|(v, _)| *v).fold(0.0, f64::max);
+        let agrees_above = ratios.iter().any(|(v, _)| *v > last);
         let [at, last] = [worst.0, last].map(|v| in_words(study, Quantity::Velocity, v));
-        Some(format!(
-            "at |v_r| = {at} the measured friction is {} times the averaged one; of the points given, those above |v_r| = {last} \
-             agree within {} %",
-            quell_model::digits::digits(worst.1, 3),
-            100.0 * AGREES
-        ))
+        let factor = quell_model::digits::digits(worst.1, 3);
+        let mut warning =
+            format!("at |v_r| = {at} the measured friction is {factor} times the averaged one");
+        if agrees_above {
+            let percent = 100.0 * AGREES;
+            warning += &format!(
+                "; of the points given, those above |v_r| = {last} agree within {percent} %"
+            );
+        }
+        Some(warning)
     }
 
     /// As a dataset.
