@@ -265,15 +265,15 @@ impl FrictionCurve {
         let agrees_above = ratios.iter().any(|(v, _)| *v > last);
         let [at, last] = [worst.0, last].map(|v| in_words(study, Quantity::Velocity, v));
         let factor = quell_model::digits::digits(worst.1, 3);
-        let mut warning =
+        let off =
             format!("at |v_r| = {at} the measured friction is {factor} times the averaged one");
-        if agrees_above {
-            let percent = 100.0 * AGREES;
-            warning += &format!(
-                "; of the points given, those above |v_r| = {last} agree within {percent} %"
-            );
+        if !agrees_above {
+            return Some(off);
         }
-        Some(warning)
+        let percent = 100.0 * AGREES;
+        Some(format!(
+            "{off}; of the points given, those above |v_r| = {last} agree within {percent} %"
+        ))
     }
 
     /// As a dataset.
