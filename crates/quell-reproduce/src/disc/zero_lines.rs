@@ -16,13 +16,15 @@ use rayon::prelude::*;
 
 use super::growth::{DiscGrowth, Growths};
 
-/// Ratio of the frictions at which an interval of growth is followed.
+/// Ratio of the frictions at which an interval of growth is followed. The width of a tongue is proportional to friction, so that its
+/// former centre is inside the next interval for any ratio above one half; below that a leaning tongue could be lost.
 const FRICTION_RATIO: f64 = 0.65;
 /// An interval of growth wider than this fraction of its speed is resolved by the grid.
 const WIDE: f64 = 0.1;
-/// Relative accuracy of a root.
+/// Relative accuracy of a root in speed or friction. The slope of the rate at the tip of a tongue is large: with 1e-7 the rate at a
+/// point there is not yet small compared with the rates next to it.
 const CLOSENESS: Closeness = Closeness { absolute: 0.0, relative: 1e-11 };
-/// Speeds closer than this fraction are one.
+/// Speeds closer than this fraction of the highest one are one: far below the narrowest tongue that is followed.
 const SAME_SPEED: f64 = 1e-9;
 
 /// A speed and a friction f*.
