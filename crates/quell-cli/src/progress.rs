@@ -13,6 +13,9 @@ use crate::answer::print_error;
 const TEMPLATE: &str =
     "{bar:32} {human_pos}/{human_len} points  {per_sec}  {elapsed} elapsed, {eta} left";
 
+/// Template of the bar of a report.
+const ANSWERS: &str = "{bar:32} {pos}/{len} answers  {elapsed} elapsed";
+
 /// Template of the bar of a reproduction.
 const ENTRIES: &str = "{bar:32} {pos}/{len}  {elapsed} elapsed  {msg}";
 
@@ -26,6 +29,11 @@ impl Bar {
     /// A bar that is not shown yet; it is never shown if standard error is not a terminal.
     pub(crate) fn new() -> Self {
         Self { bar: bar(0, TEMPLATE) }
+    }
+
+    /// The same over the answers of a report.
+    pub(crate) fn of_answers() -> Self {
+        Self { bar: bar(0, ANSWERS) }
     }
 }
 

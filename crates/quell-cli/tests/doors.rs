@@ -200,7 +200,7 @@ fn thresholds_answer_with_the_number() {
     );
     let drive = sentence("drive.toml", "belt.belt_velocity_m_per_s", ["0.005", "0.04"], &[]);
     assert!(
-        drive.starts_with("Steady sliding is stable from v₀ = 0.02")
+        drive.starts_with("Steady sliding is stable from V₀ = 0.02")
             && drive.contains(
                 " m/s on (hopf, supercritical: the vibration grows from zero) and unstable below"
             ),

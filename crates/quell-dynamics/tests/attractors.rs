@@ -6,7 +6,7 @@ use quell_dynamics::attractor::{
 };
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::simulation::Start;
-use quell_model::{Belt, Waveform};
+use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 use quell_zoo::belt::{self, decreasing_under, stribeck_under};
 
 fn reached(belt: &Belt, displacement: f64, velocity: f64) -> (Settled, Option<Attractor>) {
@@ -91,6 +91,38 @@ fn cycles_without_dither_have_their_size_and_frequency() {
     let (settled, attractor) = reached(&belt::decreasing(), 0.3, 0.0);
     assert_eq!(settled.outcome, SettleOutcome::Base);
     assert_eq!(attractor.expect("settled").size(), 0.0);
+}
+
+/// Figure 4.11 with a sine, D_N = 0.69: a curve on which the motion nearly repeats itself after five periods is filled so slowly
+/// that runs on it differ in centre and size. It is one attractor.
+#[test]
+fn a_curve_near_a_resonance_is_one_attractor() {
+    let dither = Dither {
+        direction: Direction::Normal,
+        waveform: Waveform::Sine,
+        amplitude: 0.69,
+        frequency_ratio: 5.0,
+        phase: 0.0,
+    };
+    let law = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2]).expect("a law");
+    let belt = Belt::new(0.2, 1.0, 0.075, law, vec![dither]).expect("a belt");
+    let settings = AttractorSettings::new(&belt).expect("a strobe");
+    let starts: Vec<Start> = (0..49)
+        .map(|k| Start {
+            time: 0.0,
+            displacement: 0.34 + 0.05 / 6.0 * f64::from(k % 7),
+            velocity: -0.08 + 0.01 * f64::from(k / 7),
+        })
+        .collect();
+    let found = gather(&settings, &settle_many(&settings, &starts, Patience::BASIN));
+    let found = found.expect("no stall");
+    assert_eq!((found.basins.len(), found.unknown()), (2, 0));
+    let counts: Vec<usize> = found.basins.iter().map(|basin| basin.starts).collect();
+    assert_eq!(counts.iter().sum::<usize>(), starts.len());
+    let labelled =
+        |place| found.labels.iter().filter(|label| **label == BasinLabel::Attractor(place)).count();
+    assert_eq!(counts, [labelled(0), labelled(1)]);
+    assert!(found.basins[0].attractor.quiet && counts[0] < counts[1]);
 }
 
 /// Along a line of starts at D = 2.5 the basin of the base response is one interval, and the bits of a run do not depend on the

@@ -277,7 +277,7 @@ pub const MAXIMUM_VELOCITY: Parameter = Parameter {
 pub const DITHER_AMPLITUDE: Parameter = Parameter {
     path: "dither.amplitude",
     symbol: "D",
-    about: "peak dither force A/k",
+    about: "peak dither force over stiffness",
     quantity: Quantity::Force,
     bounds: Bounds::NOT_NEGATIVE,
     si: &[

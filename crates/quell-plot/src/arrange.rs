@@ -3,7 +3,7 @@
 //! All frames of a figure have the same size. The left margin of a column fits its widest
 //! tick labels; the upper margin of a row fits its tallest title and legend.
 
-use super::axis_limits::{AxisLimits, axis_limits};
+use super::axis_limits::{AxisLimits, axis_limits, widen_to_equal_scales};
 use super::canvas::Rectangle;
 use super::colour_bar::ColourBar;
 use super::figure::{CaptionPlacement, Figure, Legend, Panel, SharedLegend, Sharing, Size};
@@ -11,7 +11,7 @@ use super::font_sizes::FontSizes;
 use super::grid::{FrameGrid, columns_of};
 use super::layer::Layer;
 use super::layout::{FigureLayout, LABEL_GAP, LegendLayout, NUMBER_GAP, PanelLayout};
-use super::legend::{self, LegendEntry};
+use super::legend::{self, LegendEntry, LegendPanel};
 use super::obstacles::Obstacles;
 use super::ticks::{Room, Ticks};
 use super::typeset::{RichText, wrap};
@@ -37,7 +37,8 @@ fn surroundings(
     let (_, margins) = measure(figure, columns, frame, sizes);
     let across: f64 = margins.left.iter().chain(&margins.right).sum();
     let width = across + frame.0 * columns as f64;
-    let outer = outer(figure, width, (margins.left[0], width - margins.right[columns - 1]), sizes);
+    let body = (margins.left[0], width - margins.right[columns - 1]);
+    let outer = outer(figure, width, body, frame, sizes);
     let below = match figure.legend {
         SharedLegend::Below => outer.shared_height,
         _ => 0.0,
@@ -60,7 +61,7 @@ pub(super) fn arrange(figure: &Figure) -> FigureLayout {
     };
     let last_right = margins.right.last().copied().unwrap_or(0.0);
     let body = (body_left, width - last_right);
-    let outer = outer(figure, width, body, sizes);
+    let outer = outer(figure, width, body, frame, sizes);
 
     let mut top = outer.head;
     for row in 0..rows {
@@ -116,7 +117,13 @@ struct Outer {
     caption_height: f64,
 }
 
-fn outer(figure: &Figure, width: f64, body: (f64, f64), sizes: FontSizes) -> Outer {
+fn outer(
+    figure: &Figure,
+    width: f64,
+    body: (f64, f64),
+    frame: (f64, f64),
+    sizes: FontSizes,
+) -> Outer {
     let line = |size: u32| 1.35 * f64::from(size);
     let room = width - 2.0 * EDGE;
     let title = lines(&figure.title, sizes.figure_title, true, room);
@@ -128,13 +135,14 @@ fn outer(figure: &Figure, width: f64, body: (f64, f64), sizes: FontSizes) -> Out
         SharedLegend::None => Vec::new(),
         SharedLegend::Above | SharedLegend::Below => {
             let limits = axis_limits(figure, columns_of(figure));
-            legend::entries(figure.panels.iter().zip(limits))
+            let panels = figure.panels.iter().zip(limits);
+            legend::entries(panels.map(|(panel, limits)| LegendPanel { panel, limits, frame }))
         }
     };
     let shared_height = if shared.is_empty() {
         0.0
     } else {
-        legend::lines_height(&shared, body.1 - body.0, sizes) + 6.0
+        legend::rows_height(&shared, body.1 - body.0, sizes) + 6.0
     };
     let mut head = EDGE + line(sizes.figure_title) * title.len() as f64;
     if figure.legend == SharedLegend::Above {
@@ -161,7 +169,8 @@ fn measure(
     let count = figure.panels.len();
     let rows = count.div_ceil(columns).max(1);
     let intended = columns_of(figure);
-    let axis_limits = axis_limits(figure, intended);
+    let mut axis_limits = axis_limits(figure, intended);
+    widen_to_equal_scales(figure, &mut axis_limits, frame);
     // Panels in fewer columns than intended have other neighbours, whose limits may differ.
     let shares = |sharing: Sharing| match sharing {
         Sharing::Separate => false,
@@ -214,9 +223,13 @@ fn lay_out_panel(
     let label = |wanted: bool, text: String, room: f64| {
         if wanted { lines(&text, sizes.label, false, room) } else { Vec::new() }
     };
+    // The exponent of x stands at the right of its label, which is centred.
+    let label_room = x_ticks.exponent_label().map_or(frame.0 + 1.6 * EDGE, |exponent| {
+        frame.0 - 2.0 * (exponent.width(number_size, false) + 4.0)
+    });
     let entries = match (figure.legend, panel.legend) {
         (SharedLegend::None, Legend::Auto | Legend::Inside(_) | Legend::Above) => {
-            legend::entries([(panel, (x_limits, y_limits))])
+            legend::entries([LegendPanel { panel, limits: (x_limits, y_limits), frame }])
         }
         _ => Vec::new(),
     };
@@ -228,7 +241,7 @@ fn lay_out_panel(
         y_ticks,
         x_numbers,
         y_numbers,
-        x_label: label(x_numbers, panel.x.label(), frame.0 + 1.6 * EDGE),
+        x_label: label(x_numbers, panel.x.label(), label_room),
         y_label: label(y_numbers, panel.y.label(), frame.1 + 30.0),
         title: lines(&panel.title, sizes.title, false, frame.0),
         y_label_distance: NUMBER_GAP + widest + LABEL_GAP + 0.2 * f64::from(sizes.label),
@@ -239,7 +252,8 @@ fn lay_out_panel(
     if !layout.entries.is_empty() {
         layout.legend = match panel.legend {
             Legend::Inside(position) => {
-                let size = legend::box_size(&layout.entries, sizes);
+                let room = layout.frame.width();
+                let size = legend::box_size(&layout.entries, room, sizes);
                 LegendLayout::Box(legend::box_at(position, layout.frame, size))
             }
             // A heatmap fills the frame.
@@ -260,7 +274,7 @@ fn free_position(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> Legen
     use super::figure::LegendPosition::{
         Bottom, BottomLeft, BottomRight, Left, Right, Top, TopLeft, TopRight,
     };
-    let size = legend::box_size(&layout.entries, sizes);
+    let size = legend::box_size(&layout.entries, f64::INFINITY, sizes);
     let fits = size.0 <= 0.7 * layout.frame.width() && size.1 <= 0.7 * layout.frame.height();
     let obstacles = Obstacles::of(panel, layout, sizes);
     [TopRight, TopLeft, BottomRight, BottomLeft, Right, Left, Top, Bottom]
@@ -300,7 +314,7 @@ fn grow(
     }
     let mut top = 6.0 + 1.3 * f64::from(sizes.title) * layout.title.len() as f64;
     if layout.legend == LegendLayout::Above {
-        top += legend::lines_height(&layout.entries, frame_width, sizes) + 2.0;
+        top += legend::rows_height(&layout.entries, frame_width, sizes) + 2.0;
     }
     let exponent = layout.bar.as_ref().is_some_and(ColourBar::has_exponent);
     if (layout.y_ticks.exponent != 0 && layout.y_numbers) || exponent {

@@ -34,6 +34,30 @@ pub(super) fn axis_limits(figure: &Figure, columns: usize) -> Vec<AxisLimits> {
     x.into_iter().zip(y).collect()
 }
 
+/// Widens the limits of panels with equal scales to the shape of the frame (pixels).
+pub(super) fn widen_to_equal_scales(figure: &Figure, limits: &mut [AxisLimits], frame: (f64, f64)) {
+    let widened = |(lower, upper): (f64, f64), length: f64| {
+        let excess = 0.5 * (length - (upper - lower)).max(0.0);
+        (lower - excess, upper + excess)
+    };
+    for (panel, (across, upright)) in figure.panels.iter().zip(limits) {
+        if panel.equal_scales {
+            let unit = (frame.0 / (across.1 - across.0)).min(frame.1 / (upright.1 - upright.0));
+            *across = widened(*across, frame.0 / unit);
+            *upright = widened(*upright, frame.1 / unit);
+        }
+    }
+}
+
+/// Height over width of the frame that panels with equal scales fill; `None` without such panels.
+pub(super) fn shape_of_equal_scales(figure: &Figure, columns: usize) -> Option<f64> {
+    let limits = axis_limits(figure, columns);
+    let equal = figure.panels.iter().zip(limits).filter(|(panel, _)| panel.equal_scales);
+    equal
+        .map(|(_, (across, upright))| (upright.1 - upright.0) / (across.1 - across.0))
+        .reduce(f64::max)
+}
+
 /// Common limits for all panels of a group, by the axis of its first panel.
 fn shared(
     panels: &[Panel],

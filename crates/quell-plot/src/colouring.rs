@@ -2,7 +2,7 @@
 
 use super::axis::{PlotAxis, Scale};
 use super::palette::{Colour, PlotRole};
-use super::shades::{Palette, tint};
+use super::shades::{Palette, outcome_opacity, tint};
 
 /// Normalisation of numbers to a palette.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -41,9 +41,15 @@ impl Tint {
     pub(super) fn colour(&self) -> Colour {
         tint(self.role.colour(), TINT)
     }
+
+    /// The colour as outcome with this number, which differs from its neighbours in grey.
+    pub(super) fn outcome_colour(&self, number: usize) -> Colour {
+        let colour = self.role.colour();
+        tint(colour, outcome_opacity(colour, number))
+    }
 }
 
-/// Opacity of the tint of outcomes, low enough to keep black lines and numbers readable.
+/// Opacity of the tint of values below a scale, low enough to keep black lines and numbers readable.
 const TINT: f64 = 0.34;
 
 /// Colours of numbers.
@@ -195,7 +201,8 @@ impl ColourMap {
     pub(super) fn colours(&self) -> Vec<Colour> {
         let mut colours = match &self.colouring {
             Colouring::Outcomes(outcomes) => {
-                outcomes.iter().take(SHADES).map(Tint::colour).collect()
+                let numbered = outcomes.iter().take(SHADES).enumerate();
+                numbered.map(|(number, outcome)| outcome.outcome_colour(number)).collect()
             }
             Colouring::Shaded(shading) => shading.palette.shades(SHADES),
         };

@@ -144,7 +144,7 @@ fn described_region(region: &Region) -> Json {
         "kind": "region",
         "label": region.label,
         "colour": hex(region.role.colour()),
-        "opacity": region.fill.opacity(),
+        "opacity": region.fill.opacity(region.role),
     });
     match &region.shape {
         RegionShape::Polygon(corners) => data["polygon"] = columns(corners),

@@ -3,7 +3,7 @@
 use super::arrange::arrange;
 use super::axis::Mapping;
 use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
-use super::envelope::{self, CurveTrace};
+use super::envelope::{self, BAND_OPACITY, CurveTrace};
 use super::figure::{CaptionPlacement, Figure, Panel};
 use super::font_sizes::FontSizes;
 use super::layer::{Layer, Polyline, ReferenceLine, Region, RegionShape};
@@ -12,7 +12,7 @@ use super::obstacles::Obstacles;
 use super::palette::{Colour, FAINT, FRAME, PlotRole};
 use super::projection::{self, reference_line_ends};
 use super::svg::TextAnchor;
-use super::typeset::RichText;
+use super::typeset::{LINE_HEIGHT, RichText};
 use super::{legend, maps, marks, reference_line_labels, thin};
 
 const FRAME_WIDTH: f64 = 0.8;
@@ -53,7 +53,7 @@ fn draw_outer(canvas: &mut Canvas, layout: &FigureLayout) {
         canvas.text(line, (middle, baseline), setting);
     }
     let room = layout.body.1 - layout.body.0;
-    legend::draw_lines(
+    legend::draw_rows(
         canvas,
         &layout.shared,
         (layout.body.0, layout.shared_top),
@@ -70,7 +70,7 @@ fn draw_outer(canvas: &mut Canvas, layout: &FigureLayout) {
 }
 
 fn draw_panel(canvas: &mut Canvas, panel: &Panel, layout: &PanelLayout, sizes: FontSizes) {
-    let (x, y) = projection::mappings(panel, layout);
+    let (x, y) = layout.mappings(panel);
     canvas.begin_clip(layout.frame);
     canvas.begin_group("stroke-linejoin=\"round\"");
     for layer in &panel.layers {
@@ -118,16 +118,15 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, layout: &PanelLayout, sizes: F
         LegendLayout::None => {}
         LegendLayout::Box(area) => legend::draw_box(canvas, &layout.entries, *area, sizes),
         LegendLayout::Above => {
-            let height = legend::lines_height(&layout.entries, layout.frame.width(), sizes);
+            let height = legend::rows_height(&layout.entries, layout.frame.width(), sizes);
             let corner = (layout.frame.left, layout.frame.top - height - 2.0);
-            legend::draw_lines(canvas, &layout.entries, corner, layout.frame.width(), sizes);
+            legend::draw_rows(canvas, &layout.entries, corner, layout.frame.width(), sizes);
         }
     }
 }
 
 /// Draws a curve: strokes, and bands where it oscillates too fast to be resolved.
 fn draw_curve(canvas: &mut Canvas, line: &Polyline, pieces: &[Vec<(f64, f64)>]) {
-    const OPACITY: f64 = 0.45;
     const EDGE: f64 = 0.6;
     let stroke = legend::stroke_of(line);
     let mut strokes = Vec::new();
@@ -137,7 +136,7 @@ fn draw_curve(canvas: &mut Canvas, line: &Polyline, pieces: &[Vec<(f64, f64)>]) 
             CurveTrace::Band { upper, lower } => {
                 let outline: Vec<(f64, f64)> =
                     upper.iter().chain(lower.iter().rev()).copied().collect();
-                canvas.fill(&path(&[outline], true), stroke.colour, OPACITY);
+                canvas.fill(&path(&[outline], true), stroke.colour, BAND_OPACITY);
                 let edges = path(&[thin::polyline(&upper), thin::polyline(&lower)], false);
                 canvas.stroke(&edges, &Stroke::solid(stroke.colour, EDGE.min(stroke.width)));
             }
@@ -237,9 +236,8 @@ fn draw_numbers(
             let baseline = frame.bottom + NUMBER_GAP + 0.76 * size;
             canvas.text(label, (at, baseline), TextStyle::new(sizes.number, TextAnchor::Middle));
         }
-        if layout.x_ticks.exponent != 0 {
+        if let Some(label) = layout.x_ticks.exponent_label() {
             let below = frame.bottom + NUMBER_GAP + size + LABEL_GAP + 0.8 * f64::from(sizes.label);
-            let label = RichText::parse(&format!("$×10^{{{}}}$", layout.x_ticks.exponent));
             canvas.text(
                 &label,
                 (frame.right, below),
@@ -253,8 +251,7 @@ fn draw_numbers(
             let position = (frame.left - NUMBER_GAP, at + 0.36 * size);
             canvas.text(label, position, TextStyle::new(sizes.number, TextAnchor::End));
         }
-        if layout.y_ticks.exponent != 0 {
-            let label = RichText::parse(&format!("$×10^{{{}}}$", layout.y_ticks.exponent));
+        if let Some(label) = layout.y_ticks.exponent_label() {
             let position = (frame.left - 2.0, frame.top - 6.0);
             canvas.text(&label, position, TextStyle::new(sizes.number, TextAnchor::End));
         }
@@ -277,7 +274,7 @@ fn draw_labels(canvas: &mut Canvas, layout: &PanelLayout, sizes: FontSizes) {
     }
     let mut baseline = frame.top - 6.0;
     if layout.legend == LegendLayout::Above {
-        baseline -= legend::lines_height(&layout.entries, frame.width(), sizes) + 2.0;
+        baseline -= legend::rows_height(&layout.entries, frame.width(), sizes) + 2.0;
     }
     for line in layout.title.iter().rev() {
         canvas.text(line, (frame.left, baseline), TextStyle::new(sizes.title, TextAnchor::Start));
@@ -292,7 +289,7 @@ fn draw_texts(
     isolines: &maps::Isolines,
     sizes: FontSizes,
 ) {
-    let (x, y) = projection::mappings(panel, layout);
+    let (x, y) = layout.mappings(panel);
     let mut obstacles = Obstacles::of(panel, layout, sizes);
     if let LegendLayout::Box(area) = &layout.legend {
         obstacles.add(*area);
@@ -304,20 +301,19 @@ fn draw_texts(
                 let shown = |value: f64, mapping: &Mapping| {
                     value >= mapping.limits.0 && value <= mapping.limits.1
                 };
-                let Some(area) = projection::note_area(note, (&x, &y), layout.frame, sizes) else {
-                    continue;
-                };
+                let placed = projection::note_area(note, (&x, &y), layout.frame, sizes);
+                let Some((area, lines)) = placed else { continue };
                 if shown(note.at.0, &x) && shown(note.at.1, &y) {
                     let colour = note.role.map_or(FRAME, PlotRole::colour);
-                    draw_outlined_text(canvas, &note.text, area, colour, sizes);
+                    draw_outlined_text(canvas, &lines, area, colour, sizes);
                 }
             }
             Layer::ReferenceLine(rule) if !rule.label.is_empty() => {
-                if let Some(area) =
+                if let Some((area, lines)) =
                     reference_line_labels::place(rule, (&x, &y), layout.frame, &obstacles, sizes)
                 {
                     obstacles.add(area);
-                    draw_outlined_text(canvas, &rule.label, area, rule_ink(rule), sizes);
+                    draw_outlined_text(canvas, &lines, area, rule_ink(rule), sizes);
                 }
             }
             _ => {}
@@ -332,7 +328,7 @@ fn rule_ink(rule: &ReferenceLine) -> Colour {
 /// Draws a text into its rectangle, with a white outline that keeps it readable over a curve.
 fn draw_outlined_text(
     canvas: &mut Canvas,
-    text: &str,
+    lines: &[RichText],
     area: Rectangle,
     colour: Colour,
     sizes: FontSizes,
@@ -341,10 +337,10 @@ fn draw_outlined_text(
     canvas.begin_group(
         "stroke=\"#fff\" stroke-width=\"3\" stroke-opacity=\"0.9\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
     );
-    canvas.text(
-        &RichText::parse(text),
-        (area.left, area.bottom - 0.14 * f64::from(sizes.note)),
-        setting,
-    );
+    let size = f64::from(sizes.note);
+    for (number, line) in lines.iter().rev().enumerate() {
+        let baseline = area.bottom - 0.14 * size - LINE_HEIGHT * size * number as f64;
+        canvas.text(line, (area.left, baseline), setting);
+    }
     canvas.end_group();
 }

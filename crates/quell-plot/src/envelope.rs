@@ -11,6 +11,9 @@ const LEAST_SWING: f64 = 3.0;
 /// Least number of successive swings that make a band.
 const LEAST_COUNT: usize = 8;
 
+/// Opacity of a band.
+pub(super) const BAND_OPACITY: f64 = 0.45;
+
 /// A part of a curve as it is drawn (pixels).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum CurveTrace {

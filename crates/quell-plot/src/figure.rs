@@ -53,6 +53,9 @@ pub struct Panel {
     pub layers: Vec<Layer>,
     /// Placement of the legend; unused when the figure has a shared legend.
     pub legend: Legend,
+    /// Whether a unit of x is as long as a unit of y, for circles and discs. Then the limits are widened where the frame
+    /// has another shape. Both axes are linear.
+    pub equal_scales: bool,
 }
 
 impl Panel {
@@ -66,6 +69,13 @@ impl Panel {
     #[must_use]
     pub fn title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
+        self
+    }
+
+    /// Makes a unit of x as long as a unit of y.
+    #[must_use]
+    pub fn equal_scales(mut self) -> Self {
+        self.equal_scales = true;
         self
     }
 

@@ -1,5 +1,6 @@
 //! The grid of a figure: how many columns it has, how large its frames are, and the font sizes that suit them.
 
+use super::axis_limits::shape_of_equal_scales;
 use super::figure::{Figure, Size};
 use super::font_sizes::FontSizes;
 
@@ -94,13 +95,14 @@ impl FrameGrid {
         around: FrameSurroundings,
     ) -> (Self, f64) {
         let usual = usual_frame(columns);
+        let shape = shape_of_equal_scales(figure, columns_of(figure)).unwrap_or(usual.1 / usual.0);
         let mut frame = (sensible(0.85 * width / columns as f64, usual.0), usual.1);
         let sizes = FontSizes::for_frame(frame.0);
         let mut height = 0.0;
         for _ in 0..3 {
             let (across, upright) = around(figure, columns, frame, sizes);
             frame.0 = sensible((width - across) / columns as f64, usual.0);
-            frame.1 = frame.0 * usual.1 / usual.0;
+            frame.1 = sensible(frame.0 * shape, usual.1);
             height = upright;
         }
         let rows = figure.panels.len().div_ceil(columns).max(1);

@@ -2,6 +2,7 @@
 
 use super::map_layers::{Contours, Heatmap};
 use super::palette::{LineStyle, PlotRole};
+use super::shades::outcome_opacity;
 
 /// A curve of one or more pieces with one legend entry.
 #[derive(Debug, Clone, PartialEq)]
@@ -137,12 +138,15 @@ pub enum Fill {
     Solid,
     /// Thin diagonal strokes, for a region on top of another.
     Hatched,
+    /// A tint whose grey level differs from those of outcomes with neighbouring numbers.
+    Outcome(usize),
 }
 
 impl Fill {
-    /// Opacity of a tint; `None` for a hatch.
-    pub(super) fn opacity(self) -> Option<f64> {
+    /// Opacity of a tint of this role; `None` for a hatch.
+    pub(super) fn opacity(self, role: PlotRole) -> Option<f64> {
         match self {
+            Self::Outcome(number) => Some(outcome_opacity(role.colour(), number)),
             Self::Shade => Some(0.16),
             Self::Solid => Some(0.38),
             Self::Hatched => None,

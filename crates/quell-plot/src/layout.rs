@@ -1,7 +1,9 @@
 //! Layout of a figure: positions of its frames, margins and texts, with their contents.
 
+use super::axis::Mapping;
 use super::canvas::Rectangle;
 use super::colour_bar::ColourBar;
+use super::figure::Panel;
 use super::font_sizes::FontSizes;
 use super::legend::LegendEntry;
 use super::ticks::Ticks;
@@ -38,6 +40,17 @@ pub(super) struct PanelLayout {
     pub(super) entries: Vec<LegendEntry>,
     pub(super) legend: LegendLayout,
     pub(super) bar: Option<ColourBar>,
+}
+
+impl PanelLayout {
+    /// The mappings of both axes of a panel.
+    pub(super) fn mappings(&self, panel: &Panel) -> (Mapping, Mapping) {
+        let frame = self.frame;
+        (
+            Mapping::new(&panel.x, self.x_limits, (frame.left, frame.right)),
+            Mapping::new(&panel.y, self.y_limits, (frame.bottom, frame.top)),
+        )
+    }
 }
 
 /// Layout of a figure.

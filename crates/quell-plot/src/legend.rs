@@ -1,16 +1,19 @@
 //! Legends: one entry per label with its keys, in a box or in rows.
 
+use super::axis::Mapping;
 use super::axis_limits::AxisLimits;
 use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
 use super::colouring::{Colouring, Shading, Tint};
+use super::envelope::{self, BAND_OPACITY, CurveTrace};
 use super::figure::{LegendPosition, Panel};
 use super::font_sizes::FontSizes;
 use super::layer::{Fill, Layer, Marker, Polyline};
 use super::map_layers::Heatmap;
 use super::marks;
 use super::palette::{Colour, FRAME, GAP, LEGEND_EDGE, PAPER, PlotRole};
+use super::projection;
 use super::svg::TextAnchor;
-use super::typeset::RichText;
+use super::typeset::{RichText, wrap};
 use super::visibility;
 
 const SAMPLE: f64 = 26.0;
@@ -27,6 +30,7 @@ const LINE_GAP: f64 = 5.0;
 #[derive(Debug, Clone, PartialEq)]
 enum LegendKey {
     Stroke(Stroke),
+    Band(Colour),
     Point(PlotRole, Marker, f64),
     Patch(PlotRole, Fill),
     Tint(Colour),
@@ -37,33 +41,83 @@ enum LegendKey {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct LegendEntry {
     text: String,
-    label: RichText,
     samples: Vec<LegendKey>,
+}
+
+/// One entry with its label broken into lines.
+struct SetEntry<'a> {
+    samples: &'a [LegendKey],
+    lines: Vec<RichText>,
+    width: f64,
+}
+
+impl LegendEntry {
+    /// The entry no wider than `room`, unless one word is.
+    fn set(&self, room: f64, sizes: FontSizes) -> SetEntry<'_> {
+        let (size, indent) = (f64::from(sizes.legend), SAMPLE + SAMPLE_GAP);
+        let lines = wrap(&self.text, size, false, room - indent);
+        let widest = lines.iter().map(|line| line.width(size, false)).fold(0.0, f64::max);
+        SetEntry { samples: &self.samples, lines, width: indent + widest }
+    }
+}
+
+impl SetEntry<'_> {
+    fn height(&self, sizes: FontSizes) -> f64 {
+        line_height(sizes) * self.lines.len().max(1) as f64
+    }
+}
+
+/// Label of the bands that stand for oscillations too fast to be drawn.
+const BAND: &str = "band: extremes of each oscillation";
+
+/// A panel whose layers have entries: its limits, and the width and height of its frame (pixels).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LegendPanel<'a> {
+    pub(super) panel: &'a Panel,
+    pub(super) limits: AxisLimits,
+    pub(super) frame: (f64, f64),
 }
 
 /// The entries of these panels: equal labels share an entry, equal keys are shown once. Layers of which nothing is inside the
 /// limits of their panel have no entry.
-pub(super) fn entries<'a>(
-    panels: impl IntoIterator<Item = (&'a Panel, AxisLimits)>,
-) -> Vec<LegendEntry> {
+pub(super) fn entries<'a>(panels: impl IntoIterator<Item = LegendPanel<'a>>) -> Vec<LegendEntry> {
     let mut entries: Vec<LegendEntry> = Vec::new();
-    let layers = panels.into_iter().flat_map(|(panel, limits)| {
-        panel.layers.iter().filter(move |layer| visibility::is_visible(layer, panel, limits))
-    });
-    for layer in layers {
-        for (text, sample) in samples(layer).into_iter().filter(|(text, _)| !text.is_empty()) {
-            match entries.iter_mut().find(|entry| entry.text == text) {
-                Some(entry) if entry.samples.contains(&sample) => {}
-                Some(entry) => entry.samples.push(sample),
-                None => entries.push(LegendEntry {
-                    text: text.to_string(),
-                    label: RichText::parse(text),
-                    samples: vec![sample],
-                }),
+    let mut bands: Vec<LegendEntry> = Vec::new();
+    for place in panels {
+        let visible = |layer: &&Layer| visibility::is_visible(layer, place.panel, place.limits);
+        for layer in place.panel.layers.iter().filter(visible) {
+            for (text, sample) in samples(layer).into_iter().filter(|(text, _)| !text.is_empty()) {
+                add(&mut entries, text, sample);
+            }
+            if let Some(colour) = band_of(layer, place) {
+                add(&mut bands, BAND, LegendKey::Band(colour));
             }
         }
     }
+    entries.append(&mut bands);
     entries
+}
+
+fn add(entries: &mut Vec<LegendEntry>, text: &str, sample: LegendKey) {
+    match entries.iter_mut().find(|entry| entry.text == text) {
+        Some(entry) if entry.samples.contains(&sample) => {}
+        Some(entry) => entry.samples.push(sample),
+        None => entries.push(LegendEntry { text: text.to_string(), samples: vec![sample] }),
+    }
+}
+
+/// The colour of the band as which a part of this curve is drawn.
+fn band_of(layer: &Layer, place: LegendPanel) -> Option<Colour> {
+    let Layer::Polyline(line) = layer else { return None };
+    let (width, height) = place.frame;
+    let frame = Rectangle { left: 0.0, top: 0.0, right: width, bottom: height };
+    let x = Mapping::new(&place.panel.x, place.limits.0, (0.0, width));
+    let y = Mapping::new(&place.panel.y, place.limits.1, (height, 0.0));
+    let pieces = projection::pixels(&line.pieces, &x, &y, frame);
+    let is_band = |piece: &Vec<(f64, f64)>| {
+        envelope::traces(piece).iter().any(|trace| matches!(trace, CurveTrace::Band { .. }))
+    };
+    pieces.iter().any(is_band).then(|| line.role.colour())
 }
 
 fn samples(layer: &Layer) -> Vec<(&str, LegendKey)> {
@@ -93,7 +147,9 @@ fn samples_of_grid(grid: &Heatmap) -> Vec<(&str, LegendKey)> {
             .iter()
             .enumerate()
             .filter(|(number, _)| has(&|value| value.round() == *number as f64))
-            .map(|(_, outcome)| tint(outcome))
+            .map(|(number, outcome)| {
+                (Tint::label(outcome), LegendKey::Tint(outcome.outcome_colour(number)))
+            })
             .collect(),
         Colouring::Shaded(Shading { below: Some((limit, below)), .. }) => {
             if has(&|value| value < *limit) { vec![tint(below)] } else { Vec::new() }
@@ -125,15 +181,16 @@ fn line_height(sizes: FontSizes) -> f64 {
     f64::from(sizes.legend) + LINE_GAP
 }
 
-fn width(entry: &LegendEntry, sizes: FontSizes) -> f64 {
-    SAMPLE + SAMPLE_GAP + entry.label.width(f64::from(sizes.legend), false)
+/// Width and height of a box with one entry per row, no wider than `room`.
+pub(super) fn box_size(entries: &[LegendEntry], room: f64, sizes: FontSizes) -> (f64, f64) {
+    let set: Vec<SetEntry> = set_in_box(entries, room, sizes);
+    let widest = set.iter().map(|entry| entry.width).fold(0.0, f64::max);
+    let height = set.iter().map(|entry| entry.height(sizes)).sum::<f64>() - LINE_GAP;
+    (widest + 2.0 * PADDING, height + 2.0 * PADDING)
 }
 
-/// Width and height of a box with one entry per row.
-pub(super) fn box_size(entries: &[LegendEntry], sizes: FontSizes) -> (f64, f64) {
-    let widest = entries.iter().map(|entry| width(entry, sizes)).fold(0.0, f64::max);
-    let height = line_height(sizes) * entries.len() as f64 - LINE_GAP;
-    (widest + 2.0 * PADDING, height + 2.0 * PADDING)
+fn set_in_box(entries: &[LegendEntry], room: f64, sizes: FontSizes) -> Vec<SetEntry<'_>> {
+    entries.iter().map(|entry| entry.set(room - 2.0 * PADDING, sizes)).collect()
 }
 
 /// The box at a position inside the frame.
@@ -170,35 +227,39 @@ pub(super) fn draw_box(
 ) {
     canvas.rectangle(area, Some((PAPER, 0.94)), Some((LEGEND_EDGE, 0.7)));
     let mut top = area.top + PADDING;
-    for entry in entries {
-        draw_entry(canvas, entry, (area.left + PADDING, top), sizes);
-        top += line_height(sizes);
+    // A hair more than the widest line, which must not break again.
+    for entry in set_in_box(entries, area.width() + 0.01, sizes) {
+        draw_entry(canvas, &entry, (area.left + PADDING, top), sizes);
+        top += entry.height(sizes);
     }
 }
 
 /// Distributes the entries over rows no wider than `room`.
-fn rows(entries: &[LegendEntry], room: f64, sizes: FontSizes) -> Vec<Vec<&LegendEntry>> {
-    let mut lines: Vec<(f64, Vec<&LegendEntry>)> = Vec::new();
-    for entry in entries {
-        let own = width(entry, sizes);
-        match lines.last_mut() {
-            Some((used, line)) if *used + ENTRY_GAP + own <= room => {
-                *used += ENTRY_GAP + own;
-                line.push(entry);
+fn rows(entries: &[LegendEntry], room: f64, sizes: FontSizes) -> Vec<Vec<SetEntry<'_>>> {
+    let mut rows: Vec<(f64, Vec<SetEntry>)> = Vec::new();
+    for entry in entries.iter().map(|entry| entry.set(room, sizes)) {
+        match rows.last_mut() {
+            Some((used, row)) if *used + ENTRY_GAP + entry.width <= room => {
+                *used += ENTRY_GAP + entry.width;
+                row.push(entry);
             }
-            _ => lines.push((own, vec![entry])),
+            _ => rows.push((entry.width, vec![entry])),
         }
     }
-    lines.into_iter().map(|(_, line)| line).collect()
+    rows.into_iter().map(|(_, row)| row).collect()
+}
+
+fn row_height(row: &[SetEntry], sizes: FontSizes) -> f64 {
+    row.iter().map(|entry| entry.height(sizes)).fold(0.0, f64::max)
 }
 
 /// Height of the entries set in rows.
-pub(super) fn lines_height(entries: &[LegendEntry], room: f64, sizes: FontSizes) -> f64 {
-    line_height(sizes) * rows(entries, room, sizes).len() as f64
+pub(super) fn rows_height(entries: &[LegendEntry], room: f64, sizes: FontSizes) -> f64 {
+    rows(entries, room, sizes).iter().map(|row| row_height(row, sizes)).sum()
 }
 
-/// Draws the entries in rows, each centred between `left` and `left + room`.
-pub(super) fn draw_lines(
+/// Draws the entries in rows, centred between `left` and `left + room`; rows of one entry each are aligned to the left.
+pub(super) fn draw_rows(
     canvas: &mut Canvas,
     entries: &[LegendEntry],
     (left, top): (f64, f64),
@@ -206,19 +267,23 @@ pub(super) fn draw_lines(
     sizes: FontSizes,
 ) {
     let mut top = top;
-    for line in rows(entries, room, sizes) {
-        let gaps = ENTRY_GAP * line.len().saturating_sub(1) as f64;
-        let used: f64 = line.iter().map(|entry| width(entry, sizes)).sum::<f64>() + gaps;
+    let rows = rows(entries, room, sizes);
+    let is_list = rows.len() > 1 && rows.iter().all(|row| row.len() == 1);
+    let widest = rows.iter().flatten().map(|entry| entry.width).fold(0.0, f64::max);
+    for row in rows {
+        let gaps = ENTRY_GAP * row.len().saturating_sub(1) as f64;
+        let used = row.iter().map(|entry| entry.width).sum::<f64>() + gaps;
+        let used = if is_list { widest } else { used };
         let mut x = left + 0.5 * (room - used).max(0.0);
-        for entry in line {
+        for entry in &row {
             draw_entry(canvas, entry, (x, top), sizes);
-            x += width(entry, sizes) + ENTRY_GAP;
+            x += entry.width + ENTRY_GAP;
         }
-        top += line_height(sizes);
+        top += row_height(&row, sizes);
     }
 }
 
-fn draw_entry(canvas: &mut Canvas, entry: &LegendEntry, (left, top): (f64, f64), sizes: FontSizes) {
+fn draw_entry(canvas: &mut Canvas, entry: &SetEntry, (left, top): (f64, f64), sizes: FontSizes) {
     let size = f64::from(sizes.legend);
     let middle = top + 0.5 * size;
     let half = 0.42 * size;
@@ -228,11 +293,16 @@ fn draw_entry(canvas: &mut Canvas, entry: &LegendEntry, (left, top): (f64, f64),
         right: left + SAMPLE - 3.0,
         bottom: middle + half,
     };
-    for sample in &entry.samples {
+    for sample in entry.samples {
         match sample {
             LegendKey::Stroke(stroke) => {
                 let ends = vec![(left, middle), (left + SAMPLE, middle)];
                 canvas.stroke(&path(&[ends], false), stroke);
+            }
+            LegendKey::Band(colour) => {
+                let outline = marks::outline(patch);
+                canvas.fill(&outline, *colour, BAND_OPACITY);
+                canvas.rectangle(patch, None, Some((*colour, 0.6)));
             }
             LegendKey::Point(role, marker, diameter) => {
                 let at = [(left + 0.5 * SAMPLE, middle)];
@@ -252,6 +322,9 @@ fn draw_entry(canvas: &mut Canvas, entry: &LegendEntry, (left, top): (f64, f64),
             }
         }
     }
-    let baseline = (left + SAMPLE + SAMPLE_GAP, middle + 0.36 * size);
-    canvas.text(&entry.label, baseline, TextStyle::new(sizes.legend, TextAnchor::Start));
+    for (number, line) in entry.lines.iter().enumerate() {
+        let below = line_height(sizes) * number as f64;
+        let baseline = (left + SAMPLE + SAMPLE_GAP, middle + 0.36 * size + below);
+        canvas.text(line, baseline, TextStyle::new(sizes.legend, TextAnchor::Start));
+    }
 }

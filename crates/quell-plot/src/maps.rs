@@ -61,7 +61,7 @@ pub(super) struct Isolines {
 impl Isolines {
     /// The isolines of all layers, with labels placed clear of everything else.
     pub(super) fn of(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> Self {
-        let (x, y) = projection::mappings(panel, layout);
+        let (x, y) = layout.mappings(panel);
         let mut isolines = Self { size: f64::from(sizes.number), ..Self::default() };
         for layer in &panel.layers {
             let Layer::Contours(lines) = layer else {
@@ -162,7 +162,7 @@ fn occupied(
             }
             Layer::Note(note) => {
                 if let Some(area) = projection::note_area(note, (x, y), frame, sizes) {
-                    occupied.area(area.grown(1.0));
+                    occupied.area(area.0.grown(1.0));
                 }
             }
             Layer::Region(_) | Layer::Heatmap(_) | Layer::Contours(_) => {}

@@ -90,7 +90,7 @@ pub(super) fn union(cells: &[bool], columns: &[(f64, f64)], rows: &[(f64, f64)])
 
 /// Fills an outline in the colour of a role.
 pub(super) fn fill(canvas: &mut Canvas, outline: &str, role: PlotRole, fill: Fill) {
-    match fill.opacity() {
+    match fill.opacity(role) {
         Some(opacity) => canvas.fill(outline, role.colour(), opacity),
         None => canvas.hatch(outline, role.colour(), 0),
     }

@@ -17,7 +17,7 @@ pub(super) struct Obstacles {
 impl Obstacles {
     /// The curves, points, reference lines, isolines and notes of a panel.
     pub(super) fn of(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> Self {
-        let (x, y) = projection::mappings(panel, layout);
+        let (x, y) = layout.mappings(panel);
         let mut obstacles = Self::default();
         for layer in &panel.layers {
             match layer {
@@ -43,12 +43,8 @@ impl Obstacles {
                     ));
                 }
                 Layer::Note(note) => {
-                    obstacles.texts.extend(projection::note_area(
-                        note,
-                        (&x, &y),
-                        layout.frame,
-                        sizes,
-                    ));
+                    let placed = projection::note_area(note, (&x, &y), layout.frame, sizes);
+                    obstacles.texts.extend(placed.map(|(area, _)| area));
                 }
                 Layer::Contours(lines) => {
                     for level in lines.lines(&panel.x, &panel.y) {

@@ -2,21 +2,10 @@
 
 use super::axis::Mapping;
 use super::canvas::Rectangle;
-use super::figure::Panel;
 use super::font_sizes::FontSizes;
 use super::layer::{Note, Orientation};
-use super::layout::PanelLayout;
 use super::thin;
-use super::typeset::RichText;
-
-/// The mappings of both axes of a panel.
-pub(super) fn mappings(panel: &Panel, layout: &PanelLayout) -> (Mapping, Mapping) {
-    let frame = layout.frame;
-    (
-        Mapping::new(&panel.x, layout.x_limits, (frame.left, frame.right)),
-        Mapping::new(&panel.y, layout.y_limits, (frame.bottom, frame.top)),
-    )
-}
+use super::typeset::{LINE_HEIGHT, RichText, wrap};
 
 /// Pieces of a curve in pixels, without the parts left and right of the frame, and thinned.
 pub(super) fn pixels(
@@ -88,19 +77,21 @@ pub(super) fn reference_line_ends(
     }
 }
 
-/// The rectangle of a note, moved into the frame if necessary; `None` if the axes cannot represent its point.
+/// The rectangle of a note and its lines, moved into the frame if necessary; `None` if the axes cannot represent its point.
 pub(super) fn note_area(
     note: &Note,
     (x, y): (&Mapping, &Mapping),
     frame: Rectangle,
     sizes: FontSizes,
-) -> Option<Rectangle> {
+) -> Option<(Rectangle, Vec<RichText>)> {
     let at = (x.pixel(note.at.0)?, y.pixel(note.at.1)?);
     let size = f64::from(sizes.note);
-    let (width, height) = (RichText::parse(&note.text).width(size, false), 0.95 * size);
+    let lines = wrap(&note.text, size, false, frame.width() - 8.0);
+    let width = lines.iter().map(|line| line.width(size, false)).fold(0.0, f64::max);
+    let height = (0.95 + LINE_HEIGHT * lines.len().saturating_sub(1) as f64) * size;
     let (left, top) = (at.0 - 0.5 * width, at.1 - 0.5 * height);
     let inner = frame.grown(-4.0);
     let left = left.min(inner.right - width).max(inner.left);
     let top = top.min(inner.bottom - height).max(inner.top);
-    Some(Rectangle { left, top, right: left + width, bottom: top + height })
+    Some((Rectangle { left, top, right: left + width, bottom: top + height }, lines))
 }

@@ -6,20 +6,27 @@ use super::font_sizes::FontSizes;
 use super::layer::{Orientation, ReferenceLine};
 use super::obstacles::Obstacles;
 use super::projection::reference_line_ends;
-use super::typeset::RichText;
+use super::typeset::{LINE_HEIGHT, RichText, wrap};
 
-/// The rectangle of the label; `None` if the line lies outside the frame.
+/// The rectangle of the label and its lines, which are no wider than the room next to the line; `None` if the line lies
+/// outside the frame.
 pub(super) fn place(
     rule: &ReferenceLine,
     (x, y): (&Mapping, &Mapping),
     frame: Rectangle,
     obstacles: &Obstacles,
     sizes: FontSizes,
-) -> Option<Rectangle> {
+) -> Option<(Rectangle, Vec<RichText>)> {
     const GAP: f64 = 5.0;
     let at = *reference_line_ends(rule.orientation, rule.value, x, y, frame)?.first()?;
     let size = f64::from(sizes.note);
-    let (width, height) = (RichText::parse(&rule.label).width(size, false), 0.95 * size);
+    let room = match rule.orientation {
+        Orientation::Vertical => (frame.right - at.0).max(at.0 - frame.left) - 2.0 * GAP,
+        Orientation::Horizontal => frame.width() - 4.0 * GAP,
+    };
+    let lines = wrap(&rule.label, size, false, room);
+    let width = lines.iter().map(|line| line.width(size, false)).fold(0.0, f64::max);
+    let height = (0.95 + LINE_HEIGHT * lines.len().saturating_sub(1) as f64) * size;
     let (lefts, tops) = match rule.orientation {
         Orientation::Vertical => (
             vec![at.0 + GAP, at.0 - GAP - width],
@@ -54,5 +61,5 @@ pub(super) fn place(
             }
         }
     }
-    best.map(|(_, area)| area)
+    best.map(|(_, area)| (area, lines))
 }

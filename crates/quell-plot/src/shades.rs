@@ -160,6 +160,20 @@ fn colour([lightness, a, b]: [f64; 3]) -> Colour {
     )
 }
 
+/// Luma of ITU-R BT.601, the grey of common converters.
+fn grey((red, green, blue): Colour) -> f64 {
+    0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue)
+}
+
+/// Grey levels of numbered outcomes in turn: neighbours differ most, and all are light enough for black lines.
+const OUTCOME_GREYS: [f64; 6] = [224.0, 150.0, 188.0, 120.0, 206.0, 135.0];
+
+/// Opacity at which a colour on white has the grey level of this outcome.
+pub(super) fn outcome_opacity(colour: Colour, number: usize) -> f64 {
+    let wanted = OUTCOME_GREYS[number % OUTCOME_GREYS.len()];
+    ((255.0 - wanted) / (255.0 - grey(colour))).min(1.0)
+}
+
 /// A colour at this opacity on a white background.
 pub(super) fn tint((red, green, blue): Colour, opacity: f64) -> Colour {
     let mix = |level: u8| {
@@ -177,6 +191,7 @@ pub(super) fn tint((red, green, blue): Colour, opacity: f64) -> Colour {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::PlotRole;
 
     #[test]
     fn ends_and_middle_are_the_published_colours() {
@@ -210,15 +225,28 @@ mod tests {
 
     #[test]
     fn the_sign_is_seen_in_grey() {
-        // Luma of ITU-R BT.601, the grey of common converters.
-        let grey = |(red, green, blue): Colour| {
-            0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue)
-        };
         let shades: Vec<f64> = Palette::Sign.shades(250).into_iter().map(grey).collect();
         let (below, above) = shades.split_at(125);
         let darkest = below.iter().copied().fold(f64::INFINITY, f64::min);
         let lightest = above.iter().copied().fold(0.0, f64::max);
         assert!(darkest > lightest + 20.0, "{darkest} {lightest}");
+    }
+
+    #[test]
+    fn outcomes_differ_in_grey_whatever_their_colours() {
+        let roles =
+            [PlotRole::Stable, PlotRole::Unstable, PlotRole::Series(2), PlotRole::Series(4)];
+        for one in roles {
+            for other in roles {
+                let level = |role: PlotRole, number| {
+                    grey(tint(role.colour(), outcome_opacity(role.colour(), number)))
+                };
+                for number in 0..5 {
+                    let step = (level(one, number) - level(other, number + 1)).abs();
+                    assert!(step > 20.0, "{one:?} {other:?} {number} {step}");
+                }
+            }
+        }
     }
 
     #[test]

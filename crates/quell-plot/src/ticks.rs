@@ -24,6 +24,11 @@ pub(super) enum Room {
 }
 
 impl Ticks {
+    /// The power of ten factored out of all labels; `None` for none.
+    pub(super) fn exponent_label(&self) -> Option<RichText> {
+        (self.exponent != 0).then(|| RichText::parse(&format!("$×10^{{{}}}$", self.exponent)))
+    }
+
     /// Ticks for an axis with these limits.
     pub(super) fn of(axis: &PlotAxis, limits: (f64, f64), room: Room) -> Self {
         if let Some(chosen) = &axis.ticks {

@@ -11,6 +11,9 @@ use super::fonts::{self, Face};
 use super::letter_style::{LetterStyle, ScriptLevel};
 use super::tspan::Pen;
 
+/// Distance between the lines of a label inside a frame, over its size.
+pub(super) const LINE_HEIGHT: f64 = 1.15;
+
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct TextRun {
     text: String,

@@ -472,6 +472,7 @@ def test_only_requests_with_the_secret_and_the_host_are_answered(explorer: Any) 
     assert status(explorer, f"{path}static/js/bokeh.min.js") == 200
     assert status(explorer, "/static/js/bokeh.min.js") in (403, 404)
     assert status(explorer, path, Host="evil.example") == 403
+    assert status(explorer, f"{path}static/js/bokeh.min.js", Host="evil.example") == 403
     assert status(explorer, path, Host=f"evil.example:{explorer.port}") == 403
     assert status(explorer, path, Origin="http://evil.example") == 403
     assert status(explorer, f"{path}ws", Host="evil.example", **UPGRADE) == 403

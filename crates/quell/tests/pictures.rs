@@ -333,9 +333,8 @@ fn pixels_of_a_map_have_the_colour_of_the_nearest_point() {
     for pixel in pixels.chunks(4) {
         *counts.entry([pixel[0], pixel[1], pixel[2]]).or_insert(0_usize) += 1;
     }
-    // Blue, vermillion, grey and black at 34 %: a quarter of 400 by 200 pixels each, less frame
-    // and ticks.
-    for tint in [[168, 207, 229], [241, 200, 168], [212, 212, 212], [168, 168, 168]] {
+    // Blue, vermillion, grey and black with four grey levels: a quarter of 400 by 200 pixels each, less frame and ticks.
+    for tint in [[208, 229, 241], [223, 131, 58], [188, 188, 188], [120, 120, 120]] {
         let count = counts.get(&tint).copied().unwrap_or(0);
         assert!((18_500..=20_000).contains(&count), "{tint:?} {count} of {width} {counts:?}");
     }

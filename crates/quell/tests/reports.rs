@@ -188,7 +188,7 @@ fn what_was_not_examined_is_about_this_study() {
     let request = ReportRequest { without: vec!["response".to_owned(), "orbit".to_owned()] };
     let still = run(&study("two-masses-nlvib"), &request).expect("a report").json();
     assert!(
-        subject(&still, "Stability of steady sliding").contains("`stability` gave no answer"),
+        subject(&still, "Stability of steady sliding").contains("`quell stability` gave no answer"),
         "{still}"
     );
     let string = run(

@@ -11,6 +11,7 @@ use serde_json::Value as Json;
 
 use crate::answer::Answer;
 use crate::arguments::{Gathered, StudyArguments, inputs};
+use crate::progress::Bar;
 
 /// Writes one page about a study: sketch, values, verdicts, cost, pictures, sources, and what was not examined
 #[derive(Debug, Args)]
@@ -33,7 +34,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let output = complaints.take(Output::prepare(&arguments.out, "--out", EXTENSIONS, &inputs));
     let (study, output) = complaints.finish(study.zip(output))?;
 
-    let done = report::run(&study, &ReportRequest { without: arguments.without.clone() })?;
+    let request = ReportRequest { without: arguments.without.clone() };
+    let done = report::run_with_progress(&study, &request, &Bar::of_answers())?;
     let mut object = done.json();
     let written = done.write(output)?;
     object["saved"] = vec![written.as_str()].into();

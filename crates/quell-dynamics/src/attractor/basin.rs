@@ -2,9 +2,10 @@
 //!
 //! Runs that settle on the base response form one group. Others are distinguished by centre, size and shape of their sections:
 //! those that agree within `SAME_ATTRACTOR` of the size are one attractor. Locked responses of slightly different period on one
-//! curve count as one.
+//! curve count as one. A curve on which the motion nearly repeats itself after a few periods is filled so slowly that the centres
+//! and sizes of two runs on it differ: measured curves are compared once more, as sets of states.
 
-use super::measure::{Attractor, measure};
+use super::measure::{Attractor, AttractorKind, measure};
 use super::settings::AttractorSettings;
 use super::settle::{BlockSummary, SettleOutcome, Settled};
 use crate::orbit::Unsettled;
@@ -98,22 +99,61 @@ pub fn gather(
             }
         });
     }
-    let mut order: Vec<usize> = (0..groups.len()).collect();
-    order.sort_by_key(|index| (!groups[*index].base, usize::MAX - groups[*index].starts));
-    let mut basins = Vec::with_capacity(groups.len());
-    for index in &order {
-        let group = &groups[*index];
+    // The basin of each group: its own, or that of an earlier group on the same curve.
+    let mut basin_of = Vec::with_capacity(groups.len());
+    let mut found: Vec<(bool, Basin)> = Vec::new();
+    for group in &groups {
         // A settled run has an attractor.
-        if let Some(attractor) = measure(settings, &group.first)? {
-            basins.push(Basin { attractor, starts: group.starts });
+        let Some(attractor) = measure(settings, &group.first)? else {
+            basin_of.push(found.len());
+            continue;
+        };
+        let same = found.iter().position(|(_, basin)| same_curve(&basin.attractor, &attractor));
+        basin_of.push(same.unwrap_or(found.len()));
+        match same {
+            Some(same) => found[same].1.starts += group.starts,
+            None => found.push((group.base, Basin { attractor, starts: group.starts })),
         }
     }
+    let mut order: Vec<usize> = (0..found.len()).collect();
+    order.sort_by_key(|index| (!found[*index].0, usize::MAX - found[*index].1.starts));
     for label in &mut labels {
         if let BasinLabel::Attractor(index) = label {
-            *index = order.iter().position(|other| other == index).unwrap_or(*index);
+            let basin = basin_of[*index];
+            *index = order.iter().position(|other| *other == basin).unwrap_or(basin);
         }
     }
+    let basins = order.iter().map(|index| found[*index].1.clone()).collect();
     Ok(BasinsOfAttraction { basins, labels })
+}
+
+/// Whether two quasi-periodic motions fill the same curve: the states of each lie on the section of the other.
+fn same_curve(one: &Attractor, other: &Attractor) -> bool {
+    let is_curve = |attractor: &Attractor| attractor.kind == AttractorKind::QuasiPeriodic;
+    if !is_curve(one) || !is_curve(other) {
+        return false;
+    }
+    let extent = |pick: fn(&(f64, f64)) -> f64| {
+        let values = one.section.iter().chain(&other.section).map(pick);
+        let ends = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+            (low.min(value), high.max(value))
+        });
+        (ends.1 - ends.0).max(f64::MIN_POSITIVE)
+    };
+    // Displacements and velocities are compared in parts of their extents.
+    let scale = (extent(|state| state.0), extent(|state| state.1));
+    let mean_distance = |from: &[(f64, f64)], to: &[(f64, f64)]| {
+        let nearest = |state: &(f64, f64)| {
+            let distances = to.iter().map(|other| {
+                let (x, v) = ((state.0 - other.0) / scale.0, (state.1 - other.1) / scale.1);
+                x.mul_add(x, v * v)
+            });
+            distances.fold(f64::INFINITY, f64::min).sqrt()
+        };
+        from.iter().map(nearest).sum::<f64>() / from.len() as f64
+    };
+    mean_distance(&one.section, &other.section).max(mean_distance(&other.section, &one.section))
+        <= SAME_ATTRACTOR
 }
 
 impl AttractorGroup {

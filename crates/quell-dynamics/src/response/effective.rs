@@ -18,8 +18,9 @@ use quell_model::{Belt, Direction};
 use quell_numerics::gauss_legendre::GaussLegendre;
 use quell_numerics::quadrature::{QuadratureError, QuadratureOptions, integrate};
 
+use crate::attractor::orbit_reached;
 use crate::orbit::cycle::sliding_verdict;
-use crate::orbit::{NoOrbit, OrbitVerdict, common_period, from_sliding};
+use crate::orbit::{NoOrbit, Orbit, OrbitVerdict, common_period, from_sliding};
 use crate::simulation::{Observer, Segment, Stalled, Start, simulate};
 
 /// Nodes and weights on [0, 1] of the rule for an interval.
@@ -197,6 +198,9 @@ pub struct SteadyFriction {
     pub stick_fraction: f64,
     /// Stability of the response on which it is measured, with the damping and the load of the belt.
     pub verdict: OrbitVerdict,
+    /// Whether the response continues steady sliding; otherwise it is the one of the dither's period on which a run from steady
+    /// sliding ends.
+    pub base: bool,
 }
 
 /// Window edges in a period of a steady response: a piece of stick between them is short.
@@ -206,7 +210,8 @@ const STEADY_EDGES: usize = 16;
 const STEPS: u32 = 8;
 
 /// Effective friction (4.30) at a mean slip velocity (4.31), without averaging: the belt moves at `slip_velocity`, and f/N is
-/// averaged over the period of the response that continues steady sliding as the dither grows. Stick counts. A negative slip
+/// averaged over the period of the response that continues steady sliding as the dither grows, or where that does not exist, of
+/// the one of the same period on which a run from steady sliding ends. Stick counts. A negative slip
 /// velocity is the mirror image: displacements and tangential forces change sign. Without dither it is the law itself.
 ///
 /// # Errors
@@ -224,10 +229,14 @@ pub fn steady_effective_friction(
             coefficient: belt.friction().coefficient(slip_velocity.abs()) * slip_velocity.signum(),
             stick_fraction: 0.0,
             verdict: sliding_verdict(&belt),
+            base: true,
         });
     }
-    let orbit = from_sliding(&belt, STEPS)?;
     let period = common_period(&belt)?;
+    let (orbit, base) = match from_sliding(&belt, STEPS) {
+        Ok(orbit) => (orbit, true),
+        Err(why) => (reached_in_step(&belt, period).ok_or(why)?, false),
+    };
     let mut edges = EdgeRecorder::new(&belt, orbit.start, period, STEADY_EDGES);
     // A little longer, so that the last edge is passed.
     simulate(&belt, orbit.start, period * (1.0 + 1e-9), tolerance, &mut edges)
@@ -237,7 +246,16 @@ pub fn steady_effective_friction(
         coefficient: window.coefficient * slip_velocity.signum(),
         stick_fraction: window.stick_fraction,
         verdict: orbit.verdict(),
+        base,
     })
+}
+
+/// The response of the dither's period on which a run from steady sliding ends, if it ends on one.
+fn reached_in_step(belt: &Belt, period: f64) -> Option<Orbit> {
+    let (displacement, velocity) = (belt.steady_sliding(), 0.0);
+    let start = Start { time: 0.0, displacement, velocity };
+    let orbit = orbit_reached(belt, start).ok()?;
+    (orbit.period <= period * (1.0 + 1e-9)).then_some(orbit)
 }
 
 /// The belt with this slip velocity in steady sliding, reflected where it is negative: every waveform has g(s + π) = −g(s).

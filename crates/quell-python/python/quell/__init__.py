@@ -184,5 +184,6 @@ def reproduce(
     arguments = Arguments()
     place = arguments.path("out", out)
     asked = [arguments.text("names", name, "the name of a figure or table") for name in names]
+    arguments.page(width, caption)
     arguments.done()
-    return _quell.reproduce(asked, place, bool(quick), width, bool(caption))
+    return _quell.reproduce(asked, place, bool(quick), width, caption)

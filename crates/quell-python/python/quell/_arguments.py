@@ -136,6 +136,13 @@ class Arguments:
             return ""
         return given.encode("utf-8", "replace").decode("utf-8")
 
+    def page(self, width: object, caption: object) -> None:
+        """The width and the caption of a picture; a number without its unit is no width."""
+        if width is not None:
+            self.text("width", width, "a length with its unit, such as '85mm'")
+        if not isinstance(caption, bool):
+            self.wrong.append(complaint("caption", caption, "True or False"))
+
     def done(self) -> None:
         """Raises if there are complaints."""
         if self.wrong:

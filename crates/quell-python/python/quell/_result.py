@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _dataset
+from ._arguments import Arguments
 from ._dataset import Arrays
 from ._errors import StudyError, complaint
 from ._names import suggestion
@@ -29,6 +30,13 @@ T = TypeVar("T")
 
 REPORTED_ELSEWHERE = ("ok", "units", "why", "warnings")
 """Facts that every result has as properties."""
+
+
+def _check_page(width: object, caption: object) -> None:
+    """Complains about a width that is no text, and a caption that is neither true nor false."""
+    arguments = Arguments()
+    arguments.page(width, caption)
+    arguments.done()
 
 
 class Result:
@@ -180,6 +188,7 @@ class Result:
         """
         from .plotting import draw
 
+        _check_page(width, caption)
         return draw(self._described(width, caption), ax, style)
 
     @property
@@ -213,6 +222,7 @@ class Result:
         quell.StudyError
             The file cannot be written, or the width has no unit or is outside 50 mm to 1000 mm.
         """
+        _check_page(width, caption)
         try:
             place = os.fspath(path)
         except TypeError:

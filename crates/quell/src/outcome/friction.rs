@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use quell_dynamics::response::SteadyFriction;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -44,12 +45,11 @@ fn table(study: &BeltStudy, curve: &FrictionCurve) -> String {
     for (label, words) in law::words(study) {
         let _ = writeln!(text, "{}: {words}", label.trim());
     }
-    let measured = curve.measured_coefficients().zip(curve.measured_stick_fractions());
-    let (words, names) = match measured {
+    let (words, names) = match curve.measured {
         None => ("", String::new()),
         Some(_) => (
-            "; the friction ⟨f/N⟩ of steady responses, and the fraction of the period in stick",
-            format!("  {:>14}  {:>14}", "measured", "in stick"),
+            "; the friction ⟨f/N⟩ of steady responses, the fraction of the period in stick, and the stability of the response",
+            format!("  {:>14}  {:>14}  response", "measured", "in stick"),
         ),
     };
     let _ = write!(
@@ -69,12 +69,44 @@ fn table(study: &BeltStudy, curve: &FrictionCurve) -> String {
         };
         let v = figure(point.slip_velocity * per_unit);
         let _ = write!(text, "  {v:>14}  {law:>14}  {mean:>14}  {slope:>14}");
-        if let Some((coefficients, stuck)) = &measured {
-            let shown = |value: f64| if value.is_nan() { "none".to_owned() } else { figure(value) };
-            let [coefficient, stuck] = [coefficients[index], stuck[index]].map(shown);
-            let _ = write!(text, "  {coefficient:>14}  {stuck:>14}");
+        if let Some(found) = curve.measured.as_ref().and_then(|measured| measured.get(index)) {
+            let _ = write!(text, "  {}", measured_words(found));
         }
         text.push('\n');
     }
+    text.push_str(&reasons(curve, |v| figure(v * per_unit)));
     text
+}
+
+/// The columns of the measured friction.
+fn measured_words(found: &Result<SteadyFriction, String>) -> String {
+    match found {
+        Ok(found) => {
+            let which = if found.base { "" } else { ", not the continuation of sliding" };
+            let (coefficient, stuck) = (figure(found.coefficient), figure(found.stick_fraction));
+            format!("{coefficient:>14}  {stuck:>14}  {}{which}", found.verdict.name())
+        }
+        Err(_) => format!("{:>14}  {:>14}  none", "none", "none"),
+    }
+}
+
+/// Why friction could not be measured, each reason once, with the slip velocities.
+fn reasons(curve: &FrictionCurve, shown: impl Fn(f64) -> String) -> String {
+    const MOST: usize = 4;
+    let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
+    for (point, found) in curve.points.iter().zip(curve.measured.iter().flatten()) {
+        let Err(why) = found else { continue };
+        let at = shown(point.slip_velocity);
+        match reasons.iter_mut().find(|(known, _)| known == why) {
+            Some((_, places)) => places.push(at),
+            None => reasons.push((why, vec![at])),
+        }
+    }
+    let lines = reasons.into_iter().map(|(why, places)| {
+        let more = places.len().saturating_sub(MOST);
+        let listed = places[..places.len() - more].join(", ");
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        format!("  not measured at v_r = {listed}{more}: {why}\n")
+    });
+    lines.collect()
 }

@@ -4,8 +4,8 @@ use quell_dynamics::attractor::{Basin, BasinLabel};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::units::Quantity;
 
-use super::bifurcation::{axis, intervals};
-use super::caption::caption;
+use super::bifurcation::{axis, intervals, range};
+use super::caption::{VariedNumber, caption, with_varied};
 use super::map::{MapAxis, MapKind, MappedQuantity, map_panel};
 use super::ruler::Ruler;
 use super::{undrawable, with_unstable};
@@ -38,8 +38,13 @@ pub fn basins(study: &BeltStudy, done: &Basins) -> Result<Figure, Failure> {
         }
     };
     let title = study.title().unwrap_or_default();
-    let text =
-        format!("{} {}. {}.", done.sentence(study), done.starts_in_words(study), caption(study));
+    let ranges: Vec<VariedNumber> = done.varied.iter().map(range).collect();
+    let text = format!(
+        "{} {}. {}.",
+        done.sentence(study),
+        done.starts_in_words(study),
+        with_varied(study, caption, &ranges)
+    );
     Ok(figure.title(title).caption(text))
 }
 
@@ -73,8 +78,7 @@ pub(crate) fn plane(
         let states: Vec<(f64, f64)> =
             section.iter().step_by(step).map(|(a, b)| (x.place(*a), v.place(*b))).collect();
         let single = states.len() == 1;
-        let points =
-            Points::new(if single { PlotRole::Exact } else { role(basins, place) }, states);
+        let points = Points::new(PlotRole::Exact, states);
         let marker = if single { Marker::Cross } else { Marker::Disc };
         let label = if place == 0 { "stroboscopic sections of the responses" } else { "" };
         over.push(points.marker(marker).size(if single { 8.0 } else { 2.4 }).label(label).into());
@@ -127,14 +131,17 @@ fn role(basins: &[Basin], place: usize) -> PlotRole {
 /// The share of starts that reach a quiescent response over the parameter.
 fn shares(done: &Basins) -> Panel {
     let Some(varied) = &done.varied else { return Panel::default() };
+    let (across, ruler) = axis(varied);
     let local = done.portraits.iter().filter_map(|portrait| {
-        Some((portrait.value?, portrait.local == Ok(OrbitVerdict::Unstable)))
+        Some((ruler.place(portrait.value?), portrait.local == Ok(OrbitVerdict::Unstable)))
     });
     let local: Vec<(f64, bool)> = local.collect();
-    let shares =
-        done.portraits.iter().filter_map(|portrait| Some((portrait.value?, portrait.quiet)));
+    let shares = done
+        .portraits
+        .iter()
+        .filter_map(|portrait| Some((ruler.place(portrait.value?), portrait.quiet)));
     let label = "starts that fall quiet";
-    panel_of_shares((axis(varied), label), &local, &shares.collect::<Vec<_>>())
+    panel_of_shares((across, label), &local, &shares.collect::<Vec<_>>())
 }
 
 /// Shares of starts over a parameter, where the response is locally unstable or not; the curve has a gap where no share is known.

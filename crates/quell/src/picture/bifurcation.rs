@@ -4,9 +4,9 @@ use quell_dynamics::attractor::Attractor;
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::units::Quantity;
 
-use super::caption::caption_of_run;
+use super::caption::{VariedNumber, caption_of_run, with_varied};
 use super::ruler::Ruler;
-use super::sweep::labelled;
+use super::sweep::{short_name, unit_or_none};
 use super::with_unstable;
 use crate::plot::{
     Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, SharedLegend, Sharing, Size,
@@ -21,9 +21,20 @@ const MOST_STATES: usize = 16_000;
 /// Number of states of each section that are always drawn.
 const STATES: usize = 12;
 
-/// The axis of a varied parameter.
-pub(super) fn axis(varied: &Varied) -> PlotAxis {
-    labelled(PlotAxis::new(varied.about), varied.symbol.unwrap_or(""), varied.unit)
+/// The axis of a varied parameter over its values, and its ruler.
+pub(super) fn axis(varied: &Varied) -> (PlotAxis, Ruler) {
+    let (_, from, to) = range(varied);
+    let ruler = Ruler::of_unit(unit_or_none(varied.unit), from.abs().max(to.abs()));
+    let axis =
+        ruler.axis(short_name(varied.about), &varied.symbol.unwrap_or("").replace('₀', "_0"));
+    (axis.between(ruler.place(from), ruler.place(to)), ruler)
+}
+
+/// The range of a varied parameter.
+pub(super) fn range(varied: &Varied) -> VariedNumber<'_> {
+    let ends = varied.values.first().zip(varied.values.last());
+    let (from, to) = ends.map_or((0.0, 0.0), |(from, to)| (*from, *to));
+    (varied.path.as_str().into(), from, to)
 }
 
 /// Intervals in which a condition holds; their ends are midpoints between neighbouring values.
@@ -60,11 +71,17 @@ pub fn bifurcation(study: &BeltStudy, done: &Bifurcation) -> Figure {
     );
     let count = attractors().count().max(1);
     let each = (MOST_STATES / count).max(STATES);
-    let panel = |up: PlotAxis| with_unstable(Panel::new(axis(&done.varied), up), unstable(done));
+    let (across, varied) = axis(&done.varied);
+    let unstable: Vec<(f64, f64)> = unstable(done)
+        .into_iter()
+        .map(|(from, to)| (varied.place(from), varied.place(to)))
+        .collect();
+    let panel = |up: PlotAxis| with_unstable(Panel::new(across.clone(), up), unstable.clone());
     let mut section = panel(ruler.axis("section displacement", "x"));
     let mut size = panel(ruler.axis("peak-to-peak", "").from(0.0));
     let mut frequency = panel(PlotAxis::new("slow frequency").symbol("ω/ω_0"));
-    for branch in &done.branches {
+    // The small marks of the sweep up are drawn over the larger circles of the sweep down.
+    for branch in done.branches.iter().rev() {
         let (role, marker, width) = look(branch.direction);
         let label = format!("swept {}", branch.direction.name());
         let settled = || {
@@ -73,13 +90,13 @@ pub fn bifurcation(study: &BeltStudy, done: &Bifurcation) -> Figure {
         let states = settled().flat_map(|(point, attractor)| {
             let step = attractor.section.len().div_ceil(each).max(1);
             let states = attractor.section.iter().step_by(step);
-            states.map(|(x, _)| (point.value, ruler.place(*x))).collect::<Vec<_>>()
+            states.map(|(x, _)| (varied.place(point.value), ruler.place(*x))).collect::<Vec<_>>()
         });
         section = section.with(Points::new(role, states).marker(marker).size(width).label(label));
-        let sizes = line(branch, |attractor| Some(ruler.place(attractor.size())));
+        let sizes = line(branch, &varied, |attractor| Some(ruler.place(attractor.size())));
         size = size.with(Polyline::pieces(role, sizes).width(1.6));
         let turning = settled().filter_map(|(point, attractor)| {
-            Some((point.value, attractor.frequency(point.period)?))
+            Some((varied.place(point.value), attractor.frequency(point.period)?))
         });
         frequency = frequency.with(Points::new(role, turning).marker(marker).size(width + 1.0));
     }
@@ -92,14 +109,18 @@ pub fn bifurcation(study: &BeltStudy, done: &Bifurcation) -> Figure {
         .legend(SharedLegend::Above)
         .size(Size::Frame(560.0, 190.0))
         .title(study.title().unwrap_or_default())
-        .caption(format!("{} {}", done.sentence(study), caption_of_run(study)))
+        .caption(format!(
+            "{} {}",
+            done.sentence(study),
+            with_varied(study, caption_of_run, &[range(&done.varied)])
+        ))
 }
 
 /// Role, marker and size of a direction, such that both are visible where they coincide.
 fn look(direction: SweepDirection) -> (PlotRole, Marker, f64) {
     match direction {
         SweepDirection::Up => (PlotRole::Series(0), Marker::Disc, 2.2),
-        SweepDirection::Down => (PlotRole::Series(1), Marker::Circle, 3.0),
+        SweepDirection::Down => (PlotRole::Series(1), Marker::Circle, 4.2),
     }
 }
 
@@ -116,7 +137,11 @@ fn unstable(done: &Bifurcation) -> Vec<(f64, f64)> {
 }
 
 /// A quantity of a branch, with a gap where it jumps between a quiescent response and another.
-fn line(branch: &Branch, value: impl Fn(&Attractor) -> Option<f64>) -> Vec<Vec<(f64, f64)>> {
+fn line(
+    branch: &Branch,
+    varied: &Ruler,
+    value: impl Fn(&Attractor) -> Option<f64>,
+) -> Vec<Vec<(f64, f64)>> {
     let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
     let mut before: Option<bool> = None;
     for point in &branch.points {
@@ -124,9 +149,10 @@ fn line(branch: &Branch, value: impl Fn(&Attractor) -> Option<f64>) -> Vec<Vec<(
             before = None;
             continue;
         };
+        let at = varied.place(point.value);
         match pieces.last_mut() {
-            Some(piece) if before == point.quiet() => piece.push((point.value, y)),
-            _ => pieces.push(vec![(point.value, y)]),
+            Some(piece) if before == point.quiet() => piece.push((at, y)),
+            _ => pieces.push(vec![(at, y)]),
         }
         before = point.quiet();
     }

@@ -1,11 +1,13 @@
 //! Captions: law, belt, dither and initial state of a study in one line.
 
+use std::borrow::Cow;
+
 use quell_model::Direction;
 use quell_model::units::Quantity;
 
 use super::ruler::{short, words};
 use crate::study::disc::ModeSource;
-use crate::study::{BeltStudy, DiscStudy, Kind, Study, SystemStudy};
+use crate::study::{BeltStudy, DiscStudy, Kind, Study, StudyKind, StudyOf, SystemStudy};
 use crate::words::{plural, start_in_words};
 
 /// The study in one line.
@@ -100,6 +102,44 @@ pub(super) fn caption_of_disc(study: &DiscStudy) -> String {
     format!("{}.", parts.join(", "))
 }
 
+/// A number of a study that a picture varies: its path, and the ends of its range.
+pub(super) type VariedNumber<'a> = (Cow<'a, str>, f64, f64);
+
+/// A caption of a study, in which "varied" stands for every value that changes over these ranges.
+pub(super) fn with_varied<K: StudyKind>(
+    study: &StudyOf<K>,
+    caption: impl Fn(&StudyOf<K>) -> String,
+    ranges: &[VariedNumber],
+) -> String {
+    ranges.iter().fold(caption(study), |text, (path, from, to)| {
+        match (study.with(path, *from), study.with(path, *to)) {
+            (Ok(first), Ok(last)) => where_equal(&text, &caption(&first), &caption(&last)),
+            _ => text,
+        }
+    })
+}
+
+/// The text, in which "varied" stands for the values that differ between two other texts of the same items.
+fn where_equal(text: &str, one: &str, other: &str) -> String {
+    const SEPARATOR: &str = ", ";
+    let items = |text: &str| text.split(SEPARATOR).map(str::to_owned).collect::<Vec<String>>();
+    let (mut shown, first, last) = (items(text), items(one), items(other));
+    if shown.len() != first.len() || shown.len() != last.len() {
+        return text.to_owned();
+    }
+    for ((item, one), other) in shown.iter_mut().zip(&first).zip(&last) {
+        if one != other
+            && let Some((name, value)) = item.split_once(" = ")
+        {
+            let ends = [";", ". ", " at "].iter().filter_map(|end| value.find(end));
+            let whole = value.strip_suffix('.').unwrap_or(value).len();
+            let end = ends.min().unwrap_or(whole);
+            *item = format!("{name} varied{}", &value[end..]);
+        }
+    }
+    shown.join(SEPARATOR)
+}
+
 fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
@@ -119,5 +159,22 @@ pub(super) fn caption_of(study: &Study) -> String {
         Kind::Belt(setup) => caption_of_run(&study.narrowed(setup.as_ref())),
         Kind::Disc(setup) => caption_of_disc(&study.narrowed(setup.as_ref())),
         Kind::System(setup) => caption_of_system(&study.narrowed(setup.as_ref())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::where_equal;
+
+    #[test]
+    fn varied_values_are_named_and_the_others_stay() {
+        let text = "Load $m$ = 2, $k$ = 0.5 at $r$ = 1, $D$ = 3; from rest.";
+        let changed = |k: &str, d: &str| text.replace("0.5", k).replace("3;", d);
+        let shown = where_equal(text, &changed("1", "1;"), &changed("2", "1;"));
+        assert_eq!(shown, "Load $m$ = 2, $k$ varied at $r$ = 1, $D$ = 3; from rest.");
+        let shown = where_equal(text, &changed("1", "1;"), &changed("1", "2;"));
+        assert_eq!(shown, "Load $m$ = 2, $k$ = 0.5 at $r$ = 1, $D$ varied; from rest.");
+        assert_eq!(where_equal("$D$ = 3.", "$D$ = 4.", "$D$ = 5."), "$D$ varied.");
+        assert_eq!(where_equal("a, b = 1", "b = 2", "b = 3"), "a, b = 1");
     }
 }

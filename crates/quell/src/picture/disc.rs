@@ -103,6 +103,7 @@ pub fn shape(mode: &PlateMode, inner: f64) -> Result<Panel, PlotError> {
         .with(Contours::new(field, [0.0]).plain())
         .with(Polyline::pieces(PlotRole::Boundary, [circle(inner), circle(1.0)]))
         .with_all(signs(mode, inner))
+        .equal_scales()
         .legend(Legend::None))
 }
 
@@ -159,11 +160,12 @@ pub fn stability(study: &DiscStudy, done: &DiscStability, campbell: &Campbell) -
         Points::new(PlotRole::Undithered, points).marker(Marker::Disc).size(1.6).label(label)
     };
     let speed = study.disc().speed();
-    let own =
-        |value: f64| Points::new(PlotRole::Exact, [(speed, value)]).marker(Marker::Disc).size(7.0);
+    let own = |value: f64, marker: Marker| {
+        Points::new(PlotRole::Exact, [(speed, value)]).marker(marker).size(7.0)
+    };
     let frequency = Panel::new(across(), PlotAxis::new("frequency").symbol("|Im ρ|").from(0.0))
         .with(dots(every(|motion| motion.0), "motions without dither"))
-        .with(own(done.undithered.frequency).label("least stable at this speed"))
+        .with(own(done.undithered.frequency, Marker::Circle).label("least stable without dither"))
         .title("(a) frequency in the frame of the load")
         .legend(Legend::None);
     let mut growth = Panel::new(across(), PlotAxis::new("growth rate").symbol("Re ρ"))
@@ -175,7 +177,7 @@ pub fn stability(study: &DiscStudy, done: &DiscStability, campbell: &Campbell) -
             growth.with(Polyline::new(PlotRole::Dithered, points).label("largest, with dither"));
     }
     let growth = growth
-        .with(own(done.growth.rate).label("this study"))
+        .with(own(done.growth.rate, Marker::Disc).label("this study"))
         .title("(b) growth")
         .legend(Legend::None);
     Figure::grid(2, [frequency, growth])

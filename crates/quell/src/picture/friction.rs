@@ -4,9 +4,14 @@ use quell_model::units::Quantity;
 
 use super::caption::caption;
 use super::ruler::{Ruler, words};
-use crate::plot::{Figure, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine};
+use crate::plot::{
+    Figure, Layer, LineStyle, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
+};
 use crate::run::friction::FrictionCurve;
 use crate::study::BeltStudy;
+
+/// Number of slip velocities up to which every value has a mark.
+const FEW: usize = 40;
 
 /// The picture of friction over the slip velocity.
 pub fn friction(study: &BeltStudy, curve: &FrictionCurve) -> Figure {
@@ -41,8 +46,33 @@ pub fn friction(study: &BeltStudy, curve: &FrictionCurve) -> Figure {
                 .label("effective: $\\bar{μ}$"),
         );
     }
-    if let Some(measured) = curve.measured_coefficients() {
-        panel = panel.with(line(PlotRole::Exact, measured).label("steady responses: $⟨f/N⟩$"));
+    if let Some((measured, stable)) = curve.measured_coefficients().zip(curve.measured_stability())
+    {
+        let of = |unstable: bool| -> Vec<f64> {
+            let both = measured.iter().zip(&stable);
+            both.map(|(value, stable)| if (*stable == 0.0) == unstable { *value } else { f64::NAN })
+                .collect()
+        };
+        panel = panel.with(line(PlotRole::Exact, of(false)).label("steady responses: $⟨f/N⟩$"));
+        let unstable = of(true);
+        if unstable.iter().any(|value| !value.is_nan()) {
+            let dotted = line(PlotRole::Exact, unstable).style(LineStyle::Dotted);
+            panel = panel.with(dotted.label("unstable steady responses"));
+        }
+    }
+    if slip.len() <= FEW {
+        // So few values make no curve.
+        let marks: Vec<Points> = panel
+            .layers
+            .iter()
+            .filter_map(|layer| match layer {
+                Layer::Polyline(line) => {
+                    Some(Points::new(line.role, line.pieces.concat()).size(5.0))
+                }
+                _ => None,
+            })
+            .collect();
+        panel = panel.with_all(marks);
     }
     Figure::single(panel)
         .title(study.title().unwrap_or_default())

@@ -306,7 +306,7 @@ fn sweep(map: &MappedQuantity, x: &MapAxis) -> Result<Panel, PlotError> {
         let place = |value: Result<f64, usize>| value.ok().map(|value| value.round() as usize);
         for (number, from, to) in runs(&place) {
             if let Some((role, word)) = outcomes.get(number) {
-                let region = Region::across_x(*role, from, to).fill(Fill::Solid);
+                let region = Region::across_x(*role, from, to).fill(Fill::Outcome(number));
                 panel = panel.with(region.label(word.clone()));
             }
         }

@@ -40,7 +40,7 @@ pub use thresholds::{curves, thresholds};
 
 use crate::complaint::Failure;
 use crate::output::Output;
-use crate::plot::{Figure, Panel, PlotError, PlotRole, Polyline, Region};
+use crate::plot::{Figure, Fill, Panel, PlotError, PlotRole, Polyline, Region};
 use crate::study::BeltStudy;
 
 /// File name extensions of the supported picture formats.
@@ -69,7 +69,8 @@ fn undrawable(why: PlotError) -> Failure {
 fn with_unstable(panel: Panel, intervals: Vec<(f64, f64)>) -> Panel {
     intervals.into_iter().enumerate().fold(panel, |panel, (number, (from, to))| {
         let label = if number == 0 { "base response unstable" } else { "" };
-        panel.with(Region::across_x(PlotRole::Undecided, from, to).label(label))
+        let region = Region::across_x(PlotRole::Undecided, from, to).fill(Fill::Hatched);
+        panel.with(region.label(label))
     })
 }
 

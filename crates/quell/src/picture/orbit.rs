@@ -49,7 +49,8 @@ pub fn orbit(study: &BeltStudy, found: &Orbit) -> Figure {
     let axis = |name: &str| PlotAxis::new(name).symbol("λ").between(-reach, reach);
     let multipliers = Panel::new(axis("Re"), axis("Im"))
         .with(Polyline::new(PlotRole::Guide, circle))
-        .with(Points::new(PlotRole::Exact, found.multipliers).marker(Marker::Disc).size(7.0));
+        .with(Points::new(PlotRole::Exact, found.multipliers).marker(Marker::Disc).size(7.0))
+        .equal_scales();
     Figure::grid(2, [phase, multipliers])
         .size(Size::Frame(280.0, 260.0))
         .title(study.title().unwrap_or_default())

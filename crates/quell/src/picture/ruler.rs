@@ -3,7 +3,10 @@
 use quell_model::units::Quantity;
 
 use crate::plot::PlotAxis;
-use crate::study::BeltStudy;
+use crate::study::{BeltStudy, SystemStudy, SystemUnits};
+
+/// Units that take a metric prefix; the other ones already have a scale, or are squares and quotients.
+const PREFIXED: &[&str] = &["N", "Hz", "W", "m", "m/s", "s"];
 
 /// Metric prefixes from large to small.
 const PREFIXES: &[(&str, f64)] = &[("k", 1e3), ("", 1.0), ("m", 1e-3), ("µ", 1e-6), ("n", 1e-9)];
@@ -24,12 +27,46 @@ impl Ruler {
             return Self { factor: 1.0, unit: String::new() };
         };
         let si = scales.si_per_unit(quantity);
-        let size = (largest * si).abs();
-        // The prefix kilo is used for forces and frequencies only, and not for seconds.
-        let kilo = matches!(quantity, Quantity::Force | Quantity::FrequencyRatio);
-        let fits = |(prefix, scale): &&(&str, f64)| size >= *scale && (kilo || *prefix != "k");
+        let ruler = Self::of_unit(unit, largest * si);
+        Self { factor: si * ruler.factor, ..ruler }
+    }
+
+    /// A ruler for values in this unit up to `largest` in magnitude; an empty unit for dimensionless numbers.
+    pub(super) fn of_unit(unit: &str, largest: f64) -> Self {
+        let size = largest.abs();
+        // The prefix kilo is not used for lengths and times.
+        let kilo = matches!(unit, "N" | "Hz" | "W");
+        let fits = |(prefix, scale): &&(&str, f64)| {
+            PREFIXED.contains(&unit) && size >= *scale && (kilo || *prefix != "k")
+        };
         let (prefix, scale) = PREFIXES.iter().find(fits).copied().unwrap_or(("", 1.0));
-        Self { factor: si / scale, unit: format!("{prefix}{unit}") }
+        Self { factor: scale.recip(), unit: format!("{prefix}{unit}") }
+    }
+
+    /// A ruler for these values of a quantity of a system, in the units of its study.
+    pub(super) fn of_system(
+        study: &SystemStudy,
+        quantity: Quantity,
+        values: impl IntoIterator<Item = f64>,
+    ) -> Self {
+        let unit = study.units().unit(quantity).unwrap_or_default();
+        match study.units() {
+            SystemUnits::Si => Self::of_unit(unit, largest(values)),
+            SystemUnits::None | SystemUnits::MmTonneSecond => {
+                Self { factor: 1.0, unit: unit.to_owned() }
+            }
+        }
+    }
+
+    /// A ruler for the number of a system at a path, up to `largest` in magnitude.
+    pub(super) fn of_path(study: &SystemStudy, path: &str, largest: f64) -> Self {
+        let unit = study.unit_of(path).filter(|unit| *unit != "1").unwrap_or_default();
+        match study.units() {
+            SystemUnits::Si => Self::of_unit(unit, largest),
+            SystemUnits::None | SystemUnits::MmTonneSecond => {
+                Self { factor: 1.0, unit: unit.to_owned() }
+            }
+        }
     }
 
     /// A ruler for these values.
@@ -38,8 +75,7 @@ impl Ruler {
         quantity: Quantity,
         values: impl IntoIterator<Item = f64>,
     ) -> Self {
-        let sizes = values.into_iter().map(f64::abs).filter(|size| size.is_finite());
-        Self::new(study, quantity, sizes.fold(0.0, f64::max))
+        Self::new(study, quantity, largest(values))
     }
 
     /// The plot axis of a quantity.
@@ -58,6 +94,11 @@ impl Ruler {
         let number = short(self.place(value));
         if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
     }
+}
+
+/// The largest finite magnitude.
+fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().map(f64::abs).filter(|size| size.is_finite()).fold(0.0, f64::max)
 }
 
 /// A number with four significant digits.

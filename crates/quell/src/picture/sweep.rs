@@ -6,13 +6,15 @@
 
 use quell_linear::averaging::{Becomes, FastResponse};
 
+use super::caption::{VariedNumber, caption_of, with_varied};
 use super::map::{self, MapAxis, MapKind, MappedQuantity};
 use super::undrawable;
 use crate::complaint::Failure;
 use crate::plot::{
-    Figure, Layer, Legend, LineStyle, Panel, PlotAxis, PlotError, PlotRole, Polyline, Size, Spread,
+    Figure, Layer, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotError, PlotRole, Points,
+    Polyline, Size, Spread,
 };
-use crate::run::map::{FinishedMap, boundaries};
+use crate::run::map::{FinishedMap, amplitude_and_other, boundaries_at};
 use crate::study::DiscStudy;
 use crate::sweep::{Grid, GridAxis, Status, VariableArrays, VariableKind};
 
@@ -48,8 +50,14 @@ pub fn sweep(done: &FinishedMap) -> Result<Figure, Failure> {
     };
     let figure = figure.map_err(undrawable)?;
     let title = plan.grid().study().title().unwrap_or_default();
-    let caption = super::caption::caption_of(plan.grid().study());
+    let ranges: Vec<VariedNumber> = plan.grid().axes().iter().filter_map(range).collect();
+    let caption = with_varied(plan.grid().study(), caption_of, &ranges);
     Ok(figure.title(title).caption(caption))
+}
+
+/// The range of an axis.
+fn range(axis: &GridAxis) -> Option<VariedNumber<'_>> {
+    Some((axis.path.as_str().into(), *axis.values.first()?, *axis.values.last()?))
 }
 
 /// A variable of a computed map as plain data.
@@ -92,8 +100,8 @@ fn picture(done: &FinishedMap, entry: &VariableArrays) -> MappedQuantity {
         | VariableKind::Number(_) => MapKind::Number(Spread::Linear),
     };
     let name = match kind {
-        MapKind::Efficiency => "efficiency",
-        _ => variable.about,
+        MapKind::Efficiency => "residual vibration",
+        _ => short_name(variable.about),
     };
     MappedQuantity {
         axes: grid
@@ -106,8 +114,26 @@ fn picture(done: &FinishedMap, entry: &VariableArrays) -> MappedQuantity {
         values: (0..grid.len()).map(value).collect(),
         reasons: unknown.iter().map(|status| status.about().to_owned()).collect(),
         zero: None,
-        over: over(done),
+        over: over(done).into_iter().chain(doubtful(done, &states)).collect(),
     }
+}
+
+/// Crosses at the points whose number is known and lies outside the range of the model, with the reason in the legend.
+fn doubtful(done: &FinishedMap, states: &[Status]) -> Vec<Layer> {
+    let axes = done.plan().grid().axes();
+    let [across, up] = axes else { return Vec::new() };
+    let height = up.values.len();
+    let marks = |status: Status| {
+        let places = states.iter().enumerate().filter(|(_, state)| **state == status);
+        let points: Vec<(f64, f64)> = places
+            .map(|(point, _)| (across.values[point / height], up.values[point % height]))
+            .collect();
+        (!points.is_empty()).then(|| {
+            let crosses = Points::new(PlotRole::Guide, points).marker(Marker::Cross).size(2.6);
+            Layer::from(crosses.label(status.about()))
+        })
+    };
+    [Status::BeyondRange, Status::Opens].into_iter().filter_map(marks).collect()
 }
 
 /// The stability boundaries by averaging as lines, in the plane as it is drawn: the first axis to the right.
@@ -116,20 +142,17 @@ fn over(done: &FinishedMap) -> Vec<Layer> {
     if let Ok(study) = grid.study().disc() {
         return over_disc(grid, &study);
     }
-    let upwards = grid.axes().last().is_some_and(|axis| axis.path == "dither.amplitude");
-    let furthest = grid
-        .axes()
-        .iter()
-        .filter(|axis| axis.path == "dither.amplitude")
-        .flat_map(|axis| axis.values.iter().copied())
-        .fold(0.0, f64::max);
+    let Some((amplitude, other)) = amplitude_and_other(grid) else { return Vec::new() };
+    let upwards = grid.axes().last() == Some(amplitude);
+    let furthest = amplitude.values.iter().copied().fold(0.0, f64::max);
+    let found = boundaries_at(grid, &to_the_frame(other));
     let line = |response, becomes, label: &str| {
-        let points: Vec<Vec<(f64, f64)>> = boundaries(grid)
-            .into_iter()
+        let points: Vec<Vec<(f64, f64)>> = found
+            .iter()
             .filter(|boundary| boundary.response == response && boundary.becomes == becomes)
             .map(|boundary| {
-                let inside = boundary.points.into_iter().filter(|point| point.1 <= 1.2 * furthest);
-                inside.map(|(at, d)| if upwards { (at, d) } else { (d, at) }).collect()
+                let inside = boundary.points.iter().filter(|point| point.1 <= 1.2 * furthest);
+                inside.map(|&(at, d)| if upwards { (at, d) } else { (d, at) }).collect()
             })
             .collect();
         let (role, style) = match response {
@@ -148,6 +171,22 @@ fn over(done: &FinishedMap) -> Vec<Layer> {
     .into_iter()
     .flatten()
     .collect()
+}
+
+/// The values of an axis in ascending order, and the borders of the outermost cells, at which the frame of a map ends.
+fn to_the_frame(axis: &GridAxis) -> Vec<f64> {
+    let mut values = axis.values.clone();
+    values.sort_by(f64::total_cmp);
+    if let [first, second, .., before, last] = values[..] {
+        let (lower, upper) = if axis.logarithmic {
+            (first * (first / second).sqrt(), last * (last / before).sqrt())
+        } else {
+            (first - 0.5 * (second - first), last + 0.5 * (last - before))
+        };
+        values.insert(0, lower);
+        values.push(upper);
+    }
+    values
 }
 
 /// The predicted tongues, if the plane is that of speed (to the right) and friction.
@@ -179,7 +218,8 @@ fn number(done: &FinishedMap, entry: &VariableArrays, point: usize) -> Option<f6
 }
 
 fn across(swept: &GridAxis) -> PlotAxis {
-    let axis = labelled(PlotAxis::new(swept.about), swept.symbol.unwrap_or(""), swept.unit);
+    let axis =
+        labelled(PlotAxis::new(short_name(swept.about)), swept.symbol.unwrap_or(""), swept.unit);
     if swept.logarithmic { axis.log() } else { axis }
 }
 
@@ -192,7 +232,7 @@ fn panel(map: &FinishedMap, entry: &VariableArrays) -> Panel {
     let variable = &entry.variable;
     let array = entry.twin.unwrap_or(entry.value);
     let unit = &plan.sheet().fields()[array].unit;
-    let mut up = labelled(PlotAxis::new(variable.about), variable.symbol, unit);
+    let mut up = labelled(PlotAxis::new(short_name(variable.about)), variable.symbol, unit);
     if let VariableKind::Word { words, .. } = variable.kind {
         up = PlotAxis::new(format!("{} (0 {})", variable.about, words.join(", 1 ")));
         up = up.between(-0.1, 1.1).ticks([0.0, 1.0]);
@@ -205,12 +245,77 @@ fn panel(map: &FinishedMap, entry: &VariableArrays) -> Panel {
             _ => {}
         }
     }
-    Panel::new(across, up).with(Polyline::pieces(PlotRole::Dithered, pieces))
+    let whole = Panel::new(across, up);
+    if pieces.iter().all(Vec::is_empty) {
+        return whole.with_all(nothing(map, entry, swept));
+    }
+    if matches!(variable.kind, VariableKind::Word { .. }) {
+        return whole.with(Points::new(PlotRole::Dithered, pieces.concat()).size(4.0));
+    }
+    whole.with(Polyline::pieces(PlotRole::Dithered, pieces))
+}
+
+/// Why no point has a number, in the middle of the frame.
+fn nothing(map: &FinishedMap, entry: &VariableArrays, swept: &GridAxis) -> Vec<Layer> {
+    let mut reasons: Vec<&str> =
+        (0..swept.values.len()).map(|point| map.status(entry, point).about()).collect();
+    reasons.sort_unstable();
+    reasons.dedup();
+    let ends =
+        swept.values.iter().copied().fold((f64::INFINITY, f64::NEG_INFINITY), |ends, value| {
+            (f64::min(ends.0, value), f64::max(ends.1, value))
+        });
+    let spread = [(ends.0, 0.0), (ends.1, 1.0)];
+    vec![
+        Polyline::new(PlotRole::Guide, spread).width(0.0).into(),
+        Note::new(0.5 * (ends.0 + ends.1), 0.5, format!("no value: {}", reasons.join("; "))).into(),
+    ]
+}
+
+/// The name of a number without the formula or the explanation that follows it, as the label of an axis.
+pub(super) fn short_name(about: &str) -> &str {
+    let end = about.find([':', ',', ';', '(']).unwrap_or(about.len());
+    let name = &about[..end];
+    let formula = match name.find(" = ") {
+        // The symbol before the equals sign belongs to the formula.
+        Some(sign) => name[..sign].rfind(' ').unwrap_or(sign),
+        None => name.find('/').and_then(|slash| name[..slash].rfind(' ')).unwrap_or(name.len()),
+    };
+    name[..formula].trim_end()
 }
 
 /// An axis with symbol and unit; dimensionless numbers of the equations have no unit.
 pub(super) fn labelled(axis: PlotAxis, symbol: &str, unit: &str) -> PlotAxis {
     let axis = if symbol.is_empty() { axis } else { axis.symbol(symbol) };
-    let scaled = unit.is_empty() || unit == "1" || unit.contains(['ω', '(']) || unit == "length";
-    if scaled { axis } else { axis.unit(unit) }
+    match unit_or_none(unit) {
+        "" => axis,
+        unit => axis.unit(unit),
+    }
+}
+
+/// The unit; empty for the dimensionless numbers of the equations.
+pub(super) fn unit_or_none(unit: &str) -> &str {
+    let scaled = unit == "1" || unit.contains(['ω', '(']) || unit == "length";
+    if scaled { "" } else { unit }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short_name;
+
+    #[test]
+    fn labels_have_no_formulae() {
+        for (about, name) in [
+            ("belt velocity V₀/ω₀", "belt velocity"),
+            ("damping ratio c/(2mω₀)", "damping ratio"),
+            ("residual vibration E = M₁/M₀", "residual vibration"),
+            ("dither frequency over natural frequency", "dither frequency over natural frequency"),
+            (
+                "slip velocity that scales the law: of the minimum",
+                "slip velocity that scales the law",
+            ),
+        ] {
+            assert_eq!(short_name(about), name);
+        }
+    }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::ruler::Ruler;
 use crate::plot::{
     Figure, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
 };
@@ -71,13 +72,27 @@ pub fn stability(study: &SystemStudy, done: &SystemStability) -> Figure {
         .caption("Eigenvalues of small motions about steady sliding.".to_owned())
 }
 
-/// The axis of the number at a path.
-pub(super) fn axis_of(study: &SystemStudy, path: &str) -> PlotAxis {
-    let axis = PlotAxis::new(path);
-    match study.unit_of(path).filter(|unit| *unit != "1") {
-        Some(unit) => axis.unit(unit),
-        None => axis,
+/// The axis of the number at a path over a range, and its ruler.
+pub(super) fn axis_of(
+    study: &SystemStudy,
+    path: &str,
+    (from, to): (f64, f64),
+) -> (PlotAxis, Ruler) {
+    let ruler = Ruler::of_path(study, path, from.abs().max(to.abs()));
+    let axis = ruler.axis(&name_of(path), "");
+    (axis.between(ruler.place(from), ruler.place(to)), ruler)
+}
+
+/// The number at a path in words: "belt velocity of contact guide", "amplitude of dither[1]".
+fn name_of(path: &str) -> String {
+    let mut parts = path.split('.').rev();
+    let key = parts.next().unwrap_or_default().replace('_', " ");
+    let places: Vec<&str> = parts.collect();
+    if places.is_empty() {
+        return key;
     }
+    let place: Vec<&str> = places.into_iter().rev().collect();
+    format!("{key} of {}", place.join(" "))
 }
 
 /// Lower end of the axis of growth rates, where a few rates are far below all others.
@@ -103,14 +118,18 @@ fn lowest_rate(done: &TrackedStability) -> Option<f64> {
 pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
     let (frequency, factor) = frequency_axis(study, "|Im λ|");
     let (from, to) = done.request.window;
-    let across = || axis_of(study, &done.request.parameter).between(from, to);
+    let (axis, ruler) = axis_of(study, &done.request.parameter, (from, to));
+    let across = || axis.clone();
     let branches = |pick: &dyn Fn(&num_complex::Complex64) -> Option<f64>| -> Vec<Vec<(f64, f64)>> {
         let mut lines: BTreeMap<(usize, usize), Vec<(f64, f64)>> = BTreeMap::new();
         for (index, piece) in done.tracked.pieces.iter().enumerate() {
             for point in piece {
                 for (branch, value) in point.eigenvalues.iter().enumerate() {
                     if let Some(height) = pick(value) {
-                        lines.entry((index, branch)).or_default().push((point.value, height));
+                        lines
+                            .entry((index, branch))
+                            .or_default()
+                            .push((ruler.place(point.value), height));
                     }
                 }
             }
@@ -129,7 +148,7 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
             let found = done.tracked.thresholds.iter();
             let of_kind = found.filter(|at| (at.verdicts[0] != at.verdicts[1]) == changes);
             let points: Vec<(f64, f64)> =
-                of_kind.map(|at| (at.value, height(at.eigenvalue))).collect();
+                of_kind.map(|at| (ruler.place(at.value), height(at.eigenvalue))).collect();
             if points.is_empty() {
                 return panel;
             }
@@ -154,7 +173,7 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
     let below = marked(below, &|z| z.re).title("(b) growth rate");
     let mut panels = vec![above, below];
     if let Some((along, (first, last))) = &done.request.along {
-        let second = axis_of(study, along).between(*first, *last);
+        let (second, second_ruler) = axis_of(study, along, (*first, *last));
         let mut panel = Panel::new(second, across());
         for (kind, changes) in [(PlotRole::Boundary, true), (PlotRole::Guide, false)] {
             let of_kind = done.curves.iter().filter(|curve| {
@@ -162,7 +181,12 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
                 verdicts.is_some_and(|[before, beyond]| (before != beyond) == changes)
             });
             let lines: Vec<Vec<(f64, f64)>> = of_kind
-                .map(|curve| curve.points.iter().map(|(at, found)| (*at, found.value)).collect())
+                .map(|curve| {
+                    let points = curve.points.iter();
+                    let placed = points
+                        .map(|(at, found)| (second_ruler.place(*at), ruler.place(found.value)));
+                    placed.collect()
+                })
                 .collect();
             if !lines.is_empty() {
                 let label = if changes { "threshold" } else { "frequencies merge" };

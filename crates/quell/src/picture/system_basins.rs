@@ -1,7 +1,7 @@
 //! Basins of a system in the plane of starts, and the share of quiescent motions over a parameter.
 
 use super::basins::panel_of_shares;
-use super::caption::caption_of_system;
+use super::caption::{VariedNumber, caption_of_system, with_varied};
 use super::map::{MapAxis, MapKind, MappedQuantity, map_panel};
 use super::system::axis_of;
 use super::undrawable;
@@ -25,10 +25,13 @@ pub fn basins(study: &SystemStudy, done: &SystemBasins) -> Result<Figure, Failur
             .legend(SharedLegend::Above)
             .size(Size::Frame(480.0, 280.0)),
     };
+    let ranges: Vec<VariedNumber> =
+        done.over.iter().map(|over| (over.parameter.as_str().into(), over.from, over.to)).collect();
     let (sentence, starts) = (done.sentence(study), done.starts_in_words(study));
-    Ok(figure
-        .title(study.title().unwrap_or_default())
-        .caption(format!("{sentence} {starts}. {}", caption_of_system(study))))
+    Ok(figure.title(study.title().unwrap_or_default()).caption(format!(
+        "{sentence} {starts}. {}",
+        with_varied(study, caption_of_system, &ranges)
+    )))
 }
 
 /// The plane of starts.
@@ -76,14 +79,16 @@ fn plane(
 /// The share of starts that end in step with the dither, or at rest, over the parameter.
 fn shares(study: &SystemStudy, done: &SystemBasins) -> Panel {
     let Some(over) = &done.over else { return Panel::default() };
-    let axis = axis_of(study, &over.parameter).between(over.from, over.to);
+    let (axis, ruler) = axis_of(study, &over.parameter, (over.from, over.to));
     let local = done.portraits.iter().filter_map(|portrait| {
         let unstable = portrait.local.as_ref().is_ok_and(|verdict| *verdict == "unstable");
-        Some((portrait.value?, unstable))
+        Some((ruler.place(portrait.value?), unstable))
     });
     let local: Vec<(f64, bool)> = local.collect();
-    let shares =
-        done.portraits.iter().filter_map(|portrait| Some((portrait.value?, portrait.quiet)));
+    let shares = done
+        .portraits
+        .iter()
+        .filter_map(|portrait| Some((ruler.place(portrait.value?), portrait.quiet)));
     panel_of_shares((axis, "starts that fall quiet"), &local, &shares.collect::<Vec<_>>())
 }
 

@@ -5,6 +5,7 @@ use quell_dynamics::response::SystemRecord;
 use quell_model::units::Quantity;
 
 use super::caption::caption_of_system;
+use super::ruler::Ruler;
 use super::system::frequency_axis;
 use crate::plot::{
     Figure, LineStyle, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, SharedLegend,
@@ -17,10 +18,10 @@ use crate::study::SystemStudy;
 use crate::words::capital;
 
 /// Width of the bars of stick and separation.
-const BAR: f64 = 6.0;
+const BAR: f64 = 4.0;
 
 /// Distance of the bars of two contacts, over the range of the curve.
-const SPACING: f64 = 0.05;
+const SPACING: f64 = 0.075;
 
 /// Contacts with bars.
 const MOST_BARS: usize = 10;
@@ -31,17 +32,11 @@ const PERIODS_SHOWN: f64 = 8.0;
 /// Number of decades of the spectrum that are shown below its largest line.
 const DECADES: i32 = 5;
 
-/// An axis of a quantity of a study.
-pub(super) fn axis(study: &SystemStudy, name: &str, quantity: Quantity) -> PlotAxis {
-    match study.units().unit(quantity) {
-        Some(unit) => PlotAxis::new(name).unit(unit),
-        None => PlotAxis::new(name),
-    }
-}
-
-/// The axis of time.
-pub(super) fn time_axis(study: &SystemStudy) -> PlotAxis {
-    axis(study, "time", Quantity::Time).symbol("t")
+/// The axis of time between two times, and its ruler.
+pub(super) fn time_axis(study: &SystemStudy, (from, to): (f64, f64)) -> (PlotAxis, Ruler) {
+    let ruler = Ruler::of_system(study, Quantity::Time, [from, to]);
+    let axis = ruler.axis("time", "t").between(ruler.place(from), ruler.place(to));
+    (axis, ruler)
 }
 
 /// The observed displacement and its velocity at every sample; no velocity for first-order equations.
@@ -65,17 +60,21 @@ pub(super) fn observed(
 pub fn simulate(study: &SystemStudy, done: &SystemSimulation, samples: &MotionSampler) -> Figure {
     let (displacement, velocity) = observed(study, samples);
     let role = if study.system().inputs.is_empty() { PlotRole::Exact } else { PlotRole::Dithered };
-    let over_time = samples.times.iter().copied().zip(displacement.iter().copied());
-    let across = axis(study, "observed displacement", Quantity::Displacement);
+    let x = Ruler::of_system(study, Quantity::Displacement, displacement.iter().copied());
+    let displacement: Vec<f64> = displacement.into_iter().map(|value| x.place(value)).collect();
+    let (time, clock) = time_axis(study, (done.start.time, done.end.time));
+    let times = samples.times.iter().map(|time| clock.place(*time));
+    let over_time = times.zip(displacement.iter().copied());
+    let across = x.axis("observed displacement", "");
     let ends = displacement.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
         (f64::min(least, *x), f64::max(most, *x))
     });
-    let time = time_axis(study).between(done.start.time, done.end.time);
     let panel = Panel::new(time, across.clone()).with(Polyline::new(role, over_time));
-    let mut panels = vec![panel.with_all(bars(&done.history, ends))];
+    let mut panels = vec![panel.with_all(bars(&done.history, &clock, ends))];
     if let Some(velocity) = velocity {
-        let up = axis(study, "observed velocity", Quantity::Velocity);
-        let plane = displacement.into_iter().zip(velocity);
+        let v = Ruler::of_system(study, Quantity::Velocity, velocity.iter().copied());
+        let up = v.axis("observed velocity", "");
+        let plane = displacement.into_iter().zip(velocity.into_iter().map(|rate| v.place(rate)));
         panels.push(Panel::new(across, up).with(Polyline::new(role, plane)));
     }
     Figure::grid(1, panels)
@@ -84,7 +83,7 @@ pub fn simulate(study: &SystemStudy, done: &SystemSimulation, samples: &MotionSa
 }
 
 /// A bar below the curve for every interval in which a contact sticks or is open, one line for each of the first contacts.
-fn bars(history: &EventHistory, (least, most): (f64, f64)) -> Vec<Polyline> {
+fn bars(history: &EventHistory, clock: &Ruler, (least, most): (f64, f64)) -> Vec<Polyline> {
     let length = if most > least { most - least } else { 1.0 };
     let kinds = [("stick", ContactPhase::Stick, 0), ("open", ContactPhase::Open, 1)];
     let mut lines = Vec::new();
@@ -93,7 +92,9 @@ fn bars(history: &EventHistory, (least, most): (f64, f64)) -> Vec<Polyline> {
         let pieces = contacts.flat_map(|(contact, intervals)| {
             let of_phase = intervals.iter().filter(move |interval| interval.phase == phase);
             let height = least - (contact + 1) as f64 * SPACING * length;
-            of_phase.map(move |interval| [(interval.from, height), (interval.to, height)])
+            of_phase.map(move |interval| {
+                [(clock.place(interval.from), height), (clock.place(interval.to), height)]
+            })
         });
         let pieces: Vec<[(f64, f64); 2]> = pieces.collect();
         if !pieces.is_empty() {
@@ -150,15 +151,18 @@ fn record(study: &SystemStudy, done: &SettledSystem, dithered: bool) -> Panel {
     let shown = PERIODS_SHOWN * std::f64::consts::TAU / strongest;
     let end = done.plan.settle + done.plan.length;
     let first = (end - shown.min(done.plan.length)).max(done.plan.settle);
+    let (time, clock) = time_axis(study, (first, end));
+    let values = [with, without].map(|record| record.row.samples.iter().copied());
+    let x = Ruler::of_system(study, Quantity::Displacement, values.into_iter().flatten());
     let points = |record: &SystemRecord| -> Vec<(f64, f64)> {
         let samples = record.row.samples.iter().enumerate();
         let times = samples.map(|(number, value)| {
             (f64::mul_add(number as f64, record.step, done.plan.settle), *value)
         });
-        times.filter(|(time, _)| *time >= first).collect()
+        let shown = times.filter(|(time, _)| *time >= first);
+        shown.map(|(time, value)| (clock.place(time), x.place(value))).collect()
     };
-    let up = axis(study, "observed displacement", Quantity::Displacement);
-    let panel = Panel::new(time_axis(study).between(first, end), up);
+    let panel = Panel::new(time, x.axis("observed displacement", ""));
     both(panel, dithered, [points(with), points(without)])
 }
 
@@ -173,17 +177,20 @@ fn spectra(
         |record: &SystemRecord| record.spectrum.amplitudes().iter().copied().fold(0.0, f64::max);
     let top = largest(records[0]).max(largest(records[1]));
     let floor = top * 10f64.powi(-DECADES);
+    let size = Ruler::of_system(study, Quantity::Displacement, [top]);
     let end = 1.3 * fastest_line(records, floor);
     let points = records.map(|record| -> Vec<(f64, f64)> {
         let lines = record.spectrum.frequencies().zip(record.spectrum.amplitudes());
         let shown = lines.skip(1).take_while(|(frequency, _)| *frequency <= end);
         shown
-            .map(|(frequency, amplitude)| (factor * frequency, amplitude.max(0.1 * floor)))
+            .map(|(frequency, amplitude)| {
+                (factor * frequency, size.place(amplitude.max(0.1 * floor)))
+            })
             .collect()
     });
-    let mut up = axis(study, "spectral amplitude", Quantity::Displacement).log();
+    let mut up = size.axis("spectral amplitude", "").log();
     if top > 0.0 {
-        up = up.between(floor, 2.0 * top);
+        up = up.between(size.place(floor), size.place(2.0 * top));
     }
     let mut panel = Panel::new(across.between(0.0, factor * end), up);
     if dithered {

@@ -6,6 +6,7 @@ use quell_dynamics::motion::ContactPhase;
 use quell_model::units::Quantity;
 
 use super::caption::caption_of_system;
+use super::ruler::Ruler;
 use crate::complaint::Failure;
 use crate::plot::{Figure, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, Size};
 use crate::run::system::orbit::{FoundMotion, OrbitOfSystem};
@@ -17,14 +18,6 @@ const CIRCLE: u32 = 180;
 
 /// Width of the lines where a contact sticks or is open.
 const WIDE: f64 = 3.5;
-
-/// An axis of a quantity of a study.
-pub(super) fn axis(study: &SystemStudy, name: &str, quantity: Quantity) -> PlotAxis {
-    match study.units().unit(quantity) {
-        Some(unit) => PlotAxis::new(name).unit(unit),
-        None => PlotAxis::new(name),
-    }
-}
 
 /// The picture of the motion that `orbit` found.
 ///
@@ -42,10 +35,12 @@ pub fn orbit(study: &SystemStudy, done: &OrbitOfSystem) -> Result<Figure, Failur
 /// The plane of the observed displacement and its rate, with stick and separation.
 fn plane(study: &SystemStudy, found: &FoundMotion) -> Panel {
     let samples = &found.samples;
-    let points: Vec<(f64, f64)> =
-        samples.observed.iter().copied().zip(samples.rate.iter().copied()).collect();
-    let across = axis(study, "observed displacement", Quantity::Displacement);
-    let up = axis(study, "observed velocity", Quantity::Velocity);
+    let x = Ruler::of_system(study, Quantity::Displacement, samples.observed.iter().copied());
+    let v = Ruler::of_system(study, Quantity::Velocity, samples.rate.iter().copied());
+    let states = samples.observed.iter().zip(&samples.rate);
+    let points: Vec<(f64, f64)> = states.map(|(a, b)| (x.place(*a), v.place(*b))).collect();
+    let across = x.axis("observed displacement", "");
+    let up = v.axis("observed velocity", "");
     let role = if found.orbit.is_free { PlotRole::Undithered } else { PlotRole::Dithered };
     let whole = Polyline::new(role, points.iter().copied()).style(LineStyle::Solid);
     let mut panel = Panel::new(across, up).with(whole);
@@ -85,4 +80,5 @@ fn multipliers(found: &FoundMotion) -> Panel {
     Panel::new(axis("Re"), axis("Im"))
         .with(Polyline::new(PlotRole::Guide, circle))
         .with(Points::new(PlotRole::Exact, places).marker(Marker::Disc).size(7.0))
+        .equal_scales()
 }

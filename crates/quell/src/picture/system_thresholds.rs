@@ -1,7 +1,7 @@
 //! The modulus of the deciding multiplier of a system's periodic motion over a parameter, with its thresholds; and threshold
 //! curves in two parameters.
 
-use super::caption::caption_of_system;
+use super::caption::{caption_of_system, with_varied};
 use super::system::axis_of;
 use super::thresholds::{with_curves, words};
 use crate::plot::{
@@ -18,6 +18,8 @@ const JUMP: f64 = 0.05;
 
 /// The picture of the thresholds of one parameter.
 pub fn thresholds(study: &SystemStudy, done: &MotionThresholdsFound) -> Figure {
+    let (from, to) = done.request.window;
+    let (across, ruler) = axis_of(study, &done.request.parameter, (from, to));
     let branch = done.local.as_ref().map_or(&[][..], |local| &local.branch);
     // The multipliers jump at grazing, and the curve has a gap there.
     let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
@@ -30,7 +32,7 @@ pub fn thresholds(study: &SystemStudy, done: &MotionThresholdsFound) -> Figure {
             pieces.push(Vec::new());
         }
         if let Some(piece) = pieces.last_mut() {
-            piece.push((point.value, point.radius));
+            piece.push((ruler.place(point.value), point.radius));
         }
     }
     let radii = || pieces.iter().flatten().map(|point| point.1);
@@ -38,8 +40,6 @@ pub fn thresholds(study: &SystemStudy, done: &MotionThresholdsFound) -> Figure {
     let room = 0.15 * (high - low).max(1e-3);
     let modulus =
         PlotAxis::new("modulus of the multiplier").symbol("|λ|").between(low - room, high + room);
-    let (from, to) = done.request.window;
-    let across = axis_of(study, &done.request.parameter).between(from, to);
     let mut panel = Panel::new(across, modulus)
         .with(Region::across_y(PlotRole::Unstable, 1.0, f64::INFINITY).label("unstable"))
         .with(ReferenceLine::horizontal(1.0))
@@ -48,7 +48,7 @@ pub fn thresholds(study: &SystemStudy, done: &MotionThresholdsFound) -> Figure {
         let found = done.local.iter().flat_map(|local| &local.thresholds);
         let places: Vec<(f64, f64)> = found
             .filter(|threshold| threshold.kind == kind)
-            .map(|threshold| (threshold.value, 1.0))
+            .map(|threshold| (ruler.place(threshold.value), 1.0))
             .collect();
         if !places.is_empty() {
             let marker = if kind == ThresholdKind::Grazing { Marker::Circle } else { Marker::Disc };
@@ -58,26 +58,49 @@ pub fn thresholds(study: &SystemStudy, done: &MotionThresholdsFound) -> Figure {
     }
     for (protocol, switches) in &done.runs {
         for change in &switches.changes {
-            let label =
-                format!("run {}: {} above", protocol.words(study), done.words(&change.becomes));
-            let rule = ReferenceLine::vertical(change.value).style(LineStyle::Dashed);
+            let label = format!(
+                "run {}: {} above {}",
+                protocol.words(study),
+                done.words(&change.becomes),
+                ruler.words(change.value)
+            );
+            let rule = ReferenceLine::vertical(ruler.place(change.value)).style(LineStyle::Dashed);
             panel = panel.with(rule.label(label));
         }
     }
-    Figure::single(panel.legend(Legend::Above))
-        .title(study.title().unwrap_or_default())
-        .caption(format!("{} {}", done.sentence(study), caption_of_system(study)))
+    Figure::single(panel.legend(Legend::Above)).title(study.title().unwrap_or_default()).caption(
+        format!(
+            "{} {}",
+            done.sentence(study),
+            with_varied(
+                study,
+                caption_of_system,
+                &[(done.request.parameter.as_str().into(), from, to)]
+            )
+        ),
+    )
 }
 
 /// The picture of threshold curves.
 pub fn curves(study: &SystemStudy, done: &SystemCurves) -> Figure {
     let request = &done.request;
-    let axis = |path: &str, (from, to): (f64, f64)| axis_of(study, path).between(from, to);
-    let panel =
-        Panel::new(axis(&request.along, request.between), axis(&request.parameter, request.window));
-    let panel = with_curves(panel, &done.averaged, &done.found.curves, |point| point);
+    let (x, across) = axis_of(study, &request.along, request.between);
+    let (y, up) = axis_of(study, &request.parameter, request.window);
+    let place = |(along, value): (f64, f64)| (across.place(along), up.place(value));
+    let panel = with_curves(Panel::new(x, y), &done.averaged, &done.found.curves, place);
     Figure::single(panel.legend(Legend::Above))
         .size(Size::Frame(380.0, 300.0))
         .title(study.title().unwrap_or_default())
-        .caption(format!("{} {}", done.sentence(study), caption_of_system(study)))
+        .caption(format!(
+            "{} {}",
+            done.sentence(study),
+            with_varied(
+                study,
+                caption_of_system,
+                &[
+                    (request.along.as_str().into(), request.between.0, request.between.1),
+                    (request.parameter.as_str().into(), request.window.0, request.window.1),
+                ]
+            )
+        ))
 }

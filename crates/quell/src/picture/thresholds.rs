@@ -1,17 +1,21 @@
 //! The modulus of the larger multiplier over a parameter, with its thresholds; and threshold curves in two parameters compared
 //! with the stability boundaries by averaging.
 
+use std::borrow::Cow;
+
 use quell_dynamics::orbit::threshold::ThresholdKind;
 use quell_model::units::Quantity;
 
-use super::caption::caption;
+use super::caption::{caption, with_varied};
 use super::ruler::Ruler;
+use super::sweep::short_name;
 use crate::plot::{
-    Figure, Legend, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
-    Region, Size,
+    AxisRange, Figure, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotRole, Points,
+    Polyline, ReferenceLine, Region, Size,
 };
 use crate::run::curves::{AveragedBoundary, Curves, ThresholdCurve};
 use crate::run::thresholds::{Thresholds, becomes};
+use crate::run::varied::{key_of, name_of};
 use crate::study::BeltStudy;
 
 /// Minimum jump of the multiplier between neighbouring points that counts as grazing.
@@ -24,9 +28,9 @@ fn axis_of(study: &BeltStudy, path: &str, range: (f64, f64)) -> (PlotAxis, Ruler
         return (PlotAxis::new(path), Ruler::new(study, Quantity::Ratio, largest));
     };
     let ruler = Ruler::new(study, parameter.quantity, largest);
-    let name = parameter.key().replace('_', " ");
+    let (about, symbol) = name_of(study, path).unwrap_or((path, parameter.symbol));
     let axis = ruler
-        .axis(&name, &parameter.symbol.replace('₀', "_0"))
+        .axis(short_name(about), &symbol.replace('₀', "_0"))
         .between(ruler.place(range.0.min(range.1)), ruler.place(range.0.max(range.1)));
     (axis, ruler)
 }
@@ -76,17 +80,34 @@ pub fn thresholds(study: &BeltStudy, done: &Thresholds) -> Figure {
     for (protocol, switches) in &done.protocols {
         for switch in &switches.changes {
             let label = format!(
-                "{}: {} above",
+                "{}: {} above {}",
                 protocol.name().replace('_', " "),
-                becomes(switch.becomes, done.in_band)
+                becomes(switch.becomes, done.in_band),
+                ruler.words(switch.value)
             );
             let rule = ReferenceLine::vertical(ruler.place(switch.value)).style(LineStyle::Dashed);
             panel = panel.with(rule.label(label));
         }
     }
-    Figure::single(panel.legend(Legend::Above))
-        .title(study.title().unwrap_or_default())
-        .caption(format!("{} {}.", done.sentence(study), caption(study)))
+    Figure::single(panel.legend(Legend::Above)).title(study.title().unwrap_or_default()).caption(
+        format!(
+            "{} {}.",
+            done.sentence(study),
+            with_varied(
+                study,
+                caption,
+                &[range(study, &question.parameter, (question.from, question.to))]
+            )
+        ),
+    )
+}
+
+/// The range of a number of the equations, by the key and in the unit of the study.
+fn range<'a>(study: &BeltStudy, path: &'a str, (from, to): (f64, f64)) -> (Cow<'a, str>, f64, f64) {
+    let quantity = study.belt().parameter(path).map(|parameter| parameter.quantity);
+    let unit =
+        study.scales().zip(quantity).map_or(1.0, |(scales, quantity)| scales.si_per_unit(quantity));
+    (Cow::Owned(key_of(study, path)), unit * from, unit * to)
 }
 
 /// Name of a kind in the legend.
@@ -113,7 +134,18 @@ pub fn curves(study: &BeltStudy, done: &Curves) -> Figure {
     Figure::single(panel.legend(Legend::Above))
         .size(Size::Frame(380.0, 300.0))
         .title(study.title().unwrap_or_default())
-        .caption(format!("{} {}.", done.sentence(study), caption(study)))
+        .caption(format!(
+            "{} {}.",
+            done.sentence(study),
+            with_varied(
+                study,
+                caption,
+                &[
+                    range(study, &question.along, question.between),
+                    range(study, &question.parameter, question.window),
+                ]
+            )
+        ))
 }
 
 /// A panel with the boundaries of averaging and the curves of each kind.
@@ -129,11 +161,14 @@ pub(super) fn with_curves<S>(
         } else {
             ("averaged", LineStyle::Solid)
         };
+        // Wide enough to be seen under an exact curve that coincides with it.
+        let width = 3.4;
         let pieces = boundary.pieces.iter().map(|piece| piece.iter().copied().map(&place));
         let pieces: Vec<Vec<(f64, f64)>> = pieces.map(Iterator::collect).collect();
         if !pieces.is_empty() {
-            panel =
-                panel.with(Polyline::pieces(PlotRole::Averaged, pieces).style(style).label(label));
+            panel = panel.with(
+                Polyline::pieces(PlotRole::Averaged, pieces).style(style).width(width).label(label),
+            );
         }
     }
     for (number, kind) in ThresholdKind::ALL.into_iter().enumerate() {
@@ -154,6 +189,14 @@ pub(super) fn with_curves<S>(
             panel =
                 panel.with(Polyline::pieces(role, pieces).label(format!("exact: {}", words(kind))));
         }
+    }
+    if panel.layers.is_empty() {
+        let middle = |axis: &PlotAxis| match axis.range {
+            AxisRange::Between(from, to) => 0.5 * (from + to),
+            _ => 0.5,
+        };
+        let place = (middle(&panel.x), middle(&panel.y));
+        panel = panel.with(Note::new(place.0, place.1, "no threshold in this window"));
     }
     panel
 }

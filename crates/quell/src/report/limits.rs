@@ -18,6 +18,7 @@ pub(super) fn of(study: &Study, answers: &[ReportedAnswer]) -> Vec<Unexamined> {
         Kind::System(setup) => of_system(&study.narrowed(setup.as_ref()), answers),
     };
     all.extend(windows(answers));
+    all.extend(amplitudes_of_zero(study));
     all.push(parameters(study));
     all
 }
@@ -167,6 +168,27 @@ fn windows(answers: &[ReportedAnswer]) -> Vec<Unexamined> {
             Unexamined::new("Other amplitudes", format!("Thresholds were searched for {window}."))
         })
         .collect()
+}
+
+/// Dithers of amplitude 0, which have no window of thresholds.
+fn amplitudes_of_zero(study: &Study) -> Vec<Unexamined> {
+    let amplitudes: Vec<f64> = match study.kind() {
+        Kind::Belt(setup) => setup.belt().dithers().iter().map(|dither| dither.amplitude).collect(),
+        Kind::Disc(_) => Vec::new(),
+        Kind::System(setup) => {
+            let waves = |input: &quell_model::system::Input| {
+                input.profile.waves().iter().map(|wave| wave.amplitude).fold(0.0, f64::max)
+            };
+            setup.system().inputs.iter().map(waves).collect()
+        }
+    };
+    let zero = amplitudes.iter().filter(|amplitude| **amplitude == 0.0).count();
+    if zero == 0 {
+        return Vec::new();
+    }
+    let fact = "A dither of the study has the amplitude 0, around which no window of thresholds was chosen; \
+                `quell thresholds --parameter dither.amplitude` examines one.";
+    vec![Unexamined::new("Amplitudes that change the outcome", fact)]
 }
 
 /// The numbers of the study, all taken as exact.

@@ -28,11 +28,12 @@ use crate::kind::verbs;
 use crate::output::Output;
 use crate::run::sketch;
 use crate::study::{Kind, Study};
+use crate::sweep::Progress;
 
 pub use parts::StudyReport;
 
 use parts::{ReportedAnswer, Unexamined};
-use plan::planned;
+use plan::{is_dithered, planned};
 
 /// File name extensions of a report.
 pub const EXTENSIONS: &[&str] = &["html"];
@@ -52,6 +53,18 @@ pub struct ReportRequest {
 /// # Errors
 /// A complaint about a verb to be left out that the report does not have. A verb that refuses or fails does not end the report.
 pub fn run(study: &Study, request: &ReportRequest) -> Result<StudyReport, Failure> {
+    run_with_progress(study, request, &())
+}
+
+/// As [`run`], with the progress over its verbs.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_with_progress(
+    study: &Study,
+    request: &ReportRequest,
+    progress: &dyn Progress,
+) -> Result<StudyReport, Failure> {
     let plan = planned(study);
     for name in &request.without {
         if !plan.iter().any(|step| step.verb == name) {
@@ -65,11 +78,13 @@ pub fn run(study: &Study, request: &ReportRequest) -> Result<StudyReport, Failur
     }
     let verbs = verbs(study);
     let (mut answers, mut unexamined) = (Vec::new(), Vec::new());
+    progress.begin(plan.len(), 0);
     for step in plan {
         let plan::ReportStep { verb, heading, start, chosen, request: asked } = step;
         if request.without.iter().any(|name| name == verb) {
             unexamined
                 .push(Unexamined::new(heading, format!("`{verb}` was left out by --without.")));
+            progress.advance(1);
             continue;
         }
         match plan::ask(verbs.as_ref(), asked) {
@@ -79,7 +94,9 @@ pub fn run(study: &Study, request: &ReportRequest) -> Result<StudyReport, Failur
             }
             Err(why) => unexamined.push(Unexamined::refused(heading, verb, &why)),
         }
+        progress.advance(1);
     }
+    progress.end();
     unexamined.extend(limits::of(study, &answers));
     Ok(StudyReport {
         question: question(study),
@@ -97,12 +114,7 @@ fn question(study: &Study) -> String {
     if let Some(asked) = first.strip_prefix('#').map(str::trim).filter(|line| line.ends_with('?')) {
         return asked.to_owned();
     }
-    let dithered = match study.kind() {
-        Kind::Belt(setup) => setup.belt().dithers().iter().any(|dither| dither.amplitude != 0.0),
-        Kind::Disc(setup) => setup.disc().dither().frequency_ratio().is_some(),
-        Kind::System(setup) => setup.system().is_dithered(),
-    };
-    match (study.kind(), dithered) {
+    match (study.kind(), is_dithered(study)) {
         (Kind::Disc(_), true) => {
             "Is the disc stable under this dither, and which motion grows first?"
         }

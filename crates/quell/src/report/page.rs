@@ -6,10 +6,12 @@ use crate::cite::Sources;
 use crate::html::{HtmlPage, escape, symbols, table};
 use crate::kind::verbs;
 use crate::plot;
+use crate::study::Kind;
 use crate::words::{capital, digits};
 
 use super::facts::{self, FactRow};
 use super::parts::{ReportedAnswer, StudyReport};
+use super::plan::is_dithered;
 
 /// The style sheet, with rules for paper.
 const STYLE: &str = include_str!("report.css");
@@ -127,6 +129,14 @@ fn verdicts(page: &mut HtmlPage, report: &StudyReport) {
 
 fn cost(page: &mut HtmlPage, report: &StudyReport) {
     page.section("cost", "Cost of the dither");
+    if !is_dithered(&report.study) {
+        page.put("<p>No dither acts.</p>");
+        return;
+    }
+    if matches!(report.study.kind(), Kind::Disc(_)) {
+        page.put("<p>The answers about a disc are about small motions, which have no power and no stroke.</p>");
+        return;
+    }
     let response = report.answers.iter().find(|answer| answer.verb == "response");
     let rows = response.map(|answer| facts::named(&answer.facts, COSTS)).unwrap_or_default();
     if rows.is_empty() {

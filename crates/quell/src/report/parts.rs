@@ -43,7 +43,7 @@ impl Unexamined {
 
     /// A verb that refused or failed.
     pub(super) fn refused(heading: &str, verb: &str, why: &Failure) -> Self {
-        Self::new(heading, format!("`{verb}` gave no answer: {why}"))
+        Self::new(heading, format!("`quell {verb}` gave no answer: {why}"))
     }
 
     pub(super) fn json(&self) -> Json {

@@ -66,6 +66,15 @@ pub(super) fn planned(study: &Study) -> Vec<ReportStep> {
     }
 }
 
+/// Whether a dither acts.
+pub(super) fn is_dithered(study: &Study) -> bool {
+    match study.kind() {
+        Kind::Belt(setup) => setup.belt().dithers().iter().any(|dither| dither.amplitude != 0.0),
+        Kind::Disc(setup) => setup.disc().dither().frequency_ratio().is_some(),
+        Kind::System(setup) => setup.system().is_dithered(),
+    }
+}
+
 fn of_belt(study: &BeltStudy) -> Vec<ReportStep> {
     let start = start_in_words(study);
     let mut steps = vec![

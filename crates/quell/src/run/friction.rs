@@ -1,5 +1,6 @@
 //! `friction`: the friction law and the effective friction under the dither, versus slip velocity.
 
+use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::{SteadyFriction, steady_effective_friction};
 use quell_linear::averaging::{AveragingOptions, Effective, FastMotion, SlopeSide, effective};
 use quell_model::units::Quantity;
@@ -134,6 +135,15 @@ impl FrictionCurve {
         self.measured_column(|found| found.stick_fraction)
     }
 
+    /// 1 where the steady response is stable, 0 where it is unstable, NaN where it has no value or its stability is not decided.
+    pub fn measured_stability(&self) -> Option<Vec<f64>> {
+        self.measured_column(|found| match found.verdict {
+            OrbitVerdict::Stable => 1.0,
+            OrbitVerdict::Unstable => 0.0,
+            OrbitVerdict::Undecided => f64::NAN,
+        })
+    }
+
     fn measured_column(&self, value: fn(&SteadyFriction) -> f64) -> Option<Vec<f64>> {
         let measured = self.measured.as_ref()?;
         Some(measured.iter().map(|found| found.as_ref().map_or(f64::NAN, value)).collect())
@@ -191,13 +201,17 @@ impl FrictionCurve {
         let verdict = |found: &Result<SteadyFriction, String>| {
             found.as_ref().map_or(Json::Null, |found| found.verdict.name().into())
         };
+        let base = |found: &Result<SteadyFriction, String>| {
+            found.as_ref().map_or(Json::Null, |found| found.base.into())
+        };
         fields
             .numbers("measured_coefficient", Quantity::Ratio, &coefficients)
             .numbers("measured_stick_fraction", Quantity::Ratio, &stuck)
-            .plain("measured_verdict", measured.iter().map(verdict).collect::<Vec<Json>>());
+            .plain("measured_verdict", measured.iter().map(verdict).collect::<Vec<Json>>())
+            .plain("measured_base", measured.iter().map(base).collect::<Vec<Json>>());
         for (index, found) in measured.iter().enumerate() {
             if let Err(why) = found {
-                for name in ["coefficient", "stick_fraction", "verdict"] {
+                for name in ["coefficient", "stick_fraction", "verdict", "base"] {
                     fields.why(&format!("measured_{name}[{index}]"), why);
                 }
             }
@@ -286,6 +300,7 @@ impl FrictionCurve {
         for (name, values) in [
             ("measured_coefficient", self.measured_coefficients()),
             ("measured_stick_fraction", self.measured_stick_fractions()),
+            ("measured_stable", self.measured_stability()),
         ] {
             if let Some(values) = values {
                 dataset = dataset.array(name, Quantity::Ratio, values);

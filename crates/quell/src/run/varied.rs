@@ -226,6 +226,12 @@ pub fn key_of(study: &BeltStudy, path: &str) -> String {
     in_system(path, study.scales().is_some())
 }
 
+/// Description and symbol of a number of the equations as the study gives it: in SI if the study is in SI.
+pub(crate) fn name_of(study: &BeltStudy, path: &str) -> Option<(&'static str, &'static str)> {
+    let key = resolve(&key_of(study, path)).ok()?.key;
+    Some((key.about, key.symbol().unwrap_or_default()))
+}
+
 fn address(study: &BeltStudy, option: &'static str, path: &str) -> Result<Address, Box<Complaint>> {
     let origin = Origin::Argument(option);
     let known = [DITHER_AMPLITUDE, BELT_VELOCITY].map(|parameter| key_of(study, parameter.path));

@@ -5,10 +5,31 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from bokeh.server.auth_provider import AuthProvider
-from tornado.web import HTTPError
+from tornado.routing import Matcher, Rule
+from tornado.web import HTTPError, RequestHandler
 
 if TYPE_CHECKING:
     from ._server import Explorer
+
+
+class Refused(RequestHandler):  # type: ignore[misc, unused-ignore]
+    """Answers every request with 403."""
+
+    def prepare(self) -> None:
+        raise HTTPError(403)
+
+
+def guard(application: Any, explorer: Explorer) -> None:
+    """Refuses requests that the explorer does not admit before any page or file is looked for: Bokeh asks the provider about
+    its pages only, and not about the files that they load."""
+
+    class Foreign(Matcher):  # type: ignore[misc, unused-ignore]
+        """Matches what is refused."""
+
+        def match(self, request: Any) -> dict[str, Any] | None:
+            return None if explorer.admits(request) else {}
+
+    application.default_router.rules.insert(0, application.default_router.process_rule(Rule(Foreign(), Refused)))
 
 
 def provider(explorer: Explorer) -> Any:

@@ -122,7 +122,7 @@ class Explorer:
         raise why
 
     def _at(self, port: int) -> Any:
-        return part("panel").io.server.get_server(
+        server = part("panel").io.server.get_server(
             {"/": self._page},
             port=port,
             address=ADDRESS,
@@ -134,6 +134,8 @@ class Explorer:
             verbose=False,
             title="Quell explorer",
         )
+        part("._secret").guard(server._tornado, self)
+        return server
 
     def _page(self) -> Any:
         page = part("._page").Page(self._state.copy(), self._changed)

@@ -78,6 +78,8 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
     """Whether μ̄′ is the slope on one side of a kink (n,)."""
     measured_verdict: list[Verdict | None] | None
     """Measured: stability of the steady response on which friction is measured (n,)."""
+    measured_base: list[bool | None] | None
+    """Measured: whether that response continues steady sliding (n,); otherwise a run from steady sliding ends on it."""
 
     @property
     def slip_velocity(self) -> npt.NDArray[np.float64]:
@@ -109,6 +111,13 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
     def measured_stick_fraction(self) -> npt.NDArray[np.float64] | None:
         """Fraction of the period (n,) that this response sticks; ``None`` without ``measured=True``."""
         found = self.arrays.get("measured_stick_fraction")
+        return None if found is None else found.values
+
+    @property
+    def measured_stable(self) -> npt.NDArray[np.float64] | None:
+        """1 where this response is stable, 0 where it is unstable, NaN where that is not known; ``None`` without
+        ``measured=True``."""
+        found = self.arrays.get("measured_stable")
         return None if found is None else found.values
 
 

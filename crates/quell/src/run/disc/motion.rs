@@ -135,7 +135,7 @@ fn usual_duration(system: &SystemStudy, kick: &Kick) -> Result<f64, Failure> {
 impl DiscSimulation {
     /// The unit of a deflection: the radius of the first load under a friction law, else a length that the load defines.
     pub fn length_unit(study: &DiscStudy) -> &'static str {
-        if study.disc().law().is_some() { "r₀" } else { "N/(M_pω_ref²)" }
+        if study.disc().law().is_some() { "r₀" } else { "(normal load)/(M_pω_ref²)" }
     }
 
     /// The outcome in a few sentences.

@@ -11,7 +11,7 @@ use crate::complaint::Failure;
 use crate::store::{ChunkState, Store};
 use crate::sweep::{self, Data, Plan, Running};
 
-pub use boundary::{Boundary, boundaries};
+pub use boundary::{Boundary, amplitude_and_other, boundaries, boundaries_at};
 pub use outcome::{Extreme, FinishedMap, Summary};
 pub use shared::{Part, Sharded, Shared};
 

@@ -10,6 +10,7 @@ use super::{BranchEnding, Threshold, ThresholdKind, Thresholds, path_in_words, q
 use crate::run::attractor::unknown;
 use crate::run::criticality;
 use crate::run::protocol::Protocol;
+use crate::run::varied::name_of;
 use crate::study::BeltStudy;
 use crate::words::{capital, in_words};
 
@@ -65,7 +66,7 @@ impl<'a> NamedParameter<'a> {
     fn of(study: &'a BeltStudy, path: &str) -> Self {
         let belt = study.belt();
         let one_of_many = path.starts_with("dither") && belt.dithers().len() > 1;
-        let symbol = belt.parameter(path).map(|parameter| parameter.symbol);
+        let symbol = name_of(study, path).map(|(_, symbol)| symbol);
         let name = symbol.filter(|symbol| !one_of_many && !symbol.is_empty());
         let name = name.map_or_else(|| path_in_words(study, path), str::to_owned);
         Self { study, name, quantity: quantity_of(study, path) }
