@@ -185,7 +185,7 @@ fn measure(
     };
     let mut layouts: Vec<PanelLayout> = Vec::with_capacity(count);
     for (index, panel) in figure.panels.iter().enumerate() {
-        let (row, column) = (index / columns, index % columns);
+        let column = index % columns;
         let x_numbers = !shares(figure.sharing_x) || index + columns >= count;
         let y_numbers = !shares(figure.sharing_y) || column == 0;
         let mut layout =
@@ -195,8 +195,14 @@ fn measure(
             let head = &figure.panels[index % intended];
             layout.title = lines(&head.title, sizes.title, false, frame.0);
         }
-        grow(&mut margins, (row, column), &layout, frame.0, sizes);
+        widen(&mut margins, column, &layout, sizes);
         layouts.push(layout);
+    }
+    for (index, layout) in layouts.iter_mut().enumerate() {
+        let (row, column) = (index / columns, index % columns);
+        let overhang = |margin: f64| (margin - EDGE).max(0.0);
+        layout.legend_overhang = (overhang(margins.left[column]), overhang(margins.right[column]));
+        heighten(&mut margins, row, layout, sizes);
     }
     // The y labels of one column are aligned.
     for column in 0..columns {
@@ -247,6 +253,7 @@ fn lay_out_panel(
         y_label_distance: NUMBER_GAP + widest + LABEL_GAP + 0.2 * f64::from(sizes.label),
         entries,
         legend: LegendLayout::None,
+        legend_overhang: (0.0, 0.0),
         bar: ColourBar::of(panel, frame.1, sizes),
     };
     if !layout.entries.is_empty() {
@@ -284,13 +291,8 @@ fn free_position(panel: &Panel, layout: &PanelLayout, sizes: FontSizes) -> Legen
         .map_or(LegendLayout::Above, LegendLayout::Box)
 }
 
-fn grow(
-    margins: &mut Margins,
-    (row, column): (usize, usize),
-    layout: &PanelLayout,
-    frame_width: f64,
-    sizes: FontSizes,
-) {
+/// Widens the margins left and right of a column for this panel.
+fn widen(margins: &mut Margins, column: usize, layout: &PanelLayout, sizes: FontSizes) {
     let (number, label) = (f64::from(sizes.number), f64::from(sizes.label));
     let widen = |margin: &mut f64, wanted: f64| *margin = margin.max(wanted);
     let mut left = EDGE;
@@ -312,9 +314,15 @@ fn grow(
     if let Some(bar) = &layout.bar {
         widen(&mut margins.right[column], bar.room(sizes) + EDGE);
     }
+}
+
+/// Heightens the margins above and below a row for this panel, whose columns have their widths.
+fn heighten(margins: &mut Margins, row: usize, layout: &PanelLayout, sizes: FontSizes) {
+    let (number, label) = (f64::from(sizes.number), f64::from(sizes.label));
+    let widen = |margin: &mut f64, wanted: f64| *margin = margin.max(wanted);
     let mut top = 6.0 + 1.3 * f64::from(sizes.title) * layout.title.len() as f64;
     if layout.legend == LegendLayout::Above {
-        top += legend::rows_height(&layout.entries, frame_width, sizes) + 2.0;
+        top += legend::rows_height(&layout.entries, layout.legend_span().1, sizes) + 2.0;
     }
     let exponent = layout.bar.as_ref().is_some_and(ColourBar::has_exponent);
     if (layout.y_ticks.exponent != 0 && layout.y_numbers) || exponent {

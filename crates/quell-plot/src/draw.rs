@@ -118,9 +118,10 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, layout: &PanelLayout, sizes: F
         LegendLayout::None => {}
         LegendLayout::Box(area) => legend::draw_box(canvas, &layout.entries, *area, sizes),
         LegendLayout::Above => {
-            let height = legend::rows_height(&layout.entries, layout.frame.width(), sizes);
-            let corner = (layout.frame.left, layout.frame.top - height - 2.0);
-            legend::draw_rows(canvas, &layout.entries, corner, layout.frame.width(), sizes);
+            let (left, room) = layout.legend_span();
+            let height = legend::rows_height(&layout.entries, room, sizes);
+            let corner = (left, layout.frame.top - height - 2.0);
+            legend::draw_rows(canvas, &layout.entries, corner, room, sizes);
         }
     }
 }
@@ -274,7 +275,7 @@ fn draw_labels(canvas: &mut Canvas, layout: &PanelLayout, sizes: FontSizes) {
     }
     let mut baseline = frame.top - 6.0;
     if layout.legend == LegendLayout::Above {
-        baseline -= legend::rows_height(&layout.entries, frame.width(), sizes) + 2.0;
+        baseline -= legend::rows_height(&layout.entries, layout.legend_span().1, sizes) + 2.0;
     }
     for line in layout.title.iter().rev() {
         canvas.text(line, (frame.left, baseline), TextStyle::new(sizes.title, TextAnchor::Start));

@@ -10,6 +10,8 @@ const LEAST_FRAME: f64 = 60.0;
 const LARGEST_FRAME: f64 = 2e4;
 /// Width from which a frame is comfortable to read (pixels, 34 mm).
 const COMFORTABLE: f64 = 130.0;
+/// Least height of a frame in a figure of a given width (pixels, 30 mm): labels of the upright axis need it.
+const LOWEST: f64 = 115.0;
 /// Height of a page of a journal (pixels, 230 mm).
 const PAGE: f64 = 870.0;
 
@@ -95,14 +97,16 @@ impl FrameGrid {
         around: FrameSurroundings,
     ) -> (Self, f64) {
         let usual = usual_frame(columns);
-        let shape = shape_of_equal_scales(figure, columns_of(figure)).unwrap_or(usual.1 / usual.0);
+        let equal = shape_of_equal_scales(figure, columns_of(figure));
+        let shape = equal.unwrap_or(usual.1 / usual.0);
+        let least = if equal.is_some() { LEAST_FRAME } else { LOWEST };
         let mut frame = (sensible(0.85 * width / columns as f64, usual.0), usual.1);
         let sizes = FontSizes::for_frame(frame.0);
         let mut height = 0.0;
         for _ in 0..3 {
             let (across, upright) = around(figure, columns, frame, sizes);
             frame.0 = sensible((width - across) / columns as f64, usual.0);
-            frame.1 = sensible(frame.0 * shape, usual.1);
+            frame.1 = sensible((frame.0 * shape).max(least), usual.1);
             height = upright;
         }
         let rows = figure.panels.len().div_ceil(columns).max(1);

@@ -39,10 +39,18 @@ pub(super) struct PanelLayout {
     pub(super) y_label_distance: f64,
     pub(super) entries: Vec<LegendEntry>,
     pub(super) legend: LegendLayout,
+    /// Left and right end of a legend above the frame, as distances from the frame: it may extend over the margins.
+    pub(super) legend_overhang: (f64, f64),
     pub(super) bar: Option<ColourBar>,
 }
 
 impl PanelLayout {
+    /// Left end and width of a legend above the frame.
+    pub(super) fn legend_span(&self) -> (f64, f64) {
+        let (left, right) = self.legend_overhang;
+        (self.frame.left - left, self.frame.width() + left + right)
+    }
+
     /// The mappings of both axes of a panel.
     pub(super) fn mappings(&self, panel: &Panel) -> (Mapping, Mapping) {
         let frame = self.frame;

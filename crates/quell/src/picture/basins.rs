@@ -69,7 +69,7 @@ pub(crate) fn plane(
         let name = portrait
             .quiet_word(attractor)
             .map_or_else(|| words(portrait.scales, attractor, portrait.period), str::to_owned);
-        (role(basins, place), format!("{name}: {share:.1} %"))
+        (role(basins, place), format!("{name}: {share:.1}\u{a0}%"))
     };
     let mut over: Vec<Layer> = Vec::new();
     for (place, basin) in basins.iter().enumerate() {

@@ -45,7 +45,7 @@ fn plane(
         let share = 100.0 * basin.share.fraction;
         (
             role(&portrait.basins, place),
-            format!("{}: {share:.1} %", basin.attractor.words(study.units())),
+            format!("{}: {share:.1}\u{a0}%", basin.attractor.words(study.units())),
         )
     };
     let outcomes = portrait.basins.iter().enumerate().map(outcome);

@@ -299,6 +299,7 @@ class FrictionCurveColumns:
     law_reference_velocity: float
     law_reference_velocity_m_per_s: float
     law_static_coefficient: float
+    measured_base_value: npt.NDArray[Any]
     measured_verdict_value: npt.NDArray[np.str_]
     slip_velocity_m_per_s: list[float | None]
 
