@@ -312,7 +312,7 @@ def test_every_result_plots_pickles_and_equals_the_command_line(drive: quell.Sys
     cases: list[tuple[results.Result, str, str, list[str], bool]] = [
         (hoffmann.check(), "check", "hoffmann", [], False),
         (drive.cite(), "cite", "drive", [], False),
-        (hoffmann.modes(), "modes", "hoffmann", [], False),
+        (hoffmann.modes(), "modes", "hoffmann", [], True),
         (hoffmann.stability(), "stability", "hoffmann", [], True),
         (drive.stability(), "stability", "drive", [], True),
         (drive.stability(exact=True), "stability", "drive", ["--exact"], False),

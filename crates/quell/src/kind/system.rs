@@ -56,7 +56,7 @@ impl Verbs for SystemStudy {
 
     fn draws(&self, verb: &str) -> bool {
         match verb {
-            "check" | "cite" | "modes" | "stability --exact" => false,
+            "check" | "cite" | "stability --exact" => false,
             "stability" => self.frequency_response().is_none(),
             _ => true,
         }

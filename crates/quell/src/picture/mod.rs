@@ -21,6 +21,7 @@ mod sweep;
 pub mod system;
 pub mod system_basins;
 pub mod system_bifurcation;
+pub mod system_modes;
 pub mod system_motion;
 pub mod system_orbit;
 pub mod system_thresholds;

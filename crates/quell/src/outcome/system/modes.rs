@@ -3,8 +3,11 @@
 use serde_json::Value as Json;
 
 use super::{ListedMotion, motions};
+use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::outcome::Presented;
+use crate::picture;
+use crate::plot::Figure;
 use crate::run::system::modes::SystemModes;
 use crate::study::{SystemSetup, SystemStudy};
 
@@ -21,5 +24,9 @@ impl Presented<SystemSetup> for SystemModes {
 
     fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
         vec![("modes", self.dataset(study))]
+    }
+
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::system_modes::modes(study, self)))
     }
 }
