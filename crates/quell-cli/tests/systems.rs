@@ -207,7 +207,8 @@ fn outputs_are_tested_before_the_work_begins() {
     std::fs::create_dir_all(&folder).expect("a folder");
     let [table, picture] = ["modes.csv", "modes.svg"].map(|name| folder.join(name));
     let [save, plot] = [&table, &picture].map(|path| path.to_str().expect("text"));
-    let why = complaint(&["stability", "two-mass-drive.toml", "--exact", "--save", save, "--plot", plot]);
+    let why =
+        complaint(&["stability", "two-mass-drive.toml", "--exact", "--save", save, "--plot", plot]);
     assert!(why.contains("--plot: this answer has no picture"), "{why}");
     assert!(!table.exists() && !picture.exists());
     let why = complaint(&["stability", "two-mass-drive.toml", "--exact", "--plot", plot]);

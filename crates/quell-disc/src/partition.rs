@@ -231,7 +231,7 @@ pub fn crossings(disc: &Disc) -> Result<Vec<FrictionCrossing>, NoPartition> {
         return Err(NoPartition::NotPlain);
     }
     let Some(ratio) = disc.dither().frequency_ratio() else { return Err(NoPartition::Undithered) };
-    if disc.waveform() != Waveform::Sine {
+    if *disc.waveform() != Waveform::Sine {
         return Err(NoPartition::Waveform);
     }
     let (mean, amplitude) = disc.dither().mean_and_amplitude();

@@ -158,7 +158,7 @@ fn only_sines_and_squares_are_accepted() {
     assert_eq!(Waves::new(&square), Err(WaveError::Waveform));
     assert_eq!(
         square.with("disc.load.speed", 0.2).expect("in bounds").waveform(),
-        Waveform::Square
+        &Waveform::Square
     );
 }
 

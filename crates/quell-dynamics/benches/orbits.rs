@@ -49,7 +49,7 @@ fn orbits(criterion: &mut Criterion) {
         bencher.iter(|| near(black_box(&slip), orbit.start, 1));
     });
     for waveform in [Waveform::Sine, Waveform::Square] {
-        let belt = belt(waveform, 1.0);
+        let belt = belt(waveform.clone(), 1.0);
         assert_eq!(both_thresholds(&belt), 2);
         group.bench_function(
             format!("both thresholds of the amplitude, {}", waveform.name()),

@@ -31,8 +31,8 @@ fn erfi(x: f64) -> f64 {
 /// (μ̄, slope), by closed form and checked by quadrature.
 fn right(kind: LawKind, waveform: Waveform, v: f64, alpha: f64) -> (f64, f64) {
     let (law, wave) = (dissertation(kind), FastWave::Integral(waveform));
-    let closed = effective(&law, &FastMotion::single(wave, alpha), v).expect("a value");
-    let numeric = effective_by_quadrature(&law, wave, alpha, v).expect("a value");
+    let closed = effective(&law, &FastMotion::single(wave.clone(), alpha), v).expect("a value");
+    let numeric = effective_by_quadrature(&law, &wave, alpha, v).expect("a value");
     close(closed.coefficient, numeric.coefficient, 1e-12);
     close(closed.slope, numeric.slope, 1e-11);
     (closed.coefficient, closed.slope)
@@ -153,15 +153,16 @@ fn everywhere_stable_amplitudes() {
 #[test]
 fn stable_everywhere_needs_the_tip() {
     let (stribeck, wave) = (dissertation(LawKind::Stribeck), FastWave::Integral(Waveform::Sine));
-    let found = match everywhere_stable_amplitude(&stribeck, 0.005, 1.0, wave, Direction::Normal) {
-        Ok(EverywhereStable::From { amplitude_ratio, .. }) => amplitude_ratio,
-        other => panic!("{other:?}"),
-    };
+    let found =
+        match everywhere_stable_amplitude(&stribeck, 0.005, 1.0, wave.clone(), Direction::Normal) {
+            Ok(EverywhereStable::From { amplitude_ratio, .. }) => amplitude_ratio,
+            other => panic!("{other:?}"),
+        };
     close(found, 0.557_124_589_480, 1e-11);
     let least = |alpha: f64| {
         let criterion = |v: f64| {
             let fast = alpha * stribeck.coefficient(v);
-            0.01 + effective_by_quadrature(&stribeck, wave, fast, v).expect("a value").slope
+            0.01 + effective_by_quadrature(&stribeck, &wave, fast, v).expect("a value").slope
         };
         (1..200).map(|k| criterion(0.001 * f64::from(k))).fold(f64::INFINITY, f64::min)
     };
@@ -262,7 +263,7 @@ fn slope_inside_can_be_negative() {
         let wave = FastWave::Integral(waveform);
         (1..400)
             .map(|k| {
-                let motion = FastMotion::single(wave, 0.005 * f64::from(k));
+                let motion = FastMotion::single(wave.clone(), 0.005 * f64::from(k));
                 effective(&law, &motion, 0.0).expect("a value").slope
             })
             .fold(f64::INFINITY, f64::min)
@@ -270,8 +271,8 @@ fn slope_inside_can_be_negative() {
     for (waveform, limit) in
         [(Waveform::Sine, 6.0_f64.sqrt() / PI), (Waveform::Triangle, 0.4_f64.sqrt())]
     {
-        assert!(least(limit - 0.01, waveform) > 0.0, "{waveform:?}");
-        assert!(least(limit + 0.01, waveform) < 0.0, "{waveform:?}");
+        assert!(least(limit - 0.01, waveform.clone()) > 0.0, "{waveform:?}");
+        assert!(least(limit + 0.01, waveform.clone()) < 0.0, "{waveform:?}");
     }
     assert!(least(0.999, Waveform::Square) > 0.0);
 }
@@ -309,7 +310,7 @@ struct FastSliding {
 
 impl FastSliding {
     fn new(waveform: Waveform, alpha: f64, slow: f64) -> Self {
-        let at = |constant: f64| Self { alpha, waveform, slow, constant };
+        let at = |constant: f64| Self { alpha, waveform: waveform.clone(), slow, constant };
         let middle = VM / MINIMUM * ln(MINIMUM * exp(slow / VM) + DIFFERENCE);
         let (mut low, mut high) = (middle - 0.02, middle + 0.02);
         for _ in 0..60 {
@@ -348,7 +349,7 @@ fn limit_of_high_frequency_under_normal_dither() {
             let (mut low, mut high) = (0.08, 0.16);
             for _ in 0..50 {
                 let alpha = 0.5 * (low + high);
-                let stable = criterion(&FastSliding::new(waveform, alpha, v)) > 0.0;
+                let stable = criterion(&FastSliding::new(waveform.clone(), alpha, v)) > 0.0;
                 if stable { low = alpha } else { high = alpha }
             }
             0.5 * (low + high)
@@ -365,7 +366,7 @@ fn limit_of_high_frequency_under_normal_dither() {
         close(root(&|fast| 2.0 * damping + fast.mean(|w| slope(v - w))), frozen, 1e-8);
         // Richardson extrapolation in 1/R² of two orbits, the second at twice the R of the first; the rest is of order 1/R⁴.
         let orbit = |ratio: f64| {
-            let belt = belt(damping, v, &law, vec![normal(waveform, 0.1 * ratio, ratio)]);
+            let belt = belt(damping, v, &law, vec![normal(waveform.clone(), 0.1 * ratio, ratio)]);
             let range = (0.85 * limit * ratio, limit * ratio);
             let found = local_thresholds(&belt, "dither.amplitude", range.0, range.1, 10);
             let found = found.unwrap_or_else(|why| panic!("{ratio} {waveform:?}: {why}"));
@@ -402,7 +403,7 @@ fn fast_motion_stays_frozen_in_the_slope() {
     // As printed: d/dv of ⟨μ(v − α_N μ(v) G)⟩.
     let level = |v: f64, alpha: f64| {
         let wave = FastWave::Integral(Waveform::Square);
-        effective_by_quadrature(&law, wave, alpha * law.coefficient(v), v)
+        effective_by_quadrature(&law, &wave, alpha * law.coefficient(v), v)
             .expect("a value")
             .coefficient
     };

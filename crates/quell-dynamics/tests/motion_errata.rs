@@ -117,7 +117,7 @@ fn figure_4_11_shows_the_sine() {
         (Waveform::Square, [0.553_840_4, 0.614_698_468]),
         (Waveform::Sine, [0.710_299_1, 0.965_369_470]),
     ] {
-        let found = found(waveform);
+        let found = found(waveform.clone());
         assert_eq!(found.len(), 2, "{waveform:?}: {found:?}");
         for (found, known) in found.iter().zip(known) {
             assert!((found - known).abs() < 1e-6, "{waveform:?}: {found} {known}");

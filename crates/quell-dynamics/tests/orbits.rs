@@ -96,7 +96,7 @@ fn thresholds_of_normal_dither() {
         (Waveform::Square, 0.553_840_4, 0.614_698_468, 2e-7),
         (Waveform::Sine, 0.710_299_1, 0.965_369_470, 2e-7),
     ] {
-        let belt = chapter_4().with_dither(normal(waveform, 0.1, 5.0));
+        let belt = chapter_4().with_dither(normal(waveform.clone(), 0.1, 5.0));
         let found = local_thresholds(&belt, "dither.amplitude", 0.1, 0.99, 60).expect("followed");
         assert_eq!(found.len(), 2, "{found:?}");
         for (threshold, value) in found.iter().zip([lower, upper]) {

@@ -70,7 +70,7 @@ fn a_formula_has_the_averages_and_thresholds_of_the_equivalent_law() {
     for (built_in, custom) in pairs() {
         for waveform in [Waveform::Sine, Waveform::Triangle, Waveform::Square] {
             for v in [0.02, 0.11, 0.3, -0.11] {
-                let dithers = vec![dither(Direction::Tangential, waveform, 0.8)];
+                let dithers = vec![dither(Direction::Tangential, waveform.clone(), 0.8)];
                 let (known, found) =
                     (belt(&built_in, 0.05, dithers.clone()), belt(&custom, 0.05, dithers));
                 let mean = |belt: &Belt| {
@@ -83,7 +83,7 @@ fn a_formula_has_the_averages_and_thresholds_of_the_equivalent_law() {
                 assert!((known.slope - found.slope).abs() < 1e-10 * (1.0 + known.slope.abs()));
             }
             let upper = |law: &Friction| {
-                closed_band(law, 0.005, 1.0, waveform, 0.1).ok().and_then(|band| band.upper)
+                closed_band(law, 0.005, 1.0, waveform.clone(), 0.1).ok().and_then(|band| band.upper)
             };
             let (known, found) = (upper(&built_in), upper(&custom));
             let close = known.zip(found).is_some_and(|(known, found)| (known - found).abs() < 1e-9);
@@ -105,7 +105,8 @@ fn a_formula_has_the_averages_and_thresholds_of_the_equivalent_law() {
     let (built_in, custom) = &pairs()[0];
     for direction in [Direction::Tangential, Direction::Normal] {
         let wave = FastWave::Integral(Waveform::Triangle);
-        let all = |law: &Friction| everywhere_stable_amplitude(law, 0.005, 1.0, wave, direction);
+        let all =
+            |law: &Friction| everywhere_stable_amplitude(law, 0.005, 1.0, wave.clone(), direction);
         let digits = |law: &Friction| format!("{:.6?}", all(law).expect("an amplitude"));
         let (known, found) = (digits(built_in), digits(custom));
         // The amplitudes to six digits; their error bounds differ by the method.
@@ -139,7 +140,7 @@ fn samples_of_a_law_give_that_law_within_the_error_of_the_fit() {
         }
         let wave = FastWave::Integral(Waveform::Sine);
         let mean = |law: &Friction| {
-            effective_by_quadrature(law, wave, 0.1, 0.05).expect("a mean").coefficient
+            effective_by_quadrature(law, &wave, 0.1, 0.05).expect("a mean").coefficient
         };
         assert!((mean(law) - mean(&custom)).abs() <= 3.0 * error + 1e-12);
     }
@@ -193,7 +194,7 @@ fn multipliers_are_correct_across_a_release_with_a_jump() {
     for (waveform, amplitude) in
         [(Waveform::Sine, 0.7), (Waveform::Triangle, 0.8), (Waveform::Square, 0.5)]
     {
-        let wave = at_phase(tangential(waveform, amplitude, 1.7), 0.2);
+        let wave = at_phase(tangential(waveform.clone(), amplitude, 1.7), 0.2);
         let belt = zoo::belt::belt(0.25, 0.3, &law, vec![wave]);
         let period = std::f64::consts::TAU / 1.7;
         let settled =

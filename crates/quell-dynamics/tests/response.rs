@@ -50,7 +50,7 @@ fn efficiency_is_five_per_cent_at_the_reference_amplitude() {
         let law = LawKind::from_name(name("law")).expect("law");
         let waveform = Waveform::from_name(name("waveform")).expect("waveform");
         let efficiency = |amplitude: f64| {
-            let dither = tangential(waveform, amplitude, number("frequency_ratio"));
+            let dither = tangential(waveform.clone(), amplitude, number("frequency_ratio"));
             let belt = dissertation(law).at_speed(number("belt_velocity")).with_dither(dither);
             response(&belt).efficiency.expect("defined")
         };

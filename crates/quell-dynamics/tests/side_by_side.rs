@@ -17,11 +17,14 @@ const TOLERANCE: f64 = 1e-11;
 fn cases() -> Vec<(Belt, Start, f64)> {
     let mut cases = Vec::new();
     for (i, &law) in LawKind::NUMERIC.iter().enumerate() {
-        for (j, &waveform) in Waveform::ALL.iter().enumerate() {
+        for (j, waveform) in Waveform::NAMED.iter().enumerate() {
             for k in 0..7_u32 {
                 let x = f64::from(k) + 0.37 * i as f64 + 0.11 * j as f64;
                 let wave = |direction, amplitude, frequency_ratio| {
-                    at_phase(dither(direction, waveform, amplitude, frequency_ratio), 0.4 * x)
+                    at_phase(
+                        dither(direction, waveform.clone(), amplitude, frequency_ratio),
+                        0.4 * x,
+                    )
                 };
                 let tangential = wave(Direction::Tangential, 0.1 + 0.13 * x, 5.0 + 1.3 * x);
                 let normal = wave(Direction::Normal, 0.1 + 0.1 * x, 7.0 - 0.5 * x);

@@ -60,14 +60,14 @@ fn random_belts_have_the_same_thresholds_in_wide_and_narrow_windows() {
         let waveforms = [Waveform::Sine, Waveform::Square, Waveform::Triangle];
         let dither = Dither {
             direction: Direction::Tangential,
-            waveform: waveforms[number % 3],
+            waveform: waveforms[number % 3].clone(),
             amplitude: random(0.05, 3.0),
             frequency_ratio: random(2.5, 14.0),
             phase: 0.0,
         };
         let velocity = 0.01 * random(0.0, 3.9).exp();
         let damping = 1e-3 * random(0.0, 4.6).exp();
-        let belt = Belt::new(damping, 1.0, velocity, law, vec![dither]).expect("a belt");
+        let belt = Belt::new(damping, 1.0, velocity, law, vec![dither.clone()]).expect("a belt");
         let (path, window) = match number % 2 {
             0 => ("dither.amplitude", (0.02 * dither.amplitude, 3.0 * dither.amplitude)),
             _ => ("belt.belt_velocity", (0.2 * velocity, 20.0 * velocity)),

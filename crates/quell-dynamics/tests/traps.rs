@@ -52,7 +52,7 @@ fn grazing_the_threshold_does_not_loop() {
             // f_s = x₀ − D g grazes μ_s = 0.4 once per period.
             let belt = belt::stribeck()
                 .at_speed(0.0)
-                .with_dither(at_phase(tangential(waveform, 0.15, 10.0), 0.3));
+                .with_dither(at_phase(tangential(waveform.clone(), 0.15, 10.0), 0.3));
             let (end, events) = run(&belt, start(0.25 + offset, 0.0), 100.0);
             let grazings = 100.0 * 10.0 / TAU;
             assert!(

@@ -75,7 +75,7 @@ impl From<EigenError> for NotFollowerDither {
 }
 
 /// The factor m + α g(ωt + φ) on the friction of one contact.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Factor {
     mean: f64,
     wave: Wave,
@@ -117,7 +117,8 @@ impl FollowerDither {
             return Err(NotFollowerDither::Tangent { contact });
         }
         let friction = linear.contacts().iter().map(|contact| contact.steady.friction).collect();
-        let waveform = factors.first().map_or(Waveform::Sine, |factor| factor.wave.waveform);
+        let waveform =
+            factors.first().map_or(Waveform::Sine, |factor| factor.wave.waveform.clone());
         if factors.iter().any(|factor| factor.wave.waveform != waveform) {
             return Err(NotFollowerDither::Waveforms);
         }
@@ -254,7 +255,7 @@ fn factors(system: &System, frequency: f64) -> Result<Vec<Factor>, NotFollowerDi
         let (sine, cosine) = libm::sincos(wave.phase - FRAC_PI_2);
         let mean = input.profile.mean();
         let place = factors.get_mut(contact).ok_or(NotFollowerDither::Input)?;
-        *place = Some(Factor { mean, wave: *wave, sine, cosine });
+        *place = Some(Factor { mean, wave: wave.clone(), sine, cosine });
     }
     let numbered = factors.into_iter().enumerate();
     numbered

@@ -60,11 +60,11 @@ fn undithered_thresholds() {
 fn roots_against_closed_forms() {
     let mut met = 0;
     for kind in &CLOSED {
-        for &waveform in Waveform::ALL {
+        for waveform in Waveform::NAMED.iter().cloned() {
             for zeta in [0.005, 0.03, 0.08] {
                 for k in 1..40 {
                     let v0 = 0.05 * f64::from(k);
-                    let dithers = vec![dither(Direction::Tangential, waveform, 0.0, 10.0)];
+                    let dithers = vec![dither(Direction::Tangential, waveform.clone(), 0.0, 10.0)];
                     let belt = belt(zeta, v0, dissertation(*kind), dithers);
                     let found = critical_amplitudes(&belt, AveragingOptions::default());
                     for critical in found.expect("found") {
@@ -75,7 +75,8 @@ fn roots_against_closed_forms() {
                             continue;
                         }
                         met += 1;
-                        let band = closed_band(&dissertation(*kind), zeta, 1.0, waveform, alpha);
+                        let band =
+                            closed_band(&dissertation(*kind), zeta, 1.0, waveform.clone(), alpha);
                         let upper = band.expect("a band").upper.expect("it ends");
                         close(upper, v0, 1e-12);
                         let becomes = if *kind == LawKind::Stribeck {
@@ -116,13 +117,14 @@ fn bands() {
     let (mut tangential, mut normal) = (0, 0);
     for kind in &CLOSED {
         let law = dissertation(*kind);
-        for &waveform in Waveform::ALL {
+        for waveform in Waveform::NAMED.iter().cloned() {
             for zeta in [0.005, 0.05, 0.1] {
                 for alpha in [0.0, 0.02, 0.07, 0.15, 0.3] {
-                    let dithers = vec![dither(Direction::Tangential, waveform, 10.0 * alpha, 10.0)];
+                    let dithers =
+                        vec![dither(Direction::Tangential, waveform.clone(), 10.0 * alpha, 10.0)];
                     let dithered = belt(zeta, 1.0, &law, dithers);
                     let found = unstable_bands(&dithered, AveragingOptions::default()).expect("ok");
-                    let closed = closed_band(&law, zeta, 1.0, waveform, alpha);
+                    let closed = closed_band(&law, zeta, 1.0, waveform.clone(), alpha);
                     assert_eq!(found.len(), usize::from(closed.is_ok()), "{found:?} {closed:?}");
                     if let (Some(found), Ok(closed)) = (found.first(), closed) {
                         tangential += 1;
@@ -130,7 +132,8 @@ fn bands() {
                         close(found.upper.expect("ends"), closed.upper.expect("ends"), 1e-12);
                         assert_eq!(found.lower_crossing, closed.lower_crossing);
                     }
-                    let dithers = vec![dither(Direction::Normal, waveform, 2.0 * alpha, 2.0)];
+                    let dithers =
+                        vec![dither(Direction::Normal, waveform.clone(), 2.0 * alpha, 2.0)];
                     let dithered = belt(zeta, 1.0, &law, dithers);
                     for band in unstable_bands(&dithered, AveragingOptions::default()).expect("ok")
                     {
@@ -139,7 +142,7 @@ fn bands() {
                         let reach = level(band.lower) * waveform.peak_integral();
                         assert!((band.lower - reach).abs() < 1e-13, "{band:?}");
                         let upper = band.upper.expect("ends");
-                        let same = closed_band(&law, zeta, 1.0, waveform, level(upper));
+                        let same = closed_band(&law, zeta, 1.0, waveform.clone(), level(upper));
                         close(same.expect("a band").upper.expect("ends"), upper, 1e-12);
                     }
                 }
@@ -174,36 +177,37 @@ fn everywhere_stable() {
         amplitude(everywhere_stable_amplitude(law, zeta, 1.0, wave, direction))
     };
     for (zeta, waveform, exact) in [
-        (0.005, sine, 0.162344061917),
-        (0.1, sine, 0.142986790037),
-        (0.005, triangle, 0.204443763791),
+        (0.005, sine.clone(), 0.162344061917),
+        (0.1, sine.clone(), 0.142986790037),
+        (0.005, triangle.clone(), 0.204443763791),
     ] {
         close(found(&stribeck, zeta, waveform, t), exact, 3e-12);
     }
     for (zeta, waveform, exact) in [
-        (0.05, sine, 1.0941276920426),
-        (0.05, triangle, 1.6332707873485),
-        (0.05, square, 0.36260571633514),
-        (0.07, sine, 0.59157534212326),
-        (0.07, triangle, 0.8399929583869),
-        (0.07, square, 0.2551552486811),
-        (0.1, sine, 0.32506419178468),
-        (0.1, triangle, 0.43625568163403),
-        (0.1, square, 0.16915165909353),
-        (0.005, sine, 104.013944251928),
-        (0.005, triangle, 163.306125),
-        (0.005, square, 3.6382819990807),
+        (0.05, sine.clone(), 1.0941276920426),
+        (0.05, triangle.clone(), 1.6332707873485),
+        (0.05, square.clone(), 0.36260571633514),
+        (0.07, sine.clone(), 0.59157534212326),
+        (0.07, triangle.clone(), 0.8399929583869),
+        (0.07, square.clone(), 0.2551552486811),
+        (0.1, sine.clone(), 0.32506419178468),
+        (0.1, triangle.clone(), 0.43625568163403),
+        (0.1, square.clone(), 0.16915165909353),
+        (0.005, sine.clone(), 104.013944251928),
+        (0.005, triangle.clone(), 163.306125),
+        (0.005, square.clone(), 3.6382819990807),
     ] {
         let tolerance = if exact == 163.306125 { 1e-8 } else { 1e-12 };
         close(found(&decreasing, zeta, waveform, t), exact, tolerance);
     }
     for (waveform, exact) in
-        [(sine, 0.557124589480), (triangle, 0.700327159816), (square, 0.379493225521)]
+        [(sine.clone(), 0.557124589480), (triangle, 0.700327159816), (square, 0.379493225521)]
     {
         close(found(&stribeck, 0.005, waveform, n), exact, 3e-12);
     }
     let never = |law: &Friction, zeta: f64| {
-        everywhere_stable_amplitude(law, zeta, 1.0, FastWave::Integral(sine), t).expect("ok")
+        everywhere_stable_amplitude(law, zeta, 1.0, FastWave::Integral(sine.clone()), t)
+            .expect("ok")
     };
     assert_eq!(never(&decreasing, 0.0), EverywhereStable::Never { why: NeverStable::NoDamping });
     assert_eq!(never(&decreasing, 0.3), EverywhereStable::Always);
@@ -215,15 +219,19 @@ fn everywhere_stable() {
 fn steep_laws_are_searched_beyond_the_tip() {
     let steep = build(LawKind::Stribeck, &[0.4, 0.008, 0.2]);
     let (waveform, frequency_ratio) = (Waveform::Square, 1e4);
-    let limit = FastWave::Integral(waveform);
-    let own = FastWave::Oscillator { waveform, frequency_ratio };
+    let limit = FastWave::Integral(waveform.clone());
+    let own = FastWave::Oscillator { waveform: waveform.clone(), frequency_ratio };
     let found = |wave: FastWave, direction: Direction| match everywhere_stable_amplitude(
-        &steep, 0.001, 1.0, wave, direction,
+        &steep,
+        0.001,
+        1.0,
+        wave.clone(),
+        direction,
     ) {
         Ok(EverywhereStable::From { amplitude_ratio, .. }) => amplitude_ratio,
         other => panic!("{wave:?} {direction:?}: {other:?}"),
     };
-    let tangential = found(limit, Direction::Tangential);
+    let tangential = found(limit.clone(), Direction::Tangential);
     let at_tip = tangential / steep.coefficient(tangential * waveform.peak_integral());
     let closed = found(limit, Direction::Normal);
     assert!(closed > 1.01 * at_tip, "{closed} {at_tip}");
@@ -235,21 +243,21 @@ fn steep_laws_are_searched_beyond_the_tip() {
 #[test]
 fn everywhere_stable_closes_the_band() {
     for kind in &CLOSED {
-        for &waveform in Waveform::ALL {
+        for waveform in Waveform::NAMED.iter().cloned() {
             for &direction in Direction::ALL {
                 for response in [FastResponse::Limit, FastResponse::Oscillator] {
                     let (zeta, r) = (0.08, 1.2);
                     let wave = match response {
-                        FastResponse::Limit => FastWave::Integral(waveform),
+                        FastResponse::Limit => FastWave::Integral(waveform.clone()),
                         FastResponse::Oscillator => {
-                            FastWave::Oscillator { waveform, frequency_ratio: r }
+                            FastWave::Oscillator { waveform: waveform.clone(), frequency_ratio: r }
                         }
                     };
                     let law = dissertation(*kind);
                     let alpha =
                         amplitude(everywhere_stable_amplitude(&law, zeta, 1.0, wave, direction));
                     let bands = |alpha: f64| {
-                        let dithers = vec![dither(direction, waveform, alpha * r, r)];
+                        let dithers = vec![dither(direction, waveform.clone(), alpha * r, r)];
                         // A heavy load keeps the contact closed; F enters the criterion with ζ.
                         let belt =
                             Belt::new(4.0 * zeta, 4.0, 1.0, law.clone(), dithers).expect("valid");
@@ -279,7 +287,7 @@ fn inner_region_may_be_unstable() {
     {
         for (fall, dips) in [(limit - 0.01, false), (limit + 0.01, true)] {
             let law = build(LawKind::Stribeck, &[1.0, 1.0 - fall, 0.2]);
-            let dithers = vec![dither(Direction::Tangential, waveform, 1.0, 10.0)];
+            let dithers = vec![dither(Direction::Tangential, waveform.clone(), 1.0, 10.0)];
             let belt = belt(0.0, 1e-7, &law, dithers);
             let found = critical_amplitudes(&belt, AveragingOptions::default()).expect("ok");
             // One jump at the corner, and two roots where the inner criterion dips below zero.
@@ -287,7 +295,7 @@ fn inner_region_may_be_unstable() {
             if dips {
                 assert_eq!(found[1].becomes, Becomes::Unstable);
                 assert_eq!(found[2].becomes, Becomes::Stable);
-                let wave = FastWave::Integral(waveform);
+                let wave = FastWave::Integral(waveform.clone());
                 let all = everywhere_stable_amplitude(&law, 0.0, 1.0, wave, Direction::Tangential);
                 let all = amplitude(all);
                 close(all, found[2].amplitude_ratio, 1e-5);
@@ -333,7 +341,8 @@ fn normal_dither() {
         (Waveform::Square, 0.115719, 0.115518, 0.115322),
         (Waveform::Sine, 0.148482, 0.148321, 0.147977),
     ] {
-        let belt = belt(0.2, 0.075, &law, vec![dither(Direction::Normal, waveform, 0.5, 5.0)]);
+        let belt =
+            belt(0.2, 0.075, &law, vec![dither(Direction::Normal, waveform.clone(), 0.5, 5.0)]);
         let critical = |normal_order: NormalOrder| {
             let options = AveragingOptions { normal_order, ..Default::default() };
             critical_amplitudes(&belt, options).expect("ok")
@@ -381,9 +390,9 @@ fn normal_dither() {
 fn lengths_scale_out() {
     let scale = 2.0_f64.powi(-17);
     for kind in &CLOSED {
-        for &waveform in Waveform::ALL {
+        for waveform in Waveform::NAMED.iter().cloned() {
             for v0 in [0.1, 0.5, 1.0] {
-                let dithers = vec![dither(Direction::Tangential, waveform, 0.1, 10.0)];
+                let dithers = vec![dither(Direction::Tangential, waveform.clone(), 0.1, 10.0)];
                 let belt = belt(0.005, v0, dissertation(*kind), dithers);
                 let found = |belt: &Belt| {
                     critical_amplitudes(belt, AveragingOptions::default()).expect("ok")
@@ -404,9 +413,9 @@ fn lengths_scale_out() {
 fn limits() {
     for kind in &CLOSED {
         let coulomb = build(*kind, &[0.4, 0.4, 0.2]);
-        for &waveform in Waveform::ALL {
+        for waveform in Waveform::NAMED.iter().cloned() {
             for v0 in [0.01, 0.3, 2.0] {
-                let dithers = vec![dither(Direction::Tangential, waveform, 1.0, 10.0)];
+                let dithers = vec![dither(Direction::Tangential, waveform.clone(), 1.0, 10.0)];
                 let belt = belt(0.01, v0, &coulomb, dithers);
                 let options = AveragingOptions::default();
                 assert_eq!(criterion(&belt, options).expect("ok").verdict, AveragedVerdict::Stable);
@@ -455,11 +464,13 @@ fn several_dithers() {
     let first = dither(Direction::Tangential, Waveform::Sine, 1.0, 10.0);
     let options = AveragingOptions::default();
     // The same wave twice: criticals of the first are lower by the second's α.
-    let second = Dither { amplitude: 0.3, ..first };
+    let second = Dither { amplitude: 0.3, ..first.clone() };
     let law = dissertation(LawKind::Decreasing);
-    let alone = critical_amplitudes(&belt(0.05, 0.5, &law, vec![first]), options).expect("ok");
+    let alone =
+        critical_amplitudes(&belt(0.05, 0.5, &law, vec![first.clone()]), options).expect("ok");
     let both =
-        critical_amplitudes(&belt(0.05, 0.5, &law, vec![first, second]), options).expect("ok");
+        critical_amplitudes(&belt(0.05, 0.5, &law, vec![first.clone(), second.clone()]), options)
+            .expect("ok");
     assert_eq!(alone.len(), 2);
     assert_eq!(both.len(), 2, "{both:?}");
     for (alone, both) in alone.iter().zip(&both) {
@@ -471,8 +482,8 @@ fn several_dithers() {
     }
     // Incommensurate, outer region: I₀(α₁/v_m) I₀(α₂/v_m) at the lower critical amplitude.
     let other = Dither { frequency_ratio: 10.0 * 2.0_f64.sqrt(), ..second };
-    let both =
-        critical_amplitudes(&belt(0.05, 0.5, &law, vec![first, other]), options).expect("ok");
+    let both = critical_amplitudes(&belt(0.05, 0.5, &law, vec![first, other.clone()]), options)
+        .expect("ok");
     let i0 = |a: f64| quell_numerics::special::bessel_i0_scaled(a) * a.exp();
     let m = |alpha: f64| i0(alpha / 0.2);
     close(

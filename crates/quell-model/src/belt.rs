@@ -161,9 +161,14 @@ impl Belt {
         self.dithers.iter().any(|dither| dither.direction == Direction::Normal)
     }
 
-    /// ΣD of one direction, the largest force its dithers can reach together.
+    /// The largest force that the dithers of one direction can reach together: ΣD max|g|, of the normal ones −ΣD min g, by which
+    /// they can reduce the load. It is ΣD for the waveforms of the dissertation.
     pub fn total_amplitude(&self, direction: Direction) -> f64 {
-        self.dithers_along(direction).map(|dither| dither.amplitude).sum()
+        let most = |dither: &Dither| match direction {
+            Direction::Tangential => dither.waveform.peak(),
+            Direction::Normal => -dither.waveform.range().0,
+        };
+        self.dithers_along(direction).map(|dither| most(dither) * dither.amplitude).sum()
     }
 
     /// The same belt without dither.
@@ -338,7 +343,7 @@ impl Parametrisation for Belt {
                 Direction::Normal => InputTarget::NormalLoad { contact: 0, reaction: false },
             },
             profile: Profile::default().with(Wave {
-                waveform: dither.waveform,
+                waveform: dither.waveform.clone(),
                 amplitude: dither.amplitude,
                 frequency: dither.frequency_ratio,
                 phase: dither.phase,
@@ -401,8 +406,9 @@ mod tests {
     #[test]
     fn separation_is_refused_by_name() {
         let normal = dither(Direction::Normal, 0.6);
-        let complaints = belt(vec![dither(Direction::Tangential, 9.0), normal, normal])
-            .expect_err("1.2 > F = 1");
+        let complaints =
+            belt(vec![dither(Direction::Tangential, 9.0), normal.clone(), normal.clone()])
+                .expect_err("1.2 > F = 1");
         assert_eq!(complaints.len(), 1);
         assert_eq!(complaints[0].key, "dither[1].amplitude");
         assert!(belt(vec![normal]).is_ok());

@@ -4,7 +4,7 @@ use crate::Invalid;
 use crate::parameter::{
     DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE, indexed, split_index,
 };
-use crate::waveform::Waveform;
+use crate::waveform::{Harmonic, Waveform};
 
 /// Direction of a dither force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -34,7 +34,7 @@ impl Direction {
 }
 
 /// D g(Rτ + φ), added to the tangential force or to the normal load.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Dither {
     /// Along the belt or on the normal load.
     pub direction: Direction,
@@ -52,6 +52,32 @@ impl Dither {
     /// α = D/R, the amplitude of the fast velocity in the limit of high frequency (2.21).
     pub fn amplitude_ratio(&self) -> f64 {
         self.amplitude / self.frequency_ratio
+    }
+
+    /// Frequency ratio at which the force repeats itself: R, of a burst R over its cycles of the carrier.
+    pub fn repetition_ratio(&self) -> f64 {
+        self.frequency_ratio / f64::from(self.waveform.cycles())
+    }
+
+    /// The highest frequency ratio of the force: R, of a sum of harmonics that of the highest one.
+    pub fn highest_ratio(&self) -> f64 {
+        self.frequency_ratio * f64::from(self.waveform.highest_order())
+    }
+
+    /// The sines of which a dither by harmonics consists, or the dither itself.
+    pub fn by_harmonics(&self) -> Vec<Self> {
+        let Some(harmonics) = self.waveform.harmonics() else { return vec![self.clone()] };
+        let sine = |harmonic: &Harmonic| {
+            let order = f64::from(harmonic.order);
+            Self {
+                direction: self.direction,
+                waveform: Waveform::Sine,
+                amplitude: self.amplitude * harmonic.amplitude(),
+                frequency_ratio: order * self.frequency_ratio,
+                phase: order.mul_add(self.phase, harmonic.phase()),
+            }
+        };
+        harmonics.iter().map(sine).collect()
     }
 
     /// Errors of this dither as entry `index` of a list of `count`.

@@ -3,7 +3,7 @@
 use crate::waveform::Waveform;
 
 /// One wave: A g(ωt + φ).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Wave {
     /// Waveform g.
     pub waveform: Waveform,
@@ -16,6 +16,21 @@ pub struct Wave {
 }
 
 impl Wave {
+    /// Angular frequency at which the wave repeats itself: ω, of a burst ω over its cycles of the carrier.
+    pub fn repetition(&self) -> f64 {
+        self.frequency / f64::from(self.waveform.cycles())
+    }
+
+    /// The highest angular frequency of the wave: ω, of a sum of harmonics that of the highest one.
+    pub fn highest(&self) -> f64 {
+        self.frequency * f64::from(self.waveform.highest_order())
+    }
+
+    /// Largest magnitude of the wave.
+    pub fn peak(&self) -> f64 {
+        self.amplitude.abs() * self.waveform.peak()
+    }
+
     /// A g(ωt + φ) at the time t.
     pub fn value(&self, time: f64) -> f64 {
         self.amplitude * self.waveform.value(f64::mul_add(self.frequency, time, self.phase))

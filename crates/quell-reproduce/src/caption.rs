@@ -30,7 +30,7 @@ pub(super) fn waveform_name(waveform: Waveform) -> &'static str {
     match waveform {
         Waveform::Sine => "sinusoidal",
         Waveform::Triangle => "triangular",
-        Waveform::Square => "square",
+        other => other.name(),
     }
 }
 

@@ -48,8 +48,8 @@ pub(super) fn three(source: &EntrySource) -> Result<Product, Failure> {
     let mut panels = Vec::new();
     let studies = source.with_waveforms()?;
     for (index, (waveform, study)) in studies.iter().enumerate() {
-        let title = format!("({}) {}", letter(index), waveform_name(*waveform));
-        panels.push(panel(source, study, *waveform, &mut table)?.title(title));
+        let title = format!("({}) {}", letter(index), waveform_name(waveform.clone()));
+        panels.push(panel(source, study, waveform.clone(), &mut table)?.title(title));
     }
     let law = study.belt().friction().kind();
     let note = match law {
@@ -110,7 +110,7 @@ fn panel(
     for (index, amplitude) in values(study, "dither.amplitude").into_iter().enumerate() {
         let alpha = amplitude / belt.dithers()[0].frequency_ratio;
         let corner = alpha * waveform.peak_integral() / vm;
-        let motion = FastMotion::single(FastWave::Integral(waveform), alpha);
+        let motion = FastMotion::single(FastWave::Integral(waveform.clone()), alpha);
         let as_printed = |w: f64| {
             let inside = law.kind() == LawKind::Decreasing
                 && waveform == Waveform::Triangle

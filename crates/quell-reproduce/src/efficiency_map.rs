@@ -41,17 +41,19 @@ struct MapPanel {
 
 /// Figures 2.8 and 2.9: four belt velocities.
 pub(super) fn velocities(source: &EntrySource) -> Result<Product, Failure> {
-    let waveform = source.study()?.belt().dithers()[0].waveform;
-    let cases = FOUR_VELOCITIES.map(|belt_velocity| MapPanel { belt_velocity, waveform });
+    let waveform = source.study()?.belt().dithers()[0].waveform.clone();
+    let cases =
+        FOUR_VELOCITIES.map(|belt_velocity| MapPanel { belt_velocity, waveform: waveform.clone() });
     figure(source, &cases, 2)
 }
 
 /// Figures 3.10 and 3.11: three waveforms from top to bottom, three belt velocities.
 pub(super) fn waveforms(source: &EntrySource) -> Result<Product, Failure> {
-    let cases: Vec<MapPanel> = Waveform::ALL
+    let cases: Vec<MapPanel> = Waveform::NAMED
         .iter()
-        .flat_map(|&waveform| {
-            THREE_VELOCITIES.map(|belt_velocity| MapPanel { belt_velocity, waveform })
+        .flat_map(|waveform| {
+            THREE_VELOCITIES
+                .map(|belt_velocity| MapPanel { belt_velocity, waveform: waveform.clone() })
         })
         .collect();
     figure(source, &cases, THREE_VELOCITIES.len())
@@ -60,7 +62,7 @@ pub(super) fn waveforms(source: &EntrySource) -> Result<Product, Failure> {
 /// Figures 4.9 and 4.10: one panel.
 pub(super) fn single(source: &EntrySource) -> Result<Product, Failure> {
     let belt = source.study()?.belt().clone();
-    let (belt_velocity, waveform) = (belt.belt_velocity(), belt.dithers()[0].waveform);
+    let (belt_velocity, waveform) = (belt.belt_velocity(), belt.dithers()[0].waveform.clone());
     figure(source, &[MapPanel { belt_velocity, waveform }], 1)
 }
 
@@ -99,7 +101,7 @@ fn figure(source: &EntrySource, cases: &[MapPanel], columns: usize) -> Result<Pr
             (_, false) => Some(format!("({name}) $v_0$ = {}", case.belt_velocity)),
             (_, true) => Some(format!(
                 "({name}) {}, $v_0$ = {}",
-                waveform_name(case.waveform),
+                waveform_name(case.waveform.clone()),
                 case.belt_velocity
             )),
         };
@@ -130,7 +132,7 @@ fn study_of(
     first: &BeltStudy,
     case: &MapPanel,
 ) -> Result<BeltStudy, Failure> {
-    let dither = first.belt().dithers()[0];
+    let dither = first.belt().dithers()[0].clone();
     let furthest = values(first, "dither.amplitude").last().copied().unwrap_or(1.0);
     let reach = case.belt_velocity / first.belt().belt_velocity()
         * (dither.waveform.peak_integral() / case.waveform.peak_integral());
@@ -249,7 +251,7 @@ fn panel(
 
 fn caption(source: &EntrySource, study: &BeltStudy) -> String {
     let belt = study.belt();
-    let dither = belt.dithers()[0];
+    let dither = belt.dithers()[0].clone();
     let direction = match dither.direction {
         Direction::Tangential => "tangential",
         Direction::Normal => "normal",

@@ -54,7 +54,7 @@ pub(super) fn cases(source: &EntrySource) -> Result<Vec<ResponseColumn>, Failure
 
 pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
-    let dither = study.belt().dithers()[0];
+    let dither = study.belt().dithers()[0].clone();
     let cases = cases(source)?;
     let step = std::f64::consts::TAU / dither.frequency_ratio / SAMPLES_PER_PERIOD;
     let undithered = history(source, &study, &study.belt().undithered(), step)?;
@@ -195,7 +195,7 @@ fn history(
 
 fn caption(source: &EntrySource, study: &BeltStudy, response: &SteadyResponse) -> String {
     let belt = study.belt();
-    let dither = belt.dithers()[0];
+    let dither = belt.dithers()[0].clone();
     let (direction, symbol) = match dither.direction {
         Direction::Tangential => ("tangential", "R_T"),
         Direction::Normal => ("normal", "R_N"),

@@ -66,7 +66,7 @@ fn of_waveforms(
     let mut summary = DataTable::new("", SUMMARY);
     let columns = blocks.first().map_or(1, |block| block.cases.len());
     for block in blocks {
-        let waveform = waveform_name(block.study.belt().dithers()[0].waveform);
+        let waveform = waveform_name(block.study.belt().dithers()[0].waveform.clone());
         let mut rows: [Vec<Panel>; 3] = Default::default();
         for (index, case) in block.cases.iter().enumerate() {
             let name = letter(index);
@@ -181,7 +181,7 @@ fn summary_row(waveform: &str, name: char, case: &AmplitudeColumn) -> Vec<Cell> 
 }
 
 fn title(block: &AmplitudeColumns, several: bool, name: char, case: &AmplitudeColumn) -> String {
-    let dither = block.study.belt().dithers()[0];
+    let dither = block.study.belt().dithers()[0].clone();
     let symbol = if dither.direction == Direction::Normal { "D_N" } else { "D_T" };
     let waveform =
         if several { format!("{}, ", waveform_name(dither.waveform)) } else { String::new() };
@@ -266,7 +266,7 @@ fn count(steps: f64) -> usize {
 fn caption(source: &EntrySource, blocks: &[Arc<AmplitudeColumns>]) -> String {
     let study = &blocks[0].study;
     let belt = study.belt();
-    let dither = belt.dithers()[0];
+    let dither = belt.dithers()[0].clone();
     let (direction, d, r) = match dither.direction {
         Direction::Tangential => ("tangential", "D_T", "R_T"),
         Direction::Normal => ("normal", "D_N", "R_N"),
@@ -283,7 +283,7 @@ fn caption(source: &EntrySource, blocks: &[Arc<AmplitudeColumns>]) -> String {
         parameters(study),
     );
     for block in blocks {
-        let waveform = waveform_name(block.study.belt().dithers()[0].waveform);
+        let waveform = waveform_name(block.study.belt().dithers()[0].waveform.clone());
         let _ = write!(
             text,
             " Measured, {waveform}: from rest the response {}; the base response itself {}.",

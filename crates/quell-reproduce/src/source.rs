@@ -63,11 +63,11 @@ impl EntrySource {
     /// # Errors
     /// Complaints about a changed study.
     pub fn with_waveforms(&self) -> Result<Vec<(Waveform, BeltStudy)>, Failure> {
-        Waveform::ALL
+        Waveform::NAMED
             .iter()
-            .map(|&waveform| {
+            .map(|waveform| {
                 let study = self.changed(&[&format!("dither.waveform={}", waveform.name())])?;
-                Ok((waveform, study))
+                Ok((waveform.clone(), study))
             })
             .collect()
     }

@@ -56,7 +56,7 @@ struct Unstable {
 pub(super) fn single(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
-    let panel = panel(source, &study, study.belt().dithers()[0].waveform, &mut table)?;
+    let panel = panel(source, &study, study.belt().dithers()[0].waveform.clone(), &mut table)?;
     let caption = format!(
         "{} $ζ$ = {}, {}. {}",
         opening(source, &study),
@@ -74,8 +74,10 @@ pub(super) fn three(source: &EntrySource) -> Result<Product, Failure> {
     let mut panels = Vec::new();
     let studies = source.with_waveforms()?;
     for (index, (waveform, study)) in studies.iter().enumerate() {
-        let title = format!("({}) {}", letter(index), waveform_name(*waveform));
-        panels.push(panel(source, study, *waveform, &mut table)?.title(title).legend(Legend::None));
+        let title = format!("({}) {}", letter(index), waveform_name(waveform.clone()));
+        panels.push(
+            panel(source, study, waveform.clone(), &mut table)?.title(title).legend(Legend::None),
+        );
     }
     let damping: Vec<String> =
         values(&study, "belt.damping_ratio").iter().map(f64::to_string).collect();
@@ -97,7 +99,7 @@ pub(super) fn three(source: &EntrySource) -> Result<Product, Failure> {
 }
 
 fn opening(source: &EntrySource, study: &BeltStudy) -> String {
-    let dither = study.belt().dithers()[0];
+    let dither = study.belt().dithers()[0].clone();
     format!(
         "Figure {}. Stability map with the {} law and {} dither: in the shaded region averaged steady sliding is unstable, \
          2$ζ$ + $F$ d$\\bar{{μ}}$/d$v$ < 0.",
@@ -110,7 +112,7 @@ fn opening(source: &EntrySource, study: &BeltStudy) -> String {
 /// Additions to the figure of the dissertation, and departures from it.
 fn closing(study: &BeltStudy, three: bool) -> String {
     let belt = study.belt();
-    let dither = belt.dithers()[0];
+    let dither = belt.dithers()[0].clone();
     let normal = dither.direction == Direction::Normal;
     let stribeck = belt.friction().kind() == LawKind::Stribeck;
     let ratio = dither.frequency_ratio;
@@ -174,7 +176,7 @@ fn panel(
     table: &mut DataTable,
 ) -> Result<Panel, Failure> {
     let belt = study.belt();
-    let dither = belt.dithers()[0];
+    let dither = belt.dithers()[0].clone();
     let last = |path: &str| values(study, path).last().copied();
     let velocity = last("belt.belt_velocity").unwrap_or(1.0);
     let normal = dither.direction == Direction::Normal;
@@ -250,8 +252,8 @@ impl StabilityPlane<'_> {
 
     fn unstable(&self, damping_ratio: f64) -> Result<Unstable, Failure> {
         let load = self.belt.normal_load();
-        let wave = FastWave::Integral(self.waveform);
-        let tip = self.tip(damping_ratio, wave)?;
+        let wave = FastWave::Integral(self.waveform.clone());
+        let tip = self.tip(damping_ratio, wave.clone())?;
         let end = tip.unwrap_or(f64::INFINITY).min(self.largest());
         let mut region = Unstable {
             damping_ratio,
@@ -261,7 +263,7 @@ impl StabilityPlane<'_> {
         };
         for k in 0..=POINTS {
             let alpha = end * f64::from(k) / f64::from(POINTS);
-            match closed_band(self.law(), damping_ratio, load, self.waveform, alpha) {
+            match closed_band(self.law(), damping_ratio, load, self.waveform.clone(), alpha) {
                 Ok(band) => {
                     region.lower.push(self.along(alpha, band.lower));
                     // Without an upper edge the band extends beyond the plane.
@@ -305,8 +307,8 @@ impl StabilityPlane<'_> {
     /// Edges of the bands for the response of the oscillator to a triangle or square, by quadrature.
     fn oscillator_edges(&self, damping_ratio: f64, ratio: f64) -> Result<[EdgeCurve; 2], Failure> {
         let load = self.belt.normal_load();
-        let wave = FastWave::Oscillator { waveform: self.waveform, frequency_ratio: ratio };
-        let tip = self.tip(damping_ratio, wave)?;
+        let wave = FastWave::Oscillator { waveform: self.waveform.clone(), frequency_ratio: ratio };
+        let tip = self.tip(damping_ratio, wave.clone())?;
         let end = tip.unwrap_or(f64::INFINITY).min(self.largest());
         let options =
             AveragingOptions { response: FastResponse::Oscillator, ..AveragingOptions::default() };
@@ -315,7 +317,7 @@ impl StabilityPlane<'_> {
             let alpha = end * f64::from(k) / f64::from(FEWER_POINTS);
             let dither = Dither {
                 direction: Direction::Tangential,
-                waveform: self.waveform,
+                waveform: self.waveform.clone(),
                 amplitude: alpha * ratio,
                 frequency_ratio: ratio,
                 phase: 0.0,

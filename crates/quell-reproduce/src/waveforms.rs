@@ -19,7 +19,7 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let mut columns = vec![("cycles".to_owned(), "1", cycles().collect::<Vec<f64>>())];
     let mut rows: [Vec<Panel>; 2] = [Vec::new(), Vec::new()];
     let studies = source.with_waveforms()?;
-    for (index, &(waveform, _)) in studies.iter().enumerate() {
+    for (index, (waveform, _)) in studies.iter().enumerate() {
         let name = waveform.name();
         columns.push((
             format!("{name}_g"),
@@ -31,11 +31,11 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
             "1",
             cycles().map(|c| waveform.integral(TAU * c)).collect(),
         ));
-        let title = format!("({}) {}", letter(index), waveform_name(waveform));
+        let title = format!("({}) {}", letter(index), waveform_name(waveform.clone()));
         rows[0].push(
             axes("waveform", "g", "")
                 .title(title)
-                .with(Polyline::pieces(PlotRole::Exact, force(waveform)))
+                .with(Polyline::pieces(PlotRole::Exact, force(waveform.clone())))
                 .legend(Legend::None),
         );
         let peak = waveform.peak_integral();

@@ -16,7 +16,7 @@ use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
 use crate::study::vocabulary::{
-    self, Choice, Key, MOST_POINTS, Role, SCHEMA_ABOUT, SCHEMA_VERSION, Section,
+    self, Choice, Key, MOST_POINTS, Role, SCHEMA_ABOUT, SCHEMA_VERSION, Section, WaveKey,
 };
 
 /// The dialect of the schema.
@@ -402,6 +402,7 @@ fn property(key: &Key) -> Json {
         },
         Role::Scale(scale) => bounded(scale.bounds, Quantity::Ratio),
         Role::Choice(choice) => json!({ "enum": choice.names() }),
+        Role::Wave(wave) => wave_property(wave),
         Role::Text => json!({ "type": "string" }),
         Role::Schema => json!({ "const": SCHEMA_VERSION }),
         Role::Choices(choice) => {
@@ -480,6 +481,28 @@ fn bounded(bounds: Bounds, quantity: Quantity) -> Json {
         schema["maximum"] = bounds.upper.into();
     }
     schema
+}
+
+/// The value of a part of the description of a waveform.
+fn wave_property(wave: WaveKey) -> Json {
+    let count = |least: u32| json!({ "type": "integer", "minimum": least });
+    match wave {
+        WaveKey::Harmonics => json!({
+            "type": "array", "minItems": 1, "items": {
+                "type": "object", "required": ["order"], "additionalProperties": false,
+                "properties": {
+                    "order": { "type": "integer", "minimum": 1 },
+                    "sine": { "type": "number" },
+                    "cosine": { "type": "number" },
+                },
+            },
+        }),
+        WaveKey::Values => json!({ "type": "array", "minItems": 2, "items": { "type": "number" } }),
+        WaveKey::Hold => json!({ "enum": Choice::Hold.names() }),
+        WaveKey::Carrier => json!({ "enum": Choice::Carrier.names() }),
+        WaveKey::On => count(1),
+        WaveKey::Off => count(0),
+    }
 }
 
 #[cfg(test)]

@@ -127,7 +127,7 @@ fn units_and_twins_give_the_numbers_of_the_file() {
     let contact = &system.contacts[0];
     assert_eq!((contact.normal_load, contact.surface_velocity.mean()), (1500.0, 250.0));
     assert_eq!(contact.friction.velocity_scale(), 500.0);
-    let wave = system.inputs[0].profile.waves()[0];
+    let wave = system.inputs[0].profile.waves()[0].clone();
     assert_eq!(wave.frequency, TAU * 20.0);
     assert!((wave.amplitude / (10.0 * 2f64.sqrt()) - 1.0).abs() < 1e-15);
     assert_eq!(study.units().si_per_unit(Quantity::Velocity), Some(1e-3));

@@ -59,7 +59,8 @@ impl BeltExt for Belt {
     }
 
     fn scaled(&self, factor: f64) -> Self {
-        let longer = |dither: &Dither| Dither { amplitude: factor * dither.amplitude, ..*dither };
+        let longer =
+            |dither: &Dither| Dither { amplitude: factor * dither.amplitude, ..dither.clone() };
         valid(Self::new(
             self.damping_ratio(),
             factor * self.normal_load(),
@@ -176,10 +177,10 @@ pub fn all_belts() -> Vec<NamedModel<Belt>> {
             all.push(NamedModel::new(name, base.source, base.model.with_dithers(dithers)));
         };
         add(base.name.clone(), Vec::new());
-        for &waveform in Waveform::ALL {
-            let dither = tangential(waveform, 10.0 * 0.5 * reach, 10.0);
+        for waveform in Waveform::NAMED.iter().cloned() {
+            let dither = tangential(waveform.clone(), 10.0 * 0.5 * reach, 10.0);
             add(format!("{} + tangential {}", base.name, waveform.name()), vec![dither]);
-            let dither = normal(waveform, 0.5, 5.0);
+            let dither = normal(waveform.clone(), 0.5, 5.0);
             add(format!("{} + normal {}", base.name, waveform.name()), vec![dither]);
         }
         let both = vec![

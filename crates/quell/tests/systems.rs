@@ -215,7 +215,7 @@ fn exact_exponents_have_the_right_limits() {
     // The same modulation as a factor on the friction force, which here does not depend on the load otherwise.
     for input in &mut split.inputs {
         input.target = quell_model::system::InputTarget::Friction { contact: 0 };
-        let wave = input.profile.waves()[0];
+        let wave = input.profile.waves()[0].clone();
         input.profile = quell_model::profile::Profile::constant(1.0).with(wave);
     }
     let dithered =

@@ -108,7 +108,7 @@ impl Waves {
         if disc.is_stiffened() {
             return Err(WaveError::Stiffened);
         }
-        if disc.waveform() != Waveform::Sine {
+        if *disc.waveform() != Waveform::Sine {
             return Err(WaveError::Waveform);
         }
         if load.friction < 0.0 {

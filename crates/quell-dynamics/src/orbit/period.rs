@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use quell_model::Belt;
+use quell_model::{Belt, Dither};
 
 use super::no_orbit::NoOrbit;
 
@@ -14,7 +14,7 @@ const DENOMINATORS: u32 = 64;
 /// # Errors
 /// [`NoOrbit::NoDither`], [`NoOrbit::Incommensurate`].
 pub fn common_period(belt: &Belt) -> Result<f64, NoOrbit> {
-    let rates: Vec<f64> = belt.dithers().iter().map(|dither| dither.frequency_ratio).collect();
+    let rates: Vec<f64> = belt.dithers().iter().map(Dither::repetition_ratio).collect();
     let Some(&first) = rates.first() else { return Err(NoOrbit::NoDither) };
     for count in 1..=DENOMINATORS {
         let period = f64::from(count) * TAU / first;

@@ -96,7 +96,7 @@ const ASIDE: f64 = 1e-6;
 fn is_at_jump(belt: &Belt, time: f64) -> bool {
     belt.dithers().iter().any(|dither| {
         let phase = f64::mul_add(dither.frequency_ratio, time, dither.phase);
-        let waveform = dither.waveform;
+        let waveform = &dither.waveform;
         let change = waveform.value(phase + ASIDE) - waveform.value(phase - ASIDE);
         dither.amplitude > 0.0 && change.abs() > JUMP
     })

@@ -40,10 +40,10 @@ impl Meter {
         let tangential: Vec<_> = belt
             .dithers_along(Direction::Tangential)
             .filter(|dither| dither.amplitude > 0.0)
-            .copied()
+            .cloned()
             .collect();
         Self {
-            fastest: tangential.iter().fold(0.0, |rate, dither| rate.max(dither.frequency_ratio)),
+            fastest: tangential.iter().fold(0.0, |rate, dither| rate.max(dither.highest_ratio())),
             tangential,
             belt_velocity: belt.belt_velocity(),
             first_time: start.time,
@@ -154,13 +154,15 @@ pub(super) fn minimum_normal_load(belt: &Belt, from: f64, length: f64) -> f64 {
     let normal: Vec<Dither> = belt
         .dithers_along(Direction::Normal)
         .filter(|dither| dither.amplitude > 0.0)
-        .copied()
+        .cloned()
         .collect();
     let load = belt.normal_load();
-    let fastest = normal.iter().fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
+    let fastest = normal.iter().fold(0.0_f64, |rate, dither| rate.max(dither.highest_ratio()));
     match normal.as_slice() {
         [] => load,
-        [only] if length * only.frequency_ratio >= TAU => load - only.amplitude,
+        [only] if length * only.repetition_ratio() >= TAU => {
+            load + only.amplitude * only.waveform.range().0
+        }
         several => {
             let value = |time: f64| force_of(several, time);
             let step = TAU / (fastest * LOAD_SAMPLES);

@@ -44,7 +44,7 @@ pub fn samples_per_slow_period(belt: &Belt) -> f64 {
         .dithers()
         .iter()
         .filter(|dither| dither.amplitude > 0.0)
-        .fold(0.0_f64, |rate, dither| rate.max(dither.frequency_ratio));
+        .fold(0.0_f64, |rate, dither| rate.max(dither.highest_ratio()));
     let wanted = SAMPLES_PER_SLOW_PERIOD.max(SAMPLES_PER_DITHER_PERIOD * fastest);
     (wanted / 32.0).ceil() * 32.0
 }
@@ -178,8 +178,8 @@ fn band_end(belt: &Belt, sampling: Sampling) -> f64 {
     let above = belt
         .dithers()
         .iter()
-        .filter(|dither| dither.amplitude > 0.0 && dither.frequency_ratio > BAND_END);
-    let ends = above.map(|dither| dither.frequency_ratio - reach);
+        .filter(|dither| dither.amplitude > 0.0 && dither.repetition_ratio() > BAND_END);
+    let ends = above.map(|dither| dither.repetition_ratio() - reach);
     ends.filter(|end| *end >= LEAST_BAND_END).fold(BAND_END, f64::min)
 }
 

@@ -16,6 +16,7 @@ use std::fmt;
 
 use quell_linear::steady::SteadySliding;
 use quell_model::System;
+use quell_model::profile::Wave;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::spectrum::Spectrum;
 use quell_numerics::spectrum::low_band::LargestLines;
@@ -223,7 +224,7 @@ impl RecordGrid {
     fn of(motion: &Motion<'_>, plan: &ResponsePlan) -> Result<Self, ResponseRefused> {
         let own = TAU * motion.time_scale() / SAMPLES_PER_PERIOD;
         let system = motion.system();
-        let fastest = system.acting_frequencies().fold(0.0, f64::max);
+        let fastest = system.waves().map(Wave::highest).fold(0.0, f64::max);
         let longest = own.min(TAU / (SAMPLES_PER_DITHER_PERIOD * fastest));
         let wanted = (plan.length / longest).max(LEAST_SAMPLES);
         if wanted > MOST_SAMPLES {

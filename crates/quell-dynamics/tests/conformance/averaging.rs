@@ -20,7 +20,7 @@ const OPTIONS: [AveragingOptions; 2] = [
 fn dither_of_amplitude_zero_is_no_dither() {
     for named in all_belts() {
         let belt = &named.model;
-        let none = |dither: &Dither| Dither { amplitude: 0.0, ..*dither };
+        let none = |dither: &Dither| Dither { amplitude: 0.0, ..dither.clone() };
         let silent = belt.with_dithers(belt.dithers().iter().map(none).collect());
         for options in OPTIONS {
             let plain = criterion(&belt.undithered(), options).expect("slides");
@@ -45,7 +45,8 @@ fn the_verdict_changes_at_every_critical_amplitude() {
                 }
                 let verdict = |factor: f64| {
                     let amplitude = factor * critical.amplitude;
-                    let belt = named.model.with_dithers(vec![Dither { amplitude, ..*dither }]);
+                    let belt =
+                        named.model.with_dithers(vec![Dither { amplitude, ..dither.clone() }]);
                     criterion(&belt, options).expect("a criterion").verdict
                 };
                 let (below, above) = (verdict(1.0 - 1e-6), verdict(1.0 + 1e-6));
@@ -102,7 +103,7 @@ fn criterion_and_rate(belt: &Belt) -> (Criterion, f64, Orbit) {
 fn the_criterion_is_the_limit_of_the_multipliers() {
     let (mut judged, mut worst) = ([0, 0], 0.0_f64);
     for named in belt::undithered() {
-        for &waveform in Waveform::ALL {
+        for waveform in Waveform::NAMED.iter().cloned() {
             for &direction in Direction::ALL {
                 // Outside and inside the largest fast velocity for tangential dither.
                 for reach in [0.3, 0.7, 1.4] {
@@ -112,7 +113,7 @@ fn the_criterion_is_the_limit_of_the_multipliers() {
                             Direction::Tangential => alpha * ratio,
                             Direction::Normal => 0.6 * reach,
                         };
-                        let dither = dither(direction, waveform, amplitude, ratio);
+                        let dither = dither(direction, waveform.clone(), amplitude, ratio);
                         criterion_and_rate(&named.model.with_dither(dither))
                     };
                     let label = format!("{}, {direction:?} {waveform:?} {reach}", named.name);

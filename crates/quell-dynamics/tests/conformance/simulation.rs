@@ -108,7 +108,7 @@ fn lengths_scale_out_to_the_last_bit() {
 fn dither_of_amplitude_zero_is_no_dither() {
     for named in all_belts() {
         let belt = &named.model;
-        let none = |dither: &Dither| Dither { amplitude: 0.0, ..*dither };
+        let none = |dither: &Dither| Dither { amplitude: 0.0, ..dither.clone() };
         let silent = belt.with_dithers(belt.dithers().iter().map(none).collect());
         let (end, events) = run(&belt.undithered(), START);
         let (other, other_events) = run(&silent, START);

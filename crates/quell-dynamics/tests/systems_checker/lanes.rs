@@ -34,7 +34,7 @@ fn scaled_profile(profile: &Profile, factor: f64) -> Profile {
     let waves = profile.waves().iter();
     waves.fold(Profile::constant(factor * profile.mean()), |profile, wave| {
         let (amplitude, frequency) = (factor * wave.amplitude, wave.frequency / factor);
-        profile.with(Wave { amplitude, frequency, phase: wave.phase + factor, ..*wave })
+        profile.with(Wave { amplitude, frequency, phase: wave.phase + factor, ..wave.clone() })
     })
 }
 

@@ -18,6 +18,7 @@ use super::dithers::{AveragingOptions, fast_wave};
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
 use super::mean_friction::effective;
+use super::periodic::Signal;
 use super::sign_changes::{CrossingKind, grown, sign_changes};
 
 /// Stability of steady sliding after a change of sign.
@@ -61,11 +62,11 @@ pub fn critical_amplitudes(
     belt: &Belt,
     options: AveragingOptions,
 ) -> Result<Vec<CriticalAmplitude>, AveragingError> {
-    let Some(&first) = belt.dithers().first() else {
+    let Some(first) = belt.dithers().first() else {
         return Ok(Vec::new());
     };
     let mut probe = Probe { belt, options, dithers: belt.dithers().to_vec() };
-    let corners = probe.corners(&first)?;
+    let corners = probe.corners(first)?;
     let scale = corners
         .iter()
         .fold(belt.friction().velocity_scale().max(belt.belt_velocity()), |m, c| m.max(*c));
@@ -158,6 +159,16 @@ impl Probe<'_> {
         {
             let peak = fast_wave(first, self.options.response)?.peak();
             return Ok(vec![v / (amplitude.abs() * peak)]);
+        }
+        // The fast motion of one dither is proportional to its amplitude: every maximum of it is a corner.
+        if let ([group], [_]) = (unit.groups(), self.dithers.as_slice())
+            && group.distortion == 0.0
+        {
+            let extrema = Signal::new(group)?.extrema();
+            let corners = extrema.into_iter().filter(|extremum| *extremum > 0.0);
+            let mut corners: Vec<f64> = corners.map(|extremum| v / extremum).collect();
+            corners.sort_unstable_by(f64::total_cmp);
+            return Ok(corners);
         }
         let scale = v.max(self.belt.friction().velocity_scale());
         let points: Vec<f64> =

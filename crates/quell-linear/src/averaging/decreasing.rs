@@ -39,7 +39,7 @@ const HALF_SQRT_PI: f64 = 1.0 / FRAC_2_SQRT_PI;
 /// Effective friction at slip velocity `v` ≥ 0 under s = αG, α > 0.
 pub(super) fn effective(
     law: &Decreasing,
-    waveform: Waveform,
+    waveform: &Waveform,
     alpha: f64,
     v: f64,
 ) -> Result<Effective, AveragingError> {
@@ -50,11 +50,11 @@ pub(super) fn effective(
     let a = alpha / vm;
     if v >= corner {
         let side = if v == corner { SlopeSide::Outer } else { SlopeSide::Both };
-        let tail = b1 * exp(-((v - corner) / vm)) * scaled_mean_exponential(waveform, a);
+        let tail = b1 * exp(-((v - corner) / vm)) * scaled_mean_exponential(waveform, a)?;
         return Ok(Effective::closed([b0, tail], [-tail / vm, 0.0], tail / vm, side));
     }
     let (w, below) = (v / vm, (corner - v) / vm);
-    let wave = FastWave::Integral(waveform);
+    let wave = FastWave::Integral(waveform.clone());
     let (delta, steepness) = wave.crossing(alpha, v);
     let sign = FRAC_2_PI * delta;
     let density = FRAC_2_PI / steepness;
@@ -81,7 +81,7 @@ pub(super) fn effective(
                 SlopeSide::Both,
             ))
         }
-        Waveform::Sine => {
+        _ => {
             let (k, j) = sine(a, w, delta)?;
             let jump = b0 + b1;
             let mut effective = Effective::closed(
@@ -98,11 +98,11 @@ pub(super) fn effective(
 }
 
 /// e^{−aG_max} m(a), m = ⟨e^{aG}⟩, for a = α/v_m ≥ 0: 1 at a = 0, falling to 0 like a^{−1/2} (square: a^{−1}).
-pub(super) fn scaled_mean_exponential(waveform: Waveform, a: f64) -> f64 {
+pub(super) fn scaled_mean_exponential(waveform: &Waveform, a: f64) -> Result<f64, AveragingError> {
     if a == 0.0 {
-        return 1.0;
+        return Ok(1.0);
     }
-    match waveform {
+    Ok(match waveform {
         Waveform::Sine => bessel_i0_scaled(a),
         Waveform::Triangle => {
             let gamma = a * waveform.peak_integral();
@@ -111,7 +111,13 @@ pub(super) fn scaled_mean_exponential(waveform: Waveform, a: f64) -> f64 {
             (erf(root) + second) / (2.0 * a.sqrt())
         }
         Waveform::Square => expm1_over(-PI * a),
-    }
+        other => {
+            let (period, peak) = (other.period(), other.integral_range().1);
+            let decay = |phase: f64| exp(a * (other.integral(phase) - peak));
+            let options = QuadratureOptions { relative: 1e-13, ..QuadratureOptions::default() };
+            settled(integrate(decay, 0.0, period, other.breaks(), &options))?.value / period
+        }
+    })
 }
 
 /// ⟨sgn·e^{−|·|}⟩ and J for the triangle inside; `gamma` = πa/4, `below` = γ − w, `sign` = ⟨sgn⟩.

@@ -89,9 +89,12 @@ impl FastMotion {
 /// # Errors
 /// [`AveragingError::NotFast`] where the oscillator's response is requested at R ≤ 1.
 pub fn fast_wave(dither: &Dither, response: FastResponse) -> Result<FastWave, AveragingError> {
-    let (waveform, frequency_ratio) = (dither.waveform, dither.frequency_ratio);
+    let (waveform, frequency_ratio) = (dither.waveform.clone(), dither.frequency_ratio);
     match response {
         FastResponse::Limit => Ok(FastWave::Integral(waveform)),
+        FastResponse::Oscillator if !waveform.is_symmetric() => {
+            Err(AveragingError::NoOscillatorShape { waveform: waveform.name() })
+        }
         FastResponse::Oscillator if frequency_ratio > 1.0 => {
             Ok(FastWave::Oscillator { waveform, frequency_ratio })
         }
@@ -107,11 +110,13 @@ fn grouped(
     response: FastResponse,
 ) -> Result<Vec<PeriodicMotion>, AveragingError> {
     let mut groups = Vec::new();
-    let frequencies: Vec<f64> = dithers.iter().map(|dither| dither.frequency_ratio).collect();
+    let dithers: Vec<Dither> = dithers.iter().flat_map(|dither| dither.by_harmonics()).collect();
+    let frequencies: Vec<f64> = dithers.iter().map(Dither::repetition_ratio).collect();
     for members in commensurate_groups(&frequencies) {
         let mut group = PeriodicMotion::default();
-        for (index, harmonic) in members {
-            let dither = dithers[index];
+        for (index, multiple) in members {
+            let dither = &dithers[index];
+            let harmonic = multiple * dither.waveform.cycles();
             let wave = fast_wave(dither, response)?;
             let (alpha, phase) = (dither.amplitude_ratio(), dither.phase);
             match dither.direction {
@@ -122,7 +127,7 @@ fn grouped(
                     let amplitude = alpha * level;
                     group.normal.push(SlipTerm { wave, amplitude, harmonic, phase });
                     group.load.push(LoadTerm {
-                        waveform: dither.waveform,
+                        waveform: dither.waveform.clone(),
                         amplitude: dither.amplitude / normal_load,
                         harmonic,
                         phase,

@@ -145,12 +145,12 @@ fn outer_edge(
                 return Ok(None);
             }
             let corner = alpha * waveform.peak_integral();
-            let scaled = scaled_mean_exponential(waveform, ratio);
+            let scaled = scaled_mean_exponential(&waveform, ratio)?;
             let edge =
                 corner - vm * ln(2.0 * vm * damping_ratio / (normal_load * difference * scaled));
             Some(edge.max(0.0))
         }
-        law => searched_edge(law, damping_ratio, normal_load, waveform, alpha)?,
+        law => searched_edge(law, damping_ratio, normal_load, &waveform, alpha)?,
     })
 }
 
@@ -160,16 +160,16 @@ fn searched_edge(
     law: &Friction,
     damping_ratio: f64,
     normal_load: f64,
-    waveform: Waveform,
+    waveform: &Waveform,
     alpha: f64,
 ) -> Result<Option<f64>, AveragingError> {
-    let wave = FastWave::Integral(waveform);
-    let corner = alpha * waveform.peak_integral();
+    let wave = FastWave::Integral(waveform.clone());
+    let corner = alpha * wave.peak();
     let value = |v: f64| -> Result<f64, AveragingError> {
         let effective = if alpha == 0.0 {
             single_wave::undithered(law, v)?
         } else {
-            single_wave::effective(law, wave, alpha, v)?
+            single_wave::effective(law, &wave, alpha, v)?
         };
         Ok(Criterion::new(damping_ratio, normal_load, effective).value)
     };

@@ -23,6 +23,11 @@ pub enum AveragingError {
         /// Frequency ratio R ≤ 1.
         frequency_ratio: f64,
     },
+    /// The oscillator's response was requested for a waveform whose shape is known in the limit of high frequency only.
+    NoOscillatorShape {
+        /// Name of the waveform.
+        waveform: &'static str,
+    },
     /// A quadrature did not reach its tolerance.
     Quadrature(QuadratureError),
 }
@@ -49,6 +54,11 @@ impl core::fmt::Display for AveragingError {
                 f,
                 "the oscillator's own response to the dither requires a frequency ratio above 1, not {}",
                 digits(*frequency_ratio, 6)
+            ),
+            Self::NoOscillatorShape { waveform } => write!(
+                f,
+                "finite-R averaging has no response of the oscillator to a waveform \"{waveform}\"; averaging in the limit of \
+                 high frequency and exact verdicts have"
             ),
             Self::Quadrature(error) => write!(f, "averaging: {error}"),
         }

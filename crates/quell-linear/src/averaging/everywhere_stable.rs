@@ -107,14 +107,13 @@ struct DitheredLaw<'a> {
 
 impl DitheredLaw<'_> {
     fn criterion(&self, alpha: f64, v: f64) -> Result<f64, AveragingError> {
-        let effective = single_wave::effective(self.law, self.wave, alpha, v)?;
+        let effective = single_wave::effective(self.law, &self.wave, alpha, v)?;
         Ok(Criterion::new(self.damping_ratio, self.normal_load, effective).value)
     }
 
     /// h(α): outer criterion at the tip.
     fn tip(&self, alpha: f64) -> Result<f64, AveragingError> {
-        let (_, gain) = self.wave.canonical();
-        let (shape, _) = self.wave.canonical();
+        let (shape, gain) = self.wave.clone().canonical();
         // The corner in the same arithmetic as in the averages, so that it is hit exactly.
         self.criterion(alpha, (alpha * gain) * shape.peak())
     }
@@ -168,9 +167,9 @@ impl DitheredLaw<'_> {
     /// Largest root of h and its error.
     fn outer(&self) -> Result<Option<(f64, f64)>, AveragingError> {
         let vm = self.law.velocity_scale();
-        if let (Friction::Stribeck(law), FastWave::Integral(waveform)) = (self.law, self.wave) {
+        if let (Friction::Stribeck(law), FastWave::Integral(waveform)) = (self.law, &self.wave) {
             let kappa = kappa(law, self.damping_ratio, self.normal_load);
-            let peak = waveform.peak_integral();
+            let peak = self.wave.peak();
             let alpha =
                 vm * ((1.0 - kappa) / (peak * peak + waveform.mean_square_integral())).sqrt();
             return Ok(Some((alpha, 4.0 * f64::EPSILON * alpha)));
@@ -225,7 +224,7 @@ impl DitheredLaw<'_> {
             _ => return searched(),
         };
         // Stribeck law beyond the tip: the outer root α(v₀) decreases, but α/μ could still rise where μ decreases steeply.
-        let (wave, gain) = self.wave.canonical();
+        let (wave, gain) = self.wave.clone().canonical();
         let FastWave::Integral(waveform) = wave else { return searched() };
         let mean_square = gain * gain * waveform.mean_square_integral();
         let ratio = |v: f64| {

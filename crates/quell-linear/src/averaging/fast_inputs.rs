@@ -98,7 +98,7 @@ impl FastInputs {
     ) -> Result<Self, E> {
         let mut waves = Vec::new();
         for (input, given) in system.inputs.iter().enumerate() {
-            for &wave in given.profile.waves() {
+            for wave in given.profile.waves().iter().cloned() {
                 let contacts = response(&given.target, &wave)?;
                 let harmonics = vec![(1, 1.0, contacts)];
                 waves.push(WaveResponse { input, wave, free: None, harmonics });
@@ -270,16 +270,20 @@ impl GroupParts {
         (contact, direct): (usize, bool),
         (amplitude, multiple): (f64, u32),
     ) {
-        let Wave { waveform, frequency, phase, .. } = response.wave;
+        let Wave { ref waveform, frequency, phase, .. } = response.wave;
         let free = response.free.as_ref().map(|free| free[contact]);
         if let Some(free) = free {
             // s = −a, and a = c₁ A ∫g dt, with the springs of an oscillation.
-            let wave = free.natural.map_or(FastWave::Integral(waveform), |natural| {
-                FastWave::Oscillator { waveform, frequency_ratio: frequency / natural }
-            });
+            let wave = match free.natural {
+                None => FastWave::Integral(waveform.clone()),
+                Some(natural) => FastWave::Oscillator {
+                    waveform: waveform.clone(),
+                    frequency_ratio: frequency / natural,
+                },
+            };
             let slip = -free.first * amplitude / frequency;
             self.slip_terms.push(SlipTerm { wave, amplitude: slip, harmonic: multiple, phase });
-            if waveform == Waveform::Square {
+            if *waveform == Waveform::Square {
                 // c₂ A ∬g dt²: the integral of a square is a triangle, −(π/2) tri(θ + π/2).
                 let wave = FastWave::Integral(Waveform::Triangle);
                 let slip = FRAC_PI_2 * free.second * amplitude / (frequency * frequency);
@@ -287,13 +291,14 @@ impl GroupParts {
                 self.slip_terms.push(SlipTerm { wave, amplitude: slip, harmonic: multiple, phase });
             }
             if direct {
+                let waveform = waveform.clone();
                 self.load_terms.push(LoadTerm { waveform, amplitude, harmonic: multiple, phase });
             }
         }
         for (n, coefficient, contacts) in &response.harmonics {
             let ContactResponse { mut slip, mut load } = contacts[contact];
             if let Some(free) = free {
-                let second = if waveform == Waveform::Square { free.second } else { 0.0 };
+                let second = if *waveform == Waveform::Square { free.second } else { 0.0 };
                 slip -= FreeSlip { second, ..free }.at(f64::from(*n) * frequency);
                 load -= f64::from(u8::from(direct));
             }

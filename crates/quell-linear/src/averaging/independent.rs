@@ -73,7 +73,7 @@ pub(super) fn effective(
     for (depth, group) in order.iter().enumerate() {
         levels.push(match group.single_term() {
             Some((wave, amplitude)) if depth + 1 == order.len() => {
-                NestedLevel::Closed { wave, amplitude }
+                NestedLevel::Closed { wave: wave.clone(), amplitude }
             }
             _ => NestedLevel::Sampled(Signal::new(group)?),
         });
@@ -201,7 +201,7 @@ impl NestedMean<'_> {
     ) -> Result<(f64, f64), AveragingError> {
         let effective = match &self.levels[self.levels.len() - 1] {
             NestedLevel::Closed { wave, amplitude } => {
-                let mut e = single_wave::effective(self.law, *wave, *amplitude, v)?;
+                let mut e = single_wave::effective(self.law, wave, *amplitude, v)?;
                 e.coefficient *= base;
                 e.slope *= base;
                 e.coefficient_error *= base.abs();

@@ -24,6 +24,11 @@ pub enum NoAverage {
         /// Their number.
         count: usize,
     },
+    /// A waveform whose response in a structure averaging does not know.
+    Waveform {
+        /// Its name.
+        name: &'static str,
+    },
     /// The mean friction has no value.
     Mean(AveragingError),
     /// The state matrix overflows.
@@ -45,6 +50,10 @@ impl std::fmt::Display for NoAverage {
                 f,
                 "the dithers have {count} mutually incommensurate frequencies, but averaging of a system supports at most \
                  {MOST_FREQUENCIES}"
+            ),
+            Self::Waveform { name } => write!(
+                f,
+                "averaging of a system knows the waveforms sine, triangle and square; \"{name}\" can be simulated"
             ),
             Self::Mean(why) => why.fmt(f),
             Self::Eigenvalues(why) => why.fmt(f),

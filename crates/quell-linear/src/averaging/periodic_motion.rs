@@ -2,6 +2,7 @@
 
 use core::f64::consts::TAU;
 use quell_model::Waveform;
+use quell_model::waveform::Piece;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
 use super::error::{AveragingError, settled};
@@ -11,7 +12,7 @@ use super::wave::FastWave;
 const FLAT: f64 = 1e-3;
 
 /// One dither's part of the fast slip velocity: amplitude·wave(harmonic·θ + phase).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SlipTerm {
     /// Shape for unit amplitude.
     pub wave: FastWave,
@@ -24,7 +25,7 @@ pub struct SlipTerm {
 }
 
 /// One normal dither's part of the load: amplitude·waveform(harmonic·θ + phase).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct LoadTerm {
     /// Waveform g.
     pub waveform: Waveform,
@@ -51,14 +52,15 @@ pub struct PeriodicMotion {
 }
 
 impl PeriodicMotion {
-    /// The wave and its amplitude where the motion reduces to a single undistorted wave.
-    pub(super) fn single_term(&self) -> Option<(FastWave, f64)> {
-        match (self.tangential.as_slice(), self.normal.as_slice()) {
-            ([term], []) if self.load.is_empty() => Some((term.wave, term.amplitude)),
-            // The load of a single normal dither is odd and its slip is even: they are uncorrelated.
-            ([], [term]) if self.distortion == 0.0 => Some((term.wave, term.amplitude)),
+    /// The wave and its amplitude where the motion reduces to a single undistorted wave that is known from a quarter.
+    pub(super) fn single_term(&self) -> Option<(&FastWave, f64)> {
+        let only = match (self.tangential.as_slice(), self.normal.as_slice()) {
+            ([term], []) if self.load.is_empty() => Some(term),
+            // The load of a single normal dither is the derivative of its slip: they are uncorrelated.
+            ([], [term]) if self.distortion == 0.0 => Some(term),
             _ => None,
-        }
+        };
+        only.filter(|term| term.wave.is_symmetric()).map(|term| (&term.wave, term.amplitude))
     }
 
     /// Whether load and slip of the group can be correlated.
@@ -96,16 +98,18 @@ impl PeriodicMotion {
         let matters = |t: &&SlipTerm| {
             t.wave != FastWave::Integral(Waveform::Sine) || steep(t) > FLAT * steepest
         };
-        let terms = slips().filter(matters).map(|t| (t.harmonic, t.phase));
+        let terms = slips().filter(matters).map(|t| (t.wave.waveform(), t.harmonic, t.phase));
         let largest = self.load.iter().map(|t| t.amplitude.abs()).fold(0.0, f64::max);
         let matters =
             |t: &&LoadTerm| t.waveform != Waveform::Sine || t.amplitude.abs() > FLAT * largest;
-        let loads = self.load.iter().filter(matters).map(|t| (t.harmonic, t.phase));
+        let loads = self.load.iter().filter(matters).map(|t| (&t.waveform, t.harmonic, t.phase));
         let mut breaks = Vec::new();
-        for (harmonic, phase) in terms.chain(loads) {
-            for quarter in 0..4 * harmonic {
-                let location = (0.25 * TAU * f64::from(quarter) - phase) / f64::from(harmonic);
-                breaks.push(location.rem_euclid(TAU));
+        for (waveform, harmonic, phase) in terms.chain(loads) {
+            let own = ends_of_monotone_parts(waveform);
+            for period in 0..harmonic / waveform.cycles() {
+                let start = f64::from(period).mul_add(waveform.period(), -phase);
+                let locations = own.iter().map(|end| (start + end) / f64::from(harmonic));
+                breaks.extend(locations.map(|location| location.rem_euclid(TAU)));
             }
         }
         breaks.sort_unstable_by(f64::total_cmp);
@@ -126,4 +130,34 @@ impl PeriodicMotion {
     pub(super) fn is_still(&self) -> bool {
         self.tangential.iter().chain(&self.normal).all(|t| t.amplitude == 0.0)
     }
+}
+
+/// Phases within the period between which neither g nor G changes its formula or direction: the quarters of a symmetric
+/// waveform; the breaks and the zeros of g of another one.
+fn ends_of_monotone_parts(waveform: &Waveform) -> Vec<f64> {
+    if waveform.is_symmetric() {
+        return (0..4).map(|quarter| 0.25 * TAU * f64::from(quarter)).collect();
+    }
+    let breaks = waveform.breaks();
+    let mut ends = breaks.to_vec();
+    for (place, piece) in waveform.pieces().iter().enumerate() {
+        let start = breaks[place];
+        let end = breaks.get(place + 1).copied().unwrap_or_else(|| waveform.period());
+        match *piece {
+            Piece::Harmonic => {
+                let mut quarter = start + 0.25 * TAU;
+                while quarter < end {
+                    ends.push(quarter);
+                    quarter += 0.25 * TAU;
+                }
+            }
+            Piece::Affine { value, slope } => {
+                let zero = start - value / slope;
+                if zero > start && zero < end {
+                    ends.push(zero);
+                }
+            }
+        }
+    }
+    ends
 }

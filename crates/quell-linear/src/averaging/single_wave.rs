@@ -1,4 +1,5 @@
-//! Any law under one dither of any shape: the closed form of the law where one exists, otherwise quadrature over a quarter wave.
+//! Any law under one dither of any shape: the closed form of the law where one exists, otherwise quadrature over a quarter wave,
+//! or over the whole period of a shape without symmetry.
 //!
 //! With s = ασ(δ) odd in δ and c(u) the sliding coefficient at speed u ≥ 0,
 //! μ̄(v) = (1/π) ∫₀^{π/2} [μ(v + ασ) + μ(v − ασ)] dδ for v ≥ 0, split where ασ = v:
@@ -18,8 +19,9 @@ use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
 use super::effective::{Effective, SlopeSide};
 use super::error::{AveragingError, settled};
+use super::periodic_motion::{PeriodicMotion, SlipTerm};
 use super::wave::FastWave;
-use super::{decreasing, stribeck};
+use super::{decreasing, periodic, stribeck};
 
 /// Nodes and weights on [0, 1] for the mean slope.
 static RULE: LazyLock<[[f64; 5]; 2]> = LazyLock::new(|| GaussLegendre::new(5).on_unit_interval());
@@ -43,22 +45,25 @@ pub(super) fn undithered(law: &Friction, v: f64) -> Result<Effective, AveragingE
 /// wave.
 pub(super) fn effective(
     law: &Friction,
-    wave: FastWave,
+    wave: &FastWave,
     amplitude: f64,
     v: f64,
 ) -> Result<Effective, AveragingError> {
-    let (wave, factor) = wave.canonical();
+    if !wave.is_symmetric() {
+        return whole_period(law, wave, amplitude, v);
+    }
+    let (wave, factor) = wave.clone().canonical();
     // s and −s have the same distribution.
     let alpha = amplitude.abs() * factor;
     let speed = v.abs();
     let effective = match (law, wave) {
         (Friction::Stribeck(law), FastWave::Integral(waveform)) => {
-            stribeck::effective(law, waveform, alpha, speed)
+            stribeck::effective(law, &waveform, alpha, speed)
         }
         (Friction::Decreasing(law), FastWave::Integral(waveform)) => {
-            decreasing::effective(law, waveform, alpha, speed)?
+            decreasing::effective(law, &waveform, alpha, speed)?
         }
-        (law, wave) => quarter_wave(law, wave, alpha, speed)?,
+        (law, wave) => quarter_wave(law, &wave, alpha, speed)?,
     };
     Ok(if v < 0.0 { effective.mirrored() } else { effective })
 }
@@ -69,21 +74,37 @@ pub(super) fn effective(
 /// A quadrature that did not converge.
 pub fn effective_by_quadrature(
     law: &Friction,
-    wave: FastWave,
+    wave: &FastWave,
     amplitude: f64,
     v: f64,
 ) -> Result<Effective, AveragingError> {
     if amplitude == 0.0 {
         return undithered(law, v);
     }
+    if !wave.is_symmetric() {
+        return whole_period(law, wave, amplitude, v);
+    }
     let effective = quarter_wave(law, wave, amplitude.abs(), v.abs())?;
     Ok(if v < 0.0 { effective.mirrored() } else { effective })
+}
+
+/// Effective friction under a shape without symmetry: quadrature over its whole period.
+fn whole_period(
+    law: &Friction,
+    wave: &FastWave,
+    amplitude: f64,
+    v: f64,
+) -> Result<Effective, AveragingError> {
+    let harmonic = wave.waveform().cycles();
+    let term = SlipTerm { wave: wave.clone(), amplitude, harmonic, phase: 0.0 };
+    let group = PeriodicMotion { tangential: vec![term], ..PeriodicMotion::default() };
+    periodic::effective(law, &group, v)
 }
 
 /// Effective friction by quadrature at slip velocity `v` ≥ 0 under s = α·wave, α > 0.
 fn quarter_wave(
     law: &Friction,
-    wave: FastWave,
+    wave: &FastWave,
     alpha: f64,
     v: f64,
 ) -> Result<Effective, AveragingError> {

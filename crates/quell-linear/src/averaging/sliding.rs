@@ -75,7 +75,7 @@ impl<'a> DitheredSystem<'a> {
         let sliding = Linearised::new(system)?;
         let mut waves = Vec::new();
         for (input, given) in system.inputs.iter().enumerate() {
-            for &wave in given.profile.waves() {
+            for wave in given.profile.waves().iter().cloned() {
                 waves.push(wave_response(system, &sliding, (input, &given.target), wave)?);
             }
         }
@@ -167,8 +167,12 @@ fn wave_response(
             .map(|response| response.contacts)
             .ok_or(NoAverage::Resonance { frequency })
     };
+    if !wave.waveform.is_symmetric() {
+        return Err(NoAverage::Waveform { name: wave.waveform.name() });
+    }
     if wave.waveform == Waveform::Sine {
-        return Ok(WaveResponse { input, wave, free: None, harmonics: vec![(1, 1.0, at(1)?)] });
+        let harmonics = vec![(1, 1.0, at(1)?)];
+        return Ok(WaveResponse { input, wave, free: None, harmonics });
     }
     // The closed form of an oscillation needs a frequency well above it.
     let slow = |free: FreeSlip| FreeSlip {
@@ -179,7 +183,7 @@ fn wave_response(
     let free = free.ok_or(NoSteadySliding::NoMass)?.into_iter().map(slow).collect();
     let mut harmonics: Vec<(u32, f64, Vec<ContactResponse>)> = Vec::new();
     for n in (1..=MOST_HARMONICS).step_by(2) {
-        let coefficient = wave.waveform.sine_coefficient(n);
+        let coefficient = wave.waveform.sine_coefficient(n).unwrap_or(0.0);
         harmonics.push((n, coefficient, at(n)?));
     }
     Ok(WaveResponse { input, wave, free: Some(free), harmonics })

@@ -17,7 +17,7 @@ use super::effective::{Effective, SlopeSide};
 use super::wave::FastWave;
 
 /// Effective friction at slip velocity `v` ≥ 0 under s = αG, α > 0.
-pub(super) fn effective(law: &Stribeck, waveform: Waveform, alpha: f64, v: f64) -> Effective {
+pub(super) fn effective(law: &Stribeck, waveform: &Waveform, alpha: f64, v: f64) -> Effective {
     let difference = law.static_coefficient() - law.minimum_coefficient();
     let vm = law.reference_velocity();
     let (w, ratio) = (v / vm, alpha / vm);
@@ -36,7 +36,7 @@ pub(super) fn effective(law: &Stribeck, waveform: Waveform, alpha: f64, v: f64) 
             side,
         );
     }
-    let wave = FastWave::Integral(waveform);
+    let wave = FastWave::Integral(waveform.clone());
     let (delta, steepness) = wave.crossing(alpha, v);
     // ⟨sgn⟩ = δ/(π/2), its slope 2ρ = 2/(π ds/dδ).
     let sign = core::f64::consts::FRAC_2_PI * delta;

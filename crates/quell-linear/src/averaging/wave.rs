@@ -8,14 +8,16 @@
 //!   square, (R/cos β) sin((θ − π/2)/R) on 0 ≤ θ ≤ π, continued evenly. Damping is omitted deliberately: at a stability boundary
 //!   the damper and the averaged friction slope cancel. Requires R > 1.
 //!
-//! All shapes are even and antiperiodic, and hence determined by a quarter wave σ(δ): s = σ(θ − π/2) on [0, π]. σ is odd and
-//! increases from 0 at δ = 0 (to relative accuracy, also for tiny δ) to its peak at δ = π/2.
+//! The shapes of the sine, the triangle and the square are even and antiperiodic, and hence determined by a quarter wave σ(δ):
+//! s = σ(θ − π/2) on [0, π]. σ is odd and increases from 0 at δ = 0 (to relative accuracy, also for tiny δ) to its peak at
+//! δ = π/2. Other waveforms have the shape G only (a sum of harmonics enters as its harmonics, each a sine); they have no quarter
+//! wave, and averages over them are by quadrature over the whole period.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use quell_model::Waveform;
 
 /// Shape of the fast slip velocity of one dither, for unit amplitude α = D/R.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum FastWave {
     /// G, the zero-mean integral of the waveform: the limit of high frequency.
     Integral(Waveform),
@@ -29,6 +31,18 @@ pub enum FastWave {
 }
 
 impl FastWave {
+    /// Waveform of the force.
+    pub fn waveform(&self) -> &Waveform {
+        match self {
+            Self::Integral(waveform) | Self::Oscillator { waveform, .. } => waveform,
+        }
+    }
+
+    /// Whether the shape is known from a quarter wave, as for the waveforms of the dissertation.
+    pub fn is_symmetric(&self) -> bool {
+        self.waveform().is_symmetric()
+    }
+
     /// The same shape with a separate factor. An oscillator preserves the shape of a sine, so the closed forms for G apply.
     pub(crate) fn canonical(self) -> (Self, f64) {
         match self {
@@ -40,78 +54,75 @@ impl FastWave {
     }
 
     /// Largest value: G_max = 1, π/4, π/2 in the limit of high frequency.
-    pub fn peak(self) -> f64 {
+    pub fn peak(&self) -> f64 {
         match self {
             Self::Integral(waveform) => waveform.peak_integral(),
             Self::Oscillator { waveform, frequency_ratio: r } => {
+                let r = *r;
                 let half = FRAC_PI_2 / r;
                 match waveform {
-                    Waveform::Sine => sine_gain(r),
                     Waveform::Triangle => {
                         let s = libm::sin(0.5 * half);
                         4.0 * r * r * s * s / (PI * libm::cos(half))
                     }
                     Waveform::Square => r * libm::tan(half),
+                    _ => sine_gain(r) * waveform.peak_integral(),
                 }
             }
         }
     }
 
-    /// Quarter wave σ(δ), 0 ≤ δ ≤ π/2.
-    pub(crate) fn quarter(self, delta: f64) -> f64 {
+    /// Quarter wave σ(δ) of a symmetric waveform, 0 ≤ δ ≤ π/2.
+    pub(crate) fn quarter(&self, delta: f64) -> f64 {
         match self {
-            Self::Integral(Waveform::Sine) => libm::sin(delta),
             Self::Integral(Waveform::Triangle) => delta * (1.0 - delta / PI),
             Self::Integral(Waveform::Square) => delta,
-            Self::Oscillator { waveform, frequency_ratio: r } => match waveform {
-                Waveform::Sine => sine_gain(r) * libm::sin(delta),
+            Self::Integral(_) => libm::sin(delta),
+            &Self::Oscillator { ref waveform, frequency_ratio: r } => match waveform {
                 Waveform::Triangle => {
                     let product = libm::sin(0.5 * delta / r) * libm::sin(0.5 * (PI - delta) / r);
                     4.0 * r * r / (PI * libm::cos(FRAC_PI_2 / r)) * product
                 }
                 Waveform::Square => r * libm::sin(delta / r) / libm::cos(FRAC_PI_2 / r),
+                _ => sine_gain(r) * libm::sin(delta),
             },
         }
     }
 
     /// dσ/dδ at 0 ≤ δ ≤ π/2.
-    pub(crate) fn quarter_slope(self, delta: f64) -> f64 {
+    pub(crate) fn quarter_slope(&self, delta: f64) -> f64 {
         match self {
-            Self::Integral(Waveform::Sine) => libm::cos(delta),
             Self::Integral(Waveform::Triangle) => 1.0 - 2.0 * delta / PI,
             Self::Integral(Waveform::Square) => 1.0,
-            Self::Oscillator { waveform, frequency_ratio: r } => match waveform {
-                Waveform::Sine => sine_gain(r) * libm::cos(delta),
+            Self::Integral(_) => libm::cos(delta),
+            &Self::Oscillator { ref waveform, frequency_ratio: r } => match waveform {
                 Waveform::Triangle => {
                     let factor = 2.0 * r / (PI * libm::cos(FRAC_PI_2 / r));
                     factor * libm::sin((FRAC_PI_2 - delta) / r)
                 }
                 Waveform::Square => libm::cos(delta / r) / libm::cos(FRAC_PI_2 / r),
+                _ => sine_gain(r) * libm::cos(delta),
             },
         }
     }
 
     /// The δ in [0, π/2] at which ασ(δ) = value, and α dσ/dδ there, for 0 ≤ value < α·peak. Both are free of cancellation near
     /// either end.
-    pub(crate) fn crossing(self, amplitude: f64, value: f64) -> (f64, f64) {
+    pub(crate) fn crossing(&self, amplitude: f64, value: f64) -> (f64, f64) {
         let peak = amplitude * self.peak();
         let below = peak - value;
         match self {
-            Self::Integral(Waveform::Sine) => {
-                let steepness = (below * (peak + value)).sqrt();
-                (libm::atan2(value, steepness), steepness)
-            }
             Self::Integral(Waveform::Triangle) => {
                 let root = (below / peak).sqrt();
                 // δ = (π/2)(1 − √(1 − value/peak))
                 (FRAC_PI_2 * (value / peak) / (1.0 + root), amplitude * root)
             }
             Self::Integral(Waveform::Square) => (value / amplitude, amplitude),
-            Self::Oscillator { waveform: Waveform::Sine, frequency_ratio } => {
-                Self::Integral(Waveform::Sine)
-                    .crossing(amplitude * sine_gain(frequency_ratio), value)
+            Self::Integral(_) => {
+                let steepness = (below * (peak + value)).sqrt();
+                (libm::atan2(value, steepness), steepness)
             }
-            Self::Oscillator { waveform: Waveform::Triangle, frequency_ratio: r } => {
+            &Self::Oscillator { waveform: Waveform::Triangle, frequency_ratio: r } => {
                 let scale = 4.0 * r * r * amplitude / (PI * libm::cos(FRAC_PI_2 / r));
                 let from_peak = 2.0 * r * libm::asin((below / scale).sqrt().min(1.0));
                 let steepness = 0.5 * scale / r * libm::sin(from_peak / r);
@@ -125,16 +136,22 @@ impl FastWave {
                 }
                 (delta.max(0.0), steepness)
             }
-            Self::Oscillator { waveform: Waveform::Square, frequency_ratio: r } => {
+            &Self::Oscillator { waveform: Waveform::Square, frequency_ratio: r } => {
                 let half = libm::cos(FRAC_PI_2 / r);
                 let delta = r * libm::asin((value * half / (amplitude * r)).min(1.0));
                 (delta, amplitude * self.quarter_slope(delta))
             }
+            Self::Oscillator { frequency_ratio, .. } => Self::Integral(Waveform::Sine)
+                .crossing(amplitude * sine_gain(*frequency_ratio), value),
         }
     }
 
     /// s(θ) and ds/dθ for unit amplitude at any θ. At a corner of s, the slope beyond it.
-    pub(crate) fn value_and_slope(self, phase: f64) -> (f64, f64) {
+    pub(crate) fn value_and_slope(&self, phase: f64) -> (f64, f64) {
+        if !self.is_symmetric() {
+            let waveform = self.waveform();
+            return (waveform.integral(phase), waveform.value(phase));
+        }
         let phase = phase.rem_euclid(TAU);
         let (folded, direction) = if phase < PI { (phase, 1.0) } else { (TAU - phase, -1.0) };
         let delta = folded - FRAC_PI_2;
@@ -154,10 +171,10 @@ mod tests {
 
     fn all() -> Vec<FastWave> {
         let mut waves = Vec::new();
-        for &waveform in Waveform::ALL {
-            waves.push(FastWave::Integral(waveform));
+        for waveform in Waveform::NAMED.iter().cloned() {
+            waves.push(FastWave::Integral(waveform.clone()));
             for frequency_ratio in [1.3, 5.0, 10.0, 1e4] {
-                waves.push(FastWave::Oscillator { waveform, frequency_ratio });
+                waves.push(FastWave::Oscillator { waveform: waveform.clone(), frequency_ratio });
             }
         }
         waves
@@ -166,13 +183,13 @@ mod tests {
     /// The integral shapes are G itself, and the shapes of the oscillator converge to it.
     #[test]
     fn integral_of_the_waveform() {
-        for &waveform in Waveform::ALL {
+        for waveform in Waveform::NAMED.iter().cloned() {
             for k in -50..120 {
                 let theta = 0.1 * f64::from(k);
-                let (s, slope) = FastWave::Integral(waveform).value_and_slope(theta);
+                let (s, slope) = FastWave::Integral(waveform.clone()).value_and_slope(theta);
                 assert!((s - waveform.integral(theta)).abs() < 4e-15, "{waveform:?} {theta}");
                 assert!((slope - waveform.value(theta)).abs() < 1e-14, "{waveform:?} {theta}");
-                let far = FastWave::Oscillator { waveform, frequency_ratio: 1e5 };
+                let far = FastWave::Oscillator { waveform: waveform.clone(), frequency_ratio: 1e5 };
                 assert!((far.value_and_slope(theta).0 - s).abs() < 1e-9);
             }
         }
@@ -182,9 +199,9 @@ mod tests {
     /// its slope jumps where the force does.
     #[test]
     fn oscillator_equation() {
-        for &waveform in Waveform::ALL {
+        for waveform in Waveform::NAMED.iter().cloned() {
             let r = 3.0;
-            let wave = FastWave::Oscillator { waveform, frequency_ratio: r };
+            let wave = FastWave::Oscillator { waveform: waveform.clone(), frequency_ratio: r };
             let h = 1e-3;
             for k in 0..60 {
                 let theta = 0.05 + 0.1 * f64::from(k);

@@ -99,7 +99,8 @@ impl Disc {
         speed: f64,
     ) -> Result<Self, InvalidValues> {
         let disc = Self::new(self.modes.clone(), loads, dither, speed)?;
-        let disc = Self { centrifugal: self.centrifugal.clone(), waveform: self.waveform, ..disc };
+        let disc =
+            Self { centrifugal: self.centrifugal.clone(), waveform: self.waveform.clone(), ..disc };
         let disc = match &self.law {
             Some(law) => disc.under_law(law.clone())?,
             None => disc,
@@ -192,7 +193,7 @@ impl Disc {
     pub fn shaped(self, waveform: Waveform) -> Result<Self, InvalidValues> {
         match waveform {
             Waveform::Sine | Waveform::Square => Ok(Self { waveform, ..self }),
-            Waveform::Triangle => Err(InvalidValues::from(Invalid::new(
+            _ => Err(InvalidValues::from(Invalid::new(
                 "dither.waveform",
                 waveform.name(),
                 "\"sine\" or \"square\": friction that follows the sign of the slip is a square wave",
@@ -201,8 +202,8 @@ impl Disc {
     }
 
     /// Waveform of the dither.
-    pub fn waveform(&self) -> Waveform {
-        self.waveform
+    pub fn waveform(&self) -> &Waveform {
+        &self.waveform
     }
 
     /// Speed Ω of the loads over the disc, in ω_ref.

@@ -132,7 +132,7 @@ impl Disc {
         if let Some(frequency) = self.dither().frequency_ratio() {
             // cos(Rτ + φ) is a sine, and sgn cos a square wave, that leads by a quarter of a cycle.
             factor = factor.with(Wave {
-                waveform: self.waveform(),
+                waveform: self.waveform().clone(),
                 amplitude: on(Contribution::Dither, amplitude),
                 frequency,
                 phase: load.dither_phase + FRAC_PI_2,

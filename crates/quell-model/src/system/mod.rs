@@ -53,7 +53,7 @@ impl System {
 
     /// Angular frequencies of the waves that act, in the order of the inputs.
     pub fn acting_frequencies(&self) -> impl Iterator<Item = f64> {
-        self.waves().filter(|wave| wave.amplitude != 0.0).map(|wave| wave.frequency)
+        self.waves().filter(|wave| wave.amplitude != 0.0).map(Wave::repetition)
     }
 
     /// The same system with every input at its mean.
@@ -94,7 +94,7 @@ impl System {
         for input in &mut system.inputs {
             let mean = Profile::constant(input.profile.mean());
             input.profile = input.profile.waves().iter().fold(mean, |profile, wave| {
-                profile.with(Wave { amplitude: factor * wave.amplitude, ..*wave })
+                profile.with(Wave { amplitude: factor * wave.amplitude, ..wave.clone() })
             });
         }
         system

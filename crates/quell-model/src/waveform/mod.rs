@@ -1,22 +1,53 @@
-//! Dither waveforms g: zero mean, unit amplitude, 2π-periodic, odd.
+//! Dither waveforms g over the phase θ, of zero mean.
 //!
-//! A waveform is one file with a `Shape` and one line in the list below. It is analytic between its
-//! breaks (kinks and jumps); the engine makes each break a time event. G is
-//! the zero-mean integral of g (even; the dissertation's text after (3.25) calls it odd,
-//! but τ₂ = 2π − τ₁ there requires it to be even).
+//! A waveform is analytic between its breaks (kinks and jumps); the engine makes each break a time event. G is the zero-mean
+//! integral of g. For the sine, the triangle and the square it is even (the dissertation's text after (3.25) calls it odd, but
+//! τ₂ = 2π − τ₁ there requires it to be even), g is antiperiodic and G_max = −G_min. Other waveforms need not have any symmetry,
+//! so that averages extend over the whole period, and the sign of the dither matters.
+//!
+//! | file | content |
+//! |---|---|
+//! | `sine`, `triangle`, `square` | the waveforms of the dissertation, as constants |
+//! | `fourier` | a sum of harmonics |
+//! | `samples` | one period by samples, joined by straight lines or held |
+//! | `burst` | whole periods of a carrier, and a pause |
+//! | `shape`, `table` | breaks, pieces and averages: of constants, and computed from pieces |
 
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
+mod burst;
+mod fourier;
+mod samples;
 mod shape;
 mod sine;
 mod square;
+mod table;
 mod triangle;
 
+pub use burst::Burst;
+pub use fourier::{FourierWave, Harmonic};
+pub use samples::{Hold, SampledWave};
 pub use shape::Piece;
-use shape::Shape;
 
-/// A dither waveform.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+use shape::Shape;
+use table::WaveTable;
+
+/// A dither waveform. It is cheap to clone.
+///
+/// ```
+/// use quell_model::Waveform;
+/// use quell_model::waveform::{Burst, FourierWave, Harmonic, Hold, SampledWave};
+///
+/// // A square wave by two samples that are held.
+/// let held = Waveform::Samples(SampledWave::new(vec![1.0, -1.0], Hold::Zero)?.into());
+/// assert_eq!(held.integral(1.0), Waveform::Square.integral(1.0));
+/// // Eight periods of a sine, and a pause of 24.
+/// let burst = Burst::new(Waveform::Sine, 8, 24)?;
+/// assert_eq!(burst.cycles(), 32);
+/// # Ok::<(), quell_model::waveform::WaveformError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
 pub enum Waveform {
     /// g = sin θ, eq. (2.1).
     Sine,
@@ -24,105 +55,268 @@ pub enum Waveform {
     Triangle,
     /// Square, eq. (3.6).
     Square,
+    /// A sum of harmonics.
+    Fourier(Arc<FourierWave>),
+    /// One period by samples.
+    Samples(Arc<SampledWave>),
+    /// Periods of a carrier and a pause.
+    Burst(Arc<Burst>),
 }
 
-impl Waveform {
-    /// Every waveform.
-    pub const ALL: &'static [Self] = &[Self::Sine, Self::Triangle, Self::Square];
+/// Why numbers make no waveform.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WaveformError {
+    /// The key of a study file that is wrong: `harmonics`, `values`, `on`, `off` or `carrier`.
+    pub key: &'static str,
+    /// What is allowed.
+    pub allowed: String,
+}
 
-    fn shape(self) -> &'static Shape {
+impl std::fmt::Display for WaveformError {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "{} must be {}", self.key, self.allowed)
+    }
+}
+
+impl std::error::Error for WaveformError {}
+
+/// Names in a study file of the waveforms that take further keys.
+pub const FOURIER: &str = "fourier";
+/// See [`FOURIER`].
+pub const SAMPLES: &str = "samples";
+/// See [`FOURIER`].
+pub const BURST: &str = "burst";
+
+impl Waveform {
+    /// The waveforms without numbers of their own.
+    pub const NAMED: &'static [Self] = &[Self::Sine, Self::Triangle, Self::Square];
+
+    /// The names of all waveforms in a study file.
+    pub const NAMES: &'static [&'static str] =
+        &["sine", "triangle", "square", FOURIER, SAMPLES, BURST];
+
+    /// The constants of a waveform without numbers of its own.
+    fn shape(&self) -> Option<&'static Shape> {
         match self {
-            Self::Sine => &sine::SHAPE,
-            Self::Triangle => &triangle::SHAPE,
-            Self::Square => &square::SHAPE,
+            Self::Sine => Some(&sine::SHAPE),
+            Self::Triangle => Some(&triangle::SHAPE),
+            Self::Square => Some(&square::SHAPE),
+            Self::Fourier(_) | Self::Samples(_) | Self::Burst(_) => None,
+        }
+    }
+
+    /// The table of a waveform by pieces.
+    fn table(&self) -> Option<&WaveTable> {
+        match self {
+            Self::Samples(samples) => Some(samples.table()),
+            Self::Burst(burst) => Some(burst.table()),
+            _ => None,
         }
     }
 
     /// Name in a study file.
-    pub fn name(self) -> &'static str {
-        self.shape().name
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Fourier(_) => FOURIER,
+            Self::Samples(_) => SAMPLES,
+            Self::Burst(_) => BURST,
+            _ => self.shape().map_or("", |shape| shape.name),
+        }
     }
 
-    /// The waveform of a name.
+    /// The waveform of a name that takes no further keys.
     pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|waveform| waveform.name() == name)
+        Self::NAMED.iter().find(|waveform| waveform.name() == name).cloned()
+    }
+
+    /// Number of cycles 2π of the phase in one period: more than one for bursts.
+    pub fn cycles(&self) -> u32 {
+        match self {
+            Self::Burst(burst) => burst.cycles(),
+            _ => 1,
+        }
+    }
+
+    /// The period, radians of the phase.
+    pub fn period(&self) -> f64 {
+        TAU * f64::from(self.cycles())
+    }
+
+    /// Whether G is even and antiperiodic, as for the waveforms of the dissertation: it is known from a quarter of its period.
+    pub fn is_symmetric(&self) -> bool {
+        self.shape().is_some()
     }
 
     /// g(θ). At a jump the value after it.
-    pub fn value(self, phase: f64) -> f64 {
-        let phase = wrapped(phase);
-        match self.piece_at(phase) {
-            (_, Piece::Harmonic) => libm::sin(phase),
-            (start, Piece::Affine { value, slope }) => value + slope * wrapped(phase - start),
+    pub fn value(&self, phase: f64) -> f64 {
+        match self {
+            Self::Fourier(series) => series.value(phase),
+            _ => {
+                let phase = self.wrapped(phase);
+                match self.piece_at(phase) {
+                    (_, Piece::Harmonic) => libm::sin(phase),
+                    (start, Piece::Affine { value, slope }) => {
+                        value + slope * self.wrapped(phase - start)
+                    }
+                }
+            }
         }
     }
 
     /// g′(θ), per radian. At a kink the slope after it; a jump has none.
-    pub fn slope(self, phase: f64) -> f64 {
-        let phase = wrapped(phase);
-        match self.piece_at(phase) {
-            (_, Piece::Harmonic) => libm::cos(phase),
-            (_, Piece::Affine { slope, .. }) => slope,
+    pub fn slope(&self, phase: f64) -> f64 {
+        match self {
+            Self::Fourier(series) => series.slope(phase),
+            _ => {
+                let phase = self.wrapped(phase);
+                match self.piece_at(phase) {
+                    (_, Piece::Harmonic) => libm::cos(phase),
+                    (_, Piece::Affine { slope, .. }) => slope,
+                }
+            }
         }
     }
 
     /// G(θ), the zero-mean integral of g.
-    pub fn integral(self, phase: f64) -> f64 {
-        (self.shape().integral)(wrapped(phase))
+    pub fn integral(&self, phase: f64) -> f64 {
+        match (self, self.shape(), self.table()) {
+            (Self::Fourier(series), ..) => series.integral(phase),
+            (_, Some(shape), _) => (shape.integral)(self.wrapped(phase)),
+            (_, _, Some(table)) => table.integral(self.wrapped(phase)),
+            _ => 0.0,
+        }
     }
 
-    /// G_max: 1, π/4, π/2.
-    pub fn peak_integral(self) -> f64 {
-        self.shape().peak_integral
+    /// Least and largest value of G: ∓1, ∓π/4, ∓π/2 for the waveforms of the dissertation.
+    pub fn integral_range(&self) -> (f64, f64) {
+        match self {
+            Self::Fourier(series) => series.integral_range(),
+            _ => match (self.shape(), self.table()) {
+                (Some(shape), _) => (-shape.peak_integral, shape.peak_integral),
+                (_, Some(table)) => table.integral_range(),
+                _ => (0.0, 0.0),
+            },
+        }
+    }
+
+    /// max |G|: 1, π/4, π/2.
+    pub fn peak_integral(&self) -> f64 {
+        let (least, largest) = self.integral_range();
+        largest.max(-least)
     }
 
     /// ⟨G²⟩: 1/2, π²/30, π²/12.
-    pub fn mean_square_integral(self) -> f64 {
-        self.shape().mean_square_integral
+    pub fn mean_square_integral(&self) -> f64 {
+        match self {
+            Self::Fourier(series) => series.mean_square_integral(),
+            _ => match (self.shape(), self.table()) {
+                (Some(shape), _) => shape.mean_square_integral,
+                (_, Some(table)) => table.mean_square_integral(),
+                _ => 0.0,
+            },
+        }
     }
 
     /// √⟨g²⟩: 1/√2, 1/√3, 1.
-    pub fn root_mean_square(self) -> f64 {
-        self.shape().root_mean_square
+    pub fn root_mean_square(&self) -> f64 {
+        match self {
+            Self::Fourier(series) => series.root_mean_square(),
+            _ => match (self.shape(), self.table()) {
+                (Some(shape), _) => shape.root_mean_square,
+                (_, Some(table)) => table.root_mean_square(),
+                _ => 0.0,
+            },
+        }
     }
 
-    /// Fourier coefficient b_n of sin nθ; g is odd and antiperiodic, so that all others vanish.
-    pub fn sine_coefficient(self, harmonic: u32) -> f64 {
-        if harmonic.is_multiple_of(2) {
-            return 0.0;
-        }
-        let n = f64::from(harmonic);
+    /// Least and largest value of g: ∓1 for the waveforms of the dissertation.
+    pub fn range(&self) -> (f64, f64) {
         match self {
+            Self::Fourier(series) => series.range(),
+            _ => self.table().map_or((-1.0, 1.0), WaveTable::range),
+        }
+    }
+
+    /// max |g|.
+    pub fn peak(&self) -> f64 {
+        let (least, largest) = self.range();
+        largest.max(-least)
+    }
+
+    /// Fourier coefficient b_n of sin nθ of a waveform of the dissertation, which is odd and antiperiodic, so that all others
+    /// vanish; `None` for other waveforms.
+    pub fn sine_coefficient(&self, harmonic: u32) -> Option<f64> {
+        let odd = !harmonic.is_multiple_of(2);
+        let n = f64::from(harmonic);
+        let value = match self {
             Self::Sine => f64::from(u8::from(harmonic == 1)),
             Self::Square => 4.0 / (PI * n),
             Self::Triangle => {
                 let sign = if harmonic % 4 == 1 { 1.0 } else { -1.0 };
                 8.0 * sign / (PI * n * PI * n)
             }
+            _ => return None,
+        };
+        Some(if odd { value } else { 0.0 })
+    }
+
+    /// Phases of kinks and jumps within a period, ascending from 0.
+    pub fn breaks(&self) -> &[f64] {
+        match self {
+            Self::Sine | Self::Fourier(_) => &[],
+            Self::Triangle => triangle::SHAPE.breaks,
+            Self::Square => square::SHAPE.breaks,
+            Self::Samples(samples) => samples.table().breaks(),
+            Self::Burst(burst) => burst.table().breaks(),
         }
     }
 
-    /// Phases of kinks and jumps in [0, 2π), ascending.
-    pub fn breaks(self) -> &'static [f64] {
-        self.shape().breaks
+    /// The pieces: `pieces()[i]` follows `breaks()[i]`; a single piece if there are no breaks, and none for a sum of harmonics.
+    pub fn pieces(&self) -> &[Piece] {
+        match self {
+            Self::Sine => sine::SHAPE.pieces,
+            Self::Triangle => triangle::SHAPE.pieces,
+            Self::Square => square::SHAPE.pieces,
+            Self::Fourier(_) => &[],
+            Self::Samples(samples) => samples.table().pieces(),
+            Self::Burst(burst) => burst.table().pieces(),
+        }
     }
 
-    /// The pieces: `pieces()[i]` follows `breaks()[i]`; a single piece if there are no breaks.
-    pub fn pieces(self) -> &'static [Piece] {
-        self.shape().pieces
+    /// The highest order of a sum of harmonics; 1 for other waveforms.
+    pub fn highest_order(&self) -> u32 {
+        self.harmonics().and_then(<[Harmonic]>::last).map_or(1, |harmonic| harmonic.order)
     }
 
-    /// The piece at a phase in [0, 2π), with the phase of the break that opens it.
-    fn piece_at(self, phase: f64) -> (f64, Piece) {
-        let Shape { breaks, pieces, .. } = self.shape();
+    /// −g, where it is a waveform: a burst has none.
+    pub fn negated(&self) -> Option<Self> {
+        match self {
+            Self::Fourier(series) => Some(Self::Fourier(series.negated().into())),
+            Self::Samples(samples) => Some(Self::Samples(samples.negated().into())),
+            Self::Sine | Self::Triangle | Self::Square | Self::Burst(_) => None,
+        }
+    }
+
+    /// The harmonics of a sum.
+    pub fn harmonics(&self) -> Option<&[Harmonic]> {
+        match self {
+            Self::Fourier(series) => Some(series.harmonics()),
+            _ => None,
+        }
+    }
+
+    /// The piece at a phase within the period, with the phase of the break that opens it.
+    fn piece_at(&self, phase: f64) -> (f64, Piece) {
+        let (breaks, pieces) = (self.breaks(), self.pieces());
         let after = breaks.partition_point(|&start| start <= phase);
         let index = (after + pieces.len() - 1) % pieces.len();
         (breaks.get(index).copied().unwrap_or(0.0), pieces[index])
     }
-}
 
-/// θ modulo 2π, in [0, 2π).
-fn wrapped(phase: f64) -> f64 {
-    let rest = phase.rem_euclid(TAU);
-    if rest == TAU { 0.0 } else { rest }
+    /// θ modulo the period.
+    fn wrapped(&self, phase: f64) -> f64 {
+        let period = self.period();
+        let rest = phase.rem_euclid(period);
+        if rest == period { 0.0 } else { rest }
+    }
 }

@@ -1,6 +1,6 @@
 //! One conformance suite for every friction law and every waveform.
 //!
-//! It runs over [`quell_model::LawKind::ALL`] and [`quell_model::Waveform::ALL`]: a new law
+//! It runs over [`quell_model::LawKind::ALL`] and [`quell_model::Waveform::NAMED`]: a new law
 //! or waveform is one file and one line in its list, and is tested here without any change.
 
 mod law_numbers;

@@ -22,6 +22,10 @@ pub enum WaveGlyph {
     Square,
     /// △▽
     Triangle,
+    /// A wave and a pause.
+    Burst,
+    /// A wave of another shape.
+    Other,
 }
 
 /// A closed area and its fill.
@@ -184,6 +188,14 @@ pub(super) fn wave(at: Spot, glyph: WaveGlyph) -> Vec<Spot> {
         WaveGlyph::Sine => (0..=36)
             .map(|step| f64::from(step) / 24.0)
             .map(|phase| (phase, (TAU * phase).sin()))
+            .collect(),
+        WaveGlyph::Burst => (0..=36)
+            .map(|step| f64::from(step) / 24.0)
+            .map(|phase| (phase, if phase < 1.0 { (2.0 * TAU * phase).sin() } else { 0.0 }))
+            .collect(),
+        WaveGlyph::Other => (0..=36)
+            .map(|step| f64::from(step) / 24.0)
+            .map(|phase| (phase, 0.7 * (TAU * phase).sin() + 0.5 * (2.0 * TAU * phase).cos()))
             .collect(),
         WaveGlyph::Square => vec![
             (0.0, 0.0),

@@ -31,11 +31,11 @@ pub(super) fn waveforms(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     };
     for (waveform, printed) in [(sine, 1.0), (triangle, PI / 4.0), (square, FRAC_PI_2)] {
         let name = format!("3.3-peak-{}", waveform.name());
-        let statement = format!("G_max of the {} waveform", waveform_name(waveform));
+        let statement = format!("G_max of the {} waveform", waveform_name(waveform.clone()));
         sheet.formula([&name, "before Figure 3.3", &statement], printed, peak(waveform)?);
     }
     let sides = |side: f64| {
-        Waveform::ALL.iter().map(|waveform| waveform.integral(side)).collect::<Vec<f64>>()
+        Waveform::NAMED.iter().map(|waveform| waveform.integral(side)).collect::<Vec<f64>>()
     };
     let (left, right) = (sides(-0.7), sides(0.7));
     let odd = left.iter().zip(&right).all(|(left, right)| (left + right).abs() < 1e-12);
@@ -78,9 +78,9 @@ fn everywhere(
 /// α^L: formulas, order of the waveforms, the inner region.
 pub(super) fn everywhere_stable(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let tangential = |kind, zeta, waveform| everywhere(kind, zeta, waveform, Direction::Tangential);
-    let stribeck = Waveform::ALL
+    let stribeck = Waveform::NAMED
         .iter()
-        .map(|&waveform| tangential(LawKind::Stribeck, LIGHT, waveform))
+        .map(|waveform| tangential(LawKind::Stribeck, LIGHT, waveform.clone()))
         .collect::<Result<Vec<f64>, Failure>>()?;
     for (name, zeta) in [("3.44", LIGHT), ("3.44-damped", 0.1)] {
         let statement = format!("α^L, Stribeck law, sine, ζ = {zeta}");
@@ -111,9 +111,9 @@ pub(super) fn everywhere_stable(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         &stribeck,
         stribeck[2] < stribeck[0] && stribeck[0] < stribeck[1],
     );
-    let decreasing = Waveform::ALL
+    let decreasing = Waveform::NAMED
         .iter()
-        .map(|&waveform| tangential(LawKind::Decreasing, 0.05, waveform))
+        .map(|waveform| tangential(LawKind::Decreasing, 0.05, waveform.clone()))
         .collect::<Result<Vec<f64>, Failure>>()?;
     sheet.statement(
         ["3.6-order", "Figure 3.6", "the same order with the decreasing law, ζ = 0.05"],
@@ -141,10 +141,10 @@ fn inner_slope(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for (kind, smallest) in [LawKind::Stribeck, LawKind::Decreasing].into_iter().zip(&mut smallest)
     {
         let law = law(kind)?;
-        for &waveform in Waveform::ALL {
+        for waveform in Waveform::NAMED.iter().cloned() {
             for (k, j) in (0..40).flat_map(|k| (0..20).map(move |j| (k, j))) {
                 let alpha = 0.01 * 1.2f64.powi(k);
-                let motion = FastMotion::single(FastWave::Integral(waveform), alpha);
+                let motion = FastMotion::single(FastWave::Integral(waveform.clone()), alpha);
                 let v = alpha * waveform.peak_integral() * f64::from(j) / 20.0;
                 let found =
                     effective(&law, &motion, v).map_err(|error| failed("claims", &error))?;
@@ -183,7 +183,7 @@ pub(super) fn thresholds(sheet: &mut ClaimSheet) -> Result<(), Failure> {
             LawKind::Decreasing,
             LIGHT,
             1.0,
-            Some((Direction::Tangential, waveform, 1.0, 10.0)),
+            Some((Direction::Tangential, waveform.clone(), 1.0, 10.0)),
         )?;
         let found = critical(&belt, FastResponse::Limit)?;
         let sharper =

@@ -19,7 +19,7 @@ const NUMBERS: LawNumbers = LawNumbers::DISSERTATION;
 
 /// μ̄ and its slope by quadrature of the definition.
 fn definition(kind: LawKind, waveform: Waveform, v: f64, alpha: f64) -> Result<Effective, Failure> {
-    effective_by_quadrature(&law(kind)?, FastWave::Integral(waveform), alpha, v)
+    effective_by_quadrature(&law(kind)?, &FastWave::Integral(waveform), alpha, v)
         .map_err(|error| failed("claims", &error))
 }
 
@@ -27,7 +27,7 @@ fn definition(kind: LawKind, waveform: Waveform, v: f64, alpha: f64) -> Result<E
 pub(super) fn formulas(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let (v, alpha) = (0.08, 0.2);
     let (decreasing, triangle) = (LawKind::Decreasing, Waveform::Triangle);
-    let inside = definition(decreasing, triangle, v, alpha)?;
+    let inside = definition(decreasing, triangle.clone(), v, alpha)?;
     let point = "v_r = 0.08, α = 0.2";
     let at = |what: &str| format!("{what}, {point}");
     let printed = printed_formulas::effective_338a(NUMBERS, v, alpha);
@@ -78,7 +78,7 @@ pub(super) fn formulas(sheet: &mut ClaimSheet) -> Result<(), Failure> {
 /// The mean square of the triangle in the formulas for the Stribeck law.
 fn stribeck_formulas(sheet: &mut ClaimSheet, v: f64, alpha: f64) -> Result<(), Failure> {
     let (stribeck, triangle) = (LawKind::Stribeck, Waveform::Triangle);
-    let slope = definition(stribeck, triangle, v, alpha)?.slope;
+    let slope = definition(stribeck, triangle.clone(), v, alpha)?.slope;
     sheet
         .formula(
             ["3.45a", "(3.45a)", "slope, Stribeck law, triangle, v_r = 0.08, α = 0.2"],
@@ -86,7 +86,7 @@ fn stribeck_formulas(sheet: &mut ClaimSheet, v: f64, alpha: f64) -> Result<(), F
             slope,
         )
         .note("π²/16 should be π²/10");
-    let slope = definition(stribeck, triangle, 0.18, 0.15)?.slope;
+    let slope = definition(stribeck, triangle.clone(), 0.18, 0.15)?.slope;
     sheet
         .formula(
             ["3.45b", "(3.45b)", "slope, Stribeck law, triangle, v_r = 0.18, α = 0.15"],

@@ -293,15 +293,15 @@ pub(super) fn formulas(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     ];
     let law = law(LawKind::Stribeck)?;
     for (equation, waveform, printed) in rows {
-        let tip = everywhere(waveform, Direction::Tangential)? * waveform.peak_integral();
+        let tip = everywhere(waveform.clone(), Direction::Tangential)? * waveform.peak_integral();
         let at_tip = law.coefficient(tip);
-        let right = everywhere(waveform, Direction::Normal)?;
+        let right = everywhere(waveform.clone(), Direction::Normal)?;
         let note = match waveform {
             Waveform::Sine => {
                 lost_brace(printed_formulas::everywhere_344_read(NUMBERS, LIGHT) / at_tip / right)
             }
             Waveform::Triangle => "the same error as in (3.48)".to_owned(),
-            Waveform::Square => "2/π should be 1/π; it repeats (4.36)".to_owned(),
+            _ => "2/π should be 1/π; it repeats (4.36)".to_owned(),
         };
         let statement = format!("α_N^L, Stribeck law, {}, ζ = 0.005, at its tip", waveform.name());
         sheet

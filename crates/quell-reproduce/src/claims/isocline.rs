@@ -35,9 +35,9 @@ const LAWS: [LawKind; 2] = [LawKind::Stribeck, LawKind::Decreasing];
 fn points(waveforms: &[Waveform], velocities: &[f64], ratios: &[f64]) -> Vec<IsolinePoint> {
     let mut points = Vec::new();
     for law in LAWS {
-        for &waveform in waveforms {
+        for waveform in waveforms {
             for &velocity in velocities {
-                points.extend(ratios.iter().map(|&ratio| (law, waveform, velocity, ratio)));
+                points.extend(ratios.iter().map(|&ratio| (law, waveform.clone(), velocity, ratio)));
             }
         }
     }
@@ -49,10 +49,11 @@ fn ratios(direction: Direction, points: &[IsolinePoint]) -> Result<Vec<f64>, Fai
     let solver = Solver { settle: SETTLE, ..Solver::default() };
     points
         .par_iter()
-        .map(|&(kind, waveform, velocity, ratio)| {
+        .map(|(kind, waveform, velocity, ratio)| {
+            let (kind, velocity, ratio) = (*kind, *velocity, *ratio);
             let missing = |what: &str| failed("claims", &format!("{what} at R = {ratio}"));
             // This amplitude is ignored: both methods set it.
-            let dither = (direction, waveform, 0.5, ratio);
+            let dither = (direction, waveform.clone(), 0.5, ratio);
             let belt = belt(kind, LIGHT, velocity, Some(dither))?;
             let amplitude = critical(&belt, FastResponse::Limit)?
                 .into_iter()

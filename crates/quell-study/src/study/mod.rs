@@ -32,6 +32,7 @@ pub mod suggest;
 mod sweep;
 pub mod system;
 pub mod vocabulary;
+mod waveform;
 
 pub use belt::{BeltSetup, BeltStudy, Measured};
 pub use change::Change;

@@ -1,7 +1,7 @@
 //! A correction of the printed text: the printed form, the correct form, the studies that it concerns, and the proof.
 
 use quell_model::disc::DiscDither;
-use quell_model::{Belt, Direction, LawKind, Waveform};
+use quell_model::{Belt, Direction, LawKind};
 
 use super::citation::Task;
 use crate::study::DiscStudy;
@@ -34,8 +34,8 @@ pub enum Bears {
         law: Option<LawKind>,
         /// The direction of the dither.
         direction: Option<Direction>,
-        /// Its waveform.
-        waveform: Option<Waveform>,
+        /// The name of its waveform.
+        waveform: Option<&'static str>,
     },
     /// Discs of this kind.
     Disc(DiscKind),
@@ -71,9 +71,9 @@ pub enum Proof {
 }
 
 /// Whether a belt has dither along a direction, and of a waveform if one is given.
-pub(super) fn has(belt: &Belt, direction: Direction, waveform: Option<Waveform>) -> bool {
+pub(super) fn has(belt: &Belt, direction: Direction, waveform: Option<&str>) -> bool {
     belt.dithers_along(direction)
-        .any(|dither| waveform.is_none_or(|waveform| dither.waveform == waveform))
+        .any(|dither| waveform.is_none_or(|name| dither.waveform.name() == name))
 }
 
 impl Bears {

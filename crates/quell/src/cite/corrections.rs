@@ -5,7 +5,7 @@
 //! Each entry that enters a computation names the test that computes the printed and the correct form and compares both with the
 //! definition.
 
-use quell_model::{Direction, LawKind, Waveform};
+use quell_model::{Direction, LawKind};
 
 use super::citation::Task;
 use super::correction::{Bears, Correction, DiscKind, Proof};
@@ -26,7 +26,7 @@ const NORMAL: Bears = Bears::Belt { law: None, direction: Some(Direction::Normal
 const BELT: Bears = Bears::Belt { law: None, direction: None, waveform: None };
 
 /// Belts with this law under tangential dither of this waveform.
-const fn under(law: LawKind, waveform: Waveform) -> Bears {
+const fn under(law: LawKind, waveform: &'static str) -> Bears {
     Bears::Belt { law: Some(law), direction: Some(Direction::Tangential), waveform: Some(waveform) }
 }
 
@@ -99,7 +99,7 @@ pub const CORRECTIONS: &[Correction] = &[
         printed: "stable again from α = 0.98 at v₀ = 1",
         right: "α = v₀ exactly, by a jump of the criterion; 0.98 is a central difference with the step v_m/10 across the corner",
         tasks: STABILITY,
-        bears: under(LawKind::Decreasing, Waveform::Sine),
+        bears: under(LawKind::Decreasing, "sine"),
         proof: belt("quench_amplitude_is_a_jump"),
     },
     Correction {
@@ -132,7 +132,7 @@ pub const CORRECTIONS: &[Correction] = &[
         printed: "sgn(v_r)[… v_r …] for v_r < 0",
         right: "|v_r| inside the bracket: the print counts the sign twice",
         tasks: AVERAGING,
-        bears: under(LawKind::Decreasing, Waveform::Square),
+        bears: under(LawKind::Decreasing, "square"),
         proof: belt("sign_for_negative_slip"),
     },
     Correction {
@@ -140,7 +140,7 @@ pub const CORRECTIONS: &[Correction] = &[
         printed: "e^{−w−γ}[erf √γ − erf √(γ−w)]",
         right: "e^{γ−w}[erf √γ − erf √(γ−w)]; the printed curve does not even meet (3.38b) at v_r = πα/4",
         tasks: AVERAGING,
-        bears: under(LawKind::Decreasing, Waveform::Triangle),
+        bears: under(LawKind::Decreasing, "triangle"),
         proof: belt("effective_decreasing_triangle"),
     },
     Correction {
@@ -156,7 +156,7 @@ pub const CORRECTIONS: &[Correction] = &[
         printed: "α^L = v_m √((2/3)√(1 − κ))",
         right: "α^L = v_m √(2/3) √(1 − κ): the second root is not inside the first (probably a brace lost in the optical reading)",
         tasks: STABILITY,
-        bears: under(LawKind::Stribeck, Waveform::Sine),
+        bears: under(LawKind::Stribeck, "sine"),
         proof: belt("everywhere_stable_amplitudes"),
     },
     Correction {
@@ -164,7 +164,7 @@ pub const CORRECTIONS: &[Correction] = &[
         printed: "π²/16",
         right: "3⟨G²⟩ = π²/10",
         tasks: AVERAGING,
-        bears: under(LawKind::Stribeck, Waveform::Triangle),
+        bears: under(LawKind::Stribeck, "triangle"),
         proof: belt("slope_stribeck_triangle"),
     },
     Correction {
@@ -172,7 +172,7 @@ pub const CORRECTIONS: &[Correction] = &[
         printed: "π²/48",
         right: "⟨G²⟩ = π²/30",
         tasks: STABILITY,
-        bears: under(LawKind::Stribeck, Waveform::Triangle),
+        bears: under(LawKind::Stribeck, "triangle"),
         proof: belt("upper_edge_stribeck_triangle"),
     },
     Correction {
@@ -180,7 +180,7 @@ pub const CORRECTIONS: &[Correction] = &[
         printed: "(2/π) v_m √(3 − 4v_mζ/(FΔμ))",
         right: "(v_m/π) √((240/23)(1 − κ))",
         tasks: STABILITY,
-        bears: under(LawKind::Stribeck, Waveform::Triangle),
+        bears: under(LawKind::Stribeck, "triangle"),
         proof: belt("everywhere_stable_amplitudes"),
     },
     Correction {
@@ -188,7 +188,7 @@ pub const CORRECTIONS: &[Correction] = &[
         printed: "first exponent +1/2; second term without 1/(2√(γ−w)); erf terms of (3.38a)",
         right: "first exponent −1/2; second term with 1/(2√(γ−w)), twice; erf terms with e^{γ−w}",
         tasks: AVERAGING,
-        bears: under(LawKind::Decreasing, Waveform::Triangle),
+        bears: under(LawKind::Decreasing, "triangle"),
         proof: belt("slope_decreasing_triangle"),
     },
     Correction {
@@ -241,7 +241,7 @@ pub const CORRECTIONS: &[Correction] = &[
         bears: Bears::Belt {
             law: Some(LawKind::Stribeck),
             direction: Some(Direction::Normal),
-            waveform: Some(Waveform::Square),
+            waveform: Some("square"),
         },
         proof: belt("everywhere_stable_amplitudes"),
     },
@@ -259,7 +259,7 @@ pub const CORRECTIONS: &[Correction] = &[
         printed: "prefactors exp((v_r − πα/v_m)/v_m), exp(v_r/v_m − πα/4)",
         right: "exp(v_r/v_m − πα/(4v_m)) in both",
         tasks: AVERAGING,
-        bears: under(LawKind::Decreasing, Waveform::Triangle),
+        bears: under(LawKind::Decreasing, "triangle"),
         proof: belt("integrals_of_appendix_b"),
     },
     Correction {
@@ -267,7 +267,7 @@ pub const CORRECTIONS: &[Correction] = &[
         printed: "e^{−w−γ}[erf √γ − erf √(γ−w) + erfi √γ]",
         right: "e^{γ−w}[erf √γ − erf √(γ−w)] + e^{−w−γ} erfi √γ: the fault behind (3.38a)",
         tasks: AVERAGING,
-        bears: under(LawKind::Decreasing, Waveform::Triangle),
+        bears: under(LawKind::Decreasing, "triangle"),
         proof: belt("integrals_of_appendix_b"),
     },
     Correction {

@@ -82,7 +82,7 @@ fn is_neutral(belt: &Belt) -> bool {
 }
 
 fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, String> {
-    let &[dither] = belt.dithers() else {
+    let [dither] = belt.dithers() else {
         return Err(match belt.dithers() {
             [] => "the study has no dither".to_owned(),
             _ => "it is defined for a single dither, and this study has several".to_owned(),
@@ -92,7 +92,7 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
         belt.friction(),
         belt.damping_ratio(),
         belt.normal_load(),
-        fast_wave(&dither, options.response).map_err(|why| why.to_string())?,
+        fast_wave(dither, options.response).map_err(|why| why.to_string())?,
         dither.direction,
     );
     match found.map_err(|why| why.to_string())? {

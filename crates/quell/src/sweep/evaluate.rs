@@ -221,7 +221,7 @@ pub struct Reach {
 impl Reach {
     fn of(belt: &Belt) -> Option<Self> {
         let upper = belt.friction().range()?.upper;
-        let unit = |dither: &Dither| Dither { amplitude: dither.frequency_ratio, ..*dither };
+        let unit = |dither: &Dither| Dither { amplitude: dither.frequency_ratio, ..dither.clone() };
         let first = belt.dithers().first();
         let ratio = first.map_or(0.0, Dither::amplitude_ratio);
         Some(Self {

@@ -62,6 +62,8 @@ pub enum Status {
     Opens = 33,
     /// A system has no base response, or it could not be followed.
     NoBaseResponse = 34,
+    /// This averaging does not know the response to the waveform.
+    NoAverageOfWaveform = 35,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -95,6 +97,7 @@ impl Status {
         Self::OnlyMeasured,
         Self::Opens,
         Self::NoBaseResponse,
+        Self::NoAverageOfWaveform,
         Self::Missing,
     ];
 
@@ -142,6 +145,7 @@ impl Status {
             Self::OnlyMeasured => "only_measured",
             Self::Opens => "opens",
             Self::NoBaseResponse => "no_base_response",
+            Self::NoAverageOfWaveform => "no_average_of_waveform",
             Self::Missing => "missing",
         }
     }
@@ -200,6 +204,9 @@ impl Status {
             Self::NoBaseResponse => {
                 "the response that continues steady sliding ends before the dither reaches its amplitude, or could not be followed"
             }
+            Self::NoAverageOfWaveform => {
+                "this averaging does not know the response to the waveform"
+            }
             Self::Missing => "not computed yet",
         }
     }
@@ -245,6 +252,7 @@ impl From<&AveragingError> for Status {
             AveragingError::SetValued { .. } => Self::SetValued,
             AveragingError::TooManyGroups { .. } => Self::TooManyGroups,
             AveragingError::NotFast { .. } => Self::NotFast,
+            AveragingError::NoOscillatorShape { .. } => Self::NoAverageOfWaveform,
             AveragingError::Quadrature(_) => Self::NotConverged,
         }
     }

@@ -201,6 +201,7 @@ fn status(why: &NoAverage) -> Status {
         NoAverage::NoSteadySliding(_) => Status::NoSteadySliding,
         NoAverage::Resonance { .. } => Status::Resonance,
         NoAverage::TooManyFrequencies { .. } => Status::TooManyGroups,
+        NoAverage::Waveform { .. } => Status::NoAverageOfWaveform,
         NoAverage::Mean(why) => why.into(),
         NoAverage::Eigenvalues(_) => Status::NotFinite,
     }

@@ -196,8 +196,9 @@ fn law(random: &mut Random) -> Friction {
 
 /// A force on the structure or a modulation of a load.
 fn input(random: &mut Random, rows: usize, contacts: &[Contact]) -> Input {
-    let waveform =
-        [Waveform::Sine, Waveform::Sine, Waveform::Triangle, Waveform::Square][random.index(4)];
+    let waveform = [Waveform::Sine, Waveform::Sine, Waveform::Triangle, Waveform::Square]
+        [random.index(4)]
+    .clone();
     let frequency = random.within(1.0, 8.0);
     let phase = random.within(0.0, TAU);
     let (target, amplitude) = if random.chance(0.5) {

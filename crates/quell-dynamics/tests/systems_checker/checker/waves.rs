@@ -43,8 +43,8 @@ impl Smooth {
 impl Piece {
     /// The piece of a wave that contains a time.
     fn at(wave: &Wave, middle: f64) -> Self {
-        let &Wave { waveform, amplitude, frequency, phase } = wave;
-        if waveform == Waveform::Sine {
+        let &Wave { ref waveform, amplitude, frequency, phase } = wave;
+        if *waveform == Waveform::Sine {
             return Self::Sine { amplitude, frequency, phase };
         }
         let slope = amplitude * frequency * waveform.slope(frequency * middle + phase);

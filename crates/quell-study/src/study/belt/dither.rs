@@ -1,11 +1,12 @@
 //! `[dither]` or `[[dither]]`.
 
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE};
-use quell_model::{Direction, Dither, Waveform};
+use quell_model::{Direction, Dither};
 
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::{Choice, Section};
+use crate::study::waveform;
 
 /// Reads every dither; `None` if one of them is invalid.
 pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Dither>> {
@@ -46,10 +47,8 @@ fn one(reader: &mut Reader, node: &Node, prefix: &str) -> Option<Dither> {
     let direction = reader
         .needed_choice(table, prefix, node.origin, "direction", Choice::Direction)
         .and_then(Direction::from_name);
-    let waveform = reader
-        .needed_choice(table, prefix, node.origin, "waveform", Choice::Waveform)
-        .and_then(Waveform::from_name);
-    let amplitude = match reader.optional(table, prefix, DITHER_AMPLITUDE, waveform) {
+    let waveform = waveform::read(reader, table, prefix, node.origin);
+    let amplitude = match reader.optional(table, prefix, DITHER_AMPLITUDE, waveform.as_ref()) {
         Found::Value(value) => Some(value),
         Found::Wrong => None,
         Found::Absent => reader.number(table, prefix, node.origin, DITHER_AMPLITUDE),

@@ -109,7 +109,7 @@ impl Reader {
         table: &Table,
         prefix: &str,
         parameter: Parameter,
-        waveform: Option<Waveform>,
+        waveform: Option<&Waveform>,
     ) -> Found {
         let twins: Vec<SiTwin> =
             parameter.si.iter().copied().filter(|twin| table.has(twin.key)).collect();
@@ -190,7 +190,7 @@ impl Reader {
         prefix: &str,
         parameter: Parameter,
         twin: SiTwin,
-        waveform: Option<Waveform>,
+        waveform: Option<&Waveform>,
     ) -> Found {
         let Some(node) = table.get(twin.key) else {
             return Found::Absent;

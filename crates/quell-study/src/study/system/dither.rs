@@ -15,6 +15,7 @@ use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::suggest;
 use crate::study::vocabulary::{Choice, join};
+use crate::study::waveform;
 
 /// The contacts that a dither can modulate.
 #[derive(Clone, Copy)]
@@ -54,11 +55,9 @@ fn one(
 ) -> Option<Input> {
     unknown_keys_of_dither(reader, table, prefix);
     let target = target(reader, prefix, node, table, context);
-    let waveform = reader
-        .needed_choice(table, prefix, node.origin, "waveform", Choice::Waveform)
-        .and_then(Waveform::from_name);
+    let waveform = waveform::read(reader, table, prefix, node.origin);
     let numbers = context.numbers;
-    let amplitude = amplitude(reader, prefix, node, table, waveform, numbers);
+    let amplitude = amplitude(reader, prefix, node, table, waveform.as_ref(), numbers);
     let frequency = numbers.needed(reader, table, prefix, node.origin, SYSTEM_DITHER_FREQUENCY);
     let phase = numbers.optional(reader, table, prefix, DITHER_PHASE);
     let wave = Wave {
@@ -83,7 +82,7 @@ fn amplitude(
     prefix: &str,
     node: &Node,
     table: &Table,
-    waveform: Option<Waveform>,
+    waveform: Option<&Waveform>,
     numbers: &Numbers,
 ) -> Option<f64> {
     if !table.has(RMS) {

@@ -8,7 +8,7 @@ use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE, Parameter};
 use quell_model::units::Quantity;
 
 use crate::study::document::Table;
-use crate::study::vocabulary::Choice;
+use crate::study::vocabulary::{Choice, WAVE_KEYS, WaveKey};
 
 /// Whether a document is the study of a system.
 pub(in crate::study) fn is_described(document: &Table) -> bool {
@@ -62,6 +62,8 @@ pub enum SystemRole {
     Text,
     /// `true` or `false`.
     Flag,
+    /// A part of the description of a waveform.
+    Wave(WaveKey),
     /// A table.
     Table(SystemTable),
     /// A table or a list of tables.
@@ -224,6 +226,12 @@ const CONTACT: &[SystemKey] = &[
     key("friction", SystemRole::Table(SystemTable::Friction), "friction law of the contact"),
 ];
 
+/// A key of waveforms that are more than a name.
+const fn wave(place: usize) -> SystemKey {
+    let (name, wave) = WAVE_KEYS[place];
+    key(name, SystemRole::Wave(wave), wave.about())
+}
+
 const DITHER: &[SystemKey] = &[
     key("at", SystemRole::Row(None), "row of the force over the coordinates"),
     key("contact", SystemRole::Text, "name of the contact whose load is modulated, instead of at"),
@@ -238,6 +246,12 @@ const DITHER: &[SystemKey] = &[
         "whether the structure bears the modulation of the load [default: true]",
     ),
     key("waveform", SystemRole::Choice(Choice::Waveform), "shape of the force in time"),
+    wave(0),
+    wave(1),
+    wave(2),
+    wave(3),
+    wave(4),
+    wave(5),
     number(DITHER_AMPLITUDE, "amplitude"),
     number(SYSTEM_DITHER_FREQUENCY, "frequency"),
     number(DITHER_PHASE, "phase"),

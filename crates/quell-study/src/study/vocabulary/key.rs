@@ -96,6 +96,60 @@ impl Section {
     }
 }
 
+/// A part of the description of a waveform that is more than a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WaveKey {
+    /// The harmonics of a sum.
+    Harmonics,
+    /// The samples of a period.
+    Values,
+    /// What is between two samples.
+    Hold,
+    /// The waveform of the carrier of bursts.
+    Carrier,
+    /// Periods of the carrier in a burst.
+    On,
+    /// Periods of the carrier in a pause.
+    Off,
+}
+
+impl WaveKey {
+    /// The waveform that it describes.
+    pub fn waveform(self) -> &'static str {
+        match self {
+            Self::Harmonics => quell_model::waveform::FOURIER,
+            Self::Values | Self::Hold => quell_model::waveform::SAMPLES,
+            Self::Carrier | Self::On | Self::Off => quell_model::waveform::BURST,
+        }
+    }
+
+    /// What it is, in one line.
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Harmonics => "waveform \"fourier\": order, sine and cosine of every harmonic",
+            Self::Values => {
+                "waveform \"samples\": one period at equal distances; its mean is taken out"
+            }
+            Self::Hold => {
+                "waveform \"samples\": straight lines between them, or each held [default: linear]"
+            }
+            Self::Carrier => "waveform \"burst\": waveform of the carrier",
+            Self::On => "waveform \"burst\": periods of the carrier in a burst",
+            Self::Off => "waveform \"burst\": periods of the carrier in a pause",
+        }
+    }
+}
+
+/// The keys of waveforms that are more than a name.
+pub const WAVE_KEYS: [(&str, WaveKey); 6] = [
+    ("harmonics", WaveKey::Harmonics),
+    ("values", WaveKey::Values),
+    ("hold", WaveKey::Hold),
+    ("carrier", WaveKey::Carrier),
+    ("on", WaveKey::On),
+    ("off", WaveKey::Off),
+];
+
 /// The kind of value that a key takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Role {
@@ -131,6 +185,8 @@ pub enum Role {
     },
     /// The number of terms of a fit.
     Terms,
+    /// A part of the description of a waveform.
+    Wave(WaveKey),
     /// A named number of a formula.
     Constant,
     /// A bare number of an axis, in the unit of the parameter it names.

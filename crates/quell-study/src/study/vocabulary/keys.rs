@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use quell_model::LawKind;
 use quell_model::parameter::{self, COEFFICIENT, Parameter, STATIC_COEFFICIENT, VISCOUS};
 
-use super::key::{Key, Role, SCHEMA_ABOUT, Section};
+use super::key::{Key, Role, SCHEMA_ABOUT, Section, WAVE_KEYS};
 use super::words::Choice;
 
 /// Every key, table by table.
@@ -41,14 +41,21 @@ fn words() -> Vec<Key> {
     let word =
         |section, name, choice, about| Key { section, name, role: Role::Choice(choice), about };
     let root = |name, role, about| Key { section: Root, name, role, about };
-    vec![
+    let waves = WAVE_KEYS.iter().map(|&(name, wave)| Key {
+        section: Dither,
+        name,
+        role: Role::Wave(wave),
+        about: wave.about(),
+    });
+    let words = vec![
         root("schema", Role::Schema, SCHEMA_ABOUT),
         root("title", Role::Text, "subject of the study"),
         word(Initial, "state", Choice::State, "a named state"),
         word(Friction, "law", Choice::Law, "the friction law"),
         word(Dither, "direction", Choice::Direction, "direction of the force"),
         word(Dither, "waveform", Choice::Waveform, "shape of the force in time"),
-    ]
+    ];
+    words.into_iter().chain(waves).collect()
 }
 
 /// Keys that take a number of the registry, dimensionless or in SI.

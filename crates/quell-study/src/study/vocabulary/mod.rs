@@ -7,7 +7,7 @@ mod keys;
 mod resolve;
 mod words;
 
-pub use key::{Key, Role, SCHEMA_ABOUT, Section, join};
+pub use key::{Key, Role, SCHEMA_ABOUT, Section, WAVE_KEYS, WaveKey, join};
 pub use keys::{key, keys, keys_of};
 pub use resolve::{Address, in_system, resolve};
 pub use words::Choice;

@@ -1,6 +1,7 @@
 //! Lists of words that keys take.
 
 use quell_model::disc::Contribution;
+use quell_model::waveform::Hold;
 use quell_model::{Direction, LawKind, Waveform};
 
 /// A list of words.
@@ -14,6 +15,10 @@ pub enum Choice {
     Direction,
     /// Waveforms of dither.
     Waveform,
+    /// Waveforms of the carrier of bursts.
+    Carrier,
+    /// What is between two samples of a waveform.
+    Hold,
     /// Spacings of an axis.
     Spacing,
     /// Parts of the disc's equations.
@@ -35,7 +40,9 @@ impl Choice {
             Self::State => vec!["rest", "sliding", "squealing"],
             Self::Law => LawKind::ALL.iter().map(|law| law.name()).collect(),
             Self::Direction => Direction::ALL.iter().map(|direction| direction.name()).collect(),
-            Self::Waveform => Waveform::ALL.iter().map(|waveform| waveform.name()).collect(),
+            Self::Waveform => Waveform::NAMES.to_vec(),
+            Self::Carrier => Waveform::NAMED.iter().map(Waveform::name).collect(),
+            Self::Hold => Hold::ALL.iter().map(|hold| hold.name()).collect(),
             Self::Spacing => vec!["linear", "log"],
             Self::SystemState => vec!["rest", "sliding", "squealing", "base"],
             Self::SystemUnits => vec!["none", "SI", "mm-t-s"],

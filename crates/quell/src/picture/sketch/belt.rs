@@ -126,7 +126,7 @@ fn dithers(mut sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
                 (arrow, (across, -32.0))
             }
         };
-        let wave = SketchShape::Wave { at: wave, glyph: glyph(dither.waveform) };
+        let wave = SketchShape::Wave { at: wave, glyph: glyph(&dither.waveform) };
         let label = SketchPart::new("dither", name, wave).and(shape).ink(SketchInk::Input);
         sheet = sheet.with(label.label(symbol, &[Right, Above]));
     }

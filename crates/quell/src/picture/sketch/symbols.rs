@@ -9,11 +9,13 @@ use crate::plot::WaveGlyph;
 const DIGITS: usize = 4;
 
 /// The symbol of a waveform.
-pub(super) fn glyph(waveform: Waveform) -> WaveGlyph {
+pub(super) fn glyph(waveform: &Waveform) -> WaveGlyph {
     match waveform {
         Waveform::Sine => WaveGlyph::Sine,
         Waveform::Triangle => WaveGlyph::Triangle,
         Waveform::Square => WaveGlyph::Square,
+        Waveform::Burst(_) => WaveGlyph::Burst,
+        Waveform::Fourier(_) | Waveform::Samples(_) => WaveGlyph::Other,
     }
 }
 

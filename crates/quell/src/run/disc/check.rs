@@ -145,7 +145,7 @@ fn dither(disc: &Disc) -> Json {
             "frequency_ratio": frequency_ratio,
         }),
     };
-    if disc.waveform() != Waveform::Sine {
+    if *disc.waveform() != Waveform::Sine {
         object["waveform"] = disc.waveform().name().into();
     }
     object

@@ -18,7 +18,7 @@ pub(super) fn draw(mut sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
     let mut rows = vec![0_usize; drawing.bodies.len()];
     for (place, input) in inputs.iter().enumerate() {
         let symbol = indexed("u", &index(place, inputs.len()));
-        let form = input.profile.waves().first().map_or(Waveform::Sine, |wave| wave.waveform);
+        let form = input.profile.waves().first().map_or(&Waveform::Sine, |wave| &wave.waveform);
         match &input.target {
             InputTarget::Force(row) => {
                 for (body, factor) in drawing.touched(row) {
@@ -43,7 +43,7 @@ fn force(
     sheet: Sketch,
     drawing: &SystemDrawing<'_>,
     (body, row): (usize, usize),
-    form: Waveform,
+    form: &Waveform,
     label: &str,
 ) -> Sketch {
     let seat = drawing.grid.seat(body);
@@ -65,7 +65,7 @@ fn modulation(
     sheet: Sketch,
     drawing: &SystemDrawing<'_>,
     contact: usize,
-    form: Waveform,
+    form: &Waveform,
     (symbol, is_load): (&str, bool),
 ) -> Sketch {
     let Some(spot) = contacts::spot(drawing, contact) else { return sheet };

@@ -1,0 +1,205 @@
+//! The waveform of a dither: its name, and the keys that describe one by harmonics, by samples, or by bursts.
+
+use quell_model::Waveform;
+use quell_model::waveform::{
+    BURST, Burst, FOURIER, FourierWave, Harmonic, Hold, SAMPLES, SampledWave, WaveformError,
+};
+use serde_json::Value as Json;
+
+use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::document::{Node, Table, Value};
+use crate::study::reader::Reader;
+use crate::study::vocabulary::{Choice, WAVE_KEYS, join};
+
+/// Reads the waveform of a dither; `header` is the place of its table.
+pub(super) fn read(
+    reader: &mut Reader,
+    table: &Table,
+    prefix: &str,
+    header: Origin,
+) -> Option<Waveform> {
+    let name = reader.needed_choice(table, prefix, header, "waveform", Choice::Waveform)?;
+    let mut fits = true;
+    for (key, wave) in WAVE_KEYS {
+        if let Some(node) = table.get(key).filter(|_| wave.waveform() != name) {
+            let allowed = format!("left out: only the waveform \"{}\" has it", wave.waveform());
+            let key = join(prefix, key);
+            reader.complain(Complaint::new(
+                Fault::Conflict,
+                key,
+                node.origin,
+                node.given(),
+                allowed,
+            ));
+            fits = false;
+        }
+    }
+    if !fits {
+        return None;
+    }
+    let place = WavePlace { table, prefix, header };
+    match name {
+        FOURIER => place.fourier(reader),
+        SAMPLES => place.samples(reader),
+        BURST => place.burst(reader),
+        _ => Waveform::from_name(name),
+    }
+}
+
+/// The table of a dither.
+struct WavePlace<'a> {
+    table: &'a Table,
+    prefix: &'a str,
+    header: Origin,
+}
+
+impl<'a> WavePlace<'a> {
+    /// A key that the waveform needs.
+    fn needed(&self, reader: &mut Reader, name: &str, allowed: &str) -> Option<&'a Node> {
+        let found = self.table.get(name);
+        if found.is_none() {
+            let key = join(self.prefix, name);
+            let complaint = Complaint::new(Fault::Missing, key, self.header, Json::Null, allowed);
+            reader.complain(complaint);
+        }
+        found
+    }
+
+    /// Reports why numbers make no waveform.
+    fn refused(&self, reader: &mut Reader, why: WaveformError) -> Option<Waveform> {
+        let key = join(self.prefix, why.key);
+        let node = self.table.get(why.key);
+        let (origin, given) =
+            node.map_or((self.header, Json::Null), |node| (node.origin, node.given()));
+        reader.complain(Complaint::new(Fault::Value, key, origin, given, why.allowed));
+        None
+    }
+
+    fn fourier(&self, reader: &mut Reader) -> Option<Waveform> {
+        const ALLOWED: &str = "a list of harmonics, such as [{ order = 1, sine = 1.0 }, { order = 3, sine = 0.2, cosine = 0.1 }]";
+        let node = self.needed(reader, "harmonics", ALLOWED)?;
+        let key = join(self.prefix, "harmonics");
+        let Value::List(list) = &node.value else {
+            reader.wrong(&key, node, format!("{ALLOWED}; got {}", node.kind()));
+            return None;
+        };
+        let harmonics: Vec<Option<Harmonic>> = list
+            .iter()
+            .enumerate()
+            .map(|(place, node)| harmonic(reader, &format!("{key}[{place}]"), node))
+            .collect();
+        let harmonics: Option<Vec<Harmonic>> = harmonics.into_iter().collect();
+        match FourierWave::new(harmonics?) {
+            Ok(series) => Some(Waveform::Fourier(series.into())),
+            Err(why) => self.refused(reader, why),
+        }
+    }
+
+    fn samples(&self, reader: &mut Reader) -> Option<Waveform> {
+        const ALLOWED: &str = "the samples of one period, a list of at least two numbers";
+        let hold = match self.table.get("hold") {
+            None => Hold::default(),
+            Some(node) => {
+                let key = join(self.prefix, "hold");
+                Hold::from_name(reader.choice(&key, node, Choice::Hold)?)?
+            }
+        };
+        let node = self.needed(reader, "values", ALLOWED)?;
+        let key = join(self.prefix, "values");
+        let Value::List(list) = &node.value else {
+            reader.wrong(&key, node, format!("{ALLOWED}; got {}", node.kind()));
+            return None;
+        };
+        let mut values = Vec::with_capacity(list.len());
+        for (place, node) in list.iter().enumerate() {
+            let Value::Number(value) = node.value else {
+                let allowed = format!("a number; got {}", node.kind());
+                reader.wrong(&format!("{key}[{place}]"), node, allowed);
+                return None;
+            };
+            values.push(value);
+        }
+        match SampledWave::new(values, hold) {
+            Ok(samples) => Some(Waveform::Samples(samples.into())),
+            Err(why) => self.refused(reader, why),
+        }
+    }
+
+    fn burst(&self, reader: &mut Reader) -> Option<Waveform> {
+        let carrier =
+            reader.needed_choice(self.table, self.prefix, self.header, "carrier", Choice::Carrier);
+        let count = |reader: &mut Reader, name: &str| {
+            let allowed = "a whole number of periods of the carrier";
+            let node = self.needed(reader, name, allowed)?;
+            let whole = match node.value {
+                Value::Number(value) if value.fract() == 0.0 && (0.0..=1e6).contains(&value) => {
+                    Some(value)
+                }
+                _ => None,
+            };
+            if whole.is_none() {
+                reader.wrong(&join(self.prefix, name), node, allowed);
+            }
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a whole number up to 10⁶"
+            )]
+            whole.map(|value| value as u32)
+        };
+        let (on, off) = (count(reader, "on"), count(reader, "off"));
+        match Burst::new(Waveform::from_name(carrier?)?, on?, off?) {
+            Ok(burst) => Some(burst.into_waveform()),
+            Err(why) => self.refused(reader, why),
+        }
+    }
+}
+
+/// One harmonic.
+fn harmonic(reader: &mut Reader, key: &str, node: &Node) -> Option<Harmonic> {
+    const ALLOWED: &str = "a table of order, sine and cosine, such as { order = 3, sine = 0.2 }";
+    let Some(table) = node.table() else {
+        reader.wrong(key, node, format!("{ALLOWED}; got {}", node.kind()));
+        return None;
+    };
+    for (name, inner) in table.iter() {
+        if !["order", "sine", "cosine"].contains(&name) {
+            let key = join(key, name);
+            let complaint =
+                Complaint::new(Fault::Unknown, key, inner.origin, inner.given(), ALLOWED);
+            reader.complain(complaint);
+            return None;
+        }
+    }
+    let mut number = |name: &str, default: Option<f64>| {
+        let inner = match table.get(name) {
+            Some(inner) => inner,
+            None if default.is_some() => return default,
+            None => {
+                reader.wrong(key, node, ALLOWED);
+                return None;
+            }
+        };
+        let Value::Number(value) = inner.value else {
+            reader.wrong(&join(key, name), inner, format!("a number; got {}", inner.kind()));
+            return None;
+        };
+        Some(value)
+    };
+    let order = number("order", None)?;
+    let (sine, cosine) = (number("sine", Some(0.0))?, number("cosine", Some(0.0))?);
+    if order.fract() != 0.0 || !(1.0..=1e6).contains(&order) {
+        reader.wrong(
+            &join(key, "order"),
+            table.get("order").unwrap_or(node),
+            "a whole number from 1",
+        );
+        return None;
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a whole number up to 10⁶"
+    )]
+    Some(Harmonic { order: order as u32, sine, cosine })
+}
