@@ -109,7 +109,7 @@ fn upper_edge_stribeck_triangle() {
     let edge = |constant: f64| VM * (1.0 - constant * 0.5625 - kappa).sqrt();
     close(edge(PI * PI / 48.0), 0.18683419, 1e-7);
     let stribeck = dissertation(LawKind::Stribeck);
-    let band = closed_band(&stribeck, 0.005, 1.0, Waveform::Triangle, 0.15).expect("a band");
+    let band = closed_band(&stribeck, 0.005, 1.0, &Waveform::Triangle, 0.15).expect("a band");
     let upper = band.upper.expect("it ends");
     close(upper, 0.17925174576154, 1e-13);
     let (_, slope) = right(LawKind::Stribeck, Waveform::Triangle, upper, 0.15);
@@ -309,7 +309,7 @@ struct FastSliding {
 }
 
 impl FastSliding {
-    fn new(waveform: Waveform, alpha: f64, slow: f64) -> Self {
+    fn new(waveform: &Waveform, alpha: f64, slow: f64) -> Self {
         let at = |constant: f64| Self { alpha, waveform: waveform.clone(), slow, constant };
         let middle = VM / MINIMUM * ln(MINIMUM * exp(slow / VM) + DIFFERENCE);
         let (mut low, mut high) = (middle - 0.02, middle + 0.02);
@@ -349,7 +349,7 @@ fn limit_of_high_frequency_under_normal_dither() {
             let (mut low, mut high) = (0.08, 0.16);
             for _ in 0..50 {
                 let alpha = 0.5 * (low + high);
-                let stable = criterion(&FastSliding::new(waveform.clone(), alpha, v)) > 0.0;
+                let stable = criterion(&FastSliding::new(&waveform, alpha, v)) > 0.0;
                 if stable { low = alpha } else { high = alpha }
             }
             0.5 * (low + high)

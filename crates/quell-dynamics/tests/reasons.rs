@@ -197,7 +197,7 @@ fn curves_of_thresholds() {
 fn averages() {
     let options = AveragingOptions::default();
     let constant = law::coulomb(0.3, 0.3);
-    let why = closed_band(&constant, 0.1, 1.0, Waveform::Sine, 0.1).expect_err("no band");
+    let why = closed_band(&constant, 0.1, 1.0, &Waveform::Sine, 0.1).expect_err("no band");
     assert_eq!(why, NoBand::Stable);
     assert_states(&why, &["stable"]);
     let still = belt::stribeck().at_speed(0.0).with("friction.static_coefficient", 0.375);

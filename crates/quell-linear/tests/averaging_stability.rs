@@ -60,7 +60,7 @@ fn undithered_thresholds() {
 fn roots_against_closed_forms() {
     let mut met = 0;
     for kind in &CLOSED {
-        for waveform in Waveform::NAMED.iter().cloned() {
+        for waveform in Waveform::NAMED {
             for zeta in [0.005, 0.03, 0.08] {
                 for k in 1..40 {
                     let v0 = 0.05 * f64::from(k);
@@ -76,7 +76,7 @@ fn roots_against_closed_forms() {
                         }
                         met += 1;
                         let band =
-                            closed_band(&dissertation(*kind), zeta, 1.0, waveform.clone(), alpha);
+                            closed_band(&dissertation(*kind), zeta, 1.0, &waveform.clone(), alpha);
                         let upper = band.expect("a band").upper.expect("it ends");
                         close(upper, v0, 1e-12);
                         let becomes = if *kind == LawKind::Stribeck {
@@ -117,14 +117,14 @@ fn bands() {
     let (mut tangential, mut normal) = (0, 0);
     for kind in &CLOSED {
         let law = dissertation(*kind);
-        for waveform in Waveform::NAMED.iter().cloned() {
+        for waveform in Waveform::NAMED {
             for zeta in [0.005, 0.05, 0.1] {
                 for alpha in [0.0, 0.02, 0.07, 0.15, 0.3] {
                     let dithers =
                         vec![dither(Direction::Tangential, waveform.clone(), 10.0 * alpha, 10.0)];
                     let dithered = belt(zeta, 1.0, &law, dithers);
                     let found = unstable_bands(&dithered, AveragingOptions::default()).expect("ok");
-                    let closed = closed_band(&law, zeta, 1.0, waveform.clone(), alpha);
+                    let closed = closed_band(&law, zeta, 1.0, &waveform.clone(), alpha);
                     assert_eq!(found.len(), usize::from(closed.is_ok()), "{found:?} {closed:?}");
                     if let (Some(found), Ok(closed)) = (found.first(), closed) {
                         tangential += 1;
@@ -142,7 +142,7 @@ fn bands() {
                         let reach = level(band.lower) * waveform.peak_integral();
                         assert!((band.lower - reach).abs() < 1e-13, "{band:?}");
                         let upper = band.upper.expect("ends");
-                        let same = closed_band(&law, zeta, 1.0, waveform.clone(), level(upper));
+                        let same = closed_band(&law, zeta, 1.0, &waveform.clone(), level(upper));
                         close(same.expect("a band").upper.expect("ends"), upper, 1e-12);
                     }
                 }
@@ -151,7 +151,7 @@ fn bands() {
     }
     assert!(tangential > 30 && normal > 50, "{tangential} {normal}");
     // The corrected (3.47): upper edge of the triangle at α = 0.15 (the print's π²/48 gives 0.18683).
-    let band = closed_band(&dissertation(LawKind::Stribeck), 0.005, 1.0, Waveform::Triangle, 0.15);
+    let band = closed_band(&dissertation(LawKind::Stribeck), 0.005, 1.0, &Waveform::Triangle, 0.15);
     close(band.expect("a band").upper.expect("ends"), 0.17925174576154, 1e-13);
 }
 
@@ -243,7 +243,7 @@ fn steep_laws_are_searched_beyond_the_tip() {
 #[test]
 fn everywhere_stable_closes_the_band() {
     for kind in &CLOSED {
-        for waveform in Waveform::NAMED.iter().cloned() {
+        for waveform in Waveform::NAMED {
             for &direction in Direction::ALL {
                 for response in [FastResponse::Limit, FastResponse::Oscillator] {
                     let (zeta, r) = (0.08, 1.2);
@@ -390,7 +390,7 @@ fn normal_dither() {
 fn lengths_scale_out() {
     let scale = 2.0_f64.powi(-17);
     for kind in &CLOSED {
-        for waveform in Waveform::NAMED.iter().cloned() {
+        for waveform in Waveform::NAMED {
             for v0 in [0.1, 0.5, 1.0] {
                 let dithers = vec![dither(Direction::Tangential, waveform.clone(), 0.1, 10.0)];
                 let belt = belt(0.005, v0, dissertation(*kind), dithers);
@@ -413,7 +413,7 @@ fn lengths_scale_out() {
 fn limits() {
     for kind in &CLOSED {
         let coulomb = build(*kind, &[0.4, 0.4, 0.2]);
-        for waveform in Waveform::NAMED.iter().cloned() {
+        for waveform in Waveform::NAMED {
             for v0 in [0.01, 0.3, 2.0] {
                 let dithers = vec![dither(Direction::Tangential, waveform.clone(), 1.0, 10.0)];
                 let belt = belt(0.01, v0, &coulomb, dithers);

@@ -67,7 +67,7 @@ fn closed_forms_agree_with_quadrature() {
     let (mut worst, mut worst_slope) = (0.0_f64, 0.0_f64);
     for law in more_laws() {
         let vm = law.velocity_scale();
-        for waveform in Waveform::NAMED.iter().cloned() {
+        for waveform in Waveform::NAMED {
             let wave = FastWave::Integral(waveform.clone());
             for ratio in [1e-6, 1e-3, 0.1, 0.5, 1.0, 2.15, 5.0, 20.0] {
                 let alpha = ratio * vm;
@@ -132,7 +132,7 @@ fn corner() {
 #[test]
 fn without_dither() {
     for law in laws() {
-        for waveform in Waveform::NAMED.iter().cloned() {
+        for waveform in Waveform::NAMED {
             for w in [0.05, 0.7, 1.4, 3.0] {
                 let v = w * VM;
                 let bare = effective(&law, &plain(waveform.clone(), 0.0), v).expect("slides");

@@ -93,7 +93,15 @@ def test_elements_of_a_symmetric_matrix_share_a_slider() -> None:
 
 def test_choices_are_the_words_of_the_schema() -> None:
     found = {it.path: it for it in _numbers.choices(of("stribeck-belt.toml"))}
-    assert found["dither.waveform"].options == ("sine", "triangle", "square")
+    assert found["dither.waveform"].options == ("sine", "triangle", "square", "fourier", "samples", "burst")
+
+
+@pytest.mark.parametrize("waveform", ["fourier", "samples", "burst", "square"])
+def test_another_waveform_has_the_keys_that_it_needs(waveform: str) -> None:
+    state = _state.State(of("stribeck-belt.toml"), _state.Source("text"))
+    assert state.set({"dither.waveform": waveform}) and state.study.settings["dither.waveform"] == waveform
+    assert state.set({"dither.waveform": "sine"}) and "dither.on" not in state.study.settings
+    assert state.undo() and state.study.settings["dither.waveform"] == waveform
 
 
 # State.

@@ -98,3 +98,38 @@ def test_wrong_functions_are_refused(call: Any, key: str, words: str) -> None:
     with pytest.raises(quell.StudyError, match=words) as refused:
         call()
     assert key in [error["key"] for error in refused.value.errors]
+
+
+# Waveforms.
+
+
+def test_a_waveform_may_be_a_function_of_the_phase() -> None:
+    dither = quell.Dither("tangential", lambda phase: np.sin(phase), amplitude=0.4, frequency_ratio=10)
+    assert dither.waveform == "samples" and dither.waveform_error is not None and dither.waveform_error < 1e-4
+    sampled = quell.Belt(**BELT, dither=dither)
+    known = quell.Belt(**BELT, dither=quell.Dither("tangential", "sine", amplitude=0.4, frequency_ratio=10))
+    at = np.linspace(0.01, 0.3, 20)
+    wanted = known.friction(at).effective_coefficient
+    assert np.allclose(sampled.friction(at).effective_coefficient, wanted, rtol=0, atol=1e-4)
+    assert quell.Study.from_text(sampled.text) == sampled and pickle.loads(pickle.dumps(sampled)) == sampled
+    jump = quell.Dither("normal", lambda phase: 1.0 if phase < 1.0 else 0.0, amplitude=0.1, frequency_ratio=10)
+    assert jump.waveform_error is not None and jump.waveform_error > 0.1
+    with pytest.raises(quell.StudyError, match="function of the phase"):
+        quell.Dither("tangential", lambda phase: 1 / 0, amplitude=0.4, frequency_ratio=10)
+    with pytest.raises(quell.StudyError, match="finite"):
+        quell.Dither("tangential", lambda phase: float("nan"), amplitude=0.4, frequency_ratio=10)
+
+
+def test_waveforms_have_their_keys() -> None:
+    burst = quell.Dither("tangential", "burst", carrier="sine", on=4, off=1, amplitude=0.8, frequency_ratio=20)
+    belt = quell.Belt(**BELT, dither=burst)
+    assert belt.dithers[0].on == 4 and quell.Study.from_text(belt.text) == belt
+    assert belt.set({"dither.off": 3}).dithers[0].off == 3
+    without = belt.set({"dither.off": 0}).friction([0.05]).effective_coefficient
+    carrier = quell.Belt(**BELT, dither=quell.Dither("tangential", "sine", amplitude=0.8, frequency_ratio=20))
+    assert np.array_equal(without, carrier.friction([0.05]).effective_coefficient)
+    series = [{"order": 1, "sine": 1.0}, {"order": 3, "sine": 0.2, "cosine": 0.1}]
+    fourier = quell.Belt(**BELT, dither=quell.Dither("tangential", "fourier", harmonics=series, amplitude=0.3, frequency_ratio=10))
+    assert fourier.stability().verdict in ("stable", "unstable")
+    with pytest.raises(quell.StudyError, match="dither.on"):
+        quell.Belt(**BELT, dither=quell.Dither("tangential", "sine", on=3, amplitude=0.3, frequency_ratio=10))

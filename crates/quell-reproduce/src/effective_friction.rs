@@ -30,7 +30,7 @@ const POINTS: u32 = 360;
 pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
-    let panel = panel(source, &study, Waveform::Sine, &mut table)?
+    let panel = panel(source, &study, &Waveform::Sine, &mut table)?
         .legend(Legend::Inside(LegendPosition::BottomRight));
     let caption = format!(
         "Figure {}. Effective {} friction under sinusoidal tangential dither of five amplitudes. {}.",
@@ -49,7 +49,7 @@ pub(super) fn three(source: &EntrySource) -> Result<Product, Failure> {
     let studies = source.with_waveforms()?;
     for (index, (waveform, study)) in studies.iter().enumerate() {
         let title = format!("({}) {}", letter(index), waveform_name(waveform.clone()));
-        panels.push(panel(source, study, waveform.clone(), &mut table)?.title(title));
+        panels.push(panel(source, study, &waveform.clone(), &mut table)?.title(title));
     }
     let law = study.belt().friction().kind();
     let note = match law {
@@ -92,7 +92,7 @@ fn empty_table() -> DataTable {
 fn panel(
     source: &EntrySource,
     study: &BeltStudy,
-    waveform: Waveform,
+    waveform: &Waveform,
     table: &mut DataTable,
 ) -> Result<Panel, Failure> {
     let belt = study.belt();
@@ -113,7 +113,7 @@ fn panel(
         let motion = FastMotion::single(FastWave::Integral(waveform.clone()), alpha);
         let as_printed = |w: f64| {
             let inside = law.kind() == LawKind::Decreasing
-                && waveform == Waveform::Triangle
+                && *waveform == Waveform::Triangle
                 && w.abs() < corner;
             inside.then(|| {
                 printed_formulas::effective_338a(LawNumbers::DISSERTATION, w.abs() * vm, alpha)

@@ -35,7 +35,7 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         rows[0].push(
             axes("waveform", "g", "")
                 .title(title)
-                .with(Polyline::pieces(PlotRole::Exact, force(waveform.clone())))
+                .with(Polyline::pieces(PlotRole::Exact, force(&waveform.clone())))
                 .legend(Legend::None),
         );
         let peak = waveform.peak_integral();
@@ -77,8 +77,8 @@ fn cycles() -> impl Iterator<Item = f64> {
 }
 
 /// g, with vertical segments where it jumps.
-fn force(waveform: Waveform) -> Vec<Vec<(f64, f64)>> {
-    if waveform == Waveform::Square {
+fn force(waveform: &Waveform) -> Vec<Vec<(f64, f64)>> {
+    if *waveform == Waveform::Square {
         let corners = (0..2 * CYCLES).flat_map(|half| {
             let level = if half % 2 == 0 { 1.0 } else { -1.0 };
             [(0.5 * f64::from(half), level), (0.5 * f64::from(half + 1), level)]

@@ -5,6 +5,7 @@
 //! judges them.
 
 mod system;
+mod waveform;
 
 use quell_model::LawKind;
 use quell_model::friction::samples::{FEWEST, MOST_TERMS};
@@ -16,7 +17,7 @@ use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
 use crate::study::vocabulary::{
-    self, Choice, Key, MOST_POINTS, Role, SCHEMA_ABOUT, SCHEMA_VERSION, Section, WaveKey,
+    self, Choice, Key, MOST_POINTS, Role, SCHEMA_ABOUT, SCHEMA_VERSION, Section,
 };
 
 /// The dialect of the schema.
@@ -402,7 +403,7 @@ fn property(key: &Key) -> Json {
         },
         Role::Scale(scale) => bounded(scale.bounds, Quantity::Ratio),
         Role::Choice(choice) => json!({ "enum": choice.names() }),
-        Role::Wave(wave) => wave_property(wave),
+        Role::Wave(wave) => waveform::property(wave),
         Role::Text => json!({ "type": "string" }),
         Role::Schema => json!({ "const": SCHEMA_VERSION }),
         Role::Choices(choice) => {
@@ -481,28 +482,6 @@ fn bounded(bounds: Bounds, quantity: Quantity) -> Json {
         schema["maximum"] = bounds.upper.into();
     }
     schema
-}
-
-/// The value of a part of the description of a waveform.
-fn wave_property(wave: WaveKey) -> Json {
-    let count = |least: u32| json!({ "type": "integer", "minimum": least });
-    match wave {
-        WaveKey::Harmonics => json!({
-            "type": "array", "minItems": 1, "items": {
-                "type": "object", "required": ["order"], "additionalProperties": false,
-                "properties": {
-                    "order": { "type": "integer", "minimum": 1 },
-                    "sine": { "type": "number" },
-                    "cosine": { "type": "number" },
-                },
-            },
-        }),
-        WaveKey::Values => json!({ "type": "array", "minItems": 2, "items": { "type": "number" } }),
-        WaveKey::Hold => json!({ "enum": Choice::Hold.names() }),
-        WaveKey::Carrier => json!({ "enum": Choice::Carrier.names() }),
-        WaveKey::On => count(1),
-        WaveKey::Off => count(0),
-    }
 }
 
 #[cfg(test)]

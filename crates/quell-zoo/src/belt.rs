@@ -177,7 +177,7 @@ pub fn all_belts() -> Vec<NamedModel<Belt>> {
             all.push(NamedModel::new(name, base.source, base.model.with_dithers(dithers)));
         };
         add(base.name.clone(), Vec::new());
-        for waveform in Waveform::NAMED.iter().cloned() {
+        for waveform in Waveform::NAMED {
             let dither = tangential(waveform.clone(), 10.0 * 0.5 * reach, 10.0);
             add(format!("{} + tangential {}", base.name, waveform.name()), vec![dither]);
             let dither = normal(waveform.clone(), 0.5, 5.0);

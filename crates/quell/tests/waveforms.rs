@@ -2,6 +2,9 @@
 //!
 //! Numbers: `reference/waveforms.json` (source and tolerance in `reference/README.md`).
 
+use quell::Study;
+use quell::kind::verbs;
+use quell::run::orbit::Wanted;
 use quell::run::{friction, simulate};
 use quell::study::BeltStudy;
 use quell_linear::averaging::{AveragingOptions, Becomes, CrossingKind, critical_amplitudes};
@@ -163,4 +166,41 @@ fn wrong_waveforms_are_refused_with_the_place() {
     let upside_down = "waveform = \"samples\"\nvalues = [-3.0, 0.0, 0.0, 0.0]\nhold = \"zero\"";
     study(&with("normal", deep));
     assert!(refused(&with("normal", upside_down)).contains("dither.amplitude"));
+}
+
+/// The same dither on the same mass, as a belt and as a system: the same periodic motion, by two engines.
+#[test]
+fn a_belt_and_a_system_have_the_same_periodic_motion() {
+    for keys in [
+        "waveform = \"burst\"\ncarrier = \"sine\"\non = 3\noff = 2",
+        "waveform = \"burst\"\ncarrier = \"triangle\"\non = 2\noff = 1",
+        "waveform = \"samples\"\nvalues = [0.3, 1.0, -0.4, -1.2, 0.5]",
+        "waveform = \"samples\"\nhold = \"zero\"\nvalues = [0.3, 1.0, -0.4, -1.2, 0.5]",
+        "waveform = \"fourier\"\nharmonics = [{ order = 1, sine = 1.0 }, { order = 4, cosine = 0.3 }]",
+    ] {
+        let system = format!(
+            "[system]\ncoordinates = [\"x\"]\nmass = [1.0]\ndamping = [0.02]\nstiffness = [1.0]\n[[contact]]\nname = \"belt\"\n\
+             tangent = {{ x = 1.0 }}\nnormal_load = 1.0\nbelt_velocity = 0.1\n[contact.friction]\nlaw = \"stribeck\"\n\
+             static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[[dither]]\nat = {{ x = 1.0 }}\n\
+             {keys}\namplitude = 1.5\nfrequency = 10.0\n"
+        );
+        let belt = with("tangential", keys).replace("amplitude = 0.5", "amplitude = 1.5");
+        let facts = [belt, system].map(|text| {
+            let study =
+                Study::parse(&text, &[]).unwrap_or_else(|wrong| panic!("{text}\n{wrong:?}"));
+            verbs(&study).orbit(Wanted::default()).expect("an orbit").facts()
+        });
+        let [belt, system] = &facts;
+        assert!(
+            (number(&belt["period"]) / number(&system["period"]) - 1.0).abs() < 1e-14,
+            "{keys}"
+        );
+        let leading = numbers(&belt["multipliers"][0]);
+        let radius = leading[0].hypot(leading[1]);
+        assert!((radius - number(&system["radius"])).abs() < 1e-8, "{facts:?}");
+        let state = numbers(&system["state"]);
+        assert!((number(&belt["displacement"]) - state[0]).abs() < 1e-9, "{keys}: {facts:?}");
+        assert!((number(&belt["velocity"]) - state[1]).abs() < 1e-9, "{keys}");
+        assert_eq!(belt["verdict"], system["verdict"], "{keys}");
+    }
 }

@@ -391,7 +391,7 @@ mod tests {
 
     #[test]
     fn series_value_and_waveform_agree_over_many_periods() {
-        for waveform in Waveform::NAMED.iter().cloned() {
+        for waveform in Waveform::NAMED {
             for phase in [0.0, 1.0, -2.5, 7.0] {
                 let dithers = [dither(waveform.clone(), phase)];
                 let mut forcing =

@@ -286,12 +286,13 @@ mod tests {
                 phase: draw(-4.0, 4.0),
             };
             let clock = Clock::at(0.0);
-            let make =
-                |direction, mean| Forcing::new(&[dither.clone()], direction, mean, 1.0, clock);
+            let make = |direction, mean| {
+                Forcing::new(std::slice::from_ref(&dither), direction, mean, 1.0, clock)
+            };
             let (tangential, load) =
                 (make(Direction::Tangential, 0.0), make(Direction::Normal, 1.0));
             let shapes = [Direction::Tangential, Direction::Normal]
-                .map(|direction| ForcingShape::of(&[dither.clone()], direction));
+                .map(|direction| ForcingShape::of(std::slice::from_ref(&dither), direction));
             let release = Release::of(&stiction, (&tangential, &load), (shapes[0], shapes[1]))
                 .expect("one sine");
             let y = draw(-0.5, 0.4);

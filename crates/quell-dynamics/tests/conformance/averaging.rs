@@ -103,7 +103,7 @@ fn criterion_and_rate(belt: &Belt) -> (Criterion, f64, Orbit) {
 fn the_criterion_is_the_limit_of_the_multipliers() {
     let (mut judged, mut worst) = ([0, 0], 0.0_f64);
     for named in belt::undithered() {
-        for waveform in Waveform::NAMED.iter().cloned() {
+        for waveform in Waveform::NAMED {
             for &direction in Direction::ALL {
                 // Outside and inside the largest fast velocity for tangential dither.
                 for reach in [0.3, 0.7, 1.4] {

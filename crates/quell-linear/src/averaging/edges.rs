@@ -24,6 +24,7 @@ use super::dithers::AveragingOptions;
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
 use super::mean_friction::effective;
+use super::periodic::Signal;
 use super::sign_changes::{CrossingKind, sign_changes};
 use super::single_wave;
 use super::wave::FastWave;
@@ -80,7 +81,7 @@ pub fn undithered_critical_velocity(
     damping_ratio: f64,
     normal_load: f64,
 ) -> Result<CriticalVelocity, AveragingError> {
-    Ok(match outer_edge(law, damping_ratio, normal_load, Waveform::Sine, 0.0)? {
+    Ok(match outer_edge(law, damping_ratio, normal_load, &Waveform::Sine, 0.0)? {
         None => CriticalVelocity::UnstableEverywhere,
         Some(v) if v > 0.0 => CriticalVelocity::Above(v),
         Some(_) => CriticalVelocity::StableEverywhere,
@@ -96,7 +97,7 @@ pub fn closed_band(
     law: &Friction,
     damping_ratio: f64,
     normal_load: f64,
-    waveform: Waveform,
+    waveform: &Waveform,
     alpha: f64,
 ) -> Result<UnstableBand, NoBand> {
     let lower = alpha * waveform.peak_integral();
@@ -120,7 +121,7 @@ fn outer_edge(
     law: &Friction,
     damping_ratio: f64,
     normal_load: f64,
-    waveform: Waveform,
+    waveform: &Waveform,
     alpha: f64,
 ) -> Result<Option<f64>, AveragingError> {
     let vm = law.velocity_scale();
@@ -145,12 +146,12 @@ fn outer_edge(
                 return Ok(None);
             }
             let corner = alpha * waveform.peak_integral();
-            let scaled = scaled_mean_exponential(&waveform, ratio)?;
+            let scaled = scaled_mean_exponential(waveform, ratio)?;
             let edge =
                 corner - vm * ln(2.0 * vm * damping_ratio / (normal_load * difference * scaled));
             Some(edge.max(0.0))
         }
-        law => searched_edge(law, damping_ratio, normal_load, &waveform, alpha)?,
+        law => searched_edge(law, damping_ratio, normal_load, waveform, alpha)?,
     })
 }
 
@@ -210,8 +211,15 @@ pub fn unstable_bands(
     points.sort_unstable_by(f64::total_cmp);
     points.dedup();
     let excess = |v: f64| -> Result<f64, AveragingError> { Ok(v - motion(v)?.largest_slip()?) };
-    let corners: Vec<f64> =
-        sign_changes(excess, &points, &[])?.into_iter().map(|c| c.location).collect();
+    let still = motion(vm)?;
+    let corners: Vec<f64> = match still.groups() {
+        // Tangential dither moves the mass in the same way at every velocity: every maximum of the fast velocity is a corner.
+        [group] if group.normal.is_empty() && group.single_term().is_none() => {
+            let extrema = Signal::new(group)?.extrema().into_iter();
+            extrema.filter(|extremum| *extremum > 0.0).collect()
+        }
+        _ => sign_changes(excess, &points, &[])?.into_iter().map(|c| c.location).collect(),
+    };
     for corner in &corners {
         points.extend((0..24).map(|k| corner * (1.0 - libm::exp(-30.0 + 1.2 * f64::from(k)))));
     }

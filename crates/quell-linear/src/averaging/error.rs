@@ -57,8 +57,8 @@ impl core::fmt::Display for AveragingError {
             ),
             Self::NoOscillatorShape { waveform } => write!(
                 f,
-                "finite-R averaging has no response of the oscillator to a waveform \"{waveform}\"; averaging in the limit of \
-                 high frequency and exact verdicts have"
+                "the response of the oscillator to a waveform \"{waveform}\" is not known in closed form; averaging in the limit \
+                 of high frequency and exact verdicts do not need it"
             ),
             Self::Quadrature(error) => write!(f, "averaging: {error}"),
         }

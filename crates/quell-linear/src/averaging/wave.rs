@@ -171,7 +171,7 @@ mod tests {
 
     fn all() -> Vec<FastWave> {
         let mut waves = Vec::new();
-        for waveform in Waveform::NAMED.iter().cloned() {
+        for waveform in Waveform::NAMED {
             waves.push(FastWave::Integral(waveform.clone()));
             for frequency_ratio in [1.3, 5.0, 10.0, 1e4] {
                 waves.push(FastWave::Oscillator { waveform: waveform.clone(), frequency_ratio });
@@ -183,7 +183,7 @@ mod tests {
     /// The integral shapes are G itself, and the shapes of the oscillator converge to it.
     #[test]
     fn integral_of_the_waveform() {
-        for waveform in Waveform::NAMED.iter().cloned() {
+        for waveform in Waveform::NAMED {
             for k in -50..120 {
                 let theta = 0.1 * f64::from(k);
                 let (s, slope) = FastWave::Integral(waveform.clone()).value_and_slope(theta);
@@ -199,7 +199,7 @@ mod tests {
     /// its slope jumps where the force does.
     #[test]
     fn oscillator_equation() {
-        for waveform in Waveform::NAMED.iter().cloned() {
+        for waveform in Waveform::NAMED {
             let r = 3.0;
             let wave = FastWave::Oscillator { waveform: waveform.clone(), frequency_ratio: r };
             let h = 1e-3;

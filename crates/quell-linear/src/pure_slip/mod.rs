@@ -12,6 +12,7 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 use quell_model::System;
+use quell_model::profile::Wave;
 use quell_numerics::eigen::{Decomposition, EigenError, modulus};
 use quell_numerics::extrapolation::{Unintegrated, integrate};
 use quell_numerics::matrix::Matrix;
@@ -149,11 +150,8 @@ impl SlipOrbit {
 /// Waves of amplitude 0 have none of their own, except where no other acts: a family whose amplitude passes 0 keeps its period.
 pub fn period(system: &System) -> Option<f64> {
     let acting: Vec<f64> = system.acting_frequencies().collect();
-    let frequencies = if acting.is_empty() {
-        system.waves().map(|wave| wave.frequency).collect()
-    } else {
-        acting
-    };
+    let frequencies =
+        if acting.is_empty() { system.waves().map(Wave::repetition).collect() } else { acting };
     let groups = commensurate_groups(&frequencies);
     let [members] = groups.as_slice() else { return None };
     let (first, multiple) = members.first()?;
@@ -283,7 +281,7 @@ fn breaks(system: &System, period: f64) -> Vec<f64> {
     let mut breaks = vec![0.0, period];
     for wave in system.waves() {
         for phase in wave.waveform.breaks() {
-            let cycle = TAU / wave.frequency;
+            let cycle = wave.waveform.period() / wave.frequency;
             let mut time = ((phase - wave.phase) / wave.frequency).rem_euclid(cycle);
             while time < period {
                 breaks.push(time);

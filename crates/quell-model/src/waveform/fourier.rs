@@ -43,9 +43,8 @@ impl FourierWave {
     ///
     /// # Errors
     /// No harmonic, an order of 0 or that occurs twice, a coefficient that is not finite, or coefficients that are all zero.
-    pub fn new(harmonics: Vec<Harmonic>) -> Result<Self, WaveformError> {
+    pub fn new(mut known: Vec<Harmonic>) -> Result<Self, WaveformError> {
         let wrong = |allowed: String| Err(WaveformError { key: "harmonics", allowed });
-        let mut known = harmonics.clone();
         known.sort_by_key(|harmonic| harmonic.order);
         if known.is_empty() || known.len() > MOST_HARMONICS {
             return wrong(format!(

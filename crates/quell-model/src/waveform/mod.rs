@@ -149,31 +149,25 @@ impl Waveform {
 
     /// g(θ). At a jump the value after it.
     pub fn value(&self, phase: f64) -> f64 {
-        match self {
-            Self::Fourier(series) => series.value(phase),
-            _ => {
-                let phase = self.wrapped(phase);
-                match self.piece_at(phase) {
-                    (_, Piece::Harmonic) => libm::sin(phase),
-                    (start, Piece::Affine { value, slope }) => {
-                        value + slope * self.wrapped(phase - start)
-                    }
-                }
-            }
+        if let Self::Fourier(series) = self {
+            return series.value(phase);
+        }
+        let phase = self.wrapped(phase);
+        match self.piece_at(phase) {
+            (_, Piece::Harmonic) => libm::sin(phase),
+            (start, Piece::Affine { value, slope }) => value + slope * self.wrapped(phase - start),
         }
     }
 
     /// g′(θ), per radian. At a kink the slope after it; a jump has none.
     pub fn slope(&self, phase: f64) -> f64 {
-        match self {
-            Self::Fourier(series) => series.slope(phase),
-            _ => {
-                let phase = self.wrapped(phase);
-                match self.piece_at(phase) {
-                    (_, Piece::Harmonic) => libm::cos(phase),
-                    (_, Piece::Affine { slope, .. }) => slope,
-                }
-            }
+        if let Self::Fourier(series) = self {
+            return series.slope(phase);
+        }
+        let phase = self.wrapped(phase);
+        match self.piece_at(phase) {
+            (_, Piece::Harmonic) => libm::cos(phase),
+            (_, Piece::Affine { slope, .. }) => slope,
         }
     }
 

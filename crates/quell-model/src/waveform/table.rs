@@ -40,11 +40,11 @@ impl WaveTable {
     pub(super) fn new(breaks: Vec<f64>, pieces: Vec<Piece>, period: f64) -> Self {
         let ends = breaks.iter().skip(1).copied().chain([period]);
         let lengths: Vec<f64> = ends.zip(&breaks).map(|(end, start)| end - start).collect();
-        let parts = || pieces.iter().copied().zip(lengths.iter().copied());
+        let parts: Vec<(Piece, f64)> = pieces.iter().copied().zip(lengths).collect();
         // The integral from the first break, and its mean over the period.
         let mut integrals = Vec::with_capacity(breaks.len());
         let (mut sum, mut area) = (0.0_f64, 0.0_f64);
-        for (piece, length) in parts() {
+        for (piece, length) in parts.iter().copied() {
             integrals.push(sum);
             let of_integral = match piece {
                 Piece::Harmonic => length,
@@ -59,10 +59,12 @@ impl WaveTable {
             };
         }
         let mean = area / period;
-        integrals.iter_mut().for_each(|value| *value -= mean);
+        for value in &mut integrals {
+            *value -= mean;
+        }
         let mut table = Self {
             breaks,
-            pieces: pieces.clone(),
+            pieces,
             integrals,
             range: (0.0, 0.0),
             integral_range: (0.0, 0.0),
@@ -72,7 +74,7 @@ impl WaveTable {
         let (mut least, mut largest) = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut square, mut square_integral) = (0.0, 0.0);
-        for (index, (piece, length)) in parts().enumerate() {
+        for (index, (piece, length)) in parts.into_iter().enumerate() {
             let start = table.integrals[index];
             let mut meet = |distance: f64| {
                 let (value, integral) = at(piece, distance);

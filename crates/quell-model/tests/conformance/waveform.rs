@@ -11,7 +11,7 @@ pub(crate) fn phases() -> impl Iterator<Item = f64> {
 }
 
 /// Pieces with the phases that open and close them; the last may close beyond 2π.
-fn spans(waveform: Waveform) -> Vec<(f64, f64, Piece)> {
+fn spans(waveform: &Waveform) -> Vec<(f64, f64, Piece)> {
     let (breaks, pieces) = (waveform.breaks(), waveform.pieces());
     if breaks.is_empty() {
         return vec![(0.0, TAU, pieces[0])];
@@ -31,7 +31,7 @@ fn along(piece: Piece, open: f64, phase: f64) -> f64 {
 
 #[test]
 fn waves_are_odd_and_periodic() {
-    for waveform in Waveform::NAMED.iter().cloned() {
+    for waveform in Waveform::NAMED {
         for phase in phases() {
             let value = waveform.value(phase);
             let mirrored = waveform.value(-phase);
@@ -51,9 +51,8 @@ fn waves_are_odd_and_periodic() {
 
 #[test]
 fn waves_have_unit_peak() {
-    for waveform in Waveform::NAMED.iter().cloned() {
-        let ends =
-            spans(waveform.clone()).into_iter().flat_map(|(open, close, _)| [open, close - 1e-12]);
+    for waveform in Waveform::NAMED {
+        let ends = spans(waveform).into_iter().flat_map(|(open, close, _)| [open, close - 1e-12]);
         let quarters = (0..8).map(|k| f64::from(k) * FRAC_PI_4);
         let mut peak: f64 = 0.0;
         for phase in phases().chain(ends).chain(quarters) {
@@ -65,7 +64,7 @@ fn waves_have_unit_peak() {
 
 #[test]
 fn breaks_ascend_within_one_period_and_each_opens_a_piece() {
-    for waveform in Waveform::NAMED.iter().cloned() {
+    for waveform in Waveform::NAMED {
         let breaks = waveform.breaks();
         assert!(breaks.iter().all(|phase| (0.0..TAU).contains(phase)), "{waveform:?}");
         assert!(breaks.windows(2).all(|pair| pair[0] < pair[1]), "{waveform:?}");
@@ -76,8 +75,8 @@ fn breaks_ascend_within_one_period_and_each_opens_a_piece() {
 /// The engine integrates the pieces and everything else calls `value`: both are the same wave.
 #[test]
 fn pieces_agree_with_the_value_on_both_sides_of_every_break() {
-    for waveform in Waveform::NAMED.iter().cloned() {
-        for (open, close, piece) in spans(waveform.clone()) {
+    for waveform in Waveform::NAMED {
+        for (open, close, piece) in spans(waveform) {
             assert_eq!(waveform.value(open), along(piece, open, open), "{waveform:?} at {open}");
             let width = close - open;
             for phase in [open + 1e-9, open + 0.3 * width, open + 0.8 * width, close - 1e-9] {
@@ -91,8 +90,8 @@ fn pieces_agree_with_the_value_on_both_sides_of_every_break() {
 /// A break without a kink or a jump would cost the engine an unnecessary step.
 #[test]
 fn every_break_is_a_kink_or_a_jump() {
-    for waveform in Waveform::NAMED.iter().cloned() {
-        let spans = spans(waveform.clone());
+    for waveform in Waveform::NAMED {
+        let spans = spans(waveform);
         if waveform.breaks().is_empty() {
             continue;
         }

@@ -16,7 +16,7 @@ const RULE: [(f64, f64); 5] = [
 ];
 
 /// ∫ f from `a` to `b` inside one period, split at the breaks of the waveform.
-fn integral(waveform: Waveform, a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
+fn integral(waveform: &Waveform, a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
     let mut ends = vec![a];
     ends.extend(waveform.breaks().iter().filter(|&&phase| phase > a && phase < b));
     ends.push(b);
@@ -36,10 +36,10 @@ fn integral(waveform: Waveform, a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
 
 #[test]
 fn g_and_its_integral_have_zero_mean() {
-    for waveform in Waveform::NAMED.iter().cloned() {
-        let mean = integral(waveform.clone(), 0.0, TAU, |phase| waveform.value(phase)) / TAU;
+    for waveform in Waveform::NAMED {
+        let mean = integral(waveform, 0.0, TAU, |phase| waveform.value(phase)) / TAU;
         assert!(mean.abs() < 1e-15, "{waveform:?}: ⟨g⟩ = {mean}");
-        let mean = integral(waveform.clone(), 0.0, TAU, |phase| waveform.integral(phase)) / TAU;
+        let mean = integral(waveform, 0.0, TAU, |phase| waveform.integral(phase)) / TAU;
         assert!(mean.abs() < 1e-15, "{waveform:?}: ⟨G⟩ = {mean}");
     }
 }
@@ -48,12 +48,12 @@ fn g_and_its_integral_have_zero_mean() {
 /// The quadrature adds up to 240 terms to a sum below π: rounding up to 240·ε/2·π/3 = 3·10⁻¹⁴.
 #[test]
 fn the_derivative_of_the_integral_is_the_wave() {
-    for waveform in Waveform::NAMED.iter().cloned() {
+    for waveform in Waveform::NAMED {
         let phases: Vec<f64> = phases().step_by(23).collect();
         for (index, &a) in phases.iter().enumerate() {
             for &b in phases[index..].iter().skip(1) {
                 let change = waveform.integral(b) - waveform.integral(a);
-                let quadrature = integral(waveform.clone(), a, b, |phase| waveform.value(phase));
+                let quadrature = integral(waveform, a, b, |phase| waveform.value(phase));
                 let error = (change - quadrature).abs();
                 assert!(error < 3e-14, "{waveform:?} from {a} to {b}: {error:e}");
             }
@@ -63,7 +63,7 @@ fn the_derivative_of_the_integral_is_the_wave() {
 
 #[test]
 fn the_integral_is_even_and_periodic() {
-    for waveform in Waveform::NAMED.iter().cloned() {
+    for waveform in Waveform::NAMED {
         for phase in phases() {
             let value = waveform.integral(phase);
             for other in [-phase, TAU - phase, phase - TAU, phase + TAU] {
@@ -80,7 +80,7 @@ fn the_integral_is_even_and_periodic() {
 /// The largest |G|, on a grid and then by bisection around its best point.
 #[test]
 fn the_peak_of_the_integral_has_its_stated_value() {
-    for waveform in Waveform::NAMED.iter().cloned() {
+    for waveform in Waveform::NAMED {
         let size = |phase: f64| waveform.integral(phase).abs();
         let mut best =
             phases().fold(0.0, |best, phase| if size(phase) > size(best) { phase } else { best });
@@ -100,14 +100,12 @@ fn the_peak_of_the_integral_has_its_stated_value() {
 
 #[test]
 fn mean_squares_have_their_stated_values() {
-    for waveform in Waveform::NAMED.iter().cloned() {
+    for waveform in Waveform::NAMED {
         let square = |x: f64| x * x;
-        let found =
-            integral(waveform.clone(), 0.0, TAU, |phase| square(waveform.integral(phase))) / TAU;
+        let found = integral(waveform, 0.0, TAU, |phase| square(waveform.integral(phase))) / TAU;
         let stated = waveform.mean_square_integral();
         assert!((found - stated).abs() < 2e-15, "{waveform:?}: ⟨G²⟩ {found} against {stated}");
-        let found =
-            integral(waveform.clone(), 0.0, TAU, |phase| square(waveform.value(phase))) / TAU;
+        let found = integral(waveform, 0.0, TAU, |phase| square(waveform.value(phase))) / TAU;
         let stated = square(waveform.root_mean_square());
         assert!((found - stated).abs() < 2e-15, "{waveform:?}: ⟨g²⟩ {found} against {stated}");
     }

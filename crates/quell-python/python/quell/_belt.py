@@ -10,6 +10,7 @@ import numpy as np
 from ._axes import Axes, axes_tables
 from ._errors import StudyError, complaint
 from ._laws import Friction, as_law, law_of
+from ._sampling import with_wave
 from ._study import Study
 from ._tables import Number, Table, Unknown, given
 
@@ -29,7 +30,8 @@ class Dither(Table):
     direction :
         "tangential", a force on the mass along the belt, or "normal", a variation of the normal load.
     waveform :
-        "sine", "triangle" or "square".
+        "sine", "triangle" or "square"; "fourier", "samples" or "burst" with the keys below; or a function of the phase in radians,
+        which is sampled over one period.
     amplitude :
         D, the peak of the force over k: a length, ≥ 0. For a disc: the relative amplitude α.
     frequency_ratio :
@@ -38,6 +40,12 @@ class Dither(Table):
         Phase at τ = 0, in radians.
     amplitude_n, amplitude_n_rms, frequency_hz :
         The same in N (peak, or root mean square) and Hz, in a study in SI.
+    harmonics :
+        "fourier": a list of ``{"order": n, "sine": s, "cosine": c}``.
+    values, hold :
+        "samples": one period at equal distances, and "linear" (straight lines) or "zero" (held).
+    carrier, on, off :
+        "burst": the waveform of the carrier, and its periods in a burst and in a pause.
     """
 
     _path = "dither"
@@ -50,11 +58,20 @@ class Dither(Table):
     amplitude_n: float | str | None
     amplitude_n_rms: float | str | None
     frequency_hz: float | str | None
+    harmonics: Any
+    values: Any
+    hold: str | None
+    carrier: str | None
+    on: int | None
+    off: int | None
+
+    waveform_error: float | None = None
+    """Of a waveform that is a function: its largest distance from its samples, over its largest value."""
 
     def __init__(
         self,
         direction: Literal["tangential", "normal"] | None = None,
-        waveform: Literal["sine", "triangle", "square"] | None = None,
+        waveform: Literal["sine", "triangle", "square", "fourier", "samples", "burst"] | Callable[[float], float] | None = None,
         *,
         amplitude: Number | None = None,
         frequency_ratio: Number | None = None,
@@ -62,9 +79,16 @@ class Dither(Table):
         amplitude_n: Number | None = None,
         amplitude_n_rms: Number | None = None,
         frequency_hz: Number | None = None,
+        harmonics: Iterable[Mapping[str, Number]] | None = None,
+        values: Iterable[float] | None = None,
+        hold: Literal["linear", "zero"] | None = None,
+        carrier: Literal["sine", "triangle", "square"] | None = None,
+        on: int | None = None,
+        off: int | None = None,
         **unknown: Unknown,
     ) -> None:
-        super().__init__(**given(locals()))
+        keys, self.waveform_error = with_wave(given(locals()))
+        super().__init__(**keys)
 
 
 class Initial(Table):

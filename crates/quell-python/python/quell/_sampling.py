@@ -1,6 +1,6 @@
 """Sampling of functions that users give.
 
-Friction laws are sampled here. Waveforms that are functions belong here too.
+Friction laws over the slip speed, and waveforms over the phase.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ._errors import StudyError, complaint
 
-__all__ = ["fitted", "sampled"]
+__all__ = ["fitted", "sampled", "sampled_wave"]
 
 FIRST_INTERVALS = 64
 """Intervals that are refined."""
@@ -83,3 +83,51 @@ def fitted(coefficients: Any, speeds: Any, terms: int | None, at: npt.NDArray[np
     law = Samples(speeds, coefficients, terms=terms)
     probe = Belt(damping_ratio=0.1, normal_load=1.0, belt_velocity=float(at[-1]), friction=law)
     return probe.friction(at).coefficient
+
+
+MOST_WAVE_SAMPLES = 4096
+"""Most samples of a period of a waveform."""
+
+
+def sampled_wave(function: Callable[[float], float]) -> tuple[list[float], float]:
+    """Samples of a waveform over one period, and its largest distance from the straight lines between them, over its largest value.
+
+    The number of samples is doubled from 64 until that distance is below 10⁻⁴, up to 4096: at a jump it stays.
+
+    Raises
+    ------
+    StudyError
+        The function fails, or a value is not finite.
+    """
+    count = 64
+    while True:
+        phases = 2.0 * np.pi * np.arange(2 * count) / (2 * count)
+        values = np.array([wave_at(function, float(phase)) for phase in phases])
+        samples, between = values[::2], values[1::2]
+        largest = float(np.max(np.abs(values))) or 1.0
+        off = float(np.max(np.abs(between - 0.5 * (samples + np.roll(samples, -1))))) / largest
+        if off <= RESOLVED or count == MOST_WAVE_SAMPLES:
+            return samples.tolist(), off
+        count *= 2
+
+
+def wave_at(function: Callable[[float], float], phase: float) -> float:
+    """The value of a waveform at a phase."""
+    try:
+        value = float(function(phase))
+    except Exception as why:
+        allowed = f"a function of the phase in radians; at {phase:.6g} it raises {type(why).__name__}: {why}"
+        raise StudyError([complaint("waveform", None, allowed, "usage")]) from why
+    if not np.isfinite(value):
+        allowed = f"a function whose values are finite; at {phase:.6g} it is {value}"
+        raise StudyError([complaint("waveform", None, allowed, "usage")])
+    return value
+
+
+def with_wave(given: dict[str, Any]) -> tuple[dict[str, Any], float | None]:
+    """The keys of a dither, a waveform that is a function as samples; and how far those are from the function."""
+    function = given.get("waveform")
+    if not callable(function):
+        return given, None
+    values, off = sampled_wave(function)
+    return {**given, "waveform": "samples", "values": values, "hold": "linear"}, off

@@ -12,6 +12,7 @@ from ._axes import Axes, axes_tables
 from ._belt import as_given, listed_tables, number_in, several, single
 from ._laws import Friction, as_law, law_of
 from ._names import suggestion
+from ._sampling import with_wave
 from ._study import Study
 from ._tables import Number, Table, Unknown, given
 
@@ -112,11 +113,18 @@ class SystemDither(Table):
     reaction :
         Whether the structure bears the modulation of the load [default: True].
     waveform :
-        "sine", "triangle" or "square".
+        "sine", "triangle" or "square"; "fourier", "samples" or "burst" with the keys below; or a function of the phase in radians,
+        which is sampled over one period.
     amplitude, frequency, phase :
         Peak of the force, angular frequency, and phase at time 0 in radians [default: 0].
     amplitude_n, amplitude_n_rms, frequency_hz :
         The same in N (peak, or root mean square) and Hz, in a study with units.
+    harmonics :
+        "fourier": a list of ``{"order": n, "sine": s, "cosine": c}``.
+    values, hold :
+        "samples": one period at equal distances, and "linear" (straight lines) or "zero" (held).
+    carrier, on, off :
+        "burst": the waveform of the carrier, and its periods in a burst and in a pause.
     """
 
     _path = "dither"
@@ -132,11 +140,20 @@ class SystemDither(Table):
     amplitude_n: float | str | None
     amplitude_n_rms: float | str | None
     frequency_hz: float | str | None
+    harmonics: Any
+    values: Any
+    hold: str | None
+    carrier: str | None
+    on: int | None
+    off: int | None
+
+    waveform_error: float | None = None
+    """Of a waveform that is a function: its largest distance from its samples, over its largest value."""
 
     def __init__(
         self,
         at: Row | None = None,
-        waveform: Literal["sine", "triangle", "square"] | None = None,
+        waveform: Literal["sine", "triangle", "square", "fourier", "samples", "burst"] | Callable[[float], float] | None = None,
         *,
         contact: str | None = None,
         direction: Literal["tangential", "normal"] | None = None,
@@ -147,9 +164,16 @@ class SystemDither(Table):
         amplitude_n: Number | None = None,
         amplitude_n_rms: Number | None = None,
         frequency_hz: Number | None = None,
+        harmonics: Iterable[Mapping[str, Number]] | None = None,
+        values: Iterable[float] | None = None,
+        hold: Literal["linear", "zero"] | None = None,
+        carrier: Literal["sine", "triangle", "square"] | None = None,
+        on: int | None = None,
+        off: int | None = None,
         **unknown: Unknown,
     ) -> None:
-        super().__init__(**given(locals()))
+        keys, self.waveform_error = with_wave(given(locals()))
+        super().__init__(**keys)
 
 
 class SystemInitial(Table):

@@ -155,7 +155,7 @@ fn borders(sheet: &mut ClaimSheet, printed: &Printed, columns: &AmplitudeColumns
 }
 
 /// Figure 4.11 with one waveform: that of its caption, or a sine.
-pub(super) fn normal(sheet: &mut ClaimSheet, waveform: Waveform) -> Result<(), Failure> {
+pub(super) fn normal(sheet: &mut ClaimSheet, waveform: &Waveform) -> Result<(), Failure> {
     let waveform = waveform.name();
     let study = source("4.11")?.changed(&[&format!("dither.waveform={waveform}")])?;
     let columns = sheet.shared.columns("4.11", &study)?;

@@ -258,7 +258,7 @@ pub(super) fn forced_response(sheet: &mut ClaimSheet) -> Result<(), Failure> {
 
 /// Upper edge of the unstable belt velocities under a sine.
 fn upper(law: &Friction, alpha: f64) -> Option<f64> {
-    closed_band(law, LIGHT, 1.0, Waveform::Sine, alpha).ok().and_then(|band| band.upper)
+    closed_band(law, LIGHT, 1.0, &Waveform::Sine, alpha).ok().and_then(|band| band.upper)
 }
 
 /// Figure 2.6.

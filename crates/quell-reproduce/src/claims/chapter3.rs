@@ -141,7 +141,7 @@ fn inner_slope(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for (kind, smallest) in [LawKind::Stribeck, LawKind::Decreasing].into_iter().zip(&mut smallest)
     {
         let law = law(kind)?;
-        for waveform in Waveform::NAMED.iter().cloned() {
+        for waveform in Waveform::NAMED {
             for (k, j) in (0..40).flat_map(|k| (0..20).map(move |j| (k, j))) {
                 let alpha = 0.01 * 1.2f64.powi(k);
                 let motion = FastMotion::single(FastWave::Integral(waveform.clone()), alpha);

@@ -95,7 +95,7 @@ fn stribeck_formulas(sheet: &mut ClaimSheet, v: f64, alpha: f64) -> Result<(), F
         )
         .note("π²/16 should be π²/10");
     let upper =
-        closed_band(&law(stribeck)?, LIGHT, 1.0, triangle, 0.15).ok().and_then(|band| band.upper);
+        closed_band(&law(stribeck)?, LIGHT, 1.0, &triangle, 0.15).ok().and_then(|band| band.upper);
     sheet
         .formula(
             ["3.47", "(3.46), (3.47)", "upper edge, Stribeck law, triangle, ζ = 0.005, α = 0.15"],

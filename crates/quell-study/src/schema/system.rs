@@ -90,7 +90,7 @@ fn property(key: &SystemKey) -> Json {
             json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 })
         }
         SystemRole::Choice(choice) => json!({ "enum": choice.names() }),
-        SystemRole::Wave(wave) => super::wave_property(wave),
+        SystemRole::Wave(wave) => super::waveform::property(wave),
         SystemRole::Text => json!({ "type": "string" }),
         SystemRole::Flag => json!({ "type": "boolean" }),
         SystemRole::Table(inner) => reference(inner),

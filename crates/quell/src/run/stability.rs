@@ -88,6 +88,12 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
             _ => "it is defined for a single dither, and this study has several".to_owned(),
         });
     };
+    if !dither.waveform.is_symmetric() {
+        let name = dither.waveform.name();
+        return Err(format!(
+            "it is known for sine, triangle and square; \"{name}\" has corners at every maximum of its fast velocity"
+        ));
+    }
     let found = everywhere_stable_amplitude(
         belt.friction(),
         belt.damping_ratio(),

@@ -339,7 +339,7 @@ def stripped(key: str) -> str:
 def knobs(study: Study) -> list[Knob]:
     """Every number of the study, in the order of its tables."""
     document = study._native.document()
-    paths = [(path, value) for path, value in leaves("", tables(document)) if tokens(path)[0] not in HIDDEN]
+    paths = [(path, value) for path, value in leaves("", tables(document)) if tokens(path)[0] not in HIDDEN and not is_sample(path)]
     there = dict(paths)
     found = []
     for path, value in paths:
@@ -352,6 +352,11 @@ def knobs(study: Study) -> list[Knob]:
         else:
             found.append(knob(study, path, value))
     return [it for it in found if it is not None]
+
+
+def is_sample(path: str) -> bool:
+    """Whether a number is one of the many samples of a waveform."""
+    return "values" in tokens(path)[1:] and tokens(path)[0] == "dither"
 
 
 def transposed(path: str) -> str | None:

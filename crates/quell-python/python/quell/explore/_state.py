@@ -14,6 +14,7 @@ from .._quell import NativeStudy
 from .._study import Study
 from .._tables import Number
 from ._other_law import other_law
+from ._other_waveform import other_waveform
 
 MERGED = 1.0
 """Time in seconds within which changes of the same number are one step of undo."""
@@ -63,6 +64,9 @@ class State:
 
     def set(self, changes: Mapping[str, Number | str]) -> bool:
         """Changes values of the study; whether they are valid."""
+        waveforms = {path: str(name) for path, name in changes.items() if path.split(".")[-1] == "waveform"}
+        if waveforms and len(waveforms) == len(changes):
+            return all([self.set_waveform(path, name) for path, name in waveforms.items()])
         step = replace(self.step, changes={**self.step.changes, **changes})
         return self._take(step, tuple(changes))
 
@@ -74,6 +78,15 @@ class State:
         """Changes the friction law of a table such as "friction" or "contact[0].friction"; shared numbers are kept."""
         try:
             document = other_law(self.study, path, law)
+            base = rebuilt(self.study, document)
+        except QuellError as refused:
+            return self._refused(refused)
+        return self._take(replace(self.step, base=base, source=Source("text"), changes={}), ())
+
+    def set_waveform(self, path: str, waveform: str) -> bool:
+        """Changes the waveform at a path such as "dither.waveform", with the keys that it needs."""
+        try:
+            document = other_waveform(self.study, path, waveform)
             base = rebuilt(self.study, document)
         except QuellError as refused:
             return self._refused(refused)

@@ -5,6 +5,7 @@ use quell_linear::growth::{Growth, Verdict};
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::{MotionSpectrum, SmallMotion, spectrum};
 use quell_model::System;
+use quell_model::profile::Wave;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -100,7 +101,7 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
 /// The warning about motions that are not much slower than the dither.
 fn not_slow(study: &SystemStudy, undithered: &MotionSpectrum) -> Option<String> {
     let waves = study.system().waves();
-    let slowest = waves.map(|wave| wave.frequency).fold(f64::INFINITY, f64::min);
+    let slowest = waves.map(Wave::repetition).fold(f64::INFINITY, f64::min);
     let near = upper(undithered).filter(|motion| natural(motion) * FAR > slowest);
     let distance = |motion: &SmallMotion| (natural(motion) - slowest).abs();
     let nearest = near.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;

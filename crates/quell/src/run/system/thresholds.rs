@@ -9,6 +9,7 @@ use quell_dynamics::response::BAND_END;
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
 use quell_model::System;
+use quell_model::profile::Wave;
 use serde_json::Value as Json;
 
 use super::cycle::BASE_STEPS;
@@ -146,7 +147,7 @@ fn reaches_the_band(system: &System) -> bool {
     let Ok(linear) = Linearised::new(&free) else { return false };
     let Ok(growth) = spectrum::growth(&linear, &linear.friction()) else { return false };
     let waves = system.waves();
-    let lowest = waves.map(|wave| wave.frequency).fold(f64::INFINITY, f64::min);
+    let lowest = waves.map(Wave::repetition).fold(f64::INFINITY, f64::min);
     lowest <= BAND_END * growth.frequency
 }
 

@@ -1,0 +1,27 @@
+//! The schema of the keys that describe a waveform.
+
+use serde_json::{Value as Json, json};
+
+use crate::study::vocabulary::{Choice, WaveKey};
+
+/// The value of a part of the description of a waveform.
+pub(super) fn property(wave: WaveKey) -> Json {
+    let count = |least: u32| json!({ "type": "integer", "minimum": least });
+    match wave {
+        WaveKey::Harmonics => json!({
+            "type": "array", "minItems": 1, "items": {
+                "type": "object", "required": ["order"], "additionalProperties": false,
+                "properties": {
+                    "order": { "type": "integer", "minimum": 1 },
+                    "sine": { "type": "number" },
+                    "cosine": { "type": "number" },
+                },
+            },
+        }),
+        WaveKey::Values => json!({ "type": "array", "minItems": 2, "items": { "type": "number" } }),
+        WaveKey::Hold => json!({ "enum": Choice::Hold.names() }),
+        WaveKey::Carrier => json!({ "enum": Choice::Carrier.names() }),
+        WaveKey::On => count(1),
+        WaveKey::Off => count(0),
+    }
+}
