@@ -2,13 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use quell_dynamics::orbit::from_sliding;
+use quell_dynamics::orbit::{NoOrbit, from_sliding};
 use quell_dynamics::response::{
     SteadyFriction, measured_effective_friction, steady_effective_friction,
 };
 use quell_dynamics::simulation::{Sampler, Start, simulate};
 use quell_linear::averaging::{AveragingOptions, FastMotion, effective};
-use quell_model::{Belt, Waveform};
+use quell_model::waveform::{Burst, Hold, SampledWave};
+use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 use quell_zoo as zoo;
 use quell_zoo::dither::{normal, tangential};
 
@@ -149,4 +150,36 @@ fn limits_of_the_steady_friction() {
         errors[0] < 1e-3 && errors[1] < 0.3 * errors[0] && errors[2] < 0.3 * errors[1],
         "{errors:?}"
     );
+}
+
+/// Without symmetry of the waveform friction at −v is not minus that at v: both are those of averaging, from
+/// which they differ by the fast velocity that friction itself causes, of order F/R.
+#[test]
+fn friction_of_a_waveform_without_symmetry_depends_on_the_direction() {
+    let values = vec![1.5, -0.4, -0.2, -0.6, -0.3];
+    let samples = SampledWave::new(values, Hold::Linear).expect("samples");
+    let dither = |waveform: Waveform| Dither {
+        direction: Direction::Tangential,
+        waveform,
+        amplitude: 300.0,
+        frequency_ratio: 3000.0,
+        phase: 0.3,
+    };
+    let law = LawKind::Stribeck.build(&[0.4, 0.2857, 0.2]).expect("a law");
+    let of =
+        |waveform| Belt::new(0.05, 1.0, 0.1, law.clone(), vec![dither(waveform)]).expect("a belt");
+    let belt = of(Waveform::Samples(samples.into()));
+    let measured =
+        |v: f64| steady_effective_friction(&belt, v, 1e-12).expect("a response").coefficient;
+    let averaged = |v: f64| {
+        let motion = FastMotion::of(&belt, v, AveragingOptions::default()).expect("a motion");
+        effective(belt.friction(), &motion, v).expect("an average").coefficient
+    };
+    let (forwards, backwards) = (averaged(0.03), averaged(-0.03));
+    assert!((forwards + backwards).abs() > 0.015, "{forwards} {backwards}");
+    for v in [0.03, -0.03, 0.2, -0.2] {
+        assert!((measured(v) - averaged(v)).abs() < 4e-3, "{v}: {} {}", measured(v), averaged(v));
+    }
+    let burst = of(Burst::new(Waveform::Sine, 2, 1).expect("a burst").into_waveform());
+    assert_eq!(steady_effective_friction(&burst, -0.2, 1e-12), Err(NoOrbit::NoMirror));
 }

@@ -78,6 +78,8 @@ pub enum NoOrbit {
     Unsettled(Unsettled),
     /// The undithered run converges neither to a known limit cycle nor to stable steady sliding.
     NoLimit,
+    /// At a negative slip velocity a tangential burst would have to change its sign, which is no burst.
+    NoMirror,
     /// A parameter cannot take this value.
     Invalid {
         /// The value.
@@ -140,6 +142,9 @@ impl fmt::Display for NoOrbit {
             Self::NoLimit => f.write_str(
                 "the run converges neither to a known limit cycle nor to stable steady sliding",
             ),
+            Self::NoMirror => {
+                f.write_str("a burst is no burst after a change of sign, which a negative slip velocity needs")
+            }
             Self::Invalid { value } => write!(f, "a parameter cannot take the value {value}"),
             Self::Stalled(stalled) => stalled.fmt(f),
         }

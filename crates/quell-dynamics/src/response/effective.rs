@@ -14,7 +14,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::LazyLock;
 
-use quell_model::{Belt, Direction};
+use quell_model::{Belt, Direction, Dither};
 use quell_numerics::gauss_legendre::GaussLegendre;
 use quell_numerics::quadrature::{QuadratureError, QuadratureOptions, integrate};
 
@@ -258,18 +258,29 @@ fn reached_in_step(belt: &Belt, period: f64) -> Option<Orbit> {
     (orbit.period <= period * (1.0 + 1e-9)).then_some(orbit)
 }
 
-/// The belt with this slip velocity in steady sliding, reflected where it is negative: every waveform has g(s + π) = −g(s).
+/// The belt with this slip velocity in steady sliding, reflected where it is negative: tangential dither changes its sign, by
+/// half a period of a waveform with g(s + π) = −g(s), by −g of another one. A burst has no −g.
 fn moving_at(belt: &Belt, slip_velocity: f64) -> Result<Belt, NoOrbit> {
     if slip_velocity == 0.0 {
         return Err(NoOrbit::Invalid { value: slip_velocity });
     }
-    let invalid = |_| NoOrbit::Invalid { value: slip_velocity };
-    let mut moving = belt.with("belt.belt_velocity", slip_velocity.abs()).map_err(invalid)?;
-    for (index, dither) in belt.dithers().iter().enumerate() {
-        if slip_velocity < 0.0 && dither.direction == Direction::Tangential {
-            let path = belt.dither_path(index, "phase");
-            moving = moving.with(&path, dither.phase + PI).map_err(invalid)?;
+    let mirrored = |dither: &Dither| {
+        if slip_velocity > 0.0 || dither.direction == Direction::Normal {
+            return Some(dither.clone());
         }
-    }
-    Ok(moving)
+        if dither.waveform.is_symmetric() {
+            return Some(Dither { phase: dither.phase + PI, ..dither.clone() });
+        }
+        let waveform = dither.waveform.negated()?;
+        Some(Dither { waveform, ..dither.clone() })
+    };
+    let dithers: Option<Vec<Dither>> = belt.dithers().iter().map(mirrored).collect();
+    Belt::new(
+        belt.damping_ratio(),
+        belt.normal_load(),
+        slip_velocity.abs(),
+        belt.friction().clone(),
+        dithers.ok_or(NoOrbit::NoMirror)?,
+    )
+    .map_err(|_| NoOrbit::Invalid { value: slip_velocity })
 }

@@ -215,6 +215,7 @@ pub(super) fn refused(why: NoOrbit) -> Failure {
         | NoOrbit::AtRest
         | NoOrbit::Unsettled(_)
         | NoOrbit::NoLimit
+        | NoOrbit::NoMirror
         | NoOrbit::Invalid { .. } => {
             return Failure::Failed { key: "orbit".to_owned(), why: why.to_string() };
         }
