@@ -65,9 +65,6 @@ class Dither(Table):
     on: int | None
     off: int | None
 
-    waveform_error: float | None = None
-    """Of a waveform that is a function: its largest distance from its samples, over its largest value."""
-
     def __init__(
         self,
         direction: Literal["tangential", "normal"] | None = None,
@@ -87,8 +84,16 @@ class Dither(Table):
         off: int | None = None,
         **unknown: Unknown,
     ) -> None:
-        keys, self.waveform_error = with_wave(given(locals()))
+        keys, distance = with_wave(given(locals()))
         super().__init__(**keys)
+        if distance is not None:
+            self._waveform_error = distance
+
+    @property
+    def waveform_error(self) -> float | None:
+        """Of a waveform that is a function: its largest distance from its samples, over its largest value."""
+        found: float | None = self.__dict__.get("_waveform_error")
+        return found
 
 
 class Initial(Table):
