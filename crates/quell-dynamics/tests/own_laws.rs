@@ -83,9 +83,7 @@ fn a_formula_has_the_averages_and_thresholds_of_the_equivalent_law() {
                 assert!((known.slope - found.slope).abs() < 1e-10 * (1.0 + known.slope.abs()));
             }
             let upper = |law: &Friction| {
-                closed_band(law, 0.005, 1.0, &waveform.clone(), 0.1)
-                    .ok()
-                    .and_then(|band| band.upper)
+                closed_band(law, 0.005, 1.0, &waveform, 0.1).ok().and_then(|band| band.upper)
             };
             let (known, found) = (upper(&built_in), upper(&custom));
             let close = known.zip(found).is_some_and(|(known, found)| (known - found).abs() < 1e-9);

@@ -75,8 +75,7 @@ fn roots_against_closed_forms() {
                             continue;
                         }
                         met += 1;
-                        let band =
-                            closed_band(&dissertation(*kind), zeta, 1.0, &waveform.clone(), alpha);
+                        let band = closed_band(&dissertation(*kind), zeta, 1.0, waveform, alpha);
                         let upper = band.expect("a band").upper.expect("it ends");
                         close(upper, v0, 1e-12);
                         let becomes = if *kind == LawKind::Stribeck {
@@ -124,7 +123,7 @@ fn bands() {
                         vec![dither(Direction::Tangential, waveform.clone(), 10.0 * alpha, 10.0)];
                     let dithered = belt(zeta, 1.0, &law, dithers);
                     let found = unstable_bands(&dithered, AveragingOptions::default()).expect("ok");
-                    let closed = closed_band(&law, zeta, 1.0, &waveform.clone(), alpha);
+                    let closed = closed_band(&law, zeta, 1.0, waveform, alpha);
                     assert_eq!(found.len(), usize::from(closed.is_ok()), "{found:?} {closed:?}");
                     if let (Some(found), Ok(closed)) = (found.first(), closed) {
                         tangential += 1;
@@ -142,7 +141,7 @@ fn bands() {
                         let reach = level(band.lower) * waveform.peak_integral();
                         assert!((band.lower - reach).abs() < 1e-13, "{band:?}");
                         let upper = band.upper.expect("ends");
-                        let same = closed_band(&law, zeta, 1.0, &waveform.clone(), level(upper));
+                        let same = closed_band(&law, zeta, 1.0, waveform, level(upper));
                         close(same.expect("a band").upper.expect("ends"), upper, 1e-12);
                     }
                 }

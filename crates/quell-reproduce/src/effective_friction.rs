@@ -49,7 +49,7 @@ pub(super) fn three(source: &EntrySource) -> Result<Product, Failure> {
     let studies = source.with_waveforms()?;
     for (index, (waveform, study)) in studies.iter().enumerate() {
         let title = format!("({}) {}", letter(index), waveform_name(waveform.clone()));
-        panels.push(panel(source, study, &waveform.clone(), &mut table)?.title(title));
+        panels.push(panel(source, study, waveform, &mut table)?.title(title));
     }
     let law = study.belt().friction().kind();
     let note = match law {

@@ -263,7 +263,7 @@ impl StabilityPlane<'_> {
         };
         for k in 0..=POINTS {
             let alpha = end * f64::from(k) / f64::from(POINTS);
-            match closed_band(self.law(), damping_ratio, load, &self.waveform.clone(), alpha) {
+            match closed_band(self.law(), damping_ratio, load, &self.waveform, alpha) {
                 Ok(band) => {
                     region.lower.push(self.along(alpha, band.lower));
                     // Without an upper edge the band extends beyond the plane.

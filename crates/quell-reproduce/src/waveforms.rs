@@ -35,7 +35,7 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         rows[0].push(
             axes("waveform", "g", "")
                 .title(title)
-                .with(Polyline::pieces(PlotRole::Exact, force(&waveform.clone())))
+                .with(Polyline::pieces(PlotRole::Exact, force(waveform)))
                 .legend(Legend::None),
         );
         let peak = waveform.peak_integral();

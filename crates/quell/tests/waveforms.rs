@@ -7,7 +7,9 @@ use quell::kind::verbs;
 use quell::run::orbit::Wanted;
 use quell::run::{friction, simulate};
 use quell::study::BeltStudy;
-use quell_linear::averaging::{AveragingOptions, Becomes, CrossingKind, critical_amplitudes};
+use quell_linear::averaging::{
+    AveragingOptions, Becomes, CrossingKind, FastResponse, critical_amplitudes,
+};
 use serde_json::Value as Json;
 
 fn reference() -> Json {
@@ -104,6 +106,29 @@ fn a_burst_without_pause_is_its_carrier() {
         let [burst, carrier] =
             ["burst", "carrier"].map(|name| study(case[name].as_str().expect("text")));
         assert_eq!(burst.belt(), carrier.belt());
+    }
+}
+
+/// A sum of one harmonic is a sine of another amplitude and frequency, under both kinds of averaging.
+#[test]
+fn one_harmonic_is_a_sine() {
+    let critical = |keys: &str, ratio: &str, response| {
+        let text = with("tangential", keys).replace("frequency_ratio = 10.0", ratio);
+        let options = AveragingOptions { response, ..AveragingOptions::default() };
+        critical_amplitudes(study(&text).belt(), options).expect("an average")
+    };
+    for response in [FastResponse::Limit, FastResponse::Oscillator] {
+        let half = "waveform = \"fourier\"\nharmonics = [{ order = 2, sine = 0.3, cosine = 0.4 }]";
+        let found = critical(half, "frequency_ratio = 10.0", response);
+        let sine = critical("waveform = \"sine\"", "frequency_ratio = 20.0", response);
+        assert_eq!(found.len(), sine.len());
+        for (found, sine) in found.iter().zip(&sine) {
+            assert!(
+                (found.amplitude / (2.0 * sine.amplitude) - 1.0).abs() < 1e-12,
+                "{found:?} {sine:?}"
+            );
+            assert_eq!(found.crossing, sine.crossing);
+        }
     }
 }
 

@@ -255,6 +255,7 @@ fn reached_in_step(belt: &Belt, period: f64) -> Option<Orbit> {
     let (displacement, velocity) = (belt.steady_sliding(), 0.0);
     let start = Start { time: 0.0, displacement, velocity };
     let orbit = orbit_reached(belt, start).ok()?;
+    // A longer orbit is a whole multiple of this period: the slack only absorbs rounding.
     (orbit.period <= period * (1.0 + 1e-9)).then_some(orbit)
 }
 

@@ -14,7 +14,7 @@
 use quell_model::{Belt, Direction, Dither};
 
 use super::criterion::Criterion;
-use super::dithers::{AveragingOptions, fast_wave};
+use super::dithers::AveragingOptions;
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
 use super::mean_friction::effective;
@@ -66,7 +66,7 @@ pub fn critical_amplitudes(
         return Ok(Vec::new());
     };
     let mut probe = Probe { belt, options, dithers: belt.dithers().to_vec() };
-    let corners = probe.corners(first)?;
+    let corners = probe.corners()?;
     let scale = corners
         .iter()
         .fold(belt.friction().velocity_scale().max(belt.belt_velocity()), |m, c| m.max(*c));
@@ -147,7 +147,7 @@ impl Probe<'_> {
     }
 
     /// Amplitudes at which the largest fast velocity equals the belt velocity.
-    fn corners(&mut self, first: &Dither) -> Result<Vec<f64>, AveragingError> {
+    fn corners(&mut self) -> Result<Vec<f64>, AveragingError> {
         let v = self.belt.belt_velocity();
         if v == 0.0 {
             return Ok(Vec::new());
@@ -155,10 +155,9 @@ impl Probe<'_> {
         // Exact where the fast motion is a single first-order wave.
         let unit = self.motion(1.0)?;
         if let [group] = unit.groups()
-            && let Some((_, amplitude)) = group.single_term()
+            && let Some((wave, amplitude)) = group.single_term()
         {
-            let peak = fast_wave(first, self.options.response)?.peak();
-            return Ok(vec![v / (amplitude.abs() * peak)]);
+            return Ok(vec![v / (amplitude.abs() * wave.peak())]);
         }
         // The fast motion of one dither is proportional to its amplitude: every maximum of it is a corner.
         if let ([group], [_]) = (unit.groups(), self.dithers.as_slice())

@@ -6,7 +6,7 @@ use super::shape::Piece;
 use super::table::WaveTable;
 use super::{Waveform, WaveformError};
 
-/// Most periods of the carrier in one burst and its pause.
+/// Most periods of the carrier in one burst and its pause: every piece is a break of a table, and a longer period only takes longer.
 pub(super) const MOST_CYCLES: u32 = 10_000;
 
 /// Periods of a carrier and a pause. The phase is that of the carrier.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::WaveformError;
 
-/// Most harmonics of a sum, and the highest order.
+/// Most harmonics of a sum, and the highest order: every harmonic is a wave of its own in each step of a run.
 pub(super) const MOST_HARMONICS: usize = 1000;
 
 /// One harmonic: s sin nθ + c cos nθ.
