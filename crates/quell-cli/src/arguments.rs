@@ -9,6 +9,8 @@ use quell::outcome::Outcome;
 use quell::output::Output;
 use quell::picture::{self, EXTENSIONS, PicturePage, PictureWidth};
 use quell::plot::Figure;
+use quell::quantity;
+use quell::run::system::start::duration as duration_of_motion;
 use quell::study::document::Node;
 use quell::{Change, Complaint, Failure, Fault, Origin, Study};
 use serde_json::Value as Json;
@@ -27,6 +29,9 @@ pub(crate) struct StudyArguments {
     /// Replaces the tolerance of [solver]
     #[arg(long, value_name = "ε", allow_hyphen_values = true)]
     tolerance: Option<String>,
+    /// Takes drives, loads and amplitudes that vary in time at this moment
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    at_time: Option<String>,
     /// Prints one JSON object on standard output and nothing else
     #[arg(long)]
     pub(crate) json: bool,
@@ -46,8 +51,25 @@ impl StudyArguments {
             node: Node::from_argument(text, "--tolerance"),
         }));
         let study = complaints.take(Study::read(&self.study, &changes).map_err(belts_alone));
-        complaints.finish(study)
+        let study = complaints.finish(study)?;
+        match &self.at_time {
+            Some(text) => Ok(study.at_time(moment(&study, text)?)?),
+            None => Ok(study),
+        }
     }
+}
+
+/// The time of --at-time.
+fn moment(study: &Study, text: &str) -> Result<f64, Failure> {
+    const OPTION: &str = "--at-time";
+    if study.varies_by().is_none() {
+        let allowed = "left out: nothing varies in time in this study";
+        return Err(Complaint::option(OPTION, text, allowed).into());
+    }
+    Ok(match study.system() {
+        Ok(system) => duration_of_motion(&system, text, OPTION)?,
+        Err(_) => quantity::duration(text, study.scales(), OPTION)?,
+    })
 }
 
 /// Complaints about a study in which --tolerance names no key say that only belts have it.

@@ -14,6 +14,7 @@ use serde_json::Value as Json;
 use crate::verbs::{
     attractor, basins, bifurcation, check, cite, completions, friction, map, modes, new, orbit,
     report, reproduce, resonances, response, schema, simulate, sketch, stability, thresholds,
+    waveforms,
 };
 use crate::{answer, help};
 
@@ -44,6 +45,7 @@ enum Verb {
     Orbit(orbit::Arguments),
     Attractor(attractor::Arguments),
     Thresholds(thresholds::Arguments),
+    Waveforms(waveforms::Arguments),
     Bifurcation(bifurcation::Arguments),
     Basins(basins::Arguments),
     Map(map::Arguments),
@@ -84,6 +86,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Orbit(arguments) => orbit::run(arguments),
         Verb::Attractor(arguments) => attractor::run(arguments),
         Verb::Thresholds(arguments) => thresholds::run(arguments),
+        Verb::Waveforms(arguments) => waveforms::run(arguments),
         Verb::Bifurcation(arguments) => bifurcation::run(arguments),
         Verb::Basins(arguments) => basins::run(arguments),
         Verb::Map(arguments) => map::run(arguments),

@@ -53,10 +53,17 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 ],
             ),
             (
+                "waveforms",
+                &[
+                    "quell waveforms quench.toml",
+                    "quell waveforms quench.toml --plot waveforms.svg",
+                ],
+            ),
+            (
                 "friction",
                 &[
                     "quell friction own-law.toml --at 0,0.05,0.1",
-                    "quell friction measured-law.toml --plot friction.svg",
+                    "quell friction quench.toml --describing 0.1",
                     "quell friction quench.toml --measured --at 0.02,0.05,0.1",
                 ],
             ),

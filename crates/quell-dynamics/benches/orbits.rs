@@ -20,6 +20,7 @@ fn belt(waveform: Waveform, amplitude: f64) -> Belt {
         amplitude,
         frequency_ratio: 10.0,
         phase: 0.0,
+        envelope: None,
     };
     Belt::new(0.005, 1.0, 1.0, friction, vec![dither]).expect("a valid belt")
 }

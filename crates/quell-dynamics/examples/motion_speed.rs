@@ -35,7 +35,7 @@ fn law() -> Friction {
 }
 
 fn sine(amplitude: f64, frequency: f64) -> Wave {
-    Wave { waveform: Waveform::Sine, amplitude, frequency, phase: 0.0 }
+    Wave { waveform: Waveform::Sine, amplitude, frequency, phase: 0.0, envelope: None }
 }
 
 fn contact(tangent: Vec<f64>, velocity: f64) -> Contact {
@@ -47,9 +47,11 @@ fn contact(tangent: Vec<f64>, velocity: f64) -> Contact {
         slope: None,
         normal_load: 1.0,
         normal_stiffness: 0.0,
+        tangential_stiffness: None,
         normal_damping: 0.0,
         surface_velocity: Profile::constant(velocity),
         friction: law(),
+        varying_load: None,
     }
 }
 
@@ -138,6 +140,7 @@ fn main() {
                 amplitude,
                 frequency_ratio: ratio,
                 phase: 0.0,
+                envelope: None,
             };
             let belt = Belt::new(0.005, 1.0, 0.05, law(), vec![dither]).expect("valid");
             own += fastest(|| {

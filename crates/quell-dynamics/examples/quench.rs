@@ -24,6 +24,7 @@ pub(crate) fn answer() -> Result<String, Box<dyn Error>> {
         amplitude: 0.4,
         frequency_ratio: 10.0,
         phase: 0.0,
+        envelope: None,
     };
     let belt =
         Belt::new(0.005, 1.0, 0.05, law, vec![dither]).map_err(|wrong| format!("{wrong:?}"))?;

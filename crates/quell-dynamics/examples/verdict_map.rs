@@ -59,7 +59,13 @@ impl TwoMasses {
         let damping = Matrix::from_fn(2, 2, |i, j| if i == j { 0.02 } else { 0.0 });
         let names = ["x", "y"].map(str::to_owned).to_vec();
         let mass = MassMatrix::dense(Matrix::identity(2));
-        let wave = Wave { waveform: Waveform::Sine, amplitude, frequency: 10.0, phase: 0.0 };
+        let wave = Wave {
+            waveform: Waveform::Sine,
+            amplitude,
+            frequency: 10.0,
+            phase: 0.0,
+            envelope: None,
+        };
         let contact = |place: usize| {
             let (law, values) = &self.laws[place];
             let friction: Friction = law.build(values).expect("valid law");
@@ -71,9 +77,11 @@ impl TwoMasses {
                 slope: None,
                 normal_load: 1.0,
                 normal_stiffness: 0.0,
+                tangential_stiffness: None,
                 normal_damping: 0.0,
                 surface_velocity: Profile::constant(velocity),
                 friction,
+                varying_load: None,
             }
         };
         System {

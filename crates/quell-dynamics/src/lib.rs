@@ -2,15 +2,19 @@
 //!
 //! [`motion`] is that of any system; the other modules have one mass on a moving belt with dither, [`response`] both.
 //!
-//! * [`simulation`]: event-exact trajectories by adaptive Taylor series;
+//! * [`simulation`]: event-exact trajectories by adaptive Taylor series; [`belt_motion`] those of every belt, also one whose drive,
+//!   load or dither varies in time;
 //! * [`orbit`]: periodic responses, their Floquet multipliers, exact thresholds;
 //! * [`attractor`]: where runs settle, rotation numbers, basins;
+//! * [`mean_friction`]: the average of friction with a state of its own, under a prescribed slip;
 //! * [`start`], [`response`]: initial states; the steady response of a run, its spectrum, efficiency and costs.
 
 pub mod attractor;
 mod band;
+pub mod belt_motion;
 mod contraction;
 mod decay;
+pub mod mean_friction;
 pub mod motion;
 pub mod orbit;
 pub mod response;

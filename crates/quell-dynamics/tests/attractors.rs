@@ -103,6 +103,7 @@ fn a_curve_near_a_resonance_is_one_attractor() {
         amplitude: 0.69,
         frequency_ratio: 5.0,
         phase: 0.0,
+        envelope: None,
     };
     let law = LawKind::Decreasing.build(&[0.4, 0.2857, 0.2]).expect("a law");
     let belt = Belt::new(0.2, 1.0, 0.075, law, vec![dither]).expect("a belt");

@@ -36,9 +36,11 @@ fn contact(friction: Friction, speed: f64) -> Contact {
         slope: None,
         normal_load: 1.0,
         normal_stiffness: 0.0,
+        tangential_stiffness: None,
         normal_damping: 0.0,
         surface_velocity: Profile::constant(speed),
         friction,
+        varying_load: None,
     }
 }
 
@@ -49,6 +51,7 @@ fn pad(friction: Friction, damping: f64, speed: f64) -> System {
         normal: Some(vec![0.3, 1.0]),
         slope: Some(vec![0.4, -0.7]),
         normal_stiffness: 0.8,
+        tangential_stiffness: None,
         normal_damping: 0.05,
         ..contact(friction, speed)
     };
@@ -176,7 +179,8 @@ fn a_small_cycle_has_the_amplitude_of_the_coefficient() {
 fn two_masses(friction: Friction, speed: f64, damping: f64, amplitude: f64) -> System {
     let structure =
         structure([1.0, 0.6], [[damping, -0.01], [-0.01, 0.05]], [[1.8, -0.8], [-0.8, 1.3]]);
-    let wave = Wave { waveform: Waveform::Sine, amplitude, frequency: 3.7, phase: 0.0 };
+    let wave =
+        Wave { waveform: Waveform::Sine, amplitude, frequency: 3.7, phase: 0.0, envelope: None };
     let input = Input {
         target: InputTarget::Force(vec![0.0, 1.0]),
         profile: Profile::constant(0.0).with(wave),

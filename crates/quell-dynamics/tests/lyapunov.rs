@@ -17,9 +17,11 @@ fn contact(row: [f64; 2], friction: Friction, speed: f64, load: f64) -> Contact 
         slope: None,
         normal_load: load,
         normal_stiffness: 0.0,
+        tangential_stiffness: None,
         normal_damping: 0.0,
         surface_velocity: Profile::constant(speed),
         friction,
+        varying_load: None,
     }
 }
 
@@ -47,7 +49,13 @@ fn rates(exponents: &[LyapunovExponent]) -> Vec<f64> {
 #[test]
 fn the_sum_of_exponents_in_pure_slip_is_the_trace() {
     let law = LawKind::Coulomb.build(&[0.3, 0.3, 0.05]).expect("valid");
-    let wave = Wave { waveform: Waveform::Sine, amplitude: 0.2, frequency: 3.0, phase: 0.0 };
+    let wave = Wave {
+        waveform: Waveform::Sine,
+        amplitude: 0.2,
+        frequency: 3.0,
+        phase: 0.0,
+        envelope: None,
+    };
     let target = InputTarget::Force(vec![1.0, 0.0]);
     let input = Input { target, profile: Profile::constant(0.0).with(wave) };
     let damping = 0.04;
@@ -101,7 +109,7 @@ fn growth_of_a_difference(
 fn a_chaotic_motion_has_one_exponent_by_two_methods() {
     let law = LawKind::Decreasing.build(&[0.5, 0.2, 0.15]).expect("valid");
     let (amplitude, frequency) = (0.3, 1.7);
-    let wave = Wave { waveform: Waveform::Sine, amplitude, frequency, phase: 0.0 };
+    let wave = Wave { waveform: Waveform::Sine, amplitude, frequency, phase: 0.0, envelope: None };
     let target = InputTarget::Force(vec![1.0, 0.0]);
     let input = Input { target, profile: Profile::constant(0.0).with(wave) };
     let system = blocks(&law, 0.05, 0.02, vec![input]);

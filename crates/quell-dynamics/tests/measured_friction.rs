@@ -164,6 +164,7 @@ fn friction_of_a_waveform_without_symmetry_depends_on_the_direction() {
         amplitude: 300.0,
         frequency_ratio: 3000.0,
         phase: 0.3,
+        envelope: None,
     };
     let law = LawKind::Stribeck.build(&[0.4, 0.2857, 0.2]).expect("a law");
     let of =

@@ -48,7 +48,7 @@ impl Random {
 }
 
 fn wave(waveform: Waveform, amplitude: f64, frequency: f64) -> Profile {
-    Profile::constant(0.0).with(Wave { waveform, amplitude, frequency, phase: 0.4 })
+    Profile::constant(0.0).with(Wave { waveform, amplitude, frequency, phase: 0.4, envelope: None })
 }
 
 /// Two contacts, the first compliant with a modulated load, and two forces.
@@ -65,9 +65,11 @@ fn random_system(random: &mut Random) -> System {
         slope: None,
         normal_load: 1.0,
         normal_stiffness: 0.0,
+        tangential_stiffness: None,
         normal_damping: 0.0,
         surface_velocity: Profile::constant(0.3 * (1.2 + random.number())),
         friction: law(0.6),
+        varying_load: None,
     };
     let mut pad = contact("pad", random);
     (pad.normal, pad.normal_stiffness, pad.normal_damping) = (Some(random.row()), 2.0, 0.05);

@@ -18,9 +18,11 @@ fn contact(name: &str, tangent: Option<Vec<f64>>) -> Contact {
         slope: None,
         normal_load: 1.0,
         normal_stiffness: 0.0,
+        tangential_stiffness: None,
         normal_damping: 0.0,
         surface_velocity: Profile::constant(0.1),
         friction: Friction::Coulomb(Coulomb::constant(0.3)),
+        varying_load: None,
     }
 }
 
@@ -63,7 +65,13 @@ fn a_contact_without_direction_is_refused() {
 
 #[test]
 fn a_prescribed_load_that_vanishes_ends_the_run_there() {
-    let wave = Wave { waveform: Waveform::Sine, amplitude: 1.5, frequency: 2.0, phase: 0.0 };
+    let wave = Wave {
+        waveform: Waveform::Sine,
+        amplitude: 1.5,
+        frequency: 2.0,
+        phase: 0.0,
+        envelope: None,
+    };
     let input = Input {
         target: InputTarget::NormalLoad { contact: 0, reaction: false },
         profile: Profile::default().with(wave),

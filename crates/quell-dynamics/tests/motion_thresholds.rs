@@ -28,11 +28,14 @@ fn two_masses(amplitude: f64, speeds: [f64; 2]) -> System {
         slope: None,
         normal_load: 1.0,
         normal_stiffness: 0.0,
+        tangential_stiffness: None,
         normal_damping: 0.0,
         surface_velocity: Profile::constant(speeds[at]),
         friction: LawKind::Decreasing.build(&[0.4, 0.2, 0.3]).expect("a law"),
+        varying_load: None,
     };
-    let wave = Wave { waveform: Waveform::Sine, amplitude, frequency: 5.0, phase: 0.0 };
+    let wave =
+        Wave { waveform: Waveform::Sine, amplitude, frequency: 5.0, phase: 0.0, envelope: None };
     let input = Input {
         target: InputTarget::Force(vec![1.0, 1.0]),
         profile: Profile::default().with(wave),

@@ -64,6 +64,7 @@ fn random_belts_have_the_same_thresholds_in_wide_and_narrow_windows() {
             amplitude: random(0.05, 3.0),
             frequency_ratio: random(2.5, 14.0),
             phase: 0.0,
+            envelope: None,
         };
         let velocity = 0.01 * random(0.0, 3.9).exp();
         let damping = 1e-3 * random(0.0, 4.6).exp();

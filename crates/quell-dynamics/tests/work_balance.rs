@@ -52,7 +52,9 @@ fn random_belt(random: &mut Random) -> (Belt, Start) {
     let static_coefficient = random.between(0.05, 1.2);
     let minimum = static_coefficient * random.pick(&[0.0, 0.3, 0.7, 0.95, 1.0]);
     let reference = scale * random.decades(0.02, 3.0);
-    let law = random.pick(LawKind::NUMERIC);
+    let laws: Vec<LawKind> =
+        LawKind::NUMERIC.iter().copied().filter(|law| !law.has_state()).collect();
+    let law = random.pick(&laws);
     let values = match law {
         LawKind::Coulomb => vec![minimum, static_coefficient, 0.03 / scale],
         LawKind::StribeckExponential => {
@@ -82,6 +84,7 @@ fn random_belt(random: &mut Random) -> (Belt, Start) {
                 amplitude,
                 frequency_ratio: random.pick(&[1.0, 2.0, 3.3, 10.0, 10.0, 47.0]),
                 phase: random.pick(&[0.0, 0.0, 1.0, -2.0]),
+                envelope: None,
             }
         })
         .collect();

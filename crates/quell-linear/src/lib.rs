@@ -4,6 +4,7 @@
 //! * [`eigenvalues`], [`floquet`]: growth rates with bounds, without and with dither of the friction forces;
 //! * [`criticality`]: whether the vibration beyond a Hopf bifurcation of steady sliding grows from zero, or jumps;
 //! * [`growth`]: growth rate, its error and the verdict that they allow;
+//! * [`linear_cost`]: stroke, velocity and power of a dither on the structure of one mass without friction;
 //! * [`averaging`]: effective friction under fast dither, stability of steady sliding, critical amplitudes, of one mass.
 
 pub mod averaging;
@@ -12,6 +13,7 @@ pub mod eigenvalues;
 pub mod floquet;
 pub mod growth;
 pub mod harmonic;
+pub mod linear_cost;
 pub mod linearised;
 pub mod measured;
 pub mod pure_slip;

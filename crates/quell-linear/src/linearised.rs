@@ -354,9 +354,11 @@ mod tests {
                 slope: None,
                 normal_load: 1.0,
                 normal_stiffness: 4.0 / 3.0,
+                tangential_stiffness: None,
                 normal_damping: 0.0,
                 surface_velocity: Profile::constant(0.05),
                 friction: Friction::Coulomb(quell_model::Coulomb::constant(coefficient)),
+                varying_load: None,
             };
             let system =
                 System { structure: structure.into(), contacts: vec![contact], inputs: Vec::new() };

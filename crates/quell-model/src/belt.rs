@@ -7,9 +7,9 @@ use crate::dither::{Direction, Dither};
 use crate::friction::{Friction, Surroundings};
 use crate::parameter::{
     BELT_VELOCITY, DAMPING_RATIO, DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE,
-    NORMAL_LOAD, Parameter, indexed, split_index,
+    NORMAL_LOAD, Parameter, TANGENTIAL_STIFFNESS, indexed, split_index,
 };
-use crate::profile::{Profile, Wave};
+use crate::profile::{Knots, Profile};
 use crate::system::{Contact, Input, InputTarget, MassMatrix, Mechanical, System};
 use crate::units::Scales;
 use crate::{Invalid, InvalidValues};
@@ -27,6 +27,12 @@ pub struct Belt {
     belt_velocity: f64,
     friction: Friction,
     dithers: Vec<Dither>,
+    /// k_t/k of an elastic slider.
+    tangential_stiffness: Option<f64>,
+    /// Velocity of the belt over time, if it varies.
+    drive: Option<Profile>,
+    /// Normal load over time, if it varies.
+    load: Option<Profile>,
     /// Mass and stiffness, in a study in SI.
     scales: Option<Scales>,
 }
@@ -55,14 +61,144 @@ impl Belt {
         for (index, dither) in dithers.iter().enumerate() {
             complaints.extend(dither.complaints(index, dithers.len()));
         }
-        let belt =
-            Self { damping_ratio, normal_load, belt_velocity, friction, dithers, scales: None };
+        let belt = Self {
+            damping_ratio,
+            normal_load,
+            belt_velocity,
+            friction,
+            dithers,
+            tangential_stiffness: None,
+            drive: None,
+            load: None,
+            scales: None,
+        };
         complaints.extend(belt.separation());
         if !complaints.is_empty() {
             return Err(InvalidValues::of(complaints));
         }
         let friction = belt.friction.placed(&belt.surroundings())?;
         Ok(Self { friction, ..belt })
+    }
+
+    /// The same belt with an elastic slider of the tangential stiffness k_t/k > 0 at the contact
+    /// ([`Contact::tangential_stiffness`]); `None` for a rigid contact.
+    ///
+    /// # Errors
+    /// A stiffness that is not finite and positive; a law with a state of its own, whose bristles are elastic themselves.
+    pub fn with_tangential_stiffness(self, stiffness: Option<f64>) -> Result<Self, InvalidValues> {
+        if let Some(stiffness) = stiffness {
+            TANGENTIAL_STIFFNESS.check(stiffness).map_err(InvalidValues::from)?;
+            if self.friction.bristles().is_some() {
+                let allowed = "none with a law whose bristles are elastic themselves";
+                return Err(Invalid::new(TANGENTIAL_STIFFNESS.path, stiffness, allowed).into());
+            }
+        }
+        Ok(Self { tangential_stiffness: stiffness, ..self })
+    }
+
+    /// Tangential stiffness k_t/k of an elastic slider; `None` where the contact is rigid.
+    pub fn tangential_stiffness(&self) -> Option<f64> {
+        self.tangential_stiffness
+    }
+
+    /// Whether friction has a state of its own: an elastic slider, or a law with one ([`Friction::bristles`]).
+    pub fn has_contact_state(&self) -> bool {
+        self.tangential_stiffness.is_some() || self.friction.bristles().is_some()
+    }
+
+    /// Why the engine for belts cannot simulate it; `None` if it can. The engine for systems simulates contacts with states.
+    pub fn unsimulated(&self) -> Option<&'static str> {
+        if self.has_contact_state() {
+            return Some(
+                "friction has a state of its own (an elastic slider, or the law \"lugre\"), which `simulate` and `friction` take \
+                 into account, but no other verb of a belt",
+            );
+        }
+        self.friction.unsimulated()
+    }
+
+    /// The same belt driven at a velocity that varies in time, in place of its constant one. The belt may stand still and turn round.
+    /// Its belt velocity, which scales what is drawn and proven, becomes the largest speed of the drive.
+    ///
+    /// # Errors
+    /// A drive that jumps, or a law that has no value at the speeds of the drive.
+    pub fn driven(self, drive: Profile) -> Result<Self, InvalidValues> {
+        if let Some(place) = drive.knots().and_then(Knots::first_jump) {
+            let time = drive.knots().map_or(0.0, |knots| knots.times()[place]);
+            let allowed = "later than the time before it: the velocity of the belt cannot jump, no force could make a sticking mass follow";
+            return Err(Invalid::new(format!("belt.drive.time[{place}]"), time, allowed).into());
+        }
+        let (least, most) = drive.bounds();
+        let belt_velocity = least.abs().max(most.abs());
+        let belt = Self { belt_velocity, drive: Some(drive), ..self };
+        let friction = belt.friction.placed(&belt.surroundings())?;
+        Ok(Self { friction, ..belt })
+    }
+
+    /// The same belt under a normal load that varies in time, in place of its constant one. Its normal load becomes that at τ = 0.
+    ///
+    /// # Errors
+    /// A load that reaches zero together with normal dither.
+    pub fn loaded(self, load: Profile) -> Result<Self, InvalidValues> {
+        let (least, _) = load.bounds();
+        if least <= 0.0 {
+            let allowed = "such that the load stays greater than 0: a belt without normal load has no contact";
+            return Err(Invalid::new("belt.load", least, allowed).into());
+        }
+        let dither = self.total_amplitude(Direction::Normal);
+        if dither > least {
+            let index = self.dithers.iter().position(|one| one.direction == Direction::Normal);
+            let allowed = format!(
+                "at most the least normal load {least}: more normal dither would pull the contact apart, which this model \
+                 does not describe"
+            );
+            let key = self.dither_path(index.unwrap_or(0), "amplitude");
+            return Err(Invalid::new(key, dither, allowed).into());
+        }
+        let belt = Self { normal_load: load.value(0.0), load: Some(load), ..self };
+        let friction = belt.friction.placed(&belt.surroundings())?;
+        Ok(Self { friction, ..belt })
+    }
+
+    /// Velocity of the belt over time, if it varies.
+    pub fn drive(&self) -> Option<&Profile> {
+        self.drive.as_ref()
+    }
+
+    /// Velocity of the belt at the time τ.
+    pub fn belt_velocity_at(&self, time: f64) -> f64 {
+        self.drive.as_ref().map_or(self.belt_velocity, |drive| drive.value(time))
+    }
+
+    /// Normal load over time, if it varies; without dither.
+    pub fn load(&self) -> Option<&Profile> {
+        self.load.as_ref()
+    }
+
+    /// Whether drive, load and amplitudes are constant. Averages, orbits and thresholds are those of a steady belt.
+    pub fn is_steady(&self) -> bool {
+        let full = |dither: &Dither| dither.envelope.is_none();
+        self.drive.is_none() && self.load.is_none() && self.dithers.iter().all(full)
+    }
+
+    /// The steady belt with the drive, load and amplitudes of a time.
+    ///
+    /// # Errors
+    /// A belt that stands still or moves backwards then, or more normal dither than load.
+    pub fn steady_at(&self, time: f64) -> Result<Self, InvalidValues> {
+        let at = |profile: &Option<Profile>, own: f64| {
+            profile.as_ref().map_or(own, |profile| profile.value(time))
+        };
+        let dithers = self.dithers.iter().map(|dither| {
+            let amplitude = dither.amplitude * dither.wave().share(time);
+            Dither { amplitude, envelope: None, ..dither.clone() }
+        });
+        let (load, velocity) =
+            (at(&self.load, self.normal_load), at(&self.drive, self.belt_velocity));
+        let friction = self.friction.clone();
+        Self::new(self.damping_ratio, load, velocity, friction, dithers.collect())?
+            .with_tangential_stiffness(self.tangential_stiffness)
+            .map(|belt| belt.in_si(self.scales))
     }
 
     /// The same belt with mass and stiffness, so that its numbers have values in SI.
@@ -188,7 +324,8 @@ impl Belt {
         self.dithers_along(direction)
             .map(|dither| {
                 let phase = f64::mul_add(dither.frequency_ratio, time, dither.phase);
-                dither.amplitude * dither.waveform.value(phase)
+                let whole = dither.amplitude * dither.waveform.value(phase);
+                dither.envelope.as_ref().map_or(whole, |envelope| envelope.value(time) * whole)
             })
             .sum()
     }
@@ -196,7 +333,8 @@ impl Belt {
     /// N = F + Σ D_N g_N(R_Nτ + φ) at the time τ.
     #[inline]
     pub fn normal_load_at(&self, time: f64) -> f64 {
-        self.normal_load + self.dither_force(Direction::Normal, time)
+        let steady = self.load.as_ref().map_or(self.normal_load, |load| load.value(time));
+        steady + self.dither_force(Direction::Normal, time)
     }
 
     /// 2ζ + μ′N: the rate at which areas of nearby states shrink in slip, for a slope of friction and a normal load.
@@ -211,7 +349,10 @@ impl Belt {
         match self.number(path)? {
             BeltNumber::DampingRatio => Some(self.damping_ratio),
             BeltNumber::NormalLoad => Some(self.normal_load),
-            BeltNumber::BeltVelocity => Some(self.belt_velocity),
+            BeltNumber::BeltVelocity => {
+                Some(self.drive.as_ref().map_or(self.belt_velocity, Profile::mean))
+            }
+            BeltNumber::TangentialStiffness => self.tangential_stiffness,
             BeltNumber::Law => self.friction.get(path),
             BeltNumber::Dither(index, parameter) => {
                 let dither = self.dithers.get(index)?;
@@ -231,6 +372,7 @@ impl Belt {
             BeltNumber::DampingRatio => Some(DAMPING_RATIO),
             BeltNumber::NormalLoad => Some(NORMAL_LOAD),
             BeltNumber::BeltVelocity => Some(BELT_VELOCITY),
+            BeltNumber::TangentialStiffness => Some(TANGENTIAL_STIFFNESS),
             BeltNumber::Law => {
                 let kind = self.friction.kind();
                 let mut known = kind.parameters().iter().chain(kind.options());
@@ -252,7 +394,11 @@ impl Belt {
         match number {
             BeltNumber::DampingRatio => next.damping_ratio = value,
             BeltNumber::NormalLoad => next.normal_load = value,
-            BeltNumber::BeltVelocity => next.belt_velocity = value,
+            BeltNumber::BeltVelocity => {
+                next.belt_velocity = value;
+                next.drive = next.drive.map(|drive| drive.about(value));
+            }
+            BeltNumber::TangentialStiffness => next.tangential_stiffness = Some(value),
             BeltNumber::Law => next.friction = self.friction.with(path, value)?,
             BeltNumber::Dither(index, parameter) => {
                 let dither = &mut next.dithers[index];
@@ -263,14 +409,24 @@ impl Belt {
                 }
             }
         }
-        Self::new(
+        let (drive, load) = (next.drive, next.load);
+        let belt = Self::new(
             next.damping_ratio,
             next.normal_load,
             next.belt_velocity,
             next.friction,
             next.dithers,
-        )
-        .map(|belt| belt.in_si(self.scales))
+        )?;
+        let belt = match drive {
+            Some(drive) => belt.driven(drive)?,
+            None => belt,
+        };
+        let belt = match load {
+            Some(load) => belt.loaded(load)?,
+            None => belt,
+        };
+        let belt = belt.with_tangential_stiffness(next.tangential_stiffness)?;
+        Ok(belt.in_si(self.scales))
     }
 
     /// Path of a parameter of dither `index`, as the study file names it.
@@ -282,11 +438,16 @@ impl Belt {
         if path == DAMPING_RATIO.path {
             return Some(BeltNumber::DampingRatio);
         }
-        if path == NORMAL_LOAD.path {
+        if path == NORMAL_LOAD.path && self.load.is_none() {
             return Some(BeltNumber::NormalLoad);
         }
-        if path == BELT_VELOCITY.path {
+        // A drive over knots has no velocity of its own; one that oscillates does so about it.
+        let has_velocity = self.drive.as_ref().is_none_or(|drive| drive.knots().is_none());
+        if path == BELT_VELOCITY.path && has_velocity {
             return Some(BeltNumber::BeltVelocity);
+        }
+        if path == TANGENTIAL_STIFFNESS.path {
+            return self.tangential_stiffness.map(|_| BeltNumber::TangentialStiffness);
         }
         if self.friction.get(path).is_some() {
             return Some(BeltNumber::Law);
@@ -332,22 +493,22 @@ impl Parametrisation for Belt {
             normal: None,
             slope: None,
             normal_load: self.normal_load,
+            varying_load: self.load.clone(),
             normal_stiffness: 0.0,
             normal_damping: 0.0,
-            surface_velocity: Profile::constant(self.belt_velocity),
+            surface_velocity: self
+                .drive
+                .clone()
+                .unwrap_or_else(|| Profile::constant(self.belt_velocity)),
             friction: self.friction.clone(),
+            tangential_stiffness: self.tangential_stiffness,
         };
         let inputs = self.dithers.iter().map(|dither| Input {
             target: match dither.direction {
                 Direction::Tangential => InputTarget::Force(vec![1.0]),
                 Direction::Normal => InputTarget::NormalLoad { contact: 0, reaction: false },
             },
-            profile: Profile::default().with(Wave {
-                waveform: dither.waveform.clone(),
-                amplitude: dither.amplitude,
-                frequency: dither.frequency_ratio,
-                phase: dither.phase,
-            }),
+            profile: Profile::default().with(dither.wave()),
         });
         System { structure: structure.into(), contacts: vec![contact], inputs: inputs.collect() }
     }
@@ -358,6 +519,7 @@ enum BeltNumber {
     DampingRatio,
     NormalLoad,
     BeltVelocity,
+    TangentialStiffness,
     Law,
     Dither(usize, Parameter),
 }
@@ -373,7 +535,14 @@ mod tests {
     }
 
     fn dither(direction: Direction, amplitude: f64) -> Dither {
-        Dither { direction, waveform: Waveform::Sine, amplitude, frequency_ratio: 10.0, phase: 0.0 }
+        Dither {
+            direction,
+            waveform: Waveform::Sine,
+            amplitude,
+            frequency_ratio: 10.0,
+            phase: 0.0,
+            envelope: None,
+        }
     }
 
     #[test]

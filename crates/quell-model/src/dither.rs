@@ -4,6 +4,7 @@ use crate::Invalid;
 use crate::parameter::{
     DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE, indexed, split_index,
 };
+use crate::profile::{Knots, Wave};
 use crate::waveform::{Harmonic, Waveform};
 
 /// Direction of a dither force.
@@ -46,9 +47,22 @@ pub struct Dither {
     pub frequency_ratio: f64,
     /// Phase φ at τ = 0, radians.
     pub phase: f64,
+    /// Share of the amplitude over time; `None` for the whole amplitude at all times.
+    pub envelope: Option<Knots>,
 }
 
 impl Dither {
+    /// The force as a wave of a profile.
+    pub fn wave(&self) -> Wave {
+        Wave {
+            waveform: self.waveform.clone(),
+            amplitude: self.amplitude,
+            frequency: self.frequency_ratio,
+            phase: self.phase,
+            envelope: self.envelope.clone(),
+        }
+    }
+
     /// α = D/R, the amplitude of the fast velocity in the limit of high frequency (2.21).
     pub fn amplitude_ratio(&self) -> f64 {
         self.amplitude / self.frequency_ratio
@@ -75,6 +89,7 @@ impl Dither {
                 amplitude: self.amplitude * harmonic.amplitude(),
                 frequency_ratio: order * self.frequency_ratio,
                 phase: order.mul_add(self.phase, harmonic.phase()),
+                envelope: self.envelope.clone(),
             }
         };
         harmonics.iter().map(sine).collect()

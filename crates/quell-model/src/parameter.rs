@@ -182,6 +182,17 @@ pub const BELT_VELOCITY: Parameter = Parameter {
     si: &[si("belt_velocity_m_per_s", "m/s").named("V₀", "belt velocity")],
 };
 
+/// Tangential stiffness of the contact.
+pub const TANGENTIAL_STIFFNESS: Parameter = Parameter {
+    path: "belt.tangential_stiffness",
+    symbol: "k_t",
+    about: "tangential stiffness of the contact over k: it adheres elastically before it slips",
+    quantity: Quantity::Stiffness,
+    bounds: Bounds::POSITIVE,
+    si: &[si("tangential_stiffness_n_per_m", "N/m")
+        .named("k_t", "tangential stiffness of the contact")],
+};
+
 /// Initial displacement.
 pub const INITIAL_DISPLACEMENT: Parameter = Parameter {
     path: "belt.initial.displacement",
@@ -250,6 +261,26 @@ pub const VISCOUS: Parameter = Parameter {
     quantity: Quantity::PerVelocity,
     bounds: Bounds::NOT_NEGATIVE,
     si: &[si("viscous_s_per_m", "s/m")],
+};
+
+/// Stiffness of the bristles of the LuGre law.
+pub const BRISTLE_STIFFNESS: Parameter = Parameter {
+    path: "friction.bristle_stiffness",
+    symbol: "σ₀",
+    about: "stiffness of the bristles: friction is N(σ₀z + …), z their mean deflection",
+    quantity: Quantity::PerLength,
+    bounds: Bounds::POSITIVE,
+    si: &[si("bristle_stiffness_per_m", "1/m")],
+};
+
+/// Damping of the bristles of the LuGre law.
+pub const BRISTLE_DAMPING: Parameter = Parameter {
+    path: "friction.bristle_damping",
+    symbol: "σ₁",
+    about: "damping of the bristles: friction is N(… + σ₁ż + …)",
+    quantity: Quantity::PerVelocity,
+    bounds: Bounds::NOT_NEGATIVE,
+    si: &[si("bristle_damping_s_per_m", "s/m")],
 };
 
 /// Exponent of the Stribeck fall.
@@ -396,6 +427,7 @@ pub const BELT: &[Parameter] = &[
     DAMPING_RATIO,
     NORMAL_LOAD,
     BELT_VELOCITY,
+    TANGENTIAL_STIFFNESS,
     INITIAL_DISPLACEMENT,
     INITIAL_VELOCITY,
     DITHER_AMPLITUDE,

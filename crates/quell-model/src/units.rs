@@ -32,6 +32,10 @@ pub enum Quantity {
     Power,
     /// Per velocity/ω₀; in SI per m/s.
     PerVelocity,
+    /// Per length; in SI per metre.
+    PerLength,
+    /// A stiffness over k; in SI N/m.
+    Stiffness,
     /// Mass over the plate's; in SI kilograms.
     LoadMass,
     /// Damper over M_pω_ref; in SI N·s/m.
@@ -66,6 +70,8 @@ impl Quantity {
             Self::Time => "1/ω₀",
             Self::Power => "length² (power/(kω₀))",
             Self::PerVelocity => "1/length (per velocity/ω₀)",
+            Self::PerLength => "1/length",
+            Self::Stiffness => "1 (stiffness/k)",
             Self::LoadMass => "1 (m/M_p)",
             Self::LoadDamping => "1 (c/(M_pω_ref))",
             Self::LoadStiffness => "1 (k/(M_pω_ref²))",
@@ -109,8 +115,9 @@ impl Quantity {
             Self::Time => ("s", "s"),
             Self::Power => ("W", "w"),
             Self::PerVelocity => ("s/m", "s_per_m"),
+            Self::PerLength => ("1/m", "per_m"),
             Self::LoadMass => ("kg", "kg"),
-            Self::LoadStiffness => ("N/m", "n_per_m"),
+            Self::Stiffness | Self::LoadStiffness => ("N/m", "n_per_m"),
         })
     }
 }
@@ -181,6 +188,7 @@ impl Scales {
             | Quantity::Count
             | Quantity::Angle
             | Quantity::Displacement
+            | Quantity::PerLength
             | Quantity::Modulus
             | Quantity::Density
             | Quantity::Length
@@ -188,9 +196,10 @@ impl Scales {
             | Quantity::Degrees => 1.0,
             Quantity::DampingRatio => 2.0 * self.mass_kg * omega,
             // Stiffness and friction of a load: a force over a length of 1 m.
-            Quantity::Force | Quantity::LoadStiffness | Quantity::LoadFriction => {
-                self.stiffness_n_per_m
-            }
+            Quantity::Force
+            | Quantity::Stiffness
+            | Quantity::LoadStiffness
+            | Quantity::LoadFriction => self.stiffness_n_per_m,
             Quantity::Velocity => omega,
             Quantity::FrequencyRatio => omega / std::f64::consts::TAU,
             Quantity::Time | Quantity::PerVelocity => 1.0 / omega,
@@ -242,12 +251,15 @@ impl DiscScales {
             | Quantity::Count
             | Quantity::Angle
             | Quantity::Displacement
+            | Quantity::PerLength
             | Quantity::Modulus
             | Quantity::Density
             | Quantity::Length
             | Quantity::Frequency
             | Quantity::Degrees => Some(1.0),
-            Quantity::DampingRatio | Quantity::Force | Quantity::Power => None,
+            Quantity::DampingRatio | Quantity::Force | Quantity::Stiffness | Quantity::Power => {
+                None
+            }
         }
     }
 }

@@ -110,7 +110,14 @@ fn a_formula_is_proven_for_its_belt() {
     };
     let belt = |velocity, amplitude, maximum| {
         let (waveform, direction) = (Waveform::Square, Direction::Tangential);
-        let dither = Dither { direction, waveform, amplitude, frequency_ratio: 10.0, phase: 0.0 };
+        let dither = Dither {
+            direction,
+            waveform,
+            amplitude,
+            frequency_ratio: 10.0,
+            phase: 0.0,
+            envelope: None,
+        };
         Belt::new(0.01, 1.0, velocity, law(maximum), vec![dither])
     };
     let undithered = belt(0.1, 0.0, None).expect("proven up to 1");

@@ -19,7 +19,7 @@ use crate::verbs::map::Asked;
 use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
 use crate::verbs::{
     attractor, basins, bifurcation, check, cite, friction, map, modes, orbit, report, resonances,
-    response, simulate, sketch, stability, thresholds,
+    response, simulate, sketch, stability, thresholds, waveforms, window,
 };
 use crate::{call, convert, errors};
 
@@ -202,6 +202,12 @@ impl NativeStudy {
         call::run(py, move || friction::run(&study, at, &texts, measured))
     }
 
+    /// `largest`: the largest velocity amplitude of the slow sinusoid.
+    fn describing(&self, py: Python<'_>, largest: String) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || friction::describing(&study, &largest))
+    }
+
     /// `exact`: whether Floquet exponents of a dithered system decide.
     fn stability(&self, py: Python<'_>, exact: bool) -> PyResult<NativeAnswer> {
         let study = self.study();
@@ -242,6 +248,19 @@ impl NativeStudy {
     /// Every key and value after the changes, as nested dicts and lists, with title and axes.
     fn document(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         convert::to_python(py, &self.inner.document())
+    }
+
+    /// The document of the steady study of a moment.
+    fn document_at(&self, py: Python<'_>, time: String) -> PyResult<Py<PyAny>> {
+        let study = self.study();
+        let steady = call::here(py, move || window::at_time(&study, &time))?;
+        convert::to_python(py, &steady.document())
+    }
+
+    /// What a run does between two of its times.
+    fn window(&self, py: Python<'_>, start: String, end: String) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || window::run(&study, (&start, &end)))
     }
 
     /// The folder in which the files that the study names are searched.
@@ -434,6 +453,11 @@ impl NativeStudy {
             (None, None) => StartLayout::default(),
         };
         basins::run_in_plane(py, self.study(), (plane, layout, over), threads, progress)
+    }
+
+    fn waveforms(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || waveforms::run(&study))
     }
 
     fn modes(&self, py: Python<'_>) -> PyResult<NativeAnswer> {

@@ -116,6 +116,17 @@ def disc_in_si() -> quell.Disc:
 
 
 @cache
+def belt_that_stops() -> quell.Belt:
+    """A belt that slows down, with dither that is switched on."""
+    return belt().replace(
+        belt_velocity=None,
+        drive=quell.Profile([0.0, 50.0], velocity=[0.2, 0.05]),
+        dither=quell.Dither(
+            "tangential", "sine", amplitude=2.0, frequency_ratio=10.0, envelope=quell.Profile([20.0, 25.0], share=[0.0, 1.0])
+        ),
+    )
+
+
 def belt_with_two_responses() -> quell.Belt:
     """A belt with a decreasing law, on which squeal and a quiet response exist together."""
     return quell.Belt(
@@ -138,6 +149,11 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "friction": lambda: belt().friction(),
     "friction in SI": lambda: belt_in_si().friction(),
     "friction measured": lambda: belt().friction(at=[0.02, 0.1], measured=True),
+    "describing function": lambda: belt().friction(describing=0.3),
+    "describing function in SI": lambda: belt_in_si().friction(describing=3.0),
+    "waveforms": lambda: belt().waveforms(),
+    "waveforms of a system": lambda: study("drive in SI").waveforms(),
+    "waveforms in SI": lambda: belt_in_si().waveforms(),
     "stability": lambda: belt().stability(),
     "stability in SI": lambda: belt_in_si().stability(),
     "stability without dither": lambda: study("does-it-squeal").stability(),
@@ -155,6 +171,9 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "simulate a disc in SI": lambda: disc_in_si().simulate("5ms"),
     "simulate a system": lambda: study("drive in SI").simulate(20),
     "response": lambda: belt().response(),
+    "a manoeuvre": lambda: belt_that_stops().simulate(60.0, events=True, samples=True),
+    "a window": lambda: belt_that_stops().response(window=(10.0, 40.0)),
+    "a window of a system": lambda: study("drive in SI").response(window=(1, 2)),
     "response in SI": lambda: belt_in_si().response(),
     "response of a system": lambda: study("drive in SI").response(settle=50, record=50),
     "orbit": lambda: belt().orbit(),

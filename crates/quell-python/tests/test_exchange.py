@@ -153,7 +153,7 @@ def test_events_are_a_frame() -> None:
     run = gallery.result("simulate")
     assert isinstance(run, quell.results.Simulation)
     frame = run.events_frame()
-    assert list(frame.columns) == ["time", "contact", "kind", "slip_sign", "displacement"] and len(frame) == run.event_count
+    assert list(frame.columns) == ["time", "contact", "kind", "slip_sign", "displacement", "velocity"] and len(frame) == run.event_count
     assert frame["time"].tolist() == [it["time"] for it in run.events]
     in_si = gallery.result("simulate in SI")
     assert isinstance(in_si, quell.results.Simulation)

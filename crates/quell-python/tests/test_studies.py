@@ -222,10 +222,10 @@ def keys(table: str) -> set[str]:
         (
             quell.Belt,
             "belt",
-            {"friction", "dither", "initial", "solver", "axes", "title"} | keys("response"),
+            {"friction", "dither", "initial", "drive", "load", "solver", "axes", "title"} | keys("response"),
         ),
         (quell.Initial, "belt.initial", set()),
-        (quell.Dither, "dither", set()),
+        (quell.Dither, "dither", {"envelope"}),
         (quell.Solver, "solver", set()),
         (quell.Disc, "disc", {"friction", "dither", "mode", "load", "axes", "title"}),
         (quell.Mode, "disc.mode", set()),

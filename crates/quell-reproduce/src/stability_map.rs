@@ -321,6 +321,7 @@ impl StabilityPlane<'_> {
                 amplitude: alpha * ratio,
                 frequency_ratio: ratio,
                 phase: 0.0,
+                envelope: None,
             };
             let belt = Belt::new(damping_ratio, load, 1.0, self.law().clone(), vec![dither])
                 .map_err(|_| failed(self.source.name, &"a belt of the map is not valid"))?;

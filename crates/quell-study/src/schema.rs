@@ -4,6 +4,7 @@
 //! in SI. Relations between values (μ_m ≤ μ_s, ΣD_N ≤ F) are beyond a schema; `quell check`
 //! judges them.
 
+mod course;
 mod system;
 mod waveform;
 
@@ -11,7 +12,7 @@ use quell_model::LawKind;
 use quell_model::friction::samples::{FEWEST, MOST_TERMS};
 use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
 use quell_model::parameter::{
-    Bounds, COEFFICIENT, DITHER_FREQUENCY_RATIO, MASS, NORMAL_LOAD, Parameter,
+    BELT_VELOCITY, Bounds, COEFFICIENT, DITHER_FREQUENCY_RATIO, MASS, NORMAL_LOAD, Parameter,
 };
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
@@ -43,9 +44,16 @@ impl UnitSystem {
 pub fn schema() -> Json {
     let mut definitions = Map::new();
     for system in [UnitSystem::Scaled, UnitSystem::Si] {
-        for section in
-            [Section::Belt, Section::Initial, Section::Dither, Section::Solver, Section::Response]
-        {
+        for section in [
+            Section::Belt,
+            Section::Initial,
+            Section::Drive,
+            Section::Load,
+            Section::Dither,
+            Section::Envelope,
+            Section::Solver,
+            Section::Response,
+        ] {
             definitions.insert(name(section, system), table(section, system));
         }
         definitions.insert(name(Section::Friction, system), friction(system));
@@ -73,6 +81,9 @@ fn name(section: Section, system: UnitSystem) -> String {
     let table = match section {
         Section::Root => "study",
         Section::Initial => "initial",
+        Section::Drive => "drive",
+        Section::Load => "load",
+        Section::Envelope => "envelope",
         _ => section.path(),
     };
     format!("{table}_{}", system.suffix())
@@ -115,7 +126,8 @@ fn root(system: UnitSystem) -> Json {
             |table: &str, key: &str| json!({ "properties": { table: { "required": [key] } } });
         let load = NORMAL_LOAD.si.first().map_or(NORMAL_LOAD.key(), |twin| twin.key);
         // Friction in newtons may stand for the normal force.
-        whole["anyOf"] = json!([needs("belt", load), needs("friction", FORCE)]);
+        whole["anyOf"] =
+            json!([needs("belt", load), needs("belt", "load"), needs("friction", FORCE)]);
     }
     whole
 }
@@ -217,18 +229,37 @@ fn table(section: Section, system: UnitSystem) -> Json {
         }
     }
     if section == Section::Belt {
-        properties.insert("initial".into(), json!({ "$ref": reference(Section::Initial, system) }));
+        for (key, inner) in
+            [("initial", Section::Initial), ("drive", Section::Drive), ("load", Section::Load)]
+        {
+            properties.insert(key.into(), json!({ "$ref": reference(inner, system) }));
+        }
+    }
+    if section == Section::Dither {
+        properties
+            .insert("envelope".into(), json!({ "$ref": reference(Section::Envelope, system) }));
+    }
+    // A drive or a load over time may stand for the constant one, or be added to it.
+    let mut over_time = Vec::new();
+    for (path, table) in [(BELT_VELOCITY.path, "drive"), (NORMAL_LOAD.path, "load")] {
+        if let Some(place) = either.iter().position(|(known, _)| *known == path) {
+            let (_, mut keys) = either.remove(place);
+            keys.push(table);
+            over_time.push(keys);
+        }
     }
     let (single, several): (Vec<_>, Vec<_>) =
         either.into_iter().map(|(_, keys)| keys).partition(|keys| keys.len() == 1);
     required.extend(single.concat());
     let mut object = object(section, &properties, &required);
-    let one = |keys: Vec<&str>| {
-        let each: Vec<Json> = keys.iter().map(|key| json!({ "required": [key] })).collect();
-        json!({ "oneOf": each })
+    let each = |keys: Vec<&str>| -> Vec<Json> {
+        keys.iter().map(|key| json!({ "required": [key] })).collect()
     };
-    if !several.is_empty() {
-        object["allOf"] = several.into_iter().map(one).collect::<Vec<_>>().into();
+    let one = several.into_iter().map(|keys| json!({ "oneOf": each(keys) }));
+    let any = over_time.into_iter().map(|keys| json!({ "anyOf": each(keys) }));
+    let relations: Vec<Json> = one.chain(any).collect();
+    if !relations.is_empty() {
+        object["allOf"] = relations.into();
     }
     if section == Section::Response {
         object["not"] = json!({ "required": ["band", "band_hz"] });
@@ -380,13 +411,14 @@ fn belongs(key: &Key, system: UnitSystem) -> bool {
         Role::Twin(..) | Role::Scale(_) | Role::FrictionForce(..) => system == UnitSystem::Si,
         Role::Speeds { si } => si == (system == UnitSystem::Si),
         Role::Band { hertz } => !hertz || system == UnitSystem::Si,
+        Role::Course(course) => course.si().is_none_or(|si| si == (system == UnitSystem::Si)),
         _ => true,
     }
 }
 
 /// Whether a parameter has to be given.
 fn needed(parameter: Parameter) -> bool {
-    let optional = ["belt.initial", "solver", "dither.phase"];
+    let optional = ["belt.initial", "belt.tangential_stiffness", "solver", "dither.phase"];
     !optional.iter().any(|path| parameter.path.starts_with(path))
 }
 
@@ -404,6 +436,7 @@ fn property(key: &Key) -> Json {
         Role::Scale(scale) => bounded(scale.bounds, Quantity::Ratio),
         Role::Choice(choice) => json!({ "enum": choice.names() }),
         Role::Wave(wave) => waveform::property(wave),
+        Role::Course(course) => course::property(course, key.section.course()),
         Role::Text => json!({ "type": "string" }),
         Role::Schema => json!({ "const": SCHEMA_VERSION }),
         Role::Choices(choice) => {

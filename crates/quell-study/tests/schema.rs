@@ -119,6 +119,8 @@ fn schema_and_reader_agree_on_systems() {
     assert_eq!(judged(&normal_load), (false, false));
 }
 
+const LUGRE: &str = "law = 'lugre'\ncoefficient = 0.3\nbristle_stiffness = 100\nstatic_coefficient = 0.4\nreference_velocity = 0.1";
+
 #[test]
 fn schema_and_reader_agree() {
     let changed = |text: &str, from: &str, to: &str| {
@@ -147,6 +149,20 @@ fn schema_and_reader_agree() {
             SCALED,
             "law = 'stribeck-exponential'\ncoefficient = 0.3\nstatic_coefficient = 0.4\nreference_velocity = 1",
         ),
+        law(SCALED, LUGRE),
+        law(SCALED, &format!("{LUGRE}\nbristle_damping = 2\nviscous = 0.1")),
+        law(
+            SI,
+            &LUGRE
+                .replace("bristle_stiffness", "bristle_stiffness_per_m")
+                .replace("velocity", "velocity_m_per_s"),
+        ),
+        changed(SCALED, "normal_load = 1\n", "normal_load = 1\ntangential_stiffness = 20\n"),
+        changed(
+            SI,
+            "normal_force_n = 1\n",
+            "normal_force_n = 1\ntangential_stiffness_n_per_m = 20\n",
+        ),
         law(SCALED, "law = 'expression'\ncoefficient = '0.3'\nmaximum_velocity = 3"),
         law(SI, forces),
         pressed(law(SI, forces)),
@@ -164,6 +180,9 @@ fn schema_and_reader_agree() {
     }
     for text in [
         law(SCALED, "law = 'coulomb'\nviscous = 0.3"),
+        law(SCALED, &LUGRE.replace("bristle_stiffness = 100\n", "")),
+        law(SCALED, &LUGRE.replace("100", "0")),
+        changed(SCALED, "normal_load = 1\n", "normal_load = 1\ntangential_stiffness = 0\n"),
         law(SCALED, "law = 'coulomb'\nfriction_force_n = 3"),
         law(SCALED, "law = 'stribeck-exponential'\ncoefficient = 0.3\nreference_velocity = 1"),
         law(SI, &format!("{forces}\ncoefficient = 0.3")),

@@ -9,7 +9,7 @@ pub fn dither(
     amplitude: f64,
     frequency_ratio: f64,
 ) -> Dither {
-    Dither { direction, waveform, amplitude, frequency_ratio, phase: 0.0 }
+    Dither { direction, waveform, amplitude, frequency_ratio, phase: 0.0, envelope: None }
 }
 
 /// A tangential dither of phase 0.

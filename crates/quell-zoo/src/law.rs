@@ -148,7 +148,7 @@ pub fn scaled(law: &Friction, factor: f64) -> Friction {
         .zip(law.values())
         .map(|(parameter, value)| match parameter.quantity {
             Quantity::Velocity | Quantity::Displacement | Quantity::Force => value * factor,
-            Quantity::PerVelocity => value / factor,
+            Quantity::PerVelocity | Quantity::PerLength => value / factor,
             _ => value,
         })
         .collect();

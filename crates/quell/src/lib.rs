@@ -151,6 +151,7 @@
 //! | [`cite`], [`template`] | sources of a study's computations; commented studies to start from |
 
 pub mod cite;
+mod contact_state;
 pub mod dataset;
 mod effort;
 pub mod fields;

@@ -5,11 +5,13 @@
 use quell::Study;
 use quell::kind::verbs;
 use quell::run::orbit::Wanted;
-use quell::run::{friction, simulate};
+use quell::run::{friction, simulate, waveforms};
 use quell::study::BeltStudy;
 use quell_linear::averaging::{
     AveragingOptions, Becomes, CrossingKind, FastResponse, critical_amplitudes,
 };
+use quell_linear::linear_cost::linear_cost;
+use quell_model::{Direction, Dither, Waveform};
 use serde_json::Value as Json;
 
 fn reference() -> Json {
@@ -228,4 +230,212 @@ fn a_belt_and_a_system_have_the_same_periodic_motion() {
         assert!((number(&belt["velocity"]) - state[1]).abs() < 1e-9, "{keys}");
         assert_eq!(belt["verdict"], system["verdict"], "{keys}");
     }
+}
+
+const MODES: &str = "[system]\ncoordinates = [\"x\", \"y\"]\nmass = [1.0, 1.0]\ndamping = [0.05, 0.05]\n\
+     stiffness = [[2.0, 1.0], [1.0, 0.6666666666666667]]\n[[contact]]\nname = \"pad\"\ntangent = { x = 1.0 }\n\
+     normal = { y = 1.0 }\nnormal_load = 1.0\nnormal_stiffness = 1.3333333333333333\nbelt_velocity = 1.0\n[contact.friction]\n\
+     law = \"coulomb\"\ncoefficient = 0.9\n";
+
+/// Averaging of a system under a sum of harmonics is that under its harmonics as dithers of their own.
+#[test]
+fn a_system_averages_a_sum_of_harmonics() {
+    let at = "at = { x = 1.0 }";
+    let sum = format!(
+        "{MODES}[[dither]]\n{at}\nwaveform = \"fourier\"\namplitude = 20.0\nfrequency = 20.0\nphase = 0.7\n\
+         harmonics = [{{ order = 1, sine = 1.0 }}, {{ order = 2, sine = 0.3, cosine = 0.4 }}]\n"
+    );
+    let phase = 2.0 * 0.7 + 0.4_f64.atan2(0.3);
+    let several = format!(
+        "{MODES}[[dither]]\n{at}\nwaveform = \"sine\"\namplitude = 20.0\nfrequency = 20.0\nphase = 0.7\n[[dither]]\n{at}\n\
+         waveform = \"sine\"\namplitude = 10.0\nfrequency = 40.0\nphase = {phase:?}\n"
+    );
+    let facts = [sum, several].map(|text| {
+        let study = Study::parse(&text, &[]).unwrap_or_else(|wrong| panic!("{text}\n{wrong:?}"));
+        verbs(&study).stability().expect("an average").facts()
+    });
+    let [sum, several] = &facts;
+    assert_eq!(sum["verdict"], several["verdict"], "{facts:?}");
+    let off = number(&sum["growth_rate"]) - number(&several["growth_rate"]);
+    assert!(off.abs() < 1e-10, "{facts:?}");
+    let slip = |facts: &Json| number(&facts["contacts"][0]["slip_amplitude"]);
+    assert!((slip(sum) / slip(several) - 1.0).abs() < 1e-10, "{facts:?}");
+}
+
+const QUENCH: &str = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.05\n[friction]\nlaw = \"stribeck\"\n\
+     static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\ndirection = \"tangential\"\n\
+     waveform = \"sine\"\namplitude = 0.4\nfrequency_ratio = 60.0\n";
+
+/// The least amplitude of each waveform is that at which its fast velocity reaches the belt: G_max = 1, π/4, π/2, and 2 less the
+/// duty cycle of bursts of a sine. The exact amplitudes at R = 60 differ by less than 1/R.
+#[test]
+fn least_amplitudes_of_every_waveform() {
+    let study = study(QUENCH);
+    let found = waveforms::run(&study).expect("a comparison");
+    assert_eq!(found.rows.len(), 10);
+    for row in &found.rows {
+        let least = row.averaged.as_ref().expect("an amplitude");
+        let peak = match row.waveform.name() {
+            "sine" => 1.0,
+            "triangle" => std::f64::consts::FRAC_PI_4,
+            "square" => std::f64::consts::FRAC_PI_2,
+            _ => 2.0 - row.duty_cycle,
+        };
+        assert!((least.amplitude_ratio * peak / 0.05 - 1.0).abs() < 1e-9, "{row:?}");
+        let exact = row.exact.as_ref().expect("an exact amplitude");
+        // The longest bursts repeat at 7.5 times the natural frequency only.
+        let off = 3.0 * f64::from(row.waveform.cycles()) / 60.0 / 8.0 + 1.0 / 60.0;
+        assert!((exact / least.amplitude - 1.0).abs() < off, "{row:?}");
+        let share = match row.waveform.name() {
+            "sine" => 0.5_f64.sqrt(),
+            "triangle" => (1.0_f64 / 3.0).sqrt(),
+            "square" => 1.0,
+            _ => (0.5 * row.duty_cycle).sqrt(),
+        };
+        assert!((least.root_mean_square / (share * least.amplitude) - 1.0).abs() < 1e-9, "{row:?}");
+    }
+    let sine = found.rows[0].averaged.as_ref().expect("an amplitude");
+    // The stroke of a sine: 2D/(R² − 1), as damping has no part in it.
+    let stroke = sine.stroke.as_ref().expect("a stroke");
+    assert!((stroke / (2.0 * 3.0 / 3599.0) - 1.0).abs() < 1e-5, "{stroke}");
+    // The mean power 2ζ⟨x′²⟩ of a sine whose velocity is the belt's.
+    let power = sine.power.as_ref().expect("a power");
+    assert!((power / (0.01 * 0.5 * 0.05 * 0.05) - 1.0).abs() < 1e-3, "{power}");
+    // Bursts of half the time take ⟨G²⟩/G_max² = (1.5 d − d²)/(2 − d)² of it, over that of the sine.
+    let half = found.rows.iter().find(|row| row.duty_cycle == 0.5).expect("a burst");
+    let half = half.averaged.as_ref().expect("an amplitude").power.as_ref().expect("a power");
+    assert!((half / power / (0.5 / 2.25 / 0.5) - 1.0).abs() < 0.02, "{half} {power}");
+    let json = found.json(&study);
+    assert_eq!(json["best"]["stroke"], "square");
+    assert_eq!(json["best"]["power"], "burst 1 : 7");
+    assert_eq!(
+        found.dataset(&study).csv().lines().filter(|line| !line.starts_with('#')).count(),
+        11
+    );
+}
+
+#[test]
+fn what_cannot_be_compared_has_a_reason() {
+    // Nothing to quench.
+    let quiet = study(&QUENCH.replace("belt_velocity = 0.05", "belt_velocity = 0.5"));
+    let found = waveforms::run(&quiet).expect("a comparison");
+    assert!(found.rows.iter().all(|row| row.averaged.is_err() && row.exact.is_err()));
+    let json = found.json(&quiet);
+    assert!(json["waveforms"][0]["amplitude"].is_null() && json["best"]["amplitude"].is_null());
+    assert!(
+        json["why"]["waveforms[0].amplitude"].as_str().expect("why").contains("nothing to quench")
+    );
+    // Normal dither does no work on the structure.
+    let normal = study(
+        &QUENCH
+            .replace("tangential", "normal")
+            .replace("frequency_ratio = 60.0", "frequency_ratio = 10.0"),
+    );
+    let found = waveforms::run(&normal).expect("a comparison").json(&normal);
+    assert!(found["waveforms"][0]["power"].is_null(), "{found}");
+    // Without dither there is no direction and no frequency, and a disc has no such verb.
+    let bare = &QUENCH[..QUENCH.find("[dither]").expect("a table")];
+    assert!(waveforms::run(&study(bare)).is_err());
+    let rest = study(&QUENCH.replace("belt_velocity = 0.05", "belt_velocity = 0.0"));
+    assert!(waveforms::run(&rest).is_err());
+    let disc = Study::parse(include_str!("../../../studies/which-dither-frequency.toml"), &[]);
+    assert!(verbs(&disc.expect("a disc")).waveforms().is_err());
+}
+
+/// The study's own waveform is one of the rows; of bursts only once.
+#[test]
+fn own_waveforms_are_compared() {
+    for (keys, count, carrier) in [
+        ("waveform = \"burst\"\ncarrier = \"triangle\"\non = 3\noff = 5", 10, "triangle"),
+        ("waveform = \"burst\"\ncarrier = \"square\"\non = 4\noff = 1", 11, "square"),
+        ("waveform = \"samples\"\nvalues = [1.0, 0.2, -1.0]", 11, "sine"),
+    ] {
+        let study = study(&QUENCH.replace("waveform = \"sine\"", keys));
+        let found = waveforms::run(&study).expect("a comparison");
+        assert_eq!((found.rows.len(), found.carrier), (count, carrier), "{keys}");
+        assert_eq!(found.rows.iter().filter(|row| row.own).count(), 1, "{keys}");
+    }
+}
+
+/// Samples of a file are those of the study; a wrong line is named, and unchanged files are not read again.
+#[test]
+fn samples_of_a_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let keys = "waveform = \"samples\"\nfile = \"wave.csv\"";
+    let text = with("tangential", keys);
+    let parse = || BeltStudy::parse_in(&text, &[], folder.path());
+    let said = || {
+        let wrong = parse().expect_err("a wrong file");
+        wrong.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    };
+    let missing = said();
+    assert!(missing.contains("dither.file") && missing.contains("wave.csv"), "{missing}");
+    let write = |text: &str| std::fs::write(folder.path().join("wave.csv"), text).expect("a file");
+    write("# a period\ntime,value\n0,0.3\n1,1.0\n2,-0.4\n3,-1.2\n4,0.5\n");
+    let of_file = parse().expect("samples");
+    let listed =
+        study(&with("tangential", "waveform = \"samples\"\nvalues = [0.3, 1.0, -0.4, -1.2, 0.5]"));
+    assert_eq!(of_file.belt(), listed.belt());
+    // A change of another number keeps the samples that were read.
+    write("nonsense\n");
+    assert!(said().contains("2 to 1000000 samples"), "{}", said());
+    let changed = of_file.with("dither.amplitude", 0.7).expect("an amplitude");
+    assert_eq!(changed.belt().dithers()[0].waveform, listed.belt().dithers()[0].waveform);
+    for (text, words) in [
+        ("1\n\n-1\n", "line 2 is empty"),
+        ("1\nx\n", "line 2 must have a finite number"),
+        ("time,force\n0,1\n", "a column value"),
+        ("1\n1\n", "samples that differ"),
+    ] {
+        write(text);
+        assert!(said().contains(words) && said().contains("dither.file"), "{text}: {}", said());
+    }
+    let both =
+        with("tangential", "waveform = \"samples\"\nfile = \"wave.csv\"\nvalues = [1.0, -1.0]");
+    assert!(refused(&both).contains("dither.values"));
+}
+
+/// A system of one mass has the least amplitudes of averaging, and the stroke and the power of that mass on its spring.
+#[test]
+fn waveforms_of_a_system() {
+    let keys = "waveform = \"fourier\"\nharmonics = [{ order = 1, sine = 1.0 }, { order = 3, sine = 0.2 }]";
+    let text = format!(
+        "[system]\ncoordinates = [\"x\"]\nmass = [1.0]\ndamping = [0.02]\nstiffness = [1.0]\n[[contact]]\nname = \"belt\"\n\
+         tangent = {{ x = 1.0 }}\nnormal_load = 1.0\nbelt_velocity = 0.1\n[contact.friction]\nlaw = \"stribeck\"\n\
+         static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[[dither]]\nat = {{ x = 1.0 }}\n\
+         {keys}\namplitude = 1.5\nfrequency = 10.0\n"
+    );
+    let study = Study::parse(&text, &[]).expect("a system");
+    let facts = verbs(&study).waveforms().expect("a comparison").facts();
+    let rows = facts["waveforms"].as_array().expect("rows");
+    let names: Vec<&str> = rows.iter().filter_map(|row| row["waveform"].as_str()).collect();
+    assert_eq!(names, ["sine", "triangle", "square", "fourier"]);
+    let stability = verbs(&study).stability().expect("an average").facts();
+    let critical = number(&stability["critical_amplitudes"][0]["amplitude"]);
+    assert!((number(&rows[3]["amplitude"]) / critical - 1.0).abs() < 1e-9, "{rows:?}");
+    for (row, waveform) in rows.iter().zip(Waveform::NAMED) {
+        let dither = Dither {
+            direction: Direction::Tangential,
+            waveform: waveform.clone(),
+            amplitude: number(&row["amplitude"]),
+            frequency_ratio: 10.0,
+            phase: 0.0,
+            envelope: None,
+        };
+        let exact = linear_cost(&dither, 0.01).expect("a response");
+        assert!((number(&row["stroke"]) / exact.stroke - 1.0).abs() < 1e-3, "{row} {exact:?}");
+        assert!((number(&row["power"]) / exact.power - 1.0).abs() < 1e-4, "{row} {exact:?}");
+        // Where the fast velocity of the mass reaches the belt.
+        assert!((exact.velocity / 0.1 - 1.0).abs() < 1e-3, "{row} {exact:?}");
+    }
+    assert_eq!(facts["best"]["amplitude"], "square");
+    // A burst has no average in a system, and the other waveforms have.
+    let burst = text.replace(keys, "waveform = \"burst\"\ncarrier = \"sine\"\non = 2\noff = 1");
+    let study = Study::parse(&burst, &[]).expect("a system");
+    let facts = verbs(&study).waveforms().expect("a comparison").facts();
+    assert!(facts["waveforms"][3]["amplitude"].is_null());
+    let why = facts["why"]["waveforms[3].amplitude"].as_str().expect("why");
+    assert!(why.contains("burst"), "{why}");
+    let bare = &text[..text.find("[[dither]]").expect("a dither")];
+    assert!(verbs(&Study::parse(bare, &[]).expect("a system")).waveforms().is_err());
 }

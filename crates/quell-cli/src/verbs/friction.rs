@@ -20,6 +20,10 @@ pub(crate) struct Arguments {
     /// Also measures the friction on steady responses, stick included, instead of averaging
     #[arg(long)]
     measured: bool,
+    /// Gives the describing function of averaged friction at the belt velocity instead, for slow sinusoids up to this velocity
+    /// amplitude, and the limit cycles that it predicts
+    #[arg(long, value_name = "AMPLITUDE", conflicts_with_all = ["at", "measured"])]
+    describing: Option<String>,
     #[command(flatten)]
     plot: PlotArguments,
     #[command(flatten)]
@@ -32,12 +36,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
     let at = velocities(&arguments.at, study.as_ref(), &mut complaints);
+    let scales = scales(study.as_ref());
+    let largest = arguments.describing.as_deref().and_then(|text| {
+        complaints.take(quantity::parse(text, Quantity::Velocity, scales, "--describing"))
+    });
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     let (study, (outputs, plot)) = complaints.finish(study.zip(outputs.zip(plot)))?;
 
-    let at = (!at.is_empty()).then_some(at);
-    let done = verbs(&study).friction(at, arguments.measured)?;
+    let verbs = verbs(&study);
+    let done = match largest {
+        Some(largest) => verbs.describing(largest)?,
+        None => verbs.friction((!at.is_empty()).then_some(at), arguments.measured)?,
+    };
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }
 

@@ -22,3 +22,4 @@ pub(crate) mod simulate;
 pub(crate) mod sketch;
 pub(crate) mod stability;
 pub(crate) mod thresholds;
+pub(crate) mod waveforms;

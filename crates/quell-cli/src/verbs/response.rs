@@ -4,6 +4,7 @@ use clap::{Args, ValueHint};
 use quell::complaint::Complaints;
 use quell::kind::verbs;
 use quell::run::system::response::ResponseRequest;
+use quell::run::system::start::duration as duration_of_motion;
 use quell::study::SystemStudy;
 use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
 
@@ -21,6 +22,10 @@ pub(crate) struct Arguments {
     /// System: length of the record, in its units or with a unit such as 50ms [default: 60 periods of the slowest oscillation]
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_hint = ValueHint::Other)]
     record: Option<String>,
+    /// Measures the run between two of its times instead of a steady response, such as 100:200
+    #[arg(long, value_name = "A:B", allow_hyphen_values = true, value_hint = ValueHint::Other,
+        conflicts_with_all = ["settle", "record"])]
+    window: Option<String>,
     #[command(flatten)]
     plot: PlotArguments,
     #[command(flatten)]
@@ -39,6 +44,21 @@ impl Arguments {
         let record = read("--record", &self.record);
         let (settle, record) = complaints.finish(settle.zip(record))?;
         Ok(ResponseRequest { settle, record })
+    }
+
+    /// The times of --window.
+    fn window(&self, study: &Study) -> Result<Option<(f64, f64)>, Failure> {
+        const OPTION: &str = "--window";
+        let Some(text) = &self.window else { return Ok(None) };
+        let Some((from, to)) = text.split_once(':') else {
+            let allowed = "two times with a colon between them, such as 100:200";
+            return Err(Complaint::option(OPTION, text.as_str(), allowed).into());
+        };
+        let read = |text: &str| match study.system() {
+            Ok(system) => duration_of_motion(&system, text, OPTION),
+            Err(_) => quantity::duration(text, study.scales(), OPTION),
+        };
+        Ok(Some((read(from)?, read(to)?)))
     }
 
     /// Rejects the options that only systems have.
@@ -72,6 +92,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let ((study, request), (outputs, plot)) =
         complaints.finish(study.zip(request).zip(outputs.zip(plot)))?;
 
+    if let Some(window) = arguments.window(&study)? {
+        let done = verbs(&study).response_within(window)?;
+        return answer(arguments.study.json, done.as_ref(), outputs, plot);
+    }
     let done = match request {
         Some(request) => verbs(&study).response_after(request)?,
         None => verbs(&study).response()?,

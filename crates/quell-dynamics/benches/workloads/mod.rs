@@ -122,6 +122,7 @@ fn belt(law: LawKind, belt_velocity: f64, amplitude: f64, frequency_ratio: f64) 
         amplitude,
         frequency_ratio,
         phase: 0.0,
+        envelope: None,
     };
     law.build(&[0.4, 0.2857, 0.2])
         .and_then(|friction| Belt::new(0.005, 1.0, belt_velocity, friction, vec![dither]))

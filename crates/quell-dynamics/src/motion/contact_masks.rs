@@ -2,7 +2,7 @@
 
 use quell_numerics::lane::Lane;
 
-use super::phase::{ContactNow, ContactPhase};
+use super::phase::{ContactNow, ContactPhase, OwnNow};
 
 /// What a contact does during a step. Each mask is positive in the lanes where it holds, and each `bool` or number next to them
 /// combines all lanes, so that work which no lane needs is left out.
@@ -34,6 +34,8 @@ pub(super) struct ContactMasks<V = f64> {
     pub(super) all_act: bool,
     pub(super) most_slip_zeros: usize,
     pub(super) most_load_zeros: usize,
+    /// Direction of an elastic slider's slip times the sign of γ; not read of rigid contacts.
+    pub(super) turned: f64,
 }
 
 /// `yes` where `mask` is positive, which it is in one lane at least: alone `yes`.
@@ -53,8 +55,14 @@ impl ContactMasks {
     pub(super) fn of(now: &ContactNow) -> Self {
         let slips = matches!(now.phase, ContactPhase::Slip(_));
         let is_saturated = now.sticks() && now.saturated != 0;
+        let direction = f64::from(now.phase.slip_sign());
+        // The law is evaluated on the branch of γ.
+        let sign = match now.own {
+            OwnNow::Elastic(own) => f64::from(own.branch),
+            OwnNow::Rigid | OwnNow::Bristles => direction,
+        };
         Self {
-            sign: f64::from(now.phase.slip_sign()),
+            sign,
             slipping: mask(slips),
             sticking: mask(now.sticks()),
             open: mask(now.is_open()),
@@ -71,6 +79,7 @@ impl ContactMasks {
             all_act: slips || is_saturated,
             most_slip_zeros: now.slip_zeros,
             most_load_zeros: now.load_zeros,
+            turned: direction * sign,
         }
     }
 }
@@ -98,6 +107,7 @@ impl<V: Lane> ContactMasks<V> {
             all_act: false,
             most_slip_zeros: 0,
             most_load_zeros: 0,
+            turned: 0.0,
         }
     }
 

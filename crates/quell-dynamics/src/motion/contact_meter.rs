@@ -135,7 +135,8 @@ impl ContactSums {
         let duration = segment.duration();
         let (friction, load) = (segment.friction(contact), segment.normal_load(contact));
         let slip = segment.slip_velocity(contact);
-        let slips = matches!(segment.phase(contact), ContactPhase::Slip(_));
+        // The spring of an elastic slider that adheres takes and returns work.
+        let moves = !segment.is_held(contact);
         self.friction += integral(friction, duration);
         self.load += integral(load, duration);
         self.least_load = self.least_load.min(horner(load, 0.0)).min(horner(load, duration));
@@ -143,7 +144,7 @@ impl ContactSums {
         for (node, weight) in nodes.iter().zip(weights) {
             let since = node * duration;
             self.least_load = self.least_load.min(horner(load, since));
-            if slips {
+            if moves {
                 let power = horner(friction, since) * horner(slip, since);
                 self.work = f64::mul_add(weight * duration, power, self.work);
             }

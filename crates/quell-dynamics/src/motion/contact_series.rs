@@ -2,6 +2,7 @@
 
 use quell_numerics::lane::Lane;
 
+use super::own_state::OwnSeries;
 use crate::simulation::ORDER;
 
 /// Taylor coefficients in every lane.
@@ -44,6 +45,8 @@ pub(super) struct ContactSeries<V = f64> {
     pub(super) surface: SeriesOf<V>,
     pub(super) guided: SeriesOf<V>,
     pub(super) factor: SeriesOf<V>,
+    /// The series of a contact with a state of its own.
+    pub(super) own: Option<Box<OwnSeries<V>>>,
 }
 
 impl<V: Lane> ContactSeries<V> {
@@ -67,6 +70,7 @@ impl<V: Lane> ContactSeries<V> {
             surface: series,
             guided: series,
             factor: series,
+            own: None,
         }
     }
 

@@ -8,6 +8,7 @@ use super::equations::{Forcings, MotionEquations};
 use super::expansion::{ExpandedStep, StepExpansion};
 use super::guards::Guards;
 use super::observer::{MotionObserver, MotionSegment};
+use super::own_state;
 use super::phase::{ContactNow, ContactPhase};
 use super::selection::first_minor_not_positive;
 use super::series::StepSeries;
@@ -86,7 +87,7 @@ impl<'a> MotionRun<'a> {
         let mut series = StepSeries::new(equations, &forcings, clock);
         series.set_start(&start.state);
         Self {
-            laws: system.contacts.iter().map(|c| FrictionConstants::of(&c.friction)).collect(),
+            laws: system.contacts.iter().map(|c| own_state::law_of(&c.friction)).collect(),
             now: vec![ContactNow::of(ContactPhase::Stick); system.contacts.len()],
             clock,
             series,
@@ -117,9 +118,11 @@ impl<'a> MotionRun<'a> {
 
     /// Contacts with a phase here keep it throughout: the smooth continuation of a motion beyond the borders of these phases.
     pub(super) fn keeping(mut self, phases: &[Option<ContactPhase>]) -> Self {
-        for (now, phase) in self.now.iter_mut().zip(phases) {
-            if let Some(phase) = phase {
-                *now = ContactNow::keeping(*phase);
+        let contacts = self.equations.contacts.iter().zip(&mut self.now).zip(phases);
+        for ((contact, now), phase) in contacts {
+            // A contact with a state of its own has no branch to continue: its phases follow from the state.
+            if let Some(phase) = phase.filter(|_| contact.own.is_none()) {
+                *now = ContactNow::keeping(phase);
             }
         }
         self
@@ -215,7 +218,7 @@ impl<'a> MotionRun<'a> {
     }
 
     /// Computes a step from here, at most `longest` and `room` long.
-    fn expand(&mut self, longest: f64, room: f64) -> ExpandedStep {
+    pub(super) fn expand(&mut self, longest: f64, room: f64) -> ExpandedStep {
         let Self { tolerance, time_scale, .. } = *self;
         with_fused_multiply_add(StepExpansion {
             equations: self.equations,
@@ -236,7 +239,7 @@ impl<'a> MotionRun<'a> {
     }
 
     /// Computes the forces of the sticking contacts anew where they have changed.
-    fn refresh(&mut self) -> MotionProgress {
+    pub(super) fn refresh(&mut self) -> MotionProgress {
         let tilted = self.equations.follows && self.now.iter().any(ContactNow::sticks);
         if !(self.is_stale || tilted || self.stuck.is_dependent) {
             return Ok(());
@@ -368,7 +371,13 @@ impl<'a> MotionRun<'a> {
         let _ = self.budget.spend(self.steps);
         self.refresh()?;
         self.expand(self.longest, self.time_scale);
-        let contacts = self.now.iter().zip(&self.series.contacts).map(|(now, series)| ContactEnd {
+        let bristle = |contact: usize| {
+            let own = self.equations.contacts[contact].own?;
+            own.is_bristle().then(|| self.series.start()[own.place])
+        };
+        let ends = self.now.iter().zip(&self.series.contacts).enumerate();
+        let contacts = ends.map(|(contact, (now, series))| ContactEnd {
+            bristle: bristle(contact),
             phase: now.phase,
             slip_velocity: series.slip[0],
             friction: series.friction[0],

@@ -12,6 +12,7 @@ use quell_model::System;
 use quell_model::system::{Contact, InputTarget, Mechanical, Structure};
 use quell_numerics::matrix::Matrix;
 
+use super::own_state::{OwnState, OwnStateKind};
 use super::rows::{RowEntries, StateMatrix, StateRow};
 use super::stopped::Immobile;
 use crate::simulation::{Clock, Forcing};
@@ -36,6 +37,8 @@ pub(super) struct ContactEquation<R = RowEntries, V = f64> {
     /// μ_s and μ(0⁺).
     pub(super) static_coefficient: V,
     pub(super) sliding_coefficient: V,
+    /// Its own number of the state: none in lanes.
+    pub(super) own: Option<OwnState>,
 }
 
 impl<R: StateRow, V> ContactEquation<R, V> {
@@ -64,8 +67,10 @@ impl ContactEquation {
 /// The equations of a system.
 #[derive(Clone, Debug)]
 pub(super) struct MotionEquations {
-    /// Length of the state.
+    /// Length of the state: that of the structure, and one number for each contact with a state of its own.
     pub(super) size: usize,
+    /// Length of the state of the structure.
+    pub(super) structure_size: usize,
     pub(super) matrix: StateMatrix,
     pub(super) constant: Vec<f64>,
     /// Columns b of the inputs that are forces.
@@ -123,7 +128,7 @@ impl Forcings {
                     });
                     inputs.map(|input| &input.profile)
                 };
-                let steady = quell_model::profile::Profile::constant(contact.normal_load);
+                let steady = contact.load();
                 let loads: Vec<_> = std::iter::once(&steady).chain(on_load(false)).collect();
                 let guided: Vec<_> = on_load(true).collect();
                 let factors = system.inputs.iter().filter(
@@ -187,7 +192,7 @@ impl MotionEquations {
             Ok(RowEntries::at(solved.as_slice(), offset))
         };
         let matrix = state_matrix(&system.structure)?;
-        let size = matrix.rows();
+        let structure_size = matrix.rows();
         let contacts = system.contacts.iter().map(|contact| {
             let optional = |row: &Option<Vec<f64>>| match row {
                 Some(row) => column(row),
@@ -199,7 +204,9 @@ impl MotionEquations {
             };
             contact_equation(contact, offset, along, optional(&contact.normal)?)
         });
-        let contacts: Vec<ContactEquation> = contacts.collect::<Result<_, _>>()?;
+        let mut contacts: Vec<ContactEquation> = contacts.collect::<Result<_, _>>()?;
+        let size = places_of_states(system, &mut contacts, structure_size);
+        let matrix = widened(&matrix, size);
         let pushes = system.inputs.iter().filter_map(|input| match &input.target {
             InputTarget::Force(row) => Some(column(row)),
             _ => None,
@@ -212,11 +219,69 @@ impl MotionEquations {
         };
         let coupling = product(|contact| &contact.along);
         let follower = product(|contact| &contact.across);
-        let rate = fastest_rate(&matrix, &contacts);
+        let rate = fastest_rate(&adhering(&matrix, &contacts), &contacts);
         let follows = contacts.iter().any(|contact| !contact.slope.is_empty());
         let matrix = StateMatrix::of(&matrix);
-        Ok(Self { size, matrix, constant, pushes, contacts, rate, coupling, follower, follows })
+        Ok(Self {
+            size,
+            structure_size,
+            matrix,
+            constant,
+            pushes,
+            contacts,
+            rate,
+            coupling,
+            follower,
+            follows,
+        })
     }
+}
+
+/// Gives each contact with a state its place after the states of the structure. Returns the length of the whole state.
+fn places_of_states(
+    system: &System,
+    contacts: &mut [ContactEquation],
+    structure_size: usize,
+) -> usize {
+    let mut size = structure_size;
+    for (equation, contact) in contacts.iter_mut().zip(&system.contacts) {
+        equation.own = OwnState::of(contact, size);
+        size += usize::from(equation.own.is_some());
+    }
+    size
+}
+
+/// The state matrix with elastic sliders that adhere and bristles near rest, for an estimate of its fastest rate.
+fn adhering(matrix: &Matrix, contacts: &[ContactEquation]) -> Matrix {
+    let (size, mut closed) = (matrix.rows(), matrix.clone());
+    for contact in contacts {
+        let Some(own) = contact.own else { continue };
+        let (along, tangent) = (contact.along.dense(size), contact.tangent.dense(size));
+        // T = s x_own + d γ, and the rate of x_own is r γ.
+        let (share, damping, rate) = match own.kind {
+            OwnStateKind::Elastic { stiffness } => (1.0, 0.0, stiffness),
+            OwnStateKind::Bristles { stiffness, damping, viscous } => {
+                (contact.normal_load * stiffness, contact.normal_load * (damping + viscous), 1.0)
+            }
+        };
+        for i in 0..size {
+            closed[(i, own.place)] += along[i] * share;
+            closed[(own.place, i)] -= rate * tangent[i];
+            for j in 0..size {
+                closed[(i, j)] -= along[i] * damping * tangent[j];
+            }
+        }
+    }
+    closed
+}
+
+/// A square matrix with rows and columns of zeros up to `size`.
+fn widened(matrix: &Matrix, size: usize) -> Matrix {
+    let known = matrix.rows();
+    if size == known {
+        return matrix.clone();
+    }
+    Matrix::from_fn(size, size, |i, j| if i < known && j < known { matrix[(i, j)] } else { 0.0 })
 }
 
 fn contact_equation(
@@ -252,6 +317,7 @@ fn contact_equation(
         inverse_scale: 1.0 / contact.friction.velocity_scale(),
         static_coefficient: contact.friction.static_coefficient(),
         sliding_coefficient: contact.friction.coefficient(0.0),
+        own: None,
     })
 }
 

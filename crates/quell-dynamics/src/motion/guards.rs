@@ -8,7 +8,9 @@ use super::contact_masks::ContactMasks;
 use super::contact_series::{ContactSeries, SeriesOf};
 use super::equations::{ContactEquation, MotionEquations};
 use super::observer::Trigger;
-use super::phase::{ContactNow, ContactPhase};
+use super::own_friction::own_speed;
+use super::own_state::{OwnState, OwnStateKind};
+use super::phase::{ContactNow, ContactPhase, ElasticNow, OwnNow};
 use super::rows::StateRow;
 use super::selection::ZERO_ACCELERATION;
 use crate::simulation::{ORDER, Series};
@@ -21,6 +23,9 @@ const TOGETHER: f64 = 1e-12;
 /// that is not zero to rounding, and its direction is certain. A mass that comes to rest at the very edge of stick stays there,
 /// and one that leaves it does so later by the time that this share of the force takes.
 const HELD_BEYOND: f64 = 4.0 * ZERO_ACCELERATION;
+
+/// Share of the sliding level by which T of an elastic slider rises in a jump of its load: less is the rounding of a step.
+const JUMPED_UP: f64 = 1e-9;
 
 /// A guard, of the given sign until its event.
 #[derive(Clone, Copy, Debug)]
@@ -83,12 +88,17 @@ impl<'a> Guards<'a> {
             return None;
         }
         let equation = &self.equations.contacts[contact];
+        if place > 0
+            && let OwnNow::Elastic(elastic) = now.own
+        {
+            return self.elastic(contact, place, elastic, margin);
+        }
         match (place, now.phase) {
             (0, _) if series.load_varies => {
                 let (what, sign) = (Trigger::Load(contact), if now.is_open() { -1.0 } else { 1.0 });
                 Some(Guard { what, series: &series.load, sign, zeros: now.load_zeros })
             }
-            (1, ContactPhase::Slip(sign)) if equation.can_stick() => {
+            (1, ContactPhase::Slip(sign)) if equation.can_stick() || !now.is_rigid() => {
                 let (what, sign) = (Trigger::Slip(contact), f64::from(sign));
                 Some(Guard { what, series: &series.slip, sign, zeros: now.slip_zeros })
             }
@@ -108,6 +118,59 @@ impl<'a> Guards<'a> {
                 })
             }
             _ => None,
+        }
+    }
+
+    /// A guard of an elastic slider: its margins while it adheres, its own speed and γ while it slides.
+    fn elastic<'m>(
+        &self,
+        contact: usize,
+        place: usize,
+        elastic: ElasticNow,
+        margin: &'m mut Series,
+    ) -> Option<Guard<'m>>
+    where
+        'a: 'm,
+    {
+        let (equation, series) = (&self.equations.contacts[contact], &self.contacts[contact]);
+        match self.now[contact].phase {
+            ContactPhase::Stick => {
+                let side = if place == 1 { 1 } else { -1 };
+                *margin = margin_above(equation.static_coefficient, f64::from(side), series);
+                let zeros = elastic.margin_zeros[place - 1];
+                Some(Guard {
+                    what: Trigger::Margin(contact, side),
+                    series: margin,
+                    sign: 1.0,
+                    zeros,
+                })
+            }
+            ContactPhase::Slip(direction) if place == 1 => {
+                let Some(OwnState { kind: OwnStateKind::Elastic { stiffness }, .. }) = equation.own
+                else {
+                    return None;
+                };
+                own_speed(series, stiffness, margin);
+                let sign = f64::from(direction);
+                let carried = series.own.as_ref().map_or(0.0, |own| own.carried);
+                let rise = sign * (series.friction[0] - carried);
+                let mut zeros = elastic.speed_zeros;
+                if !elastic.is_released && rise > JUMPED_UP * series.friction[0].abs() {
+                    // Its load has jumped: T cannot follow, and it adheres at once.
+                    (margin[0], zeros) = (-sign, 0);
+                }
+                Some(Guard { what: Trigger::Slip(contact), series: margin, sign, zeros })
+            }
+            ContactPhase::Slip(_) => {
+                let (what, sign) = (Trigger::Turn(contact), f64::from(elastic.branch));
+                Some(Guard {
+                    what,
+                    series: &series.slip,
+                    sign,
+                    zeros: self.now[contact].slip_zeros,
+                })
+            }
+            ContactPhase::Open => None,
         }
     }
 

@@ -16,6 +16,7 @@
 //! | `equations`, `rows` | a system as the engine needs it |
 //! | `variation`, `change_series` | small changes of the initial state |
 //! | `series`, `contact_series`, `step_recurrence`, `expansion`, `stuck` | the Taylor series of a step |
+//! | `own_state`, `own_friction`, `own_events` | contacts with a state of their own: elastic sliders and bristles |
 //! | `contact_masks` | what each contact does during a step, in every lane |
 //! | `change_block`, `law_along_slip` | several changes side by side, and the slope of a law along a slip |
 //! | `guards`, `selection` | what ends a step, and what follows |
@@ -41,6 +42,9 @@ mod law_along_slip;
 mod lyapunov;
 mod observer;
 pub mod orbit;
+mod own_events;
+mod own_friction;
+mod own_state;
 mod phase;
 mod row_meter;
 mod rows;
@@ -57,6 +61,7 @@ use quell_model::System;
 
 use engine::MotionRun;
 use equations::MotionEquations;
+use phase::OwnNow;
 use selection::first_minor_not_positive;
 
 pub use contact_meter::{ContactMeans, ContactMeter};
@@ -93,6 +98,9 @@ impl<'s> Motion<'s> {
         let name = |contact: usize| system.contacts[contact].name.clone();
         let mut able = Vec::new();
         for (index, contact) in equations.contacts.iter().enumerate() {
+            if contact.own.is_some() {
+                continue;
+            }
             if contact.can_stick() {
                 able.push(index);
                 if equations.coupling[(index, index)] <= 0.0 {
@@ -117,9 +125,48 @@ impl<'s> Motion<'s> {
         self.system
     }
 
-    /// Length of the state.
+    /// Length of the state: that of the structure, and after it one number for each contact with a state of its own, in the order of
+    /// the contacts ([`Contact::has_state`](quell_model::Contact::has_state)).
     pub fn size(&self) -> usize {
         self.equations.size
+    }
+
+    /// Length of the state of the structure.
+    pub fn structure_size(&self) -> usize {
+        self.equations.structure_size
+    }
+
+    /// Place of a contact's own number in the state; `None` if it has none.
+    pub fn own_place(&self, contact: usize) -> Option<usize> {
+        self.equations.contacts[contact].own.map(|own| own.place)
+    }
+
+    /// The state of the structure with the contacts' own numbers at zero, as a study begins: sliders and bristles without load.
+    ///
+    /// # Panics
+    /// If `structure` has not as many numbers as the state of the structure.
+    pub fn relaxed(&self, structure: &[f64]) -> Vec<f64> {
+        assert_eq!(structure.len(), self.structure_size(), "numbers of the structure");
+        let mut state = structure.to_vec();
+        state.resize(self.size(), 0.0);
+        state
+    }
+
+    /// Places of the numbers of the elastic sliders that slide at a state at t = 0: there T follows from the slip and the load.
+    pub(crate) fn sliding_sliders(&self, state: &[f64]) -> Vec<usize> {
+        let start = MotionStart { time: 0.0, state: state.to_vec() };
+        let parts = (self.system, &self.equations);
+        let mut observer = ();
+        let mut run = MotionRun::new(parts, &start, 0.0, MOTION_TOLERANCE, &mut observer);
+        if run.open().is_err() {
+            return Vec::new();
+        }
+        let slides = |contact: &usize| {
+            let now = &run.now[*contact];
+            matches!((now.own, now.phase), (OwnNow::Elastic(_), ContactPhase::Slip(_)))
+        };
+        let places = (0..self.equations.contacts.len()).filter(slides);
+        places.filter_map(|contact| self.own_place(contact)).collect()
     }
 
     /// Time scale of the system: the reciprocal of its fastest rate.
@@ -134,8 +181,10 @@ impl<'s> Motion<'s> {
     /// # Errors
     /// [`MotionStopped`] with time, state and reason.
     ///
+    /// A start with the state of the structure alone begins with the contacts' own numbers at zero ([`Motion::relaxed`]).
+    ///
     /// # Panics
-    /// If `start` has not as many numbers as the state.
+    /// If `start` has not as many numbers as the state, or as the state of the structure.
     pub fn run(
         &self,
         start: &MotionStart,
@@ -143,8 +192,12 @@ impl<'s> Motion<'s> {
         tolerance: f64,
         observer: &mut dyn MotionObserver,
     ) -> Result<MotionEnd, MotionStopped> {
-        assert_eq!(start.state.len(), self.size(), "numbers of the state");
-        MotionRun::new((self.system, &self.equations), start, until, tolerance, observer).run()
+        let parts = (self.system, &self.equations);
+        if start.state.len() == self.size() {
+            return MotionRun::new(parts, start, until, tolerance, observer).run();
+        }
+        let whole = MotionStart { time: start.time, state: self.relaxed(&start.state) };
+        MotionRun::new(parts, &whole, until, tolerance, observer).run()
     }
 
     /// The same with some contacts kept in these phases: the smooth continuation of a motion beyond the borders of the phases,

@@ -39,6 +39,12 @@ impl<'a> MotionSegment<'a> {
         self.now[contact].phase
     }
 
+    /// Whether a rigid contact sticks on it, so that its slip velocity is zero.
+    #[inline(always)]
+    pub(super) fn is_held(&self, contact: usize) -> bool {
+        self.now[contact].sticks()
+    }
+
     /// Taylor coefficients of every number of the state, order by order.
     pub fn states(&self) -> &'a [f64] {
         &self.states[..(ORDER + 1) * self.size]
@@ -49,9 +55,14 @@ impl<'a> MotionSegment<'a> {
         with_fused_multiply_add(StateAt { states: self.states, since, out });
     }
 
-    /// Taylor coefficients of the slip velocity γ of a contact; zero in stick.
+    /// Taylor coefficients of the slip velocity γ of a contact; zero where a rigid contact sticks.
     pub fn slip_velocity(&self, contact: usize) -> &'a [f64; ORDER + 1] {
         &self.contacts[contact].slip
+    }
+
+    /// Taylor coefficients of the velocity of the surface of a contact.
+    pub fn surface(&self, contact: usize) -> &'a [f64; ORDER + 1] {
+        &self.contacts[contact].surface
     }
 
     /// Taylor coefficients of the friction force T of a contact; zero where it is open.
@@ -175,8 +186,10 @@ pub struct MotionMoment<'a> {
 /// The guard that reached zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trigger {
-    /// The slip velocity of a contact.
+    /// The slip velocity of a contact; of an elastic slider its own speed γ − Ṫ/k_t.
     Slip(usize),
+    /// The slip velocity of an elastic slider that goes on sliding.
+    Turn(usize),
     /// The margin μ_s N ∓ T of a sticking contact; 1 where T rose to its bound, −1 where it fell to it.
     Margin(usize, i8),
     /// The load of a contact.

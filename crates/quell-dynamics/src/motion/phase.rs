@@ -5,7 +5,7 @@
 pub enum ContactPhase {
     /// It slips; the sign of the slip velocity, 1 or −1.
     Slip(i8),
-    /// It moves with the surface.
+    /// It moves with the surface; an elastic slider adheres to it.
     Stick,
     /// It is open.
     Open,
@@ -36,11 +36,45 @@ pub(super) struct ContactNow {
     pub(super) saturated: i8,
     /// Whether it keeps its phase beyond the borders of that phase: no guard ends it.
     pub(super) kept: bool,
+    /// What else holds of a contact with a state of its own.
+    pub(super) own: OwnNow,
+}
+
+/// What holds at the start of a step of a contact with a state of its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum OwnNow {
+    /// The contact is rigid: it has no state of its own.
+    Rigid,
+    /// An elastic slider.
+    Elastic(ElasticNow),
+    /// Bristles: it slips in either direction and never sticks.
+    Bristles,
+}
+
+/// An elastic slider at the start of a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct ElasticNow {
+    /// Sign of γ while it slides, which can differ from the direction of its slip; 0 while it adheres.
+    pub(super) branch: i8,
+    /// Multiplicity of the zero of its own speed at the start of a slip.
+    pub(super) speed_zeros: usize,
+    /// Multiplicity of the zeros of its margins at the upper and at the lower bound.
+    pub(super) margin_zeros: [usize; 2],
+    /// Whether it has reached its static bound at this moment, so that T may jump to the sliding level.
+    pub(super) is_released: bool,
 }
 
 impl ContactNow {
     pub(super) fn of(phase: ContactPhase) -> Self {
-        Self { phase, slip_zeros: 0, load_zeros: 0, held: false, saturated: 0, kept: false }
+        Self {
+            phase,
+            slip_zeros: 0,
+            load_zeros: 0,
+            held: false,
+            saturated: 0,
+            kept: false,
+            own: OwnNow::Rigid,
+        }
     }
 
     /// A contact that keeps its phase.
@@ -53,11 +87,21 @@ impl ContactNow {
     pub(super) fn advanced(&mut self) {
         self.slip_zeros = 0;
         self.load_zeros = 0;
+        if let OwnNow::Elastic(now) = &mut self.own {
+            *now = ElasticNow { branch: now.branch, ..ElasticNow::default() };
+        }
     }
 
+    /// Whether a rigid contact is held at rest by its friction. An elastic slider that adheres moves.
     #[inline(always)]
     pub(super) fn sticks(&self) -> bool {
-        self.phase == ContactPhase::Stick
+        self.phase == ContactPhase::Stick && self.is_rigid()
+    }
+
+    /// Whether the contact has no state of its own.
+    #[inline(always)]
+    pub(super) fn is_rigid(&self) -> bool {
+        self.own == OwnNow::Rigid
     }
 
     #[inline(always)]

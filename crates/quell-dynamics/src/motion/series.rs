@@ -8,6 +8,7 @@ use quell_numerics::lane::Lane;
 
 use super::contact_series::{ContactSeries, SeriesOf};
 use super::equations::{Forcings, MotionEquations};
+use super::own_state::OwnSeries;
 use crate::simulation::{Clock, ORDER};
 
 /// Series of a step; the memory is kept from step to step.
@@ -40,6 +41,7 @@ impl StepSeries {
                 load: given,
                 pressed: given,
                 guided: forcing.guided.series(clock),
+                own: contact.own.map(|_| Box::new(OwnSeries::zero())),
                 ..ContactSeries::zero()
             }
         });

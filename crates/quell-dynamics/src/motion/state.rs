@@ -22,6 +22,8 @@ pub struct ContactEnd {
     pub friction: f64,
     /// N; 0 where it is open.
     pub normal_load: f64,
+    /// Mean deflection z of the bristles, a length; `None` of a law without them.
+    pub bristle: Option<f64>,
 }
 
 /// State at the end of a run, and counts of what happened during it.

@@ -11,6 +11,7 @@ use quell_numerics::polynomial::step_length;
 use super::contact_masks::{ContactMasks, chosen};
 use super::contact_series::{ContactSeries, SeriesOf};
 use super::equations::ContactEquation;
+use super::own_friction;
 use super::rows::{StateRow, StateStorage};
 use super::series::StepSeries;
 use super::stuck::HoldingForces;
@@ -141,7 +142,8 @@ impl<V: Lane, S: StateStorage<V>> StepRecurrence<'_, V, S> {
             storage.add(push, series[k], rates);
         }
         let contacts = self.contacts.iter().zip(self.masks);
-        let series = self.series.contacts.iter_mut().zip(branches);
+        let StepSeries { states, contacts: series, .. } = &mut *self.series;
+        let series = series.iter_mut().zip(branches);
         for ((contact, masks), (series, branch)) in contacts.zip(series) {
             let slip = series.surface[k] - storage.dot(&contact.tangent, state);
             series.slip[k] = if masks.any_sticks || k < masks.most_slip_zeros {
@@ -152,6 +154,19 @@ impl<V: Lane, S: StateStorage<V>> StepRecurrence<'_, V, S> {
             };
             if !series.is_plain {
                 read(storage, k, contact, masks, state, series, rates);
+            }
+            if let Some(own) = contact.own {
+                own_friction::friction(
+                    storage,
+                    (k, own),
+                    contact,
+                    masks,
+                    branch,
+                    series,
+                    (&mut *state, &mut *rates),
+                );
+                states[k * size + own.place] = state[own.place];
+                continue;
             }
             friction(storage, k, contact, masks, branch, series, rates);
         }

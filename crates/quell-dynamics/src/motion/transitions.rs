@@ -58,6 +58,11 @@ impl MotionRun<'_> {
             }
             let phase = if load < 0.0 {
                 ContactPhase::Open
+            } else if self.equations.contacts[contact].own.is_some() {
+                let now = self.now_in(contact, ContactPhase::Slip(if slip < 0.0 { -1 } else { 1 }));
+                let slip_zeros = usize::from(slip.abs() <= AT_REST * size);
+                self.now[contact] = ContactNow { slip_zeros, ..now };
+                continue;
             } else if self.equations.contacts[contact].can_stick()
                 && slip.abs() <= (AT_REST * size).max(self.negligible_slip(contact, load))
             {
@@ -66,9 +71,12 @@ impl MotionRun<'_> {
             } else {
                 ContactPhase::Slip(if slip > 0.0 { 1 } else { -1 })
             };
-            self.now[contact] = ContactNow::of(phase);
+            self.now[contact] = self.now_in(contact, phase);
         }
-        if resting.is_empty() { Ok(()) } else { self.decide(&resting, &[], false) }
+        if !resting.is_empty() {
+            self.decide(&resting, &[], false)?;
+        }
+        self.begin_own()
     }
 
     /// Decides what follows from guards that have reached zero.
@@ -85,7 +93,8 @@ impl MotionRun<'_> {
         for trigger in triggers {
             match trigger.what {
                 Trigger::Load(contact) => jumped |= self.open_or_close(contact)?,
-                Trigger::Slip(contact) => arrived.push(contact),
+                _ if self.own_transition(trigger)? => {}
+                Trigger::Slip(contact) | Trigger::Turn(contact) => arrived.push(contact),
                 Trigger::Margin(contact, side) => {
                     self.count_tangential(contact, trigger);
                     reached.push((contact, side));
@@ -100,6 +109,26 @@ impl MotionRun<'_> {
             self.decide(&arrived, &reached, holds)?;
         }
         self.report(&before, first, triggers)
+    }
+
+    /// What a contact with a state of its own does; whether it is one.
+    fn own_transition(&mut self, trigger: &GuardReached) -> Result<bool, MotionStopped> {
+        let (Trigger::Slip(contact)
+        | Trigger::Turn(contact)
+        | Trigger::Margin(contact, _)
+        | Trigger::Load(contact)) = trigger.what;
+        if self.now[contact].is_rigid() {
+            return Ok(false);
+        }
+        if !self.now[contact].is_open() {
+            match trigger.what {
+                Trigger::Slip(_) => self.own_slip_ends(contact, trigger.after == 0.0)?,
+                Trigger::Turn(_) => self.own_turn(contact),
+                Trigger::Margin(_, side) => self.own_release(contact, side)?,
+                Trigger::Load(_) => {}
+            }
+        }
+        Ok(true)
     }
 
     fn count_tangential(&mut self, contact: usize, trigger: &GuardReached) {
@@ -123,7 +152,10 @@ impl MotionRun<'_> {
         };
         let jumped = self.load(contact).abs() > JUMP * self.equations.contacts[contact].normal_load;
         let load_zeros = usize::from(!jumped);
-        self.now[contact] = ContactNow { load_zeros, ..ContactNow::of(phase) };
+        self.now[contact] = ContactNow { load_zeros, ..self.now_in(contact, phase) };
+        if !self.now[contact].is_open() {
+            self.own_landing(contact)?;
+        }
         Ok(jumped)
     }
 
@@ -215,6 +247,11 @@ impl MotionRun<'_> {
             let load = if self.now[index].is_open() { 0.0 } else { self.load(index) };
             let carried = contact.normal_load + forcing.guided.value(self.clock);
             contact.across.add_to(carried - load, &mut rates);
+            if let Some(force) = self.own_force(index) {
+                contact.along.add_to(force, &mut rates);
+                contact.across.add_to(force * contact.slope.dot(state), &mut rates);
+                continue;
+            }
             let ContactPhase::Slip(sign) = self.now[index].phase else { continue };
             if members.contains(&index) {
                 continue;

@@ -96,7 +96,8 @@ impl<'a> MotionVariation<'a> {
             events: Vec::new(),
             approaches: vec![[f64::INFINITY; 2]; system.contacts.len()],
             is_one_sided: false,
-            has_failed: false,
+            // The changes of a contact's own state are not known.
+            has_failed: system.has_contact_state(),
             rates: vec![0.0; size],
             now: Vec::new(),
             stuck: StuckForces::default(),
@@ -269,7 +270,7 @@ impl<'a> MotionVariation<'a> {
     fn gradient(&mut self, trigger: Trigger) -> Option<Vec<f64>> {
         let size = self.equations.size;
         match trigger {
-            Trigger::Load(_) => None,
+            Trigger::Load(_) | Trigger::Turn(_) => None,
             Trigger::Slip(contact) => {
                 let sign = f64::from(self.now[contact].phase.slip_sign());
                 let row = self.equations.contacts[contact].tangent.dense(size);
@@ -356,6 +357,10 @@ fn lower_bound(series: &[f64; ORDER + 1], duration: f64) -> f64 {
 
 impl MotionObserver for MotionVariation<'_> {
     fn segment(&mut self, segment: &MotionSegment<'_>) {
+        if self.has_failed {
+            self.watch(segment);
+            return;
+        }
         let size = self.equations.size;
         let sticks_alike = |(a, b): (&ContactNow, &ContactNow)| {
             (a.sticks(), a.saturated) == (b.sticks(), b.saturated)

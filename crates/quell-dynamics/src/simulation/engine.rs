@@ -249,6 +249,7 @@ impl<'a> Engine<'a> {
                 slip_sign: if sign > 0.0 { 1 } else { -1 },
                 unit: self.unit,
                 belt_velocity: self.belt_velocity,
+                belt_acceleration: &[],
                 displacement: &taken.displacement.gathered(),
                 slip: &taken.slip.gathered(),
             });
@@ -341,6 +342,7 @@ impl<'a> Engine<'a> {
                 slip_sign: 0,
                 unit: self.unit,
                 belt_velocity: self.belt_velocity,
+                belt_acceleration: &[],
                 displacement: &[self.state.displacement, self.stiction.belt_velocity],
                 slip: &[0.0],
             });

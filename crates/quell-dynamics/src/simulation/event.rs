@@ -28,7 +28,7 @@ impl EventKind {
     }
 }
 
-/// One event. The velocity at every event is that of the belt.
+/// One event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
     /// Time τ.
@@ -41,4 +41,6 @@ pub struct Event {
     pub slip_sign: i8,
     /// Displacement x.
     pub displacement: f64,
+    /// Velocity x′; without a contact of its own state it is that of the belt.
+    pub velocity: f64,
 }

@@ -55,13 +55,11 @@ impl Work for ExtremeSearch<'_, '_> {
     #[inline(always)]
     fn run(self) {
         let Self { extremes, segment } = self;
-        let mut velocity = [0.0; ORDER + 1];
-        velocity[..segment.slip.len()].copy_from_slice(segment.slip);
+        let velocity = segment.negative_velocity();
         let mut acceleration = [0.0; ORDER + 1];
         for (k, coefficient) in velocity.iter().enumerate().skip(1) {
             acceleration[k - 1] = k as f64 * coefficient;
         }
-        velocity[0] -= segment.belt_velocity / segment.unit;
         for mut series in [velocity, acceleration] {
             each_crossing(&mut series, segment.duration, |since, _| extremes.take(segment, since));
         }

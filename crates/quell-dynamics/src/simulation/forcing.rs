@@ -4,9 +4,10 @@
 //! times one sine and cosine per step. Triangle and square are straight between their breaks.
 //! Break number n is at (θᵢ + 2πc − φ)/R with n = c·(breaks per period) + i, computed
 //! from the integer each time, so that breaks do not drift. A sum of harmonics enters as its sines; samples are straight between
-//! their breaks, and a burst is harmonic or straight by pieces.
+//! their breaks, and a burst is harmonic or straight by pieces. Knots of drives, loads and envelopes are breaks too; between them a
+//! cubic is added to the dithers, or multiplies one.
 
-use quell_model::profile::Profile;
+use quell_model::profile::{KnotPiece, Knots, Profile};
 use quell_model::waveform::Piece;
 use quell_model::{Direction, Dither, Waveform};
 use quell_numerics::elementary::sin_cos_of_phase;
@@ -62,6 +63,8 @@ pub(crate) struct Forcing {
     components: Vec<Component>,
     /// Constant part: the steady load for the normal direction, else 0.
     mean: f64,
+    /// Courses given at knots, each at its current piece.
+    courses: Vec<KnotTrack>,
     /// Σ|D|, a bound of the dither part.
     amplitude: f64,
     next_break: f64,
@@ -86,6 +89,45 @@ impl<V: Lane> StraightPiece<V> {
     }
 }
 
+/// Knots along a run, at the current piece.
+#[derive(Clone, Debug)]
+struct KnotTrack {
+    knots: Knots,
+    /// Number of the current piece.
+    number: usize,
+    piece: KnotPiece,
+}
+
+impl KnotTrack {
+    fn new(knots: &Knots, clock: Clock) -> Self {
+        let number = knots.piece_at(clock.time());
+        Self { knots: knots.clone(), number, piece: knots.piece(number) }
+    }
+
+    fn pass_breaks(&mut self, clock: Clock) {
+        while clock.until(self.piece.ends) <= 0.0 {
+            self.number += 1;
+            self.piece = self.knots.piece(self.number);
+        }
+    }
+
+    /// Time since the start of the piece; 0 before the first knot.
+    #[inline(always)]
+    fn since(&self, clock: Clock) -> f64 {
+        if self.number == 0 { 0.0 } else { -clock.until(self.piece.began) }
+    }
+
+    #[inline(always)]
+    fn value(&self, clock: Clock) -> f64 {
+        self.piece.value(self.since(clock))
+    }
+
+    #[inline(always)]
+    fn series(&self, clock: Clock) -> [f64; 4] {
+        self.piece.shifted(self.since(clock))
+    }
+}
+
 #[derive(Clone, Debug)]
 struct Component {
     rate: f64,
@@ -95,6 +137,8 @@ struct Component {
     period: f64,
     /// D Rᵏ/k!.
     table: Series,
+    /// Share of the amplitude over time.
+    envelope: Option<KnotTrack>,
     /// Number of the break that ends the current piece; meaningless without breaks.
     ending: i64,
     /// Start and end of the current piece.
@@ -117,9 +161,13 @@ impl Forcing {
             .flat_map(Dither::by_harmonics)
             .map(|dither| Component::new(&dither, unit, clock))
             .collect();
-        let bound = |component: &Component| component.table[0].abs() * component.waveform.peak();
+        let bound = |component: &Component| {
+            let share = component.envelope.as_ref().map_or(1.0, |course| largest(&course.knots));
+            share * component.table[0].abs() * component.waveform.peak()
+        };
         let mut forcing = Self {
             mean,
+            courses: Vec::new(),
             amplitude: components.iter().map(bound).sum(),
             next_break: f64::INFINITY,
             components,
@@ -138,15 +186,24 @@ impl Forcing {
                 amplitude: wave.amplitude,
                 frequency_ratio: wave.frequency,
                 phase: wave.phase,
+                envelope: wave.envelope.clone(),
             })
             .collect();
         let mean = profiles.iter().map(|profile| profile.mean()).sum();
-        Self::new(&dithers, Direction::Tangential, mean, 1.0, clock)
+        let mut forcing = Self::new(&dithers, Direction::Tangential, mean, 1.0, clock);
+        let courses = profiles.iter().filter_map(|profile| profile.knots());
+        forcing.courses = courses.map(|knots| KnotTrack::new(knots, clock)).collect();
+        forcing.amplitude +=
+            forcing.courses.iter().map(|course| largest(&course.knots)).sum::<f64>();
+        forcing.pass_breaks(clock);
+        forcing
     }
 
     /// Whether the forcing is one harmonic wave and a constant part.
     pub(crate) fn is_harmonic(&self) -> bool {
-        matches!(&self.components[..], [only] if only.waveform.breaks().is_empty())
+        let has_one = matches!(&self.components[..], [only]
+            if only.waveform.breaks().is_empty() && only.envelope.is_none());
+        has_one && self.courses.is_empty()
     }
 
     /// Rate, phase and D Rᵏ/k! of the first dither; zeros without one.
@@ -166,7 +223,7 @@ impl Forcing {
     /// Whether there is no dither in this direction.
     #[inline(always)]
     pub(crate) fn is_constant(&self) -> bool {
-        self.components.is_empty()
+        self.components.is_empty() && self.courses.is_empty()
     }
 
     /// Σ|D|.
@@ -201,6 +258,14 @@ impl Forcing {
                 component.pass_breaks(clock);
                 next = if component.ends < next { component.ends } else { next };
             }
+            if let Some(envelope) = &mut component.envelope {
+                envelope.pass_breaks(clock);
+                next = next.min(envelope.piece.ends);
+            }
+        }
+        for course in &mut self.courses {
+            course.pass_breaks(clock);
+            next = next.min(course.piece.ends);
         }
         self.next_break = next;
     }
@@ -208,16 +273,22 @@ impl Forcing {
     /// Taylor coefficients at `clock`.
     #[inline(always)]
     pub(crate) fn series(&self, clock: Clock) -> Series {
-        let Some((first, rest)) = self.components.split_first() else {
-            let mut out = [0.0; ORDER + 1];
-            out[0] = self.mean;
-            return out;
+        let mut out = match self.components.split_first() {
+            None => [0.0; ORDER + 1],
+            Some((first, rest)) => {
+                let mut out = first.series(clock);
+                for component in rest {
+                    let series = component.series(clock);
+                    for k in 0..=ORDER {
+                        out[k] += series[k];
+                    }
+                }
+                out
+            }
         };
-        let mut out = first.series(clock);
-        for component in rest {
-            let series = component.series(clock);
-            for k in 0..=ORDER {
-                out[k] += series[k];
+        for course in &self.courses {
+            for (term, coefficient) in out.iter_mut().zip(course.series(clock)) {
+                *term += coefficient;
             }
         }
         out[0] += self.mean;
@@ -227,15 +298,27 @@ impl Forcing {
     /// Value at `clock`, with the same bits as the first coefficient of [`Forcing::series`].
     #[inline(always)]
     pub(crate) fn value(&self, clock: Clock) -> f64 {
-        let Some((first, rest)) = self.components.split_first() else {
-            return self.mean;
+        let mut sum = match self.components.split_first() {
+            None => 0.0,
+            Some((first, rest)) => {
+                let mut sum = first.value(clock);
+                for component in rest {
+                    sum += component.value(clock);
+                }
+                sum
+            }
         };
-        let mut sum = first.value(clock);
-        for component in rest {
-            sum += component.value(clock);
+        for course in &self.courses {
+            sum += course.value(clock);
         }
         sum + self.mean
     }
+}
+
+/// Largest magnitude of a course.
+fn largest(knots: &Knots) -> f64 {
+    let (least, most) = knots.range();
+    least.abs().max(most.abs())
 }
 
 impl Component {
@@ -250,6 +333,7 @@ impl Component {
             period: dither.waveform.period(),
             waveform: dither.waveform.clone(),
             table,
+            envelope: dither.envelope.as_ref().map(|knots| KnotTrack::new(knots, clock)),
             ending: 0,
             began: f64::NEG_INFINITY,
             ends: f64::INFINITY,
@@ -340,22 +424,45 @@ impl Component {
 
     #[inline(always)]
     fn value(&self, clock: Clock) -> f64 {
-        match self.straight(clock) {
+        let whole = match self.straight(clock) {
             Some((value, _)) => value,
             None => self.table[0] * self.sin_cos(clock).0,
+        };
+        match &self.envelope {
+            Some(envelope) => envelope.value(clock) * whole,
+            None => whole,
         }
     }
 
     #[inline(always)]
     fn series(&self, clock: Clock) -> Series {
-        let mut out = [0.0; ORDER + 1];
-        if let Some((value, slope)) = self.straight(clock) {
-            out[0] = value;
-            out[1] = slope;
-            return out;
+        let whole = match self.straight(clock) {
+            Some((value, slope)) => {
+                let mut out = [0.0; ORDER + 1];
+                out[0] = value;
+                out[1] = slope;
+                out
+            }
+            None => {
+                harmonic_series(&self.table, (self.rate, self.phase), clock.time(), clock.low())
+            }
+        };
+        match &self.envelope {
+            Some(envelope) => product(&envelope.series(clock), &whole),
+            None => whole,
         }
-        harmonic_series(&self.table, (self.rate, self.phase), clock.time(), clock.low())
     }
+}
+
+/// Product of a cubic and a series.
+fn product(cubic: &[f64; 4], series: &Series) -> Series {
+    let mut out = [0.0; ORDER + 1];
+    for (k, term) in out.iter_mut().enumerate() {
+        for (j, coefficient) in cubic.iter().enumerate().take(k + 1) {
+            *term = coefficient.mul_add(series[k - j], *term);
+        }
+    }
+    out
 }
 
 /// Taylor coefficients of D sin(Rτ + φ) at the moment `time` + `low` in every lane, from the table D Rᵏ/k! and (R, φ).
@@ -386,6 +493,7 @@ mod tests {
             amplitude: 0.7,
             frequency_ratio: 3.0,
             phase,
+            envelope: None,
         }
     }
 

@@ -17,11 +17,37 @@ pub struct Segment<'a> {
     pub(super) duration: f64,
     pub(super) slip_sign: i8,
     pub(super) unit: f64,
-    /// v₀, not in `unit`.
+    /// v₀ at the start, not in `unit`.
     pub(super) belt_velocity: f64,
+    /// Coefficients of the belt's velocity beyond the first, in `unit`; empty for a constant one.
+    pub(super) belt_acceleration: &'a [f64],
     /// Coefficients of x and of v_r, in `unit`.
     pub(super) displacement: &'a [f64],
     pub(super) slip: &'a [f64],
+}
+
+impl<'a> Segment<'a> {
+    /// A piece of the motion of a belt as a system, whose unit of length is 1.
+    pub(crate) fn of_motion(
+        (clock, duration): (Clock, f64),
+        slip_sign: i8,
+        surface: &'a [f64; ORDER + 1],
+        displacement: &'a [f64; ORDER + 1],
+        slip: &'a [f64; ORDER + 1],
+    ) -> Self {
+        let [belt_velocity, belt_acceleration @ ..] = surface;
+        let belt_velocity = *belt_velocity;
+        Self {
+            clock,
+            duration,
+            slip_sign,
+            unit: 1.0,
+            belt_velocity,
+            belt_acceleration,
+            displacement,
+            slip,
+        }
+    }
 }
 
 impl Segment<'_> {
@@ -69,8 +95,8 @@ impl Segment<'_> {
     #[inline(always)]
     pub(crate) fn velocities_at<const N: usize>(&self, since: &[f64; N]) -> [f64; N] {
         let mut values = horner_at(self.slip, since);
-        for value in &mut values {
-            *value = self.belt_velocity - self.unit * *value;
+        for (value, since) in values.iter_mut().zip(since) {
+            *value = self.surface(*since) - self.unit * *value;
         }
         values
     }
@@ -82,7 +108,29 @@ impl Segment<'_> {
 
     /// Velocity x′ at time `since` after its start, within the segment; exactly that of the belt in stick.
     pub fn velocity(&self, since: f64) -> f64 {
-        self.belt_velocity - self.slip_velocity(since)
+        self.surface(since) - self.slip_velocity(since)
+    }
+
+    /// Velocity of the belt at time `since` after its start.
+    #[inline(always)]
+    fn surface(&self, since: f64) -> f64 {
+        if self.belt_acceleration.is_empty() {
+            return self.belt_velocity;
+        }
+        let change = horner(self.belt_acceleration, since) * since;
+        self.unit.mul_add(change, self.belt_velocity)
+    }
+
+    /// Coefficients of v_r − v, minus the velocity, in `unit`.
+    #[inline(always)]
+    pub(super) fn negative_velocity(&self) -> [f64; ORDER + 1] {
+        let mut series = [0.0; ORDER + 1];
+        series[..self.slip.len()].copy_from_slice(self.slip);
+        series[0] -= self.belt_velocity / self.unit;
+        for (coefficient, change) in series[1..].iter_mut().zip(self.belt_acceleration) {
+            *coefficient -= change;
+        }
+        series
     }
 
     /// Slip velocity v_r at N moments, like [`Segment::displacements_at`].
@@ -314,9 +362,8 @@ impl Work for CrossingSearch<'_, '_> {
         let Self { section, segment } = self;
         // level − x′ falls through zero at an upward crossing. Each crossing is divided out
         // by shifting the expansion to it, so that later ones on the segment are found too.
-        let mut shifted = [0.0; ORDER + 1];
-        shifted[..segment.slip.len()].copy_from_slice(segment.slip);
-        shifted[0] += (section.level - segment.belt_velocity) / segment.unit;
+        let mut shifted = segment.negative_velocity();
+        shifted[0] += section.level / segment.unit;
         if shifted[0] == 0.0 {
             return;
         }

@@ -284,6 +284,7 @@ mod tests {
                 amplitude: draw(0.01, 0.9),
                 frequency_ratio: draw(1.5, 20.0),
                 phase: draw(-4.0, 4.0),
+                envelope: None,
             };
             let clock = Clock::at(0.0);
             let make = |direction, mean| {

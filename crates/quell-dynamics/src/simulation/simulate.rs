@@ -76,6 +76,7 @@ mod tests {
                 amplitude: 0.3,
                 frequency_ratio: 7.3,
                 phase: 0.4,
+                envelope: None,
             };
             let dithers = vec![
                 dither(Direction::Tangential, Waveform::Sine),

@@ -30,7 +30,7 @@ pub(crate) fn continue_slip(
     tolerance: f64,
     observer: &mut dyn Observer,
 ) -> Result<FinalState, Stalled> {
-    if let Some(why) = belt.friction().unsimulated() {
+    if let Some(why) = belt.unsimulated() {
         return Err(Stalled { time: start.time, why });
     }
     belt.friction().visit(SlipContinuation { belt, sign, start, until, tolerance, observer })
@@ -104,6 +104,7 @@ impl<L: SlidingLaw> Work for SlipContinuationOf<'_, '_, L> {
                 slip_sign: if sign > 0.0 { 1 } else { -1 },
                 unit,
                 belt_velocity: belt.belt_velocity(),
+                belt_acceleration: &[],
                 displacement: &series.displacement,
                 slip: &series.slip,
             });

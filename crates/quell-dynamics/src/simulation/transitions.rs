@@ -63,6 +63,7 @@ impl Engine<'_> {
             kind,
             slip_sign: self.state.slip_sign(),
             displacement: self.unit * self.state.displacement,
+            velocity: self.belt_velocity,
         };
         self.observer.event(&event);
     }

@@ -70,9 +70,11 @@ fn contact(tangent: Vec<f64>, normal_load: f64, velocity: f64, friction: Frictio
         slope: None,
         normal_load,
         normal_stiffness: 0.0,
+        tangential_stiffness: None,
         normal_damping: 0.0,
         surface_velocity: Profile::constant(velocity),
         friction,
+        varying_load: None,
     }
 }
 
@@ -88,7 +90,7 @@ fn compliant(
 
 /// A sine A sin(ωt + φ) on a target.
 fn sine(target: InputTarget, amplitude: f64, frequency: f64, phase: f64) -> Input {
-    let wave = Wave { waveform: Waveform::Sine, amplitude, frequency, phase };
+    let wave = Wave { waveform: Waveform::Sine, amplitude, frequency, phase, envelope: None };
     Input { target, profile: Profile::constant(0.0).with(wave) }
 }
 

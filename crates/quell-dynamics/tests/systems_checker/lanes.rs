@@ -186,9 +186,11 @@ fn relays(a: f64) -> System {
         slope: None,
         normal_load: 1.0,
         normal_stiffness: 0.0,
+        tangential_stiffness: None,
         normal_damping: 0.0,
         surface_velocity: Profile::constant(0.0),
         friction: Friction::Coulomb(Coulomb::constant(0.3)),
+        varying_load: None,
     };
     let matrix = Matrix::from_fn(2, 2, |i, j| if i == j { -1.0 } else { 0.0 });
     let structure = StateSpace::new(vec!["a".to_owned(), "b".to_owned()], matrix).into();

@@ -163,7 +163,7 @@ impl Probe<'_> {
         if let ([group], [_]) = (unit.groups(), self.dithers.as_slice())
             && group.distortion == 0.0
         {
-            let extrema = Signal::new(group)?.extrema();
+            let extrema = Signal::new(group)?.turning_values();
             let corners = extrema.into_iter().filter(|extremum| *extremum > 0.0);
             let mut corners: Vec<f64> = corners.map(|extremum| v / extremum).collect();
             corners.sort_unstable_by(f64::total_cmp);

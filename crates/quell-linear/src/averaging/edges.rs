@@ -215,7 +215,7 @@ pub fn unstable_bands(
     let corners: Vec<f64> = match still.groups() {
         // Tangential dither moves the mass in the same way at every velocity: every maximum of the fast velocity is a corner.
         [group] if group.normal.is_empty() && group.single_term().is_none() => {
-            let extrema = Signal::new(group)?.extrema().into_iter();
+            let extrema = Signal::new(group)?.turning_values().into_iter();
             extrema.filter(|extremum| *extremum > 0.0).collect()
         }
         _ => sign_changes(excess, &points, &[])?.into_iter().map(|c| c.location).collect(),

@@ -77,8 +77,8 @@ pub(super) struct WaveResponse {
     pub(super) wave: Wave,
     /// Slip far above every eigenfrequency; `None` for a sine.
     pub(super) free: Option<Vec<FreeSlip>>,
-    /// Harmonic n of the wave, its coefficient b_n of sin nθ, and the response at nω.
-    pub(super) harmonics: Vec<(u32, f64, Vec<ContactResponse>)>,
+    /// Harmonic n of the wave, its coefficient b_n + ic_n where the wave has b_n sin nθ + c_n cos nθ, and the response at nω.
+    pub(super) harmonics: Vec<(u32, Complex64, Vec<ContactResponse>)>,
 }
 
 /// The fast motion of contacts, prepared for any amplitudes of the inputs.
@@ -100,7 +100,7 @@ impl FastInputs {
         for (input, given) in system.inputs.iter().enumerate() {
             for wave in given.profile.waves().iter().cloned() {
                 let contacts = response(&given.target, &wave)?;
-                let harmonics = vec![(1, 1.0, contacts)];
+                let harmonics = vec![(1, Complex64::ONE, contacts)];
                 waves.push(WaveResponse { input, wave, free: None, harmonics });
             }
         }
@@ -302,8 +302,8 @@ impl GroupParts {
                 slip -= FreeSlip { second, ..free }.at(f64::from(*n) * frequency);
                 load -= f64::from(u8::from(direct));
             }
-            // A b sin(nθ) is the real part of −iA b e^{inθ}.
-            let turned = Complex64::from_polar(amplitude * coefficient, f64::from(*n) * phase);
+            // A(b sin nθ + c cos nθ) is the real part of −iA(b + ic) e^{inθ}.
+            let turned = Complex64::from_polar(amplitude, f64::from(*n) * phase) * coefficient;
             let input = -Complex64::I * turned;
             let sum = self.harmonics.entry(n * multiple).or_default();
             sum[0] += input * slip;

@@ -56,6 +56,28 @@ impl FastMotion {
         })
     }
 
+    /// Slip velocities at which averaged friction has a corner or, without fast motion, its jump: sums of the extrema of the
+    /// groups.
+    ///
+    /// # Errors
+    /// A quadrature that did not converge.
+    pub(super) fn corners(&self) -> Result<Vec<f64>, AveragingError> {
+        let mut sums = vec![0.0];
+        for group in &self.groups {
+            let extrema = match group.single_term() {
+                Some((wave, amplitude)) => {
+                    let peak = amplitude.abs() * wave.peak();
+                    vec![-peak, peak]
+                }
+                None => Signal::new(group)?.turning_values(),
+            };
+            sums = extrema.iter().flat_map(|own| sums.iter().map(move |sum| own + sum)).collect();
+            sums.sort_unstable_by(f64::total_cmp);
+            sums.dedup();
+        }
+        Ok(sums)
+    }
+
     /// Largest fast slip velocity, max s summed over the groups.
     pub(super) fn largest_slip(&self) -> Result<f64, AveragingError> {
         Ok(self.slip_range()?[1])

@@ -10,6 +10,7 @@
 //! |---|---|---|
 //! | one dither, shape G (or sine of any R) | closed forms of the law | 10⁻¹², 10⁻¹¹ |
 //! | one dither, another shape | quarter-wave quadrature | 10⁻¹², 10⁻¹⁰ |
+//! | one dither by samples | Gauss rules piece by piece | 10⁻¹² of μ, absolute |
 //! | commensurate dithers, second-order normal dither, correlated load | quadrature over the period | 10⁻¹² of μ, absolute |
 //! | two or three independent groups | nested quadrature | given with the result |
 //!

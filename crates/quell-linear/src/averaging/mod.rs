@@ -14,6 +14,7 @@
 //!     amplitude: 5.0,
 //!     frequency_ratio: 10.0,
 //!     phase: 0.0,
+//!     envelope: None,
 //! };
 //! let belt = Belt::new(0.005, 1.0, 1.0, law, vec![dither])?;
 //! // Dither destabilises between a root of the criterion and its jump, where the fast velocity reaches the belt velocity.
@@ -32,7 +33,9 @@
 //! | `effective`, `error` | μ̄ and its frozen slope with their error bounds, or why they have no value |
 //! | `stribeck`, `decreasing` | closed forms for one law |
 //! | `single_wave`, `periodic`, `independent` | any law under one shape, a periodic sum, several frequencies |
+//! | `pieces` | any law under one wave by samples, piece by piece |
 //! | `mean_friction` | the method for each fast motion |
+//! | `describing` | averaged friction under a slow sinusoid: equivalent gain and limit cycles |
 //! | `criterion` | 2ζ + Fμ̄′(v₀) and its verdict |
 //! | `critical_amplitudes`, `edges`, `everywhere_stable` | points at which the verdict changes: along α, along v₀, and α^L |
 //! | `sliding`, `sliding_critical` | averaged sliding of systems of any number of contacts, and its critical amplitudes |
@@ -41,6 +44,7 @@
 mod criterion;
 mod critical_amplitudes;
 mod decreasing;
+mod describing;
 mod dithers;
 mod edges;
 mod effective;
@@ -54,6 +58,7 @@ mod mean_friction;
 mod no_average;
 mod periodic;
 mod periodic_motion;
+mod pieces;
 mod sign_changes;
 mod single_wave;
 mod sliding;
@@ -63,6 +68,7 @@ mod wave;
 
 pub use criterion::{AveragedVerdict, Criterion, UndecidedBecause, criterion};
 pub use critical_amplitudes::{Becomes, CriticalAmplitude, critical_amplitudes};
+pub use describing::{DescribedCycle, DescribingFunction, EquivalentGain};
 pub(crate) use dithers::commensurate_groups;
 pub use dithers::{AveragingOptions, FastResponse, MAX_HARMONIC, NormalOrder, fast_wave};
 pub use edges::{

@@ -7,6 +7,8 @@
 //! [`SAMPLES`] points between breaks. A pair of extrema closer than that is missed; it leaves a kink
 //! to the adaptive quadrature and costs accuracy only while v is between their two values.
 //!
+//! A single wave by samples is summed piece by piece (`pieces`).
+//!
 //! Accuracy: 10⁻¹², absolute, in units of μ_s (and of μ_s/v_m for the slope, away from extrema). There is no relative accuracy
 //! for μ̄ → 0, because a sum need not have a symmetry.
 
@@ -18,6 +20,7 @@ use quell_numerics::roots::{Closeness, find_root};
 use super::effective::{Effective, SlopeSide};
 use super::error::{AveragingError, settled};
 use super::periodic_motion::PeriodicMotion;
+use super::pieces;
 
 /// Points per smooth interval at which the sign of ds/dθ is evaluated.
 const SAMPLES: usize = 8;
@@ -92,6 +95,25 @@ impl<'a> Signal<'a> {
         values
     }
 
+    /// Values of s at which a verdict may jump: the extrema; of a wave of very many pieces those at which s turns, because the
+    /// corners between them are tiny, and a search over the amplitude finds a change at one of them without knowing it.
+    pub(super) fn turning_values(&self) -> Vec<f64> {
+        const MANY: usize = 64;
+        if self.ends.len() <= MANY {
+            return self.extrema();
+        }
+        let last = self.ends.len() - 1;
+        let values = |k: usize| self.ends[k % last].1;
+        let turns = |k: &usize| {
+            let (before, here, after) = (values(k + last - 1), values(*k), values(k + 1));
+            (here - before) * (after - here) <= 0.0
+        };
+        let mut found: Vec<f64> = (0..last).filter(turns).map(values).collect();
+        found.sort_unstable_by(f64::total_cmp);
+        found.dedup_by(|a, b| (*a - *b).abs() <= 1e-14 * (a.abs() + b.abs()));
+        found
+    }
+
     /// Smallest and largest value of s.
     pub(super) fn range(&self) -> [f64; 2] {
         self.ends.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], end| {
@@ -121,6 +143,11 @@ pub(super) fn effective(
     group: &PeriodicMotion,
     v: f64,
 ) -> Result<Effective, AveragingError> {
+    if let Some((waveform, amplitude)) = group.single_sampled()
+        && let Some(found) = pieces::effective(law, waveform, amplitude, v)
+    {
+        return Ok(found);
+    }
     let signal = Signal::new(group)?;
     mean(law, &signal, 1.0, v)
 }

@@ -63,6 +63,19 @@ impl PeriodicMotion {
         only.filter(|term| term.wave.is_symmetric()).map(|term| (&term.wave, term.amplitude))
     }
 
+    /// The waveform and its amplitude where the motion reduces to a single undistorted wave by samples.
+    pub(super) fn single_sampled(&self) -> Option<(&Waveform, f64)> {
+        let only = match (self.tangential.as_slice(), self.normal.as_slice()) {
+            ([term], []) if self.load.is_empty() => term,
+            ([], [term]) if self.distortion == 0.0 => term,
+            _ => return None,
+        };
+        match &only.wave {
+            FastWave::Integral(waveform @ Waveform::Samples(_)) => Some((waveform, only.amplitude)),
+            _ => None,
+        }
+    }
+
     /// Whether load and slip of the group can be correlated.
     ///
     /// Without tangential dither they cannot: the load is dS/dθ up to a factor, and ⟨f(S) dS/dθ⟩ = 0.

@@ -6,7 +6,7 @@
 //! m₁ = ⟨μ(γ + a)Ñ⟩, so that steady sliding and its small motions are those of a system without dither and with other friction
 //! ([`crate::steady::FrictionLine`]).
 //!
-//! Waves that are not sines are divided into the motion far above every eigenfrequency, which has a closed form
+//! A sum of harmonics enters by its sines and cosines. Other waves that are not sines are divided into the motion far above every eigenfrequency, which has a closed form
 //! ([`crate::harmonic::FreeSlip`]), and the harmonics of the remainder, which fall at least like n⁻⁴; those up to the 63rd are kept.
 
 use num_complex::Complex64;
@@ -139,7 +139,7 @@ impl<'a> DitheredSystem<'a> {
                 let moved =
                     harmonic::response(self.system, &self.sliding, target, harmonic * frequency);
                 let Some(moved) = moved else { continue };
-                let turned = Complex64::from_polar(amplitude * coefficient, harmonic * phase);
+                let turned = Complex64::from_polar(amplitude, harmonic * phase) * coefficient;
                 let input = -Complex64::I * turned;
                 let rate = Complex64::new(0.0, harmonic * frequency);
                 for (i, displacement) in moved.displacement.iter().enumerate() {
@@ -167,11 +167,19 @@ fn wave_response(
             .map(|response| response.contacts)
             .ok_or(NoAverage::Resonance { frequency })
     };
+    if let Some(known) = wave.waveform.harmonics() {
+        let harmonics: Result<Vec<_>, NoAverage> = known
+            .iter()
+            .map(|h| Ok((h.order, Complex64::new(h.sine, h.cosine), at(h.order)?)))
+            .collect();
+        let harmonics = harmonics?;
+        return Ok(WaveResponse { input, wave, free: None, harmonics });
+    }
     if !wave.waveform.is_symmetric() {
         return Err(NoAverage::Waveform { name: wave.waveform.name() });
     }
     if wave.waveform == Waveform::Sine {
-        let harmonics = vec![(1, 1.0, at(1)?)];
+        let harmonics = vec![(1, Complex64::ONE, at(1)?)];
         return Ok(WaveResponse { input, wave, free: None, harmonics });
     }
     // The closed form of an oscillation needs a frequency well above it.
@@ -181,10 +189,10 @@ fn wave_response(
     };
     let free = harmonic::free_slip(system, sliding, target);
     let free = free.ok_or(NoSteadySliding::NoMass)?.into_iter().map(slow).collect();
-    let mut harmonics: Vec<(u32, f64, Vec<ContactResponse>)> = Vec::new();
+    let mut harmonics: Vec<(u32, Complex64, Vec<ContactResponse>)> = Vec::new();
     for n in (1..=MOST_HARMONICS).step_by(2) {
         let coefficient = wave.waveform.sine_coefficient(n).unwrap_or(0.0);
-        harmonics.push((n, coefficient, at(n)?));
+        harmonics.push((n, coefficient.into(), at(n)?));
     }
     Ok(WaveResponse { input, wave, free: Some(free), harmonics })
 }

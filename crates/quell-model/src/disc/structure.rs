@@ -83,9 +83,11 @@ impl Disc {
                     slope: Some(sliding.slope),
                     normal_load: sliding.normal_load,
                     normal_stiffness: point.weight * on(Contribution::Spring, load.stiffness),
+                    tangential_stiffness: None,
                     normal_damping: point.weight * on(Contribution::Damper, load.damping),
                     surface_velocity: Profile::constant(sliding.velocity),
                     friction: sliding.law,
+                    varying_load: None,
                 });
             }
             load.carry(body, &mut damping, &mut stiffness);
@@ -136,6 +138,7 @@ impl Disc {
                 amplitude: on(Contribution::Dither, amplitude),
                 frequency,
                 phase: load.dither_phase + FRAC_PI_2,
+                envelope: None,
             });
         }
         Input { target: InputTarget::Friction { contact }, profile: factor }

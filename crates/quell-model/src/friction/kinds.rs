@@ -6,8 +6,8 @@ use quell_numerics::lane::Lane;
 
 use super::law::AnyLaw;
 use super::{
-    BranchSeries, Coulomb, Decreasing, Expression, LawParameters, LawSeries, LawVisitor,
-    NumericLaw, Otherwise, Samples, SlidingLaw, SlipRange, Stribeck, StribeckExponential,
+    BranchSeries, Bristles, Coulomb, Decreasing, Expression, LawParameters, LawSeries, LawVisitor,
+    Lugre, NumericLaw, Otherwise, Samples, SlidingLaw, SlipRange, Stribeck, StribeckExponential,
     Surroundings,
 };
 use crate::parameter::Parameter;
@@ -57,6 +57,11 @@ macro_rules! laws {
             /// Name in a study file.
             pub fn name(self) -> &'static str {
                 match self { $(Self::$kind => <$kind as LawParameters>::NAME),+ }
+            }
+
+            /// Whether the law has a state of its own ([`Friction::bristles`]).
+            pub fn has_state(self) -> bool {
+                match self { $(Self::$kind => <$kind as LawParameters>::HAS_STATE),+ }
             }
 
             /// Description in one line.
@@ -218,6 +223,11 @@ macro_rules! laws {
                 match self { $(Self::$kind(law) => law.unsimulated()),+ }
             }
 
+            /// The bristles whose deflection is a state of the law; `None` of a law of the slip velocity alone.
+            pub fn bristles(&self) -> Option<Bristles> {
+                match self { $(Self::$kind(law) => law.bristles()),+ }
+            }
+
             /// Whether the law has a characteristic velocity.
             pub fn has_velocity(&self) -> bool {
                 match self { $(Self::$kind(law) => law.has_velocity()),+ }
@@ -246,7 +256,7 @@ macro_rules! laws {
     };
 }
 
-laws!(numbers: Stribeck, Decreasing, Coulomb, StribeckExponential; data: Expression, Samples);
+laws!(numbers: Stribeck, Decreasing, Coulomb, StribeckExponential, Lugre; data: Expression, Samples);
 
 impl LawKind {
     /// The law with a name.

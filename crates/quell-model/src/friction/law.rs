@@ -8,7 +8,7 @@ use std::any::Any;
 use quell_numerics::lane::Lane;
 
 use super::series::BranchSeries;
-use super::{SlipRange, Surroundings};
+use super::{Bristles, SlipRange, Surroundings};
 use crate::InvalidValues;
 use crate::parameter::Parameter;
 
@@ -29,6 +29,9 @@ pub trait LawParameters: Sized {
     const ABOUT: &'static str;
     /// The law's parameters in the registry, in the order of [`LawParameters::values`].
     const PARAMETERS: &'static [Parameter];
+
+    /// Whether the law has a state of its own ([`SlidingLaw::bristles`]), so that the engine for belts does not simulate it.
+    const HAS_STATE: bool = false;
 
     /// Numbers that a study may give for the law and that are not in its formula.
     const OPTIONS: &'static [Parameter] = &[];
@@ -71,6 +74,11 @@ pub trait SlidingLaw: LawParameters + LawSeries + Clone + Send + Sync + 'static 
 
     /// Why the law cannot be simulated; `None` if it can. Averages are valid for every law.
     fn unsimulated(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// The bristles whose deflection is a state of the law; `None` of a law of the slip velocity alone.
+    fn bristles(&self) -> Option<Bristles> {
         None
     }
 

@@ -9,12 +9,14 @@
 //! Most laws are defined by a few numbers ([`NumericLaw`]). A law may also carry data that its runs share:
 //! a formula ([`Expression`]) or the approximant of measured samples ([`Samples`]).
 
+mod bristles;
 mod coulomb;
 mod decreasing;
 mod derivatives;
 pub mod expression;
 mod kinds;
 mod law;
+mod lugre;
 mod numeric;
 mod range;
 pub mod samples;
@@ -22,11 +24,13 @@ mod series;
 mod stribeck;
 mod stribeck_exponential;
 
+pub use bristles::Bristles;
 pub use coulomb::{Coulomb, CoulombConstants, CoulombSeries};
 pub use decreasing::{Decreasing, DecreasingConstants, DecreasingSeries};
 pub use expression::Expression;
 pub use kinds::{Friction, FrictionConstants, FrictionSeries, LawKind};
 pub use law::{AnyLaw, LawParameters, LawSeries, LawVisitor, Otherwise, SlidingLaw};
+pub use lugre::Lugre;
 pub use numeric::NumericLaw;
 pub use range::{RangeLimit, SlipRange, Surroundings};
 pub use samples::Samples;

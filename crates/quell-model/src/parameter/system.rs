@@ -80,6 +80,16 @@ pub const CONTACT_NORMAL_DAMPING: Parameter = number(
     &[si("normal_damping_n_s_per_m", "N·s/m")],
 );
 
+/// Tangential stiffness of a contact.
+pub const CONTACT_TANGENTIAL_STIFFNESS: Parameter = number(
+    "contact.tangential_stiffness",
+    "k_t",
+    "tangential stiffness of the contact, which adheres elastically before it slips",
+    Quantity::LoadStiffness,
+    Bounds::POSITIVE,
+    &[si("tangential_stiffness_n_per_m", "N/m")],
+);
+
 /// Velocity of the surface of a contact.
 pub const CONTACT_BELT_VELOCITY: Parameter = number(
     "contact.belt_velocity",
@@ -108,6 +118,7 @@ pub const SYSTEM: &[Parameter] = &[
     CONTACT_NORMAL_LOAD,
     CONTACT_NORMAL_STIFFNESS,
     CONTACT_NORMAL_DAMPING,
+    CONTACT_TANGENTIAL_STIFFNESS,
     CONTACT_BELT_VELOCITY,
     DITHER_AMPLITUDE,
     SYSTEM_DITHER_FREQUENCY,

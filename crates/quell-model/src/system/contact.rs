@@ -12,6 +12,9 @@ use crate::profile::Profile;
 /// * the force on the structure is t T + n (T sᵀq − (N − N₀)).
 ///
 /// A contact without a tangent slips at γ = v; one without a normal has a prescribed load.
+///
+/// A contact has a state of its own if a tangential stiffness precedes its slip (an elastic slider), or if its law has one
+/// ([`Friction::bristles`]): see [`Contact::has_state`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
     /// Name, unique in the system.
@@ -24,8 +27,10 @@ pub struct Contact {
     pub normal: Option<Vec<f64>>,
     /// Slope row s: a surface tilted by sᵀq turns friction by that angle.
     pub slope: Option<Vec<f64>>,
-    /// Steady normal load N₀ > 0.
+    /// Steady normal load N₀ > 0; where it varies in time, its value at t = 0.
     pub normal_load: f64,
+    /// N₀ over time, if it varies; it takes the place of `normal_load`.
+    pub varying_load: Option<Profile>,
     /// Normal stiffness k ≥ 0.
     pub normal_stiffness: f64,
     /// Normal damping d ≥ 0.
@@ -34,4 +39,34 @@ pub struct Contact {
     pub surface_velocity: Profile,
     /// Friction law; odd in the slip velocity.
     pub friction: Friction,
+    /// Tangential stiffness k_t > 0 of an elastic slider, a force over a length; `None` for a rigid contact.
+    ///
+    /// While |T| < μ_s N the contact adheres and Ṫ = k_t γ. It slides at T = ±μ(|γ|)N, and adheres again where its own speed
+    /// γ − Ṫ/k_t reaches zero. Its state is T, 0 at the start of a study: the element of Jenkins (1962) and Iwan (1966).
+    pub tangential_stiffness: Option<f64>,
+}
+
+impl Contact {
+    /// Whether the friction force has a state of its own, so that it is no function of the slip velocity and the load.
+    pub fn has_state(&self) -> bool {
+        self.tangential_stiffness.is_some() || self.friction.bristles().is_some()
+    }
+}
+
+impl Contact {
+    /// N₀ over time.
+    pub fn load(&self) -> Profile {
+        self.varying_load.clone().unwrap_or_else(|| Profile::constant(self.normal_load))
+    }
+
+    /// The contact with the surface velocity and the load of a time.
+    #[must_use]
+    pub fn steady_at(&self, time: f64) -> Self {
+        Self {
+            normal_load: self.load().value(time),
+            varying_load: None,
+            surface_velocity: Profile::constant(self.surface_velocity.value(time)),
+            ..self.clone()
+        }
+    }
 }

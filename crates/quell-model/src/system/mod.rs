@@ -21,7 +21,7 @@ pub use input::{Input, InputTarget};
 pub use mass::MassMatrix;
 pub use structure::{Mechanical, StateSpace, Structure};
 
-use crate::profile::{Profile, Wave};
+use crate::profile::Wave;
 
 /// A structure, its contacts and its inputs.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,12 +56,47 @@ impl System {
         self.waves().filter(|wave| wave.amplitude != 0.0).map(Wave::repetition)
     }
 
-    /// The same system with every input at its mean.
+    /// Length of the state: that of the structure, and one number for each contact with a state of its own.
+    pub fn state_size(&self) -> usize {
+        let own = self.contacts.iter().filter(|contact| contact.has_state());
+        self.structure.state_size() + own.count()
+    }
+
+    /// Whether a contact has a state of its own ([`Contact::has_state`]).
+    pub fn has_contact_state(&self) -> bool {
+        self.contacts.iter().any(Contact::has_state)
+    }
+
+    /// The same system without the waves of its inputs.
     #[must_use]
     pub fn undithered(&self) -> Self {
         let mut system = self.clone();
         for input in &mut system.inputs {
-            input.profile = Profile::constant(input.profile.mean());
+            input.profile = input.profile.without_waves();
+        }
+        system
+    }
+
+    /// Whether drives and loads are constant, and dithers periodic: nothing has knots or an envelope, and no surface oscillates.
+    /// Averages, orbits, thresholds and steady sliding are those of a steady system.
+    pub fn is_steady(&self) -> bool {
+        let steady = |contact: &Contact| {
+            let drive = &contact.surface_velocity;
+            drive.is_steady() && drive.waves().is_empty() && contact.varying_load.is_none()
+        };
+        self.contacts.iter().all(steady)
+            && self.inputs.iter().all(|input| input.profile.is_steady())
+    }
+
+    /// The steady system with the drives, loads and amplitudes of a time.
+    #[must_use]
+    pub fn steady_at(&self, time: f64) -> Self {
+        let mut system = self.clone();
+        for contact in &mut system.contacts {
+            *contact = contact.steady_at(time);
+        }
+        for input in &mut system.inputs {
+            input.profile = input.profile.steady_at(time);
         }
         system
     }
@@ -76,7 +111,7 @@ impl System {
     ///
     /// let law = Friction::Coulomb(Coulomb::constant(0.4));
     /// let mut system = Belt::new(0.05, 1.0, 0.5, law, Vec::new())?.system();
-    /// let wave = Wave { waveform: Waveform::Sine, amplitude: 0.5, frequency: 10.0, phase: 0.0 };
+    /// let wave = Wave { waveform: Waveform::Sine, amplitude: 0.5, frequency: 10.0, phase: 0.0, envelope: None };
     /// let profile = Profile::constant(2.0).with(wave);
     /// system.inputs = vec![Input { target: InputTarget::Force(vec![1.0]), profile }];
     ///
@@ -92,10 +127,7 @@ impl System {
     pub fn with_amplitudes_scaled(&self, factor: f64) -> Self {
         let mut system = self.clone();
         for input in &mut system.inputs {
-            let mean = Profile::constant(input.profile.mean());
-            input.profile = input.profile.waves().iter().fold(mean, |profile, wave| {
-                profile.with(Wave { amplitude: factor * wave.amplitude, ..wave.clone() })
-            });
+            input.profile = input.profile.with_waves_scaled(factor);
         }
         system
     }

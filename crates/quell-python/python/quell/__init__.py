@@ -35,6 +35,7 @@ from ._laws import (
     Decreasing,
     Expression,
     Friction,
+    Lugre,
     SampledLaw,
     Samples,
     Stribeck,
@@ -43,6 +44,7 @@ from ._laws import (
 )
 from ._quell import __version__
 from ._study import Study
+from ._profile import Profile
 from ._system import Component, Contact, Contacts, System, SystemDither, SystemInitial, SystemMode
 
 if TYPE_CHECKING:
@@ -62,7 +64,9 @@ __all__ = [
     "Expression",
     "Friction",
     "Initial",
+    "Profile",
     "Load",
+    "Lugre",
     "Mode",
     "QuellError",
     "RunError",

@@ -10,6 +10,7 @@ import numpy as np
 from ._axes import Axes, axes_tables
 from ._errors import StudyError, complaint
 from ._laws import Friction, as_law, law_of
+from ._profile import Profile
 from ._sampling import with_wave
 from ._study import Study
 from ._tables import Number, Table, Unknown, given
@@ -42,10 +43,13 @@ class Dither(Table):
         The same in N (peak, or root mean square) and Hz, in a study in SI.
     harmonics :
         "fourier": a list of ``{"order": n, "sine": s, "cosine": c}``.
-    values, hold :
-        "samples": one period at equal distances, and "linear" (straight lines) or "zero" (held).
+    values, file, hold :
+        "samples": one period at equal distances, or a file of it (one number per line, or a CSV file with a column ``value``); and
+        "linear" (straight lines) or "zero" (held).
     carrier, on, off :
         "burst": the waveform of the carrier, and its periods in a burst and in a pause.
+    envelope :
+        Share of the amplitude over time: a :class:`Profile` with ``share``.
     """
 
     _path = "dither"
@@ -60,10 +64,12 @@ class Dither(Table):
     frequency_hz: float | str | None
     harmonics: Any
     values: Any
+    file: str | None
     hold: str | None
     carrier: str | None
     on: int | None
     off: int | None
+    envelope: Any
 
     def __init__(
         self,
@@ -78,10 +84,12 @@ class Dither(Table):
         frequency_hz: Number | None = None,
         harmonics: Iterable[Mapping[str, Number]] | None = None,
         values: Iterable[float] | None = None,
+        file: str | None = None,
         hold: Literal["linear", "zero"] | None = None,
         carrier: Literal["sine", "triangle", "square"] | None = None,
         on: int | None = None,
         off: int | None = None,
+        envelope: Profile | Mapping[str, Any] | None = None,
         **unknown: Unknown,
     ) -> None:
         keys, distance = with_wave(given(locals()))
@@ -177,8 +185,13 @@ class Belt(Study):
         F = N/k > 0: a length. In SI ``normal_force_n``, in N.
     belt_velocity :
         v₀ ≥ 0: a length per τ. In SI ``belt_velocity_m_per_s``, in m/s.
+    tangential_stiffness :
+        k_t/k > 0 of a contact that adheres elastically before it slips. In SI ``tangential_stiffness_n_per_m``, in N/m [default: rigid].
+    drive, load :
+        Velocity of the belt and normal load over time: a :class:`Profile` with ``velocity`` or ``load``, instead of
+        ``belt_velocity`` and ``normal_load`` or, as an oscillation, added to them.
     friction :
-        A law: :class:`Stribeck`, :class:`Decreasing`, :class:`Coulomb`, :class:`StribeckExponential`,
+        A law: :class:`Stribeck`, :class:`Decreasing`, :class:`Coulomb`, :class:`StribeckExponential`, :class:`Lugre`,
         :class:`Expression` (a formula), :class:`Samples` (measured), a function of the slip speed ≥ 0 (see :class:`SampledLaw`), or
         :class:`Friction` with the name of the law.
     dither :
@@ -214,12 +227,16 @@ class Belt(Study):
     damping_ratio: float | None
     normal_load: float | None
     belt_velocity: float | None
+    tangential_stiffness: float | None
     mass_kg: float | None
     stiffness_n_per_m: float | None
     natural_frequency_hz: float | None
     damping_n_s_per_m: float | None
     normal_force_n: float | None
     belt_velocity_m_per_s: float | None
+    tangential_stiffness_n_per_m: float | None
+    drive: Any
+    load: Any
 
     def __init__(
         self,
@@ -227,6 +244,7 @@ class Belt(Study):
         damping_ratio: Number | None = None,
         normal_load: Number | None = None,
         belt_velocity: Number | None = None,
+        tangential_stiffness: Number | None = None,
         friction: Friction | Mapping[str, Any] | Callable[[float], float] | None = None,
         dither: Dither | Iterable[Dither] | None = None,
         initial: Literal["rest", "sliding", "squealing"] | tuple[float, float] | Initial | None = None,
@@ -241,6 +259,9 @@ class Belt(Study):
         damping_n_s_per_m: Number | None = None,
         normal_force_n: Number | None = None,
         belt_velocity_m_per_s: Number | None = None,
+        tangential_stiffness_n_per_m: Number | None = None,
+        drive: Profile | Mapping[str, Any] | None = None,
+        load: Profile | Mapping[str, Any] | None = None,
         **unknown: Unknown,
     ) -> None:
         belt = Table(**given(locals(), "friction", "dither", "initial", "solver", "band", "band_hz", "axes", "title"))
@@ -306,13 +327,22 @@ def speed_of(belt: Mapping[str, Any], dither: object) -> tuple[float, bool]:
     in_si = any(name in belt for name in ("mass_kg", "stiffness_n_per_m", "natural_frequency_hz"))
     keys = ("belt_velocity_m_per_s", "amplitude_n", "frequency_hz") if in_si else ("belt_velocity", "amplitude", "frequency_ratio")
     inertia = 2.0 * np.pi * number_in(belt, "mass_kg") if in_si else 1.0
-    total = number_in(belt, keys[0])
+    total = max(number_in(belt, keys[0]), fastest(belt.get("drive"), keys[0].removeprefix("belt_")))
     for table in dither if isinstance(dither, list) else [dither]:
         given = table.given if isinstance(table, Table) else table if isinstance(table, Mapping) else {}
         under = inertia * number_in(given, keys[2])
         if given.get("direction") == "tangential" and under > 0.0:
             total += number_in(given, keys[1]) / under
     return total, in_si
+
+
+def fastest(drive: object, key: str) -> float:
+    """Largest speed of a drive over knots; 0 if it has none."""
+    given = drive.given if isinstance(drive, Table) else drive if isinstance(drive, Mapping) else {}
+    values = given.get(key)
+    listed = values if isinstance(values, (list, tuple, np.ndarray)) else []
+    speeds = [number_in({key: abs(value)}, key) for value in listed if isinstance(value, (int, float))]
+    return max(speeds, default=0.0)
 
 
 def number_in(table: Mapping[str, Any], key: str) -> float:

@@ -71,7 +71,7 @@ def events_frame(run: Simulation) -> pandas.DataFrame:
         columns.update({attributes(names)[name]: states[:, place] for place, name in enumerate(names)})
         contacts = [contact["name"] for contact in run.contacts]
         columns["contact_name"] = np.array([contacts[event["contact"]] for event in run.events], dtype=object)
-    wanted = ["time", "contact", "kind", "slip_sign"] if names is not None else ["time", "contact", "kind", "slip_sign", "displacement"]
+    wanted = ["time", "contact", "kind", "slip_sign"] if names is not None else ["time", "contact", "kind", "slip_sign", "displacement", "velocity"]
     empty = {name: np.array([], dtype=object if name == "kind" else float) for name in wanted if name not in columns}
     table = pandas.DataFrame({**empty, **columns})
     table.index.name = "event"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -33,6 +33,7 @@ __all__ = [
     "Decreasing",
     "Expression",
     "Friction",
+    "Lugre",
     "SampledLaw",
     "Samples",
     "Stribeck",
@@ -187,6 +188,50 @@ class StribeckExponential(Friction):
         **unknown: Unknown,
     ) -> None:
         super().__init__("stribeck-exponential", **given(locals()))
+
+
+class Lugre(Friction):
+    """LuGre friction: T/N = σ₀z + σ₁ż + σ₂v with ż = v − σ₀|v|z/g(v) and g(v) = μ_c + (μ_s − μ_c) exp(−(v/v_s)²).
+
+    The deflection z of the bristles is a state. ``simulate`` and ``friction`` take it into account; verbs that cannot refuse the law.
+
+    Parameters
+    ----------
+    coefficient, static_coefficient :
+        μ_c and μ_s, dimensionless.
+    reference_velocity :
+        v_s, over which friction falls, as length per τ (velocity/ω₀).
+    bristle_stiffness :
+        σ₀, per length.
+    bristle_damping :
+        σ₁, per length per τ [default: 0].
+    viscous :
+        σ₂, the rise of the coefficient with slip speed, per length per τ [default: 0].
+    reference_velocity_m_per_s, bristle_stiffness_per_m, bristle_damping_s_per_m, viscous_s_per_m :
+        The same in m/s, 1/m and s/m, in a study in SI.
+    friction_force_n, static_friction_force_n, viscous_n_s_per_m :
+        Friction as forces in N and N·s/m instead, in a study in SI. The normal force may then be left out.
+    """
+
+    def __init__(
+        self,
+        *,
+        coefficient: float | None = None,
+        static_coefficient: float | None = None,
+        reference_velocity: float | None = None,
+        bristle_stiffness: float | None = None,
+        bristle_damping: float | None = None,
+        viscous: float | None = None,
+        reference_velocity_m_per_s: float | None = None,
+        bristle_stiffness_per_m: float | None = None,
+        bristle_damping_s_per_m: float | None = None,
+        viscous_s_per_m: float | None = None,
+        friction_force_n: float | None = None,
+        static_friction_force_n: float | None = None,
+        viscous_n_s_per_m: float | None = None,
+        **unknown: Unknown,
+    ) -> None:
+        super().__init__("lugre", **given(locals()))
 
 
 class Expression(Friction):
@@ -395,10 +440,19 @@ class StudyFriction(Friction):
     def __reduce__(self) -> tuple[type[StudyFriction], tuple[Any, ...]]:
         return type(self), (self._study, self.given)
 
-    @keywords
+    @overload
     def __call__(
         self, at: npt.ArrayLike | str | Sequence[str] | None = None, measured: bool = False
-    ) -> results.FrictionCurve:
+    ) -> results.FrictionCurve: ...
+    @overload
+    def __call__(self, *, describing: Number) -> results.DescribingFunction: ...
+    @keywords
+    def __call__(
+        self,
+        at: npt.ArrayLike | str | Sequence[str] | None = None,
+        measured: bool = False,
+        describing: Number | None = None,
+    ) -> results.FrictionCurve | results.DescribingFunction:
         """The friction law and the effective friction under the dither, equations (2.21), (3.19)–(3.27), (4.27).
 
         Parameters
@@ -409,15 +463,27 @@ class StudyFriction(Friction):
         measured :
             Whether friction is also measured on steady responses, equations (4.30) and (4.31), stick included, instead of
             averaged [default: False].
+        describing :
+            Largest velocity amplitude a of a slow sinusoid: the describing function of averaged friction under the slip velocity
+            v₀ + a sin φ, and the limit cycles that it predicts (Gelb and Vander Velde 1968), instead of the curve.
 
         Returns
         -------
-        quell.results.FrictionCurve
-            μ, μ̄ and μ̄′ over ``slip_velocity`` (n,), and the measured ⟨f/N⟩ if requested.
+        quell.results.FrictionCurve or quell.results.DescribingFunction
+            μ, μ̄ and μ̄′ over ``slip_velocity`` (n,), and the measured ⟨f/N⟩ if requested; with ``describing`` mean coefficient
+            and gain over ``velocity_amplitude`` (n,).
         """
         from . import results
 
         study, native = self._study, self._study._native
+        if describing is not None:
+            arguments = Arguments()
+            allowed = "a velocity amplitude above 0"
+            largest = arguments.quantity("describing", describing, allowed)
+            if at is not None or measured:
+                arguments.wrong.append(complaint("describing", None, "given without at and measured", "conflict"))
+            arguments.done()
+            return results.DescribingFunction(study, native.describing(largest))
         where: npt.NDArray[np.float64] | None = None
         at = plain(at)
         if isinstance(at, str):

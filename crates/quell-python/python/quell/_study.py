@@ -260,7 +260,35 @@ class Study(CheckedStudy):
         return results.Simulation(self, self._native.simulate(end, (bool(events), bool(samples)), begin, moments, texts))
 
     @keywords
-    def response(self, *, settle: Number | None = None, record: Number | None = None) -> results.Response:
+    @keywords
+    def at_time(self, time: Number) -> Study:
+        """The steady study with the velocities, loads and amplitudes of a time, for questions about a steady drive.
+
+        Parameters
+        ----------
+        time :
+            The moment; a text such as ``"2s"`` in a study with units.
+        """
+        arguments = Arguments()
+        moment = arguments.quantity("time", time, 'a finite number, or a time with its unit such as "2s"')
+        arguments.done()
+        document = self._native.document_at(moment)
+        document.pop("schema", None)
+        study = object.__new__(type(self))
+        study._folder = self._native.folder
+        study._build(**document)
+        return study
+
+    @overload
+    def response(self, *, settle: Number | None = None, record: Number | None = None, window: None = None) -> results.Response: ...
+
+    @overload
+    def response(self, *, window: tuple[Number, Number]) -> results.Window: ...
+
+    @keywords
+    def response(
+        self, *, settle: Number | None = None, record: Number | None = None, window: tuple[Number, Number] | None = None
+    ) -> results.Response | results.Window:
         """The steady response, the effect of the dither (``effect``; residual vibration E, equation (2.27)), and its cost.
 
         Of a system, the response of ``observe`` in the band below the lowest dither frequency.
@@ -270,9 +298,19 @@ class Study(CheckedStudy):
         settle, record :
             System: time before the record and length of the record; in a study with units also a text such as ``"50ms"``
             [default: 200 and 60 periods of the slowest oscillation]. A belt has them in its ``solver``.
+        window :
+            Beginning and end of a part of the run from its start, which is measured instead of a steady response: also where drive,
+            load or dither varies in time.
         """
         arguments = Arguments()
         allowed = 'a finite number, or a time with its unit such as "0.5s"'
+        if window is not None:
+            for name, given in (("settle", settle), ("record", record)):
+                if given is not None:
+                    arguments.wrong.append(complaint(name, given, "left out: window gives both times", "conflict"))
+            ends = arguments.quantities("window", window, "two finite times, the beginning and the end")
+            arguments.done()
+            return results.Window(self, self._native.window(*ends))
         before = None if settle is None else arguments.quantity("settle", settle, allowed)
         length = None if record is None else arguments.quantity("record", record, allowed)
         arguments.done()
@@ -683,6 +721,20 @@ class Study(CheckedStudy):
         return results.Basins(self, native)
 
     @keywords
+    def waveforms(self) -> results.Waveforms:
+        """The least dither of each waveform that quenches by averaging, and its cost.
+
+        Sine, triangle, square, the waveform of the study, and bursts of the study's carrier, at the direction and the frequency of
+        the study's first dither. Power, stroke and velocity are those of the structure without friction under that dither. System:
+        sine, triangle, square and harmonics, with the stroke and the power of the driven point of the sliding structure.
+
+        Returns
+        -------
+        quell.results.Waveforms
+            Least amplitude, rms force, power, stroke, velocity and exact amplitude over the waveforms (n,).
+        """
+        return results.Waveforms(self, self._native.waveforms())
+
     def modes(self) -> results.Modes:
         """Natural frequencies and shapes of a disc or of a system, and critical speeds of a disc."""
         return results.Modes(self, self._native.modes())

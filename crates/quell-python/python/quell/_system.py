@@ -12,6 +12,7 @@ from ._axes import Axes, axes_tables
 from ._belt import as_given, listed_tables, number_in, several, single
 from ._laws import Friction, as_law, law_of
 from ._names import suggestion
+from ._profile import Profile
 from ._sampling import with_wave
 from ._study import Study
 from ._tables import Number, Table, Unknown, given
@@ -48,10 +49,15 @@ class Contact(Table):
         Steady normal load, > 0.
     normal_stiffness, normal_damping :
         Stiffness and damping of the contact along ``normal`` [default: 0].
+    tangential_stiffness :
+        Stiffness along the surface, > 0, of a contact that adheres elastically before it slips [default: rigid].
     belt_velocity :
         Velocity of the moving surface.
-    normal_load_n, normal_stiffness_n_per_m, normal_damping_n_s_per_m, belt_velocity_m_per_s :
+    normal_load_n, normal_stiffness_n_per_m, normal_damping_n_s_per_m, tangential_stiffness_n_per_m, belt_velocity_m_per_s :
         The same in SI, in a study with units.
+    drive, load :
+        Velocity of the surface and normal load over time: a :class:`Profile` with ``velocity`` or ``load``, instead of
+        ``belt_velocity`` and ``normal_load`` or, as an oscillation, added to them.
     friction :
         A friction law, such as :class:`Coulomb`, or a function of the slip speed ≥ 0 (see :class:`SampledLaw`) [default: that of
         the study].
@@ -67,12 +73,16 @@ class Contact(Table):
     normal_load: float | str | None
     normal_stiffness: float | str | None
     normal_damping: float | str | None
+    tangential_stiffness: float | str | None
     belt_velocity: float | str | None
     normal_load_n: float | str | None
     normal_stiffness_n_per_m: float | str | None
     normal_damping_n_s_per_m: float | str | None
+    tangential_stiffness_n_per_m: float | str | None
     belt_velocity_m_per_s: float | str | None
     friction: Any
+    drive: Any
+    load: Any
 
     def __init__(
         self,
@@ -85,12 +95,16 @@ class Contact(Table):
         normal_load: Number | None = None,
         normal_stiffness: Number | None = None,
         normal_damping: Number | None = None,
+        tangential_stiffness: Number | None = None,
         belt_velocity: Number | None = None,
         normal_load_n: Number | None = None,
         normal_stiffness_n_per_m: Number | None = None,
         normal_damping_n_s_per_m: Number | None = None,
+        tangential_stiffness_n_per_m: Number | None = None,
         belt_velocity_m_per_s: Number | None = None,
         friction: Friction | Mapping[str, Any] | Callable[[float], float] | None = None,
+        drive: Profile | Mapping[str, Any] | None = None,
+        load: Profile | Mapping[str, Any] | None = None,
         **unknown: Unknown,
     ) -> None:
         super().__init__(**given(locals()))
@@ -121,10 +135,13 @@ class SystemDither(Table):
         The same in N (peak, or root mean square) and Hz, in a study with units.
     harmonics :
         "fourier": a list of ``{"order": n, "sine": s, "cosine": c}``.
-    values, hold :
-        "samples": one period at equal distances, and "linear" (straight lines) or "zero" (held).
+    values, file, hold :
+        "samples": one period at equal distances, or a file of it (one number per line, or a CSV file with a column ``value``); and
+        "linear" (straight lines) or "zero" (held).
     carrier, on, off :
         "burst": the waveform of the carrier, and its periods in a burst and in a pause.
+    envelope :
+        Share of the amplitude over time: a :class:`Profile` with ``share``.
     """
 
     _path = "dither"
@@ -142,10 +159,12 @@ class SystemDither(Table):
     frequency_hz: float | str | None
     harmonics: Any
     values: Any
+    file: str | None
     hold: str | None
     carrier: str | None
     on: int | None
     off: int | None
+    envelope: Any
 
     def __init__(
         self,
@@ -163,10 +182,12 @@ class SystemDither(Table):
         frequency_hz: Number | None = None,
         harmonics: Iterable[Mapping[str, Number]] | None = None,
         values: Iterable[float] | None = None,
+        file: str | None = None,
         hold: Literal["linear", "zero"] | None = None,
         carrier: Literal["sine", "triangle", "square"] | None = None,
         on: int | None = None,
         off: int | None = None,
+        envelope: Profile | Mapping[str, Any] | None = None,
         **unknown: Unknown,
     ) -> None:
         keys, distance = with_wave(given(locals()))

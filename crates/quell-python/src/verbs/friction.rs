@@ -7,6 +7,12 @@ use quell_model::units::Quantity;
 use super::refused;
 use crate::answer::NativeAnswer;
 
+/// The describing function for amplitudes up to one, as a number or a text with a unit.
+pub(crate) fn describing(study: &Study, largest: &str) -> Result<NativeAnswer, Failure> {
+    let largest = quantity::parse(largest, Quantity::Velocity, study.scales(), "--describing")?;
+    Ok(NativeAnswer::new(verbs(study).describing(largest)?))
+}
+
 /// Runs the verb.
 pub(crate) fn run(
     study: &Study,

@@ -19,6 +19,8 @@ pub(crate) mod simulate;
 pub(crate) mod sketch;
 pub(crate) mod stability;
 pub(crate) mod thresholds;
+pub(crate) mod waveforms;
+pub(crate) mod window;
 
 use quell::{Complaint, Failure};
 use serde_json::Value as Json;

@@ -41,6 +41,7 @@ pub(super) fn belt(
         amplitude,
         frequency_ratio,
         phase: 0.0,
+        envelope: None,
     });
     Belt::new(damping_ratio, 1.0, belt_velocity, law(kind)?, dithers.into_iter().collect())
         .map_err(|_| failed("claims", &"the belt is not valid"))

@@ -15,6 +15,9 @@ pub(super) fn define(definitions: &mut Map<String, Json>) {
         (SystemTable::Initial, &[]),
         (SystemTable::Contact, &[]),
         (SystemTable::Dither, &["waveform"]),
+        (SystemTable::Drive, &[]),
+        (SystemTable::Load, &[]),
+        (SystemTable::Envelope, &[]),
     ] {
         definitions.insert(name(which).to_owned(), table(which, required));
     }
@@ -38,6 +41,9 @@ fn name(which: SystemTable) -> &'static str {
         SystemTable::Contact => "contact",
         SystemTable::Friction => "contact_friction",
         SystemTable::Dither => "system_dither",
+        SystemTable::Drive => "contact_drive",
+        SystemTable::Load => "contact_load",
+        SystemTable::Envelope => "system_envelope",
         SystemTable::Named => "parameters",
     }
 }
@@ -61,6 +67,9 @@ fn table(which: SystemTable, required: &[&str]) -> Json {
         SystemTable::Component => "a body given by its modes",
         SystemTable::Initial => "initial state of a run",
         SystemTable::Dither => "a periodic force on coordinates, or a modulation of a load",
+        SystemTable::Drive => "velocity of the surface over time",
+        SystemTable::Load => "normal load over time",
+        SystemTable::Envelope => "share of the amplitude over time",
         _ => "a friction contact",
     };
     json!({
@@ -91,6 +100,7 @@ fn property(key: &SystemKey) -> Json {
         }
         SystemRole::Choice(choice) => json!({ "enum": choice.names() }),
         SystemRole::Wave(wave) => super::waveform::property(wave),
+        SystemRole::Course(course) => super::course::property(course, None),
         SystemRole::Text => json!({ "type": "string" }),
         SystemRole::Flag => json!({ "type": "boolean" }),
         SystemRole::Table(inner) => reference(inner),

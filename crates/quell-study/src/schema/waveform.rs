@@ -19,6 +19,7 @@ pub(super) fn property(wave: WaveKey) -> Json {
             },
         }),
         WaveKey::Values => json!({ "type": "array", "minItems": 2, "items": { "type": "number" } }),
+        WaveKey::File => json!({ "type": "string" }),
         WaveKey::Hold => json!({ "enum": Choice::Hold.names() }),
         WaveKey::Carrier => json!({ "enum": Choice::Carrier.names() }),
         WaveKey::On => count(1),

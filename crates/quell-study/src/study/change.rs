@@ -115,11 +115,17 @@ impl Change {
     ) -> Result<Option<&'a mut Table>, Box<Complaint>> {
         match section {
             Section::Root => Ok(Some(root)),
-            Section::Initial => {
+            Section::Initial | Section::Drive | Section::Load => {
                 let Some(belt) = self.table(root, "belt") else {
                     return Ok(None);
                 };
-                Ok(self.table(belt, "initial"))
+                Ok(self.table(belt, section.path().trim_start_matches("belt.")))
+            }
+            Section::Envelope => {
+                let Some(dither) = self.entry(root, "dither", index)? else {
+                    return Ok(None);
+                };
+                Ok(self.table(dither, "envelope"))
             }
             Section::Constants => {
                 let Some(friction) = self.table(root, "friction") else {

@@ -19,6 +19,7 @@ use vocabulary::SCHEMA_VERSION;
 
 pub mod belt;
 mod change;
+mod course;
 mod data_file;
 pub mod disc;
 pub mod document;
@@ -27,11 +28,13 @@ mod kind;
 mod measures;
 mod reader;
 mod root;
+mod steady;
 mod study_kind;
 pub mod suggest;
 mod sweep;
 pub mod system;
 pub mod vocabulary;
+mod wave_file;
 mod waveform;
 
 pub use belt::{BeltSetup, BeltStudy, Measured};
@@ -40,6 +43,7 @@ pub use disc::{DiscSetup, DiscStudy};
 pub use kind::{Kind, Study};
 pub use quell_dynamics::response::Solver;
 pub use quell_dynamics::start::InitialState;
+pub use steady::varies_in_time;
 pub use study_kind::{Given, StudyKind, not_available};
 pub use sweep::{Axis, AxisTarget, Sweep};
 pub use system::{
@@ -192,7 +196,9 @@ impl<K: StudyKind> StudyOf<K> {
         let kind = K::read(&mut reader, &document, Given { folder: &from.folder, known });
         let sweeps = sweep::read(&mut reader, &document);
         let complaints = reader.into_complaints();
-        let (Some(kind), Some(sweeps)) = (kind, sweeps) else { return Err(complaints.into()) };
+        let (Some(kind), Some(sweeps)) = (kind, sweeps) else {
+            return Err(some_of(complaints).into());
+        };
         if !complaints.is_empty() {
             return Err(complaints.into());
         }
@@ -285,4 +291,12 @@ impl<K> StudyOf<K> {
     pub fn text(&self) -> &str {
         &self.source.text
     }
+}
+/// Complaints about a study that could not be built, at least one.
+fn some_of(complaints: Vec<Complaint>) -> Vec<Complaint> {
+    if !complaints.is_empty() {
+        return complaints;
+    }
+    let allowed = "numbers that make a system together";
+    vec![Complaint::new(Fault::Value, "study", Origin::Whole, Json::Null, allowed)]
 }

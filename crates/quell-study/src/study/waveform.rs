@@ -10,6 +10,7 @@ use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::vocabulary::{Choice, WAVE_KEYS, join};
+use crate::study::wave_file::WaveFiles;
 
 /// Reads the waveform of a dither; `header` is the place of its table.
 pub(super) fn read(
@@ -17,6 +18,7 @@ pub(super) fn read(
     table: &Table,
     prefix: &str,
     header: Origin,
+    files: &mut WaveFiles<'_>,
 ) -> Option<Waveform> {
     let name = reader.needed_choice(table, prefix, header, "waveform", Choice::Waveform)?;
     let mut fits = true;
@@ -40,7 +42,7 @@ pub(super) fn read(
     let place = WavePlace { table, prefix, header };
     match name {
         FOURIER => place.fourier(reader),
-        SAMPLES => place.samples(reader),
+        SAMPLES => place.samples(reader, files),
         BURST => place.burst(reader),
         _ => Waveform::from_name(name),
     }
@@ -95,8 +97,7 @@ impl<'a> WavePlace<'a> {
         }
     }
 
-    fn samples(&self, reader: &mut Reader) -> Option<Waveform> {
-        const ALLOWED: &str = "the samples of one period, a list of at least two numbers";
+    fn samples(&self, reader: &mut Reader, files: &mut WaveFiles<'_>) -> Option<Waveform> {
         let hold = match self.table.get("hold") {
             None => Hold::default(),
             Some(node) => {
@@ -104,6 +105,51 @@ impl<'a> WavePlace<'a> {
                 Hold::from_name(reader.choice(&key, node, Choice::Hold)?)?
             }
         };
+        let values = match self.table.get("file") {
+            Some(node) => self.samples_of_file(reader, node, files)?,
+            None => self.listed_samples(reader)?,
+        };
+        match SampledWave::new(values, hold) {
+            Ok(samples) => Some(Waveform::Samples(samples.into())),
+            Err(mut why) => {
+                if self.table.get("file").is_some() {
+                    why.key = "file";
+                }
+                self.refused(reader, why)
+            }
+        }
+    }
+
+    /// The samples in a file of their own.
+    fn samples_of_file(
+        &self,
+        reader: &mut Reader,
+        node: &Node,
+        files: &mut WaveFiles<'_>,
+    ) -> Option<Vec<f64>> {
+        let key = join(self.prefix, "file");
+        if let Some(other) = self.table.get("values") {
+            let allowed = format!("the samples are already given by {key}; remove this key");
+            let values = join(self.prefix, "values");
+            let complaint =
+                Complaint::new(Fault::Conflict, values, other.origin, Json::Null, allowed);
+            reader.complain(complaint);
+            return None;
+        }
+        let name = reader.text(&key, node)?;
+        match files.values(&name) {
+            Ok(values) => Some(values),
+            Err(why) => {
+                reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));
+                None
+            }
+        }
+    }
+
+    /// The samples in the study.
+    fn listed_samples(&self, reader: &mut Reader) -> Option<Vec<f64>> {
+        const ALLOWED: &str =
+            "the samples of one period, a list of at least two numbers, or given by file";
         let node = self.needed(reader, "values", ALLOWED)?;
         let key = join(self.prefix, "values");
         let Value::List(list) = &node.value else {
@@ -119,10 +165,7 @@ impl<'a> WavePlace<'a> {
             };
             values.push(value);
         }
-        match SampledWave::new(values, hold) {
-            Ok(samples) => Some(Waveform::Samples(samples.into())),
-            Err(why) => self.refused(reader, why),
-        }
+        Some(values)
     }
 
     fn burst(&self, reader: &mut Reader) -> Option<Waveform> {

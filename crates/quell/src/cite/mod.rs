@@ -23,10 +23,11 @@ pub use citation::{Citation, Task};
 pub use correction::{Bears, Correction, DiscKind, Proof};
 pub use corrections::CORRECTIONS;
 pub use references::{
-    ARMSTRONG_HELOUVRY_1994, CHAN_1994, CUNEFARE_GRAF_2002, DAS_SAIKI_SANDER_YORKE_2017,
-    FILIPPOV_1988, HAIRER_NORSETT_WANNER_1993, HARRIS_1978, HOFFMANN_2002, IWAN_STAHL_1973,
-    JORBA_ZOU_2005, MENCK_2013, MICHAUX_2005, NAYFEH_MOOK_1979, SOURCES, Source,
-    TAKAHASHI_IMADA_1984, THOMSEN_1999, THOMSEN_FIDLIN_2003, VOGEL_SKINNER_1965, WILSON_1927,
+    ARMSTRONG_HELOUVRY_1994, CANUDAS_DE_WIT_1995, CHAN_1994, CUNEFARE_GRAF_2002,
+    DAS_SAIKI_SANDER_YORKE_2017, FILIPPOV_1988, GELB_VANDER_VELDE_1968, HAIRER_NORSETT_WANNER_1993,
+    HARRIS_1978, HOFFMANN_2002, IWAN_STAHL_1973, JORBA_ZOU_2005, MENCK_2013, MICHAUX_2005,
+    NAYFEH_MOOK_1979, SOURCES, Source, TAKAHASHI_IMADA_1984, THOMSEN_1999, THOMSEN_FIDLIN_2003,
+    VOGEL_SKINNER_1965, WILSON_1927,
 };
 
 /// Sources of a study's computations.
@@ -79,6 +80,13 @@ fn citations(study: &BeltStudy) -> Vec<Citation> {
             let used = "exponential Stribeck friction with a viscous part";
             cite(task, ARMSTRONG_HELOUVRY_1994, used);
         }
+        if belt.friction().kind() == LawKind::Lugre {
+            cite(task, CANUDAS_DE_WIT_1995, references::LUGRE);
+        }
+        if task == Task::Friction {
+            let used = "describing function of averaged friction (friction --describing)";
+            cite(task, GELB_VANDER_VELDE_1968, used);
+        }
         match task {
             Task::Friction | Task::Stability => averaging(belt, task, &mut cite),
             Task::Simulate | Task::Response => simulation(task, &mut cite),
@@ -99,10 +107,10 @@ fn model(belt: &Belt) -> &'static str {
         (LawKind::Decreasing, true) => {
             "equation of motion (2.1), (3.1), (4.1); decreasing law (2.8)"
         }
-        (LawKind::Coulomb | LawKind::StribeckExponential, false) => {
+        (LawKind::Coulomb | LawKind::StribeckExponential | LawKind::Lugre, false) => {
             "equation of motion (2.1), (3.1)"
         }
-        (LawKind::Coulomb | LawKind::StribeckExponential, true) => {
+        (LawKind::Coulomb | LawKind::StribeckExponential | LawKind::Lugre, true) => {
             "equation of motion (2.1), (3.1), (4.1)"
         }
         (LawKind::Expression | LawKind::Samples, false) => {
@@ -149,6 +157,7 @@ fn closed_form(law: LawKind) -> Option<&'static str> {
         // Any other law is integrated by quadrature.
         LawKind::Coulomb
         | LawKind::StribeckExponential
+        | LawKind::Lugre
         | LawKind::Expression
         | LawKind::Samples => None,
     }

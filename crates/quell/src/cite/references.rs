@@ -33,12 +33,26 @@ pub const CUNEFARE_GRAF_2002: Source = Source {
     reference: "K. A. Cunefare, A. J. Graf: Experimental active control of automotive disc brake \
                 rotor squeal using dither. Journal of Sound and Vibration 250(4), 579–590, 2002",
 };
+/// Describing functions of a nonlinearity under several sinusoids and noise.
+pub const GELB_VANDER_VELDE_1968: Source = Source {
+    key: "gelb1968",
+    reference: "A. Gelb, W. E. Vander Velde: Multiple-Input Describing Functions and Nonlinear System Design. McGraw-Hill, \
+                New York, 1968",
+};
 /// Friction in machines, with a decreasing (Stribeck) and a viscous part.
 pub const ARMSTRONG_HELOUVRY_1994: Source = Source {
     key: "armstrong1994",
     reference: "B. Armstrong-Hélouvry, P. Dupont, C. Canudas de Wit: A survey of models, analysis tools and \
                 compensation methods for the control of machines with friction. Automatica 30(7), 1083–1138, 1994",
 };
+/// Friction by bristles that deflect before they slip (LuGre).
+pub const CANUDAS_DE_WIT_1995: Source = Source {
+    key: "canudas1995",
+    reference: "C. Canudas de Wit, H. Olsson, K. J. Åström, P. Lischinsky: A new model for control of systems with \
+                friction. IEEE Transactions on Automatic Control 40(3), 419–425, 1995",
+};
+/// What a citation of [`CANUDAS_DE_WIT_1995`] is for.
+pub(super) const LUGRE: &str = "LuGre friction, whose bristles are a state";
 /// Integration by Taylor series with step size control.
 pub const JORBA_ZOU_2005: Source = Source {
     key: "jorba2005",
@@ -125,6 +139,8 @@ pub const SOURCES: &[Source] = &[
     THOMSEN_FIDLIN_2003,
     CUNEFARE_GRAF_2002,
     ARMSTRONG_HELOUVRY_1994,
+    CANUDAS_DE_WIT_1995,
+    GELB_VANDER_VELDE_1968,
     JORBA_ZOU_2005,
     FILIPPOV_1988,
     HARRIS_1978,

@@ -4,8 +4,8 @@ use quell_model::{LawKind, System};
 
 use super::citation::{Citation, Task};
 use super::references::{
-    ARMSTRONG_HELOUVRY_1994, CHAN_1994, HAIRER_NORSETT_WANNER_1993, HOFFMANN_2002, MICHAUX_2005,
-    Source, THOMSEN_1999,
+    ARMSTRONG_HELOUVRY_1994, CANUDAS_DE_WIT_1995, CHAN_1994, HAIRER_NORSETT_WANNER_1993,
+    HOFFMANN_2002, MICHAUX_2005, Source, THOMSEN_1999,
 };
 use crate::study::SystemStudy;
 
@@ -44,6 +44,9 @@ fn friction(system: &System, mut cite: impl FnMut(Source, &'static str)) {
     }
     if law(LawKind::StribeckExponential) {
         cite(ARMSTRONG_HELOUVRY_1994, "exponential Stribeck friction with a viscous part");
+    }
+    if law(LawKind::Lugre) {
+        cite(CANUDAS_DE_WIT_1995, super::references::LUGRE);
     }
     if system.contacts.iter().any(|contact| contact.slope.is_some()) {
         cite(CHAN_1994, "friction as a follower force");

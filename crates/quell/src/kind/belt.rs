@@ -6,8 +6,8 @@ use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::{
-    basins, bifurcation, curves, found_attractor, friction, orbit, response, simulate, stability,
-    thresholds,
+    basins, bifurcation, curves, describing, found_attractor, friction, orbit, response, simulate,
+    stability, thresholds, waveforms, window,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -30,6 +30,7 @@ impl Verbs for BeltStudy {
             "orbit",
             "attractor",
             "thresholds",
+            "waveforms",
             "bifurcation",
             "basins",
             "map",
@@ -54,6 +55,10 @@ impl Verbs for BeltStudy {
         answer(self, Ok(run(self, &at)))
     }
 
+    fn describing(&self, largest: f64) -> Reply {
+        answer(self, describing::run(self, largest))
+    }
+
     fn stability(&self) -> Reply {
         answer(self, Ok(stability::run(self)))
     }
@@ -64,6 +69,10 @@ impl Verbs for BeltStudy {
 
     fn response(&self) -> Reply {
         answer(self, response::run(self))
+    }
+
+    fn response_within(&self, window: (f64, f64)) -> Reply {
+        answer(self, window::of_belt(self, window))
     }
 
     fn attractor(&self, request: &AttractorRequest) -> Reply {
@@ -80,6 +89,10 @@ impl Verbs for BeltStudy {
 
     fn threshold_curves(&self, request: &curves::CurvesRequest) -> Reply {
         answer(self, curves::run(self, request))
+    }
+
+    fn waveforms(&self) -> Reply {
+        answer(self, waveforms::run(self))
     }
 
     fn bifurcation(&self, request: &bifurcation::SweepRequest, running: Running<'_>) -> Reply {

@@ -19,7 +19,7 @@ use crate::run::system::simulate::MotionRequest;
 use crate::run::system::thresholds::MotionThresholdsRequest;
 use crate::run::system::tracked::TrackRequest;
 use crate::run::{basins, bifurcation, curves, simulate, thresholds};
-use crate::study::{Kind, Study, StudyKind, StudyOf, SystemStudy, not_available};
+use crate::study::{Kind, Study, StudyKind, StudyOf, SystemStudy, not_available, varies_in_time};
 use crate::sweep::Running;
 
 mod belt;
@@ -59,6 +59,15 @@ pub trait Verbs: Send + Sync {
     fn friction(&self, at: Option<Vec<f64>>, measured: bool) -> Reply {
         let _ = (at, measured);
         Err(self.lacks("friction"))
+    }
+
+    /// Averaged friction under a slow sinusoid of the slip velocity, for velocity amplitudes up to one.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::describing::run`].
+    fn describing(&self, largest: f64) -> Reply {
+        let _ = largest;
+        Err(self.lacks("friction --describing"))
     }
 
     /// Stability of steady sliding.
@@ -119,6 +128,15 @@ pub trait Verbs: Send + Sync {
     /// A kind without this verb; as [`crate::run::response::run`].
     fn response(&self) -> Reply {
         Err(self.lacks("response"))
+    }
+
+    /// What a run does between two of its times.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::window::of_belt`].
+    fn response_within(&self, window: (f64, f64)) -> Reply {
+        let _ = window;
+        Err(self.lacks("response --window"))
     }
 
     /// The steady response of a system, with times of its own.
@@ -220,6 +238,14 @@ pub trait Verbs: Send + Sync {
         Err(self.lacks("basins --plane"))
     }
 
+    /// The least dither of each waveform that quenches, and its cost.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::waveforms::run`].
+    fn waveforms(&self) -> Reply {
+        Err(self.lacks("waveforms"))
+    }
+
     /// Natural frequencies and shapes.
     ///
     /// # Errors
@@ -247,10 +273,67 @@ pub trait Verbs: Send + Sync {
 
 /// The verbs of a study.
 pub fn verbs(study: &Study) -> Box<dyn Verbs> {
+    let steady = of_kind(study);
+    match study.varies_by() {
+        Some(table) => Box::new(OverTime { steady, table }),
+        None => steady,
+    }
+}
+
+fn of_kind(study: &Study) -> Box<dyn Verbs> {
     match study.kind() {
         Kind::Belt(setup) => Box::new(study.narrowed(setup.as_ref())),
         Kind::Disc(setup) => Box::new(study.narrowed(setup.as_ref())),
         Kind::System(setup) => Box::new(study.narrowed(setup.as_ref())),
+    }
+}
+
+/// The verbs of a study whose drive, load or dither varies in time, which are those of runs: every other verb is about a steady
+/// study. `table` makes it vary.
+struct OverTime {
+    steady: Box<dyn Verbs>,
+    table: &'static str,
+}
+
+impl Verbs for OverTime {
+    fn kind(&self) -> &'static str {
+        self.steady.kind()
+    }
+
+    fn names(&self) -> &'static [&'static str] {
+        &["check", "sketch", "cite", "simulate", "response --window"]
+    }
+
+    fn draws(&self, verb: &str) -> bool {
+        self.steady.draws(verb)
+    }
+
+    fn check(&self) -> Box<dyn Outcome> {
+        self.steady.check()
+    }
+
+    fn sources(&self) -> Sources {
+        self.steady.sources()
+    }
+
+    fn cite(&self) -> Box<dyn Outcome> {
+        self.steady.cite()
+    }
+
+    fn simulate(&self, until: f64, options: simulate::Options) -> Reply {
+        self.steady.simulate(until, options)
+    }
+
+    fn simulate_from(&self, request: &MotionRequest) -> Reply {
+        self.steady.simulate_from(request)
+    }
+
+    fn response_within(&self, window: (f64, f64)) -> Reply {
+        self.steady.response_within(window)
+    }
+
+    fn lacks(&self, verb: &str) -> Failure {
+        varies_in_time(verb, self.table).into()
     }
 }
 

@@ -23,9 +23,10 @@ use crate::run::system::thresholds::{
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
     basins, bifurcation, curves, exact, found_attractor, measured, modes, orbit, reach, response,
-    simulate, stability, thresholds, tracked,
+    simulate, stability, thresholds, tracked, waveforms,
 };
 use crate::run::thresholds::ThresholdsRequest;
+use crate::run::window;
 use crate::study::{SystemSetup, SystemStudy};
 use crate::sweep::Running;
 
@@ -47,6 +48,7 @@ impl Verbs for SystemStudy {
             "orbit",
             "attractor",
             "thresholds",
+            "waveforms",
             "bifurcation",
             "basins",
             "resonances",
@@ -56,7 +58,7 @@ impl Verbs for SystemStudy {
 
     fn draws(&self, verb: &str) -> bool {
         match verb {
-            "check" | "cite" | "stability --exact" => false,
+            "check" | "cite" | "stability --exact" | "waveforms" => false,
             "stability" => self.frequency_response().is_none(),
             _ => true,
         }
@@ -86,6 +88,10 @@ impl Verbs for SystemStudy {
             }
             failed @ Failure::Failed { .. } => Err(failed),
         }
+    }
+
+    fn waveforms(&self) -> Reply {
+        answer(self, waveforms::run(self))
     }
 
     fn modes(&self) -> Reply {
@@ -124,6 +130,10 @@ impl Verbs for SystemStudy {
 
     fn response(&self) -> Reply {
         self.response_after(ResponseRequest::default())
+    }
+
+    fn response_within(&self, window: (f64, f64)) -> Reply {
+        answer(self, window::of_system(self, window))
     }
 
     fn response_after(&self, request: ResponseRequest) -> Reply {

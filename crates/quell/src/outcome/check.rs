@@ -1,5 +1,6 @@
 //! `check`: the values of a valid study.
 
+use quell_model::Profile;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -68,8 +69,14 @@ fn table_of_belt(study: &BeltStudy) -> String {
     let belt = study.belt();
     let mut table = TextTable::new(study.scales());
     table.number("damping ratio ζ", Quantity::DampingRatio, belt.damping_ratio());
-    table.number("normal load F", Quantity::Force, belt.normal_load());
-    table.number("belt velocity v₀", Quantity::Velocity, belt.belt_velocity());
+    let mut over_time = |label: &str, quantity, value, profile: Option<&Profile>| {
+        let Some(profile) = profile else { return table.number(label, quantity, value) };
+        let (least, largest) = profile.bounds();
+        table.number(&format!("{label}, over time: least"), quantity, least);
+        table.number("  largest", quantity, largest);
+    };
+    over_time("normal load F", Quantity::Force, belt.normal_load(), belt.load());
+    over_time("belt velocity v₀", Quantity::Velocity, belt.belt_velocity(), belt.drive());
     let law = belt.friction().kind();
     table.word("friction law", law.name());
     for (parameter, value) in law.parameters().iter().zip(belt.friction().values()) {
@@ -85,6 +92,13 @@ fn table_of_belt(study: &BeltStudy) -> String {
         table.number("  frequency ratio R", Quantity::FrequencyRatio, dither.frequency_ratio);
         table.number("  phase φ", Quantity::Angle, dither.phase);
         table.number("  amplitude ratio α = D/R", Quantity::Velocity, dither.amplitude_ratio());
+        if let Some(envelope) = &dither.envelope {
+            let (least, largest) = envelope.range();
+            table.word(
+                "  share of it",
+                &format!("over time, from {} to {}", figure(least), figure(largest)),
+            );
+        }
     }
     axes(&mut table, study);
     table.text()
@@ -110,21 +124,29 @@ fn table_of_system(study: &SystemStudy) -> String {
         let unit = study.units().unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
         format!("{}{unit}", figure(value))
     };
+    let over_time = |quantity: Quantity, profile: &Profile| {
+        let (least, largest) = profile.bounds();
+        if least == largest {
+            return with(quantity, least);
+        }
+        format!("over time from {} to {}", with(quantity, least), with(quantity, largest))
+    };
     for contact in &system.contacts {
         let words = format!(
             "{}, normal load {}, belt velocity {}, {}",
             contact.name,
-            with(Quantity::Force, contact.normal_load),
-            with(Quantity::Velocity, contact.surface_velocity.mean()),
+            over_time(Quantity::Force, &contact.load()),
+            over_time(Quantity::Velocity, &contact.surface_velocity),
             contact.friction.kind().name()
         );
         table.word("contact", &words);
     }
     for wave in system.waves() {
         let words = format!(
-            "{}, amplitude {}, {}",
+            "{}, amplitude {}{}, {}",
             wave.waveform.name(),
             with(Quantity::Force, wave.amplitude),
+            if wave.envelope.is_some() { " times its envelope" } else { "" },
             match study.units() {
                 SystemUnits::None => format!("angular frequency {}", figure(wave.frequency)),
                 _ => format!("{} Hz", figure(wave.frequency / std::f64::consts::TAU)),

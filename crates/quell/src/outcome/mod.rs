@@ -16,6 +16,7 @@ mod basins;
 mod bifurcation;
 pub mod check;
 mod cite;
+mod describing;
 mod disc_motion;
 mod friction;
 mod map;
@@ -28,6 +29,8 @@ mod stability;
 mod system;
 mod table;
 mod thresholds;
+mod waveforms;
+mod window;
 
 /// The answer of a verb.
 pub trait Outcome: Send + Sync {

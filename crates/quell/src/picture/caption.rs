@@ -20,9 +20,17 @@ pub(super) fn caption(study: &BeltStudy) -> String {
     ];
     let load = if study.scales().is_some() { "N_0" } else { "F" };
     let velocity = if study.scales().is_some() { "V_0" } else { "v_0" };
-    parts.push(format!("${load}$ = {}", words(study, Quantity::Force, belt.normal_load())));
-    parts
-        .push(format!("${velocity}$ = {}", words(study, Quantity::Velocity, belt.belt_velocity())));
+    let over_time = "varies in time";
+    parts.push(match belt.load() {
+        Some(_) => format!("${load}$ {over_time}"),
+        None => format!("${load}$ = {}", words(study, Quantity::Force, belt.normal_load())),
+    });
+    parts.push(match belt.drive() {
+        Some(_) => format!("${velocity}$ {over_time}"),
+        None => {
+            format!("${velocity}$ = {}", words(study, Quantity::Velocity, belt.belt_velocity()))
+        }
+    });
     for (parameter, value) in law.parameters().iter().zip(belt.friction().values()) {
         parts.push(format!("${}$ = {}", parameter.symbol, words(study, parameter.quantity, value)));
     }
@@ -46,6 +54,9 @@ pub(super) fn caption(study: &BeltStudy) -> String {
             words(study, Quantity::Force, dither.amplitude),
             words(study, Quantity::FrequencyRatio, dither.frequency_ratio),
         ));
+        if dither.envelope.is_some() {
+            parts.push(format!("its amplitude {over_time}"));
+        }
     }
     parts.join(", ")
 }

@@ -6,9 +6,11 @@
 mod basins;
 mod bifurcation;
 mod caption;
+mod describing;
 pub mod disc;
 pub mod exponents;
 mod friction;
+mod manoeuvre;
 mod map;
 mod orbit;
 mod page;
@@ -26,9 +28,12 @@ pub mod system_motion;
 pub mod system_orbit;
 pub mod system_thresholds;
 mod thresholds;
+mod waveforms;
+pub(crate) mod window;
 
 pub use basins::basins;
 pub use bifurcation::bifurcation;
+pub use describing::describing;
 pub use friction::friction;
 pub use map::{MOST_PANELS, MapAxis, MapKind, MappedQuantity, map, map_panel};
 pub use orbit::{orbit, response as periodic_response};
@@ -38,6 +43,7 @@ pub use simulate::simulate;
 pub use stability::stability;
 pub use sweep::sweep;
 pub use thresholds::{curves, thresholds};
+pub use waveforms::waveforms;
 
 use crate::complaint::Failure;
 use crate::output::Output;

@@ -9,8 +9,7 @@ use quell_numerics::spectrum::Spectrum;
 
 use super::both;
 use super::caption::caption_of_run;
-use super::ruler::Ruler;
-use super::simulate::time_axis;
+use super::ruler::{Ruler, time_axis};
 use crate::plot::{Figure, Panel, Polyline, ReferenceLine, SharedLegend};
 use crate::run::response::MeasuredResponse;
 use crate::study::BeltStudy;

@@ -111,3 +111,7 @@ pub(super) fn short(value: f64) -> String {
 pub(super) fn words(study: &BeltStudy, quantity: Quantity, value: f64) -> String {
     Ruler::new(study, quantity, value).words(value)
 }
+/// The axis of time.
+pub(super) fn time_axis(study: &BeltStudy, ruler: &Ruler) -> PlotAxis {
+    ruler.axis("time", if study.scales().is_some() { "t" } else { "τ" })
+}

@@ -4,15 +4,17 @@ use quell_dynamics::simulation::Sample;
 use quell_model::units::Quantity;
 
 use super::caption::caption_of_run;
-use super::ruler::Ruler;
-use crate::plot::{
-    Figure, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing,
-};
+use super::manoeuvre::manoeuvre;
+use super::ruler::{Ruler, time_axis};
+use crate::plot::{Figure, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing};
 use crate::run::simulate::Simulation;
 use crate::study::BeltStudy;
 
 /// The picture of a sampled trajectory.
 pub fn simulate(study: &BeltStudy, done: &Simulation) -> Figure {
+    if done.manoeuvre.is_some() {
+        return manoeuvre(study, done);
+    }
     let with = done.samples.as_deref().unwrap_or_default();
     let without = done.undithered_samples.as_deref().unwrap_or_default();
     let both = || with.iter().chain(without);
@@ -51,11 +53,6 @@ pub fn simulate(study: &BeltStudy, done: &Simulation) -> Figure {
         .caption(caption_of_run(study))
         .title(study.title().unwrap_or_default());
     if study.belt().dithers().is_empty() { figure } else { figure.legend(SharedLegend::Above) }
-}
-
-/// The axis of time.
-pub(super) fn time_axis(study: &BeltStudy, ruler: &Ruler) -> PlotAxis {
-    ruler.axis("time", if study.scales().is_some() { "t" } else { "τ" })
 }
 
 /// Symbols of the velocities of the belt and of the mass.

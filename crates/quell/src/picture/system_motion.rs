@@ -5,10 +5,11 @@ use quell_dynamics::response::SystemRecord;
 use quell_model::units::Quantity;
 
 use super::caption::caption_of_system;
+use super::manoeuvre::around_response;
 use super::ruler::Ruler;
 use super::system::frequency_axis;
 use crate::plot::{
-    Figure, LineStyle, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, SharedLegend,
+    Figure, LineStyle, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing,
 };
 use crate::run::system::history::EventHistory;
 use crate::run::system::response::SettledSystem;
@@ -45,7 +46,7 @@ pub(super) fn observed(
     samples: &MotionSampler,
 ) -> (Vec<f64>, Option<Vec<f64>>) {
     let row = study.observe();
-    let size = study.system().structure.state_size();
+    let size = study.system().state_size();
     let of = |offset: usize| -> Vec<f64> {
         let states = samples.states.chunks(size);
         states
@@ -61,6 +62,7 @@ pub fn simulate(study: &SystemStudy, done: &SystemSimulation, samples: &MotionSa
     let (displacement, velocity) = observed(study, samples);
     let role = if study.system().inputs.is_empty() { PlotRole::Exact } else { PlotRole::Dithered };
     let x = Ruler::of_system(study, Quantity::Displacement, displacement.iter().copied());
+    let plain = displacement.clone();
     let displacement: Vec<f64> = displacement.into_iter().map(|value| x.place(value)).collect();
     let (time, clock) = time_axis(study, (done.start.time, done.end.time));
     let times = samples.times.iter().map(|time| clock.place(*time));
@@ -69,8 +71,21 @@ pub fn simulate(study: &SystemStudy, done: &SystemSimulation, samples: &MotionSa
     let ends = displacement.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
         (f64::min(least, *x), f64::max(most, *x))
     });
+    let axis = time.clone();
     let panel = Panel::new(time, across.clone()).with(Polyline::new(role, over_time));
-    let mut panels = vec![panel.with_all(bars(&done.history, &clock, ends))];
+    let panel = panel.with_all(bars(&done.history, &clock, ends));
+    if done.manoeuvre.is_some() {
+        let (mut panels, below) = around_response(study, samples, &plain, (&axis, &clock));
+        panels.push(panel);
+        panels.extend(below);
+        let found = done.manoeuvre_sentence(study).unwrap_or_default();
+        let start = start_in_words(study, &done.request.start);
+        return Figure::grid(1, panels)
+            .sharing_x(Sharing::All)
+            .title(study.title().unwrap_or_default())
+            .caption(format!("{} {found}", caption(study, &start)));
+    }
+    let mut panels = vec![panel];
     if let Some(velocity) = velocity {
         let v = Ruler::of_system(study, Quantity::Velocity, velocity.iter().copied());
         let up = v.axis("observed velocity", "");

@@ -27,6 +27,7 @@ use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::kind::verbs;
 use crate::output::Output;
 use crate::run::sketch;
+use crate::study::varies_in_time;
 use crate::study::{Kind, Study};
 use crate::sweep::Progress;
 
@@ -65,6 +66,9 @@ pub fn run_with_progress(
     request: &ReportRequest,
     progress: &dyn Progress,
 ) -> Result<StudyReport, Failure> {
+    if let Some(table) = study.varies_by() {
+        return Err(varies_in_time("report", table).into());
+    }
     let plan = planned(study);
     for name in &request.without {
         if !plan.iter().any(|step| step.verb == name) {

@@ -5,6 +5,7 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::law;
+use crate::contact_state::passivity;
 use crate::fields::Fields;
 use crate::range;
 use crate::study::BeltStudy;
@@ -30,12 +31,20 @@ impl Check<'_> {
         };
         fields.plain("system", if scales.is_some() { "si" } else { "dimensionless" });
         let mut inner = Fields::new(scales);
-        for (parameter, value) in [
-            (DAMPING_RATIO, belt.damping_ratio()),
-            (NORMAL_LOAD, belt.normal_load()),
-            (BELT_VELOCITY, belt.belt_velocity()),
+        for (parameter, value, over_time) in [
+            (DAMPING_RATIO, belt.damping_ratio(), None),
+            (NORMAL_LOAD, belt.normal_load(), belt.load()),
+            (BELT_VELOCITY, belt.belt_velocity(), belt.drive()),
         ] {
-            inner.number(parameter.key(), parameter.quantity, value);
+            let Some(profile) = over_time else {
+                inner.number(parameter.key(), parameter.quantity, value);
+                continue;
+            };
+            let (least, largest) = profile.bounds();
+            inner
+                .known(parameter.key(), parameter.quantity, Err("varies in time".to_owned()))
+                .number(&format!("least_{}", parameter.key()), parameter.quantity, least)
+                .number(&format!("largest_{}", parameter.key()), parameter.quantity, largest);
         }
         fields.nested("belt", inner);
         let inner = law::fields(study);
@@ -48,7 +57,8 @@ impl Check<'_> {
                 .number("amplitude", Quantity::Force, dither.amplitude)
                 .number("frequency_ratio", Quantity::FrequencyRatio, dither.frequency_ratio)
                 .number("phase", Quantity::Angle, dither.phase)
-                .number("amplitude_ratio", Quantity::Velocity, dither.amplitude_ratio());
+                .number("amplitude_ratio", Quantity::Velocity, dither.amplitude_ratio())
+                .plain("has_envelope", dither.envelope.is_some());
             inner
         });
         fields.list("dithers", dithers.collect::<Vec<_>>());
@@ -63,7 +73,8 @@ impl Check<'_> {
             inner
         });
         fields.list("sweeps", axes.collect::<Vec<_>>());
-        fields.plain("warnings", range::averaged(study));
+        let warnings = range::averaged(study).into_iter().chain(passivity(study.belt()));
+        fields.plain("warnings", warnings.collect::<Vec<String>>());
         fields.finish()
     }
 }

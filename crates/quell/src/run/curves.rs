@@ -13,6 +13,7 @@ use super::criticality;
 use super::thresholds::{ThresholdKind, path_in_words, quantity_of, refused, value_in_words};
 use super::varied::{Named, ascending};
 use crate::complaint::{Complaint, Failure};
+use crate::contact_state::refused_of_belt;
 use crate::dataset::{Array, Dataset};
 use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
@@ -153,6 +154,7 @@ fn line_in_words(study: &BeltStudy, question: &CurvesRequest, line: &OpenLine) -
 /// # Errors
 /// A complaint about a parameter or its window; [`Failure::Failed`] if no response exists at the beginning.
 pub fn run(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failure> {
+    refused_of_belt(study, "thresholds")?;
     within(STEPS_OF_MANY_SEARCHES, || found(study, question))
 }
 

@@ -12,6 +12,7 @@ use super::attractor::{put, put_section, settings, words};
 use super::exponents::{ExponentTimes, JudgedMotion, MeasuredExponents, MeasuredMotion};
 use super::{failed, start};
 use crate::complaint::Failure;
+use crate::contact_state::refused_of_belt;
 use crate::dataset::Dataset;
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::fields::Fields;
@@ -47,6 +48,7 @@ pub struct AttractorOfBelt {
 /// # Errors
 /// A complaint about the start; [`Failure::Failed`] if the run stops.
 pub fn run(study: &BeltStudy, request: &AttractorRequest) -> Result<AttractorOfBelt, Failure> {
+    refused_of_belt(study, "attractor")?;
     within(STEPS_OF_A_SEARCH, || found(study, request))
 }
 

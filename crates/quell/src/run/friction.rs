@@ -1,5 +1,6 @@
 //! `friction`: the friction law and the effective friction under the dither, versus slip velocity.
 
+use quell_dynamics::mean_friction::mean_friction;
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::{SteadyFriction, steady_effective_friction};
 use quell_linear::averaging::{AveragingOptions, Effective, FastMotion, SlopeSide, effective};
@@ -8,6 +9,7 @@ use quell_model::{Belt, Direction};
 use rayon::prelude::*;
 use serde_json::Value as Json;
 
+use crate::contact_state;
 use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::range;
@@ -77,7 +79,7 @@ pub fn grid(belt: &Belt) -> Vec<f64> {
 pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
     let belt = study.belt();
     let law = belt.friction();
-    let points = at.iter().map(|&v| FrictionPoint {
+    let points = at.par_iter().map(|&v| FrictionPoint {
         slip_velocity: v,
         coefficient: if v == 0.0 {
             let level = law.static_coefficient();
@@ -85,9 +87,13 @@ pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
         } else {
             Ok(v.signum() * law.coefficient(v.abs()))
         },
-        effective: FastMotion::of(belt, v, AveragingOptions::default())
-            .and_then(|motion| effective(law, &motion, v))
-            .map_err(|why| why.to_string()),
+        effective: if belt.has_contact_state() {
+            mean_friction(belt, v).map_err(|why| why.to_string())
+        } else {
+            FastMotion::of(belt, v, AveragingOptions::default())
+                .and_then(|motion| effective(law, &motion, v))
+                .map_err(|why| why.to_string())
+        },
     });
     FrictionCurve { points: points.collect(), measured: None }
 }
@@ -98,6 +104,9 @@ pub fn run_measured(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
     let measured = at.par_iter().map(|&v| {
         if v == 0.0 {
             return Err("at zero slip velocity the belt does not move".to_owned());
+        }
+        if let Some(why) = study.belt().unsimulated() {
+            return Err(why.to_owned());
         }
         steady_effective_friction(study.belt(), v, tolerance).map_err(|why| why.to_string())
     });
@@ -224,6 +233,17 @@ impl FrictionCurve {
         let speeds = self.points.iter().map(|point| point.slip_velocity.abs());
         let fastest = speeds.fold(study.belt().belt_velocity(), f64::max);
         let mut warnings = range::averaged_at(study, fastest);
+        let belt = study.belt();
+        warnings.extend(contact_state::passivity(belt));
+        if belt.has_contact_state() {
+            let slowest = self.points.iter().map(|point| point.slip_velocity.abs());
+            let slowest = slowest.filter(|speed| *speed > 0.0).fold(f64::INFINITY, f64::min);
+            let speed = if slowest.is_finite() { slowest } else { belt.belt_velocity() };
+            warnings.extend(contact_state::rigid_average(belt, speed).map(|why| {
+                format!("{why}; the values here are means of the contact with its state")
+            }));
+            return warnings;
+        }
         warnings.extend(match &self.measured {
             None => self.slow_slip(study),
             Some(measured) => self.averaging_is_off(study, measured),

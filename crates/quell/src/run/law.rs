@@ -50,7 +50,7 @@ pub(super) fn fields(study: &BeltStudy) -> Fields {
             }
             fields.nested("fit", inner);
         }
-        Friction::Coulomb(_) | Friction::StribeckExponential(_) => {
+        Friction::Coulomb(_) | Friction::StribeckExponential(_) | Friction::Lugre(_) => {
             let load = study.belt().normal_load();
             let level = law.get(COEFFICIENT.path).unwrap_or_default();
             fields.number("friction_force", Quantity::Force, level * load).number(
@@ -106,7 +106,8 @@ fn of_own_law(study: &BeltStudy) -> Vec<(String, String)> {
         Friction::Stribeck(_)
         | Friction::Decreasing(_)
         | Friction::Coulomb(_)
-        | Friction::StribeckExponential(_) => Vec::new(),
+        | Friction::StribeckExponential(_)
+        | Friction::Lugre(_) => Vec::new(),
     }
 }
 

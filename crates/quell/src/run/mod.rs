@@ -9,12 +9,14 @@ pub mod bifurcation;
 pub mod check;
 pub mod criticality;
 pub mod curves;
+pub mod describing;
 pub mod disc;
 mod effect_words;
 pub mod exponents;
 pub mod found_attractor;
 pub mod friction;
 pub mod law;
+pub mod manoeuvre;
 pub mod map;
 pub mod orbit;
 pub mod protocol;
@@ -27,10 +29,13 @@ pub mod stability;
 pub mod system;
 pub mod thresholds;
 pub mod varied;
+pub mod waveforms;
+pub mod window;
 
-use quell_dynamics::simulation::{Stalled, Start, within};
+use quell_dynamics::simulation::{Start, within};
 use quell_dynamics::start::NoSquealingStart;
 
+use quell_model::InvalidValues;
 use quell_model::parameter::BELT_VELOCITY;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
@@ -55,11 +60,29 @@ fn resolved(
     initial: InitialState,
     refused: impl FnOnce(NoSquealingStart) -> Complaint,
 ) -> Result<Start, Failure> {
-    let found = within(STEPS_OF_A_SEARCH, || initial.resolve(study.belt()));
+    // Steady sliding and squeal at the beginning are those of the drive and load there.
+    let name = match initial {
+        InitialState::Sliding => Some("sliding"),
+        InitialState::Squealing => Some("squealing"),
+        InitialState::Rest | InitialState::Explicit { .. } => None,
+    };
+    let first = match name {
+        Some(name) => study.belt().steady_at(0.0).map_err(|why| of_beginning(name, &why))?,
+        None => study.belt().clone(),
+    };
+    let found = within(STEPS_OF_A_SEARCH, || initial.resolve(&first));
     found.map_err(|why| match why {
         NoSquealingStart::Stalled(stalled) => failed(stalled),
         NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest => refused(why).into(),
     })
+}
+
+/// The complaint about a named start for which a belt is not ready at τ = 0.
+fn of_beginning(name: &str, invalid: &InvalidValues) -> Complaint {
+    let allowed = format!(
+        "rest or given numbers: the belt at the start of the run has no steady sliding, because {invalid}"
+    );
+    Complaint::new(Fault::Value, "belt.initial.state", Origin::Whole, name, allowed)
 }
 
 /// Rejects a belt at rest, where any position in the stick band is an equilibrium; `why` gives the reason.
@@ -85,6 +108,6 @@ fn evenly((from, to): (f64, f64), count: usize) -> Vec<f64> {
     (0..count).map(|k| if k == last { to } else { value(k) }).collect()
 }
 
-fn failed(stalled: Stalled) -> Failure {
-    Failure::Failed { key: "simulation".to_owned(), why: stalled.to_string() }
+fn failed(why: impl std::fmt::Display) -> Failure {
+    Failure::Failed { key: "simulation".to_owned(), why: why.to_string() }
 }

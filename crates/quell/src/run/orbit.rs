@@ -15,6 +15,7 @@ use serde_json::{Value as Json, json};
 use super::protocol::Protocol;
 use super::{failed, moves, resolved};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::contact_state::refused_of_belt;
 use crate::dataset::Dataset;
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::fields::Fields;
@@ -95,6 +96,7 @@ fn slip_of<'o>(belt: &Belt, orbits: impl IntoIterator<Item = &'o Orbit>) -> Slip
 /// # Errors
 /// A complaint if the response has no prescribed period; [`Failure::Failed`] with the last state if shooting does not converge.
 pub fn run(study: &BeltStudy, wanted: Wanted) -> Result<PeriodicResponse, Failure> {
+    refused_of_belt(study, "orbit")?;
     within(STEPS_OF_A_SEARCH, || found(study, wanted))
 }
 

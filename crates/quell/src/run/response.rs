@@ -12,6 +12,7 @@ use serde_json::Value as Json;
 use super::effect_words::{EffectWords, MOST_DECIBELS, level_of, percent, residual_in_words};
 use super::{failed, start};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::contact_state::refused_of_belt;
 use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::range::SlipMet;
@@ -41,6 +42,7 @@ pub struct MeasuredResponse {
 /// [`Failure::Wrong`] if a squealing start is requested but does not exist; [`Failure::Failed`] if the
 /// engine stops.
 pub fn run(study: &BeltStudy) -> Result<MeasuredResponse, Failure> {
+    refused_of_belt(study, "response")?;
     record_fits(study)?;
     let start = start(study)?;
     let response = respond(study.belt(), start, study.solver()).map_err(failed)?;

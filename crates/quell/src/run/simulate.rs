@@ -2,22 +2,27 @@
 
 use std::f64::consts::TAU;
 
+use quell_dynamics::belt_motion::{ContactStart, run_belt};
+use quell_dynamics::motion::ContactEnd;
 pub use quell_dynamics::simulation::Start;
 use quell_dynamics::simulation::{
-    Event, EventKind, EventRecorder, FinalState, LargestSlip, Sample, Sampler, simulate,
+    Event, EventKind, EventRecorder, FinalState, LargestSlip, Sample, Sampler,
 };
+use quell_model::Dither;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::manoeuvre::{self, Manoeuvre, SampledMotion};
 use super::sample_times;
 use super::sound_tap::{SoundTap, fastest_dither, plan};
 use super::{failed, start};
 use crate::complaint::Failure;
+use crate::contact_state::passivity;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::range::SlipMet;
 use crate::sound::{Sound, SoundOptions};
-use crate::study::BeltStudy;
+use crate::study::{BeltStudy, InitialState};
 use crate::words::{in_words, plural, start_in_words};
 
 /// Samples per period of the fastest dither, and at least this many in a slow period.
@@ -26,6 +31,9 @@ const SAMPLES_PER_SLOW_PERIOD: f64 = 256.0;
 
 /// Largest number of samples kept; a longer run is sampled more coarsely.
 pub const MOST_SAMPLES: usize = 2_000_000;
+
+/// Natural period of a belt, 2π/ω₀.
+pub(crate) const NATURAL_PERIOD: f64 = TAU;
 
 /// Where a run begins, if not at the start of the study, and what it keeps.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,6 +61,8 @@ pub struct Simulation {
     pub given: bool,
     /// Final state.
     pub end: FinalState,
+    /// The contact at the end of a run whose drive, load or dither varies in time.
+    pub contact: Option<ContactEnd>,
     /// The events, if requested.
     pub events: Option<Vec<Event>>,
     /// Samples at equal steps, both ends included, if requested.
@@ -65,6 +75,8 @@ pub struct Simulation {
     pub coarse: bool,
     /// The slip reached.
     pub slip: SlipMet,
+    /// When the run vibrates, where drive, load or dither varies in time.
+    pub manoeuvre: Option<Manoeuvre>,
 }
 
 /// Integrates a study to τ = `until`.
@@ -99,21 +111,28 @@ pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation
     let mut recorder = EventRecorder::default();
     let mut largest = LargestSlip::of(belt);
     let mut tap = SoundTap::new(start, sound.as_ref());
-    let mut watch = (&mut largest, (&mut sampler, &mut tap));
+    let mut trace = trace(study, start.time, until);
+    let mut watch = (&mut largest, (&mut sampler, (&mut tap, &mut trace)));
+    let own = match study.initial() {
+        InitialState::Sliding if begin.is_none() => ContactStart::Sliding,
+        _ => ContactStart::Relaxed,
+    };
+    let from = (start, own);
     let end = if events {
-        simulate(belt, start, until, tolerance, &mut (&mut recorder, &mut watch))
+        run_belt(belt, from, until, tolerance, &mut (&mut recorder, &mut watch))
     } else {
-        simulate(belt, start, until, tolerance, &mut watch)
+        run_belt(belt, from, until, tolerance, &mut watch)
     }
     .map_err(failed)?;
+    let (end, contact) = (end.state, end.contact);
     let mut slip = SlipMet::default();
     slip.add(belt, largest.speed);
     let samples = finished(sampler, &end);
     let undithered_samples = if undithered && !belt.dithers().is_empty() {
         let mut sampler = sampling();
         let end =
-            simulate(&belt.undithered(), start, until, tolerance, &mut sampler).map_err(failed)?;
-        Some(finished(sampler, &end))
+            run_belt(&belt.undithered(), from, until, tolerance, &mut sampler).map_err(failed)?;
+        Some(finished(sampler, &end.state))
     } else {
         None
     };
@@ -121,13 +140,43 @@ pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation
         start,
         given: begin.is_some(),
         end,
+        contact,
         events: events.then_some(recorder.events),
         samples: sampled.then_some(samples),
         undithered_samples,
         sound: tap.finish(&end),
         coarse,
         slip,
+        manoeuvre: (!belt.is_steady()).then(|| manoeuvre(study, &trace)),
     })
+}
+
+/// Samples in which the vibration of a run is found; none of a steady belt.
+fn trace(study: &BeltStudy, from: f64, until: f64) -> Sampler {
+    let (intervals, _) =
+        if study.belt().is_steady() { (0, false) } else { grid(study, until - from) };
+    Sampler::new(from, (until - from) / intervals.max(1) as f64, intervals)
+}
+
+fn manoeuvre(study: &BeltStudy, trace: &Sampler) -> Manoeuvre {
+    let start = trace.samples.first().map_or(0.0, |sample| sample.time);
+    let step = trace.step();
+    let displacement: Vec<f64> = trace.samples.iter().map(|sample| sample.displacement).collect();
+    let envelopes = study.belt().dithers().iter().filter_map(|dither| dither.envelope.as_ref());
+    let onset = envelopes.filter_map(manoeuvre::onset).reduce(f64::min);
+    let motion = SampledMotion { start, step, displacement: &displacement };
+    let acting = study.belt().dithers().iter().filter(|dither| dither.amplitude > 0.0);
+    let slowest = acting.map(Dither::repetition_ratio).reduce(f64::min);
+    Manoeuvre::of(motion, NATURAL_PERIOD, slowest.map(|ratio| TAU / ratio), onset)
+}
+
+/// Highest angular frequency of a spectrogram: it shows the dither, unless that is so fast that the slow vibration would not
+/// be seen.
+pub(crate) fn highest_shown(study: &BeltStudy) -> f64 {
+    match fastest_dither(study) {
+        Some(fastest) if fastest <= 40.0 => (1.25 * fastest).max(6.0),
+        _ => 8.0,
+    }
 }
 
 /// Samples plus the final state.
@@ -179,10 +228,18 @@ impl Simulation {
             time,
             in_words(study, Quantity::Time, end.time)
         );
-        match self.sound_sentence(study) {
-            Some(sound) => format!("{ends} {sound}"),
-            None => ends,
-        }
+        let found = [self.manoeuvre_sentence(study), self.sound_sentence(study)];
+        [Some(ends), found[0].clone(), found[1].clone()]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join(" ")
+    }
+
+    /// When the run vibrates, in one or two sentences, where drive, load or dither varies in time.
+    pub fn manoeuvre_sentence(&self, study: &BeltStudy) -> Option<String> {
+        let found = self.manoeuvre.as_ref()?;
+        Some(found.sentence("The mass", |quantity, value| in_words(study, quantity, value)))
     }
 
     /// The start as text, such as "from rest".
@@ -226,6 +283,16 @@ impl Simulation {
             .number("velocity", Quantity::Velocity, end.velocity)
             .plain("sticking", end.sticking)
             .plain("slip_sign", end.slip_sign);
+        if let Some(contact) = &self.contact {
+            inner.number("friction", Quantity::Force, contact.friction).number(
+                "normal_load",
+                Quantity::Force,
+                contact.normal_load,
+            );
+            if let Some(bristle) = contact.bristle {
+                inner.number("bristle", Quantity::Displacement, bristle);
+            }
+        }
         fields.nested("final", inner);
         if let Some(events) = &self.events {
             let items = events.iter().map(|event| {
@@ -235,10 +302,14 @@ impl Simulation {
                     .plain("contact", event.contact)
                     .plain("kind", event.kind.name())
                     .plain("slip_sign", event.slip_sign)
-                    .number("displacement", Quantity::Displacement, event.displacement);
+                    .number("displacement", Quantity::Displacement, event.displacement)
+                    .number("velocity", Quantity::Velocity, event.velocity);
                 inner
             });
             fields.list("events", items);
+        }
+        if let Some(found) = &self.manoeuvre {
+            fields.nested("manoeuvre", found.fields(|| Fields::new(scales)));
         }
         if let Some(sound) = &self.sound {
             let mut inner = Fields::new(scales);
@@ -257,6 +328,7 @@ impl Simulation {
     /// Warnings about the result.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let mut warnings = self.slip.warnings(study);
+        warnings.extend(passivity(study.belt()));
         if self.coarse {
             warnings.push(format!(
                 "only {MOST_SAMPLES} samples are kept, too few to resolve the dither"
@@ -275,7 +347,7 @@ impl Simulation {
         warnings
     }
 
-    /// The events, one row each; empty if not requested. The velocity at every event is the belt's.
+    /// The events, one row each; empty if not requested.
     pub fn events_dataset(&self, study: &BeltStudy) -> Dataset {
         let events = self.events.as_deref().unwrap_or_default();
         let column = |value: fn(&Event) -> f64| events.iter().map(value).collect::<Vec<f64>>();
@@ -291,17 +363,18 @@ impl Simulation {
             .with(Array::of_words("kind", words, &codes))
             .array("slip_sign", Quantity::Count, column(|event| f64::from(event.slip_sign)))
             .array("displacement", Quantity::Displacement, column(|event| event.displacement))
-            .array("velocity", Quantity::Velocity, vec![study.belt().belt_velocity(); events.len()])
+            .array("velocity", Quantity::Velocity, column(|event| event.velocity))
     }
 
     /// The sampled trajectory; empty if no samples were requested.
     pub fn dataset(&self, study: &BeltStudy) -> Dataset {
         let samples = self.samples.as_deref().unwrap_or_default();
         let column = |value: fn(&Sample) -> f64| samples.iter().map(value).collect::<Vec<f64>>();
-        let belt_velocity = study.belt().belt_velocity();
-        let slip = samples
-            .iter()
-            .map(|sample| if sample.sticking { 0.0 } else { belt_velocity - sample.velocity });
+        let slip = samples.iter().map(|sample| {
+            let surface = study.belt().belt_velocity_at(sample.time);
+            let is_held = sample.sticking && study.belt().tangential_stiffness().is_none();
+            if is_held { 0.0 } else { surface - sample.velocity }
+        });
         Dataset::new(study, "simulate")
             .fact(format!("start: {}", self.start_in_words(study)))
             .axis("time", Quantity::Time, column(|sample| sample.time))

@@ -15,6 +15,7 @@ use quell_model::Belt;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use crate::contact_state;
 use crate::fields::Fields;
 use crate::range;
 use crate::study::BeltStudy;
@@ -343,7 +344,11 @@ impl BeltStability {
             )
         });
         let range = range::averaged(study).into_iter().chain(self.beyond(study));
-        hardly.chain(apart).chain(range).collect()
+        let belt = study.belt();
+        let rigid = contact_state::rigid_average(belt, belt.belt_velocity());
+        let bristles = belt.friction().bristles().map(|_| contact_state::small_motions(""));
+        let state = contact_state::passivity(belt).into_iter().chain(rigid).chain(bristles);
+        hardly.chain(apart).chain(range).chain(state).collect()
     }
 
     /// Warnings about critical amplitudes and bands outside the range of the friction law.

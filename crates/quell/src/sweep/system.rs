@@ -53,7 +53,7 @@ impl Mapped for SystemPoints {
     }
 
     fn seconds(&self, wanted: &[Computation]) -> f64 {
-        let states = self.0.system().structure.state_size() as f64;
+        let states = self.0.system().state_size() as f64;
         let growth = GROWTH * (states / 10.0).powi(2).max(0.1);
         let each = wanted.iter().map(|computation| match computation {
             Computation::SystemCritical => SEARCH * growth,

@@ -65,6 +65,7 @@ impl<V: Lane> LaneNumbers<V> {
             inverse_scale: zero,
             static_coefficient: zero,
             sliding_coefficient: zero,
+            own: None,
         });
         let series = run.series.contacts.iter().map(|contact| ContactSeries {
             is_plain: contact.is_plain,

@@ -37,7 +37,8 @@ impl LaneShape {
     /// The shape of a system; `None` if it cannot share lanes.
     pub(super) fn of(motion: &Motion<'_>) -> Option<Self> {
         let MotionEquations { size, contacts, .. } = &motion.equations;
-        if ![2, 4, 6, 8].contains(size) || contacts.len() > FEW_CONTACTS {
+        let has_own_state = contacts.iter().any(|contact| contact.own.is_some());
+        if ![2, 4, 6, 8].contains(size) || contacts.len() > FEW_CONTACTS || has_own_state {
             return None;
         }
         let forcings = Forcings::of(motion.system, Clock::at(0.0));

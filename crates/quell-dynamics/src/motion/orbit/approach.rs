@@ -37,6 +37,10 @@ pub(super) struct ApproachToSliding {
 impl ApproachToSliding {
     /// For a system whose steady sliding exists and is stable.
     pub(super) fn of(system: &System) -> Option<Self> {
+        if system.has_contact_state() {
+            // Its small motions are not those of the linear system.
+            return None;
+        }
         let sliding = sliding_state(system).ok()?;
         let linear = Linearised::new(system).ok()?;
         let matrix = linear.state_matrix_with(&linear.friction());

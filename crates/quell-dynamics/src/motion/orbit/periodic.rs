@@ -9,7 +9,9 @@ use quell_numerics::continuation::branch::{End, Follow, follow};
 use quell_numerics::continuation::shooting::{NotClosed, Shooting, fixed_point};
 use quell_numerics::continuation::{modulus, multipliers, spectral_radius};
 
+use super::super::own_state::in_steady_sliding;
 use super::super::{Immobile, MOTION_TOLERANCE, Motion, RecordedEvent};
+pub(crate) use super::family::scale_of;
 use super::family::{MotionFamily, MotionSignature, NoImage, shot, shot_within, time_of};
 use crate::orbit::OrbitVerdict;
 
@@ -207,14 +209,6 @@ pub(crate) fn orbit_at(
     })
 }
 
-/// Typical size of the numbers of a state.
-pub(crate) fn scale_of(motion: &Motion<'_>, state: &[f64]) -> f64 {
-    let system = motion.system();
-    let speeds = system.contacts.iter().map(|contact| contact.surface_velocity.mean().abs());
-    let largest = state.iter().map(|value| value.abs()).chain(speeds).fold(0.0, f64::max);
-    if largest > 0.0 { largest } else { 1.0 }
-}
-
 /// The orbit of `periods` common periods near a state at t = 0.
 ///
 /// # Errors
@@ -290,7 +284,11 @@ pub fn is_on_sliding(system: &System, state: &[f64]) -> bool {
 /// # Errors
 /// [`NoSteadySliding`].
 pub fn sliding_state(system: &System) -> Result<Vec<f64>, NoSteadySliding> {
-    let mut state = SteadySliding::new(system)?.position;
+    let steady = SteadySliding::new(system)?;
+    let mut state = steady.position.clone();
     state.resize(system.structure.state_size(), 0.0);
+    for (contact, steady) in system.contacts.iter().zip(&steady.contacts) {
+        state.extend(in_steady_sliding(contact, steady));
+    }
     Ok(state)
 }

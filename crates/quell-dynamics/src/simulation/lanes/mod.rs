@@ -38,7 +38,7 @@ pub(super) fn side_by_side(
     let mut outcomes = vec![Err(Stalled::NEVER_STARTED); runs.len()];
     let mut rest: Vec<(usize, SimulationRun<'_>)> = Vec::with_capacity(runs.len());
     for (number, run) in runs.into_iter().enumerate() {
-        match run.belt.friction().unsimulated() {
+        match run.belt.unsimulated() {
             Some(why) => outcomes[number] = Err(Stalled { time: run.start.time, why }),
             None => rest.push((number, run)),
         }

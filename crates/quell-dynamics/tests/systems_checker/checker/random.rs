@@ -166,9 +166,11 @@ fn contact(random: &mut Random, index: usize, tangent: Vec<f64>, compliant: bool
         slope,
         normal_load: random.within(0.4, 1.4),
         normal_stiffness,
+        tangential_stiffness: None,
         normal_damping,
         surface_velocity: Profile::constant(velocity),
         friction: law(random),
+        varying_load: None,
     }
 }
 
@@ -211,7 +213,7 @@ fn input(random: &mut Random, rows: usize, contacts: &[Contact]) -> Input {
         let amplitude = given.normal_load * random.within(0.1, share);
         (InputTarget::NormalLoad { contact, reaction: random.chance(0.7) }, amplitude)
     };
-    let wave = Wave { waveform, amplitude, frequency, phase };
+    let wave = Wave { waveform, amplitude, frequency, phase, envelope: None };
     Input { target, profile: Profile::constant(0.0).with(wave) }
 }
 

@@ -43,7 +43,7 @@ impl Smooth {
 impl Piece {
     /// The piece of a wave that contains a time.
     fn at(wave: &Wave, middle: f64) -> Self {
-        let &Wave { ref waveform, amplitude, frequency, phase } = wave;
+        let &Wave { ref waveform, amplitude, frequency, phase, envelope: _ } = wave;
         if *waveform == Waveform::Sine {
             return Self::Sine { amplitude, frequency, phase };
         }

@@ -54,6 +54,13 @@ def table_of(study: Study, old: dict[str, Any], law: str) -> dict[str, Any]:
         "coefficient": sliding,
         velocity: speed if speed is not None else usual_speed(study),
     }
+    if law == "lugre":
+        # Bristles that break away within a hundredth of the way at the reference velocity, and supply no energy.
+        fast = known[velocity] if isinstance(known[velocity], (int, float)) else usual_speed(study)
+        stiffness, damping = ("bristle_stiffness_per_m", "bristle_damping_s_per_m") if is_si else ("bristle_stiffness", "bristle_damping")
+        known |= {stiffness: 100.0 / abs(float(fast)), damping: 0.0}
+        shared = ("coefficient", "static_coefficient", velocity, stiffness, damping)
+        return {"law": law, **{key: known[key] for key in shared}}
     if law == "expression":
         if not all(isinstance(it, (int, float)) for it in known.values()):
             known = {"minimum_coefficient": 0.3, "static_coefficient": 0.4, velocity: 1.0}

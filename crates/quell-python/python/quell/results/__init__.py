@@ -15,8 +15,8 @@ from __future__ import annotations
 
 from .._dataset import Arrays, Variable
 from .._result import Result
-from ._motion import Attractor, Orbit, Response, Simulation
-from ._steady import Check, Citations, ExactStability, FrictionCurve, Modes, Resonances, Stability, TrackedStability
+from ._motion import Attractor, Orbit, Response, Simulation, Window
+from ._steady import Check, Citations, DescribingFunction, ExactStability, FrictionCurve, Modes, Resonances, Stability, TrackedStability, Waveforms
 from ._sweeps import Basins, Bifurcation, Map, Shard, ThresholdCurves, Thresholds
 
 __all__ = [
@@ -26,6 +26,7 @@ __all__ = [
     "Bifurcation",
     "Check",
     "Citations",
+    "DescribingFunction",
     "ExactStability",
     "FrictionCurve",
     "Map",
@@ -41,4 +42,6 @@ __all__ = [
     "Thresholds",
     "TrackedStability",
     "Variable",
+    "Waveforms",
+    "Window",
 ]

@@ -222,6 +222,7 @@ class CheckColumns:
     contact_law_normal_load: npt.NDArray[np.float64]
     contact_law_normal_load_unit: npt.NDArray[np.str_]
     contact_law_tangent: npt.NDArray[Any]
+    contact_law_varies_in_time: npt.NDArray[Any]
     disc_load_angle_deg: npt.NDArray[np.float64]
     disc_load_damping: npt.NDArray[np.float64]
     disc_load_damping_n_s_per_m: npt.NDArray[np.float64]
@@ -246,6 +247,7 @@ class CheckColumns:
     dither_frequency_hz: float
     dither_frequency_ratio: Any
     dither_frequency_ratio_hz: npt.NDArray[np.float64]
+    dither_has_envelope: npt.NDArray[Any]
     dither_phase: npt.NDArray[np.float64]
     dither_waveform: npt.NDArray[np.str_]
     friction_minimum_coefficient: float
@@ -268,6 +270,28 @@ class CitationsColumns:
     correction_source: npt.NDArray[np.str_]
     source_key: npt.NDArray[np.str_]
     source_reference: npt.NDArray[np.str_]
+
+
+class DescribingFunctionColumns:
+    """Of :class:`quell.results.DescribingFunction`."""
+
+    belt_velocity_m_per_s: float
+    gain_error_s_per_m: list[float | None]
+    gain_error_s_per_m_value: npt.NDArray[np.float64]
+    gain_error_value: npt.NDArray[np.float64]
+    gain_s_per_m: list[float | None]
+    limit_cycle_amplitude_m: float
+    limit_cycle_amplitude_m_value: npt.NDArray[np.float64]
+    limit_cycle_amplitude_value: npt.NDArray[np.float64]
+    limit_cycle_stable: npt.NDArray[Any]
+    limit_cycle_velocity_amplitude: npt.NDArray[np.float64]
+    limit_cycle_velocity_amplitude_error: npt.NDArray[np.float64]
+    limit_cycle_velocity_amplitude_error_m_per_s: npt.NDArray[np.float64]
+    limit_cycle_velocity_amplitude_m_per_s: npt.NDArray[np.float64]
+    limit_cycle_velocity_m_per_s: float
+    small_gain_s_per_m: float
+    undithered_gain_s_per_m: list[float | None]
+    velocity_amplitude_m_per_s: list[float | None]
 
 
 class ExactStabilityColumns:
@@ -607,6 +631,8 @@ class SimulationColumns:
     event_slip_sign: npt.NDArray[Any]
     event_time: npt.NDArray[np.float64]
     event_time_s: npt.NDArray[np.float64]
+    event_velocity: npt.NDArray[np.float64]
+    event_velocity_m_per_s: npt.NDArray[np.float64]
     final_contact_friction: npt.NDArray[np.float64]
     final_contact_friction_n: npt.NDArray[np.float64]
     final_contact_name: npt.NDArray[np.str_]
@@ -619,6 +645,8 @@ class SimulationColumns:
     final_contact_sticking: npt.NDArray[Any]
     final_displacement: float
     final_displacement_m: float
+    final_friction: float
+    final_normal_load: float
     final_slip_sign: Any
     final_state_value: npt.NDArray[np.float64]
     final_sticking: Any
@@ -629,6 +657,12 @@ class SimulationColumns:
     growth_observed_per_s: float | None
     leading_frequency_hz: float
     leading_growth_rate_per_s: float
+    manoeuvre_dither_onset: float
+    manoeuvre_overshoot: float
+    manoeuvre_time_to_quench: float
+    manoeuvre_vibration_amplitude: npt.NDArray[np.float64]
+    manoeuvre_vibration_from: npt.NDArray[np.float64]
+    manoeuvre_vibration_to: npt.NDArray[np.float64]
     slip_velocity: npt.NDArray[np.float64]
     slip_velocity_m_per_s: npt.NDArray[np.float64]
     sound_clipped: Any
@@ -865,3 +899,63 @@ class TrackedStabilityColumns:
     threshold_kind: npt.NDArray[np.str_]
     threshold_value: npt.NDArray[np.float64]
     threshold_was: npt.NDArray[np.str_]
+
+
+class WaveformsColumns:
+    """Of :class:`quell.results.Waveforms`."""
+
+    amplitude_n: npt.NDArray[np.float64]
+    exact_amplitude_n: npt.NDArray[np.float64]
+    number: npt.NDArray[np.float64]
+    power_w: npt.NDArray[np.float64]
+    root_mean_square_n: npt.NDArray[np.float64]
+    stroke_m: npt.NDArray[np.float64]
+    velocity_m_per_s: npt.NDArray[np.float64]
+    waveform: npt.NDArray[np.uint8]
+    waveform_amplitude: npt.NDArray[np.float64]
+    waveform_amplitude_n: npt.NDArray[np.float64]
+    waveform_amplitude_ratio: npt.NDArray[np.float64]
+    waveform_amplitude_ratio_m_per_s: npt.NDArray[np.float64]
+    waveform_duty_cycle: npt.NDArray[np.float64]
+    waveform_exact_amplitude: npt.NDArray[np.float64]
+    waveform_exact_amplitude_n: npt.NDArray[np.float64]
+    waveform_label: npt.NDArray[np.str_]
+    waveform_off: npt.NDArray[np.float64]
+    waveform_on: npt.NDArray[np.float64]
+    waveform_own: npt.NDArray[Any]
+    waveform_power: npt.NDArray[np.float64]
+    waveform_power_w: npt.NDArray[np.float64]
+    waveform_root_mean_square: npt.NDArray[np.float64]
+    waveform_root_mean_square_n: npt.NDArray[np.float64]
+    waveform_stroke: npt.NDArray[np.float64]
+    waveform_stroke_m: npt.NDArray[np.float64]
+    waveform_until: npt.NDArray[np.float64]
+    waveform_until_n: npt.NDArray[np.float64]
+    waveform_velocity: npt.NDArray[np.float64]
+    waveform_velocity_m_per_s: npt.NDArray[np.float64]
+    waveform_waveform: npt.NDArray[np.str_]
+
+
+class WindowColumns:
+    """Of :class:`quell.results.Window`."""
+
+    amplitude_m: float
+    contact_friction_power: npt.NDArray[np.float64]
+    contact_friction_power_w: npt.NDArray[np.float64]
+    contact_least_normal: npt.NDArray[np.float64]
+    contact_least_normal_n: npt.NDArray[np.float64]
+    contact_mean_friction: npt.NDArray[np.float64]
+    contact_mean_friction_n: npt.NDArray[np.float64]
+    contact_mean_normal: npt.NDArray[np.float64]
+    contact_mean_normal_n: npt.NDArray[np.float64]
+    contact_name: npt.NDArray[np.str_]
+    contact_open_fraction: npt.NDArray[np.float64]
+    contact_stick_fraction: npt.NDArray[np.float64]
+    displacement: npt.NDArray[np.float64]
+    from_s: float
+    mean_m: float
+    rms_m: float
+    strongest_amplitude_m: float
+    strongest_frequency_hz: float
+    time: npt.NDArray[np.float64]
+    to_s: float

@@ -27,6 +27,9 @@ class Simulation(_columns.SimulationColumns, Result):
     events: list[dict[str, Any]]
     """``time``, ``contact``, ``kind`` ("stick", "release", "reversal", of a system also "separation", "landing"), ``slip_sign``,
     and ``displacement`` or ``state`` of every event."""
+    manoeuvre: dict[str, Any]
+    """Where drive, load or dither varies in time: ``vibration`` (``from``, ``to``, ``amplitude`` of each interval),
+    ``dither_onset``, ``time_to_quench`` and ``overshoot``."""
     event_count: int
     """Number of events, including those that were not kept."""
     sound: dict[str, Any]
@@ -82,6 +85,29 @@ class Simulation(_columns.SimulationColumns, Result):
             As in :meth:`quell.Study.simulate`; times count from the begin of the first run.
         """
         return self.study.simulate(until, events=events, samples=samples, t_eval=t_eval, start=self.final)
+
+
+class Window(_columns.WindowColumns, Result):
+    """What a run does between two of its times."""
+
+    verb = "response --window"
+    from_: float
+    """Beginning of the window."""
+    to: float
+    """Its end."""
+    mean: float
+    """Mean displacement."""
+    rms: float
+    """Root mean square of the displacement about its mean."""
+    amplitude: float
+    """Half of the peak-to-peak displacement."""
+    strongest_amplitude: float | None
+    """Amplitude of the largest line of the spectrum."""
+    strongest_frequency: float | None
+    """Its frequency."""
+    contacts: list[dict[str, Any]]
+    """What each contact did on average: ``stick_fraction``, ``open_fraction``, ``mean_friction``, ``mean_normal``,
+    ``least_normal``, ``friction_power``."""
 
 
 class Response(_columns.ResponseColumns, Result):

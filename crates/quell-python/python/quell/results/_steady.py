@@ -121,6 +121,100 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
         return None if found is None else found.values
 
 
+class DescribingFunction(_columns.DescribingFunctionColumns, Result):
+    """Averaged friction under a slow sinusoid of the slip velocity, over its velocity amplitude (n,)."""
+
+    verb = "friction"
+    small_gain: float | None
+    """N₁ for small amplitudes: the slope of averaged friction at the belt velocity."""
+    limit_cycle_velocity: float | None
+    """Velocity amplitude of the smallest stable limit cycle, where 2ζ + FN₁ = 0."""
+    limit_cycle_amplitude: float | None
+    """Its displacement amplitude."""
+    limit_cycles: list[dict[str, Any]]
+    """Every limit cycle: ``velocity_amplitude``, ``amplitude``, ``velocity_amplitude_error``, ``stable``."""
+    gain_error: list[float | None]
+    """Bound on the numerical error of N₁ (n,)."""
+    belt_velocity: float
+    """v₀."""
+
+    @property
+    def velocity_amplitude(self) -> npt.NDArray[np.float64]:
+        """a (n,), in the unit of the study: lengths per τ, in SI m/s."""
+        return self.arrays["velocity_amplitude"].values
+
+    @property
+    def mean_coefficient(self) -> npt.NDArray[np.float64]:
+        """Mean coefficient of friction (n,)."""
+        return self.arrays["mean_coefficient"].values
+
+    @property
+    def gain(self) -> npt.NDArray[np.float64]:
+        """Equivalent gain N₁ (n,) per unit of ``velocity_amplitude``."""
+        return self.arrays["gain"].values
+
+    @property
+    def undithered_gain(self) -> npt.NDArray[np.float64]:
+        """N₁ (n,) without dither."""
+        return self.arrays["undithered_gain"].values
+
+    @property
+    def balance(self) -> npt.NDArray[np.float64]:
+        """2ζ + FN₁ (n,): slow motions of this amplitude decay where it is positive."""
+        return self.arrays["balance"].values
+
+
+class Waveforms(_columns.WaveformsColumns, Result):
+    """The least dither of each waveform that quenches, and its cost; arrays over the waveforms (n,)."""
+
+    verb = "waveforms"
+    carrier: str | None
+    """Belt: carrier of the bursts."""
+    waveforms: list[dict[str, Any]]
+    """Each waveform: ``waveform``, ``label``, ``own``, ``duty_cycle``, ``amplitude_ratio``, ``amplitude``, ``root_mean_square``,
+    ``power``, ``stroke``, ``velocity``, ``until``, ``exact_amplitude``; of bursts ``on`` and ``off``."""
+    best: dict[str, str | None]
+    """Label of the waveform that is smallest in amplitude, rms force, power, stroke and velocity."""
+
+    @property
+    def duty_cycle(self) -> npt.NDArray[np.float64] | None:
+        """Belt: share of the period in which the dither acts (n,): 1 except for bursts."""
+        found = self.arrays.get("duty_cycle")
+        return None if found is None else found.values
+
+    @property
+    def amplitude(self) -> npt.NDArray[np.float64]:
+        """Least amplitude by averaging (n,), in the unit of the study; NaN where no amplitude quenches."""
+        return self.arrays["amplitude"].values
+
+    @property
+    def root_mean_square(self) -> npt.NDArray[np.float64]:
+        """Root mean square of that force (n,)."""
+        return self.arrays["root_mean_square"].values
+
+    @property
+    def power(self) -> npt.NDArray[np.float64]:
+        """Mean power into the structure without friction, of a system into the sliding structure (n,)."""
+        return self.arrays["power"].values
+
+    @property
+    def stroke(self) -> npt.NDArray[np.float64]:
+        """Peak-to-peak displacement of the mass without friction, of a system at the driven point (n,)."""
+        return self.arrays["stroke"].values
+
+    @property
+    def velocity(self) -> npt.NDArray[np.float64] | None:
+        """Belt: largest velocity of the structure without friction (n,)."""
+        found = self.arrays.get("velocity")
+        return None if found is None else found.values
+
+    @property
+    def exact_amplitude(self) -> npt.NDArray[np.float64] | None:
+        """Belt: exact least amplitude at the study's frequency (n,); NaN where it is unknown."""
+        found = self.arrays.get("exact_amplitude")
+        return None if found is None else found.values
+
+
 class Stability(_columns.StabilityColumns, Result):
     """Stability of steady sliding: of a belt by averaging, of a disc or system by eigenvalues."""
 

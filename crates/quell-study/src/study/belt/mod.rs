@@ -6,6 +6,7 @@ pub(in crate::study) mod friction;
 mod solver;
 mod table;
 
+use crate::study::wave_file::{WaveFile, WaveFiles};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -18,12 +19,13 @@ use quell_model::{Belt, Dither, Friction, LawKind};
 use super::StudyOf;
 use super::disc::DiscSetup;
 use super::document::Table;
-use super::reader::Reader;
+use super::reader::{CourseFile, Reader};
 use super::study_kind::{Given, StudyKind, wrong_kind};
 use super::system::SystemSetup;
 
 pub use friction::Measured;
 use table::BeltTable;
+pub(in crate::study) use table::one_state;
 
 /// A checked study of a belt.
 pub type BeltStudy = StudyOf<BeltSetup>;
@@ -37,6 +39,10 @@ pub struct BeltSetup {
     band: Option<[f64; 2]>,
     /// The samples of a measured law.
     measured: Option<Arc<Measured>>,
+    /// Files of drives, loads and envelopes.
+    courses: Arc<[CourseFile]>,
+    /// Files of sampled waveforms.
+    waves: Vec<WaveFile>,
 }
 
 impl StudyKind for BeltSetup {
@@ -57,12 +63,18 @@ impl StudyKind for BeltSetup {
             reader.complain(wrong_kind(Self::NAME, SystemSetup::NAME, node.origin));
             return None;
         }
-        let mut belt = table::read(reader, document);
+        if let Some(known) = given.known {
+            reader.knows(&known.courses);
+        }
+        let mut belt = table::read(reader, document, given.folder);
         let known = given.known.and_then(|setup| setup.measured.as_deref());
         let context =
             friction::LawContext { folder: given.folder, known, normal_load: belt.normal_load };
         let friction = friction::read(reader, document, context);
-        let dithers = dither::read(reader, document);
+        let known = given.known.map_or(&[][..], |setup| &setup.waves);
+        let mut files = WaveFiles::new(given.folder, known);
+        let dithers = dither::read(reader, document, &mut files);
+        let waves = files.into_found();
         if let Some(load) = friction.as_ref().and_then(|read| read.own_load) {
             belt.normal_load = Some(load);
             friction::needs_no_normal_force(reader, document, dithers.as_deref());
@@ -72,6 +84,7 @@ impl StudyKind for BeltSetup {
         let solver = solver::read(reader, document);
         let band = band::read(reader, document);
         let initial = belt.initial;
+        table::slider_has_one_state(reader, document, friction.as_ref());
         let built = build(reader, belt, friction, dithers);
         Some(Self {
             belt: built?.in_si(reader.known_scales()),
@@ -79,15 +92,21 @@ impl StudyKind for BeltSetup {
             solver: solver?,
             band: band?,
             measured: measured.map(Arc::new),
+            courses: reader.take_files(),
+            waves,
         })
     }
 
     fn data_files(&self) -> Vec<&Path> {
-        self.measured.iter().filter_map(|measured| measured.file.as_deref()).collect()
+        let samples = self.measured.iter().filter_map(|measured| measured.file.as_deref());
+        let waves = self.waves.iter().map(WaveFile::path);
+        samples.chain(waves).chain(self.courses.iter().map(|file| file.path.as_path())).collect()
     }
 
     fn file_settings(&self) -> Vec<(String, String)> {
-        self.measured.iter().map(|measured| measured.settings()).collect()
+        let samples = self.measured.iter().map(|measured| measured.settings());
+        let waves = self.waves.iter().enumerate().map(|(index, wave)| wave.settings(index));
+        samples.chain(waves).chain(CourseFile::settings(&self.courses)).collect()
     }
 }
 
@@ -148,8 +167,20 @@ fn build(
     let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
     let (damping, load, velocity) =
         (number(table.damping_ratio), number(table.normal_load), number(table.belt_velocity));
-    match Belt::new(damping, load, velocity, law, dithers) {
-        Ok(belt) => known.then_some(belt),
+    // That a law with a state has none is reported with the key.
+    let stiffness = table.tangential_stiffness.filter(|_| law.bristles().is_none());
+    let BeltTable { drive, load: loads, courses_are_right, .. } = table;
+    let whole = Belt::new(damping, load, velocity, law, dithers);
+    let driven = whole.and_then(|belt| match drive {
+        Some(drive) => belt.driven(drive.profile(velocity)),
+        None => Ok(belt),
+    });
+    let loaded = driven.and_then(|belt| match loads {
+        Some(loads) => belt.loaded(loads.profile(load)),
+        None => Ok(belt),
+    });
+    match loaded.and_then(|belt| belt.with_tangential_stiffness(stiffness)) {
+        Ok(belt) => (known && courses_are_right).then_some(belt),
         Err(invalid) => {
             // In SI the normal load is reported in newtons.
             let newtons = reader.known_scales().map(|scales| scales.to_si(Quantity::Force, load));

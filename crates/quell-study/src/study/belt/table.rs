@@ -1,28 +1,41 @@
 //! `[belt]` and `[belt.initial]`.
 
+use std::path::Path;
+
 use quell_dynamics::start::InitialState;
 use quell_model::parameter::{
     BELT_VELOCITY, DAMPING_RATIO, INITIAL_DISPLACEMENT, INITIAL_VELOCITY, NORMAL_LOAD,
+    TANGENTIAL_STIFFNESS,
 };
+use quell_model::units::Quantity;
+use quell_model::{Friction, LawKind};
 use serde_json::Value as Json;
 
 use super::friction;
 use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::course::{Course, CoursePlace, CourseUnits, no_constant, replaces_constant};
 use crate::study::document::{Node, Table};
 use crate::study::reader::{Found, Reader};
-use crate::study::vocabulary::{Choice, Section};
+use crate::study::vocabulary::{Choice, DRIVE, LOAD, Section};
 
 /// Numbers of `[belt]`; `None` where a value is invalid.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct BeltTable {
     pub(super) damping_ratio: Option<f64>,
     pub(super) normal_load: Option<f64>,
     pub(super) belt_velocity: Option<f64>,
+    /// Absent of a rigid contact.
+    pub(super) tangential_stiffness: Option<f64>,
     pub(super) initial: Option<InitialState>,
+    /// Velocity and load over time, where they are given.
+    pub(super) drive: Option<Course>,
+    pub(super) load: Option<Course>,
+    /// Whether those tables are right.
+    pub(super) courses_are_right: bool,
 }
 
 /// Reads `[belt]`.
-pub(super) fn read(reader: &mut Reader, root: &Table) -> BeltTable {
+pub(super) fn read(reader: &mut Reader, root: &Table, folder: &Path) -> BeltTable {
     let Some(node) = root.get("belt") else {
         let allowed =
             "a table [belt] with damping_ratio, normal_load, belt_velocity (or their SI keys)";
@@ -32,21 +45,89 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> BeltTable {
     let Some(table) = reader.table("belt", node) else {
         return BeltTable::default();
     };
-    reader.unknown_keys(table, Section::Belt, "belt", &["initial"]);
-    let mut number = |parameter| reader.number(table, "belt", node.origin, parameter);
-    let (damping_ratio, belt_velocity) = (number(DAMPING_RATIO), number(BELT_VELOCITY));
+    reader.unknown_keys(table, Section::Belt, "belt", &["initial", "drive", "load"]);
+    let course = |reader: &mut Reader, name, what| {
+        let place = CoursePlace { what, units: CourseUnits::Belt, folder };
+        place.optional(reader, table, "belt", name)
+    };
+    let drive = course(reader, "drive", DRIVE);
+    let load = course(reader, "load", LOAD);
+    if let Some(node) = table.get("load") {
+        let newtons =
+            reader.known_scales().map_or(1.0, |scales| scales.si_per_unit(Quantity::Force));
+        reader.remember("belt.load", "belt.load", node.origin, newtons);
+    }
+    let damping_ratio = reader.number(table, "belt", node.origin, DAMPING_RATIO);
+    let belt_velocity = if replaces_constant(table.get("drive")) {
+        no_constant(reader, table, "belt", &["belt_velocity", "belt_velocity_m_per_s"], "drive");
+        drive.as_ref().ok().map(|_| 0.0)
+    } else {
+        reader.number(table, "belt", node.origin, BELT_VELOCITY)
+    };
     // With friction in newtons the normal force may be omitted.
     let normal_load = match reader.optional(table, "belt", NORMAL_LOAD, None) {
+        found if replaces_constant(table.get("load")) => {
+            let names: Vec<&str> = [NORMAL_LOAD.key()]
+                .into_iter()
+                .chain(NORMAL_LOAD.si.iter().map(|twin| twin.key))
+                .collect();
+            no_constant(reader, table, "belt", &names, "load");
+            let first = match &load {
+                Ok(Some(Course::Over(knots))) => Some(knots.value(0.0)),
+                _ => None,
+            };
+            first.filter(|_| found == Found::Absent)
+        }
         Found::Absent if friction::in_newtons(reader, root) => None,
         Found::Absent => reader.number(table, "belt", node.origin, NORMAL_LOAD),
         Found::Value(load) => Some(load),
         Found::Wrong => None,
     };
+    let tangential_stiffness = match reader.optional(table, "belt", TANGENTIAL_STIFFNESS, None) {
+        Found::Value(stiffness) => Some(stiffness),
+        Found::Absent | Found::Wrong => None,
+    };
     let initial = match table.get("initial") {
         Some(node) => initial(reader, node),
         None => Some(InitialState::Rest),
     };
-    BeltTable { damping_ratio, normal_load, belt_velocity, initial }
+    let courses_are_right = drive.is_ok() && load.is_ok();
+    let (drive, load) = (drive.unwrap_or_default(), load.unwrap_or_default());
+    BeltTable {
+        damping_ratio,
+        normal_load,
+        belt_velocity,
+        tangential_stiffness,
+        initial,
+        drive,
+        load,
+        courses_are_right,
+    }
+}
+
+/// Reports an elastic slider whose law has a state of its own.
+pub(super) fn slider_has_one_state(reader: &mut Reader, root: &Table, law: Option<&Friction>) {
+    let Some(table) = root.get("belt").and_then(Node::table) else { return };
+    let keys = [TANGENTIAL_STIFFNESS.key(), "tangential_stiffness_n_per_m"];
+    let Some((name, node)) = table.iter().find(|(name, _)| keys.contains(name)) else { return };
+    if law.is_some_and(|law| law.bristles().is_some()) {
+        let key = format!("belt.{name}");
+        reader.complain(Complaint::new(
+            Fault::Conflict,
+            key,
+            node.origin,
+            node.given(),
+            one_state(LawKind::Lugre),
+        ));
+    }
+}
+
+/// Why a law with a state has no tangential stiffness.
+pub(in crate::study) fn one_state(law: LawKind) -> String {
+    format!(
+        "none with the law \"{}\", whose bristles are elastic themselves; a tangential stiffness makes any other law an elastic slider",
+        law.name()
+    )
 }
 
 fn initial(reader: &mut Reader, node: &Node) -> Option<InitialState> {

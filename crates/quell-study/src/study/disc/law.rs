@@ -34,6 +34,12 @@ pub(super) fn read(
     });
     reader.set_disc_scales(scales);
     let law = friction::of_a_disc(reader, node)?;
+    if law.bristles().is_some() {
+        let allowed = "a law of the slip velocity alone: discs take no law with a state of its own";
+        let (key, name) = ("friction.law", law.kind().name());
+        reader.complain(Complaint::new(Fault::Value, key, node.origin, name, allowed));
+        return None;
+    }
     if body.is_some_and(|body| body.loads.is_empty()) {
         let allowed = "only with a load: a free disc has no friction";
         let origin = node.origin;

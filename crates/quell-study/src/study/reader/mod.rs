@@ -5,10 +5,14 @@
 //! `belt.stiffness_n_per_m` is given, or if all its quantities are in SI; then a dimensionless
 //! key that has an SI twin is rejected, and vice versa.
 
+use std::path::PathBuf;
+use std::sync::Arc;
+
 use quell_model::InvalidValues;
 use quell_model::units::{DiscScales, Quantity, Scales};
 use serde_json::Value as Json;
 
+use super::data_file;
 use super::document::{Node, Table, Value, given_number};
 use super::suggest;
 use super::vocabulary::{self, Key, Role, Section, join};
@@ -49,12 +53,29 @@ pub struct Reader {
     units: Units,
     complaints: Vec<Complaint>,
     written: Vec<Written>,
+    /// Files that the study names.
+    files: Vec<CourseFile>,
+    /// Files that the study has read before.
+    known_files: Arc<[CourseFile]>,
+}
+
+/// A file of a drive, a load or an envelope.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct CourseFile {
+    pub(super) path: PathBuf,
+    pub(super) text: Arc<str>,
 }
 
 impl Reader {
     /// Determines the unit system of a study and reads its scales.
     pub(super) fn new(root: &Table) -> Self {
-        let mut reader = Self { units: Units::Scaled, complaints: Vec::new(), written: Vec::new() };
+        let mut reader = Self {
+            units: Units::Scaled,
+            complaints: Vec::new(),
+            written: Vec::new(),
+            files: Vec::new(),
+            known_files: Arc::default(),
+        };
         if is_si(root) {
             reader.units = Units::Si(None);
             if let Some(belt) = root.get("belt") {
@@ -66,17 +87,56 @@ impl Reader {
 
     /// A reader for a study of a disc, whose scales are not known yet.
     pub(super) fn of_a_disc() -> Self {
-        Self { units: Units::Disc(None), complaints: Vec::new(), written: Vec::new() }
+        Self {
+            units: Units::Disc(None),
+            complaints: Vec::new(),
+            written: Vec::new(),
+            files: Vec::new(),
+            known_files: Arc::default(),
+        }
     }
 
     /// A reader whose numbers are those of the file.
     pub(super) fn as_written() -> Self {
-        Self { units: Units::Scaled, complaints: Vec::new(), written: Vec::new() }
+        Self {
+            units: Units::Scaled,
+            complaints: Vec::new(),
+            written: Vec::new(),
+            files: Vec::new(),
+            known_files: Arc::default(),
+        }
     }
 
     /// A reader of keys in SI with these scales.
     pub(super) fn in_si(scales: Option<Scales>) -> Self {
-        Self { units: Units::Si(scales), complaints: Vec::new(), written: Vec::new() }
+        Self {
+            units: Units::Si(scales),
+            complaints: Vec::new(),
+            written: Vec::new(),
+            files: Vec::new(),
+            known_files: Arc::default(),
+        }
+    }
+
+    /// Files whose text need not be read again.
+    pub(super) fn knows(&mut self, files: &Arc<[CourseFile]>) {
+        self.known_files = Arc::clone(files);
+    }
+
+    /// The text of a file that the study names; it is noted.
+    pub(super) fn course_file(&mut self, path: PathBuf, what: &str) -> Result<Arc<str>, String> {
+        let known = self.known_files.iter().find(|file| file.path == path);
+        let text = match known {
+            Some(file) => Arc::clone(&file.text),
+            None => data_file::text(&path, what)?.into(),
+        };
+        self.files.push(CourseFile { path, text: Arc::clone(&text) });
+        Ok(text)
+    }
+
+    /// The files noted since the last call.
+    pub(super) fn take_files(&mut self) -> Arc<[CourseFile]> {
+        std::mem::take(&mut self.files).into()
     }
 
     /// Whether a key has been complained about.
@@ -172,6 +232,7 @@ impl Reader {
             Role::Twin(..) | Role::Scale(_) | Role::FrictionForce(..) => si,
             Role::Speeds { si: in_si } => in_si == si,
             Role::Band { hertz } => !hertz || si,
+            Role::Course(course) => course.si().is_none_or(|in_si| in_si == si),
             _ => true,
         })
     }
@@ -209,6 +270,16 @@ impl Reader {
     }
 }
 
+impl CourseFile {
+    /// What files contribute to the values of a study.
+    pub(super) fn settings(files: &[Self]) -> impl Iterator<Item = (String, String)> {
+        files
+            .iter()
+            .enumerate()
+            .map(|(index, file)| (format!("course[{index}]"), file.text.to_string()))
+    }
+}
+
 /// Whether a study is in SI.
 pub(super) fn is_si(root: &Table) -> bool {
     let (mut plain, mut twins) = (false, false);
@@ -242,12 +313,14 @@ pub(super) fn is_si(root: &Table) -> bool {
 /// The tables of a section.
 fn tables(root: &Table, section: Section) -> Vec<&Table> {
     let node = match section {
-        Section::Root | Section::Sweep => None,
+        // An envelope is within its dither, of which there may be several.
+        Section::Root | Section::Sweep | Section::Envelope => None,
         Section::Constants => {
             root.get("friction").and_then(Node::table).and_then(|table| table.get("constants"))
         }
-        Section::Initial => {
-            root.get("belt").and_then(Node::table).and_then(|belt| belt.get("initial"))
+        Section::Initial | Section::Drive | Section::Load => {
+            let name = section.path().trim_start_matches("belt.");
+            root.get("belt").and_then(Node::table).and_then(|belt| belt.get(name))
         }
         _ => root.get(section.path()),
     };

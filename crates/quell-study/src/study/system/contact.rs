@@ -3,8 +3,10 @@
 use std::path::Path;
 
 use quell_model::friction::Surroundings;
+use quell_model::parameter::Parameter;
 use quell_model::parameter::system::{
     CONTACT_BELT_VELOCITY, CONTACT_NORMAL_DAMPING, CONTACT_NORMAL_LOAD, CONTACT_NORMAL_STIFFNESS,
+    CONTACT_TANGENTIAL_STIFFNESS,
 };
 use quell_model::profile::Profile;
 use quell_model::{Contact, Friction, LawKind};
@@ -12,13 +14,15 @@ use quell_model::{Contact, Friction, LawKind};
 use super::friction::{self, LawRead};
 use super::keys::SystemTable;
 use super::names::{MOST_COORDINATES, NAME, is_plain_name};
-use super::numbers::{Numbers, missing, unknown_keys};
+use super::numbers::{CourseNumbers, Numbers, missing, unknown_keys};
 use super::rows::RowBasis;
 use crate::complaint::{Complaint, Fault};
 use crate::study::belt::friction::Measured;
+use crate::study::belt::one_state;
+use crate::study::course::{CoursePlace, CourseUnits, no_constant, replaces_constant};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
-use crate::study::vocabulary::join;
+use crate::study::vocabulary::{DRIVE, LOAD, join};
 
 /// What contacts need to know of the rest of the study.
 #[derive(Clone, Copy)]
@@ -152,10 +156,10 @@ fn one(
                        no mass matrix";
         missing(reader, join(prefix, "force"), node.origin, allowed);
     }
-    let mut number = |parameter| numbers.needed(reader, table, prefix, node.origin, parameter);
-    let (load, velocity) = (number(CONTACT_NORMAL_LOAD), number(CONTACT_BELT_VELOCITY));
+    let (load, velocity) = over_time(reader, table, prefix, node, context);
     let mut number = |parameter| numbers.optional(reader, table, prefix, parameter);
     let (stiffness, damping) = (number(CONTACT_NORMAL_STIFFNESS), number(CONTACT_NORMAL_DAMPING));
+    let spring = number(CONTACT_TANGENTIAL_STIFFNESS);
     without_normal(reader, table, prefix, &["normal_stiffness", "normal_damping"]);
     let law = law(reader, table, node, prefix, index, tangent.is_some(), context);
     if !rows_are_right {
@@ -164,21 +168,79 @@ fn one(
     let (LawRead { law, measured, reversed }, velocity) = (law?, velocity?);
     // Negative friction is friction of a surface that moves in the other direction; it exists only without a tangent,
     // where the slip velocity is that of the surface.
-    let velocity = if reversed { -velocity } else { velocity };
-    let law = placed(reader, table, prefix, node, law, load, velocity)?;
+    let velocity = if reversed { velocity.reversed() } else { velocity };
+    let (least, most) = velocity.bounds();
+    let (load, fastest) = (load?, least.abs().max(most.abs()));
+    let steady = load.value(0.0);
+    let law = placed(reader, table, prefix, node, law, Some(steady), fastest)?;
+    let tangential_stiffness = spring.ok()?;
+    let name = "tangential_stiffness";
+    let given = table.iter().find(|(known, _)| known.starts_with(name));
+    if let Some((name, node)) = given.filter(|_| law.bristles().is_some()) {
+        let (key, allowed) = (join(prefix, name), one_state(law.kind()));
+        reader.complain(Complaint::new(Fault::Conflict, key, node.origin, node.given(), allowed));
+        return None;
+    }
     let contact = Contact {
         name: String::new(),
         tangent,
         force,
         normal,
         slope,
-        normal_load: load?,
+        normal_load: steady,
         normal_stiffness: stiffness.ok()?.unwrap_or(0.0),
         normal_damping: damping.ok()?.unwrap_or(0.0),
-        surface_velocity: Profile::constant(velocity),
+        surface_velocity: velocity,
         friction: law,
+        tangential_stiffness,
+        varying_load: (load != Profile::constant(steady)).then_some(load),
     };
     Some((contact, measured))
+}
+
+/// Load and surface velocity of a contact, constant or over time; `None` if wrong.
+fn over_time(
+    reader: &mut Reader,
+    table: &Table,
+    prefix: &str,
+    node: &Node,
+    context: ContactContext<'_>,
+) -> (Option<Profile>, Option<Profile>) {
+    let ContactContext { numbers, folder, .. } = context;
+    let mut profile = |name: &str, what, parameter: Parameter| {
+        let units = CourseUnits::System(CourseNumbers(numbers));
+        let place = CoursePlace { what, units, folder };
+        let course = place.optional(reader, table, prefix, name);
+        if replaces_constant(table.get(name)) {
+            let twins = parameter.si.iter().map(|twin| twin.key);
+            let names: Vec<&str> = [parameter.key()].into_iter().chain(twins).collect();
+            no_constant(reader, table, prefix, &names, name);
+            return course.ok().flatten().map(|course| course.profile(0.0));
+        }
+        let constant = numbers.needed(reader, table, prefix, node.origin, parameter)?;
+        Some(match course.ok()? {
+            Some(course) => course.profile(constant),
+            None => Profile::constant(constant),
+        })
+    };
+    let load = profile("load", LOAD, CONTACT_NORMAL_LOAD);
+    let velocity = profile("drive", DRIVE, CONTACT_BELT_VELOCITY);
+    let before = reader.complaints_so_far();
+    if let Some(profile) = &load {
+        stays_loaded(reader, table, prefix, profile);
+    }
+    let right = reader.complaints_so_far() == before;
+    (load.filter(|_| right), velocity)
+}
+
+/// Reports a load over time that reaches zero; a constant one has bounds.
+fn stays_loaded(reader: &mut Reader, table: &Table, prefix: &str, load: &Profile) {
+    let (least, _) = load.bounds();
+    if let Some(node) = table.get("load").filter(|_| least <= 0.0) {
+        let key = join(prefix, "load");
+        let allowed = "such that the load stays greater than 0: without load there is no contact";
+        reader.complain(Complaint::new(Fault::Value, key, node.origin, least, allowed));
+    }
 }
 
 /// A row of a contact. Rows of a measured frequency response may have the name of the contact, as `pad.tangent`.

@@ -1,5 +1,7 @@
 //! `[[dither]]`: periodic forces on coordinates and modulations of the load of a contact.
 
+use std::path::Path;
+
 use quell_model::parameter::system::SYSTEM_DITHER_FREQUENCY;
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE};
 use quell_model::profile::{Profile, Wave};
@@ -8,13 +10,15 @@ use quell_model::{Contact, Waveform};
 
 use super::contact::listed;
 use super::keys::SystemTable;
-use super::numbers::{Numbers, WantedNumber, missing, unknown_keys};
+use super::numbers::{CourseNumbers, Numbers, WantedNumber, missing, unknown_keys};
 use super::rows::RowBasis;
 use crate::complaint::{Complaint, Fault};
+use crate::study::course::{Course, CoursePlace, CourseUnits};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::suggest;
-use crate::study::vocabulary::{Choice, join};
+use crate::study::vocabulary::{Choice, ENVELOPE, join};
+use crate::study::wave_file::WaveFiles;
 use crate::study::waveform;
 
 /// The contacts that a dither can modulate.
@@ -26,6 +30,8 @@ pub(super) struct DitherContext<'a> {
     pub(super) names: &'a [String],
     /// The contacts, if all are right.
     pub(super) contacts: Option<&'a [Contact]>,
+    /// The folder of the files that the study names.
+    pub(super) folder: &'a Path,
 }
 
 /// Reads every dither; `None` if one is wrong.
@@ -33,11 +39,12 @@ pub(super) fn read(
     reader: &mut Reader,
     document: &Table,
     context: DitherContext<'_>,
+    files: &mut WaveFiles<'_>,
 ) -> Option<Vec<Input>> {
     let tables = listed(reader, document, "", "dither");
     let inputs: Vec<Option<Input>> = tables
         .iter()
-        .map(|(prefix, node, table)| one(reader, prefix, node, table, context))
+        .map(|(prefix, node, table)| one(reader, (prefix, *node, *table), context, files))
         .collect();
     let whole: Option<Vec<Input>> = inputs.iter().cloned().collect();
     if let Some(contacts) = context.contacts {
@@ -48,23 +55,26 @@ pub(super) fn read(
 
 fn one(
     reader: &mut Reader,
-    prefix: &str,
-    node: &Node,
-    table: &Table,
+    (prefix, node, table): (&str, &Node, &Table),
     context: DitherContext<'_>,
+    files: &mut WaveFiles<'_>,
 ) -> Option<Input> {
     unknown_keys_of_dither(reader, table, prefix);
     let target = target(reader, prefix, node, table, context);
-    let waveform = waveform::read(reader, table, prefix, node.origin);
+    let waveform = waveform::read(reader, table, prefix, node.origin, files);
     let numbers = context.numbers;
     let amplitude = amplitude(reader, prefix, node, table, waveform.as_ref(), numbers);
     let frequency = numbers.needed(reader, table, prefix, node.origin, SYSTEM_DITHER_FREQUENCY);
     let phase = numbers.optional(reader, table, prefix, DITHER_PHASE);
+    let units = CourseUnits::System(CourseNumbers(numbers));
+    let place = CoursePlace { what: ENVELOPE, units, folder: context.folder };
+    let envelope = place.optional(reader, table, prefix, "envelope").map(Course::knots);
     let wave = Wave {
         waveform: waveform?,
         amplitude: amplitude?,
         frequency: frequency?,
         phase: phase.ok()?.unwrap_or(0.0),
+        envelope: envelope.ok()?,
     };
     Some(Input { target: target?, profile: Profile::constant(0.0).with(wave) })
 }
@@ -203,11 +213,11 @@ fn stays_pressed(
                 continue;
             };
             if *contact == index {
-                peaks += profile.waves().iter().map(|wave| wave.amplitude).sum::<f64>();
+                peaks += profile.waves().iter().map(Wave::peak).sum::<f64>();
                 last = Some(table);
             }
         }
-        let Some((prefix, _, table)) = last.filter(|_| peaks >= contact.normal_load) else {
+        let Some((prefix, _, table)) = last.filter(|_| peaks >= contact.load().bounds().0) else {
             continue;
         };
         let written = ["amplitude", "amplitude_n", RMS]
@@ -217,7 +227,8 @@ fn stays_pressed(
             let allowed = format!(
                 "such that the peaks on contact {} sum to less than its load {}: they sum to {peaks}, and a prescribed \
                  load must stay positive",
-                contact.name, contact.normal_load
+                contact.name,
+                contact.load().bounds().0
             );
             reader.wrong(&key, node, allowed);
         }

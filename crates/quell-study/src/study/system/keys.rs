@@ -1,14 +1,19 @@
 //! The keys of a study of a system, table by table: for the reader, paths and the schema.
 
+use std::sync::LazyLock;
+
 use quell_model::parameter::system::{
     CONTACT_BELT_VELOCITY, CONTACT_NORMAL_DAMPING, CONTACT_NORMAL_LOAD, CONTACT_NORMAL_STIFFNESS,
-    SYSTEM_DITHER_FREQUENCY, SYSTEM_MODAL_MASS, SYSTEM_MODE_DAMPING, SYSTEM_MODE_FREQUENCY,
+    CONTACT_TANGENTIAL_STIFFNESS, SYSTEM_DITHER_FREQUENCY, SYSTEM_MODAL_MASS, SYSTEM_MODE_DAMPING,
+    SYSTEM_MODE_FREQUENCY,
 };
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE, Parameter};
 use quell_model::units::Quantity;
 
 use crate::study::document::Table;
-use crate::study::vocabulary::{Choice, WAVE_KEYS, WaveKey};
+use crate::study::vocabulary::{
+    Choice, CourseKey, CourseTable, DRIVE, ENVELOPE, LOAD, WAVE_KEYS, WaveKey,
+};
 
 /// Whether a document is the study of a system.
 pub(in crate::study) fn is_described(document: &Table) -> bool {
@@ -41,6 +46,12 @@ pub enum SystemTable {
     Friction,
     /// `[[dither]]`.
     Dither,
+    /// `[contact.drive]`.
+    Drive,
+    /// `[contact.load]`.
+    Load,
+    /// `[dither.envelope]`.
+    Envelope,
     /// `[parameters]` or the constants of a formula: names that the study chooses.
     Named,
 }
@@ -64,6 +75,8 @@ pub enum SystemRole {
     Flag,
     /// A part of the description of a waveform.
     Wave(WaveKey),
+    /// A part of a drive, a load or an envelope.
+    Course(CourseKey),
     /// A table.
     Table(SystemTable),
     /// A table or a list of tables.
@@ -126,9 +139,27 @@ pub fn system_keys(table: SystemTable) -> &'static [SystemKey] {
         SystemTable::Initial => INITIAL,
         SystemTable::Contact => CONTACT,
         SystemTable::Dither => DITHER,
+        SystemTable::Drive => &DRIVE_KEYS,
+        SystemTable::Load => &LOAD_KEYS,
+        SystemTable::Envelope => &ENVELOPE_KEYS,
         SystemTable::Friction | SystemTable::Named => &[],
     }
 }
+
+/// The keys of a table over time, those in SI included.
+fn course(what: CourseTable) -> Vec<SystemKey> {
+    let keys = what.keys().into_iter();
+    keys.map(|(name, course)| match course {
+        CourseKey::Shape => key(name, SystemRole::Choice(Choice::KnotShape), course.about()),
+        CourseKey::File => key(name, SystemRole::Text, course.about()),
+        _ => key(name, SystemRole::Course(course), course.about()),
+    })
+    .collect()
+}
+
+static DRIVE_KEYS: LazyLock<Vec<SystemKey>> = LazyLock::new(|| course(DRIVE));
+static LOAD_KEYS: LazyLock<Vec<SystemKey>> = LazyLock::new(|| course(LOAD));
+static ENVELOPE_KEYS: LazyLock<Vec<SystemKey>> = LazyLock::new(|| course(ENVELOPE));
 
 const ROOT: &[SystemKey] = &[
     key("system", SystemRole::Table(SystemTable::System), "the linear structure"),
@@ -222,8 +253,11 @@ const CONTACT: &[SystemKey] = &[
     number(CONTACT_NORMAL_LOAD, "normal_load"),
     number(CONTACT_NORMAL_STIFFNESS, "normal_stiffness"),
     number(CONTACT_NORMAL_DAMPING, "normal_damping"),
+    number(CONTACT_TANGENTIAL_STIFFNESS, "tangential_stiffness"),
     number(CONTACT_BELT_VELOCITY, "belt_velocity"),
     key("friction", SystemRole::Table(SystemTable::Friction), "friction law of the contact"),
+    key("drive", SystemRole::Table(SystemTable::Drive), "velocity of the surface over time"),
+    key("load", SystemRole::Table(SystemTable::Load), "normal load over time"),
 ];
 
 /// A key of waveforms that are more than a name.
@@ -252,7 +286,9 @@ const DITHER: &[SystemKey] = &[
     wave(3),
     wave(4),
     wave(5),
+    wave(6),
     number(DITHER_AMPLITUDE, "amplitude"),
     number(SYSTEM_DITHER_FREQUENCY, "frequency"),
     number(DITHER_PHASE, "phase"),
+    key("envelope", SystemRole::Table(SystemTable::Envelope), "share of the amplitude over time"),
 ];

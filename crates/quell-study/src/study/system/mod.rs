@@ -29,6 +29,7 @@ mod unused;
 mod walk;
 mod walk_entries;
 
+use crate::study::wave_file::WaveFile;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -36,12 +37,13 @@ use quell_model::System;
 
 use super::StudyOf;
 use super::document::{Node, Table, Value};
-use super::reader::Reader;
+use super::reader::{CourseFile, Reader};
 use super::study_kind::{Given, StudyKind};
 use crate::complaint::{Complaint, Complaints, Origin};
 
 pub use frequency_response::FrequencyResponse;
 pub use initial::SystemStart;
+pub(in crate::study) use numbers::CourseNumbers;
 pub use path::{SystemAddress, resolve_in};
 pub use setup::{DescribedSystem, ScaledTime, SystemSetup};
 pub use units::SystemUnits;
@@ -61,6 +63,9 @@ impl StudyKind for SystemSetup {
     }
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
+        if let Some(known) = given.known {
+            reader.knows(&known.courses);
+        }
         read::study(reader, document, &given)
     }
 
@@ -69,7 +74,9 @@ impl StudyKind for SystemSetup {
         let samples = samples.filter_map(|measured| measured.file.as_deref());
         let modes = self.modes.iter().filter_map(|list| list.file.as_deref());
         let response = self.response.iter().map(|response| response.file());
-        samples.chain(modes).chain(response).collect()
+        let waves = self.waves.iter().map(WaveFile::path);
+        let courses = self.courses.iter().map(|file| file.path.as_path());
+        samples.chain(modes).chain(response).chain(waves).chain(courses).collect()
     }
 
     fn file_settings(&self) -> Vec<(String, String)> {
@@ -89,7 +96,9 @@ impl StudyKind for SystemSetup {
             modes.chain([(format!("system.modes[{file}].points"), points)])
         });
         let response = self.response.iter().flat_map(|response| response.settings());
-        samples.chain(modes).chain(response).collect()
+        let waves = self.waves.iter().enumerate().map(|(index, wave)| wave.settings(index));
+        let courses = CourseFile::settings(&self.courses);
+        samples.chain(modes).chain(response).chain(waves).chain(courses).collect()
     }
 }
 

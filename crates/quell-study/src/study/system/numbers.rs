@@ -252,6 +252,36 @@ impl Numbers {
     }
 }
 
+/// The numbers of a table over time in a study of a system.
+#[derive(Clone, Copy)]
+pub(in crate::study) struct CourseNumbers<'a>(pub(super) &'a Numbers);
+
+impl CourseNumbers<'_> {
+    /// Whether the study has units, so that keys in SI are allowed.
+    pub(in crate::study) fn has_units(self) -> bool {
+        self.0.units != SystemUnits::None
+    }
+
+    /// The unit of a key in the units of the file.
+    pub(in crate::study) fn factor(self, quantity: Quantity, twin: bool) -> f64 {
+        self.0.file_units(WantedNumber { quantity: Some(quantity), bounds: Bounds::FINITE, twin })
+    }
+
+    /// A number in the units of the file.
+    pub(in crate::study) fn number(
+        self,
+        reader: &mut Reader,
+        key: &str,
+        node: &Node,
+        quantity: Quantity,
+        bounds: Bounds,
+        twin: bool,
+    ) -> Option<f64> {
+        let wanted = WantedNumber { quantity: Some(quantity), bounds, twin };
+        self.0.number(reader, || key.to_owned(), node, wanted)
+    }
+}
+
 /// Reports a missing key.
 pub(super) fn missing(
     reader: &mut Reader,

@@ -1,5 +1,6 @@
 //! Reads the tables of a system.
 
+use crate::study::wave_file::WaveFiles;
 use std::sync::Arc;
 
 use quell_model::{Contact, System};
@@ -68,8 +69,11 @@ pub(super) fn study(
         basis: &basis,
         names: &names,
         contacts: contacts.as_deref(),
+        folder: given.folder,
     };
-    let inputs = dither::read(reader, document, context);
+    let known = given.known.map_or(&[][..], |setup| &setup.waves);
+    let mut files = WaveFiles::new(given.folder, known);
+    let inputs = dither::read(reader, document, context, &mut files);
     let observe = initial::observe(reader, table, &numbers, &basis);
     let initial = initial::read(reader, table, &numbers, &basis, first_order);
     let (structure, contacts, inputs) = (structure?, contacts?, inputs?);
@@ -89,7 +93,9 @@ pub(super) fn study(
         warnings,
         measured: measured.into(),
         modes: modes.into(),
+        waves: files.into_found().into(),
         response,
+        courses: reader.take_files(),
         time: None,
     })
 }

@@ -10,6 +10,8 @@ use super::modes_file::ModeList;
 use super::numbers::Numbers;
 use super::units::SystemUnits;
 use crate::study::belt::friction::Measured;
+use crate::study::reader::CourseFile;
+use crate::study::wave_file::WaveFile;
 
 /// The parts of a study that only a system has.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,7 +25,11 @@ pub struct SystemSetup {
     pub(super) measured: Arc<[Option<Measured>]>,
     /// Files of modes.
     pub(super) modes: Arc<[Arc<ModeList>]>,
+    /// Files of sampled waveforms.
+    pub(super) waves: Arc<[WaveFile]>,
     pub(super) response: Option<Arc<FrequencyResponse>>,
+    /// Files of drives, loads and envelopes.
+    pub(super) courses: Arc<[CourseFile]>,
     /// Time of numbers without units in seconds; `None` where the study does not determine it.
     pub(super) time: Option<ScaledTime>,
 }
@@ -62,8 +68,10 @@ impl From<DescribedSystem> for SystemSetup {
             numbers: Numbers::default(),
             warnings,
             measured: Arc::default(),
+            waves: Arc::default(),
             modes: Arc::default(),
             response: None,
+            courses: Arc::default(),
             time,
         }
     }

@@ -48,6 +48,7 @@ impl SystemUnits {
             Quantity::Time => ("s", "s"),
             Quantity::Power => ("W", "mW"),
             Quantity::PerVelocity => ("s/m", "s/mm"),
+            Quantity::PerLength => ("1/m", "1/mm"),
             _ => return None,
         };
         match self {
@@ -72,7 +73,8 @@ impl SystemUnits {
                 Quantity::LoadMass
                 | Quantity::LoadStiffness
                 | Quantity::LoadDamping
-                | Quantity::PerVelocity => 1e3,
+                | Quantity::PerVelocity
+                | Quantity::PerLength => 1e3,
                 _ => 1.0,
             }),
         }
@@ -97,6 +99,7 @@ mod tests {
             Quantity::Time,
             Quantity::Power,
             Quantity::PerVelocity,
+            Quantity::PerLength,
         ] {
             for units in [SystemUnits::Si, SystemUnits::MmTonneSecond] {
                 let unit = units.unit(quantity).expect("a unit");

@@ -4,6 +4,7 @@ use quell_model::friction::expression;
 use quell_model::parameter::{COEFFICIENT, Parameter, ScaleKey, SiTwin};
 use quell_model::units::Quantity;
 
+use super::course::{CourseKey, CourseTable, DRIVE, ENVELOPE, LOAD};
 use super::words::Choice;
 
 /// What the key `schema` of a study is.
@@ -18,6 +19,10 @@ pub enum Section {
     Belt,
     /// `[belt.initial]`.
     Initial,
+    /// `[belt.drive]`.
+    Drive,
+    /// `[belt.load]`.
+    Load,
     /// `[friction]`.
     Friction,
     /// `[friction.constants]`, whose names a study chooses.
@@ -30,6 +35,8 @@ pub enum Section {
     DiscLoad,
     /// `[dither]` or `[[dither]]`.
     Dither,
+    /// `[dither.envelope]`.
+    Envelope,
     /// `[solver]`.
     Solver,
     /// `[response]`.
@@ -44,12 +51,15 @@ impl Section {
         Self::Root,
         Self::Belt,
         Self::Initial,
+        Self::Drive,
+        Self::Load,
         Self::Friction,
         Self::Constants,
         Self::Disc,
         Self::DiscMode,
         Self::DiscLoad,
         Self::Dither,
+        Self::Envelope,
         Self::Solver,
         Self::Response,
         Self::Sweep,
@@ -61,12 +71,15 @@ impl Section {
             Self::Root => "",
             Self::Belt => "belt",
             Self::Initial => "belt.initial",
+            Self::Drive => "belt.drive",
+            Self::Load => "belt.load",
             Self::Friction => "friction",
             Self::Constants => expression::CONSTANTS,
             Self::Disc => "disc",
             Self::DiscMode => "disc.mode",
             Self::DiscLoad => "disc.load",
             Self::Dither => "dither",
+            Self::Envelope => "dither.envelope",
             Self::Solver => "solver",
             Self::Response => "response",
             Self::Sweep => "sweep",
@@ -84,14 +97,27 @@ impl Section {
             }
             Self::Belt => "mass, spring and damper on a moving belt",
             Self::Initial => "initial state of a run [default: at rest]",
+            Self::Drive => "velocity of the belt over time, instead of or added to belt_velocity",
+            Self::Load => "normal load over time, instead of or added to normal_load",
             Self::Friction => "the friction law",
             Self::Constants => "named numbers of a formula",
             Self::Dither => "one dither force; several as [[dither]]",
+            Self::Envelope => "share of the amplitude over time",
             Self::Solver => "accuracy and length of the computations",
             Self::Response => {
                 "measurements of a response in addition to the band of slow vibration"
             }
             Self::Sweep => "one axis of a map; several in order",
+        }
+    }
+
+    /// What a table over time gives.
+    pub fn course(self) -> Option<CourseTable> {
+        match self {
+            Self::Drive => Some(DRIVE),
+            Self::Load => Some(LOAD),
+            Self::Envelope => Some(ENVELOPE),
+            _ => None,
         }
     }
 }
@@ -103,6 +129,8 @@ pub enum WaveKey {
     Harmonics,
     /// The samples of a period.
     Values,
+    /// A file of the samples.
+    File,
     /// What is between two samples.
     Hold,
     /// The waveform of the carrier of bursts.
@@ -118,7 +146,7 @@ impl WaveKey {
     pub fn waveform(self) -> &'static str {
         match self {
             Self::Harmonics => quell_model::waveform::FOURIER,
-            Self::Values | Self::Hold => quell_model::waveform::SAMPLES,
+            Self::Values | Self::File | Self::Hold => quell_model::waveform::SAMPLES,
             Self::Carrier | Self::On | Self::Off => quell_model::waveform::BURST,
         }
     }
@@ -129,6 +157,9 @@ impl WaveKey {
             Self::Harmonics => "waveform \"fourier\": order, sine and cosine of every harmonic",
             Self::Values => {
                 "waveform \"samples\": one period at equal distances; its mean is taken out"
+            }
+            Self::File => {
+                "waveform \"samples\": a file of them, one number per line or a CSV column value, relative to the study file"
             }
             Self::Hold => {
                 "waveform \"samples\": straight lines between them, or each held [default: linear]"
@@ -141,9 +172,10 @@ impl WaveKey {
 }
 
 /// The keys of waveforms that are more than a name.
-pub const WAVE_KEYS: [(&str, WaveKey); 6] = [
+pub const WAVE_KEYS: [(&str, WaveKey); 7] = [
     ("harmonics", WaveKey::Harmonics),
     ("values", WaveKey::Values),
+    ("file", WaveKey::File),
     ("hold", WaveKey::Hold),
     ("carrier", WaveKey::Carrier),
     ("on", WaveKey::On),
@@ -187,6 +219,8 @@ pub enum Role {
     Terms,
     /// A part of the description of a waveform.
     Wave(WaveKey),
+    /// A part of a drive, a load or an envelope.
+    Course(CourseKey),
     /// A named number of a formula.
     Constant,
     /// A bare number of an axis, in the unit of the parameter it names.

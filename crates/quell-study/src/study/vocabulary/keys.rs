@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use quell_model::LawKind;
 use quell_model::parameter::{self, COEFFICIENT, Parameter, STATIC_COEFFICIENT, VISCOUS};
 
+use super::course::{CourseKey, CourseTable};
 use super::key::{Key, Role, SCHEMA_ABOUT, Section, WAVE_KEYS};
 use super::words::Choice;
 
@@ -55,7 +56,21 @@ fn words() -> Vec<Key> {
         word(Dither, "direction", Choice::Direction, "direction of the force"),
         word(Dither, "waveform", Choice::Waveform, "shape of the force in time"),
     ];
-    words.into_iter().chain(waves).collect()
+    let courses =
+        [Section::Drive, Section::Load, Section::Envelope].into_iter().flat_map(|section| {
+            let keys = section.course().map_or_else(Vec::new, CourseTable::keys);
+            keys.into_iter().map(move |(name, course)| Key {
+                section,
+                name,
+                role: if course == CourseKey::Shape {
+                    Role::Choice(Choice::KnotShape)
+                } else {
+                    Role::Course(course)
+                },
+                about: course.about(),
+            })
+        });
+    words.into_iter().chain(waves).chain(courses).collect()
 }
 
 /// Keys that take a number of the registry, dimensionless or in SI.

@@ -2,11 +2,13 @@
 //!
 //! One list serves the reader, `--set`, sweeps, suggestions and the JSON Schema.
 
+mod course;
 mod key;
 mod keys;
 mod resolve;
 mod words;
 
+pub use course::{CourseKey, CourseTable, DRIVE, ENVELOPE, LOAD};
 pub use key::{Key, Role, SCHEMA_ABOUT, Section, WAVE_KEYS, WaveKey, join};
 pub use keys::{key, keys, keys_of};
 pub use resolve::{Address, in_system, resolve};
@@ -16,7 +18,7 @@ pub use words::Choice;
 pub const SCHEMA_VERSION: u32 = 1;
 
 /// Tables of the design that are not implemented yet.
-pub const NOT_BUILT: &[&str] = &["input", "actuator", "design", "uncertainty", "sample", "profile"];
+pub const NOT_BUILT: &[&str] = &["input", "actuator", "design", "uncertainty", "sample"];
 
 /// Maximum number of points of an axis of a map.
 pub const MOST_POINTS: u32 = 10_000_000;

@@ -1,6 +1,7 @@
 //! Lists of words that keys take.
 
 use quell_model::disc::Contribution;
+use quell_model::profile::KnotShape;
 use quell_model::waveform::Hold;
 use quell_model::{Direction, LawKind, Waveform};
 
@@ -19,6 +20,8 @@ pub enum Choice {
     Carrier,
     /// What is between two samples of a waveform.
     Hold,
+    /// Shapes between the knots of a drive, a load or an envelope.
+    KnotShape,
     /// Spacings of an axis.
     Spacing,
     /// Parts of the disc's equations.
@@ -43,6 +46,7 @@ impl Choice {
             Self::Waveform => Waveform::NAMES.to_vec(),
             Self::Carrier => Waveform::NAMED.iter().map(Waveform::name).collect(),
             Self::Hold => Hold::ALL.iter().map(|hold| hold.name()).collect(),
+            Self::KnotShape => KnotShape::ALL.iter().map(|shape| shape.name()).collect(),
             Self::Spacing => vec!["linear", "log"],
             Self::SystemState => vec!["rest", "sliding", "squealing", "base"],
             Self::SystemUnits => vec!["none", "SI", "mm-t-s"],

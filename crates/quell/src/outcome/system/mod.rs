@@ -13,6 +13,7 @@ mod simulate;
 mod stability;
 mod thresholds;
 mod tracked;
+mod waveforms;
 
 use std::fmt::Write as _;
 

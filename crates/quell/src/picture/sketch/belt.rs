@@ -1,7 +1,7 @@
 //! The sketch of a mass on a moving belt.
 
-use quell_model::Direction;
 use quell_model::units::Quantity;
+use quell_model::{Direction, Profile};
 
 use super::symbols::{glyph, index, indexed, item, number};
 use crate::picture::ruler::words;
@@ -152,10 +152,21 @@ fn key(sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
             format!("$ζ$ = {}", number(belt.damping_ratio())),
         ],
     };
+    let over_time = |letter: &str, quantity, value, profile: Option<&Profile>| match profile {
+        None => equal(letter, quantity, value),
+        Some(profile) => {
+            let (least, largest) = profile.bounds();
+            format!(
+                "{} to {} over time",
+                equal(letter, quantity, least),
+                words(study, quantity, largest)
+            )
+        }
+    };
     let law = belt.friction().kind();
     let mut friction = vec![
-        equal(letters.load, Quantity::Force, belt.normal_load()),
-        equal(letters.velocity, Quantity::Velocity, belt.belt_velocity()),
+        over_time(letters.load, Quantity::Force, belt.normal_load(), belt.load()),
+        over_time(letters.velocity, Quantity::Velocity, belt.belt_velocity(), belt.drive()),
         format!("$T$ by the law “{}”", law.name()),
     ];
     let numbers = law.parameters().iter().zip(belt.friction().values());
@@ -172,6 +183,9 @@ fn key(sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
             equal(&bare(letters.force), Quantity::Force, dither.amplitude),
             equal(&bare(letters.rate), Quantity::FrequencyRatio, dither.frequency_ratio),
         ];
+        if dither.envelope.is_some() {
+            items.push("times its envelope".to_owned());
+        }
         if dither.phase != 0.0 {
             items.push(format!("$φ$ = {} rad", number(dither.phase)));
         }

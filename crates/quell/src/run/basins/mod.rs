@@ -29,6 +29,7 @@ use super::attractor::{settings, unknown};
 use super::varied::{Range, Varied};
 use super::{failed, moves, stopped};
 use crate::complaint::{Complaint, Failure};
+use crate::contact_state::refused_of_belt;
 use crate::effort::{STEPS_OF_A_SEARCH, STEPS_OF_MANY_SEARCHES};
 use crate::range::{self, SlipMet};
 use crate::study::BeltStudy;
@@ -99,6 +100,7 @@ pub fn run(
     question: &BasinsRequest,
     running: Running<'_>,
 ) -> Result<Basins, Failure> {
+    refused_of_belt(study, "basins")?;
     let belt = study.belt();
     let varied = question.over.as_ref().map(|over| Varied::new(study, "--over", over));
     let starts = Starts::new(belt, question.displacement, question.velocity, question.layout);

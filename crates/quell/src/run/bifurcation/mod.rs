@@ -17,6 +17,7 @@ use super::attractor::{settings, unknown};
 use super::varied::Varied;
 use super::{failed, start, stopped};
 use crate::complaint::Failure;
+use crate::contact_state::refused_of_belt;
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::range::SlipMet;
 use crate::study::BeltStudy;
@@ -97,6 +98,7 @@ pub fn run(
     question: &SweepRequest,
     running: Running<'_>,
 ) -> Result<Bifurcation, Failure> {
+    refused_of_belt(study, "bifurcation")?;
     let varied = Varied::new(study, "--parameter", &question.range)?;
     let count = varied.values.len();
     let directions = shared::directions(question);

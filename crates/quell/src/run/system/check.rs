@@ -1,5 +1,6 @@
 //! `check` of a study of a system: the numbers of a valid study.
 
+use quell_model::Profile;
 use quell_model::system::{InputTarget, Structure};
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
@@ -54,9 +55,10 @@ fn laws(study: &SystemStudy) -> Vec<Json> {
         .map(|contact| {
             json!({
                 "name": contact.name,
-                "normal_load": contact.normal_load,
+                "normal_load": constant(&contact.load()),
                 "normal_load_unit": units.unit(Quantity::Force),
-                "belt_velocity": contact.surface_velocity.mean(),
+                "belt_velocity": constant(&contact.surface_velocity),
+                "varies_in_time": constant(&contact.load()).is_none() || constant(&contact.surface_velocity).is_none(),
                 "belt_velocity_unit": units.unit(Quantity::Velocity),
                 "normal": contact.normal.is_some(),
                 "tangent": contact.tangent.is_some(),
@@ -64,6 +66,11 @@ fn laws(study: &SystemStudy) -> Vec<Json> {
             })
         })
         .collect()
+}
+
+/// The value of a constant profile; `None` for one that varies.
+fn constant(profile: &Profile) -> Option<f64> {
+    (profile.knots().is_none() && profile.waves().is_empty()).then(|| profile.mean())
 }
 
 /// Target and wave of each input.

@@ -124,7 +124,7 @@ pub(super) fn kicked_by(system: &System, factor: f64) -> Option<Vec<f64>> {
 
 /// The starts of a search without a given start: kicked steady sliding, then rest.
 pub fn usual_starts(system: &System) -> Vec<NamedStart> {
-    let rest = vec![0.0; system.structure.state_size()];
+    let rest = vec![0.0; system.state_size()];
     kicked(system).into_iter().chain([("from rest".to_owned(), rest)]).collect()
 }
 

@@ -29,6 +29,7 @@ pub mod thresholds_answer;
 pub mod tracked;
 mod trajectory;
 pub mod validity;
+pub mod waveforms;
 
 use quell_linear::averaging::NoAverage;
 use quell_linear::spectrum::{MotionSpectrum, SmallMotion};
@@ -37,6 +38,7 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::contact_state::refused_of_system;
 use crate::fields::Fields;
 use crate::study::{SystemStudy, SystemUnits};
 use crate::words::digits;
@@ -52,9 +54,9 @@ fn not_averaged(why: NoAverage) -> Failure {
 }
 
 /// Rejects a verb on a measured frequency response, which has no equations.
-fn has_equations(study: &SystemStudy, verb: &str) -> Result<(), Failure> {
+pub(crate) fn has_equations(study: &SystemStudy, verb: &str) -> Result<(), Failure> {
     if study.frequency_response().is_none() {
-        return Ok(());
+        return refused_of_system(study, verb);
     }
     let key = "system.frequency_response";
     let allowed = format!(
@@ -81,7 +83,7 @@ fn frequency_in_words(units: SystemUnits, frequency: f64) -> String {
 }
 
 /// A quantity with its unit.
-fn in_units(units: SystemUnits, quantity: Quantity, value: f64) -> String {
+pub(crate) fn in_units(units: SystemUnits, quantity: Quantity, value: f64) -> String {
     let unit = units.unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
     format!("{}{unit}", digits(value))
 }

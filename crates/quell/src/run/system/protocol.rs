@@ -79,7 +79,7 @@ impl SystemProtocol {
                 _ => Ok(start_with(study, &StateNumbers::new())?.state),
             },
             Self::From(numbers) => Ok(start_with(study, numbers)?.state),
-            Self::Rest => Ok(vec![0.0; system.structure.state_size()]),
+            Self::Rest => Ok(vec![0.0; system.state_size()]),
             Self::Sliding => {
                 sliding_state(system).map_err(|why| refused("--from-sliding", why.to_string()))
             }

@@ -5,9 +5,10 @@ use std::f64::consts::TAU;
 pub use quell_dynamics::motion::MotionStart;
 use quell_dynamics::motion::{
     ContactMeans, ContactMeter, ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver,
-    MotionSampler, MotionStopped,
+    MotionSampler, MotionSegment, MotionStopped, RowMeter,
 };
 use quell_model::System;
+use quell_model::profile::Wave;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -16,8 +17,10 @@ use super::sound::{self, MotionSoundTap};
 use super::start::{StateNumbers, start_in_words, start_with, state_in_words, state_names};
 use super::{failed, has_equations, in_units, modes};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::contact_state::passivity_of_system;
 use crate::fields::Fields;
 use crate::range;
+use crate::run::manoeuvre::{self, Manoeuvre, SampledMotion};
 use crate::run::sample_times;
 use crate::sound::{Sound, SoundOptions};
 use crate::study::{SystemStudy, SystemUnits};
@@ -83,6 +86,8 @@ pub struct SystemSimulation {
     pub coarse: bool,
     /// The sound of the velocity of the observed row, if requested.
     pub sound: Option<Sound>,
+    /// When the observed row vibrates, where a drive, a load or a dither varies in time.
+    pub manoeuvre: Option<Manoeuvre>,
     /// Warnings about slip beyond the range of a law.
     beyond: Vec<String>,
 }
@@ -132,7 +137,10 @@ pub(crate) fn run_observed(
         None => MotionSampler::new(start.time, step, intervals),
     };
     let mut tap = MotionSoundTap::new(&start, &study.observe(), plan.as_ref());
-    let mut observer = (&mut meter, (&mut history, (&mut sampler, (&mut tap, watch))));
+    let mut trace = trace(study, &motion, (start.time, until));
+    let watch = (&mut tap, (&mut trace, watch));
+    let mut observer = (&mut meter, (&mut history, (&mut sampler, watch)));
+    let start_time = start.time;
     let end = motion
         .run(&start, until, MOTION_TOLERANCE, &mut observer)
         .map_err(|stopped| failed_run("simulate", system, &stopped))?;
@@ -151,16 +159,80 @@ pub(crate) fn run_observed(
         means: meter.means(),
         samples: request.samples.then_some(sampler),
         coarse,
+        manoeuvre: manoeuvre(study, trace, start_time),
         beyond,
     })
 }
 
+/// The observed row in which the vibration of a run is found; none of a steady study.
+fn trace(study: &SystemStudy, motion: &Motion<'_>, (from, until): (f64, f64)) -> TracedRow {
+    if study.system().is_steady() || until <= from {
+        return TracedRow { meter: None, step: 0.0 };
+    }
+    let (count, _) = grid(motion, until - from);
+    let step = (until - from) / count as f64;
+    TracedRow { meter: Some(RowMeter::new(&study.observe(), from, step, count)), step }
+}
+
+/// Samples of the observed row.
+struct TracedRow {
+    meter: Option<RowMeter>,
+    step: f64,
+}
+
+impl MotionObserver for TracedRow {
+    fn segment(&mut self, segment: &MotionSegment<'_>) {
+        if let Some(meter) = &mut self.meter {
+            meter.segment(segment);
+        }
+    }
+
+    fn watches(&self) -> bool {
+        self.meter.is_some()
+    }
+}
+
+fn manoeuvre(study: &SystemStudy, traced: TracedRow, start: f64) -> Option<Manoeuvre> {
+    let TracedRow { meter, step } = traced;
+    let meter = meter?;
+    let motion = SampledMotion { start, step, displacement: &meter.samples };
+    let waves = || study.system().waves().filter(|wave| wave.amplitude != 0.0);
+    let onset =
+        waves().filter_map(|wave| manoeuvre::onset(wave.envelope.as_ref()?)).reduce(f64::min);
+    let slowest = waves().map(Wave::repetition).reduce(f64::min);
+    Some(Manoeuvre::of(
+        motion,
+        natural_period(study, meter.samples.len() as f64 * step),
+        slowest.map(|rate| TAU / rate),
+        onset,
+    ))
+}
+
+/// Period of the slowest oscillation of the structure; of a structure without one a fiftieth of the run.
+pub(crate) fn natural_period(study: &SystemStudy, length: f64) -> f64 {
+    let found = modes::run(study).map(|found| {
+        let oscillating = found.modes.iter().filter(|mode| mode.eigenvalue.im > mode.error);
+        oscillating.map(modes::natural).fold(f64::INFINITY, f64::min)
+    });
+    match found {
+        Ok(slowest) if slowest.is_finite() && TAU / slowest < length / 4.0 => TAU / slowest,
+        _ => length / 50.0,
+    }
+}
+
 /// A given state, which must have one finite number for each of the system.
 fn given_state(study: &SystemStudy, from: &MotionStart) -> Result<MotionStart, Failure> {
-    let size = study.system().structure.state_size();
+    let size = study.system().state_size();
+    let structure = study.system().structure.state_size();
     let is_finite = from.time.is_finite() && from.state.iter().all(|number| number.is_finite());
     if from.state.len() == size && is_finite {
         return Ok(from.clone());
+    }
+    if from.state.len() == structure && is_finite {
+        // The contacts' own numbers begin at zero.
+        let mut state = from.state.clone();
+        state.resize(size, 0.0);
+        return Ok(MotionStart { time: from.time, state });
     }
     let allowed = format!("a state of {size} finite numbers at a finite time");
     Err(Complaint::option("--start", format!("{:?}", from.state), allowed).into())
@@ -282,9 +354,16 @@ impl SystemSimulation {
                 self.contacts_in_words(study.system())
             ),
         };
-        let sound =
-            self.sound_sentence(study).map_or_else(String::new, |sound| format!(" {sound}"));
-        format!("{contacts}.{chosen}{sound}")
+        let found = [self.manoeuvre_sentence(study), self.sound_sentence(study)];
+        let whole = format!("{contacts}.{chosen}");
+        [Some(whole)].into_iter().chain(found).flatten().collect::<Vec<_>>().join(" ")
+    }
+
+    /// When the observed row vibrates, in one or two sentences, where a drive, a load or a dither varies in time.
+    pub fn manoeuvre_sentence(&self, study: &SystemStudy) -> Option<String> {
+        let found = self.manoeuvre.as_ref()?;
+        let units = study.units();
+        Some(found.sentence("The observed row", |quantity, value| in_units(units, quantity, value)))
     }
 
     /// The sound in one sentence, if it was requested.
@@ -298,6 +377,7 @@ impl SystemSimulation {
     /// Warnings about the result.
     pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let mut warnings = study.warnings().to_vec();
+        warnings.extend(passivity_of_system(study));
         warnings.extend(self.beyond.iter().cloned());
         warnings.extend(of_engine(study.system(), &self.end));
         if self.coarse {
@@ -343,6 +423,9 @@ impl SystemSimulation {
         });
         fields.list("events", events);
         fields.list("contacts", self.put_contacts(system, units));
+        if let Some(found) = &self.manoeuvre {
+            fields.nested("manoeuvre", found.fields(|| Fields::of_system(units)));
+        }
         if let Some(sound) = &self.sound {
             let mut inner = Fields::of_system(units);
             sound.state(&mut inner);
@@ -371,9 +454,15 @@ impl SystemSimulation {
                 .plain("slip_sign", end.phase.slip_sign())
                 .number("friction", Quantity::Force, end.friction)
                 .number("normal", Quantity::Force, end.normal_load);
+            if let Some(bristle) = end.bristle {
+                inner.number("bristle", Quantity::Displacement, bristle);
+            }
             inner
         });
         fields.list("contacts", contacts.collect::<Vec<_>>());
+        if let Some(bristle) = self.end.contacts.iter().find_map(|end| end.bristle) {
+            fields.number("bristle", Quantity::Displacement, bristle);
+        }
         fields
     }
 
@@ -393,7 +482,7 @@ impl SystemSimulation {
 }
 
 /// Adds the means of a contact.
-pub(super) fn put_means(fields: &mut Fields, means: Result<ContactMeans, &'static str>) {
+pub(crate) fn put_means(fields: &mut Fields, means: Result<ContactMeans, &'static str>) {
     let of = |pick: fn(&ContactMeans) -> f64| means.as_ref().map(pick).map_err(|why| (*why).into());
     fields
         .known("stick_fraction", Quantity::Ratio, of(|means| means.stick_fraction))
@@ -414,7 +503,7 @@ fn put_counts(units: SystemUnits, counts: &[u64; KINDS.len()]) -> Fields {
 }
 
 /// Warnings of the engine about a run.
-pub(super) fn of_engine(system: &System, end: &MotionEnd) -> Vec<String> {
+pub(crate) fn of_engine(system: &System, end: &MotionEnd) -> Vec<String> {
     let mut warnings = Vec::new();
     let releases = end.near_tangential_releases;
     if releases > 0 {

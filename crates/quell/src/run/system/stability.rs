@@ -13,6 +13,7 @@ use super::modes::natural;
 use super::validity::{condition, opened, opening};
 use super::{failed, force, has_equations, not_averaged, oscillating, put_motion, rate_of, upper};
 use crate::complaint::Failure;
+use crate::contact_state;
 use crate::fields::Fields;
 use crate::range::outside_of_laws;
 use crate::run::stability::{becomes, kind};
@@ -68,6 +69,9 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
     let mut warnings = study.warnings().to_vec();
     warnings.extend(outside_of_laws(system, None));
     if !system.is_dithered() {
+        warnings.extend(contact_state::rigid_laws(study, None));
+    }
+    if !system.is_dithered() {
         let contacts = linear.contacts().iter().zip(linear.friction());
         let contacts = contacts
             .map(|(contact, friction)| SlidingContact {
@@ -94,6 +98,9 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
     warnings.extend(outside_of_laws(system, Some(&average.contacts)));
     warnings.extend(opened(study.units(), system, &average.contacts));
     warnings.extend(not_slow(study, &undithered));
+    let lowest = system.acting_frequencies().fold(f64::INFINITY, f64::min);
+    let fast: Vec<f64> = average.contacts.iter().map(|contact| contact.slip_amplitude).collect();
+    warnings.extend(contact_state::rigid_laws(study, Some((&fast, lowest))));
     let dither = Some(UnderDither { undithered, critical });
     Ok(SystemStability { spectrum, contacts, dither, warnings })
 }

@@ -1,9 +1,9 @@
 //! Where a run of a system begins: the one place that decides it, for every verb.
 
 use quell_dynamics::motion::MotionStart;
-use quell_linear::steady::SteadySliding;
-use quell_model::System;
+use quell_dynamics::motion::orbit::sliding_state;
 use quell_model::units::{Quantity, measure};
+use quell_model::{Contact, System};
 
 use super::cycle::{base_state, squealing_state};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
@@ -17,18 +17,36 @@ pub type StateNumbers = Vec<(usize, f64)>;
 /// Numbers of a state that a sentence lists.
 const MOST_LISTED: usize = 8;
 
-/// Names of the numbers of a state: coordinates and `velocity.` coordinate, or the states of first-order equations.
+/// Names of the numbers of a state: coordinates and `velocity.` coordinate, or the states of first-order equations; then `friction.`
+/// contact of elastic sliders and `bristle.` contact of bristles.
 pub fn state_names(system: &System) -> Vec<String> {
     let names = system.structure.names();
     let velocities = names.iter().map(|name| format!("velocity.{name}"));
-    match system.structure.mechanical() {
+    let structure: Vec<String> = match system.structure.mechanical() {
         Some(_) => names.iter().cloned().chain(velocities).collect(),
         None => names.to_vec(),
-    }
+    };
+    let own = with_states(system).map(|contact| match contact.friction.bristles() {
+        Some(_) => format!("bristle.{}", contact.name),
+        None => format!("friction.{}", contact.name),
+    });
+    structure.into_iter().chain(own).collect()
+}
+
+/// The contacts with a number of their own in the state, in its order.
+fn with_states(system: &System) -> impl Iterator<Item = &Contact> {
+    system.contacts.iter().filter(|contact| contact.has_state())
 }
 
 /// What the number at a place of a state is; `None` for first-order equations.
 pub fn state_quantity(system: &System, place: usize) -> Option<Quantity> {
+    if let Some(own) = place.checked_sub(system.structure.state_size()) {
+        let contact = with_states(system).nth(own)?;
+        return Some(match contact.friction.bristles() {
+            Some(_) => Quantity::Displacement,
+            None => Quantity::Force,
+        });
+    }
     let displacements = system.structure.mechanical()?.size();
     Some(if place < displacements { Quantity::Displacement } else { Quantity::Velocity })
 }
@@ -39,25 +57,22 @@ pub fn state_quantity(system: &System, place: usize) -> Option<Quantity> {
 /// A complaint about a start that does not exist or is not available.
 pub fn start_of(study: &SystemStudy) -> Result<MotionStart, Failure> {
     let system = study.system();
-    let size = system.structure.state_size();
+    let size = system.state_size();
     let refused = |name: &str, allowed: String| -> Failure {
         Complaint::new(Fault::Value, "system.initial.state", Origin::Whole, name, allowed).into()
     };
-    let state = match study.initial() {
+    let mut state = match study.initial() {
         SystemStart::Rest => vec![0.0; size],
         SystemStart::Values(state) | SystemStart::Described { state, .. } => state.clone(),
-        SystemStart::Sliding => {
-            let steady = SteadySliding::new(system)
-                .map_err(|why| refused("sliding", format!("another state: {why}")))?;
-            let mut state = steady.position;
-            state.resize(size, 0.0);
-            state
-        }
+        SystemStart::Sliding => sliding_state(system)
+            .map_err(|why| refused("sliding", format!("another state: {why}")))?,
         SystemStart::Squealing => {
             squealing_state(system).map_err(|why| refused("squealing", why))?
         }
         SystemStart::Base => base_state(system).map_err(|why| refused("base", why))?,
     };
+    // The contacts' own numbers begin at zero.
+    state.resize(size, 0.0);
     Ok(MotionStart { time: 0.0, state })
 }
 

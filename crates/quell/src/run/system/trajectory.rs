@@ -37,7 +37,7 @@ fn columns(study: &SystemStudy) -> Vec<String> {
 
 /// Adds a column for every number of the states.
 fn with_states(mut dataset: Dataset, study: &SystemStudy, states: &[f64]) -> Dataset {
-    let size = study.system().structure.state_size();
+    let size = columns(study).len();
     for (place, name) in columns(study).into_iter().enumerate() {
         let unit = unit_of(study, state_quantity(study.system(), place));
         dataset = dataset.with(Array::new(name, unit, column(states, place, size)));

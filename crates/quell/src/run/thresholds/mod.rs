@@ -22,6 +22,7 @@ use super::orbit;
 use super::protocol::Protocol;
 use super::varied::{Named, ascending, key_of};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
+use crate::contact_state::refused_of_belt;
 use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
 use crate::quantity::bearable;
@@ -184,6 +185,7 @@ fn slides(study: &BeltStudy, named: &Named, from: f64) -> Result<(), Box<Complai
 /// # Errors
 /// A complaint about the parameter or its range; [`Failure::Failed`] if no response exists at the beginning.
 pub fn run(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, Failure> {
+    refused_of_belt(study, "thresholds")?;
     within(STEPS_OF_MANY_SEARCHES, || found(study, question))
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use quell_model::system::{InputTarget, Structure};
 use quell_model::units::Quantity;
-use quell_model::{Contact, Input};
+use quell_model::{Contact, Input, Profile};
 
 use super::body::{BodyKind, counted};
 use super::contacts::stiffness_symbol;
@@ -139,9 +139,16 @@ fn contact_row(drawing: &SystemDrawing<'_>, contact: &Contact, index: String) ->
     let with = |letter: &str, quantity: Quantity, value: f64| {
         item(&indexed(letter, &index), value, units.unit(quantity))
     };
+    let over_time = |letter: &str, quantity: Quantity, profile: &Profile| {
+        let (least, largest) = profile.bounds();
+        if least == largest {
+            return with(letter, quantity, least);
+        }
+        format!("{} to {} over time", with(letter, quantity, least), number(largest))
+    };
     let mut items = vec![
-        with("N", Quantity::Force, contact.normal_load),
-        with("v", Quantity::Velocity, contact.surface_velocity.mean()),
+        over_time("N", Quantity::Force, &contact.load()),
+        over_time("v", Quantity::Velocity, &contact.surface_velocity),
     ];
     if contact.normal_stiffness != 0.0 {
         let unit = units.unit(Quantity::LoadStiffness);

@@ -17,6 +17,7 @@ use quell_numerics::roots::{Closeness, find_root};
 use super::validity::ContactRanges;
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
+use crate::contact_state::refused_of_system;
 use crate::study::SystemStudy;
 
 /// Values of the parameter at which eigenvalues are computed at least.
@@ -160,6 +161,7 @@ fn rests(
 /// Complaints about the parameters and their windows; [`Failure::Failed`] if no value of the window has steady sliding.
 pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStability, Failure> {
     has_equations(study, "stability")?;
+    refused_of_system(study, "stability --parameter")?;
     understood(study, request)?;
     let recorded = [RefCell::default(), RefCell::default()];
     let family = |fixed: Option<_>| {

@@ -1,0 +1,209 @@
+//! Mean friction of a contact with a state of its own, whose slip is prescribed.
+//!
+//! Averaging of a law of the slip velocity is a mean over the phase of the dither. With a state the friction of one moment depends on
+//! the moments before, so that the mean is that of a periodic motion: γ = V − αG(Rτ) and N = F + D_N g_N(R_Nτ) are prescribed, as
+//! in the limit of high frequency, and the state of the contact follows them. It is computed by the event-exact engine on a structure
+//! that the contact does not move, ẋ = D g(Rτ).
+//!
+//! * Bristles: ż is linear in z under a prescribed slip, so that two periods give the periodic state exactly.
+//! * Elastic sliders: a slider that slides forgets its state. From its bound in the direction of V the run is periodic after the
+//!   periods that it takes to slide. At V = 0 a slider that does not slide in both directions keeps any state: no mean.
+//!
+//! Accuracy: that of the steps, about 10⁻¹² of μ_s, and the last change of an elastic slider from period to period. Slopes are
+//! differences of fourth order, with the difference to those of twice the step as their error.
+
+use std::fmt;
+
+use quell_linear::averaging::{Effective, SlopeSide};
+use quell_model::profile::Profile;
+use quell_model::system::{Contact, Input, InputTarget, StateSpace, Structure, System};
+use quell_model::{Belt, Direction, Parametrisation};
+use quell_numerics::matrix::Matrix;
+
+use crate::motion::{ContactMeter, MOTION_TOLERANCE, Motion, MotionStart, MotionStopped};
+use crate::orbit::{NoOrbit, common_period};
+
+/// Most periods that an elastic slider may take to its periodic motion.
+const MOST_PERIODS: usize = 4000;
+
+/// Change of the mean friction coefficient from period to period, over μ_s, at which a motion is periodic.
+const PERIODIC: f64 = 1e-11;
+
+/// Step of the differences that give slopes, over the largest slip speed.
+const STEP: f64 = 1e-3;
+
+/// Share of its state that bristles keep over a period above which the periodic state is not known.
+const KEPT: f64 = 1.0 - 1e-9;
+
+/// Why a contact with a state has no mean friction.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoMeanFriction {
+    /// The dithers have no common period.
+    NoPeriod(NoOrbit),
+    /// The motion of the state could not be computed.
+    Stopped(MotionStopped),
+    /// The contact cannot be simulated.
+    Immobile(String),
+    /// The contact keeps the state with which it began.
+    History,
+    /// No periodic motion was found.
+    NotPeriodic {
+        /// Number of periods computed.
+        periods: usize,
+    },
+}
+
+impl fmt::Display for NoMeanFriction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoPeriod(why) => why.fmt(f),
+            Self::Stopped(why) => why.fmt(f),
+            Self::Immobile(why) => f.write_str(why),
+            Self::History => f.write_str(
+                "the contact keeps the state with which it began, so that the mean depends on its history: without a mean slip it \
+                 slides in one direction at most",
+            ),
+            Self::NotPeriodic { periods } => {
+                write!(f, "the state of the contact is not periodic after {periods} periods")
+            }
+        }
+    }
+}
+
+impl std::error::Error for NoMeanFriction {}
+
+impl From<MotionStopped> for NoMeanFriction {
+    fn from(why: MotionStopped) -> Self {
+        Self::Stopped(why)
+    }
+}
+
+/// The mean of T/F, and its slope, of a belt whose contact has a state, at the mean slip velocity V: in the periodic motion of the
+/// state under γ = V − αG(Rτ) and the load over time.
+///
+/// # Errors
+/// [`NoMeanFriction`] with the reason.
+pub fn mean_friction(belt: &Belt, slip_velocity: f64) -> Result<Effective, NoMeanFriction> {
+    let [coefficient, error] = coefficient_at(belt, slip_velocity)?;
+    let step = STEP * (slip_velocity.abs() + belt.fast_velocity());
+    let difference = |step: f64| -> Result<f64, NoMeanFriction> {
+        let at =
+            |place: f64| coefficient_at(belt, slip_velocity + place * step).map(|[mean, _]| mean);
+        let (inner, outer) = (at(1.0)? - at(-1.0)?, at(2.0)? - at(-2.0)?);
+        Ok((8.0 * inner - outer) / (12.0 * step))
+    };
+    let (slope, coarse) = match (difference(step), difference(2.0 * step)) {
+        (Ok(slope), Ok(coarse)) => (slope, coarse),
+        (Err(why), _) | (_, Err(why)) => return Err(why),
+    };
+    Ok(Effective {
+        coefficient,
+        coefficient_error: error,
+        slope,
+        slope_error: (slope - coarse).abs() + 2.0 * error / step,
+        side: SlopeSide::Both,
+    })
+}
+
+/// The mean of T/F and its error.
+fn coefficient_at(belt: &Belt, slip_velocity: f64) -> Result<[f64; 2], NoMeanFriction> {
+    let level = belt.friction().static_coefficient();
+    let period = match common_period(belt) {
+        Ok(period) => period,
+        // Nothing varies in time.
+        Err(_) if belt.fast_velocity() == 0.0 => 1.0,
+        Err(why) => return Err(NoMeanFriction::NoPeriod(why)),
+    };
+    let system = prescribed(belt, slip_velocity);
+    let motion = Motion::new(&system).map_err(|why| NoMeanFriction::Immobile(why.to_string()))?;
+    let run = Prescribed { motion: &motion, period, load: belt.normal_load(), fast: fast(belt) };
+    if belt.friction().bristles().is_some() {
+        return Ok([run.of_bristles()?, 1e-12 * level]);
+    }
+    let bound = level * belt.normal_load_at(0.0);
+    let mean = run.of_slider(bound.copysign(slip_velocity), level)?;
+    if slip_velocity == 0.0 {
+        let other = run.of_slider(-bound, level)?;
+        if (mean - other).abs() > 1e-9 * level {
+            return Err(NoMeanFriction::History);
+        }
+    }
+    Ok([mean, 2.0 * PERIODIC * level])
+}
+
+/// The fast velocity at τ = 0: Σ αG(φ) of the tangential dithers.
+fn fast(belt: &Belt) -> f64 {
+    belt.dithers_along(Direction::Tangential)
+        .map(|dither| dither.amplitude_ratio() * dither.waveform.integral(dither.phase))
+        .sum()
+}
+
+/// The contact of a belt on a velocity that the dither alone moves.
+fn prescribed(belt: &Belt, slip_velocity: f64) -> System {
+    let System { contacts, inputs, .. } = belt.system();
+    let matrix = Matrix::from_fn(1, 1, |_, _| 0.0);
+    let contacts = contacts.into_iter().map(|contact| Contact {
+        tangent: Some(vec![1.0]),
+        force: Some(vec![0.0]),
+        surface_velocity: Profile::constant(slip_velocity),
+        ..contact
+    });
+    let inputs = inputs.into_iter().map(|input| match input.target {
+        InputTarget::Force(_) => Input { target: InputTarget::Force(vec![1.0]), ..input },
+        _ => input,
+    });
+    System {
+        structure: Structure::StateSpace(StateSpace::new(vec!["velocity".to_owned()], matrix)),
+        contacts: contacts.collect(),
+        inputs: inputs.collect(),
+    }
+}
+
+/// Runs over one period from a state of the contact.
+struct Prescribed<'a> {
+    motion: &'a Motion<'a>,
+    period: f64,
+    load: f64,
+    fast: f64,
+}
+
+impl Prescribed<'_> {
+    /// The state of the contact after a period, and the mean of T/F over it.
+    fn over(&self, own: f64) -> Result<(f64, f64), NoMeanFriction> {
+        let start = MotionStart { time: 0.0, state: vec![self.fast, own] };
+        let mut meter = ContactMeter::new(1);
+        let end = self.motion.run(&start, self.period, MOTION_TOLERANCE, &mut meter)?;
+        let mean = meter.means().and_then(|means| Some(means.first()?.friction / self.load));
+        Ok((end.state[1], mean.unwrap_or(0.0)))
+    }
+
+    /// Bristles: z after a period is a z + b.
+    fn of_bristles(&self) -> Result<f64, NoMeanFriction> {
+        let (constant, _) = self.over(0.0)?;
+        if constant == 0.0 {
+            return Ok(self.over(0.0)?.1);
+        }
+        let (after, _) = self.over(constant)?;
+        let kept = (after - constant) / constant;
+        if kept.is_nan() || kept >= KEPT {
+            return Err(NoMeanFriction::History);
+        }
+        let periodic = constant / (1.0 - kept);
+        // One more period removes what the difference has lost to rounding.
+        Ok(self.over(self.over(periodic)?.0)?.1)
+    }
+
+    /// An elastic slider: period by period from a state at its bound.
+    fn of_slider(&self, start: f64, level: f64) -> Result<f64, NoMeanFriction> {
+        let (mut own, mut last) = self.over(start)?;
+        for _ in 0..MOST_PERIODS {
+            let (next, mean) = self.over(own)?;
+            let still = (next - own).abs() <= PERIODIC * level * self.load;
+            if still && (mean - last).abs() <= PERIODIC * level {
+                return Ok(mean);
+            }
+            (own, last) = (next, mean);
+        }
+        Err(NoMeanFriction::NotPeriodic { periods: MOST_PERIODS })
+    }
+}

@@ -1,0 +1,164 @@
+//! Contacts with a state of their own: elastic sliders and LuGre bristles.
+
+use quell_dynamics::motion::{
+    ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder, MotionStart,
+};
+use quell_dynamics::simulation::EventKind;
+use quell_model::{Belt, Direction, Dither, LawKind, Parametrisation, System, Waveform};
+
+fn dithered(direction: Direction, amplitude: f64, frequency_ratio: f64, phase: f64) -> Dither {
+    Dither {
+        direction,
+        waveform: Waveform::Sine,
+        amplitude,
+        frequency_ratio,
+        phase,
+        envelope: None,
+    }
+}
+
+fn slider(
+    (zeta, velocity): (f64, f64),
+    law: LawKind,
+    values: &[f64],
+    stiffness: Option<f64>,
+    dithers: Vec<Dither>,
+) -> System {
+    let law = law.build(values).expect("a law");
+    let belt = Belt::new(zeta, 1.0, velocity, law, dithers).expect("a belt");
+    belt.with_tangential_stiffness(stiffness).expect("a stiffness").system()
+}
+
+/// A run from rest, or from a state of the structure.
+fn run(system: &System, structure: [f64; 2], until: f64) -> (MotionEnd, MotionRecorder) {
+    let motion = Motion::new(system).expect("a motion");
+    let start = MotionStart { time: 0.0, state: motion.relaxed(&structure) };
+    let mut events = MotionRecorder::default();
+    let end = motion.run(&start, until, MOTION_TOLERANCE, &mut events).expect("an end");
+    (end, events)
+}
+
+/// (time, release or stick, slip sign)
+type Expected = (f64, EventKind, i8);
+
+fn assert_events(found: &MotionRecorder, expected: &[Expected]) {
+    for (event, (time, kind, sign)) in found.events.iter().zip(expected) {
+        assert!((event.time - time).abs() < 1e-8, "{event:?} at {time}");
+        assert_eq!((event.kind, event.slip_sign), (*kind, *sign), "{event:?}");
+    }
+    assert!(found.events.len() >= expected.len(), "{} events", found.events.len());
+}
+
+#[test]
+fn an_elastic_slider_moves_as_two_other_integrators_find() {
+    let system = slider((0.01, 0.1), LawKind::Coulomb, &[0.3, 0.3, 0.0], Some(20.0), Vec::new());
+    let (end, events) = run(&system, [0.0, 0.0], 30.0);
+    assert_eq!(events.events.len(), 5);
+    let (stick, release) = (EventKind::Stick, EventKind::Release);
+    assert_events(
+        &events,
+        &[(0.164379259, release, 1), (0.419744375, stick, 0), (1.570625838, release, 1)],
+    );
+    assert!((end.state[0] - 0.356216271167392).abs() < 1e-10);
+    assert!((end.state[1] - 0.009874938342066226).abs() < 1e-10);
+    assert_eq!(end.contacts[0].friction, 0.3);
+}
+
+#[test]
+fn an_elastic_slider_under_a_load_that_varies() {
+    let normal = vec![dithered(Direction::Normal, 0.5, 6.0, 0.0)];
+    let system = slider((0.01, 0.05), LawKind::Coulomb, &[0.3, 0.3, 0.0], Some(10.0), normal);
+    let (end, events) = run(&system, [0.0, 0.0], 25.0);
+    assert_eq!(events.events.len(), 41);
+    assert!((end.state[0] - 0.29850655174653146).abs() < 1e-10);
+    assert!((end.contacts[0].friction - 0.19276853555562531).abs() < 1e-10);
+}
+
+#[test]
+fn bristles_move_as_two_other_integrators_find() {
+    let tangential = vec![dithered(Direction::Tangential, 0.8, 8.0, 0.0)];
+    let values = [0.3, 0.4, 0.05, 100.0, 2.0, 0.02];
+    let system = slider((0.01, 0.03), LawKind::Lugre, &values, None, tangential);
+    let (end, events) = run(&system, [0.0, 0.0], 15.0);
+    assert_eq!(events.events.len(), 38);
+    let reversal = EventKind::Reversal;
+    assert_events(&events, &[(0.081741124, reversal, -1), (0.53405992, reversal, 1)]);
+    assert!((end.state[0] - 0.0450045996455362).abs() < 1e-10);
+    assert!((end.state[2] - 0.003011400319427485).abs() < 1e-10);
+    assert_eq!(end.contacts[0].phase, ContactPhase::Slip(1));
+}
+
+/// k_t → ∞ is the rigid contact. An adhering slider oscillates about the force that would hold a rigid contact, at √(k_t/m): its velocity
+/// differs by 1/√k_t, a tenth for a hundred times the stiffness.
+#[test]
+fn a_stiff_slider_is_a_rigid_contact() {
+    let ends = [None, Some(1e3), Some(1e5), Some(1e7)].map(|stiffness| {
+        let dither = vec![dithered(Direction::Tangential, 0.8, 3.0, 0.3)];
+        let law = [0.3, 0.4, 0.0];
+        let system = slider((0.01, 0.08), LawKind::Coulomb, &law, stiffness, dither);
+        run(&system, [0.0, 0.0], 6.0).0.state
+    });
+    let off =
+        |place: usize| (ends[place][0] - ends[0][0]).abs() + (ends[place][1] - ends[0][1]).abs();
+    assert!(off(1) > 1e-6, "{}", off(1));
+    assert!(off(2) < 0.15 * off(1) && off(3) < 0.15 * off(2), "{} {} {}", off(1), off(2), off(3));
+    assert!(off(3) < 1e-3, "{}", off(3));
+}
+
+/// A run that is continued from its own state, in slip and in adhesion, ends as the run without a break.
+#[test]
+fn a_run_continues_from_the_state_of_its_contacts() {
+    let cases = [
+        (LawKind::Coulomb, vec![0.3, 0.3, 0.0], Some(20.0)),
+        (LawKind::StribeckExponential, vec![0.25, 0.4, 0.1, 2.0, 0.05], Some(20.0)),
+        (LawKind::Lugre, vec![0.3, 0.4, 0.05, 100.0, 2.0, 0.02], None),
+    ];
+    for (law, values, stiffness) in cases {
+        let dither = vec![dithered(Direction::Tangential, 0.8, 4.0, 0.3)];
+        let system = slider((0.01, 0.08), law, &values, stiffness, dither);
+        let motion = Motion::new(&system).expect("a motion");
+        let whole = run(&system, [0.0, 0.0], 8.0).0;
+        let mut phases = Vec::new();
+        for stop in 1..16 {
+            let half = run(&system, [0.0, 0.0], 0.5 * f64::from(stop)).0;
+            phases.push(half.contacts[0].phase);
+            let end = motion.run(&half.restart(), 8.0, MOTION_TOLERANCE, &mut ()).expect("an end");
+            for (found, expected) in end.state.iter().zip(&whole.state) {
+                assert!((found - expected).abs() < 1e-9, "{law:?} {stop}: {found} {expected}");
+            }
+        }
+        let sticks = phases.contains(&ContactPhase::Stick);
+        assert_eq!(sticks, law != LawKind::Lugre, "{law:?}: {phases:?}");
+        assert!(phases.iter().any(|phase| matches!(phase, ContactPhase::Slip(_))));
+    }
+}
+
+/// Under a load with jumps and kinks, against a second method: fixed steps in which the spring is stretched
+/// first and its force then cut to its bound. Its error is of the first order in the step.
+#[test]
+fn loads_with_jumps_and_kinks_agree_with_fixed_steps() {
+    for waveform in [Waveform::Square, Waveform::Triangle, Waveform::Sine] {
+        let normal = Dither { waveform, ..dithered(Direction::Normal, 0.6, 5.0, 0.4) };
+        let tangential = dithered(Direction::Tangential, 0.5, 3.0, 0.0);
+        let dithers = vec![normal.clone(), tangential.clone()];
+        let system = slider((0.02, 0.1), LawKind::Coulomb, &[0.3, 0.3, 0.0], Some(15.0), dithers);
+        let (end, events) = run(&system, [0.1, -0.2], 10.0);
+        assert!(events.events.len() > 10, "{}", events.events.len());
+        let step = 1e-6;
+        let (mut x, mut v, mut force) = (0.1_f64, -0.2_f64, 0.0_f64);
+        for k in 0..10_000_000_u32 {
+            let time = (f64::from(k) + 0.5) * step;
+            let dither = |dither: &Dither| {
+                let phase = dither.frequency_ratio.mul_add(time, dither.phase);
+                dither.amplitude * dither.waveform.value(phase)
+            };
+            let bound = 0.3 * (1.0 + dither(&normal));
+            force = (force + 15.0 * (0.1 - v) * step).clamp(-bound, bound);
+            v += step * (force + dither(&tangential) - x - 0.04 * v);
+            x += step * v;
+        }
+        let off = (end.state[0] - x).abs() + (end.state[1] - v).abs();
+        assert!(off < 1e-5, "{normal:?}: {off:e}");
+        assert!((end.contacts[0].friction - force).abs() < 1e-4, "{normal:?}");
+    }
+}

@@ -1,0 +1,37 @@
+//! The schema of the keys of drives, loads and envelopes.
+
+use quell_model::profile::MOST_KNOTS;
+use serde_json::{Value as Json, json};
+
+use crate::study::vocabulary::{CourseKey, CourseTable};
+
+/// The value of a key; `table` is what its table gives.
+pub(super) fn property(course: CourseKey, table: Option<CourseTable>) -> Json {
+    let list = |item: Json| json!({ "type": "array", "items": item, "minItems": 1, "maxItems": MOST_KNOTS });
+    match course {
+        CourseKey::Time { .. } => list(json!({ "type": "number" })),
+        CourseKey::Value { .. } => {
+            let positive = table.is_some_and(|table| table.bounds.lower == 0.0);
+            list(if positive {
+                json!({ "type": "number", "exclusiveMinimum": 0 })
+            } else {
+                json!({ "type": "number" })
+            })
+        }
+        CourseKey::Shape | CourseKey::File => json!({ "type": "string" }),
+        CourseKey::Oscillation => json!({
+            "type": "object",
+            "properties": {
+                "amplitude": { "type": "number", "minimum": 0 },
+                "amplitude_m_per_s": { "type": "number", "minimum": 0 },
+                "amplitude_n": { "type": "number", "minimum": 0 },
+                "frequency_ratio": { "type": "number", "exclusiveMinimum": 0 },
+                "frequency": { "type": "number", "exclusiveMinimum": 0 },
+                "frequency_hz": { "type": "number", "exclusiveMinimum": 0 },
+                "phase": { "type": "number" },
+            },
+            "required": [],
+            "additionalProperties": false,
+        }),
+    }
+}

@@ -1,0 +1,171 @@
+//! The steady study of one moment of a study whose drive, load or dither varies in time.
+
+use quell_model::Belt;
+use quell_model::parameter::{BELT_VELOCITY, NORMAL_LOAD, Parameter};
+use quell_model::system::Contact;
+use quell_model::units::measure;
+use serde_json::Value as Json;
+
+use super::document::{Node, Table, Value};
+use super::kind::{Kind, Study};
+use crate::complaint::{Complaint, Complaints, Fault, Origin};
+
+impl Study {
+    /// The table that makes the study vary in time, such as `belt.drive`; `None` for a steady study.
+    pub fn varies_by(&self) -> Option<&'static str> {
+        match self.kind() {
+            Kind::Belt(setup) => {
+                let belt = setup.belt();
+                let envelope = belt.dithers().iter().any(|dither| dither.envelope.is_some());
+                let drive = belt.drive().map(|_| "belt.drive");
+                let load = belt.load().map(|_| "belt.load");
+                drive.or(load).or(envelope.then_some("dither.envelope"))
+            }
+            Kind::Disc(_) => None,
+            Kind::System(setup) => {
+                let system = setup.system();
+                let drive = |contact: &Contact| {
+                    let drive = &contact.surface_velocity;
+                    !(drive.is_steady() && drive.waves().is_empty())
+                };
+                let load = |contact: &Contact| contact.varying_load.is_some();
+                let any = |holds: &dyn Fn(&Contact) -> bool| system.contacts.iter().any(holds);
+                let first = any(&drive).then_some("contact.drive");
+                let second = any(&load).then_some("contact.load");
+                let envelope = system.inputs.iter().any(|input| !input.profile.is_steady());
+                first.or(second).or(envelope.then_some("dither.envelope"))
+            }
+        }
+    }
+
+    /// The steady study with the velocities, loads and amplitudes of a time.
+    ///
+    /// # Errors
+    /// All complaints about the study of that moment: a belt that stands still or moves backwards is none.
+    pub fn at_time(&self, time: f64) -> Result<Self, Complaints> {
+        let mut document = self.source.document.clone();
+        let mut changes = self.source.changes.clone();
+        match self.kind() {
+            Kind::Belt(setup) => belt_at(&mut document, setup.belt(), time)?,
+            Kind::Disc(_) => {}
+            Kind::System(setup) => {
+                let system = setup.system();
+                each(&mut document, "contact", |index, table| {
+                    let Some(contact) = system.contacts.get(index) else { return Ok(()) };
+                    let keys = |parameter: Parameter| {
+                        let twins = parameter.si.iter().map(|twin| twin.key.to_owned());
+                        [parameter.key().to_owned()].into_iter().chain(twins).collect::<Vec<_>>()
+                    };
+                    let steady = contact.steady_at(time);
+                    let velocity = steady.surface_velocity.mean();
+                    replace(table, "drive", &keys(BELT_VELOCITY), BELT_VELOCITY.key(), velocity);
+                    replace(
+                        table,
+                        "load",
+                        &keys(NORMAL_LOAD),
+                        NORMAL_LOAD.key(),
+                        steady.normal_load,
+                    );
+                    Ok(())
+                })?;
+                each(&mut document, "dither", |index, table| {
+                    let waves = system.inputs.get(index).map(|input| input.profile.waves());
+                    let share =
+                        waves.and_then(|waves| waves.first()).map_or(1.0, |wave| wave.share(time));
+                    scale(table, index, share)
+                })?;
+            }
+        }
+        changes.push(format!("at_time={time:?}"));
+        self.check_again(document, changes)
+    }
+}
+
+fn belt_at(document: &mut Table, belt: &Belt, time: f64) -> Result<(), Complaints> {
+    let scales = belt.scales();
+    if let Some(Value::Table(table)) = document.get_mut("belt").map(|node| &mut node.value) {
+        let mut set = |name: &str, parameter: Parameter, value: f64| {
+            let twins = parameter.si.iter().map(|twin| twin.key.to_owned());
+            let keys: Vec<String> = [parameter.key().to_owned()].into_iter().chain(twins).collect();
+            match (scales, parameter.si.first()) {
+                (Some(scales), Some(twin)) => {
+                    let si = scales.to_si(parameter.quantity, value);
+                    replace(table, name, &keys, twin.key, si);
+                }
+                _ => replace(table, name, &keys, parameter.key(), value),
+            }
+        };
+        set("drive", BELT_VELOCITY, belt.belt_velocity_at(time));
+        let load = belt.load().map_or(belt.normal_load(), |load| load.value(time));
+        set("load", NORMAL_LOAD, load);
+    }
+    each(document, "dither", |index, table| {
+        let share = belt.dithers().get(index).map_or(1.0, |dither| dither.wave().share(time));
+        scale(table, index, share)
+    })
+}
+
+/// Replaces a table over time by the constant value of its moment.
+fn replace(table: &mut Table, course: &str, keys: &[String], key: &str, value: f64) {
+    if !table.has(course) {
+        return;
+    }
+    table.remove(course);
+    for key in keys {
+        table.remove(key);
+    }
+    table.set(key, Node { value: Value::Number(value), origin: Origin::Argument("--at-time") });
+}
+
+/// Replaces an envelope by its share of the amplitude.
+fn scale(table: &mut Table, index: usize, share: f64) -> Result<(), Complaints> {
+    if !table.has("envelope") {
+        return Ok(());
+    }
+    table.remove("envelope");
+    for (name, node) in table.iter_mut().filter(|(name, _)| name.starts_with("amplitude")) {
+        node.value = match &node.value {
+            Value::Number(amplitude) => Value::Number(share * amplitude),
+            Value::Text(text) if !measure::has_unit(text) => {
+                Value::Text(format!("({text}) * {share:?}"))
+            }
+            _ => {
+                let allowed =
+                    "a number or a formula, so that its share at --at-time is one as well";
+                let key = format!("dither[{index}].{name}");
+                let (origin, given) = (node.origin, node.given());
+                return Err(vec![Complaint::new(Fault::Value, key, origin, given, allowed)].into());
+            }
+        };
+    }
+    Ok(())
+}
+
+/// Changes each table of a list, or the only one.
+fn each(
+    document: &mut Table,
+    name: &str,
+    mut change: impl FnMut(usize, &mut Table) -> Result<(), Complaints>,
+) -> Result<(), Complaints> {
+    match document.get_mut(name).map(|node| &mut node.value) {
+        Some(Value::Table(table)) => change(0, table),
+        Some(Value::List(list)) => {
+            for (index, node) in list.iter_mut().enumerate() {
+                if let Value::Table(table) = &mut node.value {
+                    change(index, table)?;
+                }
+            }
+            Ok(())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The complaint about a question that only a steady study answers.
+pub fn varies_in_time(verb: &str, table: &'static str) -> Complaint {
+    let allowed = format!(
+        "left out for {verb}, which is about a steady drive, load and dither: give --at-time for the values of one moment, or \
+         use simulate"
+    );
+    Complaint::new(Fault::Conflict, table, Origin::Whole, Json::Null, allowed)
+}

@@ -1,0 +1,124 @@
+//! The tables of drives, loads and envelopes: numbers over time.
+
+use quell_model::parameter::Bounds;
+use quell_model::units::Quantity;
+
+/// A table that gives a number over time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CourseTable {
+    /// The key of the values.
+    pub value: &'static str,
+    /// The quantity of the values.
+    pub quantity: Quantity,
+    /// The values that are allowed.
+    pub bounds: Bounds,
+    /// Whether the number may oscillate about a constant instead.
+    pub oscillates: bool,
+    /// Whether the number may jump.
+    pub jumps: bool,
+}
+
+/// `[belt.drive]`, `[contact.drive]`: velocity of the surface.
+pub const DRIVE: CourseTable = CourseTable {
+    value: "velocity",
+    quantity: Quantity::Velocity,
+    bounds: Bounds::FINITE,
+    oscillates: true,
+    jumps: false,
+};
+
+/// `[belt.load]`, `[contact.load]`: normal load.
+pub const LOAD: CourseTable = CourseTable {
+    value: "load",
+    quantity: Quantity::Force,
+    bounds: Bounds::POSITIVE,
+    oscillates: true,
+    jumps: true,
+};
+
+/// `[dither.envelope]`: share of the amplitude.
+pub const ENVELOPE: CourseTable = CourseTable {
+    value: "share",
+    quantity: Quantity::Ratio,
+    bounds: Bounds::FINITE,
+    oscillates: false,
+    jumps: true,
+};
+
+/// A key of such a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CourseKey {
+    /// The times, in seconds or not.
+    Time {
+        /// In seconds.
+        si: bool,
+    },
+    /// The values at the times, in SI or not.
+    Value {
+        /// In SI.
+        si: bool,
+    },
+    /// The shape between the knots.
+    Shape,
+    /// A CSV file of times and values.
+    File,
+    /// An oscillation about a constant.
+    Oscillation,
+}
+
+impl CourseTable {
+    /// The keys with their names: those in SI where the quantity has a unit.
+    pub fn keys(self) -> Vec<(&'static str, CourseKey)> {
+        let mut keys = vec![
+            ("time", CourseKey::Time { si: false }),
+            ("time_s", CourseKey::Time { si: true }),
+            (self.value, CourseKey::Value { si: false }),
+        ];
+        if let Some(name) = self.value_in_si() {
+            keys.push((name, CourseKey::Value { si: true }));
+        }
+        keys.extend([("shape", CourseKey::Shape), ("file", CourseKey::File)]);
+        if self.oscillates {
+            keys.push(("oscillation", CourseKey::Oscillation));
+        }
+        keys
+    }
+
+    /// The key of the values in SI.
+    pub fn value_in_si(self) -> Option<&'static str> {
+        match self.quantity {
+            Quantity::Velocity => Some("velocity_m_per_s"),
+            Quantity::Force => Some("load_n"),
+            _ => None,
+        }
+    }
+}
+
+impl CourseKey {
+    /// What it is, in one line.
+    pub const fn about(self) -> &'static str {
+        match self {
+            Self::Time { .. } => {
+                "times of the knots, from the start of the run, in ascending order"
+            }
+            Self::Value { .. } => {
+                "values at these times; before and after them the first and the last hold"
+            }
+            Self::Shape => {
+                "straight between the knots, or smooth with slope zero at them [default: linear]"
+            }
+            Self::File => "CSV file of times and values, relative to the study file",
+            Self::Oscillation => {
+                "a sine added to the constant value: amplitude, frequency and phase"
+            }
+        }
+    }
+
+    /// Whether it is in SI; `None` for a key without a unit.
+    pub fn si(self) -> Option<bool> {
+        match self {
+            Self::Time { si } | Self::Value { si } => Some(si),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! Contacts with a state of their own, in every verb: refusals, and warnings where the law without its state is not a good model.
+
+use quell_model::{Belt, Contact, Direction, Friction, System};
+use serde_json::Value as Json;
+
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::study::{BeltStudy, SystemStudy};
+use crate::words::digits;
+
+/// Ratio of the dither displacement to the breakaway displacement, and Π of bristles, from which the average of the rigid law is good:
+/// its error is about the reciprocal.
+const LARGE: f64 = 30.0;
+
+/// Verbs of systems that do not know the state of a contact.
+const WITHOUT_STATES: &[&str] = &["attractor", "thresholds", "bifurcation", "basins", "map"];
+
+/// The path and the name of what gives a contact its state.
+fn cause(contact: &Contact, prefix: &str) -> (String, String) {
+    match contact.friction.bristles() {
+        Some(_) => (format!("{prefix}.friction.law"), contact.friction.kind().name().to_owned()),
+        None => (format!("{prefix}.tangential_stiffness"), "an elastic slider".to_owned()),
+    }
+}
+
+/// Rejects a verb on a belt whose contact has a state of its own.
+///
+/// # Errors
+/// A complaint about the key that gives the contact its state.
+pub(crate) fn refused_of_belt(study: &BeltStudy, verb: &str) -> Result<(), Failure> {
+    complaint_of_belt(study.belt(), verb).map_or(Ok(()), |complaint| Err(complaint.into()))
+}
+
+/// The complaint of a verb about a belt whose contact has a state of its own; `None` of a rigid contact.
+pub(crate) fn complaint_of_belt(belt: &Belt, verb: &str) -> Option<Complaint> {
+    if !belt.has_contact_state() {
+        return None;
+    }
+    let (key, value) = match belt.tangential_stiffness() {
+        Some(stiffness) => ("belt.tangential_stiffness", Json::from(stiffness)),
+        None => ("friction.law", Json::from(belt.friction().kind().name())),
+    };
+    let allowed = format!(
+        "a rigid contact with a law of the slip velocity alone for `{verb}`; `simulate` and `friction` know contacts with a state of \
+         their own"
+    );
+    Some(Complaint::new(Fault::Conflict, key, Origin::Whole, value, allowed))
+}
+
+/// Rejects a verb on a system with a contact whose state it does not know.
+///
+/// # Errors
+/// A complaint about the key that gives the contact its state.
+pub(crate) fn refused_of_system(study: &SystemStudy, verb: &str) -> Result<(), Failure> {
+    complaint_of_system(study.system(), verb).map_or(Ok(()), |complaint| Err(complaint.into()))
+}
+
+/// The complaint of a verb about a contact whose state it does not know; `None` where it knows all.
+pub(crate) fn complaint_of_system(system: &System, verb: &str) -> Option<Complaint> {
+    let contacts = &system.contacts;
+    let is_unknown = |contact: &Contact| match verb {
+        // A slider that slides has no state in addition to its slip; the state of bristles moves with every small motion.
+        "stability --exact" | "stability --parameter" => contact.friction.bristles().is_some(),
+        _ => WITHOUT_STATES.contains(&verb) && contact.has_state(),
+    };
+    let index = contacts.iter().position(is_unknown)?;
+    let (key, value) = cause(&contacts[index], &format!("contact.{}", contacts[index].name));
+    let allowed = format!(
+        "a rigid contact with a law of the slip velocity alone for `{verb}`; `simulate`, `response` and `orbit` know contacts with a state of \
+         their own"
+    );
+    Some(Complaint::new(Fault::Conflict, key, Origin::Whole, value, allowed))
+}
+
+/// A warning where the bristles of a law supply energy.
+fn not_passive(law: &Friction, of: &str) -> Option<String> {
+    let Friction::Lugre(law) = law else { return None };
+    let (most, damping) = (law.largest_passive_damping()?, law.bristle_damping());
+    (damping > most).then(|| {
+        format!(
+            "the friction force{of} is not passive: bristle_damping = {} exceeds viscous·coefficient/(static_coefficient − coefficient) \
+             = {} (Barabanov and Ortega 2000)",
+            digits(damping),
+            digits(most)
+        )
+    })
+}
+
+/// Warnings about the contact of a belt in any verb.
+pub(crate) fn passivity(belt: &Belt) -> Option<String> {
+    not_passive(belt.friction(), "")
+}
+
+/// Warnings about the contacts of a system in any verb.
+pub(crate) fn passivity_of_system(study: &SystemStudy) -> Vec<String> {
+    let contacts = &study.system().contacts;
+    let of = |contact: &Contact| format!(" of contact {}", contact.name);
+    contacts.iter().filter_map(|contact| not_passive(&contact.friction, &of(contact))).collect()
+}
+
+/// Warnings where the average of the law without its state differs from that of the contact of a belt.
+pub(crate) fn rigid_average(belt: &Belt, slip_velocity: f64) -> Option<String> {
+    let law = belt.friction();
+    let total = |value: fn(&quell_model::Dither) -> f64, direction| {
+        belt.dithers_along(direction).map(value).fold(0.0, f64::max)
+    };
+    let displacement =
+        total(|dither| dither.amplitude_ratio() / dither.frequency_ratio, Direction::Tangential);
+    if let Some(bristles) = law.bristles() {
+        // Π = σ₀a/(F_c ω), a the amplitude of the velocity, is the displacement over that of the bristles.
+        let ratio = displacement * bristles.stiffness / saturated(law);
+        return (displacement > 0.0 && ratio < LARGE).then(|| bristles_follow(ratio, ""));
+    }
+    let stiffness = belt.tangential_stiffness()?;
+    let breakaway = law.static_coefficient() * belt.normal_load() / stiffness;
+    if displacement > 0.0 && displacement < LARGE * breakaway {
+        return Some(slider_follows(displacement / breakaway, ""));
+    }
+    let rate = total(|dither| dither.amplitude * dither.frequency_ratio, Direction::Normal);
+    let reached = stiffness * slip_velocity.abs() / (law.static_coefficient() * rate);
+    (rate > 0.0 && reached < 1.0).then(|| {
+        format!(
+            "the elastic contact adheres for a part of each period of the load, because k_t v/(μ_s dN/dt) = {} is below 1: the average \
+             of the rigid law does not hold (Popov et al. 2017)",
+            digits(reached)
+        )
+    })
+}
+
+/// The level at which bristles saturate at high slip.
+fn saturated(law: &Friction) -> f64 {
+    law.values().first().copied().unwrap_or_else(|| law.static_coefficient())
+}
+
+fn bristles_follow(ratio: f64, of: &str) -> String {
+    format!(
+        "the bristles{of} follow the dither without slipping for a part of each period, because Π = σ₀a/(F_c ω) = {} is not large: the \
+         average of the law without its state does not hold",
+        digits(ratio)
+    )
+}
+
+fn slider_follows(ratio: f64, of: &str) -> String {
+    format!(
+        "the elastic contact{of} follows the dither without slipping for a part of each period, because the dither displacement is {} \
+         times the breakaway displacement μ_s N/k_t, not many times: the average of the rigid law does not hold",
+        digits(ratio)
+    )
+}
+
+/// Warnings where the averages and the small motions of the contacts of a system differ from those of the laws without their states.
+/// `fast` has the amplitude of the fast slip velocity of each contact, and the lowest frequency of the dither.
+pub(crate) fn rigid_laws(study: &SystemStudy, fast: Option<(&[f64], f64)>) -> Vec<String> {
+    let mut warnings = passivity_of_system(study);
+    for (index, contact) in study.system().contacts.iter().enumerate() {
+        let of = format!(" of contact {}", contact.name);
+        let displacement = fast.map_or(0.0, |(slip, frequency)| {
+            slip.get(index).map_or(0.0, |amplitude| amplitude / frequency)
+        });
+        let law = &contact.friction;
+        if let Some(bristles) = law.bristles() {
+            let ratio = displacement * bristles.stiffness / saturated(law);
+            if displacement > 0.0 && ratio < LARGE {
+                warnings.push(bristles_follow(ratio, &of));
+            }
+            warnings.push(small_motions(&of));
+        } else if let Some(stiffness) = contact.tangential_stiffness {
+            let breakaway = law.static_coefficient() * contact.normal_load / stiffness;
+            if displacement > 0.0 && displacement < LARGE * breakaway {
+                warnings.push(slider_follows(displacement / breakaway, &of));
+            }
+        }
+    }
+    warnings
+}
+
+/// The warning about small motions of bristles.
+pub(crate) fn small_motions(of: &str) -> String {
+    format!(
+        "small motions are those of the steady friction{of}: the bristles are taken to follow the slip at once, which holds for motions \
+         slower than σ₀v/g"
+    )
+}

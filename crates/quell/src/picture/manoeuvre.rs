@@ -1,0 +1,198 @@
+//! A manoeuvre of a belt or a system: drive, load, dither, response and spectrogram over one time axis.
+
+use std::f64::consts::TAU;
+
+use quell_dynamics::motion::MotionSampler;
+use quell_dynamics::simulation::Sample;
+use quell_model::Profile;
+use quell_model::profile::Wave;
+use quell_model::units::Quantity;
+
+use super::caption::caption_of_run;
+use super::ruler::{Ruler, time_axis};
+use crate::plot::{
+    Colouring, Field, Figure, Heatmap, Palette, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine,
+    Shading, Sharing, Spread,
+};
+use crate::run::manoeuvre::{SampledMotion, Spectrogram};
+use crate::run::simulate::{NATURAL_PERIOD, Simulation, highest_shown};
+use crate::run::system::simulate::natural_period;
+use crate::study::{BeltStudy, SystemStudy};
+
+/// Points of a curve of a profile.
+const POINTS: usize = 600;
+
+/// Curves in a panel of drives, loads or envelopes.
+const MOST_CURVES: usize = 6;
+
+/// Decades of the spectrogram below its largest amplitude.
+const DECADES: f64 = 1e-4;
+
+/// The picture of a sampled run whose drive, load or dither varies in time.
+pub(super) fn manoeuvre(study: &BeltStudy, done: &Simulation) -> Figure {
+    let belt = study.belt();
+    let samples = done.samples.as_deref().unwrap_or_default();
+    let time = Ruler::of(study, Quantity::Time, samples.iter().map(|sample| sample.time));
+    let (from, to) = (done.start.time, done.end.time);
+    let horizontal = || time_axis(study, &time).between(time.place(from), time.place(to));
+    let over_time = |value: &dyn Fn(f64) -> f64| -> Vec<(f64, f64)> {
+        let moment = |place: usize| from + (to - from) * place as f64 / (POINTS - 1) as f64;
+        (0..POINTS).map(moment).map(|at| (time.place(at), value(at))).collect()
+    };
+    let mut panels = Vec::new();
+    if belt.drive().is_some() {
+        let curve = over_time(&|at| belt.belt_velocity_at(at));
+        let ruler = Ruler::of(study, Quantity::Velocity, curve.iter().map(|point| point.1));
+        let axis = ruler.axis("belt velocity", "");
+        let curve = curve.into_iter().map(|(at, value)| (at, ruler.place(value)));
+        let panel = Panel::new(horizontal(), axis).with(ReferenceLine::horizontal(0.0));
+        panels.push(panel.with(Polyline::new(PlotRole::Exact, curve)));
+    }
+    if let Some(load) = belt.load() {
+        let curve = over_time(&|at| load.value(at));
+        let ruler = Ruler::of(study, Quantity::Force, curve.iter().map(|point| point.1));
+        let axis = ruler.axis("normal load", "").from(0.0);
+        let curve = curve.into_iter().map(|(at, value)| (at, ruler.place(value)));
+        panels.push(Panel::new(horizontal(), axis).with(Polyline::new(PlotRole::Exact, curve)));
+    }
+    let enveloped: Vec<_> =
+        belt.dithers().iter().filter(|dither| dither.envelope.is_some()).collect();
+    if !enveloped.is_empty() {
+        let amplitude =
+            |at: f64, place: usize| enveloped[place].amplitude * enveloped[place].wave().share(at);
+        let most = enveloped.iter().map(|dither| dither.wave().peak());
+        let ruler = Ruler::of(study, Quantity::Force, most);
+        let axis = ruler.axis("dither amplitude", "");
+        let curves = (0..enveloped.len()).map(|place| {
+            let curve = over_time(&|at| ruler.place(amplitude(at, place)));
+            Polyline::new(PlotRole::Dithered, curve)
+        });
+        panels.push(Panel::new(horizontal(), axis).with_all(curves.collect::<Vec<_>>()));
+    }
+    panels.push(response(study, samples, &time, horizontal()));
+    if let Some(panel) = spectrogram(study, samples, &time, horizontal()) {
+        panels.push(panel);
+    }
+    let found = done.manoeuvre_sentence(study).unwrap_or_default();
+    Figure::grid(1, panels)
+        .sharing_x(Sharing::All)
+        .caption(format!("{} {found}", caption_of_run(study)))
+        .title(study.title().unwrap_or_default())
+}
+
+fn response(study: &BeltStudy, samples: &[Sample], time: &Ruler, axis: PlotAxis) -> Panel {
+    let place =
+        Ruler::of(study, Quantity::Displacement, samples.iter().map(|sample| sample.displacement));
+    let role = if study.belt().dithers().is_empty() { PlotRole::Exact } else { PlotRole::Dithered };
+    let curve =
+        samples.iter().map(|sample| (time.place(sample.time), place.place(sample.displacement)));
+    Panel::new(axis, place.axis("displacement", "x"))
+        .with(Polyline::new(role, curve.collect::<Vec<_>>()))
+}
+
+/// The spectrogram of the displacement; `None` if the run is too short for one.
+fn spectrogram(
+    study: &BeltStudy,
+    samples: &[Sample],
+    time: &Ruler,
+    axis: PlotAxis,
+) -> Option<Panel> {
+    let [first, second, ..] = samples else { return None };
+    let displacement: Vec<f64> = samples.iter().map(|sample| sample.displacement).collect();
+    let motion = SampledMotion {
+        start: first.time,
+        step: second.time - first.time,
+        displacement: &displacement,
+    };
+    let found = Spectrogram::of(motion, NATURAL_PERIOD, highest_shown(study))?;
+    let frequency = Ruler::of(study, Quantity::FrequencyRatio, found.frequencies.iter().copied());
+    let amplitude = Ruler::of(study, Quantity::Displacement, [found.largest()]);
+    heatmap(&found, axis, (time, &frequency, &amplitude))
+}
+
+/// A spectrogram over an axis of time.
+fn heatmap(
+    found: &Spectrogram,
+    axis: PlotAxis,
+    (time, frequency, amplitude): (&Ruler, &Ruler, &Ruler),
+) -> Option<Panel> {
+    let largest = found.largest();
+    let (columns, least) = (found.times.len(), DECADES * largest);
+    let field = Field::from_fn(
+        found.times.iter().map(|at| time.place(*at)).collect(),
+        found.frequencies.iter().map(|at| frequency.place(*at)).collect(),
+        |column, row| Some(amplitude.place(found.amplitudes[row * columns + column].max(least))),
+    );
+    let shading = Shading::new(Palette::Pale)
+        .spread(Spread::Log)
+        .range(amplitude.place(least), amplitude.place(largest));
+    let bar = amplitude.axis("spectral amplitude", "").log();
+    let grid = Heatmap::new(field.ok()?, Colouring::Shaded(shading)).bar(bar);
+    Some(Panel::new(axis, frequency.axis("frequency", "")).with(grid))
+}
+
+/// Panels above the response of a system whose drives, loads or dithers vary in time, and the spectrogram below it.
+pub(super) fn around_response(
+    study: &SystemStudy,
+    samples: &MotionSampler,
+    displacement: &[f64],
+    (axis, time): (&PlotAxis, &Ruler),
+) -> (Vec<Panel>, Option<Panel>) {
+    let system = study.system();
+    let (from, to) = match (samples.times.first(), samples.times.last()) {
+        (Some(from), Some(to)) if from < to => (*from, *to),
+        _ => return (Vec::new(), None),
+    };
+    let curve = |profile: &Profile, ruler: &Ruler| -> Vec<(f64, f64)> {
+        let moment = |place: usize| from + (to - from) * place as f64 / (POINTS - 1) as f64;
+        (0..POINTS).map(moment).map(|at| (time.place(at), ruler.place(profile.value(at)))).collect()
+    };
+    let panel = |name: &str, quantity: Quantity, profiles: &[(String, Profile)]| {
+        let largest =
+            profiles.iter().flat_map(|(_, profile)| [profile.bounds().0, profile.bounds().1]);
+        let ruler = Ruler::of_system(study, quantity, largest);
+        let lines = profiles.iter().enumerate().map(|(place, (label, profile))| {
+            Polyline::new(PlotRole::Series(place), curve(profile, &ruler)).label(label.clone())
+        });
+        let panel = Panel::new(axis.clone(), ruler.axis(name, ""));
+        (!profiles.is_empty()).then(|| panel.with_all(lines.collect::<Vec<_>>()))
+    };
+    let contacts = || system.contacts.iter().take(MOST_CURVES);
+    let drives: Vec<(String, Profile)> = contacts()
+        .filter(|contact| {
+            contact.surface_velocity != Profile::constant(contact.surface_velocity.mean())
+        })
+        .map(|contact| (contact.name.clone(), contact.surface_velocity.clone()))
+        .collect();
+    let loads: Vec<(String, Profile)> = contacts()
+        .filter_map(|contact| Some((contact.name.clone(), contact.varying_load.clone()?)))
+        .collect();
+    let dithers: Vec<(String, Profile)> = system
+        .inputs
+        .iter()
+        .take(MOST_CURVES)
+        .enumerate()
+        .filter_map(|(place, input)| {
+            let envelope = input.profile.waves().first()?.envelope.clone()?;
+            Some((format!("dither {}", place + 1), Profile::over(envelope)))
+        })
+        .collect();
+    let above = [
+        panel("belt velocity", Quantity::Velocity, &drives),
+        panel("normal load", Quantity::Force, &loads),
+        panel("share of the amplitude", Quantity::Ratio, &dithers),
+    ];
+    let step = (to - from) / (samples.times.len() - 1) as f64;
+    let motion = SampledMotion { start: from, step, displacement };
+    let period = natural_period(study, to - from);
+    let own = TAU / period;
+    let fastest = system.waves().map(Wave::repetition).fold(0.0, f64::max);
+    let highest = if fastest <= 40.0 * own { (1.25 * fastest).max(6.0 * own) } else { 8.0 * own };
+    let spectrogram = Spectrogram::of(motion, period, highest).and_then(|found| {
+        let frequency =
+            Ruler::of_system(study, Quantity::FrequencyRatio, found.frequencies.iter().copied());
+        let amplitude = Ruler::of_system(study, Quantity::Displacement, [found.largest()]);
+        heatmap(&found, axis.clone(), (time, &frequency, &amplitude))
+    });
+    (above.into_iter().flatten().collect(), spectrogram)
+}

@@ -1,0 +1,282 @@
+//! `waveforms` of a system: the least first dither of each waveform that quenches by averaging, and its cost.
+//!
+//! Averaging of systems knows sine, triangle, square and sums of harmonics. The cost is that of the sliding structure without the
+//! slope of friction ([`quell_linear::harmonic`]) at the driven point, by harmonics: the stroke of bᵀq and the mean power ⟨û bᵀq̇⟩ of a
+//! force b û(t).
+
+use num_complex::Complex64;
+use quell_linear::averaging::{Becomes, DitheredSystem};
+use quell_linear::growth::Verdict;
+use quell_linear::harmonic;
+use quell_linear::linearised::Linearised;
+use quell_model::profile::{Profile, Wave};
+use quell_model::system::{Input, InputTarget};
+use quell_model::units::Quantity;
+use quell_model::{System, Waveform};
+use serde_json::Value as Json;
+
+use super::{failed, has_equations};
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::dataset::{Array, Dataset};
+use crate::fields::Fields;
+use crate::study::SystemStudy;
+use crate::words::digits;
+
+/// Highest harmonic of triangle and square.
+const HARMONICS: u32 = 63;
+
+/// Points of a period at which the displacement is evaluated, per harmonic.
+const POINTS: u32 = 16;
+
+/// The least dither of one waveform.
+#[derive(Clone, Debug)]
+pub struct LeastInput {
+    /// Amplitude.
+    pub amplitude: f64,
+    /// The larger amplitude from which sliding is unstable again, if any.
+    pub until: Option<f64>,
+    /// Root mean square.
+    pub root_mean_square: f64,
+    /// Peak-to-peak displacement of the driven point, or why it has no value.
+    pub stroke: Result<f64, String>,
+    /// Mean power into the sliding structure.
+    pub power: Result<f64, String>,
+}
+
+/// One waveform of a system's comparison.
+#[derive(Clone, Debug)]
+pub struct SystemWaveform {
+    /// The waveform.
+    pub waveform: Waveform,
+    /// Whether it is that of the study.
+    pub own: bool,
+    /// The least dither by averaging, or why no amplitude is known.
+    pub averaged: Result<LeastInput, String>,
+}
+
+/// The waveforms of a system.
+#[derive(Clone, Debug)]
+pub struct SystemWaveforms {
+    /// Sine, triangle, square, and the study's own if it is another.
+    pub rows: Vec<SystemWaveform>,
+}
+
+/// A compared quantity: its name in JSON, in words, and its value.
+type Column = (&'static str, &'static str, Quantity, fn(&LeastInput) -> Result<f64, String>);
+
+/// The compared quantities.
+pub(crate) const COLUMNS: [Column; 4] = [
+    ("amplitude", "amplitude", Quantity::Force, |least| Ok(least.amplitude)),
+    ("root_mean_square", "rms", Quantity::Force, |least| Ok(least.root_mean_square)),
+    ("power", "power", Quantity::Power, |least| least.power.clone()),
+    ("stroke", "stroke", Quantity::Displacement, |least| least.stroke.clone()),
+];
+
+/// Compares waveforms of the first dither of a system.
+///
+/// # Errors
+/// A complaint about a study without dither; [`Failure::Failed`] without steady sliding.
+pub fn run(study: &SystemStudy) -> Result<SystemWaveforms, Failure> {
+    has_equations(study, "waveforms")?;
+    let system = study.system();
+    let first = system.inputs.first().and_then(|input| input.profile.waves().first());
+    let Some(first) = first else {
+        let allowed =
+            "given: waveforms are compared at the place and the frequency of the study's dither";
+        return Err(
+            Complaint::new(Fault::Missing, "dither", Origin::Whole, Json::Null, allowed).into()
+        );
+    };
+    let sliding = Linearised::new(system).map_err(|why| failed("waveforms", why))?;
+    let mut waveforms: Vec<Waveform> = Waveform::NAMED.to_vec();
+    if !waveforms.contains(&first.waveform) {
+        waveforms.push(first.waveform.clone());
+    }
+    let rows = waveforms.into_iter().map(|waveform| SystemWaveform {
+        own: waveform == first.waveform,
+        averaged: least(system, &sliding, first, &waveform),
+        waveform,
+    });
+    Ok(SystemWaveforms { rows: rows.collect() })
+}
+
+/// The least dither of a waveform.
+fn least(
+    system: &System,
+    sliding: &Linearised,
+    first: &Wave,
+    waveform: &Waveform,
+) -> Result<LeastInput, String> {
+    let mut changed = system.clone();
+    let input = &mut changed.inputs[0];
+    let wave = Wave { waveform: waveform.clone(), ..first.clone() };
+    input.profile = Profile::constant(input.profile.mean()).with(wave.clone());
+    let prepared = DitheredSystem::new(&changed).map_err(|why| why.to_string())?;
+    let without = prepared.average_with(Some((0, 0.0))).map_err(|why| why.to_string())?;
+    let growth = without.growth().map_err(|why| why.to_string())?;
+    if growth.verdict() == Verdict::Stable {
+        return Err("steady sliding is stable without this dither: nothing to quench".to_owned());
+    }
+    let found = prepared.critical_amplitudes(0).map_err(|why| why.to_string())?;
+    let (place, critical) = found
+        .iter()
+        .enumerate()
+        .find(|(_, critical)| critical.becomes == Becomes::Stable)
+        .ok_or("no amplitude of this waveform makes steady sliding stable")?;
+    if !critical.contacts_stay_closed {
+        return Err("a contact would open at the least amplitude".to_owned());
+    }
+    let acting = Wave { amplitude: critical.amplitude, ..wave };
+    let cost = cost(&changed.inputs[0], &changed, sliding, &acting);
+    Ok(LeastInput {
+        amplitude: critical.amplitude,
+        until: found[place..]
+            .iter()
+            .find(|critical| critical.becomes == Becomes::Unstable)
+            .map(|critical| critical.amplitude),
+        root_mean_square: critical.amplitude * waveform.root_mean_square(),
+        stroke: cost.clone().map(|(stroke, _)| stroke),
+        power: cost.map(|(_, power)| power),
+    })
+}
+
+/// Stroke of the driven point and mean power of a wave.
+fn cost(
+    input: &Input,
+    system: &System,
+    sliding: &Linearised,
+    wave: &Wave,
+) -> Result<(f64, f64), String> {
+    let InputTarget::Force(row) = &input.target else {
+        return Err(
+            "this dither modulates the load of a contact: it has no stroke of its own".to_owned()
+        );
+    };
+    // A(b sin nθ + c cos nθ) is the real part of −iA(b + ic) e^{inθ}.
+    let harmonics: Vec<(u32, Complex64)> = match wave.waveform.harmonics() {
+        Some(known) => known.iter().map(|h| (h.order, Complex64::new(h.sine, h.cosine))).collect(),
+        None => (1..=HARMONICS)
+            .filter_map(|n| Some((n, Complex64::from(wave.waveform.sine_coefficient(n)?))))
+            .filter(|(_, coefficient)| *coefficient != Complex64::ZERO)
+            .collect(),
+    };
+    let mut moved = Vec::with_capacity(harmonics.len());
+    let mut power = 0.0;
+    for (n, coefficient) in &harmonics {
+        let frequency = f64::from(*n) * wave.frequency;
+        let response = harmonic::response(system, sliding, &input.target, frequency)
+            .ok_or("a harmonic of the dither is at an undamped resonance")?;
+        let along: Complex64 =
+            row.iter().zip(&response.displacement).map(|(own, q)| q * *own).sum();
+        let force = -Complex64::I * coefficient * wave.amplitude;
+        power += 0.5 * force.norm_sqr() * (Complex64::new(0.0, frequency) * along).re;
+        moved.push((*n, force * along));
+    }
+    let count = POINTS * harmonics.last().map_or(1, |(n, _)| *n);
+    let (mut least, mut largest) = (f64::INFINITY, f64::NEG_INFINITY);
+    for k in 0..count {
+        let phase = std::f64::consts::TAU * f64::from(k) / f64::from(count);
+        let at = |(n, z): &(u32, Complex64)| (z * Complex64::cis(f64::from(*n) * phase)).re;
+        let displacement: f64 = moved.iter().map(at).sum();
+        (least, largest) = (least.min(displacement), largest.max(displacement));
+    }
+    Ok((largest - least, power))
+}
+
+impl SystemWaveform {
+    /// A quantity of the least dither, or why it has no value.
+    pub(crate) fn value(&self, column: &Column) -> Result<f64, String> {
+        self.averaged.as_ref().map_err(Clone::clone).and_then(|least| (column.3)(least))
+    }
+}
+
+impl SystemWaveforms {
+    /// The waveform that is smallest in a column.
+    pub(crate) fn best(&self, column: &Column) -> Option<&SystemWaveform> {
+        let known = self.rows.iter().filter_map(|row| Some((row, row.value(column).ok()?)));
+        known.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(row, _)| row)
+    }
+
+    /// The result in one sentence.
+    pub fn sentence(&self, study: &SystemStudy) -> String {
+        let Some(best) = self.best(&COLUMNS[0]) else {
+            let why = self.rows.iter().find_map(|row| row.averaged.as_ref().err());
+            return format!(
+                "By averaging no waveform quenches: {}.",
+                why.map_or("none is known", String::as_str)
+            );
+        };
+        let unit =
+            study.units().unit(Quantity::Force).map_or(String::new(), |unit| format!(" {unit}"));
+        let value = best.value(&COLUMNS[0]).map_or(String::new(), digits);
+        format!(
+            "By averaging, of {} waveforms a {} stabilises steady sliding with the least amplitude, {value}{unit}.",
+            self.rows.len(),
+            best.waveform.name()
+        )
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &SystemStudy) -> Json {
+        let units = study.units();
+        let rows = self.rows.iter().map(|row| {
+            let mut inner = Fields::of_system(units);
+            inner
+                .plain("waveform", row.waveform.name())
+                .plain("label", row.waveform.name())
+                .plain("own", row.own);
+            for column in &COLUMNS {
+                inner.known(column.0, column.2, row.value(column));
+            }
+            let until = row.averaged.as_ref().map_err(Clone::clone).and_then(|least| {
+                least.until.ok_or_else(|| "no larger amplitude makes it unstable again".to_owned())
+            });
+            inner.known("until", Quantity::Force, until).known(
+                "exact_amplitude",
+                Quantity::Force,
+                Err("thresholds computes exact amplitudes of a system".to_owned()),
+            );
+            inner
+        });
+        let mut best = Fields::of_system(units);
+        for column in &COLUMNS {
+            match self.best(column) {
+                Some(row) => best.plain(column.0, row.waveform.name()),
+                None => best.unknown(column.0, "no waveform has a value"),
+            };
+        }
+        let mut fields = Fields::of_system(units);
+        fields
+            .plain("ok", true)
+            .plain("sentence", self.sentence(study))
+            .list("waveforms", rows)
+            .nested("best", best)
+            .plain("warnings", self.warnings(study));
+        fields.finish()
+    }
+
+    /// The warnings of the study.
+    pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
+        study.warnings().to_vec()
+    }
+
+    /// As a dataset: one row for each waveform.
+    pub fn dataset(&self, study: &SystemStudy) -> Dataset {
+        let numbers = (0..self.rows.len()).map(|number| number as f64).collect();
+        let names: Vec<(u8, &'static str)> =
+            (0_u8..).zip(Waveform::NAMES.iter().copied()).collect();
+        let code = |row: &SystemWaveform| {
+            names.iter().find(|(_, name)| *name == row.waveform.name()).map_or(0, |(code, _)| *code)
+        };
+        let codes: Vec<u8> = self.rows.iter().map(code).collect();
+        let mut dataset = Dataset::of(&study.into(), "waveforms")
+            .with_axis(Array::new("number", "1", numbers))
+            .with(Array::of_words("waveform", names.clone(), &codes));
+        for column in &COLUMNS {
+            let values = self.rows.iter().map(|row| row.value(column).unwrap_or(f64::NAN));
+            let unit = study.units().unit(column.2).unwrap_or("1");
+            dataset = dataset.with(Array::new(column.0, unit, values.collect()));
+        }
+        dataset
+    }
+}

@@ -1,0 +1,57 @@
+//! The describing function of averaged friction against exact responses.
+
+use quell::kind::verbs;
+use quell::run::{describing, response};
+use quell::study::BeltStudy;
+
+const STUDY: &str = "[belt]\ndamping_ratio = 0.005\nnormal_load = 0.1\nbelt_velocity = 0.12\n[friction]\nlaw = \"stribeck\"\n\
+     static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\ndirection = \"tangential\"\n\
+     waveform = \"sine\"\namplitude = 2.0\nfrequency_ratio = 20.0\n";
+
+fn study(text: &str) -> BeltStudy {
+    BeltStudy::parse(text, &[]).unwrap_or_else(|wrong| panic!("{wrong:?}"))
+}
+
+/// The limit cycle under dither that the describing function predicts is the amplitude of the exact response, up to the orders
+/// that averaging and the first harmonic neglect: 1/R = 5 % and F = 0.1 bound them; 0.8 % is found.
+#[test]
+fn the_limit_cycle_is_that_of_the_exact_response() {
+    for (load, velocity, amplitude) in [(0.1, 0.12, 2.0), (0.1, 0.12, 2.2), (0.05, 0.13, 2.0)] {
+        let mut study = study(STUDY);
+        for (path, value) in [
+            ("belt.normal_load", load),
+            ("belt.belt_velocity", velocity),
+            ("dither.amplitude", amplitude),
+        ] {
+            study = study.with(path, value).expect("a value");
+        }
+        let predicted = describing::run(&study, 0.4).expect("a function");
+        let cycle = predicted.stable_cycle(&study).expect("a cycle");
+        let exact = response::run(&study).expect("a response");
+        let measured = exact.json(&study)["amplitude"].as_f64().expect("an amplitude");
+        let off = cycle.amplitude / measured - 1.0;
+        assert!(off.abs() < 0.05, "{load} {velocity} {amplitude}: {cycle:?} {measured}");
+    }
+}
+
+#[test]
+fn answers_for_every_reader() {
+    let study = study(STUDY);
+    let found = describing::run(&study, 0.4).expect("a function");
+    let json = found.json(&study);
+    assert!((json["limit_cycle_velocity"].as_f64().expect("a cycle") - 0.02132568).abs() < 1e-8);
+    assert_eq!(json["limit_cycles"].as_array().map(Vec::len), Some(1));
+    let csv = found.dataset(&study).csv();
+    assert!(csv.lines().filter(|line| !line.starts_with('#')).count() > 100);
+    // The cycle is larger than the largest amplitude.
+    let small = describing::run(&study, 0.01).expect("a function").json(&study);
+    assert!(small["limit_cycle_velocity"].is_null());
+    assert!(small["why"]["limit_cycle_velocity"].as_str().expect("why").contains("grow"));
+    for wrong in [0.0, -1.0, f64::INFINITY] {
+        assert!(describing::run(&study, wrong).is_err());
+    }
+    let refused =
+        quell::Study::parse(include_str!("../../../studies/mode-coupling-dither.toml"), &[])
+            .expect("a study");
+    assert!(verbs(&refused).describing(0.1).is_err());
+}

@@ -1,0 +1,262 @@
+//! Contacts with a state of their own: elastic sliders (`tangential_stiffness`) and the law `lugre`.
+//!
+//! Numbers: `reference/laws-with-state.json` (source and tolerance in `reference/README.md`).
+
+use quell::run::system::exact::run as system_exact;
+use quell::run::system::orbit::{WantedMotion, run as orbit_of_system};
+use quell::run::system::protocol::SystemProtocol;
+use quell::run::system::simulate::{MotionRequest, run as run_system};
+use quell::run::system::stability::run as system_stability;
+use quell::run::{friction, orbit, simulate, stability};
+use quell::study::{BeltStudy, SystemStudy};
+use serde_json::Value as Json;
+
+fn reference() -> Json {
+    serde_json::from_str(include_str!("../../../reference/laws-with-state.json")).expect("JSON")
+}
+
+fn number(value: &Json) -> f64 {
+    value.as_f64().or_else(|| value.as_str()?.parse().ok()).expect("a number")
+}
+
+fn text(value: &Json) -> &str {
+    value.as_str().expect("text")
+}
+
+fn rows<'a>(reference: &'a Json, key: &str) -> &'a [Json] {
+    reference[key].as_array().expect("rows")
+}
+
+fn belt(text: &str) -> BeltStudy {
+    BeltStudy::parse(text, &[]).unwrap_or_else(|wrong| panic!("{text}\n{wrong:?}"))
+}
+
+fn system(text: &str) -> SystemStudy {
+    SystemStudy::parse(text, &[]).unwrap_or_else(|wrong| panic!("{text}\n{wrong:?}"))
+}
+
+fn warnings(json: &Json) -> String {
+    let list = json["warnings"].as_array().expect("a list");
+    list.iter().map(text).collect::<Vec<_>>().join("\n")
+}
+
+/// The mean of T/N₀ in the periodic state, under the prescribed slip and load.
+#[test]
+fn means_are_those_of_the_periodic_state() {
+    let reference = reference();
+    for (key, count) in [("popov", 6), ("elastic_slider", 5), ("lugre", 6)] {
+        let rows = rows(&reference, key);
+        assert_eq!(rows.len(), count);
+        for row in rows {
+            let study = belt(text(&row["study"]));
+            let at = number(&row["slip_velocity"]);
+            let found = friction::run(&study, &[at]);
+            let mean = found.points[0].effective.as_ref().expect("a mean").coefficient;
+            let error = (mean - number(&row["coefficient"])).abs();
+            assert!(error < 1e-7, "{key}: {mean} differs by {error:e} from {row}");
+            // The mean is odd in the slip velocity.
+            let other = friction::run(&study, &[-at]);
+            let other = other.points[0].effective.as_ref().expect("a mean").coefficient;
+            assert!((mean + other).abs() < 1e-9, "{key}: {mean} and {other}");
+        }
+    }
+}
+
+/// 1 + (a/δ₀)Ψ(v̄), with Ψ of Popov et al. (2017), and the rigid average from v̄ = 1 on.
+#[test]
+fn a_load_that_oscillates_lowers_friction_by_popovs_function() {
+    let reference = reference();
+    for row in rows(&reference, "popov") {
+        let study = belt(text(&row["study"]));
+        let at = number(&row["slip_velocity"]);
+        let found = friction::run(&study, &[at]);
+        let mean = found.points[0].effective.as_ref().expect("a mean").coefficient;
+        let exact = 0.4 * (1.0 + 0.5 * number(&row["Psi"]));
+        assert!((mean - exact).abs() < 1e-7, "{mean} {exact}");
+        let warned = warnings(&found.json(&study)).contains("Popov");
+        assert_eq!(warned, number(&row["v_bar"]) < 1.0, "{row}");
+    }
+}
+
+#[test]
+fn belts_move_as_independent_integrators_find() {
+    let reference = reference();
+    let cases = rows(&reference, "trajectories").iter().filter(|case| case["system"] == false);
+    let mut count = 0;
+    for case in cases {
+        count += 1;
+        let study = belt(text(&case["study"]));
+        let options = simulate::Options { events: true, ..simulate::Options::default() };
+        let run = simulate::run(&study, number(&case["until"]), options).expect("a run");
+        let json = run.json(&study);
+        compare(case, &json, |event| (number(&event["displacement"]), number(&event["velocity"])));
+        let end = &json["final"];
+        assert!(off(&case["final"]["displacement"], &end["displacement"]) < 1e-9);
+        assert!(off(&case["final"]["velocity"], &end["velocity"]) < 1e-9);
+    }
+    assert_eq!(count, 6);
+}
+
+#[test]
+fn systems_move_as_independent_integrators_find() {
+    let reference = reference();
+    let cases = rows(&reference, "trajectories").iter().filter(|case| case["system"] == true);
+    for case in cases {
+        let study = system(text(&case["study"]));
+        let until = Some(number(&case["until"]));
+        let request = MotionRequest { until, events: true, ..MotionRequest::default() };
+        let run = run_system(&study, &request).expect("a run");
+        let json = run.json(&study);
+        let at = |state: &Json, place: usize| number(&state["state"][place]);
+        compare(case, &json, |event| (at(event, 0), at(event, 1)));
+        let end = &json["final"];
+        assert!((number(&case["final"]["displacement"]) - at(end, 0)).abs() < 1e-8);
+        assert!((number(&case["final"]["velocity"]) - at(end, 1)).abs() < 1e-8);
+    }
+}
+
+fn off(a: &Json, b: &Json) -> f64 {
+    (number(a) - number(b)).abs()
+}
+
+/// The events, and friction or deflection at the end. Stiff bristles amplify the rounding of the reference to 1e-8.
+fn compare(case: &Json, json: &Json, state: impl Fn(&Json) -> (f64, f64)) {
+    let name = text(&case["name"]);
+    let tolerance = if name.contains("Canudas") { 1e-8 } else { 1e-9 };
+    let events = json["events"].as_array().expect("events");
+    assert_eq!(events.len() as u64, case["n_events"].as_u64().expect("a count"), "{name}");
+    for (event, expected) in events.iter().zip(rows(case, "events")) {
+        assert_eq!(event["kind"], expected["kind"], "{name}: {event}");
+        assert_eq!(event["slip_sign"], expected["slip_sign"], "{name}: {event}");
+        let (displacement, velocity) = state(event);
+        let errors = [
+            off(&event["time"], &expected["time"]),
+            (displacement - number(&expected["displacement"])).abs(),
+            (velocity - number(&expected["velocity"])).abs(),
+        ];
+        let largest = errors.into_iter().fold(0.0, f64::max);
+        assert!(largest < tolerance, "{name}: {largest:e} at {event}");
+    }
+    let (end, expected) = (&json["final"], &case["final"]);
+    for key in ["friction", "bristle"] {
+        if let Some(value) = expected.get(key) {
+            assert!(off(&end[key], value) < tolerance, "{name}: {key} {} {value}", end[key]);
+        }
+    }
+}
+
+/// Canudas de Wit et al. (1995), figure 4: the box sticks and slips. The period is the time between two reversals of the same kind.
+#[test]
+fn a_box_pulled_by_a_spring_has_the_published_stick_slip_period() {
+    let reference = reference();
+    let case = &reference["stick_slip"][0];
+    let study = system(text(&case["study"]));
+    let until = Some(number(&case["until"]));
+    let request = MotionRequest { until, events: true, ..MotionRequest::default() };
+    let run = run_system(&study, &request).expect("a run");
+    let json = run.json(&study);
+    let events = json["events"].as_array().expect("events");
+    let backwards = events.iter().filter(|event| event["slip_sign"] == -1);
+    let times: Vec<f64> = backwards.map(|event| number(&event["time"])).collect();
+    let period = number(&case["period"]);
+    let after = |first: &f64| times.iter().any(|time| (time - first - period).abs() < 1e-6);
+    assert!(times.iter().any(after), "{times:?} and the period {period}");
+    assert!(warnings(&json).contains("not passive"), "{}", warnings(&json));
+}
+
+#[test]
+fn averaged_verbs_warn_where_the_rigid_law_does_not_hold() {
+    let reference = reference();
+    for (row, expected) in
+        rows(&reference, "elastic_slider").iter().zip([true, true, true, true, false])
+    {
+        let study = belt(text(&row["study"]));
+        let found = warnings(&stability::run(&study).json(&study));
+        assert_eq!(found.contains("breakaway displacement"), expected, "{row}: {found}");
+    }
+    let study = belt(text(&rows(&reference, "lugre")[2]["study"]));
+    let found = warnings(&stability::run(&study).json(&study));
+    assert!(found.contains("Π = σ₀a/(F_c ω) = 1 "), "{found}");
+}
+
+#[test]
+fn other_verbs_refuse_a_contact_with_a_state_by_name() {
+    let reference = reference();
+    let study = belt(text(&rows(&reference, "elastic_slider")[0]["study"]));
+    let refused = orbit::run(&study, orbit::Wanted::default()).expect_err("no orbit");
+    let refused = refused.json().to_string();
+    assert!(refused.contains("belt.tangential_stiffness"), "{refused}");
+    let both = text(&rows(&reference, "lugre")[0]["study"])
+        .replace("belt_velocity", "tangential_stiffness = 2.0\nbelt_velocity");
+    let wrong = BeltStudy::parse(&both, &[]).expect_err("two states");
+    assert!(wrong.iter().any(|wrong| wrong.key == "belt.tangential_stiffness"), "{wrong:?}");
+}
+
+const SLIDER: &str = r#"
+schema = 1
+[system]
+coordinates = ["x"]
+mass = [1.0]
+damping = [[0.02]]
+stiffness = [[1.0]]
+[[contact]]
+name = "pad"
+tangent = { x = 1.0 }
+normal_load = 1.0
+belt_velocity = 0.05
+tangential_stiffness = 30.0
+[contact.friction]
+law = "coulomb"
+coefficient = 0.3
+[[dither]]
+at = { x = 1.0 }
+waveform = "sine"
+amplitude = 0.8
+frequency = 10.0
+"#;
+
+/// The orbit of a slider that adheres and slides: the run ends on it, and returns to it at the rate of its multipliers.
+#[test]
+fn a_dithered_slider_has_a_periodic_motion_with_multipliers() {
+    let study = system(SLIDER);
+    let wanted = WantedMotion::After(SystemProtocol::Study);
+    let found = orbit_of_system(&study, &wanted).expect("an orbit");
+    let json = found.json(&study);
+    assert_eq!(json["verdict"], "stable", "{json}");
+    assert_eq!(json["state"].as_array().expect("a state").len(), 3);
+    assert_eq!(json["multipliers"].as_array().expect("multipliers").len(), 3);
+    assert!(number(&json["residual"]) < 1e-9, "{json}");
+    let until = Some(400.0 * number(&json["period"]));
+    let request = MotionRequest { until, ..MotionRequest::default() };
+    let end = run_system(&study, &request).expect("a run").end;
+    for (place, value) in json["state"].as_array().expect("a state").iter().enumerate() {
+        assert!(
+            (number(value) - end.state[place]).abs() < 1e-7,
+            "{place}: {value} {}",
+            end.state[place]
+        );
+    }
+}
+
+#[test]
+fn systems_name_the_numbers_of_their_contacts() {
+    let study = system(SLIDER);
+    let request = MotionRequest { until: Some(1.0), ..MotionRequest::default() };
+    let json = run_system(&study, &request).expect("a run").json(&study);
+    assert_eq!(json["state_names"][2], "friction.pad");
+    assert_eq!(json["final"]["state"][2], json["final"]["contacts"][0]["friction"]);
+    let bristles = SLIDER
+        .replace("tangential_stiffness = 30.0\n", "")
+        .replace(
+            "law = \"coulomb\"",
+            "law = \"lugre\"\nbristle_stiffness = 100\nstatic_coefficient = 0.3\nreference_velocity = 0.1",
+        );
+    let study = system(&bristles);
+    let json = run_system(&study, &request).expect("a run").json(&study);
+    assert_eq!(json["state_names"][2], "bristle.pad");
+    assert_eq!(json["final"]["state"][2], json["final"]["bristle"]);
+    // Small motions of bristles are those of their steady curve, with a warning.
+    let stable = system_stability(&study).expect("an answer").json(&study);
+    assert!(warnings(&stable).contains("bristles"), "{stable}");
+    assert!(system_exact(&study).is_err());
+}
