@@ -17,7 +17,7 @@ use quell_model::system::InputTarget;
 use quell_numerics::matrix::Matrix;
 
 use crate::linearised::{FrictionSlopes, LinearContact, Linearised};
-use crate::steady::{entry, product};
+use crate::steady::entry;
 
 /// What one input does at a contact, for û = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,64 +68,62 @@ pub fn response(
     Some(HarmonicResponse { displacement, contacts })
 }
 
-/// The slip of a contact far above every eigenfrequency, for û = 1: â ≈ c₁ s/(s² + ω₀²) + c₂/s².
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FreeSlip {
-    /// c₁, the slip of free masses.
-    pub first: f64,
-    /// c₂, what dampers change first.
-    pub second: f64,
-    /// ω₀, what springs change first; `None` where that is not an oscillation.
-    pub natural: Option<f64>,
+/// The equations of the sliding structure under one input, ẋ = A x + b u, friction carried along as in [`response`].
+#[derive(Clone, Debug)]
+pub struct DrivenEquations {
+    /// A.
+    pub matrix: Matrix,
+    /// b.
+    pub source: Vec<f64>,
+    /// Number of coordinates; those of a mechanical structure come before their velocities.
+    coordinates: usize,
 }
 
-impl FreeSlip {
-    /// â at iω.
-    pub fn at(&self, frequency: f64) -> Complex64 {
-        let s = Complex64::new(0.0, frequency);
-        let square = self.natural.map_or(0.0, |natural| natural * natural);
-        s * self.first / (s * s + square) + self.second / (s * s)
+impl DrivenEquations {
+    /// For one input; `None` where the mass is singular.
+    pub fn new(system: &System, linear: &Linearised, target: &InputTarget) -> Option<Self> {
+        let n = linear.coordinates();
+        let force = Matrix::from_fn(n, 1, |i, _| force_on(system, linear, target, i));
+        let moved = match linear.matrices() {
+            Some(matrices) => matrices.mass.solve(&force)?,
+            None => force,
+        };
+        let frozen: Vec<FrictionSlopes> = linear
+            .friction()
+            .into_iter()
+            .map(|friction| FrictionSlopes { by_velocity: 0.0, ..friction })
+            .collect();
+        let matrix = linear.state_matrix_with(&frozen);
+        let mut source = vec![0.0; matrix.rows() - n];
+        source.extend(moved.as_slice());
+        Some(Self { matrix, source, coordinates: n })
     }
-}
 
-/// How an input moves each contact far above every eigenfrequency: the moments C A^k B of the sliding system, friction carried
-/// along as in [`response`]. `None` where the mass is singular.
-pub fn free_slip(
-    system: &System,
-    linear: &Linearised,
-    target: &InputTarget,
-) -> Option<Vec<FreeSlip>> {
-    let n = linear.coordinates();
-    let force = Matrix::from_fn(n, 1, |i, _| force_on(system, linear, target, i));
-    let moved = match linear.matrices() {
-        Some(matrices) => matrices.mass.solve(&force)?,
-        None => force,
-    };
-    let frozen: Vec<FrictionSlopes> = linear
-        .friction()
-        .into_iter()
-        .map(|friction| FrictionSlopes { by_velocity: 0.0, ..friction })
-        .collect();
-    let matrix = linear.state_matrix_with(&frozen);
-    let offset = matrix.rows() - n;
-    let first =
-        Matrix::from_fn(
-            matrix.rows(),
-            1,
-            |i, _| if i < offset { 0.0 } else { moved[(i - offset, 0)] },
-        );
-    let second = matrix.times(&first);
-    let third = matrix.times(&second);
-    let slip = |contact: &LinearContact, state: &Matrix| {
-        -product(contact.tangent(), &state.as_slice()[offset..])
-    };
-    let contacts = linear.contacts().iter().map(|contact| {
-        let [first, second, third] = [&first, &second, &third].map(|state| slip(contact, state));
-        let square = -third / first;
-        let natural = (square > 0.0 && square.is_finite()).then(|| square.sqrt());
-        FreeSlip { first, second, natural }
-    });
-    Some(contacts.collect())
+    /// A row over the displacements (0) or the velocities (1) as a row over the state; first-order equations have the first only.
+    pub fn over_state(&self, row: &[f64], order: usize) -> Vec<f64> {
+        let mut whole = vec![0.0; self.matrix.rows()];
+        let from = (order * self.coordinates).min(whole.len() - self.coordinates);
+        whole[from..from + row.len()].copy_from_slice(row);
+        whole
+    }
+
+    /// The row of the slip velocity of a contact.
+    pub fn slip_row(&self, contact: &LinearContact) -> Vec<f64> {
+        let negative: Vec<f64> =
+            contact.tangent().unwrap_or_default().iter().map(|entry| -entry).collect();
+        self.over_state(&negative, 1)
+    }
+
+    /// The row of the load that the structure puts on a contact.
+    pub fn load_row(&self, contact: &LinearContact) -> Vec<f64> {
+        let (stiffness, damping) = contact.normal_spring();
+        let normal = contact.normal().unwrap_or_default();
+        let [mut row, velocity] = [0, 1].map(|order| self.over_state(normal, order));
+        for (entry, rate) in row.iter_mut().zip(&velocity) {
+            *entry = stiffness.mul_add(*entry, damping * rate);
+        }
+        row
+    }
 }
 
 /// The dynamic stiffness with friction inside, and the factor that turns a displacement into a velocity of slip.

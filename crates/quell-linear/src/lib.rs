@@ -5,6 +5,8 @@
 //! * [`criticality`]: whether the vibration beyond a Hopf bifurcation of steady sliding grows from zero, or jumps;
 //! * [`growth`]: growth rate, its error and the verdict that they allow;
 //! * [`linear_cost`]: stroke, velocity and power of a dither on the structure of one mass without friction;
+//! * [`periodic_response`]: what any wave does to a linear structure, exactly;
+//! * [`series_actuator`]: stroke and power of normal dither through the spring of a contact;
 //! * [`averaging`]: effective friction under fast dither, stability of steady sliding, critical amplitudes, of one mass.
 
 pub mod averaging;
@@ -16,7 +18,9 @@ pub mod harmonic;
 pub mod linear_cost;
 pub mod linearised;
 pub mod measured;
+pub mod periodic_response;
 pub mod pure_slip;
+pub mod series_actuator;
 pub mod spectrum;
 pub mod steady;
 pub mod tracking;

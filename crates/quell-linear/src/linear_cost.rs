@@ -1,32 +1,13 @@
 //! The steady response of a belt's mass on its spring to one tangential dither, without friction: stroke, velocity, power.
 //!
-//! x″ + 2ζx′ + x = D g(Rτ). With α = D/R the velocity is v = αG + w, where αG is that of the free mass and the rest obeys
-//! w″ + 2ζw′ + w = −2ζD g − αG, so that the harmonics of w fall by two orders faster. The displacement is x = (α/R) H + y with the
-//! zero-mean integral H of G and y′ = w. The mean power that the dither brings into the structure is ⟨D g v⟩ = 2ζ⟨v²⟩.
-//!
-//! A sine has the stroke 2D/√((R² − 1)² + 4ζ²R²), nearly 2D/|R² − 1|. A burst repeats at R over its cycles: one of its harmonics
-//! may be near the natural frequency.
-//!
-//! Scheme: `PER_CYCLE` points per cycle of the carrier, on which the breaks of bursts and of the waveforms of the dissertation lie;
-//! Simpson's rule for H, harmonics of w up to `HARMONICS` per cycle. Accuracy: 10⁻⁶ relative, for samples 2π over the number of
-//! points.
+//! x″ + 2ζx′ + x = D g(Rτ). The mean power that the dither brings into the structure is ⟨D g x′⟩ = 2ζ⟨x′²⟩. A sine has the stroke
+//! 2D/√((R² − 1)² + 4ζ²R²), nearly 2D/|R² − 1|. A burst repeats at R over its cycles: one of its harmonics may be near the natural
+//! frequency. The response is exact for every waveform ([`crate::periodic_response`]).
 
-use core::f64::consts::TAU;
-
-use num_complex::Complex64;
 use quell_model::{Direction, Dither};
+use quell_numerics::matrix::Matrix;
 
-/// Points per cycle of the carrier.
-const PER_CYCLE: usize = 1024;
-
-/// Harmonics of the rest w per cycle of the carrier.
-const HARMONICS: usize = 48;
-
-/// Most points of a period; bursts of many cycles take fewer points per cycle.
-const MOST_POINTS: usize = 1 << 15;
-
-/// Most periods of the carrier in a burst and its pause.
-pub const MOST_CYCLES: u32 = 64;
+use crate::periodic_response::{NoPeriodicResponse, PeriodicResponse};
 
 /// Steady response of the structure without friction to one tangential dither.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,23 +25,15 @@ pub struct LinearCost {
 pub enum NoLinearCost {
     /// A normal dither does not act on the structure without friction.
     Normal,
-    /// A harmonic of the dither is at the natural frequency of an undamped structure.
-    Resonance,
-    /// A burst with its pause is longer than [`MOST_CYCLES`] periods of the carrier.
-    LongBurst,
+    /// There is no periodic response.
+    NoResponse(NoPeriodicResponse),
 }
 
 impl core::fmt::Display for NoLinearCost {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Normal => f.write_str("a normal dither does not move the mass without friction"),
-            Self::Resonance => f.write_str(
-                "a harmonic of the dither is at the natural frequency of the undamped structure",
-            ),
-            Self::LongBurst => write!(
-                f,
-                "the linear response is computed for bursts of up to {MOST_CYCLES} periods of the carrier, pause included"
-            ),
+            Self::NoResponse(why) => why.fmt(f),
         }
     }
 }
@@ -70,74 +43,25 @@ impl core::error::Error for NoLinearCost {}
 /// Stroke, velocity and power of the response to a dither at a damping ratio.
 ///
 /// # Errors
-/// [`NoLinearCost`] for normal dither, long bursts, and at an undamped resonance.
+/// [`NoLinearCost`] for normal dither, and at an undamped resonance.
 pub fn linear_cost(dither: &Dither, damping_ratio: f64) -> Result<LinearCost, NoLinearCost> {
     if dither.direction == Direction::Normal {
         return Err(NoLinearCost::Normal);
     }
-    let waveform = &dither.waveform;
-    if waveform.cycles() > MOST_CYCLES {
-        return Err(NoLinearCost::LongBurst);
-    }
-    let cycles = waveform.cycles() as usize;
-    let order = waveform.highest_order() as usize;
-    let per_cycle = (PER_CYCLE * order.div_ceil(16)).min((MOST_POINTS / cycles).max(32));
-    // A multiple of 8, so that quarters of a cycle and the middles between points are points.
-    let points = cycles * per_cycle.next_multiple_of(8);
-    let step = waveform.period() / points as f64;
-    let phase = |k: f64| step * k;
-    let fast: Vec<f64> = (0..points).map(|k| waveform.integral(phase(k as f64))).collect();
-
-    // H on the points, then without its mean.
-    let mut area = Vec::with_capacity(points);
-    let mut sum = 0.0;
-    for k in 0..points {
-        area.push(sum);
-        let middle = waveform.integral(phase(k as f64 + 0.5));
-        sum += step / 6.0 * (fast[k] + 4.0 * middle + fast[(k + 1) % points]);
-    }
-    let mean = area.iter().sum::<f64>() / points as f64;
-
-    let alpha = dither.amplitude_ratio();
-    let fundamental = dither.repetition_ratio();
-    let harmonics = (HARMONICS * cycles).max(2 * order).min(points / 4);
-    let turned: Vec<Complex64> =
-        (0..points).map(|k| Complex64::cis(-TAU * k as f64 / points as f64)).collect();
-    let mut rest = vec![Complex64::ZERO; points];
-    let mut shift = vec![Complex64::ZERO; points];
-    let mut cross = 0.0;
-    for n in 1..=harmonics {
-        let of_fast: Complex64 =
-            fast.iter().enumerate().map(|(k, value)| turned[n * k % points] * value).sum();
-        let of_fast = of_fast / points as f64;
-        let omega = n as f64 * fundamental;
-        // g is dG/dθ, and the phase θ grows by R per τ.
-        let force = Complex64::new(0.0, omega) * of_fast * alpha;
-        let source = -2.0 * damping_ratio * force - alpha * of_fast;
-        let impedance = Complex64::new((1.0 - omega) * (1.0 + omega), 2.0 * damping_ratio * omega);
-        if impedance == Complex64::ZERO {
-            if source == Complex64::ZERO {
-                continue;
-            }
-            return Err(NoLinearCost::Resonance);
-        }
-        let own = source / impedance;
-        cross += 4.0 * alpha * (of_fast * own.conj()).re + 2.0 * own.norm_sqr();
-        let displaced = own / Complex64::new(0.0, omega);
-        for k in 0..points {
-            let back = turned[n * k % points].conj();
-            rest[k] += own * back;
-            shift[k] += displaced * back;
-        }
-    }
-    let (mut least, mut largest, mut velocity) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
-    for k in 0..points {
-        let displacement = alpha / dither.frequency_ratio * (area[k] - mean) + 2.0 * shift[k].re;
-        (least, largest) = (least.min(displacement), largest.max(displacement));
-        velocity = velocity.max(alpha.mul_add(fast[k], 2.0 * rest[k].re).abs());
-    }
-    let mean_square = alpha * alpha * waveform.mean_square_integral() + cross;
-    Ok(LinearCost { stroke: largest - least, velocity, power: 2.0 * damping_ratio * mean_square })
+    let damping = 2.0 * damping_ratio;
+    let matrix = Matrix::from_fn(2, 2, |i, j| [[0.0, 1.0], [-1.0, -damping]][i][j]);
+    let source = [0.0, dither.amplitude];
+    let response =
+        PeriodicResponse::new(&matrix, &source, &dither.waveform, dither.frequency_ratio)
+            .map_err(NoLinearCost::NoResponse)?;
+    let outputs = response.outputs(&[(&[1.0, 0.0], 0.0), (&[0.0, 1.0], 0.0)]);
+    let [displacement, velocity] = [&outputs[0], &outputs[1]];
+    let [[least, largest], [slowest, fastest]] = [displacement.range(), velocity.range()];
+    Ok(LinearCost {
+        stroke: largest - least,
+        velocity: fastest.max(-slowest),
+        power: damping * velocity.mean_of_product(velocity),
+    })
 }
 
 #[cfg(test)]
@@ -159,12 +83,12 @@ mod tests {
 
     #[test]
     fn a_sine_in_closed_form() {
-        for (ratio, damping) in [(10.0, 0.005), (3.0, 0.0), (1.0, 0.1), (0.5, 0.3)] {
+        for (ratio, damping) in [(10.0, 0.005), (3.0, 0.0), (1.0, 0.1), (0.5, 0.3), (1e4, 0.01)] {
             let found = linear_cost(&dither(Waveform::Sine, ratio), damping).expect("a response");
             let square: f64 = ratio * ratio;
             let size = ((square - 1.0).powi(2) + 4.0 * damping * damping * square).sqrt();
-            close(found.stroke, 1.4 / size, 1e-5);
-            close(found.velocity, 0.7 * ratio / size, 1e-5);
+            close(found.stroke, 1.4 / size, 1e-12);
+            close(found.velocity, 0.7 * ratio / size, 1e-12);
             let power = damping * (0.7 * ratio / size).powi(2);
             assert!((found.power - power).abs() < 1e-12 * (1.0 + power), "{found:?} {power}");
         }
@@ -178,7 +102,7 @@ mod tests {
                 let found = linear_cost(&dither(waveform.clone(), frequency_ratio), 0.0);
                 let shape = FastWave::Oscillator { waveform: waveform.clone(), frequency_ratio };
                 let exact = 0.7 / frequency_ratio * shape.peak();
-                close(found.expect("a response").velocity, exact, 1e-6);
+                close(found.expect("a response").velocity, exact, 1e-12);
             }
         }
     }
@@ -201,7 +125,7 @@ mod tests {
                 share * linear_cost(&own, damping).expect("a response").power
             })
             .sum();
-        close(found.expect("a response").power, exact, 1e-9);
+        close(found.expect("a response").power, exact, 1e-12);
     }
 
     /// A burst against the response that its pieces have in closed form: the same start after one period.
@@ -238,15 +162,18 @@ mod tests {
                 fastest = fastest.max(state[1].abs());
             }
         }
-        close(found.stroke, largest - least, 1e-4);
-        close(found.velocity, fastest, 1e-4);
-        close(found.power, work / period, 1e-4);
+        close(found.stroke, largest - least, 1e-5);
+        close(found.velocity, fastest, 1e-5);
+        close(found.power, work / period, 1e-5);
     }
 
     #[test]
     fn refused() {
         let normal = Dither { direction: Direction::Normal, ..dither(Waveform::Sine, 10.0) };
         assert_eq!(linear_cost(&normal, 0.1), Err(NoLinearCost::Normal));
-        assert_eq!(linear_cost(&dither(Waveform::Sine, 1.0), 0.0), Err(NoLinearCost::Resonance));
+        assert_eq!(
+            linear_cost(&dither(Waveform::Sine, 1.0), 0.0),
+            Err(NoLinearCost::NoResponse(NoPeriodicResponse::Resonance))
+        );
     }
 }

@@ -316,7 +316,7 @@ fn correlated_load() {
     for phase in [0.0, 0.5, 1.7, 3.0] {
         let mut motion = group(vec![term(FastWave::Integral(Waveform::Sine), alpha, 1, 0.0)]);
         motion.load.push(quell_linear::averaging::LoadTerm {
-            waveform: Waveform::Sine,
+            wave: quell_linear::averaging::LoadWave::Waveform(Waveform::Sine),
             amplitude: n,
             harmonic: 1,
             phase,

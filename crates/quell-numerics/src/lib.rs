@@ -3,6 +3,7 @@
 //! * [`lane`], [`elementary`], [`dispatch`]: the arithmetic of the hot kernels, with the same bits on every machine;
 //! * [`matrix`], [`eigen`], [`floquet`]: small dense matrices, eigenvalues, exponents of periodic systems with error bounds;
 //! * [`polynomial`]: first root of a Taylor step, isolated or proven absent; step length;
+//! * [`periodic_polynomial`]: a periodic function by polynomials on intervals;
 //! * [`quadrature`], [`gauss_legendre`], [`roots`], [`special`], [`bessel`], [`spectrum`]: integrals, scalar roots and minima,
 //!   special functions, spectra;
 //! * [`extrapolation`]: smooth ordinary differential equations to full accuracy;
@@ -25,6 +26,7 @@ pub mod lane;
 pub mod least_squares;
 pub mod matrix;
 pub mod normal_form;
+pub mod periodic_polynomial;
 pub mod polynomial;
 pub mod quadrature;
 pub mod roots;

@@ -1,11 +1,14 @@
 //! The cost of the inputs of a motion: the power that each feeds into the structure, and its stroke.
 //!
 //! A force b u(t) feeds in u bᵀq̇. A modulation ΔN of a load, borne by the structure, pushes it away from the surface while the
-//! contact is closed: it feeds in −ΔN nᵀq̇. The means of both are taken out: what an input does on average is no dither.
+//! contact is closed: it feeds in −ΔN nᵀq̇. The means of both are taken out: what an input does on average is no dither. Where the
+//! contact has a spring, an actuator in series with it ([`SeriesActuator`]) makes the modulation, and has a stroke and a power of its
+//! own.
 
+use quell_linear::series_actuator::{NoSeriesActuator, SeriesActuator};
 use quell_model::System;
 use quell_model::profile::Profile;
-use quell_model::system::{InputTarget, Structure};
+use quell_model::system::{Contact, InputTarget, Structure};
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::lane::horner;
 
@@ -54,6 +57,17 @@ pub struct InputCost {
     pub power: f64,
     /// Peak-to-peak displacement along its row.
     pub stroke: f64,
+    /// Of a modulation of a load: the actuator in series with the spring of the contact; `None` for a force.
+    pub in_series: Option<Result<SeriesCost, NoSeriesActuator>>,
+}
+
+/// The cost of an actuator in series with the spring of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeriesCost {
+    /// Mean power ⟨N u̇⟩ that it delivers.
+    pub power: f64,
+    /// Peak-to-peak elongation u; of several waves the sum of theirs.
+    pub stroke: f64,
 }
 
 /// One input that does work.
@@ -65,6 +79,9 @@ struct Worker<'s> {
     sign: f64,
     /// The contact without which it does no work.
     contact: Option<usize>,
+    /// Of a modulation of a load: an actuator for each wave, and its work.
+    in_series: Option<Result<Vec<SeriesActuator>, NoSeriesActuator>>,
+    series_work: f64,
     work: f64,
     extremes: RowRange,
 }
@@ -94,7 +111,15 @@ impl<'s> InputMeter<'s> {
             };
             let rows = [RowEntries::at(row, 0), RowEntries::at(row, structure.size())];
             let (profile, extremes) = (&input.profile, RowRange::NONE);
-            Ok(Worker { rows, profile, sign, contact, work: 0.0, extremes })
+            let in_series = contact.map(|contact| {
+                let Contact { normal_stiffness, normal_damping, .. } = system.contacts[contact];
+                let waves = profile.waves().iter();
+                waves
+                    .map(|wave| SeriesActuator::new(wave, normal_stiffness, normal_damping))
+                    .collect()
+            });
+            let (work, series_work) = (0.0, 0.0);
+            Ok(Worker { rows, profile, sign, contact, in_series, series_work, work, extremes })
         });
         Self { length: 0.0, inputs: inputs.collect() }
     }
@@ -104,6 +129,13 @@ impl<'s> InputMeter<'s> {
         let cost = |worker: &Worker<'_>| InputCost {
             power: worker.work / self.length,
             stroke: worker.extremes.width(),
+            in_series: worker.in_series.as_ref().map(|actuators| {
+                let actuators = actuators.as_ref().map_err(|why| *why)?;
+                Ok(SeriesCost {
+                    power: worker.series_work / self.length,
+                    stroke: actuators.iter().map(SeriesActuator::stroke).sum(),
+                })
+            }),
         };
         let all = self.inputs.iter();
         (self.length > 0.0)
@@ -146,6 +178,17 @@ impl Work for InputOnSegment<'_, '_, '_> {
             work = f64::mul_add(weight * duration, force * horner(&velocity, since), work);
         }
         worker.work = f64::mul_add(worker.sign, work, worker.work);
+        let (Some(contact), Some(Ok(actuators))) = (worker.contact, &worker.in_series) else {
+            return;
+        };
+        let load = segment.normal_load(contact);
+        for (node, weight) in nodes.iter().zip(weights) {
+            let since = node * duration;
+            let time = segment.clock().after(since).time();
+            let rate: f64 = actuators.iter().map(|actuator| actuator.rate_at(time)).sum();
+            worker.series_work =
+                f64::mul_add(weight * duration, horner(load, since) * rate, worker.series_work);
+        }
     }
 }
 

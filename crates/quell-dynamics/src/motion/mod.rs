@@ -65,7 +65,7 @@ use phase::OwnNow;
 use selection::first_minor_not_positive;
 
 pub use contact_meter::{ContactMeans, ContactMeter};
-pub use input_meter::{InputCost, InputMeter, NoPower};
+pub use input_meter::{InputCost, InputMeter, NoPower, SeriesCost};
 pub use lanes::{PlannedMotion, run_many, run_many_with};
 pub use lyapunov::{LyapunovExponent, LyapunovExponents, LyapunovVerdict, NoExponents};
 pub use observer::{

@@ -17,12 +17,14 @@
 //! dither frequencies must be fast too: a slow beat is not averaged out.
 
 use quell_model::{Belt, Direction, Dither, Friction};
+use quell_numerics::matrix::Matrix;
 
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
 use super::mean_friction::effective;
-use super::periodic_motion::{LoadTerm, PeriodicMotion, SlipTerm};
+use super::periodic_motion::{LoadTerm, LoadWave, PeriodicMotion, SlipTerm};
 use super::wave::FastWave;
+use crate::periodic_response::PeriodicResponse;
 
 /// Velocity that a tangential force of high frequency is assumed to produce.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -87,18 +89,27 @@ impl FastMotion {
 /// Shape of the fast slip velocity of a dither.
 ///
 /// # Errors
-/// [`AveragingError::NotFast`] where the oscillator's response is requested at R ≤ 1.
+/// [`AveragingError::NotFast`] where the oscillator's response is requested at R ≤ 1, [`AveragingError::NoResponse`] where a harmonic
+/// of a waveform is at its natural frequency.
 pub fn fast_wave(dither: &Dither, response: FastResponse) -> Result<FastWave, AveragingError> {
     let (waveform, frequency_ratio) = (dither.waveform.clone(), dither.frequency_ratio);
     match response {
         FastResponse::Limit => Ok(FastWave::Integral(waveform)),
-        FastResponse::Oscillator if !waveform.is_symmetric() => {
-            Err(AveragingError::NoOscillatorShape { waveform: waveform.name() })
+        FastResponse::Oscillator if frequency_ratio <= 1.0 => {
+            Err(AveragingError::NotFast { frequency_ratio })
         }
-        FastResponse::Oscillator if frequency_ratio > 1.0 => {
+        FastResponse::Oscillator if waveform.is_symmetric() => {
             Ok(FastWave::Oscillator { waveform, frequency_ratio })
         }
-        FastResponse::Oscillator => Err(AveragingError::NotFast { frequency_ratio }),
+        FastResponse::Oscillator => {
+            // x″ + x = R g, so that the velocity belongs to D/R = 1.
+            let matrix = Matrix::from_fn(2, 2, |i, j| [[0.0, 1.0], [-1.0, 0.0]][i][j]);
+            let source = [0.0, frequency_ratio];
+            let response = PeriodicResponse::new(&matrix, &source, &waveform, frequency_ratio)
+                .map_err(AveragingError::NoResponse)?;
+            let velocity = response.outputs(&[(&[0.0, 1.0], 0.0)]).swap_remove(0);
+            Ok(FastWave::Response(velocity.into()))
+        }
     }
 }
 
@@ -127,7 +138,7 @@ fn grouped(
                     let amplitude = alpha * level;
                     group.normal.push(SlipTerm { wave, amplitude, harmonic, phase });
                     group.load.push(LoadTerm {
-                        waveform: dither.waveform.clone(),
+                        wave: LoadWave::Waveform(dither.waveform.clone()),
                         amplitude: dither.amplitude / normal_load,
                         harmonic,
                         phase,

@@ -3,6 +3,8 @@
 use quell_model::digits::digits;
 use quell_numerics::quadrature::{Integral, QuadratureError};
 
+use crate::periodic_response::NoPeriodicResponse;
+
 /// Why an average is not a number.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AveragingError {
@@ -23,11 +25,8 @@ pub enum AveragingError {
         /// Frequency ratio R ≤ 1.
         frequency_ratio: f64,
     },
-    /// The oscillator's response was requested for a waveform whose shape is known in the limit of high frequency only.
-    NoOscillatorShape {
-        /// Name of the waveform.
-        waveform: &'static str,
-    },
+    /// The oscillator's response was requested for a wave to which it has no periodic response.
+    NoResponse(NoPeriodicResponse),
     /// A quadrature did not reach its tolerance.
     Quadrature(QuadratureError),
 }
@@ -55,11 +54,9 @@ impl core::fmt::Display for AveragingError {
                 "the oscillator's own response to the dither requires a frequency ratio above 1, not {}",
                 digits(*frequency_ratio, 6)
             ),
-            Self::NoOscillatorShape { waveform } => write!(
-                f,
-                "the response of the oscillator to a waveform \"{waveform}\" is not known in closed form; averaging in the limit \
-                 of high frequency and exact verdicts do not need it"
-            ),
+            Self::NoResponse(why) => {
+                write!(f, "the oscillator's own response to the dither has no value: {why}")
+            }
             Self::Quadrature(error) => write!(f, "averaging: {error}"),
         }
     }

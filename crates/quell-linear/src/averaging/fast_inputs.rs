@@ -5,21 +5,23 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 
 use num_complex::Complex64;
 use quell_model::profile::Wave;
 use quell_model::system::{Contact, InputTarget};
 use quell_model::{System, Waveform};
+use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 
 use super::dithers::commensurate_groups;
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
 use super::mean_friction::{effective, of_fluctuating_load};
 use super::no_average::{MOST_FREQUENCIES, NoAverage};
-use super::periodic_motion::{LoadTerm, PeriodicMotion, SlipTerm};
+use super::periodic_motion::{LoadTerm, LoadWave, PeriodicMotion, SlipTerm};
 use super::sign_changes::sign_changes;
 use super::wave::FastWave;
-use crate::harmonic::{ContactResponse, FreeSlip};
+use crate::harmonic::ContactResponse;
 use crate::steady::{FrictionLine, SteadyContact};
 
 /// Harmonics below this share of the largest are left out.
@@ -75,10 +77,23 @@ impl DitheredContact {
 pub(super) struct WaveResponse {
     pub(super) input: usize,
     pub(super) wave: Wave,
-    /// Slip far above every eigenfrequency; `None` for a sine.
-    pub(super) free: Option<Vec<FreeSlip>>,
-    /// Harmonic n of the wave, its coefficient b_n + ic_n where the wave has b_n sin nθ + c_n cos nθ, and the response at nω.
-    pub(super) harmonics: Vec<(u32, Complex64, Vec<ContactResponse>)>,
+    pub(super) shape: WaveShape,
+}
+
+/// How the response to a wave is known.
+#[derive(Clone, Debug)]
+pub(super) enum WaveShape {
+    /// By harmonics: n, its coefficient b_n + ic_n where the wave has b_n sin nθ + c_n cos nθ, and the response at nω.
+    Harmonics(Vec<(u32, Complex64, Vec<ContactResponse>)>),
+    /// By polynomials: fast slip and fast load of every contact over the phase of the wave.
+    Polynomials(Vec<[Arc<PeriodicPolynomial>; 2]>),
+}
+
+impl WaveResponse {
+    /// Frequency at which the wave repeats itself.
+    fn repetition(&self) -> f64 {
+        self.wave.frequency / f64::from(self.wave.waveform.cycles())
+    }
 }
 
 /// The fast motion of contacts, prepared for any amplitudes of the inputs.
@@ -100,15 +115,15 @@ impl FastInputs {
         for (input, given) in system.inputs.iter().enumerate() {
             for wave in given.profile.waves().iter().cloned() {
                 let contacts = response(&given.target, &wave)?;
-                let harmonics = vec![(1, Complex64::ONE, contacts)];
-                waves.push(WaveResponse { input, wave, free: None, harmonics });
+                let shape = WaveShape::Harmonics(vec![(1, Complex64::ONE, contacts)]);
+                waves.push(WaveResponse { input, wave, shape });
             }
         }
         Ok(Self::of(waves)?)
     }
 
     pub(super) fn of(waves: Vec<WaveResponse>) -> Result<Self, NoAverage> {
-        let frequencies: Vec<f64> = waves.iter().map(|response| response.wave.frequency).collect();
+        let frequencies: Vec<f64> = waves.iter().map(WaveResponse::repetition).collect();
         let count = commensurate_groups(&frequencies).len();
         if count > MOST_FREQUENCIES {
             return Err(NoAverage::TooManyFrequencies { count });
@@ -236,16 +251,12 @@ impl FastInputs {
             _ => response.wave.amplitude,
         };
         let normal_load = system.contacts[contact].normal_load;
-        let frequencies: Vec<f64> =
-            self.waves.iter().map(|response| response.wave.frequency).collect();
+        let frequencies: Vec<f64> = self.waves.iter().map(WaveResponse::repetition).collect();
         let groups = commensurate_groups(&frequencies).into_iter().map(|members| {
             let mut parts = GroupParts::default();
             for (index, multiple) in members {
                 let response = &self.waves[index];
-                let target = &system.inputs[response.input].target;
-                let direct =
-                    matches!(target, InputTarget::NormalLoad { contact: at, .. } if *at == contact);
-                parts.add(response, (contact, direct), (amplitude(response), multiple));
+                parts.add(response, contact, (amplitude(response), multiple));
             }
             parts.motion(normal_load)
         });
@@ -256,7 +267,7 @@ impl FastInputs {
 /// Parts of the fast motion of one contact in one group of commensurate frequencies.
 #[derive(Debug, Default)]
 struct GroupParts {
-    /// Terms that are integrals of a wave, and loads that are the wave itself.
+    /// Terms by polynomials.
     slip_terms: Vec<SlipTerm>,
     load_terms: Vec<LoadTerm>,
     /// Complex amplitudes of a and Ñ by harmonic.
@@ -264,50 +275,32 @@ struct GroupParts {
 }
 
 impl GroupParts {
-    fn add(
-        &mut self,
-        response: &WaveResponse,
-        (contact, direct): (usize, bool),
-        (amplitude, multiple): (f64, u32),
-    ) {
-        let Wave { ref waveform, frequency, phase, .. } = response.wave;
-        let free = response.free.as_ref().map(|free| free[contact]);
-        if let Some(free) = free {
-            // s = −a, and a = c₁ A ∫g dt, with the springs of an oscillation.
-            let wave = match free.natural {
-                None => FastWave::Integral(waveform.clone()),
-                Some(natural) => FastWave::Oscillator {
-                    waveform: waveform.clone(),
-                    frequency_ratio: frequency / natural,
-                },
-            };
-            let slip = -free.first * amplitude / frequency;
-            self.slip_terms.push(SlipTerm { wave, amplitude: slip, harmonic: multiple, phase });
-            if *waveform == Waveform::Square {
-                // c₂ A ∬g dt²: the integral of a square is a triangle, −(π/2) tri(θ + π/2).
-                let wave = FastWave::Integral(Waveform::Triangle);
-                let slip = FRAC_PI_2 * free.second * amplitude / (frequency * frequency);
-                let phase = phase + FRAC_PI_2;
-                self.slip_terms.push(SlipTerm { wave, amplitude: slip, harmonic: multiple, phase });
+    fn add(&mut self, response: &WaveResponse, contact: usize, (amplitude, multiple): (f64, u32)) {
+        let phase = response.wave.phase;
+        match &response.shape {
+            WaveShape::Polynomials(contacts) => {
+                let [slip, load] = &contacts[contact];
+                let harmonic = multiple * response.wave.waveform.cycles();
+                // Friction is μ(v − s), and the slip is v + a.
+                let (wave, negative) = (FastWave::Response(slip.clone()), -amplitude);
+                self.slip_terms.push(SlipTerm { wave, amplitude: negative, harmonic, phase });
+                let wave = LoadWave::Response(load.clone());
+                if wave.peak() > 0.0 {
+                    self.load_terms.push(LoadTerm { wave, amplitude, harmonic, phase });
+                }
             }
-            if direct {
-                let waveform = waveform.clone();
-                self.load_terms.push(LoadTerm { waveform, amplitude, harmonic: multiple, phase });
+            WaveShape::Harmonics(harmonics) => {
+                for (n, coefficient, contacts) in harmonics {
+                    let ContactResponse { slip, load } = contacts[contact];
+                    // A(b sin nθ + c cos nθ) is the real part of −iA(b + ic) e^{inθ}.
+                    let turned =
+                        Complex64::from_polar(amplitude, f64::from(*n) * phase) * coefficient;
+                    let input = -Complex64::I * turned;
+                    let sum = self.harmonics.entry(n * multiple).or_default();
+                    sum[0] += input * slip;
+                    sum[1] += input * load;
+                }
             }
-        }
-        for (n, coefficient, contacts) in &response.harmonics {
-            let ContactResponse { mut slip, mut load } = contacts[contact];
-            if let Some(free) = free {
-                let second = if *waveform == Waveform::Square { free.second } else { 0.0 };
-                slip -= FreeSlip { second, ..free }.at(f64::from(*n) * frequency);
-                load -= f64::from(u8::from(direct));
-            }
-            // A(b sin nθ + c cos nθ) is the real part of −iA(b + ic) e^{inθ}.
-            let turned = Complex64::from_polar(amplitude, f64::from(*n) * phase) * coefficient;
-            let input = -Complex64::I * turned;
-            let sum = self.harmonics.entry(n * multiple).or_default();
-            sum[0] += input * slip;
-            sum[1] += input * load;
         }
     }
 
@@ -326,7 +319,8 @@ impl GroupParts {
             let amplitude = size(*fast_load);
             if amplitude > least[1] {
                 let phase = fast_load.arg() + FRAC_PI_2;
-                load.push(LoadTerm { waveform: Waveform::Sine, amplitude, harmonic, phase });
+                let wave = LoadWave::Waveform(Waveform::Sine);
+                load.push(LoadTerm { wave, amplitude, harmonic, phase });
             }
         }
         for term in &mut load {
@@ -349,7 +343,8 @@ struct ContactMotion {
 impl ContactMotion {
     fn new(groups: Vec<PeriodicMotion>, normal_load: f64) -> Self {
         let loads = groups.iter().flat_map(|group| &group.load);
-        let load_amplitude = normal_load * loads.map(|term| term.amplitude.abs()).sum::<f64>();
+        let peaks = loads.map(|term| term.amplitude.abs() * term.wave.peak());
+        let load_amplitude = normal_load * peaks.sum::<f64>();
         let bare = groups
             .iter()
             .map(|group| PeriodicMotion { load: Vec::new(), ..group.clone() })

@@ -29,7 +29,8 @@ impl FastMotion {
     /// A single fast slip velocity amplitude·wave.
     #[must_use]
     pub fn single(wave: FastWave, amplitude: f64) -> Self {
-        let term = SlipTerm { wave, amplitude, harmonic: 1, phase: 0.0 };
+        let harmonic = wave.cycles();
+        let term = SlipTerm { wave, amplitude, harmonic, phase: 0.0 };
         Self::new(vec![PeriodicMotion { tangential: vec![term], ..PeriodicMotion::default() }])
     }
 

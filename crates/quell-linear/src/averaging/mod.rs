@@ -83,7 +83,7 @@ pub use fast_motion::FastMotion;
 pub use independent::MAX_GROUPS;
 pub use mean_friction::effective;
 pub use no_average::{MOST_FREQUENCIES, NoAverage};
-pub use periodic_motion::{LoadTerm, PeriodicMotion, SlipTerm};
+pub use periodic_motion::{LoadTerm, LoadWave, PeriodicMotion, SlipTerm};
 pub use sign_changes::CrossingKind;
 pub(crate) use sign_changes::{SignChange, sign_changes};
 pub use single_wave::effective_by_quadrature;

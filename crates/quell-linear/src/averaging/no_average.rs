@@ -4,6 +4,7 @@ use quell_model::digits::digits;
 use quell_numerics::eigen::EigenError;
 
 use super::error::AveragingError;
+use crate::periodic_response::NoPeriodicResponse;
 use crate::steady::NoSteadySliding;
 
 /// Most incommensurate frequencies whose mean is taken: over a torus of two phases.
@@ -24,11 +25,8 @@ pub enum NoAverage {
         /// Their number.
         count: usize,
     },
-    /// A waveform whose response in a structure averaging does not know.
-    Waveform {
-        /// Its name.
-        name: &'static str,
-    },
+    /// A wave has no periodic response in the structure.
+    NoResponse(NoPeriodicResponse),
     /// The mean friction has no value.
     Mean(AveragingError),
     /// The state matrix overflows.
@@ -51,10 +49,9 @@ impl std::fmt::Display for NoAverage {
                 "the dithers have {count} mutually incommensurate frequencies, but averaging of a system supports at most \
                  {MOST_FREQUENCIES}"
             ),
-            Self::Waveform { name } => write!(
-                f,
-                "averaging of a system knows the waveforms sine, triangle, square and fourier; \"{name}\" can be simulated"
-            ),
+            Self::NoResponse(why) => {
+                write!(f, "the fast motion under the dither has no value: {why}")
+            }
             Self::Mean(why) => why.fmt(f),
             Self::Eigenvalues(why) => why.fmt(f),
         }
@@ -62,6 +59,12 @@ impl std::fmt::Display for NoAverage {
 }
 
 impl std::error::Error for NoAverage {}
+
+impl From<NoPeriodicResponse> for NoAverage {
+    fn from(why: NoPeriodicResponse) -> Self {
+        Self::NoResponse(why)
+    }
+}
 
 impl From<NoSteadySliding> for NoAverage {
     fn from(why: NoSteadySliding) -> Self {

@@ -7,7 +7,7 @@
 //! [`SAMPLES`] points between breaks. A pair of extrema closer than that is missed; it leaves a kink
 //! to the adaptive quadrature and costs accuracy only while v is between their two values.
 //!
-//! A single wave by samples is summed piece by piece (`pieces`).
+//! A single wave by samples, and a single response of a structure, are summed piece by piece (`pieces`).
 //!
 //! Accuracy: 10⁻¹², absolute, in units of μ_s (and of μ_s/v_m for the slope, away from extrema). There is no relative accuracy
 //! for μ̄ → 0, because a sum need not have a symmetry.
@@ -143,8 +143,8 @@ pub(super) fn effective(
     group: &PeriodicMotion,
     v: f64,
 ) -> Result<Effective, AveragingError> {
-    if let Some((waveform, amplitude)) = group.single_sampled()
-        && let Some(found) = pieces::effective(law, waveform, amplitude, v)
+    if let Some((wave, amplitude)) = group.single_polynomial()
+        && let Some(found) = pieces::effective(law, wave, amplitude, v)
     {
         return Ok(found);
     }

@@ -1,12 +1,14 @@
 //! Fast motion with one period: the slip and the load of dithers of commensurate frequencies.
 
 use core::f64::consts::TAU;
+use std::sync::Arc;
+
 use quell_model::Waveform;
-use quell_model::waveform::Piece;
+use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
 use super::error::{AveragingError, settled};
-use super::wave::FastWave;
+use super::wave::{FastWave, cycles_of, ends_of_monotone_parts, ends_of_response};
 
 /// Slope of a sine over the steepest one below which its quarters are no breaks.
 const FLAT: f64 = 1e-3;
@@ -24,11 +26,52 @@ pub struct SlipTerm {
     pub phase: f64,
 }
 
-/// One normal dither's part of the load: amplitude·waveform(harmonic·θ + phase).
+/// Shape of a fast load for unit amplitude.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LoadWave {
+    /// A prescribed load: the waveform g itself.
+    Waveform(Waveform),
+    /// The load of a structure, by polynomials of the phase of the carrier.
+    Response(Arc<PeriodicPolynomial>),
+}
+
+impl LoadWave {
+    fn value(&self, phase: f64) -> f64 {
+        match self {
+            Self::Waveform(waveform) => waveform.value(phase),
+            Self::Response(response) => response.value_and_slope(phase).0,
+        }
+    }
+
+    /// The largest magnitude.
+    pub fn peak(&self) -> f64 {
+        let [least, largest] = match self {
+            Self::Waveform(waveform) => waveform.range().into(),
+            Self::Response(response) => response.range(),
+        };
+        largest.max(-least)
+    }
+
+    fn cycles(&self) -> u32 {
+        match self {
+            Self::Waveform(waveform) => waveform.cycles(),
+            Self::Response(response) => cycles_of(response),
+        }
+    }
+
+    fn ends_of_monotone_parts(&self) -> Vec<f64> {
+        match self {
+            Self::Waveform(waveform) => ends_of_monotone_parts(waveform),
+            Self::Response(response) => ends_of_response(response),
+        }
+    }
+}
+
+/// One normal dither's part of the load: amplitude·wave(harmonic·θ + phase).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadTerm {
-    /// Waveform g.
-    pub waveform: Waveform,
+    /// Shape for unit amplitude.
+    pub wave: LoadWave,
     /// D_N/F.
     pub amplitude: f64,
     /// Frequency as a multiple of the group's.
@@ -63,15 +106,17 @@ impl PeriodicMotion {
         only.filter(|term| term.wave.is_symmetric()).map(|term| (&term.wave, term.amplitude))
     }
 
-    /// The waveform and its amplitude where the motion reduces to a single undistorted wave by samples.
-    pub(super) fn single_sampled(&self) -> Option<(&Waveform, f64)> {
+    /// The wave and its amplitude where the motion reduces to a single undistorted wave by polynomials: by samples, or a response.
+    pub(super) fn single_polynomial(&self) -> Option<(&FastWave, f64)> {
         let only = match (self.tangential.as_slice(), self.normal.as_slice()) {
             ([term], []) if self.load.is_empty() => term,
             ([], [term]) if self.distortion == 0.0 => term,
             _ => return None,
         };
         match &only.wave {
-            FastWave::Integral(waveform @ Waveform::Samples(_)) => Some((waveform, only.amplitude)),
+            FastWave::Integral(Waveform::Samples(_)) | FastWave::Response(_) => {
+                Some((&only.wave, only.amplitude))
+            }
             _ => None,
         }
     }
@@ -87,7 +132,7 @@ impl PeriodicMotion {
     pub(super) fn load_at(&self, theta: f64) -> f64 {
         self.load
             .iter()
-            .map(|t| t.amplitude * t.waveform.value(f64::from(t.harmonic) * theta + t.phase))
+            .map(|t| t.amplitude * t.wave.value(f64::from(t.harmonic) * theta + t.phase))
             .sum()
     }
 
@@ -108,19 +153,22 @@ impl PeriodicMotion {
         let slips = || self.tangential.iter().chain(&self.normal);
         let steep = |t: &&SlipTerm| t.amplitude.abs() * f64::from(t.harmonic);
         let steepest = slips().map(|t| steep(&t)).fold(0.0, f64::max);
-        let matters = |t: &&SlipTerm| {
-            t.wave != FastWave::Integral(Waveform::Sine) || steep(t) > FLAT * steepest
-        };
-        let terms = slips().filter(matters).map(|t| (t.wave.waveform(), t.harmonic, t.phase));
+        let matters = |t: &&SlipTerm| !t.wave.is_sine() || steep(t) > FLAT * steepest;
+        let terms = slips()
+            .filter(matters)
+            .map(|t| (t.wave.ends_of_monotone_parts(), t.wave.cycles(), t.harmonic, t.phase));
         let largest = self.load.iter().map(|t| t.amplitude.abs()).fold(0.0, f64::max);
-        let matters =
-            |t: &&LoadTerm| t.waveform != Waveform::Sine || t.amplitude.abs() > FLAT * largest;
-        let loads = self.load.iter().filter(matters).map(|t| (&t.waveform, t.harmonic, t.phase));
+        let is_sine = |t: &LoadTerm| t.wave == LoadWave::Waveform(Waveform::Sine);
+        let matters = |t: &&LoadTerm| !is_sine(t) || t.amplitude.abs() > FLAT * largest;
+        let loads = self
+            .load
+            .iter()
+            .filter(matters)
+            .map(|t| (t.wave.ends_of_monotone_parts(), t.wave.cycles(), t.harmonic, t.phase));
         let mut breaks = Vec::new();
-        for (waveform, harmonic, phase) in terms.chain(loads) {
-            let own = ends_of_monotone_parts(waveform);
-            for period in 0..harmonic / waveform.cycles() {
-                let start = f64::from(period).mul_add(waveform.period(), -phase);
+        for (own, cycles, harmonic, phase) in terms.chain(loads) {
+            for period in 0..harmonic / cycles {
+                let start = (TAU * f64::from(cycles)).mul_add(f64::from(period), -phase);
                 let locations = own.iter().map(|end| (start + end) / f64::from(harmonic));
                 breaks.extend(locations.map(|location| location.rem_euclid(TAU)));
             }
@@ -143,34 +191,4 @@ impl PeriodicMotion {
     pub(super) fn is_still(&self) -> bool {
         self.tangential.iter().chain(&self.normal).all(|t| t.amplitude == 0.0)
     }
-}
-
-/// Phases within the period between which neither g nor G changes its formula or direction: the quarters of a symmetric
-/// waveform; the breaks and the zeros of g of another one.
-fn ends_of_monotone_parts(waveform: &Waveform) -> Vec<f64> {
-    if waveform.is_symmetric() {
-        return (0..4).map(|quarter| 0.25 * TAU * f64::from(quarter)).collect();
-    }
-    let breaks = waveform.breaks();
-    let mut ends = breaks.to_vec();
-    for (place, piece) in waveform.pieces().iter().enumerate() {
-        let start = breaks[place];
-        let end = breaks.get(place + 1).copied().unwrap_or_else(|| waveform.period());
-        match *piece {
-            Piece::Harmonic => {
-                let mut quarter = start + 0.25 * TAU;
-                while quarter < end {
-                    ends.push(quarter);
-                    quarter += 0.25 * TAU;
-                }
-            }
-            Piece::Affine { value, slope } => {
-                let zero = start - value / slope;
-                if zero > start && zero < end {
-                    ends.push(zero);
-                }
-            }
-        }
-    }
-    ends
 }

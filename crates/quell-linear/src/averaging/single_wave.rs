@@ -95,7 +95,7 @@ fn whole_period(
     amplitude: f64,
     v: f64,
 ) -> Result<Effective, AveragingError> {
-    let harmonic = wave.waveform().cycles();
+    let harmonic = wave.cycles();
     let term = SlipTerm { wave: wave.clone(), amplitude, harmonic, phase: 0.0 };
     let group = PeriodicMotion { tangential: vec![term], ..PeriodicMotion::default() };
     periodic::effective(law, &group, v)

@@ -6,28 +6,24 @@
 //! m₁ = ⟨μ(γ + a)Ñ⟩, so that steady sliding and its small motions are those of a system without dither and with other friction
 //! ([`crate::steady::FrictionLine`]).
 //!
-//! A sum of harmonics enters by its sines and cosines. Other waves that are not sines are divided into the motion far above every eigenfrequency, which has a closed form
-//! ([`crate::harmonic::FreeSlip`]), and the harmonics of the remainder, which fall at least like n⁻⁴; those up to the 63rd are kept.
+//! Sines and sums of harmonics enter by their harmonics, every other waveform by its periodic response, piece by piece
+//! ([`crate::periodic_response`]). Both are exact.
 
 use num_complex::Complex64;
 use quell_model::profile::Wave;
 use quell_model::system::InputTarget;
 use quell_model::{System, Waveform};
 use quell_numerics::eigen::EigenError;
+use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 
-use super::fast_inputs::{DitheredContact, FastInputs, WaveResponse};
+use super::fast_inputs::{DitheredContact, FastInputs, WaveResponse, WaveShape};
 use super::no_average::NoAverage;
 use crate::growth::Growth;
-use crate::harmonic::{self, ContactResponse, FreeSlip};
+use crate::harmonic::{self, ContactResponse, DrivenEquations};
 use crate::linearised::{FrictionSlopes, Linearised};
+use crate::periodic_response::PeriodicResponse;
 use crate::spectrum::{self, MotionSpectrum};
 use crate::steady::{NoSteadySliding, SteadySliding};
-
-/// Least ratio of the frequency of a wave to that of an oscillation in closed form.
-const ABOVE: f64 = 1.2;
-
-/// Harmonics of the remainder of a wave up to this one are kept.
-const MOST_HARMONICS: u32 = 63;
 
 /// Averaged steady sliding with its linear equations.
 #[derive(Clone, Debug)]
@@ -132,26 +128,65 @@ impl<'a> DitheredSystem<'a> {
         let mut state = vec![0.0; self.system.structure.state_size()];
         state[..n].copy_from_slice(average.linear.position());
         for response in &self.fast.waves {
-            let Wave { amplitude, frequency, phase, .. } = response.wave;
-            for (n_th, coefficient, _) in &response.harmonics {
-                let harmonic = f64::from(*n_th);
-                let target = &self.system.inputs[response.input].target;
-                let moved =
-                    harmonic::response(self.system, &self.sliding, target, harmonic * frequency);
-                let Some(moved) = moved else { continue };
-                let turned = Complex64::from_polar(amplitude, harmonic * phase) * coefficient;
-                let input = -Complex64::I * turned;
-                let rate = Complex64::new(0.0, harmonic * frequency);
-                for (i, displacement) in moved.displacement.iter().enumerate() {
-                    state[i] += (input * displacement).re;
-                    if n + i < state.len() {
-                        state[n + i] += (input * displacement * rate).re;
-                    }
+            let target = &self.system.inputs[response.input].target;
+            let moved = match &response.shape {
+                WaveShape::Harmonics(harmonics) => {
+                    self.state_by_harmonics(target, &response.wave, harmonics)
                 }
+                WaveShape::Polynomials(_) => {
+                    let Wave { waveform, amplitude, frequency, phase, .. } = &response.wave;
+                    let equations = driven(self.system, &self.sliding, target)?;
+                    let moved = PeriodicResponse::new(
+                        &equations.matrix,
+                        &equations.source,
+                        waveform,
+                        *frequency,
+                    )?;
+                    moved.state(*phase).into_iter().map(|x| amplitude * x).collect()
+                }
+            };
+            for (entry, own) in state.iter_mut().zip(&moved) {
+                *entry += own;
             }
         }
         Ok(state)
     }
+
+    /// What the harmonics of a wave add to the state at t = 0.
+    fn state_by_harmonics(
+        &self,
+        target: &InputTarget,
+        wave: &Wave,
+        harmonics: &[(u32, Complex64, Vec<ContactResponse>)],
+    ) -> Vec<f64> {
+        let n = self.sliding.coordinates();
+        let mut state = vec![0.0; self.system.structure.state_size()];
+        for (n_th, coefficient, _) in harmonics {
+            let harmonic = f64::from(*n_th);
+            let frequency = harmonic * wave.frequency;
+            let moved = harmonic::response(self.system, &self.sliding, target, frequency);
+            let Some(moved) = moved else { continue };
+            let turned = Complex64::from_polar(wave.amplitude, harmonic * wave.phase) * coefficient;
+            let input = -Complex64::I * turned;
+            let rate = Complex64::new(0.0, frequency);
+            for (i, displacement) in moved.displacement.iter().enumerate() {
+                state[i] += (input * displacement).re;
+                if n + i < state.len() {
+                    state[n + i] += (input * displacement * rate).re;
+                }
+            }
+        }
+        state
+    }
+}
+
+/// The equations of the sliding structure under an input.
+fn driven(
+    system: &System,
+    sliding: &Linearised,
+    target: &InputTarget,
+) -> Result<DrivenEquations, NoSteadySliding> {
+    DrivenEquations::new(system, sliding, target).ok_or(NoSteadySliding::NoMass)
 }
 
 /// The response to one wave.
@@ -172,27 +207,33 @@ fn wave_response(
             .iter()
             .map(|h| Ok((h.order, Complex64::new(h.sine, h.cosine), at(h.order)?)))
             .collect();
-        let harmonics = harmonics?;
-        return Ok(WaveResponse { input, wave, free: None, harmonics });
-    }
-    if !wave.waveform.is_symmetric() {
-        return Err(NoAverage::Waveform { name: wave.waveform.name() });
+        let shape = WaveShape::Harmonics(harmonics?);
+        return Ok(WaveResponse { input, wave, shape });
     }
     if wave.waveform == Waveform::Sine {
-        let harmonics = vec![(1, Complex64::ONE, at(1)?)];
-        return Ok(WaveResponse { input, wave, free: None, harmonics });
+        let shape = WaveShape::Harmonics(vec![(1, Complex64::ONE, at(1)?)]);
+        return Ok(WaveResponse { input, wave, shape });
     }
-    // The closed form of an oscillation needs a frequency well above it.
-    let slow = |free: FreeSlip| FreeSlip {
-        natural: free.natural.filter(|natural| wave.frequency > ABOVE * natural),
-        ..free
-    };
-    let free = harmonic::free_slip(system, sliding, target);
-    let free = free.ok_or(NoSteadySliding::NoMass)?.into_iter().map(slow).collect();
-    let mut harmonics: Vec<(u32, Complex64, Vec<ContactResponse>)> = Vec::new();
-    for n in (1..=MOST_HARMONICS).step_by(2) {
-        let coefficient = wave.waveform.sine_coefficient(n).unwrap_or(0.0);
-        harmonics.push((n, coefficient.into(), at(n)?));
-    }
-    Ok(WaveResponse { input, wave, free: Some(free), harmonics })
+    let equations = driven(system, sliding, target)?;
+    let response = PeriodicResponse::new(
+        &equations.matrix,
+        &equations.source,
+        &wave.waveform,
+        wave.frequency,
+    )?;
+    let contacts = sliding.contacts().iter().enumerate();
+    let rows: Vec<(Vec<f64>, f64)> = contacts
+        .flat_map(|(index, contact)| {
+            let here =
+                |at: &InputTarget| matches!(at, InputTarget::NormalLoad { contact, .. } if *contact == index);
+            let direct = f64::from(u8::from(here(target)));
+            [(equations.slip_row(contact), 0.0), (equations.load_row(contact), direct)]
+        })
+        .collect();
+    let rows: Vec<(&[f64], f64)> =
+        rows.iter().map(|(row, direct)| (row.as_slice(), *direct)).collect();
+    let outputs = response.outputs(&rows);
+    let of = |pair: &[PeriodicPolynomial]| [pair[0].clone().into(), pair[1].clone().into()];
+    let shape = WaveShape::Polynomials(outputs.chunks_exact(2).map(of).collect());
+    Ok(WaveResponse { input, wave, shape })
 }

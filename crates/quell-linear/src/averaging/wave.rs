@@ -8,13 +8,20 @@
 //!   square, (R/cos β) sin((θ − π/2)/R) on 0 ≤ θ ≤ π, continued evenly. Damping is omitted deliberately: at a stability boundary
 //!   the damper and the averaged friction slope cancel. Requires R > 1.
 //!
+//! * [`FastWave::Response`]: the periodic response of a linear structure, of every order in 1/R
+//!   ([`crate::periodic_response`]): of the undamped oscillator to other waveforms, and of systems.
+//!
 //! The shapes of the sine, the triangle and the square are even and antiperiodic, and hence determined by a quarter wave σ(δ):
 //! s = σ(θ − π/2) on [0, π]. σ is odd and increases from 0 at δ = 0 (to relative accuracy, also for tiny δ) to its peak at
-//! δ = π/2. Other waveforms have the shape G only (a sum of harmonics enters as its harmonics, each a sine); they have no quarter
-//! wave, and averages over them are by quadrature over the whole period.
+//! δ = π/2. Other waveforms have no quarter wave (a sum of harmonics enters as its harmonics, each a sine), and averages over
+//! them are by quadrature over the whole period.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::sync::Arc;
+
 use quell_model::Waveform;
+use quell_model::waveform::Piece;
+use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 
 /// Shape of the fast slip velocity of one dither, for unit amplitude α = D/R.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,19 +35,45 @@ pub enum FastWave {
         /// Frequency ratio R > 1.
         frequency_ratio: f64,
     },
+    /// Velocity response of a structure, by polynomials of the phase of the carrier.
+    Response(Arc<PeriodicPolynomial>),
 }
 
 impl FastWave {
-    /// Waveform of the force.
-    pub fn waveform(&self) -> &Waveform {
+    /// Waveform of a force whose response has a formula.
+    fn waveform(&self) -> Option<&Waveform> {
         match self {
-            Self::Integral(waveform) | Self::Oscillator { waveform, .. } => waveform,
+            Self::Integral(waveform) | Self::Oscillator { waveform, .. } => Some(waveform),
+            Self::Response(_) => None,
         }
     }
 
     /// Whether the shape is known from a quarter wave, as for the waveforms of the dissertation.
     pub fn is_symmetric(&self) -> bool {
-        self.waveform().is_symmetric()
+        self.waveform().is_some_and(Waveform::is_symmetric)
+    }
+
+    /// Number of cycles 2π of the phase in one period: more than one for bursts.
+    pub fn cycles(&self) -> u32 {
+        match self {
+            Self::Integral(waveform) | Self::Oscillator { waveform, .. } => waveform.cycles(),
+            Self::Response(response) => cycles_of(response),
+        }
+    }
+
+    /// Whether the shape is that of a sine.
+    pub(super) fn is_sine(&self) -> bool {
+        self.waveform() == Some(&Waveform::Sine)
+    }
+
+    /// Phases within the period between which the shape keeps its formula and its direction.
+    pub(super) fn ends_of_monotone_parts(&self) -> Vec<f64> {
+        match self {
+            Self::Integral(waveform) | Self::Oscillator { waveform, .. } => {
+                ends_of_monotone_parts(waveform)
+            }
+            Self::Response(response) => ends_of_response(response),
+        }
     }
 
     /// The same shape with a separate factor. An oscillator preserves the shape of a sine, so the closed forms for G apply.
@@ -57,6 +90,10 @@ impl FastWave {
     pub fn peak(&self) -> f64 {
         match self {
             Self::Integral(waveform) => waveform.peak_integral(),
+            Self::Response(response) => {
+                let [least, largest] = response.range();
+                largest.max(-least)
+            }
             Self::Oscillator { waveform, frequency_ratio: r } => {
                 let r = *r;
                 let half = FRAC_PI_2 / r;
@@ -86,6 +123,7 @@ impl FastWave {
                 Waveform::Square => r * libm::sin(delta / r) / libm::cos(FRAC_PI_2 / r),
                 _ => sine_gain(r) * libm::sin(delta),
             },
+            Self::Response(response) => response.value_and_slope(delta + FRAC_PI_2).0,
         }
     }
 
@@ -103,11 +141,12 @@ impl FastWave {
                 Waveform::Square => libm::cos(delta / r) / libm::cos(FRAC_PI_2 / r),
                 _ => sine_gain(r) * libm::cos(delta),
             },
+            Self::Response(response) => response.value_and_slope(delta + FRAC_PI_2).1,
         }
     }
 
     /// The δ in [0, π/2] at which ασ(δ) = value, and α dσ/dδ there, for 0 ≤ value < α·peak. Both are free of cancellation near
-    /// either end.
+    /// either end. Of a symmetric waveform.
     pub(crate) fn crossing(&self, amplitude: f64, value: f64) -> (f64, f64) {
         let peak = amplitude * self.peak();
         let below = peak - value;
@@ -118,7 +157,7 @@ impl FastWave {
                 (FRAC_PI_2 * (value / peak) / (1.0 + root), amplitude * root)
             }
             Self::Integral(Waveform::Square) => (value / amplitude, amplitude),
-            Self::Integral(_) => {
+            Self::Integral(_) | Self::Response(_) => {
                 let steepness = (below * (peak + value)).sqrt();
                 (libm::atan2(value, steepness), steepness)
             }
@@ -148,9 +187,12 @@ impl FastWave {
 
     /// s(θ) and ds/dθ for unit amplitude at any θ. At a corner of s, the slope beyond it.
     pub(crate) fn value_and_slope(&self, phase: f64) -> (f64, f64) {
-        if !self.is_symmetric() {
-            let waveform = self.waveform();
-            return (waveform.integral(phase), waveform.value(phase));
+        match self {
+            Self::Response(response) => return response.value_and_slope(phase),
+            Self::Integral(waveform) if !waveform.is_symmetric() => {
+                return (waveform.integral(phase), waveform.value(phase));
+            }
+            Self::Integral(_) | Self::Oscillator { .. } => {}
         }
         let phase = phase.rem_euclid(TAU);
         let (folded, direction) = if phase < PI { (phase, 1.0) } else { (TAU - phase, -1.0) };
@@ -158,6 +200,52 @@ impl FastWave {
         let size = delta.abs().min(FRAC_PI_2);
         (self.quarter(size).copysign(delta), direction * self.quarter_slope(size))
     }
+}
+
+/// Cycles 2π in the period of a response.
+pub(super) fn cycles_of(response: &PeriodicPolynomial) -> u32 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "the period of a waveform is a small number of cycles"
+    )]
+    let cycles = (response.period() / TAU).round() as u32;
+    cycles
+}
+
+/// Phases within the period of a response at which its formula or its direction changes.
+pub(super) fn ends_of_response(response: &PeriodicPolynomial) -> Vec<f64> {
+    response.starts().iter().chain(response.turns()).copied().collect()
+}
+
+/// Phases within the period between which neither g nor G changes its formula or direction: the quarters of a symmetric
+/// waveform; the breaks and the zeros of g of another one.
+pub(super) fn ends_of_monotone_parts(waveform: &Waveform) -> Vec<f64> {
+    if waveform.is_symmetric() {
+        return (0..4).map(|quarter| 0.25 * TAU * f64::from(quarter)).collect();
+    }
+    let breaks = waveform.breaks();
+    let mut ends = breaks.to_vec();
+    for (place, piece) in waveform.pieces().iter().enumerate() {
+        let start = breaks[place];
+        let end = breaks.get(place + 1).copied().unwrap_or_else(|| waveform.period());
+        match *piece {
+            Piece::Harmonic => {
+                let mut quarter = start + 0.25 * TAU;
+                while quarter < end {
+                    ends.push(quarter);
+                    quarter += 0.25 * TAU;
+                }
+            }
+            Piece::Affine { value, slope } => {
+                let zero = start - value / slope;
+                if zero > start && zero < end {
+                    ends.push(zero);
+                }
+            }
+        }
+    }
+    ends
 }
 
 /// R²/(R² − 1): the velocity of the oscillator divided by D/R at the frequency of the force.

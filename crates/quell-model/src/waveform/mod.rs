@@ -299,8 +299,8 @@ impl Waveform {
         }
     }
 
-    /// The piece at a phase within the period, with the phase of the break that opens it.
-    fn piece_at(&self, phase: f64) -> (f64, Piece) {
+    /// The piece at a phase within the period, with the phase of the break that opens it; of a waveform that has pieces.
+    pub fn piece_at(&self, phase: f64) -> (f64, Piece) {
         let (breaks, pieces) = (self.breaks(), self.pieces());
         let after = breaks.partition_point(|&start| start <= phase);
         let index = (after + pieces.len() - 1) % pieces.len();

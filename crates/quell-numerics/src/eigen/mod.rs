@@ -47,6 +47,12 @@ impl core::fmt::Display for EigenError {
 
 impl core::error::Error for EigenError {}
 
+/// Balances a square matrix A ← D⁻¹AD by powers of two and returns the diagonal of D.
+pub fn balanced(a: &mut Matrix) -> Vec<f64> {
+    let n = a.rows();
+    balance::balance(a.as_mut_slice(), n, n)
+}
+
 /// Eigenvalues of a square matrix in the order of deflation; complex pairs are adjacent.
 ///
 /// # Errors

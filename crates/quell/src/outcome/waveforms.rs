@@ -75,38 +75,40 @@ fn table(study: &BeltStudy, done: &WaveformComparison) -> String {
     text
 }
 
-/// Why values are missing, each reason once, and where larger amplitudes destabilise.
+/// Why values are missing, and where larger amplitudes destabilise.
 fn notes(study: &BeltStudy, done: &WaveformComparison) -> String {
-    let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
-    let mut add = |row: &ComparedWaveform, why: String| match reasons
-        .iter_mut()
-        .find(|(known, _)| *known == why)
-    {
-        Some((_, labels)) => labels.push(row.label()),
-        None => reasons.push((why, vec![row.label()])),
-    };
     let (unit, scale) = match study.scales().zip(Quantity::Force.si_unit()) {
         Some((scales, (unit, _))) => (format!(" {unit}"), scales.si_per_unit(Quantity::Force)),
         None => (String::new(), 1.0),
     };
-    for row in &done.rows {
-        match &row.averaged {
-            Err(why) => add(row, why.clone()),
-            Ok(least) => {
-                if let Err(why) = &least.power {
-                    add(row, format!("no power, stroke and velocity: {why}"));
-                }
-                if let Err(why) = &row.exact {
-                    add(row, format!("no exact amplitude: {why}"));
-                }
-                if let Some(until) = least.until {
-                    let until = figure(until * scale);
-                    add(row, format!("by averaging unstable again from {until}{unit} on"));
-                }
-            }
+    let of = |row: &ComparedWaveform| match &row.averaged {
+        Err(why) => vec![why.clone()],
+        Ok(least) => {
+            let power = least.power.as_ref().err();
+            let power = power.map(|why| format!("no power, stroke and velocity: {why}"));
+            let exact = row.exact.as_ref().err().map(|why| format!("no exact amplitude: {why}"));
+            let until = least.until.map(|until| {
+                format!("by averaging unstable again from {}{unit} on", figure(until * scale))
+            });
+            [power, exact, until].into_iter().flatten().collect()
+        }
+    };
+    joined_notes(done.rows.iter().flat_map(|row| {
+        let label = row.label();
+        of(row).into_iter().map(move |why| (why, label.clone()))
+    }))
+}
+
+/// Notes with the labels of the rows to which they apply, each note once, on a line of its own.
+pub(super) fn joined_notes(notes: impl Iterator<Item = (String, String)>) -> String {
+    let mut joined: Vec<(String, Vec<String>)> = Vec::new();
+    for (why, label) in notes {
+        match joined.iter_mut().find(|(known, _)| *known == why) {
+            Some((_, labels)) => labels.push(label),
+            None => joined.push((why, vec![label])),
         }
     }
-    reasons.into_iter().fold(String::new(), |mut text, (why, labels)| {
+    joined.into_iter().fold(String::new(), |mut text, (why, labels)| {
         let _ = writeln!(text, "  {}: {why}", labels.join(", "));
         text
     })

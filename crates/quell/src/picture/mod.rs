@@ -43,7 +43,7 @@ pub use simulate::simulate;
 pub use stability::stability;
 pub use sweep::sweep;
 pub use thresholds::{curves, thresholds};
-pub use waveforms::waveforms;
+pub use waveforms::{waveforms, waveforms_of_system};
 
 use crate::complaint::Failure;
 use crate::output::Output;

@@ -277,7 +277,9 @@ impl MeasuredResponse {
         });
         fields.list("peaks", peaks);
         let only_normal = || {
-            "all dither is normal, and the model has no motion in the normal direction".to_owned()
+            "all dither is normal, and a prescribed load has no motion in the normal direction; a system with a normal row and a \
+             normal stiffness tells power and stroke"
+                .to_owned()
         };
         fields
             .number("stick_fraction", Quantity::Ratio, response.stick_fraction)

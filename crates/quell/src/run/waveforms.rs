@@ -138,24 +138,55 @@ pub fn run(study: &BeltStudy) -> Result<WaveformComparison, Failure> {
         );
     };
     super::moves(study, "sliding on it is to be stable")?;
-    let carrier = match &first.waveform {
-        Waveform::Burst(burst) => burst.carrier().clone(),
-        own if own.is_symmetric() => own.clone(),
-        _ => Waveform::Sine,
-    };
-    let mut waveforms: Vec<Waveform> = Waveform::NAMED.to_vec();
-    if !waveforms.contains(&first.waveform) {
-        waveforms.push(first.waveform.clone());
-    }
-    for on in 1..EIGHTHS {
-        let divisor = greatest_common_divisor(on, EIGHTHS);
-        let burst = Burst::new(carrier.clone(), on / divisor, (EIGHTHS - on) / divisor);
-        // The study's own burst is compared already.
-        waveforms
-            .extend(burst.ok().map(Burst::into_waveform).filter(|burst| *burst != first.waveform));
-    }
+    let Candidates { waveforms, carrier } = Candidates::beside(&first.waveform);
     let rows = waveforms.into_par_iter().map(|waveform| compared(belt, first, waveform)).collect();
-    Ok(WaveformComparison { rows, carrier: carrier.name() })
+    Ok(WaveformComparison { rows, carrier })
+}
+
+/// The waveforms of a comparison.
+pub(crate) struct Candidates {
+    /// Sine, triangle, square, the study's own, bursts in ascending duty cycle.
+    pub(crate) waveforms: Vec<Waveform>,
+    /// Name of the carrier of the bursts.
+    pub(crate) carrier: &'static str,
+}
+
+impl Candidates {
+    /// The waveforms with which that of a study is compared.
+    pub(crate) fn beside(own: &Waveform) -> Self {
+        let carrier = match own {
+            Waveform::Burst(burst) => burst.carrier().clone(),
+            own if own.is_symmetric() => own.clone(),
+            _ => Waveform::Sine,
+        };
+        let mut waveforms: Vec<Waveform> = Waveform::NAMED.to_vec();
+        if !waveforms.contains(own) {
+            waveforms.push(own.clone());
+        }
+        for on in 1..EIGHTHS {
+            let divisor = greatest_common_divisor(on, EIGHTHS);
+            let burst = Burst::new(carrier.clone(), on / divisor, (EIGHTHS - on) / divisor);
+            // The study's own burst is compared already.
+            waveforms.extend(burst.ok().map(Burst::into_waveform).filter(|burst| burst != own));
+        }
+        Self { waveforms, carrier: carrier.name() }
+    }
+}
+
+/// A short label of a waveform, such as "burst 3 : 5": periods of the carrier in the burst and in the pause.
+pub(crate) fn label(waveform: &Waveform) -> String {
+    match waveform {
+        Waveform::Burst(burst) => format!("burst {} : {}", burst.on(), burst.off()),
+        other => other.name().to_owned(),
+    }
+}
+
+/// Share of the period in which a waveform acts: 1 except for bursts.
+pub(crate) fn duty_cycle(waveform: &Waveform) -> f64 {
+    match waveform {
+        Waveform::Burst(burst) => f64::from(burst.on()) / f64::from(burst.cycles()),
+        _ => 1.0,
+    }
 }
 
 fn greatest_common_divisor(a: u32, b: u32) -> u32 {
@@ -182,10 +213,7 @@ fn compared(belt: &Belt, first: &Dither, waveform: Waveform) -> ComparedWaveform
         Err(why) => Err(why.clone()),
     };
     ComparedWaveform {
-        duty_cycle: match &waveform {
-            Waveform::Burst(burst) => f64::from(burst.on()) / f64::from(burst.cycles()),
-            _ => 1.0,
-        },
+        duty_cycle: duty_cycle(&waveform),
         own: waveform == first.waveform,
         waveform,
         averaged: averaged.map(|(_, least)| least),
@@ -266,10 +294,7 @@ fn exact(belt: &Belt, averaged: f64) -> Result<f64, String> {
 impl ComparedWaveform {
     /// A short label, such as "burst 3 : 5": periods of the carrier in the burst and in the pause.
     pub fn label(&self) -> String {
-        match &self.waveform {
-            Waveform::Burst(burst) => format!("burst {} : {}", burst.on(), burst.off()),
-            other => other.name().to_owned(),
-        }
+        label(&self.waveform)
     }
 
     /// A quantity of the least dither, or why it has no value.

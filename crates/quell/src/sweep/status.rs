@@ -62,7 +62,7 @@ pub enum Status {
     Opens = 33,
     /// A system has no base response, or it could not be followed.
     NoBaseResponse = 34,
-    /// This averaging does not know the response to the waveform.
+    /// The structure has no periodic response to the waveform.
     NoAverageOfWaveform = 35,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
@@ -205,7 +205,7 @@ impl Status {
                 "the response that continues steady sliding ends before the dither reaches its amplitude, or could not be followed"
             }
             Self::NoAverageOfWaveform => {
-                "this averaging does not know the response to the waveform"
+                "the structure has no periodic response to the waveform that averaging could use"
             }
             Self::Missing => "not computed yet",
         }
@@ -252,7 +252,7 @@ impl From<&AveragingError> for Status {
             AveragingError::SetValued { .. } => Self::SetValued,
             AveragingError::TooManyGroups { .. } => Self::TooManyGroups,
             AveragingError::NotFast { .. } => Self::NotFast,
-            AveragingError::NoOscillatorShape { .. } => Self::NoAverageOfWaveform,
+            AveragingError::NoResponse(_) => Self::NoAverageOfWaveform,
             AveragingError::Quadrature(_) => Self::NotConverged,
         }
     }

@@ -201,7 +201,7 @@ fn status(why: &NoAverage) -> Status {
         NoAverage::NoSteadySliding(_) => Status::NoSteadySliding,
         NoAverage::Resonance { .. } => Status::Resonance,
         NoAverage::TooManyFrequencies { .. } => Status::TooManyGroups,
-        NoAverage::Waveform { .. } => Status::NoAverageOfWaveform,
+        NoAverage::NoResponse(_) => Status::NoAverageOfWaveform,
         NoAverage::Mean(why) => why.into(),
         NoAverage::Eigenvalues(_) => Status::NotFinite,
     }

@@ -62,11 +62,24 @@ impl Presented<SystemSetup> for SettledSystem {
         }
         for (index, cost) in self.response.dithered.inputs.iter().enumerate() {
             let cost = match cost {
-                Ok(cost) => format!(
-                    "power {}, stroke {}",
-                    with(Quantity::Power, cost.power),
-                    with(Quantity::Displacement, cost.stroke)
-                ),
+                Ok(cost) => {
+                    let in_series = match &cost.in_series {
+                        Some(Ok(series)) => format!(
+                            "; actuator in series with the contact: power {}, stroke {}",
+                            with(Quantity::Power, series.power),
+                            with(Quantity::Displacement, series.stroke)
+                        ),
+                        Some(Err(why)) => {
+                            format!("; actuator in series with the contact unknown: {why}")
+                        }
+                        None => String::new(),
+                    };
+                    format!(
+                        "power {}, stroke {}{in_series}",
+                        with(Quantity::Power, cost.power),
+                        with(Quantity::Displacement, cost.stroke)
+                    )
+                }
                 Err(why) => format!("power unknown: {}", why.why()),
             };
             let _ = writeln!(text, "  dither[{index}]: {cost}");

@@ -4,9 +4,13 @@ use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
+use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::outcome::Presented;
 use crate::outcome::table::figure;
+use crate::outcome::waveforms::joined_notes;
+use crate::picture;
+use crate::plot::Figure;
 use crate::run::system::waveforms::{COLUMNS, SystemWaveforms};
 use crate::study::{SystemSetup, SystemStudy};
 
@@ -22,7 +26,8 @@ impl Presented<SystemSetup> for SystemWaveforms {
     }
 
     fn table(&self, study: &SystemStudy) -> String {
-        let mut text = format!("  {:<10}", "waveform");
+        let width = self.rows.iter().map(|row| row.label().chars().count()).max().unwrap_or(0);
+        let mut text = format!("  {:<width$}  {:>10}", "waveform", "duty cycle");
         for (_, words, quantity, _) in &COLUMNS {
             let unit =
                 study.units().unit(*quantity).map_or(String::new(), |unit| format!("/{unit}"));
@@ -30,7 +35,7 @@ impl Presented<SystemSetup> for SystemWaveforms {
         }
         text.push('\n');
         for row in &self.rows {
-            let _ = write!(text, "  {:<10}", row.waveform.name());
+            let _ = write!(text, "  {:<width$}  {:>10}", row.label(), figure(row.duty_cycle));
             for column in &COLUMNS {
                 let best = self.best(column).is_some_and(|best| std::ptr::eq(best, row));
                 let mark = if best { "*" } else { "" };
@@ -41,28 +46,36 @@ impl Presented<SystemSetup> for SystemWaveforms {
             }
             text.push('\n');
         }
-        text.push_str("  * smallest. Power and stroke (peak to peak) of the driven point of the sliding structure.\n");
-        for row in &self.rows {
+        text.push_str("  * smallest. Power, stroke (peak to peak) and velocity of the driven point of the sliding structure.\n");
+        let notes = self.rows.iter().flat_map(|row| {
+            let label = row.label();
+            let of = |why: &str| (why.to_owned(), label.clone());
             match &row.averaged {
-                Err(why) => {
-                    let _ = writeln!(text, "  {}: {why}", row.waveform.name());
-                }
+                Err(why) => vec![of(why)],
                 Ok(least) => {
-                    if let Err(why) = &least.stroke {
-                        let _ = writeln!(text, "  {}: {why}", row.waveform.name());
-                    }
-                    if let Some(until) = least.until {
-                        let name = row.waveform.name();
-                        let _ =
-                            writeln!(text, "  {name}: unstable again from {} on", figure(until));
-                    }
+                    let until = least
+                        .until
+                        .map(|until| format!("unstable again from {} on", figure(until)));
+                    least
+                        .stroke
+                        .as_ref()
+                        .err()
+                        .map(|why| of(why))
+                        .into_iter()
+                        .chain(until.map(|why| of(&why)))
+                        .collect()
                 }
             }
-        }
+        });
+        text.push_str(&joined_notes(notes));
         text
     }
 
     fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
         vec![("waveforms", self.dataset(study))]
+    }
+
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::waveforms_of_system(study, self)))
     }
 }

@@ -1,6 +1,6 @@
 //! `response` of a system: the steady response of the observed row, the effect of the dither, and the cost of every dither.
 
-use quell_dynamics::motion::{ContactMeans, InputCost};
+use quell_dynamics::motion::{ContactMeans, InputCost, SeriesCost};
 use quell_dynamics::response::{
     Effect, PEAK_FLOOR, ResponsePlan, ResponseRefused, SystemEnding, SystemRecord, SystemResponse,
     Uncertain, Undefined, respond_system,
@@ -171,13 +171,18 @@ impl SettledSystem {
         let several = self.response.dithered.inputs.len() > 1;
         let inputs = self.response.dithered.inputs.iter().enumerate();
         let costs = inputs.filter_map(|(index, cost)| {
-            let InputCost { power, stroke } = cost.ok()?;
+            let InputCost { power, stroke, in_series } = cost.ok()?;
             let does = if power < 0.0 { "returns" } else { "consumes" };
             let power = in_units(units, Quantity::Power, power.abs());
             let stroke = in_units(units, Quantity::Displacement, stroke);
             let of = if several { format!(" at dither[{index}]") } else { String::new() };
             Some(format!(
-                "{does} a mean power of {power} while the point on which it acts moves by {stroke} peak to peak{of}"
+                "{does} a mean power of {power} while the point on which it acts moves by {stroke} peak to peak{of}{}",
+                in_series.and_then(Result::ok).map_or(String::new(), |cost| format!(
+                    ", and an actuator in series with the spring of the contact delivers {} with a stroke of {}",
+                    in_units(units, Quantity::Power, cost.power),
+                    in_units(units, Quantity::Displacement, cost.stroke)
+                ))
             ))
         });
         let parts: Vec<String> = losses.chain(costs).collect();
@@ -355,6 +360,17 @@ fn put_inputs(units: SystemUnits, record: &SystemRecord) -> Vec<Fields> {
             "stroke",
             Quantity::Displacement,
             of(|cost| cost.stroke),
+        );
+        let in_series = |pick: fn(&SeriesCost) -> f64| {
+            let cost = cost.as_ref().map_err(|why| why.why().to_owned())?;
+            let force = "a force on coordinates has no spring of a contact to act through";
+            let series = cost.in_series.as_ref().ok_or_else(|| force.to_owned())?;
+            series.as_ref().map(pick).map_err(ToString::to_string)
+        };
+        inner.known("actuator_power", Quantity::Power, in_series(|cost| cost.power)).known(
+            "actuator_stroke",
+            Quantity::Displacement,
+            in_series(|cost| cost.stroke),
         );
         inner
     });

@@ -1,32 +1,29 @@
 //! `waveforms` of a system: the least first dither of each waveform that quenches by averaging, and its cost.
 //!
-//! Averaging of systems knows sine, triangle, square and sums of harmonics. The cost is that of the sliding structure without the
-//! slope of friction ([`quell_linear::harmonic`]) at the driven point, by harmonics: the stroke of bᵀq and the mean power ⟨û bᵀq̇⟩ of a
-//! force b û(t).
+//! The cost is that of the sliding structure without the slope of friction ([`quell_linear::harmonic`]) at the driven point, exact
+//! for every waveform: the stroke of bᵀq, the largest velocity, and the mean power ⟨u bᵀq̇⟩ of a force b u(t).
 
-use num_complex::Complex64;
+use quell_dynamics::motion::NoPower;
 use quell_linear::averaging::{Becomes, DitheredSystem};
 use quell_linear::growth::Verdict;
-use quell_linear::harmonic;
+use quell_linear::harmonic::DrivenEquations;
+use quell_linear::linear_cost::LinearCost;
 use quell_linear::linearised::Linearised;
+use quell_linear::periodic_response::PeriodicResponse;
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Input, InputTarget};
 use quell_model::units::Quantity;
 use quell_model::{System, Waveform};
+use rayon::prelude::*;
 use serde_json::Value as Json;
 
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::run::waveforms::{Candidates, duty_cycle, label};
 use crate::study::SystemStudy;
 use crate::words::digits;
-
-/// Highest harmonic of triangle and square.
-const HARMONICS: u32 = 63;
-
-/// Points of a period at which the displacement is evaluated, per harmonic.
-const POINTS: u32 = 16;
 
 /// The least dither of one waveform.
 #[derive(Clone, Debug)]
@@ -39,6 +36,8 @@ pub struct LeastInput {
     pub root_mean_square: f64,
     /// Peak-to-peak displacement of the driven point, or why it has no value.
     pub stroke: Result<f64, String>,
+    /// Largest velocity of the driven point.
+    pub velocity: Result<f64, String>,
     /// Mean power into the sliding structure.
     pub power: Result<f64, String>,
 }
@@ -48,6 +47,8 @@ pub struct LeastInput {
 pub struct SystemWaveform {
     /// The waveform.
     pub waveform: Waveform,
+    /// Share of the period in which it acts: 1 except for bursts.
+    pub duty_cycle: f64,
     /// Whether it is that of the study.
     pub own: bool,
     /// The least dither by averaging, or why no amplitude is known.
@@ -57,19 +58,22 @@ pub struct SystemWaveform {
 /// The waveforms of a system.
 #[derive(Clone, Debug)]
 pub struct SystemWaveforms {
-    /// Sine, triangle, square, and the study's own if it is another.
+    /// Every waveform: sine, triangle, square, the study's own, bursts in ascending duty cycle.
     pub rows: Vec<SystemWaveform>,
+    /// Name of the carrier of the bursts.
+    pub carrier: &'static str,
 }
 
 /// A compared quantity: its name in JSON, in words, and its value.
 type Column = (&'static str, &'static str, Quantity, fn(&LeastInput) -> Result<f64, String>);
 
 /// The compared quantities.
-pub(crate) const COLUMNS: [Column; 4] = [
+pub(crate) const COLUMNS: [Column; 5] = [
     ("amplitude", "amplitude", Quantity::Force, |least| Ok(least.amplitude)),
-    ("root_mean_square", "rms", Quantity::Force, |least| Ok(least.root_mean_square)),
+    ("root_mean_square", "rms force", Quantity::Force, |least| Ok(least.root_mean_square)),
     ("power", "power", Quantity::Power, |least| least.power.clone()),
     ("stroke", "stroke", Quantity::Displacement, |least| least.stroke.clone()),
+    ("velocity", "velocity", Quantity::Velocity, |least| least.velocity.clone()),
 ];
 
 /// Compares waveforms of the first dither of a system.
@@ -88,16 +92,14 @@ pub fn run(study: &SystemStudy) -> Result<SystemWaveforms, Failure> {
         );
     };
     let sliding = Linearised::new(system).map_err(|why| failed("waveforms", why))?;
-    let mut waveforms: Vec<Waveform> = Waveform::NAMED.to_vec();
-    if !waveforms.contains(&first.waveform) {
-        waveforms.push(first.waveform.clone());
-    }
-    let rows = waveforms.into_iter().map(|waveform| SystemWaveform {
+    let Candidates { waveforms, carrier } = Candidates::beside(&first.waveform);
+    let rows = waveforms.into_par_iter().map(|waveform| SystemWaveform {
         own: waveform == first.waveform,
+        duty_cycle: duty_cycle(&waveform),
         averaged: least(system, &sliding, first, &waveform),
         waveform,
     });
-    Ok(SystemWaveforms { rows: rows.collect() })
+    Ok(SystemWaveforms { rows: rows.collect(), carrier })
 }
 
 /// The least dither of a waveform.
@@ -135,55 +137,50 @@ fn least(
             .find(|critical| critical.becomes == Becomes::Unstable)
             .map(|critical| critical.amplitude),
         root_mean_square: critical.amplitude * waveform.root_mean_square(),
-        stroke: cost.clone().map(|(stroke, _)| stroke),
-        power: cost.map(|(_, power)| power),
+        stroke: cost.clone().map(|cost| cost.stroke),
+        velocity: cost.clone().map(|cost| cost.velocity),
+        power: cost.map(|cost| cost.power),
     })
 }
 
-/// Stroke of the driven point and mean power of a wave.
+/// Stroke and largest velocity of the driven point, and mean power of a wave.
 fn cost(
     input: &Input,
     system: &System,
     sliding: &Linearised,
     wave: &Wave,
-) -> Result<(f64, f64), String> {
+) -> Result<LinearCost, String> {
     let InputTarget::Force(row) = &input.target else {
         return Err(
             "this dither modulates the load of a contact: it has no stroke of its own".to_owned()
         );
     };
-    // A(b sin nθ + c cos nθ) is the real part of −iA(b + ic) e^{inθ}.
-    let harmonics: Vec<(u32, Complex64)> = match wave.waveform.harmonics() {
-        Some(known) => known.iter().map(|h| (h.order, Complex64::new(h.sine, h.cosine))).collect(),
-        None => (1..=HARMONICS)
-            .filter_map(|n| Some((n, Complex64::from(wave.waveform.sine_coefficient(n)?))))
-            .filter(|(_, coefficient)| *coefficient != Complex64::ZERO)
-            .collect(),
-    };
-    let mut moved = Vec::with_capacity(harmonics.len());
-    let mut power = 0.0;
-    for (n, coefficient) in &harmonics {
-        let frequency = f64::from(*n) * wave.frequency;
-        let response = harmonic::response(system, sliding, &input.target, frequency)
-            .ok_or("a harmonic of the dither is at an undamped resonance")?;
-        let along: Complex64 =
-            row.iter().zip(&response.displacement).map(|(own, q)| q * *own).sum();
-        let force = -Complex64::I * coefficient * wave.amplitude;
-        power += 0.5 * force.norm_sqr() * (Complex64::new(0.0, frequency) * along).re;
-        moved.push((*n, force * along));
+    if sliding.matrices().is_none() {
+        return Err(NoPower::FirstOrder.why().to_owned());
     }
-    let count = POINTS * harmonics.last().map_or(1, |(n, _)| *n);
-    let (mut least, mut largest) = (f64::INFINITY, f64::NEG_INFINITY);
-    for k in 0..count {
-        let phase = std::f64::consts::TAU * f64::from(k) / f64::from(count);
-        let at = |(n, z): &(u32, Complex64)| (z * Complex64::cis(f64::from(*n) * phase)).re;
-        let displacement: f64 = moved.iter().map(at).sum();
-        (least, largest) = (least.min(displacement), largest.max(displacement));
-    }
-    Ok((largest - least, power))
+    let equations = DrivenEquations::new(system, sliding, &input.target)
+        .ok_or("the mass of the structure is singular")?;
+    let [along, rate] = [0, 1].map(|order| equations.over_state(row, order));
+    let nothing = vec![0.0; along.len()];
+    let response =
+        PeriodicResponse::new(&equations.matrix, &equations.source, &wave.waveform, wave.frequency)
+            .map_err(|why| why.to_string())?;
+    let outputs = response.outputs(&[(&along, 0.0), (&rate, 0.0), (&nothing, 1.0)]);
+    let [[least, largest], [slowest, fastest]] = [0, 1].map(|output| outputs[output].range());
+    let amplitude = wave.amplitude.abs();
+    Ok(LinearCost {
+        stroke: amplitude * (largest - least),
+        velocity: amplitude * fastest.max(-slowest),
+        power: amplitude * amplitude * outputs[1].mean_of_product(&outputs[2]),
+    })
 }
 
 impl SystemWaveform {
+    /// A short label, such as "burst 3 : 5": periods of the carrier in the burst and in the pause.
+    pub fn label(&self) -> String {
+        label(&self.waveform)
+    }
+
     /// A quantity of the least dither, or why it has no value.
     pub(crate) fn value(&self, column: &Column) -> Result<f64, String> {
         self.averaged.as_ref().map_err(Clone::clone).and_then(|least| (column.3)(least))
@@ -212,7 +209,7 @@ impl SystemWaveforms {
         format!(
             "By averaging, of {} waveforms a {} stabilises steady sliding with the least amplitude, {value}{unit}.",
             self.rows.len(),
-            best.waveform.name()
+            best.label()
         )
     }
 
@@ -223,8 +220,12 @@ impl SystemWaveforms {
             let mut inner = Fields::of_system(units);
             inner
                 .plain("waveform", row.waveform.name())
-                .plain("label", row.waveform.name())
-                .plain("own", row.own);
+                .plain("label", row.label())
+                .plain("own", row.own)
+                .number("duty_cycle", Quantity::Ratio, row.duty_cycle);
+            if let Waveform::Burst(burst) = &row.waveform {
+                inner.plain("on", burst.on()).plain("off", burst.off());
+            }
             for column in &COLUMNS {
                 inner.known(column.0, column.2, row.value(column));
             }
@@ -241,7 +242,7 @@ impl SystemWaveforms {
         let mut best = Fields::of_system(units);
         for column in &COLUMNS {
             match self.best(column) {
-                Some(row) => best.plain(column.0, row.waveform.name()),
+                Some(row) => best.plain(column.0, row.label()),
                 None => best.unknown(column.0, "no waveform has a value"),
             };
         }
@@ -249,6 +250,7 @@ impl SystemWaveforms {
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
+            .plain("carrier", self.carrier)
             .list("waveforms", rows)
             .nested("best", best)
             .plain("warnings", self.warnings(study));
@@ -271,7 +273,12 @@ impl SystemWaveforms {
         let codes: Vec<u8> = self.rows.iter().map(code).collect();
         let mut dataset = Dataset::of(&study.into(), "waveforms")
             .with_axis(Array::new("number", "1", numbers))
-            .with(Array::of_words("waveform", names.clone(), &codes));
+            .with(Array::of_words("waveform", names.clone(), &codes))
+            .with(Array::new(
+                "duty_cycle",
+                "1",
+                self.rows.iter().map(|row| row.duty_cycle).collect(),
+            ));
         for column in &COLUMNS {
             let values = self.rows.iter().map(|row| row.value(column).unwrap_or(f64::NAN));
             let unit = study.units().unit(column.2).unwrap_or("1");
