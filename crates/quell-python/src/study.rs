@@ -263,6 +263,12 @@ impl NativeStudy {
         call::run(py, move || window::run(&study, (&start, &end)))
     }
 
+    /// One run in which a drive, a load or an amplitude changes slowly.
+    fn ramp(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || bifurcation::ramp(&study))
+    }
+
     /// The folder in which the files that the study names are searched.
     #[getter]
     fn folder(&self) -> PathBuf {

@@ -127,6 +127,11 @@ def belt_that_stops() -> quell.Belt:
     )
 
 
+def belt_that_slows_down() -> quell.Belt:
+    """A belt that slows down under a dither."""
+    return belt().replace(belt_velocity=None, drive=quell.Profile([0.0, 300.0], velocity=[0.3, 0.05]))
+
+
 def belt_with_two_responses() -> quell.Belt:
     """A belt with a decreasing law, on which squeal and a quiet response exist together."""
     return quell.Belt(
@@ -172,6 +177,7 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "simulate a system": lambda: study("drive in SI").simulate(20),
     "response": lambda: belt().response(),
     "a manoeuvre": lambda: belt_that_stops().simulate(60.0, events=True, samples=True),
+    "a ramp": lambda: belt_that_slows_down().bifurcation(ramp=True),
     "a window": lambda: belt_that_stops().response(window=(10.0, 40.0)),
     "a window of a system": lambda: study("drive in SI").response(window=(1, 2)),
     "response in SI": lambda: belt_in_si().response(),

@@ -14,10 +14,10 @@ pub(crate) struct VariedArguments {
     pub(super) parameter: String,
     /// Smallest value, in the unit of the key or with a unit, such as 5kN
     #[arg(long, value_name = "A", allow_hyphen_values = true, value_hint = ValueHint::Other)]
-    from: String,
+    pub(super) from: String,
     /// Largest value, in the unit of the key or with a unit, such as 5kN
     #[arg(long, value_name = "B", allow_hyphen_values = true, value_hint = ValueHint::Other)]
-    to: String,
+    pub(super) to: String,
 }
 
 impl VariedArguments {

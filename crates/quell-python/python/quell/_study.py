@@ -608,7 +608,7 @@ class Study(CheckedStudy):
             return compute(study, asked, place, client, resume=resume, progress=progress)
         return results.Map(study, study._native.map(asked, place, bool(resume), count, progress))
 
-    @keywords
+    @overload
     def bifurcation(
         self,
         parameter: str,
@@ -618,8 +618,26 @@ class Study(CheckedStudy):
         points: int = 101,
         up: bool = False,
         down: bool = False,
+        ramp: Literal[False] = False,
         progress: Callable[[int, int], object] | None = None,
-    ) -> results.Bifurcation:
+    ) -> results.Bifurcation: ...
+
+    @overload
+    def bifurcation(self, *, ramp: Literal[True]) -> results.Ramp: ...
+
+    @keywords
+    def bifurcation(
+        self,
+        parameter: str | None = None,
+        from_: Number | None = None,
+        to: Number | None = None,
+        *,
+        points: int = 101,
+        up: bool = False,
+        down: bool = False,
+        ramp: bool = False,
+        progress: Callable[[int, int], object] | None = None,
+    ) -> results.Bifurcation | results.Ramp:
         """The response over a parameter, swept up and down with the state carried over.
 
         Without dither it is a limit cycle, steady sliding or rest.
@@ -632,10 +650,19 @@ class Study(CheckedStudy):
             Smallest and largest value, in the unit of the key or as texts with units, and the number of values.
         up, down :
             Directions of the sweep [default: both]. A sweep down alone begins with the initial state of the study.
+        ramp :
+            Instead of a sweep, one run of the study as it varies in time, from its first knot to its last, beside the exact
+            thresholds.
         progress :
             Called from time to time with (finished values, all values).
         """
         arguments = Arguments()
+        if ramp:
+            for name, given in (("parameter", parameter), ("from_", from_), ("to", to)):
+                if given is not None:
+                    arguments.wrong.append(complaint(name, given, "left out: the study gives the ramp", "conflict"))
+            arguments.done()
+            return results.Ramp(self, self._native.ramp())
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
         ends = (arguments.quantity("from_", from_), arguments.quantity("to", to))
         count = arguments.whole("points", points, 0, 2**31)

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use quell::Study;
 use quell::kind::verbs;
 use quell::run::bifurcation::SweepRequest;
+use quell::{Failure, Study};
 
 use super::map::{Counter, Watched};
 use crate::answer::NativeAnswer;
@@ -23,4 +23,9 @@ pub(crate) fn run(
     let work =
         move || Ok(NativeAnswer::new(verbs(&study).bifurcation(&request, counter.running(None))?));
     call::watched(py, work, watched)
+}
+
+/// Runs the ramp of a study that varies in time.
+pub(crate) fn ramp(study: &Study) -> Result<NativeAnswer, Failure> {
+    Ok(NativeAnswer::new(verbs(study).ramp()?))
 }

@@ -6,8 +6,8 @@ use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::{
-    basins, bifurcation, curves, describing, found_attractor, friction, orbit, response, simulate,
-    stability, thresholds, waveforms, window,
+    basins, bifurcation, curves, describing, found_attractor, friction, orbit, ramp, response,
+    simulate, stability, thresholds, waveforms, window,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -73,6 +73,10 @@ impl Verbs for BeltStudy {
 
     fn response_within(&self, window: (f64, f64)) -> Reply {
         answer(self, window::of_belt(self, window))
+    }
+
+    fn ramp(&self) -> Reply {
+        answer(self, ramp::run(self))
     }
 
     fn attractor(&self, request: &AttractorRequest) -> Reply {

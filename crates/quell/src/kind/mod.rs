@@ -139,6 +139,14 @@ pub trait Verbs: Send + Sync {
         Err(self.lacks("response --window"))
     }
 
+    /// One run in which a drive, a load or an amplitude changes slowly, beside the exact thresholds.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::ramp::run`].
+    fn ramp(&self) -> Reply {
+        Err(self.lacks("bifurcation --ramp"))
+    }
+
     /// The steady response of a system, with times of its own.
     ///
     /// # Errors
@@ -301,7 +309,7 @@ impl Verbs for OverTime {
     }
 
     fn names(&self) -> &'static [&'static str] {
-        &["check", "sketch", "cite", "simulate", "response --window"]
+        &["check", "sketch", "cite", "simulate", "response --window", "bifurcation --ramp"]
     }
 
     fn draws(&self, verb: &str) -> bool {
@@ -330,6 +338,10 @@ impl Verbs for OverTime {
 
     fn response_within(&self, window: (f64, f64)) -> Reply {
         self.steady.response_within(window)
+    }
+
+    fn ramp(&self) -> Reply {
+        self.steady.ramp()
     }
 
     fn lacks(&self, verb: &str) -> Failure {

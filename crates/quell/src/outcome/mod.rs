@@ -22,6 +22,7 @@ mod friction;
 mod map;
 mod modes;
 mod orbit;
+mod ramp;
 mod resonances;
 mod response;
 mod simulate;

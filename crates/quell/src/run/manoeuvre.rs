@@ -76,7 +76,7 @@ impl Manoeuvre {
         fast: Option<f64>,
         onset: Option<f64>,
     ) -> Self {
-        let slow = fast.filter(|fast| *fast < FAST * period).map(|fast| averaged(motion, fast));
+        let slow = without_fast(motion, period, fast);
         let motion = SampledMotion {
             displacement: slow.as_deref().unwrap_or(motion.displacement),
             ..motion
@@ -110,6 +110,22 @@ impl Manoeuvre {
         let (time_to_quench, overshoot) = quenching(&vibration, &levels, onset, end);
         Self { vibration, onset, time_to_quench, overshoot, whole: (start, end) }
     }
+}
+
+/// The displacement without the motion under a fast dither; `None` without one.
+fn without_fast(motion: SampledMotion<'_>, period: f64, fast: Option<f64>) -> Option<Vec<f64>> {
+    fast.filter(|fast| *fast < FAST * period).map(|fast| averaged(motion, fast))
+}
+
+/// Half of the peak-to-peak slow displacement within one natural period, at the middle of each window.
+pub(crate) fn vibration_levels(
+    motion: SampledMotion<'_>,
+    period: f64,
+    fast: Option<f64>,
+) -> Vec<(f64, f64)> {
+    let slow = without_fast(motion, period, fast);
+    let displacement = slow.as_deref().unwrap_or(motion.displacement);
+    levels(SampledMotion { displacement, ..motion }, period)
 }
 
 /// The displacement averaged over a fast period about each sample; over less at the ends.

@@ -20,6 +20,7 @@ pub mod manoeuvre;
 pub mod map;
 pub mod orbit;
 pub mod protocol;
+pub mod ramp;
 pub mod response;
 mod sample_times;
 pub mod simulate;

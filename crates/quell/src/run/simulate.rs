@@ -165,9 +165,13 @@ fn manoeuvre(study: &BeltStudy, trace: &Sampler) -> Manoeuvre {
     let envelopes = study.belt().dithers().iter().filter_map(|dither| dither.envelope.as_ref());
     let onset = envelopes.filter_map(manoeuvre::onset).reduce(f64::min);
     let motion = SampledMotion { start, step, displacement: &displacement };
+    Manoeuvre::of(motion, NATURAL_PERIOD, slowest_repetition(study), onset)
+}
+
+/// The longest period of a dither that acts.
+pub(crate) fn slowest_repetition(study: &BeltStudy) -> Option<f64> {
     let acting = study.belt().dithers().iter().filter(|dither| dither.amplitude > 0.0);
-    let slowest = acting.map(Dither::repetition_ratio).reduce(f64::min);
-    Manoeuvre::of(motion, NATURAL_PERIOD, slowest.map(|ratio| TAU / ratio), onset)
+    acting.map(Dither::repetition_ratio).reduce(f64::min).map(|ratio| TAU / ratio)
 }
 
 /// Highest angular frequency of a spectrogram: it shows the dither, unless that is so fast that the slow vibration would not

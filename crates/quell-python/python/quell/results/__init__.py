@@ -17,7 +17,7 @@ from .._dataset import Arrays, Variable
 from .._result import Result
 from ._motion import Attractor, Orbit, Response, Simulation, Window
 from ._steady import Check, Citations, DescribingFunction, ExactStability, FrictionCurve, Modes, Resonances, Stability, TrackedStability, Waveforms
-from ._sweeps import Basins, Bifurcation, Map, Shard, ThresholdCurves, Thresholds
+from ._sweeps import Basins, Bifurcation, Map, Ramp, Shard, ThresholdCurves, Thresholds
 
 __all__ = [
     "Arrays",
@@ -32,6 +32,7 @@ __all__ = [
     "Map",
     "Modes",
     "Orbit",
+    "Ramp",
     "Resonances",
     "Response",
     "Result",

@@ -471,6 +471,10 @@ class OrbitColumns:
     velocity_value: float
 
 
+class RampColumns:
+    """Of :class:`quell.results.Ramp`."""
+
+
 class ResonancesColumns:
     """Of :class:`quell.results.Resonances`."""
 

@@ -133,6 +133,26 @@ class Bifurcation(_columns.BifurcationColumns, Result):
     """System: most periods of a run at one value."""
 
 
+class Ramp(_columns.RampColumns, Result):
+    """One run in which a drive, a load or an amplitude changes slowly, beside the exact thresholds."""
+
+    verb = "bifurcation --ramp"
+    parameter: str
+    """Path of the number that changes."""
+    least: float
+    """Its least value."""
+    largest: float
+    """Its largest value."""
+    until: float
+    """End of the run, at the last knot."""
+    switches: list[dict[str, Any]]
+    """``time`` and ``value`` at which the run begins or ceases to vibrate, ``becomes``, and the nearest exact ``threshold``."""
+    thresholds: list[dict[str, Any]] | None
+    """Exact thresholds of the base response at constant values: ``value``, ``kind``, ``becomes``."""
+    manoeuvre: dict[str, Any]
+    """When the run vibrates, as in :class:`quell.results.Simulation`."""
+
+
 class Basins(_columns.BasinsColumns, Result):
     """The responses on which starts in a window end, and the fraction of each."""
 

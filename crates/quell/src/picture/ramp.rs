@@ -1,0 +1,103 @@
+//! A slow ramp: the motion over the value of the ramp, with the exact thresholds.
+
+use quell_model::units::Quantity;
+
+use super::caption::caption_of_run;
+use super::ruler::Ruler;
+use crate::plot::{
+    Figure, LineStyle, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing, Size,
+};
+use crate::run::manoeuvre::{SampledMotion, vibration_levels};
+use crate::run::ramp::Ramp;
+use crate::run::simulate::{NATURAL_PERIOD, slowest_repetition};
+use crate::study::BeltStudy;
+
+/// Displacement, and vibration within one natural period, over the value of the ramp; rising and falling values apart.
+pub fn ramp(study: &BeltStudy, done: &Ramp) -> Figure {
+    let samples = done.samples();
+    let (least, largest) = done.ramped.range();
+    let across = Ruler::of(study, done.ramped.quantity, [least, largest]);
+    let place =
+        Ruler::of(study, Quantity::Displacement, samples.iter().map(|sample| sample.displacement));
+    let axis = || {
+        let axis = across.axis(done.ramped.words, "");
+        axis.between(across.place(least), across.place(largest))
+    };
+    let displacement = samples.iter().map(|sample| (sample.time, sample.displacement));
+    let mut motion = with_ways(
+        Panel::new(axis(), place.axis("displacement", "x")),
+        done,
+        |pieces| {
+            let points =
+                |(time, x): (f64, f64)| (across.place(done.ramped.value(time)), place.place(x));
+            pieces.into_iter().map(points).collect()
+        },
+        displacement.collect(),
+    );
+    let levels = match samples {
+        [first, second, ..] => {
+            let displacement: Vec<f64> = samples.iter().map(|sample| sample.displacement).collect();
+            let step = second.time - first.time;
+            let sampled = SampledMotion { start: first.time, step, displacement: &displacement };
+            vibration_levels(sampled, NATURAL_PERIOD, slowest_repetition(study))
+        }
+        _ => Vec::new(),
+    };
+    let size = Ruler::of(study, Quantity::Displacement, levels.iter().map(|level| level.1));
+    let mut vibration = with_ways(
+        Panel::new(axis(), size.axis("slow vibration", "").from(0.0)),
+        done,
+        |pieces| {
+            let points =
+                |(time, x): (f64, f64)| (across.place(done.ramped.value(time)), size.place(x));
+            pieces.into_iter().map(points).collect()
+        },
+        levels,
+    );
+    for (number, threshold) in done.thresholds.iter().flatten().enumerate() {
+        let line =
+            || ReferenceLine::vertical(across.place(threshold.value)).style(LineStyle::Dashed);
+        let label = if number == 0 { "exact threshold" } else { "" };
+        motion = motion.with(if label.is_empty() { line() } else { line().label(label) });
+        vibration = vibration.with(line());
+    }
+    Figure::grid(1, [motion, vibration])
+        .sharing_x(Sharing::All)
+        .legend(SharedLegend::Above)
+        .size(Size::Frame(560.0, 190.0))
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{} {}", caption_of_run(study), done.sentence(study)))
+}
+
+/// Adds values over time as one curve for each stretch in which the ramp rises or falls; `to_points` places them.
+fn with_ways(
+    panel: Panel,
+    done: &Ramp,
+    to_points: impl Fn(Vec<(f64, f64)>) -> Vec<(f64, f64)>,
+    values: Vec<(f64, f64)>,
+) -> Panel {
+    let rises = |time: f64| {
+        let (times, knots) = (done.ramped.course.times(), done.ramped.course.values());
+        let next = times.partition_point(|knot| *knot <= time).clamp(1, times.len() - 1);
+        knots[next] >= knots[next - 1]
+    };
+    let mut ways: [Vec<Vec<(f64, f64)>>; 2] = Default::default();
+    let mut last = None;
+    for (time, value) in values {
+        let way = usize::from(!rises(time));
+        if last != Some(way) {
+            ways[way].push(Vec::new());
+        }
+        last = Some(way);
+        if let Some(piece) = ways[way].last_mut() {
+            piece.push((time, value));
+        }
+    }
+    let looks = [(PlotRole::Series(0), "rising"), (PlotRole::Series(1), "falling")];
+    let curves = ways.into_iter().zip(looks).filter(|(pieces, _)| !pieces.is_empty());
+    let curves = curves.map(|(pieces, (role, label))| {
+        let pieces: Vec<Vec<(f64, f64)>> = pieces.into_iter().map(&to_points).collect();
+        Polyline::pieces(role, pieces).label(label)
+    });
+    panel.with_all(curves.collect::<Vec<_>>())
+}
