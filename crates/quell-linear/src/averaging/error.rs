@@ -28,6 +28,8 @@ pub enum AveragingError {
         /// Name of the waveform.
         waveform: &'static str,
     },
+    /// The second order of the motion under normal noise, which is not Gaussian.
+    SecondOrderNoise,
     /// A quadrature did not reach its tolerance.
     Quadrature(QuadratureError),
 }
@@ -59,6 +61,9 @@ impl core::fmt::Display for AveragingError {
                 f,
                 "the response of the oscillator to a waveform \"{waveform}\" is not known in closed form; averaging in the limit \
                  of high frequency and exact verdicts do not need it"
+            ),
+            Self::SecondOrderNoise => f.write_str(
+                "the motion under normal noise is known to first order: to second order its distribution is not Gaussian",
             ),
             Self::Quadrature(error) => write!(f, "averaging: {error}"),
         }

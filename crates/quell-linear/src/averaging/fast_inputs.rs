@@ -366,7 +366,7 @@ impl ContactMotion {
     /// Mean friction as a function of the load.
     fn line(&self, contact: &Contact) -> Result<FrictionLine, NoAverage> {
         let undithered = FrictionLine::of(contact)?;
-        if self.slip.groups().is_empty() {
+        if self.slip.groups().is_empty() && self.slip.noise() == 0.0 {
             return Ok(undithered);
         }
         let velocity = contact.surface_velocity.mean();

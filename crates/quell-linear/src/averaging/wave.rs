@@ -161,7 +161,7 @@ impl FastWave {
 }
 
 /// R²/(R² − 1): the velocity of the oscillator divided by D/R at the frequency of the force.
-fn sine_gain(r: f64) -> f64 {
+pub(super) fn sine_gain(r: f64) -> f64 {
     r * r / ((r - 1.0) * (r + 1.0))
 }
 

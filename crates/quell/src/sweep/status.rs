@@ -253,6 +253,7 @@ impl From<&AveragingError> for Status {
             AveragingError::TooManyGroups { .. } => Self::TooManyGroups,
             AveragingError::NotFast { .. } => Self::NotFast,
             AveragingError::NoOscillatorShape { .. } => Self::NoAverageOfWaveform,
+            AveragingError::SecondOrderNoise => Self::NoAverageOfWaveform,
             AveragingError::Quadrature(_) => Self::NotConverged,
         }
     }
