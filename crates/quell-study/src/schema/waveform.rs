@@ -1,5 +1,6 @@
 //! The schema of the keys that describe a waveform.
 
+use quell_model::waveform::{LARGEST_SEED, MOST_LINES};
 use serde_json::{Value as Json, json};
 
 use crate::study::vocabulary::{Choice, WaveKey};
@@ -24,5 +25,10 @@ pub(super) fn property(wave: WaveKey) -> Json {
         WaveKey::Carrier => json!({ "enum": Choice::Carrier.names() }),
         WaveKey::On => count(1),
         WaveKey::Off => count(0),
+        WaveKey::Band | WaveKey::BandHz => json!({
+            "type": "array", "items": { "type": ["number", "string"] }, "minItems": 2, "maxItems": 2,
+        }),
+        WaveKey::Lines => json!({ "type": "integer", "minimum": 1, "maximum": MOST_LINES }),
+        WaveKey::Seed => json!({ "type": "integer", "minimum": 0, "maximum": LARGEST_SEED }),
     }
 }
