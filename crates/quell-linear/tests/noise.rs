@@ -3,11 +3,15 @@
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 use quell_linear::averaging::{
-    AveragingError, AveragingOptions, CrossingKind, FastMotion, criterion, critical_amplitudes,
-    effective, effective_under_noise_by_quadrature, unstable_bands,
+    AveragingError, AveragingOptions, CrossingKind, DitheredSystem, FastMotion, criterion,
+    critical_amplitudes, effective, effective_under_noise_by_quadrature, unstable_bands,
 };
+use quell_linear::harmonic::response;
+use quell_model::profile::Profile;
+use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
 use quell_model::waveform::Noise;
-use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
+use quell_model::{Belt, Direction, Dither, Friction, LawKind, Parametrisation, System, Waveform};
+use quell_numerics::matrix::Matrix;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::special::erf;
 
@@ -237,6 +241,78 @@ fn bands_agree_with_the_criterion() {
         assert!(value(edge).abs() < 1e-8, "{edge}");
     }
     assert!(value(0.5 * (bands[0].lower + upper)) < 0.0);
+}
+
+/// A system of one mass without damping has the averages of the undamped belt at finite R, which has its response.
+#[test]
+fn a_system_of_one_mass_is_the_belt() {
+    let stribeck = law(LawKind::Stribeck, &[0.4, 0.2857, 0.2]);
+    let noise = dither(Direction::Tangential, 1.5, 32);
+    let belt = Belt::new(0.0, 1.0, 0.1, stribeck, vec![noise]).expect("valid");
+    let system = belt.system();
+    let prepared = DitheredSystem::new(&system).expect("a response");
+    let average = prepared.average().expect("an average");
+    let exact = criterion(&belt, AveragingOptions::FINITE_R).expect("a value");
+    let contact = &average.contacts[0];
+    assert!((contact.effective_coefficient / exact.effective.coefficient - 1.0).abs() < 1e-12);
+    assert!((contact.slope_by_velocity / exact.effective.slope - 1.0).abs() < 1e-11);
+    let growth = average.growth().expect("a growth rate").rate;
+    assert!((growth + 0.5 * exact.value).abs() < 1e-10, "{growth} {}", exact.value);
+    let critical = critical_amplitudes(&belt, AveragingOptions::FINITE_R).expect("roots");
+    let found = prepared.critical_amplitudes(0).expect("roots");
+    assert_eq!(found.len(), critical.len());
+    for (one, other) in found.iter().zip(&critical) {
+        assert!((one.amplitude / other.amplitude - 1.0).abs() < 1e-8, "{one:?} {other:?}");
+        assert_eq!(one.crossing, CrossingKind::Root);
+    }
+}
+
+/// A dither on the load that the structure bears: slip and load are correlated. The mean friction is that of the same lines over
+/// their phases, ⟨μ(γ + a)(N + Ñ)⟩, here of a law that is linear in the slip velocity, for which the mean is exact.
+#[test]
+fn correlated_slip_and_load() {
+    let viscous = law(LawKind::Coulomb, &[0.0, 0.0, 0.5]);
+    let structure = Mechanical::new(
+        vec!["x".to_owned(), "z".to_owned()],
+        MassMatrix::identity(2),
+        Matrix::from_fn(2, 2, |i, j| if i == j { 0.1 } else { 0.02 }),
+        Matrix::from_fn(2, 2, |i, j| if i == j { 2.0 } else { -0.3 }),
+    );
+    let contact = Contact {
+        name: "c".to_owned(),
+        tangent: Some(vec![1.0, 0.0]),
+        force: None,
+        normal: Some(vec![0.0, 1.0]),
+        slope: None,
+        normal_load: 1.0,
+        varying_load: None,
+        normal_stiffness: 5.0,
+        normal_damping: 0.1,
+        surface_velocity: Profile::constant(0.3),
+        friction: viscous,
+        tangential_stiffness: None,
+    };
+    let noise = dither(Direction::Tangential, 0.8, 16);
+    let input = Input {
+        target: InputTarget::Force(vec![1.0, 0.7]),
+        profile: Profile::default().with(noise.wave()),
+    };
+    let system =
+        System { structure: structure.into(), contacts: vec![contact], inputs: vec![input] };
+    let prepared = DitheredSystem::new(&system).expect("a response");
+    let average = prepared.average().expect("an average");
+    // ⟨0.5(γ + a)Ñ⟩ = 0.5⟨aÑ⟩, summed over the lines.
+    let mut covariance = 0.0;
+    for line in noise.by_harmonics() {
+        let target = &system.inputs[0].target;
+        let at = line.frequency_ratio;
+        let found = response(&system, prepared.sliding(), target, at).expect("a response");
+        let one = &found.contacts[0];
+        covariance += 0.5 * line.amplitude * line.amplitude * (one.slip * one.load.conj()).re;
+    }
+    let ratchet = average.contacts[0].ratchet_force;
+    assert!(covariance.abs() > 1e-6);
+    assert!((ratchet / (0.5 * covariance) - 1.0).abs() < 1e-11, "{ratchet} {covariance}");
 }
 
 #[test]

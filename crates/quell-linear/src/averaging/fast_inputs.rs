@@ -13,7 +13,7 @@ use quell_model::{System, Waveform};
 
 use super::dithers::commensurate_groups;
 use super::error::AveragingError;
-use super::fast_motion::FastMotion;
+use super::fast_motion::{FastMotion, REACH};
 use super::mean_friction::{effective, of_fluctuating_load};
 use super::no_average::{MOST_FREQUENCIES, NoAverage};
 use super::periodic_motion::{LoadTerm, PeriodicMotion, SlipTerm};
@@ -79,6 +79,43 @@ pub(super) struct WaveResponse {
     pub(super) free: Option<Vec<FreeSlip>>,
     /// Harmonic n of the wave, its coefficient b_n + ic_n where the wave has b_n sin nθ + c_n cos nθ, and the response at nω.
     pub(super) harmonics: Vec<(u32, Complex64, Vec<ContactResponse>)>,
+    /// The response at each line of noise; empty for a periodic wave.
+    pub(super) lines: Vec<Vec<ContactResponse>>,
+}
+
+impl WaveResponse {
+    /// Of a wave by these harmonics alone.
+    pub(super) fn of(
+        input: usize,
+        wave: Wave,
+        harmonics: Vec<(u32, Complex64, Vec<ContactResponse>)>,
+    ) -> Self {
+        Self { input, wave, free: None, harmonics, lines: Vec::new() }
+    }
+}
+
+/// Second moments of the Gaussian slip a and load Ñ of a contact under noise.
+#[derive(Clone, Copy, Debug, Default)]
+struct NoiseMoments {
+    /// ⟨a²⟩.
+    slip: f64,
+    /// ⟨Ñ²⟩.
+    load: f64,
+    /// ⟨aÑ⟩.
+    covariance: f64,
+}
+
+impl NoiseMoments {
+    /// Adds the lines of a noise, each of which has this amplitude.
+    fn add(&mut self, lines: &[Vec<ContactResponse>], contact: usize, amplitude: f64) {
+        let half = 0.5 * amplitude * amplitude;
+        for line in lines {
+            let ContactResponse { slip, load } = line[contact];
+            self.slip += half * slip.norm_sqr();
+            self.load += half * load.norm_sqr();
+            self.covariance += half * (slip * load.conj()).re;
+        }
+    }
 }
 
 /// The fast motion of contacts, prepared for any amplitudes of the inputs.
@@ -101,14 +138,15 @@ impl FastInputs {
             for wave in given.profile.waves().iter().cloned() {
                 let contacts = response(&given.target, &wave)?;
                 let harmonics = vec![(1, Complex64::ONE, contacts)];
-                waves.push(WaveResponse { input, wave, free: None, harmonics });
+                waves.push(WaveResponse::of(input, wave, harmonics));
             }
         }
         Ok(Self::of(waves)?)
     }
 
     pub(super) fn of(waves: Vec<WaveResponse>) -> Result<Self, NoAverage> {
-        let frequencies: Vec<f64> = waves.iter().map(|response| response.wave.frequency).collect();
+        let periodic = waves.iter().filter(|response| response.lines.is_empty());
+        let frequencies: Vec<f64> = periodic.map(|response| response.wave.frequency).collect();
         let count = commensurate_groups(&frequencies).len();
         if count > MOST_FREQUENCIES {
             return Err(NoAverage::TooManyFrequencies { count });
@@ -236,12 +274,21 @@ impl FastInputs {
             _ => response.wave.amplitude,
         };
         let normal_load = system.contacts[contact].normal_load;
+        let mut noise = NoiseMoments::default();
+        for response in &self.waves {
+            if let Some(lines) = response.wave.waveform.noise() {
+                let each = lines.line_amplitude() * amplitude(response);
+                noise.add(&response.lines, contact, each);
+            }
+        }
+        let periodic: Vec<&WaveResponse> =
+            self.waves.iter().filter(|response| response.lines.is_empty()).collect();
         let frequencies: Vec<f64> =
-            self.waves.iter().map(|response| response.wave.frequency).collect();
+            periodic.iter().map(|response| response.wave.frequency).collect();
         let groups = commensurate_groups(&frequencies).into_iter().map(|members| {
             let mut parts = GroupParts::default();
             for (index, multiple) in members {
-                let response = &self.waves[index];
+                let response = periodic[index];
                 let target = &system.inputs[response.input].target;
                 let direct =
                     matches!(target, InputTarget::NormalLoad { contact: at, .. } if *at == contact);
@@ -249,7 +296,7 @@ impl FastInputs {
             }
             parts.motion(normal_load)
         });
-        ContactMotion::new(groups.collect(), normal_load)
+        ContactMotion::new(groups.collect(), noise, normal_load)
     }
 }
 
@@ -342,20 +389,27 @@ struct ContactMotion {
     /// Slip with the load that goes with it, and slip alone.
     whole: FastMotion,
     slip: FastMotion,
+    /// Sum of the amplitudes of the load of periodic dithers.
+    periodic_load: f64,
     load_amplitude: f64,
+    /// Covariance ⟨aÑ⟩ of slip and load under noise.
+    covariance: f64,
     normal_load: f64,
 }
 
 impl ContactMotion {
-    fn new(groups: Vec<PeriodicMotion>, normal_load: f64) -> Self {
+    fn new(groups: Vec<PeriodicMotion>, noise: NoiseMoments, normal_load: f64) -> Self {
         let loads = groups.iter().flat_map(|group| &group.load);
-        let load_amplitude = normal_load * loads.map(|term| term.amplitude.abs()).sum::<f64>();
+        let periodic_load = normal_load * loads.map(|term| term.amplitude.abs()).sum::<f64>();
+        let load_amplitude = periodic_load + REACH * noise.load.sqrt();
         let bare = groups
             .iter()
             .map(|group| PeriodicMotion { load: Vec::new(), ..group.clone() })
             .collect();
-        let (whole, slip) = (FastMotion::new(groups), FastMotion::new(bare));
-        Self { whole, slip, load_amplitude, normal_load }
+        let [whole, slip] =
+            [groups, bare].map(|groups| FastMotion::new(groups).with_noise(noise.slip.sqrt()));
+        let covariance = noise.covariance;
+        Self { whole, slip, periodic_load, load_amplitude, covariance, normal_load }
     }
 
     fn slip_amplitude(&self) -> Result<f64, AveragingError> {
@@ -377,12 +431,29 @@ impl ContactMotion {
             slope: mean.slope,
             slope_constant: 0.0,
         };
-        if self.load_amplitude > 0.0 {
+        if self.periodic_load > 0.0 {
             let (level, slope) =
                 of_fluctuating_load(&contact.friction, (&self.whole, &mean), velocity)?;
             line.constant = self.normal_load * level;
             line.slope_constant = self.normal_load * slope;
         }
+        if self.covariance != 0.0 {
+            // Of two Gaussian variables ⟨μ(γ + a)Ñ⟩ = ⟨aÑ⟩⟨μ′(γ + a)⟩ (Stein's identity).
+            line.constant += self.covariance * mean.slope;
+            line.slope_constant += self.covariance * self.curvature(contact, velocity)?;
+        }
         Ok(line)
+    }
+
+    /// μ̄″ under noise, from the slope at four places: the average is smooth on the scale of the standard deviation, so that the
+    /// error is h⁴/30 of the fifth derivative of the slope, 10⁻⁹ relative.
+    fn curvature(&self, contact: &Contact, velocity: f64) -> Result<f64, NoAverage> {
+        const STEP: f64 = 0.01;
+        let h = STEP * self.slip.noise();
+        let slope = |k: f64| -> Result<f64, NoAverage> {
+            Ok(effective(&contact.friction, &self.slip, velocity + k * h)?.slope)
+        };
+        let [near, far] = [slope(1.0)? - slope(-1.0)?, slope(2.0)? - slope(-2.0)?];
+        Ok((8.0 * near - far) / (12.0 * h))
     }
 }

@@ -6,7 +6,7 @@ use super::periodic_motion::{PeriodicMotion, SlipTerm};
 use super::wave::FastWave;
 
 /// Standard deviations of a Gaussian velocity that count as its range: it is beyond them for 6·10⁻⁵ of the time.
-const REACH: f64 = 4.0;
+pub(super) const REACH: f64 = 4.0;
 
 /// Fast motion: groups of incommensurate frequencies, each periodic, and a Gaussian velocity that is independent of them.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -53,7 +53,7 @@ impl std::fmt::Display for NoAverage {
             ),
             Self::Waveform { name } => write!(
                 f,
-                "averaging of a system knows the waveforms sine, triangle, square and fourier; \"{name}\" can be simulated"
+                "averaging of a system knows the waveforms sine, triangle, square, fourier and noise; \"{name}\" can be simulated"
             ),
             Self::Mean(why) => why.fmt(f),
             Self::Eigenvalues(why) => why.fmt(f),

@@ -6,12 +6,16 @@
 //! m₁ = ⟨μ(γ + a)Ñ⟩, so that steady sliding and its small motions are those of a system without dither and with other friction
 //! ([`crate::steady::FrictionLine`]).
 //!
+//! Noise enters by the moments of its lines: the fast slip and load are Gaussian, with the variances and the covariance of the sums
+//! over the lines.
+//!
 //! A sum of harmonics enters by its sines and cosines. Other waves that are not sines are divided into the motion far above every eigenfrequency, which has a closed form
 //! ([`crate::harmonic::FreeSlip`]), and the harmonics of the remainder, which fall at least like n⁻⁴; those up to the 63rd are kept.
 
 use num_complex::Complex64;
 use quell_model::profile::Wave;
 use quell_model::system::InputTarget;
+use quell_model::waveform::NoiseLine;
 use quell_model::{System, Waveform};
 use quell_numerics::eigen::EigenError;
 
@@ -172,15 +176,25 @@ fn wave_response(
             .iter()
             .map(|h| Ok((h.order, Complex64::new(h.sine, h.cosine), at(h.order)?)))
             .collect();
-        let harmonics = harmonics?;
-        return Ok(WaveResponse { input, wave, free: None, harmonics });
+        return Ok(WaveResponse::of(input, wave, harmonics?));
+    }
+    if let Some(noise) = wave.waveform.noise() {
+        let line = |line: &NoiseLine| {
+            let frequency = line.ratio * wave.frequency;
+            harmonic::response(system, sliding, target, frequency)
+                .map(|response| response.contacts)
+                .ok_or(NoAverage::Resonance { frequency })
+        };
+        let lines: Result<Vec<_>, NoAverage> = noise.lines().iter().map(line).collect();
+        let lines = lines?;
+        return Ok(WaveResponse { lines, ..WaveResponse::of(input, wave, Vec::new()) });
     }
     if !wave.waveform.is_symmetric() {
         return Err(NoAverage::Waveform { name: wave.waveform.name() });
     }
     if wave.waveform == Waveform::Sine {
         let harmonics = vec![(1, Complex64::ONE, at(1)?)];
-        return Ok(WaveResponse { input, wave, free: None, harmonics });
+        return Ok(WaveResponse::of(input, wave, harmonics));
     }
     // The closed form of an oscillation needs a frequency well above it.
     let slow = |free: FreeSlip| FreeSlip {
@@ -194,5 +208,5 @@ fn wave_response(
         let coefficient = wave.waveform.sine_coefficient(n).unwrap_or(0.0);
         harmonics.push((n, coefficient.into(), at(n)?));
     }
-    Ok(WaveResponse { input, wave, free: Some(free), harmonics })
+    Ok(WaveResponse { free: Some(free), ..WaveResponse::of(input, wave, harmonics) })
 }
