@@ -261,7 +261,9 @@ fn table(section: Section, system: UnitSystem) -> Json {
     };
     let one = several.into_iter().map(|keys| json!({ "oneOf": each(keys) }));
     let any = over_time.into_iter().map(|keys| json!({ "anyOf": each(keys) }));
-    let relations: Vec<Json> = one.chain(any).collect();
+    let noise = (section == Section::Dither)
+        .then(|| waveform::noise_or_periodic(&["frequency_ratio", "frequency_hz", "phase"]));
+    let relations: Vec<Json> = one.chain(any).chain(noise).collect();
     if !relations.is_empty() {
         object["allOf"] = relations.into();
     }

@@ -37,6 +37,9 @@ fn valid(value: &Json, schema: &Json, root: &Json) -> bool {
         "minimum" => compare(value, argument, |value, bound| value >= bound),
         "exclusiveMinimum" => compare(value, argument, |value, bound| value > bound),
         "maximum" => compare(value, argument, |value, bound| value <= bound),
+        "maxItems" => value
+            .as_array()
+            .is_none_or(|list| list.len() as u64 <= argument.as_u64().expect("a count")),
         "minItems" => value
             .as_array()
             .is_none_or(|list| list.len() as u64 >= argument.as_u64().expect("a count")),
@@ -115,6 +118,19 @@ fn schema_and_reader_agree_on_systems() {
         assert!(SYSTEM.contains(from), "{from}");
         assert_eq!(judged(&SYSTEM.replacen(from, to, 1)), (false, false), "{to}");
     }
+    let noise = SYSTEM.replace("'sine'", "'noise'").replace("amplitude = 0.1", "amplitude = 0.01");
+    for (keys, is_right) in [
+        ("band = [8, '2*m']", false),
+        ("band = ['2*m', 12]", true),
+        ("band_hz = [8, 12]\nlines = 5\nseed = 3", true),
+        ("band = [8, 12]\nfrequency = 10", false),
+        ("band = [8, 12]\nphase = 0", false),
+    ] {
+        let text = noise.replace("frequency_hz = 10", keys);
+        // The schema does not compute formulas.
+        let schema = is_right || keys.contains("'2*m']");
+        assert_eq!(judged(&text), (schema, is_right), "{keys}");
+    }
     let normal_load = SYSTEM.replace("normal_load_n = 1", "normal_load = -1");
     assert_eq!(judged(&normal_load), (false, false));
 }
@@ -129,6 +145,11 @@ fn schema_and_reader_agree() {
     };
     let more = |lines: &str| format!("{SCALED}{lines}\n");
     let sweep = |lines: &str| more(&format!("[[sweep]]\nparameter = 'dither.phase'\n{lines}"));
+    let noise = |lines: &str| {
+        let noise =
+            changed(SCALED, "'sine'", "'noise'").replace("amplitude = 0.1", "amplitude = 0.01");
+        noise.replace("frequency_ratio = 10", lines)
+    };
     let law = |text: &str, law: &str| {
         let (start, rest) =
             (text.find("law").expect("a law"), text.find("[[dither]]").or(text.find("[dither]")));
@@ -170,6 +191,11 @@ fn schema_and_reader_agree() {
         changed(SI, "stiffness_n_per_m = 1", "natural_frequency_hz = 5"),
         changed(SI, "damping_n_s_per_m = 0.1", "damping_ratio = 0.1"),
         changed(SI, "normal_force_n = 1", "normal_force_n = '0.4 kN'"),
+        noise("band = [8, 12]\nlines = 64\nseed = 1"),
+        noise("band = [8, 12]"),
+        changed(SI, "amplitude_n_rms = 0.1", "amplitude_n_rms = 0.01")
+            .replace("'square'", "'noise'")
+            .replace("frequency_hz = 10\nphase = -1", "band_hz = ['1 kHz', 1100]"),
         more("[belt.initial]\nstate = 'sliding'"),
         more("[belt.initial]\nvelocity = -1"),
         more("[solver]\ntolerance = 1e-9\nsettle = 10\nrecord_periods = 10"),
@@ -198,6 +224,16 @@ fn schema_and_reader_agree() {
         changed(SCALED, "normal_load = 1\n", ""),
         changed(SCALED, "'stribeck'", "'coulomb'"),
         changed(SCALED, "'sine'", "'noise'"),
+        noise(""),
+        noise("band = [8, 12]\nfrequency_ratio = 10"),
+        noise("band = [8, 12]\nphase = 1"),
+        noise("band = [8]"),
+        noise("band = [8, 12, 14]"),
+        noise("band = [0, 12]"),
+        noise("band = [8, 12]\nlines = 0"),
+        noise("band = [8, 12]\nlines = 2000"),
+        noise("band = [8, 12]\nseed = -1"),
+        changed(SCALED, "frequency_ratio = 10", "frequency_ratio = 10\nlines = 3"),
         changed(SCALED, "waveform = 'sine'\n", ""),
         changed(SCALED, "amplitude = 0.1\n", ""),
         changed(SI, "mass_kg = 1\n", ""),

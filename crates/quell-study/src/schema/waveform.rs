@@ -1,9 +1,24 @@
 //! The schema of the keys that describe a waveform.
 
-use quell_model::waveform::{LARGEST_SEED, MOST_LINES};
+use quell_model::waveform::{LARGEST_SEED, MOST_LINES, NOISE};
 use serde_json::{Value as Json, json};
 
 use crate::study::vocabulary::{Choice, WaveKey};
+
+/// The keys of noise, and those of periodic waveforms (`periodic`) that noise does not have: a dither has one or the other.
+pub(super) fn noise_or_periodic(periodic: &[&str]) -> Json {
+    let none_of = |keys: &[&str]| {
+        let each: Vec<Json> = keys.iter().map(|key| json!({ "required": [key] })).collect();
+        json!({ "anyOf": each })
+    };
+    json!({ "anyOf": [
+        { "properties": { "waveform": { "const": NOISE } }, "not": none_of(periodic) },
+        {
+            "properties": { "waveform": { "not": { "const": NOISE } } },
+            "not": none_of(&["band", "band_hz", "lines", "seed"]),
+        },
+    ] })
+}
 
 /// The value of a part of the description of a waveform.
 pub(super) fn property(wave: WaveKey) -> Json {
