@@ -24,6 +24,7 @@ use crate::sweep::Running;
 
 mod belt;
 mod disc;
+mod noise;
 mod system;
 
 /// The answer of a verb, or why it failed.
@@ -128,6 +129,15 @@ pub trait Verbs: Send + Sync {
     /// A kind without this verb; as [`crate::run::response::run`].
     fn response(&self) -> Reply {
         Err(self.lacks("response"))
+    }
+
+    /// The response under noise: runs with different seeds, and the share of them that ends quiet.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::noise_response::run`].
+    fn response_of_seeds(&self, seeds: Option<usize>) -> Reply {
+        let _ = seeds;
+        Err(self.lacks("response --seeds"))
     }
 
     /// What a run does between two of its times.
@@ -273,7 +283,10 @@ pub trait Verbs: Send + Sync {
 
 /// The verbs of a study.
 pub fn verbs(study: &Study) -> Box<dyn Verbs> {
-    let steady = of_kind(study);
+    let steady = match study.noise() {
+        Some(key) => Box::new(noise::UnderNoise { periodic: of_kind(study), key }),
+        None => of_kind(study),
+    };
     match study.varies_by() {
         Some(table) => Box::new(OverTime { steady, table }),
         None => steady,

@@ -5,6 +5,7 @@ use quell_model::system::{InputTarget, Structure};
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
+use crate::noise;
 use crate::study::{SystemStart, SystemStudy, SystemUnits};
 
 /// The study as JSON.
@@ -91,7 +92,11 @@ fn dithers(study: &SystemStudy) -> Vec<Json> {
             object["waveform"] = wave.waveform.name().into();
             object["amplitude"] = wave.amplitude.into();
             object["frequency"] = wave.frequency.into();
-            object["phase"] = wave.phase.into();
+            object["phase"] = match wave.waveform.noise() {
+                Some(_) => Json::Null,
+                None => wave.phase.into(),
+            };
+            object["noise"] = noise::json(&wave.waveform, wave.frequency);
             dithers.push(object);
         }
     }
