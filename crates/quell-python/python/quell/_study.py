@@ -318,7 +318,8 @@ class Study(CheckedStudy):
         if noisy:
             for name, given in (("settle", settle), ("record", record), ("window", window)):
                 if given is not None:
-                    arguments.wrong.append(complaint(name, given, "left out: the solver of the study has the times of the runs", "conflict"))
+                    allowed = "left out: the solver of the study has the times of the runs"
+                    arguments.wrong.append(complaint(name, given, allowed, "conflict"))
             count = None if seeds is None else arguments.whole("seeds", seeds, 1, 10_000)
             arguments.done()
             return results.NoiseResponse(self, self._native.response_of_seeds(count))
