@@ -103,7 +103,7 @@ fn runs_and_averages_have_answers() {
         vec!["stability", "noise.toml"],
         vec!["simulate", "noise.toml", "--until", "20"],
         vec!["response", "noise.toml", "--window", "5:20"],
-        vec!["sketch", "noise.toml", "--plot", "sketch.svg"],
+        vec!["sketch", "noise.toml", "--out", "sketch.svg"],
         vec!["check", "system.toml"],
         vec!["modes", "system.toml"],
         vec!["stability", "system.toml"],

@@ -2,7 +2,7 @@
 
 use quell_model::Belt;
 use quell_model::units::Quantity;
-use quell_model::waveform::{FEWEST_GAUSSIAN_LINES, Noise, Waveform};
+use quell_model::waveform::{FEWEST_GAUSSIAN_LINES, Noise};
 use serde_json::{Value as Json, json};
 
 use crate::words::plural;
@@ -23,14 +23,12 @@ pub(crate) fn band_in_words(
     format!("{low} to {high}")
 }
 
-/// Lines and seed as JSON, with the ends of the band; null of a periodic waveform.
-pub(crate) fn json(waveform: &Waveform, frequency: f64) -> Json {
-    waveform.noise().map_or(Json::Null, |noise| {
-        json!({
-            "band": noise.band(frequency),
-            "lines": noise.lines().len(),
-            "seed": noise.seed(),
-        })
+/// Lines and seed as JSON, with the ends of the band of a dither.
+pub(crate) fn json(noise: &Noise, middle: f64) -> Json {
+    json!({
+        "band": noise.band(middle),
+        "lines": noise.lines().len(),
+        "seed": noise.seed(),
     })
 }
 

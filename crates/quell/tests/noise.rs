@@ -67,7 +67,7 @@ fn wrong_keys_are_named() {
         ("band = [12.0, 8.0]", "dither.band", "the second above the first"),
         ("band = [8.0, 8.0]", "dither.band", "the second above the first"),
         ("band = [0.0, 8.0]", "dither.band", "0 < low"),
-        ("band = [-1.0, 8.0]", "dither.band[0]", "at least 0"),
+        ("band = [-1.0, 8.0]", "dither.band[0]", "≥ 0"),
         ("band = 8.0", "dither.band", "array of two"),
         ("lines = 4", "dither.band", "lowest and the highest"),
         ("band = [8.0, 12.0]\nlines = 0", "dither.lines", "from 1 to 1000"),
@@ -181,7 +181,11 @@ fn averages_have_answers() {
     let answer = verbs(&Study::from(&noisy)).stability().expect("a verdict").json();
     assert_eq!(answer["verdict"], "stable");
     assert_eq!(answer["sharper"]["verdict"], "stable");
-    assert_eq!(answer["warnings"], Json::Array(Vec::new()));
+    let warns = |answer: &Json| {
+        let warnings = answer["warnings"].as_array().expect("a list").iter();
+        warnings.filter_map(Json::as_str).any(|text| text.contains("lines, fewer than 8"))
+    };
+    assert!(!warns(&answer));
     let critical = critical_amplitudes(noisy.belt(), AveragingOptions::default()).expect("roots");
     let found = answer["critical_amplitudes"].as_array().expect("roots");
     assert_eq!(found.len(), critical.len());
@@ -196,8 +200,7 @@ fn averages_have_answers() {
     }
     let few = study(&with_noise(3.0, "band = [8.0, 12.0]\nlines = 4"));
     let answer = verbs(&Study::from(&few)).stability().expect("a verdict").json();
-    let warning = answer["warnings"][0].as_str().expect("a warning");
-    assert!(warning.contains("with 4 lines, fewer than 8"), "{warning}");
+    assert!(warns(&answer), "{answer}");
 }
 
 fn response(text: &str, seeds: usize) -> NoiseResponse {

@@ -27,9 +27,16 @@ impl Verbs for UnderNoise {
             BeltSetup::NAME => {
                 &["check", "sketch", "cite", "friction", "stability", "simulate", "response", "map"]
             }
-            _ => {
-                &["check", "sketch", "cite", "modes", "stability", "simulate", "response --window"]
-            }
+            _ => &[
+                "check",
+                "sketch",
+                "cite",
+                "modes",
+                "stability",
+                "resonances",
+                "simulate",
+                "response --window",
+            ],
         }
     }
 
@@ -66,6 +73,10 @@ impl Verbs for UnderNoise {
 
     fn modes(&self) -> Reply {
         self.periodic.modes()
+    }
+
+    fn reach(&self, frequencies: Option<(f64, f64)>) -> Reply {
+        self.periodic.reach(frequencies)
     }
 
     fn simulate(&self, until: f64, options: Options) -> Reply {

@@ -65,9 +65,11 @@ impl Check<'_> {
                         None => Ok(dither.phase),
                     },
                 )
-                .plain("noise", noise::json(&dither.waveform, dither.frequency_ratio))
                 .number("amplitude_ratio", Quantity::Velocity, dither.amplitude_ratio())
                 .plain("has_envelope", dither.envelope.is_some());
+            if let Some(noise) = dither.waveform.noise() {
+                inner.plain("noise", noise::json(noise, dither.frequency_ratio));
+            }
             inner
         });
         fields.list("dithers", dithers.collect::<Vec<_>>());

@@ -92,11 +92,11 @@ fn dithers(study: &SystemStudy) -> Vec<Json> {
             object["waveform"] = wave.waveform.name().into();
             object["amplitude"] = wave.amplitude.into();
             object["frequency"] = wave.frequency.into();
-            object["phase"] = match wave.waveform.noise() {
-                Some(_) => Json::Null,
-                None => wave.phase.into(),
-            };
-            object["noise"] = noise::json(&wave.waveform, wave.frequency);
+            object["phase"] = wave.phase.into();
+            if let Some(noise) = wave.waveform.noise() {
+                object["phase"] = Json::Null;
+                object["noise"] = noise::json(noise, wave.frequency);
+            }
             dithers.push(object);
         }
     }
