@@ -91,21 +91,14 @@ fn table_of_belt(study: &BeltStudy) -> String {
     for dither in belt.dithers() {
         table.word("dither", &format!("{} {}", dither.direction.name(), dither.waveform.name()));
         table.number("  amplitude D", Quantity::Force, dither.amplitude);
-        match dither.waveform.noise() {
-            Some(noise) => {
-                let [low, high] = noise.band(dither.frequency_ratio);
-                table.number("  band of R: from", Quantity::FrequencyRatio, low);
-                table.number("    to", Quantity::FrequencyRatio, high);
-                table.word("  lines", &lines_in_words(noise));
-            }
-            None => {
-                table.number(
-                    "  frequency ratio R",
-                    Quantity::FrequencyRatio,
-                    dither.frequency_ratio,
-                );
-                table.number("  phase φ", Quantity::Angle, dither.phase);
-            }
+        if let Some(noise) = dither.waveform.noise() {
+            let [low, high] = noise.band(dither.frequency_ratio);
+            table.number("  band of R: from", Quantity::FrequencyRatio, low);
+            table.number("    to", Quantity::FrequencyRatio, high);
+            table.word("  lines", &lines_in_words(noise));
+        } else {
+            table.number("  frequency ratio R", Quantity::FrequencyRatio, dither.frequency_ratio);
+            table.number("  phase φ", Quantity::Angle, dither.phase);
         }
         table.number("  amplitude ratio α = D/R", Quantity::Velocity, dither.amplitude_ratio());
         if let Some(envelope) = &dither.envelope {

@@ -11,6 +11,7 @@ use quell_dynamics::response::{
 };
 use quell_linear::linear_cost::{NoiseCost, noise_cost};
 use quell_model::units::Quantity;
+use quell_model::waveform::Noise;
 use quell_model::{Belt, Direction, Waveform};
 use rayon::prelude::*;
 use serde_json::Value as Json;
@@ -166,14 +167,14 @@ impl NoiseResponse {
         };
         let time = if study.scales().is_some() { "t" } else { "τ" };
         let settle = in_words(study, Quantity::Time, study.solver().settle);
-        let length = in_words(study, Quantity::Time, self.record_length(study));
+        let length = in_words(study, Quantity::Time, Self::record_length(study));
         format!(
             "Started {from}, {result}. Each run is measured for {length} after {time} = {settle}."
         )
     }
 
     /// Length of a record: slow periods 2π.
-    fn record_length(&self, study: &BeltStudy) -> f64 {
+    fn record_length(study: &BeltStudy) -> f64 {
         std::f64::consts::TAU * f64::from(study.solver().record_periods)
     }
 
@@ -201,9 +202,8 @@ impl NoiseResponse {
         let mut fields = Fields::new(study.scales());
         fields.plain("ok", true).plain("sentence", self.sentence(study));
         fields.plain("runs", self.runs.len()).number("quiet_below", Quantity::Ratio, QUIET);
-        let share = |value: fn(&Share) -> f64| {
-            self.quiet.as_ref().map(value).map_err(|why| why.to_string())
-        };
+        let share =
+            |value: fn(&Share) -> f64| self.quiet.as_ref().map(value).map_err(ToString::to_string);
         match &self.quiet {
             Ok(share) => fields.plain("quiet_runs", share.starts),
             Err(why) => fields.unknown("quiet_runs", why.to_string()),
@@ -243,7 +243,7 @@ impl NoiseResponse {
         self.put_cost(study, &mut fields);
         fields
             .number("settle", Quantity::Time, study.solver().settle)
-            .number("record_length", Quantity::Time, self.record_length(study))
+            .number("record_length", Quantity::Time, Self::record_length(study))
             .plain("warnings", self.warnings(study));
         fields.finish()
     }
@@ -268,7 +268,7 @@ impl NoiseResponse {
         let of = |by: &u64| {
             let belt = study.belt().reseeded(*by);
             let first = belt.dithers().iter().find_map(|dither| dither.waveform.noise());
-            first.map_or(*by, |noise| noise.seed())
+            first.map_or(*by, Noise::seed)
         };
         self.seeds.iter().map(of).collect()
     }

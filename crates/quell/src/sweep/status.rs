@@ -252,8 +252,9 @@ impl From<&AveragingError> for Status {
             AveragingError::SetValued { .. } => Self::SetValued,
             AveragingError::TooManyGroups { .. } => Self::TooManyGroups,
             AveragingError::NotFast { .. } => Self::NotFast,
-            AveragingError::NoOscillatorShape { .. } => Self::NoAverageOfWaveform,
-            AveragingError::SecondOrderNoise => Self::NoAverageOfWaveform,
+            AveragingError::NoOscillatorShape { .. } | AveragingError::SecondOrderNoise => {
+                Self::NoAverageOfWaveform
+            }
             AveragingError::Quadrature(_) => Self::NotConverged,
         }
     }
