@@ -284,7 +284,7 @@ pub trait Verbs: Send + Sync {
 /// The verbs of a study.
 pub fn verbs(study: &Study) -> Box<dyn Verbs> {
     let steady = match study.noise() {
-        Some(key) => Box::new(noise::UnderNoise { periodic: of_kind(study), key }),
+        Some(key) => Box::new(UnderNoise { periodic: of_kind(study), key }),
         None => of_kind(study),
     };
     match study.varies_by() {
@@ -299,6 +299,14 @@ fn of_kind(study: &Study) -> Box<dyn Verbs> {
         Kind::Disc(setup) => Box::new(study.narrowed(setup.as_ref())),
         Kind::System(setup) => Box::new(study.narrowed(setup.as_ref())),
     }
+}
+
+/// The verbs of a study with noise, which are those of runs and of averages (`noise.rs`).
+struct UnderNoise {
+    /// The verbs of its kind.
+    periodic: Box<dyn Verbs>,
+    /// The key of the waveform.
+    key: String,
 }
 
 /// The verbs of a study whose drive, load or dither varies in time, which are those of runs: every other verb is about a steady

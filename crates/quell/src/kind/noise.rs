@@ -1,7 +1,7 @@
 //! The verbs of a study with noise: runs, and averages over the distribution of the noise. Every other verb is about a response that
 //! repeats, and one refusal names it.
 
-use super::{Reply, Verbs};
+use super::{Reply, UnderNoise, Verbs};
 use crate::cite::Sources;
 use crate::complaint::Failure;
 use crate::outcome::Outcome;
@@ -9,13 +9,6 @@ use crate::run::simulate::Options;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
 use crate::study::{BeltSetup, not_periodic};
-
-/// A study with noise; `periodic` has the verbs of its kind.
-pub(super) struct UnderNoise {
-    pub(super) periodic: Box<dyn Verbs>,
-    /// The key of the waveform.
-    pub(super) key: String,
-}
 
 impl Verbs for UnderNoise {
     fn kind(&self) -> &'static str {
