@@ -27,6 +27,8 @@ pub enum NoLinearCost {
     Normal,
     /// There is no periodic response.
     NoResponse(NoPeriodicResponse),
+    /// Noise has no largest displacement; [`noise_cost`] has its root mean squares.
+    Noise,
 }
 
 impl core::fmt::Display for NoLinearCost {
@@ -34,6 +36,9 @@ impl core::fmt::Display for NoLinearCost {
         match self {
             Self::Normal => f.write_str("a normal dither does not move the mass without friction"),
             Self::NoResponse(why) => why.fmt(f),
+            Self::Noise => f.write_str(
+                "noise has no largest displacement and velocity, only root mean squares",
+            ),
         }
     }
 }
@@ -47,6 +52,9 @@ impl core::error::Error for NoLinearCost {}
 pub fn linear_cost(dither: &Dither, damping_ratio: f64) -> Result<LinearCost, NoLinearCost> {
     if dither.direction == Direction::Normal {
         return Err(NoLinearCost::Normal);
+    }
+    if !dither.waveform.is_periodic() {
+        return Err(NoLinearCost::Noise);
     }
     let damping = 2.0 * damping_ratio;
     let matrix = Matrix::from_fn(2, 2, |i, j| [[0.0, 1.0], [-1.0, -damping]][i][j]);
@@ -64,11 +72,54 @@ pub fn linear_cost(dither: &Dither, damping_ratio: f64) -> Result<LinearCost, No
     })
 }
 
+/// Steady response of the structure without friction to tangential noise: root mean squares, sums over the lines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NoiseCost {
+    /// √⟨(D g)²⟩, a length.
+    pub force: f64,
+    /// √⟨x²⟩, a length.
+    pub displacement: f64,
+    /// √⟨x′²⟩, a length per τ.
+    pub velocity: f64,
+    /// Mean power 2ζ⟨x′²⟩.
+    pub power: f64,
+}
+
+/// Root mean squares of the response to noise at a damping ratio: each line of amplitude A and ratio R has ⟨x²⟩ =
+/// ½A²/((R² − 1)² + 4ζ²R²).
+///
+/// # Errors
+/// [`NoLinearCost`] for normal dither, and at an undamped resonance. Of a periodic dither that is a sum of harmonics the same
+/// holds; other waveforms have [`linear_cost`].
+pub fn noise_cost(dither: &Dither, damping_ratio: f64) -> Result<NoiseCost, NoLinearCost> {
+    if dither.direction == Direction::Normal {
+        return Err(NoLinearCost::Normal);
+    }
+    let (mut force, mut displacement, mut velocity) = (0.0, 0.0, 0.0);
+    for line in dither.by_harmonics() {
+        let ratio = line.frequency_ratio;
+        let stiffness = (1.0 - ratio) * (1.0 + ratio);
+        let damping = 2.0 * damping_ratio * ratio;
+        let square = stiffness.mul_add(stiffness, damping * damping);
+        if square == 0.0 && line.amplitude != 0.0 {
+            return Err(NoLinearCost::NoResponse(NoPeriodicResponse::Resonance));
+        }
+        let mean_square = 0.5 * line.amplitude * line.amplitude;
+        force += mean_square;
+        displacement += mean_square / square;
+        velocity += mean_square * ratio * ratio / square;
+    }
+    let power = 2.0 * damping_ratio * velocity;
+    let [force, displacement, velocity] = [force, displacement, velocity].map(f64::sqrt);
+    Ok(NoiseCost { force, displacement, velocity, power })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use core::f64::consts::SQRT_2;
     use quell_model::Waveform;
-    use quell_model::waveform::{Burst, FourierWave, Harmonic};
+    use quell_model::waveform::{Burst, FourierWave, Harmonic, Noise};
 
     use crate::averaging::FastWave;
 
@@ -126,6 +177,21 @@ mod tests {
             })
             .sum();
         close(found.expect("a response").power, exact, 1e-12);
+    }
+
+    /// One line is a sine, and noise has no stroke.
+    #[test]
+    fn noise_of_one_line_is_a_sine() {
+        let noise = Noise::new([8.0, 12.0], 1, 3).expect("noise");
+        let dither = dither(Waveform::Noise(noise.into()), 10.0);
+        assert_eq!(linear_cost(&dither, 0.05), Err(NoLinearCost::Noise));
+        let found = noise_cost(&dither, 0.05).expect("a response");
+        let line = &dither.by_harmonics()[0];
+        let exact = linear_cost(line, 0.05).expect("a response");
+        close(found.power, exact.power, 1e-9);
+        close(found.displacement, exact.stroke / 8f64.sqrt(), 1e-5);
+        close(found.velocity, exact.velocity / SQRT_2, 1e-5);
+        close(found.force, 0.7 / SQRT_2, 1e-14);
     }
 
     /// A burst against the response that its pieces have in closed form: the same start after one period.

@@ -34,6 +34,8 @@ pub enum NoPeriodicResponse {
     TooSlow,
     /// A number overflows.
     Overflow,
+    /// The wave is noise, which does not repeat.
+    Noise,
 }
 
 impl std::fmt::Display for NoPeriodicResponse {
@@ -43,6 +45,7 @@ impl std::fmt::Display for NoPeriodicResponse {
             Self::TooSlow => {
                 "the structure has motions so much faster than the dither that its response takes too many intervals"
             }
+            Self::Noise => "noise does not repeat, so that no response does",
             Self::Overflow => "the equations of the structure overflow",
         })
     }
@@ -74,6 +77,9 @@ impl<'w> PeriodicResponse<'w> {
         waveform: &'w Waveform,
         frequency: f64,
     ) -> Result<Self, NoPeriodicResponse> {
+        if !waveform.is_periodic() {
+            return Err(NoPeriodicResponse::Noise);
+        }
         let n = matrix.rows();
         let mut scaled = Matrix::from_fn(n, n, |i, j| matrix[(i, j)] / frequency);
         let scales = balanced(&mut scaled);

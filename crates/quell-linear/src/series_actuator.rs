@@ -67,7 +67,10 @@ impl SeriesActuator {
         if wave.envelope.is_some() {
             return Err(NoSeriesActuator::Varies);
         }
-        let (wave, stiffness) = (wave.clone(), stiffness);
+        if !wave.waveform.is_periodic() {
+            return Err(NoSeriesActuator::NoResponse(NoPeriodicResponse::Noise));
+        }
+        let wave = wave.clone();
         if damping == 0.0 {
             if jumps(&wave.waveform) {
                 return Err(NoSeriesActuator::Jumps);

@@ -219,7 +219,7 @@ impl Belt {
     }
 
     /// The largest fast velocity of the mass under all dithers in the limit of high frequency: Σ α max|G| of tangential
-    /// dithers, μ_s times that of normal ones. Slip reaches v₀ plus this.
+    /// dithers, μ_s times that of normal ones. Slip reaches v₀ plus this, under noise but for 10⁻⁴ of the time.
     pub fn fast_velocity(&self) -> f64 {
         self.dithers.iter().map(|dither| self.fast_velocity_of(dither)).sum()
     }
@@ -311,6 +311,13 @@ impl Belt {
     #[must_use]
     pub fn undithered(&self) -> Self {
         Self { dithers: Vec::new(), ..self.clone() }
+    }
+
+    /// The same belt in which the seeds of all noise are greater by a number; beyond the largest seed they continue from 0.
+    #[must_use]
+    pub fn reseeded(&self, by: u64) -> Self {
+        let dithers = self.dithers.iter().map(|dither| dither.reseeded(by));
+        Self { dithers: dithers.collect(), ..self.clone() }
     }
 
     /// Displacement of steady sliding without dither, x = μ(v₀)F. At v₀ = 0 the static level.
@@ -456,7 +463,10 @@ impl Belt {
         let parameter = [DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE]
             .into_iter()
             .find(|parameter| parameter.key() == key)?;
-        (index < self.dithers.len()).then_some(BeltNumber::Dither(index, parameter))
+        // The frequencies and phases of noise are those of its lines.
+        let has = |dither: &Dither| dither.waveform.is_periodic() || parameter == DITHER_AMPLITUDE;
+        self.dithers.get(index).filter(|dither| has(dither))?;
+        Some(BeltNumber::Dither(index, parameter))
     }
 }
 

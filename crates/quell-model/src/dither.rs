@@ -5,7 +5,7 @@ use crate::parameter::{
     DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE, indexed, split_index,
 };
 use crate::profile::{Knots, Wave};
-use crate::waveform::{Harmonic, Waveform};
+use crate::waveform::{LARGEST_SEED, WaveSine, Waveform};
 
 /// Direction of a dither force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -43,7 +43,7 @@ pub struct Dither {
     pub waveform: Waveform,
     /// Peak amplitude D = A/k, a length, ≥ 0.
     pub amplitude: f64,
-    /// Frequency ratio R = ω/ω₀ > 0.
+    /// Frequency ratio R = ω/ω₀ > 0; of noise that of the middle of its band.
     pub frequency_ratio: f64,
     /// Phase φ at τ = 0, radians.
     pub phase: f64,
@@ -73,26 +73,41 @@ impl Dither {
         self.frequency_ratio / f64::from(self.waveform.cycles())
     }
 
-    /// The highest frequency ratio of the force: R, of a sum of harmonics that of the highest one.
+    /// The highest frequency ratio of the force: R, of a sum of harmonics or lines that of the highest one.
     pub fn highest_ratio(&self) -> f64 {
-        self.frequency_ratio * f64::from(self.waveform.highest_order())
+        self.frequency_ratio * self.waveform.highest_multiple()
     }
 
-    /// The sines of which a dither by harmonics consists, or the dither itself.
+    /// R, of noise the frequency ratio of its first line: what must be high for averaging.
+    pub fn lowest_ratio(&self) -> f64 {
+        self.frequency_ratio * self.waveform.lowest_multiple()
+    }
+
+    /// The sines of which a dither by harmonics or lines consists, or the dither itself.
     pub fn by_harmonics(&self) -> Vec<Self> {
-        let Some(harmonics) = self.waveform.harmonics() else { return vec![self.clone()] };
-        let sine = |harmonic: &Harmonic| {
-            let order = f64::from(harmonic.order);
-            Self {
-                direction: self.direction,
-                waveform: Waveform::Sine,
-                amplitude: self.amplitude * harmonic.amplitude(),
-                frequency_ratio: order * self.frequency_ratio,
-                phase: order.mul_add(self.phase, harmonic.phase()),
-                envelope: self.envelope.clone(),
-            }
+        let Some(sines) = self.waveform.sines() else { return vec![self.clone()] };
+        let sine = |sine: &WaveSine| Self {
+            direction: self.direction,
+            waveform: Waveform::Sine,
+            amplitude: self.amplitude * sine.amplitude,
+            frequency_ratio: sine.multiple * self.frequency_ratio,
+            phase: sine.multiple.mul_add(self.phase, sine.phase),
+            envelope: self.envelope.clone(),
         };
-        harmonics.iter().map(sine).collect()
+        sines.iter().map(sine).collect()
+    }
+
+    /// The same dither in which the seed of noise is greater by a number; beyond the largest seed it continues from 0.
+    #[must_use]
+    pub fn reseeded(&self, by: u64) -> Self {
+        let reseeded = self.waveform.noise().and_then(|noise| {
+            let seed = noise.seed().wrapping_add(by) % (LARGEST_SEED + 1);
+            noise.reseeded(seed).ok()
+        });
+        match reseeded {
+            Some(noise) => Self { waveform: Waveform::Noise(noise.into()), ..self.clone() },
+            None => self.clone(),
+        }
     }
 
     /// Errors of this dither as entry `index` of a list of `count`.

@@ -275,6 +275,18 @@ impl NativeStudy {
         self.folder.clone()
     }
 
+    /// `seeds`: number of runs under noise.
+    #[pyo3(signature = (seeds))]
+    fn response_of_seeds(&self, py: Python<'_>, seeds: Option<usize>) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || response::of_seeds(&study, seeds))
+    }
+
+    /// Whether a dither is noise.
+    fn is_noise(&self) -> bool {
+        self.study().noise().is_some()
+    }
+
     /// `settle` and `record`: times of the response of a system.
     #[pyo3(signature = (settle, record))]
     fn response(

@@ -132,6 +132,13 @@ def belt_that_slows_down() -> quell.Belt:
     return belt().replace(belt_velocity=None, drive=quell.Profile([0.0, 300.0], velocity=[0.3, 0.05]))
 
 
+@cache
+def belt_under_noise() -> quell.Belt:
+    """A belt under noise in a band."""
+    noise = quell.Dither("tangential", "noise", amplitude=3.0, band=(8.0, 12.0), lines=16)
+    return belt().replace(dither=noise, solver=quell.Solver(settle=100.0, record_periods=8))
+
+
 def belt_with_two_responses() -> quell.Belt:
     """A belt with a decreasing law, on which squeal and a quiet response exist together."""
     return quell.Belt(
@@ -178,6 +185,7 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "response": lambda: belt().response(),
     "a manoeuvre": lambda: belt_that_stops().simulate(60.0, events=True, samples=True),
     "a ramp": lambda: belt_that_slows_down().bifurcation(ramp=True),
+    "response under noise": lambda: belt_under_noise().response(seeds=2),
     "a window": lambda: belt_that_stops().response(window=(10.0, 40.0)),
     "a window of a system": lambda: study("drive in SI").response(window=(1, 2)),
     "response in SI": lambda: belt_in_si().response(),

@@ -93,10 +93,10 @@ def test_elements_of_a_symmetric_matrix_share_a_slider() -> None:
 
 def test_choices_are_the_words_of_the_schema() -> None:
     found = {it.path: it for it in _numbers.choices(of("stribeck-belt.toml"))}
-    assert found["dither.waveform"].options == ("sine", "triangle", "square", "fourier", "samples", "burst")
+    assert found["dither.waveform"].options == ("sine", "triangle", "square", "fourier", "samples", "burst", "noise")
 
 
-@pytest.mark.parametrize("waveform", ["fourier", "samples", "burst", "square"])
+@pytest.mark.parametrize("waveform", ["fourier", "samples", "burst", "square", "noise"])
 def test_another_waveform_has_the_keys_that_it_needs(waveform: str) -> None:
     state = _state.State(of("stribeck-belt.toml"), _state.Source("text"))
     assert state.set({"dither.waveform": waveform}) and state.study.settings["dither.waveform"] == waveform

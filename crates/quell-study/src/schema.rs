@@ -221,6 +221,10 @@ fn table(section: Section, system: UnitSystem) -> Json {
             Role::Number(parameter) | Role::Twin(parameter, _) if needed(parameter) => {
                 one_of(parameter.path, key.name);
             }
+            // Noise has a band in place of a frequency.
+            Role::Band { .. } if section == Section::Dither => {
+                one_of(DITHER_FREQUENCY_RATIO.path, key.name);
+            }
             Role::Scale(scale) if scale != MASS => one_of("stiffness", key.name),
             Role::Scale(_) | Role::Choice(Choice::Direction | Choice::Waveform) => {
                 required.push(key.name);
@@ -257,7 +261,9 @@ fn table(section: Section, system: UnitSystem) -> Json {
     };
     let one = several.into_iter().map(|keys| json!({ "oneOf": each(keys) }));
     let any = over_time.into_iter().map(|keys| json!({ "anyOf": each(keys) }));
-    let relations: Vec<Json> = one.chain(any).collect();
+    let noise = (section == Section::Dither)
+        .then(|| waveform::noise_or_periodic(&["frequency_ratio", "frequency_hz", "phase"]));
+    let relations: Vec<Json> = one.chain(any).chain(noise).collect();
     if !relations.is_empty() {
         object["allOf"] = relations.into();
     }
@@ -450,9 +456,15 @@ fn property(key: &Key) -> Json {
         Role::Speeds { .. } => {
             json!({ "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": FEWEST })
         }
-        Role::Band { .. } => json!({
-            "type": "array", "items": { "type": "number", "minimum": 0 }, "minItems": 2, "maxItems": 2,
-        }),
+        Role::Band { .. } => {
+            let bounds = if key.section == Section::Dither {
+                Bounds::POSITIVE
+            } else {
+                Bounds::NOT_NEGATIVE
+            };
+            let end = bounded(bounds, Quantity::FrequencyRatio);
+            json!({ "type": "array", "items": end, "minItems": 2, "maxItems": 2 })
+        }
         Role::Terms => json!({ "type": "integer", "minimum": 1, "maximum": MOST_TERMS }),
         Role::AxisNumber | Role::Constant => json!({ "type": "number" }),
         Role::AxisPoints => json!({ "type": "integer", "minimum": 2, "maximum": MOST_POINTS }),

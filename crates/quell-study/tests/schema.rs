@@ -37,6 +37,9 @@ fn valid(value: &Json, schema: &Json, root: &Json) -> bool {
         "minimum" => compare(value, argument, |value, bound| value >= bound),
         "exclusiveMinimum" => compare(value, argument, |value, bound| value > bound),
         "maximum" => compare(value, argument, |value, bound| value <= bound),
+        "maxItems" => value
+            .as_array()
+            .is_none_or(|list| list.len() as u64 <= argument.as_u64().expect("a count")),
         "minItems" => value
             .as_array()
             .is_none_or(|list| list.len() as u64 >= argument.as_u64().expect("a count")),
@@ -114,6 +117,19 @@ fn schema_and_reader_agree_on_systems() {
     ] {
         assert!(SYSTEM.contains(from), "{from}");
         assert_eq!(judged(&SYSTEM.replacen(from, to, 1)), (false, false), "{to}");
+    }
+    let noise = SYSTEM.replace("'sine'", "'noise'").replace("amplitude = 0.1", "amplitude = 0.01");
+    for (keys, is_right) in [
+        ("band = [8, '2*m']", false),
+        ("band = ['2*m', 12]", true),
+        ("band_hz = [8, 12]\nlines = 5\nseed = 3", true),
+        ("band = [8, 12]\nfrequency = 10", false),
+        ("band = [8, 12]\nphase = 0", false),
+    ] {
+        let text = noise.replace("frequency_hz = 10", keys);
+        // The schema does not compute formulas.
+        let schema = is_right || keys.contains("'2*m']");
+        assert_eq!(judged(&text), (schema, is_right), "{keys}");
     }
     let normal_load = SYSTEM.replace("normal_load_n = 1", "normal_load = -1");
     assert_eq!(judged(&normal_load), (false, false));
@@ -219,6 +235,33 @@ fn schema_and_reader_agree() {
         sweep("from = 1\nto = 2"),
         sweep("from = 1\nto = 2\npoints = 1"),
         sweep("from = 1\nto = 2\npoints = 3\nspacing = 'cubic'"),
+    ] {
+        assert_eq!(judged(&text), (false, false), "{text}");
+    }
+}
+
+#[test]
+fn schema_and_reader_agree_on_noise() {
+    let small = SCALED.replace("'sine'", "'noise'").replace("amplitude = 0.1", "amplitude = 0.01");
+    let noise = |lines: &str| small.replace("frequency_ratio = 10", lines);
+    let si = SI
+        .replace("'square'", "'noise'")
+        .replace("amplitude_n_rms = 0.1", "amplitude_n_rms = 0.01");
+    let in_hertz = si.replace("frequency_hz = 10\nphase = -1", "band_hz = ['1 kHz', 1100]");
+    for text in [noise("band = [8, 12]\nlines = 64\nseed = 1"), noise("band = [8, 12]"), in_hertz] {
+        assert_eq!(judged(&text), (true, true), "{text}");
+    }
+    for text in [
+        noise(""),
+        noise("band = [8, 12]\nfrequency_ratio = 10"),
+        noise("band = [8, 12]\nphase = 1"),
+        noise("band = [8]"),
+        noise("band = [8, 12, 14]"),
+        noise("band = [0, 12]"),
+        noise("band = [8, 12]\nlines = 0"),
+        noise("band = [8, 12]\nlines = 2000"),
+        noise("band = [8, 12]\nseed = -1"),
+        SCALED.replace("frequency_ratio = 10", "frequency_ratio = 10\nlines = 3"),
     ] {
         assert_eq!(judged(&text), (false, false), "{text}");
     }

@@ -1,10 +1,11 @@
-//! Contacts with a state of their own, in every verb: refusals, and warnings where the law without its state is not a good model.
+//! Contacts with a state of their own and noise, in every verb: refusals, and warnings where the law without its state is not a good
+//! model.
 
 use quell_model::{Belt, Contact, Direction, Friction, System};
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::study::{BeltStudy, SystemStudy};
+use crate::study::{BeltStudy, Study, SystemStudy, not_periodic};
 use crate::words::digits;
 
 /// Ratio of the dither displacement to the breakaway displacement, and Π of bristles, from which the average of the rigid law is good:
@@ -14,6 +15,10 @@ const LARGE: f64 = 30.0;
 /// Verbs of systems that do not know the state of a contact.
 const WITHOUT_STATES: &[&str] = &["attractor", "thresholds", "bifurcation", "basins", "map"];
 
+/// Verbs of systems about motions that repeat.
+const OF_PERIODIC_DITHER: &[&str] =
+    &["orbit", "attractor", "thresholds", "bifurcation", "basins", "stability --exact"];
+
 /// The path and the name of what gives a contact its state.
 fn cause(contact: &Contact, prefix: &str) -> (String, String) {
     match contact.friction.bristles() {
@@ -22,11 +27,16 @@ fn cause(contact: &Contact, prefix: &str) -> (String, String) {
     }
 }
 
-/// Rejects a verb on a belt whose contact has a state of its own.
+/// Rejects a verb on a belt whose contact has a state of its own, or, except for averages, whose dither is noise.
 ///
 /// # Errors
-/// A complaint about the key that gives the contact its state.
+/// A complaint about the key that gives the contact its state, or the noise its waveform.
 pub(crate) fn refused_of_belt(study: &BeltStudy, verb: &str) -> Result<(), Failure> {
+    if verb != "friction --describing"
+        && let Some(key) = Study::from(study).noise()
+    {
+        return Err(not_periodic(verb, key).into());
+    }
     complaint_of_belt(study.belt(), verb).map_or(Ok(()), |complaint| Err(complaint.into()))
 }
 
@@ -51,6 +61,11 @@ pub(crate) fn complaint_of_belt(belt: &Belt, verb: &str) -> Option<Complaint> {
 /// # Errors
 /// A complaint about the key that gives the contact its state.
 pub(crate) fn refused_of_system(study: &SystemStudy, verb: &str) -> Result<(), Failure> {
+    if OF_PERIODIC_DITHER.contains(&verb)
+        && let Some(key) = Study::from(study).noise()
+    {
+        return Err(not_periodic(verb, key).into());
+    }
     complaint_of_system(study.system(), verb).map_or(Ok(()), |complaint| Err(complaint.into()))
 }
 

@@ -157,6 +157,7 @@ mod effort;
 pub mod fields;
 pub mod html;
 pub mod kind;
+mod noise;
 pub mod outcome;
 pub mod output;
 pub mod picture;

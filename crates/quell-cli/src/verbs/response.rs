@@ -26,6 +26,9 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "A:B", allow_hyphen_values = true, value_hint = ValueHint::Other,
         conflicts_with_all = ["settle", "record"])]
     window: Option<String>,
+    /// Belt under noise: number of runs, each with another seed, of which the share that ends quiet is counted [default: 16]
+    #[arg(long, value_name = "N", value_hint = ValueHint::Other, conflicts_with_all = ["settle", "record", "window"])]
+    seeds: Option<usize>,
     #[command(flatten)]
     plot: PlotArguments,
     #[command(flatten)]
@@ -94,6 +97,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 
     if let Some(window) = arguments.window(&study)? {
         let done = verbs(&study).response_within(window)?;
+        return answer(arguments.study.json, done.as_ref(), outputs, plot);
+    }
+    if let Some(seeds) = arguments.seeds {
+        let done = verbs(&study).response_of_seeds(Some(seeds))?;
         return answer(arguments.study.json, done.as_ref(), outputs, plot);
     }
     let done = match request {

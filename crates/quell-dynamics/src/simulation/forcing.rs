@@ -3,7 +3,7 @@
 //! A harmonic piece D sin(Rτ + φ) has the coefficients D Rᵏ/k! · {s, c, −s, −c}: a table
 //! times one sine and cosine per step. Triangle and square are straight between their breaks.
 //! Break number n is at (θᵢ + 2πc − φ)/R with n = c·(breaks per period) + i, computed
-//! from the integer each time, so that breaks do not drift. A sum of harmonics enters as its sines; samples are straight between
+//! from the integer each time, so that breaks do not drift. A sum of harmonics or of lines enters as its sines; samples are straight between
 //! their breaks, and a burst is harmonic or straight by pieces. Knots of drives, loads and envelopes are breaks too; between them a
 //! cubic is added to the dithers, or multiplies one.
 
@@ -40,7 +40,7 @@ impl ForcingShape {
             let none = !dithers.iter().any(|dither| acts(dither, direction));
             return if none { Self::Constant } else { Self::Several };
         };
-        if only.waveform.harmonics().is_some() {
+        if only.waveform.is_sum_of_sines() {
             Self::Several
         } else if only.waveform.breaks().is_empty() {
             Self::Harmonic

@@ -5,7 +5,7 @@
 //! triangle, by a finite step for a square. Above it (inner region) the criterion falls and may dip once more. A jump is a
 //! critical amplitude too, and a root finder alone misses it. Both regions are scanned, with extra points clustered just above
 //! the jump, and dips are followed to their minimum. With several dithers the other ones are held fixed, and the jump is where
-//! the sum of the fast velocities reaches v₀.
+//! the sum of the fast velocities reaches v₀. Under noise there is no jump: the criterion is smooth in α.
 //!
 //! The corresponding closed forms for one tangential dither are (3.43)–(3.60). Stribeck law: the outer root is
 //! α = v_m √((1 − κ − w²)/⟨G²⟩) with κ = 4v_mζ/(3F(μ_s − μ_m)), w = v₀/v_m. Decreasing law: the root of
@@ -70,7 +70,10 @@ pub fn critical_amplitudes(
     let scale = corners
         .iter()
         .fold(belt.friction().velocity_scale().max(belt.belt_velocity()), |m, c| m.max(*c));
-    let points = scan_points(&corners, scale, belt.belt_velocity() == 0.0);
+    let mut points = scan_points(&corners, scale, belt.belt_velocity() == 0.0);
+    points.extend(probe.noise_points()?);
+    points.sort_unstable_by(f64::total_cmp);
+    points.dedup();
     let changes = sign_changes(|alpha| probe.criterion(alpha), &points, &corners)?;
     let others: f64 = belt.dithers()[1..]
         .iter()
@@ -81,7 +84,8 @@ pub fn critical_amplitudes(
         .into_iter()
         .map(|change| {
             let amplitude = change.location * first.frequency_ratio;
-            let own = if first.direction == Direction::Normal { amplitude } else { 0.0 };
+            let most = -first.waveform.range().0;
+            let own = if first.direction == Direction::Normal { most * amplitude } else { 0.0 };
             CriticalAmplitude {
                 amplitude_ratio: change.location,
                 amplitude,
@@ -146,14 +150,30 @@ impl Probe<'_> {
         Ok(Criterion::new(belt.damping_ratio(), belt.normal_load(), effective).value)
     }
 
+    /// Amplitudes at which the Gaussian velocity is comparable to the belt velocity, where the criterion changes most.
+    fn noise_points(&mut self) -> Result<Vec<f64>, AveragingError> {
+        const POINTS: u32 = 160;
+        let deviation = self.motion(1.0)?.noise();
+        let velocity = self.belt.belt_velocity();
+        if deviation == 0.0 || velocity == 0.0 {
+            return Ok(Vec::new());
+        }
+        let unit = 4.0 * velocity / (deviation * f64::from(POINTS));
+        Ok((1..=POINTS).map(|k| unit * f64::from(k)).collect())
+    }
+
     /// Amplitudes at which the largest fast velocity equals the belt velocity.
     fn corners(&mut self) -> Result<Vec<f64>, AveragingError> {
         let v = self.belt.belt_velocity();
         if v == 0.0 {
             return Ok(Vec::new());
         }
-        // Exact where the fast motion is a single first-order wave.
         let unit = self.motion(1.0)?;
+        // Under noise the average is smooth.
+        if unit.noise() > 0.0 {
+            return Ok(Vec::new());
+        }
+        // Exact where the fast motion is a single first-order wave.
         if let [group] = unit.groups()
             && let Some((wave, amplitude)) = group.single_term()
         {

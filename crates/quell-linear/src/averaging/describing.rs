@@ -77,7 +77,7 @@ impl<'a> DescribingFunction<'a> {
     /// [`AveragingError`] where the fast motion has no value, and for more than two groups of incommensurate frequencies.
     pub fn new(belt: &'a Belt, options: AveragingOptions) -> Result<Self, AveragingError> {
         let motion = FastMotion::of(belt, belt.belt_velocity(), options)?;
-        let groups = motion.groups().len();
+        let groups = motion.groups().len() + usize::from(motion.noise() > 0.0);
         if groups > MOST_GROUPS {
             return Err(AveragingError::TooManyGroups { groups, largest: MOST_GROUPS });
         }

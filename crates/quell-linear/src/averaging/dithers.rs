@@ -13,6 +13,9 @@
 //! under the tangential dithers alone. The sum and difference frequencies of the two directions are neglected. This is exact to
 //! first order in α_N when α_T ≪ v.
 //!
+//! Noise is a Gaussian velocity, independent of the groups, whose variance is the sum over its lines: ½ Σ (αᵢ)², with the
+//! oscillator's gain at finite R. Its load is uncorrelated with its slip, line by line.
+//!
 //! Limitations: leading order in 1/R (with [`FastResponse::Oscillator`] all orders of the forced part). The differences of the
 //! dither frequencies must be fast too: a slow beat is not averaged out.
 
@@ -23,7 +26,7 @@ use super::error::AveragingError;
 use super::fast_motion::FastMotion;
 use super::mean_friction::effective;
 use super::periodic_motion::{LoadTerm, LoadWave, PeriodicMotion, SlipTerm};
-use super::wave::FastWave;
+use super::wave::{FastWave, sine_gain};
 use crate::periodic_response::PeriodicResponse;
 
 /// Velocity that a tangential force of high frequency is assumed to produce.
@@ -77,13 +80,43 @@ impl FastMotion {
         let acting: Vec<&Dither> = dithers.iter().filter(|d| d.amplitude > 0.0).collect();
         let (level, slope) = friction_level(law, &acting, v, options)?;
         let mut groups = grouped(&acting, (level, normal_load), options.response)?;
+        let noise = noise_variance(&acting, level, options)?;
         if options.normal_order == NormalOrder::Second && level != 0.0 {
             for group in groups.iter_mut().filter(|group| !group.normal.is_empty()) {
                 group.distortion = -0.5 * slope / level;
             }
         }
-        Ok(Self::new(groups))
+        Ok(Self::new(groups).with_noise(noise.sqrt()))
     }
+}
+
+/// Variance of the fast velocity under the noise among some dithers; normal noise is driven by the friction coefficient `level`.
+fn noise_variance(
+    dithers: &[&Dither],
+    level: f64,
+    options: AveragingOptions,
+) -> Result<f64, AveragingError> {
+    let mut variance = 0.0;
+    for dither in dithers {
+        let Some(noise) = dither.waveform.noise() else { continue };
+        let normal = dither.direction == Direction::Normal;
+        if normal && options.normal_order == NormalOrder::Second {
+            return Err(AveragingError::SecondOrderNoise);
+        }
+        let middle = dither.frequency_ratio;
+        let mean_square = match options.response {
+            FastResponse::Limit => noise.mean_square(|ratio| 1.0 / ratio),
+            FastResponse::Oscillator if dither.lowest_ratio() > 1.0 => {
+                noise.mean_square(|ratio| sine_gain(ratio * middle) / ratio)
+            }
+            FastResponse::Oscillator => {
+                return Err(AveragingError::NotFast { frequency_ratio: dither.lowest_ratio() });
+            }
+        };
+        let own = dither.amplitude_ratio() * if normal { level } else { 1.0 };
+        variance += own * own * mean_square;
+    }
+    Ok(variance)
 }
 
 /// Shape of the fast slip velocity of a dither.
@@ -121,7 +154,8 @@ fn grouped(
     response: FastResponse,
 ) -> Result<Vec<PeriodicMotion>, AveragingError> {
     let mut groups = Vec::new();
-    let dithers: Vec<Dither> = dithers.iter().flat_map(|dither| dither.by_harmonics()).collect();
+    let periodic = dithers.iter().filter(|dither| dither.waveform.is_periodic());
+    let dithers: Vec<Dither> = periodic.flat_map(|dither| dither.by_harmonics()).collect();
     let frequencies: Vec<f64> = dithers.iter().map(Dither::repetition_ratio).collect();
     for members in commensurate_groups(&frequencies) {
         let mut group = PeriodicMotion::default();
@@ -171,7 +205,8 @@ fn friction_level(
     }
     // There is no normal dither among them, so level and load have no effect.
     let groups = grouped(&tangential, (0.0, 1.0), options.response)?;
-    let mean = effective(law, &FastMotion::new(groups), v)?;
+    let noise = noise_variance(&tangential, 0.0, options)?.sqrt();
+    let mean = effective(law, &FastMotion::new(groups).with_noise(noise), v)?;
     Ok((mean.coefficient, mean.slope))
 }
 

@@ -213,6 +213,8 @@ pub fn unstable_bands(
     let excess = |v: f64| -> Result<f64, AveragingError> { Ok(v - motion(v)?.largest_slip()?) };
     let still = motion(vm)?;
     let corners: Vec<f64> = match still.groups() {
+        // Under noise the average is smooth.
+        _ if still.noise() > 0.0 => Vec::new(),
         // Tangential dither moves the mass in the same way at every velocity: every maximum of the fast velocity is a corner.
         [group] if group.normal.is_empty() && group.single_term().is_none() => {
             let extrema = Signal::new(group)?.turning_values().into_iter();

@@ -15,7 +15,7 @@ use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 
 use super::dithers::commensurate_groups;
 use super::error::AveragingError;
-use super::fast_motion::FastMotion;
+use super::fast_motion::{FastMotion, REACH};
 use super::mean_friction::{effective, of_fluctuating_load};
 use super::no_average::{MOST_FREQUENCIES, NoAverage};
 use super::periodic_motion::{LoadTerm, LoadWave, PeriodicMotion, SlipTerm};
@@ -87,12 +87,39 @@ pub(super) enum WaveShape {
     Harmonics(Vec<(u32, Complex64, Vec<ContactResponse>)>),
     /// By polynomials: fast slip and fast load of every contact over the phase of the wave.
     Polynomials(Vec<[Arc<PeriodicPolynomial>; 2]>),
+    /// Of noise: the response at each line.
+    Lines(Vec<Vec<ContactResponse>>),
 }
 
 impl WaveResponse {
-    /// Frequency at which the wave repeats itself.
-    fn repetition(&self) -> f64 {
-        self.wave.frequency / f64::from(self.wave.waveform.cycles())
+    /// Frequency at which the wave repeats itself; `None` of noise.
+    fn repetition(&self) -> Option<f64> {
+        let repeats = !matches!(self.shape, WaveShape::Lines(_));
+        repeats.then(|| self.wave.frequency / f64::from(self.wave.waveform.cycles()))
+    }
+}
+
+/// Second moments of the Gaussian slip a and load Ñ of a contact under noise.
+#[derive(Clone, Copy, Debug, Default)]
+struct NoiseMoments {
+    /// ⟨a²⟩.
+    slip: f64,
+    /// ⟨Ñ²⟩.
+    load: f64,
+    /// ⟨aÑ⟩.
+    covariance: f64,
+}
+
+impl NoiseMoments {
+    /// Adds the lines of a noise, each of which has this amplitude.
+    fn add(&mut self, lines: &[Vec<ContactResponse>], contact: usize, amplitude: f64) {
+        let half = 0.5 * amplitude * amplitude;
+        for line in lines {
+            let ContactResponse { slip, load } = line[contact];
+            self.slip += half * slip.norm_sqr();
+            self.load += half * load.norm_sqr();
+            self.covariance += half * (slip * load.conj()).re;
+        }
     }
 }
 
@@ -123,7 +150,7 @@ impl FastInputs {
     }
 
     pub(super) fn of(waves: Vec<WaveResponse>) -> Result<Self, NoAverage> {
-        let frequencies: Vec<f64> = waves.iter().map(WaveResponse::repetition).collect();
+        let frequencies: Vec<f64> = waves.iter().filter_map(WaveResponse::repetition).collect();
         let count = commensurate_groups(&frequencies).len();
         if count > MOST_FREQUENCIES {
             return Err(NoAverage::TooManyFrequencies { count });
@@ -251,16 +278,28 @@ impl FastInputs {
             _ => response.wave.amplitude,
         };
         let normal_load = system.contacts[contact].normal_load;
-        let frequencies: Vec<f64> = self.waves.iter().map(WaveResponse::repetition).collect();
+        let mut noise = NoiseMoments::default();
+        for response in &self.waves {
+            if let (WaveShape::Lines(lines), Some(of)) =
+                (&response.shape, response.wave.waveform.noise())
+            {
+                noise.add(lines, contact, of.line_amplitude() * amplitude(response));
+            }
+        }
+        let (periodic, frequencies): (Vec<&WaveResponse>, Vec<f64>) = self
+            .waves
+            .iter()
+            .filter_map(|response| Some((response, response.repetition()?)))
+            .unzip();
         let groups = commensurate_groups(&frequencies).into_iter().map(|members| {
             let mut parts = GroupParts::default();
             for (index, multiple) in members {
-                let response = &self.waves[index];
+                let response = periodic[index];
                 parts.add(response, contact, (amplitude(response), multiple));
             }
             parts.motion(normal_load)
         });
-        ContactMotion::new(groups.collect(), normal_load)
+        ContactMotion::new(groups.collect(), noise, normal_load)
     }
 }
 
@@ -289,6 +328,8 @@ impl GroupParts {
                     self.load_terms.push(LoadTerm { wave, amplitude, harmonic, phase });
                 }
             }
+            // Noise has no period.
+            WaveShape::Lines(_) => {}
             WaveShape::Harmonics(harmonics) => {
                 for (n, coefficient, contacts) in harmonics {
                     let ContactResponse { slip, load } = contacts[contact];
@@ -336,21 +377,28 @@ struct ContactMotion {
     /// Slip with the load that goes with it, and slip alone.
     whole: FastMotion,
     slip: FastMotion,
+    /// Sum of the amplitudes of the load of periodic dithers.
+    periodic_load: f64,
     load_amplitude: f64,
+    /// Covariance ⟨aÑ⟩ of slip and load under noise.
+    covariance: f64,
     normal_load: f64,
 }
 
 impl ContactMotion {
-    fn new(groups: Vec<PeriodicMotion>, normal_load: f64) -> Self {
+    fn new(groups: Vec<PeriodicMotion>, noise: NoiseMoments, normal_load: f64) -> Self {
         let loads = groups.iter().flat_map(|group| &group.load);
         let peaks = loads.map(|term| term.amplitude.abs() * term.wave.peak());
-        let load_amplitude = normal_load * peaks.sum::<f64>();
+        let periodic_load = normal_load * peaks.sum::<f64>();
+        let load_amplitude = periodic_load + REACH * noise.load.sqrt();
         let bare = groups
             .iter()
             .map(|group| PeriodicMotion { load: Vec::new(), ..group.clone() })
             .collect();
-        let (whole, slip) = (FastMotion::new(groups), FastMotion::new(bare));
-        Self { whole, slip, load_amplitude, normal_load }
+        let [whole, slip] =
+            [groups, bare].map(|groups| FastMotion::new(groups).with_noise(noise.slip.sqrt()));
+        let covariance = noise.covariance;
+        Self { whole, slip, periodic_load, load_amplitude, covariance, normal_load }
     }
 
     fn slip_amplitude(&self) -> Result<f64, AveragingError> {
@@ -361,7 +409,7 @@ impl ContactMotion {
     /// Mean friction as a function of the load.
     fn line(&self, contact: &Contact) -> Result<FrictionLine, NoAverage> {
         let undithered = FrictionLine::of(contact)?;
-        if self.slip.groups().is_empty() {
+        if self.slip.groups().is_empty() && self.slip.noise() == 0.0 {
             return Ok(undithered);
         }
         let velocity = contact.surface_velocity.mean();
@@ -372,12 +420,29 @@ impl ContactMotion {
             slope: mean.slope,
             slope_constant: 0.0,
         };
-        if self.load_amplitude > 0.0 {
+        if self.periodic_load > 0.0 {
             let (level, slope) =
                 of_fluctuating_load(&contact.friction, (&self.whole, &mean), velocity)?;
             line.constant = self.normal_load * level;
             line.slope_constant = self.normal_load * slope;
         }
+        if self.covariance != 0.0 {
+            // Of two Gaussian variables ⟨μ(γ + a)Ñ⟩ = ⟨aÑ⟩⟨μ′(γ + a)⟩ (Stein's identity).
+            line.constant += self.covariance * mean.slope;
+            line.slope_constant += self.covariance * self.curvature(contact, velocity)?;
+        }
         Ok(line)
+    }
+
+    /// μ̄″ under noise, from the slope at four places: the average is smooth on the scale of the standard deviation, so that the
+    /// error is h⁴/30 of the fifth derivative of the slope, 10⁻⁹ relative.
+    fn curvature(&self, contact: &Contact, velocity: f64) -> Result<f64, NoAverage> {
+        const STEP: f64 = 0.01;
+        let h = STEP * self.slip.noise();
+        let slope = |k: f64| -> Result<f64, NoAverage> {
+            Ok(effective(&contact.friction, &self.slip, velocity + k * h)?.slope)
+        };
+        let [near, far] = [slope(1.0)? - slope(-1.0)?, slope(2.0)? - slope(-2.0)?];
+        Ok((8.0 * near - far) / (12.0 * h))
     }
 }

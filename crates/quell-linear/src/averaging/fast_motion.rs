@@ -1,14 +1,19 @@
-//! Fast motion of a mass: groups of incommensurate frequencies, each of them periodic.
+//! Fast motion of a mass: groups of incommensurate frequencies, each of them periodic, and noise.
 
 use super::error::AveragingError;
 use super::periodic::Signal;
 use super::periodic_motion::{PeriodicMotion, SlipTerm};
 use super::wave::FastWave;
 
-/// Fast motion: groups of incommensurate frequencies, each periodic.
+/// Standard deviations of a Gaussian velocity that count as its range: it is beyond them for 6·10⁻⁵ of the time.
+pub(super) const REACH: f64 = 4.0;
+
+/// Fast motion: groups of incommensurate frequencies, each periodic, and a Gaussian velocity that is independent of them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FastMotion {
     groups: Vec<PeriodicMotion>,
+    /// Standard deviation of the Gaussian velocity.
+    noise: f64,
 }
 
 impl FastMotion {
@@ -23,7 +28,19 @@ impl FastMotion {
             group.load.retain(|t| t.amplitude != 0.0);
         }
         groups.retain(|group| !group.is_still());
-        Self { groups }
+        Self { groups, noise: 0.0 }
+    }
+
+    /// The same motion with a Gaussian velocity of a standard deviation.
+    #[must_use]
+    pub fn with_noise(self, deviation: f64) -> Self {
+        Self { noise: deviation, ..self }
+    }
+
+    /// Standard deviation of the Gaussian velocity; 0 without noise. With noise the average has neither corners nor jumps.
+    #[must_use]
+    pub fn noise(&self) -> f64 {
+        self.noise
     }
 
     /// A single fast slip velocity amplitude·wave.
@@ -40,12 +57,13 @@ impl FastMotion {
         &self.groups
     }
 
-    /// Smallest and largest fast slip velocity s, summed over the groups.
+    /// Smallest and largest fast slip velocity s, summed over the groups; of noise four standard deviations.
     ///
     /// # Errors
     /// A quadrature that did not converge.
     pub(super) fn slip_range(&self) -> Result<[f64; 2], AveragingError> {
-        self.groups.iter().try_fold([0.0, 0.0], |[low, high], group| {
+        let noise = REACH * self.noise;
+        self.groups.iter().try_fold([-noise, noise], |[low, high], group| {
             let range = match group.single_term() {
                 Some((wave, amplitude)) => {
                     let peak = amplitude.abs() * wave.peak();
@@ -58,11 +76,14 @@ impl FastMotion {
     }
 
     /// Slip velocities at which averaged friction has a corner or, without fast motion, its jump: sums of the extrema of the
-    /// groups.
+    /// groups. With noise it has neither.
     ///
     /// # Errors
     /// A quadrature that did not converge.
     pub(super) fn corners(&self) -> Result<Vec<f64>, AveragingError> {
+        if self.noise > 0.0 {
+            return Ok(Vec::new());
+        }
         let mut sums = vec![0.0];
         for group in &self.groups {
             let extrema = match group.single_term() {

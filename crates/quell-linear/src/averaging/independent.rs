@@ -1,6 +1,6 @@
-//! Dithers of incommensurate frequencies: nested means over independent phases.
+//! Dithers of incommensurate frequencies, and noise: nested means over independent phases.
 //!
-//! μ̄(v) = ⟨…⟨μ(v − s₁ − s₂ − s₃)(1 + ν₁ + ν₂ + ν₃)⟩₁…⟩₃. The innermost group is one with a closed form, if there is any. Each
+//! μ̄(v) = ⟨…⟨μ(v − s₁ − s₂ − s₃)(1 + ν₁ + ν₂ + ν₃)⟩₁…⟩₃. The innermost group is noise, or one with a closed form, if there is any. Each
 //! outer mean is a quadrature over the phase of its group, split where s is extremal and where the argument of the inner mean is
 //! at one of its corners. Inside a corner the inner slope grows like an inverse square root; each interval is therefore mapped by
 //! θ = a + (b − a)t²(3 − 2t), which makes such endpoints smooth.
@@ -17,8 +17,8 @@ use super::effective::{Effective, SlopeSide};
 use super::error::AveragingError;
 use super::periodic::{Signal, mean};
 use super::periodic_motion::PeriodicMotion;
-use super::single_wave;
 use super::wave::FastWave;
+use super::{gaussian, single_wave};
 
 /// Largest number of incommensurate groups.
 pub const MAX_GROUPS: usize = 3;
@@ -36,7 +36,12 @@ const EVALUATIONS: usize = 1500;
 
 /// One level of the nested mean: a closed form, or a signal to integrate over.
 enum NestedLevel<'a> {
-    Closed { wave: FastWave, amplitude: f64 },
+    Closed {
+        wave: FastWave,
+        amplitude: f64,
+    },
+    /// A Gaussian velocity of a standard deviation: its mean is smooth.
+    Gaussian(f64),
     Sampled(Signal<'a>),
 }
 
@@ -47,20 +52,21 @@ impl NestedLevel<'_> {
                 let peak = amplitude.abs() * wave.peak();
                 vec![-peak, peak]
             }
+            Self::Gaussian(_) => Vec::new(),
             Self::Sampled(signal) => signal.extrema(),
         }
     }
 }
 
-/// Effective friction at slow slip velocity `v` under several independent groups.
+/// Effective friction at slow slip velocity `v` under several independent groups, and noise of a standard deviation.
 pub(super) fn effective(
     law: &Friction,
-    groups: &[PeriodicMotion],
+    (groups, noise): (&[PeriodicMotion], f64),
     v: f64,
 ) -> Result<Effective, AveragingError> {
-    if groups.len() > MAX_GROUPS {
-        let (groups, largest) = (groups.len(), MAX_GROUPS);
-        return Err(AveragingError::TooManyGroups { groups, largest });
+    let count = groups.len() + usize::from(noise > 0.0);
+    if count > MAX_GROUPS {
+        return Err(AveragingError::TooManyGroups { groups: count, largest: MAX_GROUPS });
     }
     let mut order: Vec<&PeriodicMotion> = groups.iter().collect();
     // The closed form is innermost, that is, last. Of several, the largest one, so that the quadrature handles the smaller
@@ -72,24 +78,27 @@ pub(super) fn effective(
     let mut levels = Vec::new();
     for (depth, group) in order.iter().enumerate() {
         levels.push(match group.single_term() {
-            Some((wave, amplitude)) if depth + 1 == order.len() => {
+            Some((wave, amplitude)) if depth + 1 == order.len() && noise == 0.0 => {
                 NestedLevel::Closed { wave: wave.clone(), amplitude }
             }
             _ => NestedLevel::Sampled(Signal::new(group)?),
         });
     }
+    if noise > 0.0 {
+        levels.push(NestedLevel::Gaussian(noise));
+    }
     let corners = corner_sums(&levels);
     let context = NestedMean { law, levels: &levels, corners: &corners };
     let value = context.integral(0, 1.0, v, AveragedQuantity::Coefficient)?;
     let slope = context.integral(0, 1.0, v, AveragedQuantity::Slope)?;
-    let outermost = corners[0].iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    let outermost = corners[0].iter().map(|corner| corner.abs()).reduce(f64::max);
     Ok(Effective {
         coefficient: value.0,
         coefficient_error: value.1 + INNER_CLOSENESS * law.static_coefficient(),
         slope: slope.0,
         slope_error: slope.1 + CORNER_NOISE * slope.0.abs(),
         // Convolution with a second wave smooths the corner, but the slope stays one-sided at its outer edge.
-        side: if v.abs() == outermost { SlopeSide::Outer } else { SlopeSide::Both },
+        side: if Some(v.abs()) == outermost { SlopeSide::Outer } else { SlopeSide::Both },
     })
 }
 
@@ -199,14 +208,19 @@ impl NestedMean<'_> {
         v: f64,
         quantity: AveragedQuantity,
     ) -> Result<(f64, f64), AveragingError> {
+        let scaled = |mut e: Effective| {
+            e.coefficient *= base;
+            e.slope *= base;
+            e.coefficient_error *= base.abs();
+            e.slope_error *= base.abs();
+            e
+        };
         let effective = match &self.levels[self.levels.len() - 1] {
             NestedLevel::Closed { wave, amplitude } => {
-                let mut e = single_wave::effective(self.law, wave, *amplitude, v)?;
-                e.coefficient *= base;
-                e.slope *= base;
-                e.coefficient_error *= base.abs();
-                e.slope_error *= base.abs();
-                e
+                scaled(single_wave::effective(self.law, wave, *amplitude, v)?)
+            }
+            NestedLevel::Gaussian(deviation) => {
+                scaled(gaussian::effective(self.law, *deviation, v)?)
             }
             NestedLevel::Sampled(signal) => mean(self.law, signal, base, v)?,
         };

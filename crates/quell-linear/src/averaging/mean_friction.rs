@@ -13,6 +13,8 @@
 //! | one dither by samples | Gauss rules piece by piece | 10⁻¹² of μ, absolute |
 //! | commensurate dithers, second-order normal dither, correlated load | quadrature over the period | 10⁻¹² of μ, absolute |
 //! | two or three independent groups | nested quadrature | given with the result |
+//! | noise | closed forms of the law, or quadrature over a Gaussian distribution | 10⁻¹² of μ, absolute |
+//! | noise and other dithers | nested quadrature | given with the result |
 //!
 //! These errors hold away from a corner |v| = max|s|. At a corner the inner slope grows like (max|s| − |v|)^{−1/2}, and its
 //! relative error like the rounding of that difference. Exactly at the corner the outer slope is returned, and the result says so
@@ -23,7 +25,7 @@ use quell_model::Friction;
 use super::effective::Effective;
 use super::error::AveragingError;
 use super::fast_motion::FastMotion;
-use super::{independent, periodic, single_wave};
+use super::{gaussian, independent, periodic, single_wave};
 
 /// Effective friction and its frozen slope at slow slip velocity `v` (any sign) under a given fast motion.
 ///
@@ -31,13 +33,19 @@ use super::{independent, periodic, single_wave};
 /// [`AveragingError::SetValued`] at v = 0 without fast slip, [`AveragingError::TooManyGroups`], or a quadrature that
 /// did not converge.
 pub fn effective(law: &Friction, motion: &FastMotion, v: f64) -> Result<Effective, AveragingError> {
+    if motion.noise() > 0.0 {
+        return match motion.groups() {
+            [] => gaussian::effective(law, motion.noise(), v),
+            groups => independent::effective(law, (groups, motion.noise()), v),
+        };
+    }
     match motion.groups() {
         [] => single_wave::undithered(law, v),
         [group] => match group.single_term() {
             Some((wave, amplitude)) => single_wave::effective(law, wave, amplitude, v),
             None => periodic::effective(law, group, v),
         },
-        groups => independent::effective(law, groups, v),
+        groups => independent::effective(law, (groups, 0.0), v),
     }
 }
 
@@ -52,7 +60,7 @@ pub(super) fn of_fluctuating_load(
     v: f64,
 ) -> Result<(f64, f64), AveragingError> {
     let found = match motion.groups() {
-        [group] => {
+        [group] if motion.noise() == 0.0 => {
             let found = periodic::mean(law, &periodic::Signal::new(group)?, 0.0, v)?;
             return Ok((found.coefficient, found.slope));
         }

@@ -34,6 +34,7 @@
 //! | `stribeck`, `decreasing` | closed forms for one law |
 //! | `single_wave`, `periodic`, `independent` | any law under one shape, a periodic sum, several frequencies |
 //! | `pieces` | any law under one wave by samples, piece by piece |
+//! | `gaussian` | any law under noise, whose fast velocity is Gaussian |
 //! | `mean_friction` | the method for each fast motion |
 //! | `describing` | averaged friction under a slow sinusoid: equivalent gain and limit cycles |
 //! | `criterion` | 2ζ + Fμ̄′(v₀) and its verdict |
@@ -53,6 +54,7 @@ mod everywhere_stable;
 mod fast_inputs;
 mod fast_motion;
 mod finite_r;
+mod gaussian;
 mod independent;
 mod mean_friction;
 mod no_average;
@@ -80,6 +82,7 @@ pub use error::AveragingError;
 pub use everywhere_stable::{EverywhereStable, NeverStable, everywhere_stable_amplitude};
 pub use fast_inputs::{DitheredContact, FastInputs};
 pub use fast_motion::FastMotion;
+pub use gaussian::effective_under_noise_by_quadrature;
 pub use independent::MAX_GROUPS;
 pub use mean_friction::effective;
 pub use no_average::{MOST_FREQUENCIES, NoAverage};

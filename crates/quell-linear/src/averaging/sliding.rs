@@ -6,12 +6,14 @@
 //! m₁ = ⟨μ(γ + a)Ñ⟩, so that steady sliding and its small motions are those of a system without dither and with other friction
 //! ([`crate::steady::FrictionLine`]).
 //!
-//! Sines and sums of harmonics enter by their harmonics, every other waveform by its periodic response, piece by piece
-//! ([`crate::periodic_response`]). Both are exact.
+//! Sines and sums of harmonics enter by their harmonics, every other periodic waveform by its periodic response, piece by piece
+//! ([`crate::periodic_response`]). Both are exact. Noise enters by the moments of its lines: the fast slip and load are Gaussian, with
+//! the variances and the covariance of the sums over the lines.
 
 use num_complex::Complex64;
 use quell_model::profile::Wave;
 use quell_model::system::InputTarget;
+use quell_model::waveform::NoiseLine;
 use quell_model::{System, Waveform};
 use quell_numerics::eigen::EigenError;
 use quell_numerics::periodic_polynomial::PeriodicPolynomial;
@@ -133,6 +135,8 @@ impl<'a> DitheredSystem<'a> {
                 WaveShape::Harmonics(harmonics) => {
                     self.state_by_harmonics(target, &response.wave, harmonics)
                 }
+                // No periodic orbit exists, for which this would be a first guess.
+                WaveShape::Lines(_) => continue,
                 WaveShape::Polynomials(_) => {
                     let Wave { waveform, amplitude, frequency, phase, .. } = &response.wave;
                     let equations = driven(self.system, &self.sliding, target)?;
@@ -213,6 +217,16 @@ fn wave_response(
     if wave.waveform == Waveform::Sine {
         let shape = WaveShape::Harmonics(vec![(1, Complex64::ONE, at(1)?)]);
         return Ok(WaveResponse { input, wave, shape });
+    }
+    if let Some(noise) = wave.waveform.noise() {
+        let line = |line: &NoiseLine| {
+            let frequency = line.ratio * wave.frequency;
+            harmonic::response(system, sliding, target, frequency)
+                .map(|response| response.contacts)
+                .ok_or(NoAverage::Resonance { frequency })
+        };
+        let lines: Result<Vec<_>, NoAverage> = noise.lines().iter().map(line).collect();
+        return Ok(WaveResponse { input, wave, shape: WaveShape::Lines(lines?) });
     }
     let equations = driven(system, sliding, target)?;
     let response = PeriodicResponse::new(

@@ -249,7 +249,7 @@ pub(super) fn ends_of_monotone_parts(waveform: &Waveform) -> Vec<f64> {
 }
 
 /// R²/(R² − 1): the velocity of the oscillator divided by D/R at the frequency of the force.
-fn sine_gain(r: f64) -> f64 {
+pub(super) fn sine_gain(r: f64) -> f64 {
     r * r / ((r - 1.0) * (r + 1.0))
 }
 

@@ -10,7 +10,7 @@ pub struct Wave {
     pub waveform: Waveform,
     /// Peak amplitude A.
     pub amplitude: f64,
-    /// Angular frequency ω > 0, per unit of time.
+    /// Angular frequency ω > 0, per unit of time; of noise that of the middle of its band.
     pub frequency: f64,
     /// Phase φ at t = 0, radians.
     pub phase: f64,
@@ -24,9 +24,9 @@ impl Wave {
         self.frequency / f64::from(self.waveform.cycles())
     }
 
-    /// The highest angular frequency of the wave: ω, of a sum of harmonics that of the highest one.
+    /// The highest angular frequency of the wave: ω, of a sum of harmonics or lines that of the highest one.
     pub fn highest(&self) -> f64 {
-        self.frequency * f64::from(self.waveform.highest_order())
+        self.frequency * self.waveform.highest_multiple()
     }
 
     /// Largest magnitude of the wave.

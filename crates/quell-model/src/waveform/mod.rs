@@ -11,6 +11,7 @@
 //! | `fourier` | a sum of harmonics |
 //! | `samples` | one period by samples, joined by straight lines or held |
 //! | `burst` | whole periods of a carrier, and a pause |
+//! | `noise` | equal lines at irregular frequencies of a band; the one waveform without a period |
 //! | `shape`, `table` | breaks, pieces and averages: of constants, and computed from pieces |
 
 use std::f64::consts::{PI, TAU};
@@ -18,6 +19,7 @@ use std::sync::Arc;
 
 mod burst;
 mod fourier;
+mod noise;
 mod samples;
 mod shape;
 mod sine;
@@ -27,6 +29,7 @@ mod triangle;
 
 pub use burst::Burst;
 pub use fourier::{FourierWave, Harmonic};
+pub use noise::{FEWEST_GAUSSIAN_LINES, LARGEST_SEED, MOST_LINES, Noise, NoiseLine};
 pub use samples::{Hold, SampledWave};
 pub use shape::Piece;
 
@@ -61,12 +64,25 @@ pub enum Waveform {
     Samples(Arc<SampledWave>),
     /// Periods of a carrier and a pause.
     Burst(Arc<Burst>),
+    /// Lines in a band of frequencies. The phase is that of the middle of the band.
+    Noise(Arc<Noise>),
+}
+
+/// One sine of a waveform: a sin(mθ + φ).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WaveSine {
+    /// Frequency m as a multiple of the waveform's.
+    pub multiple: f64,
+    /// Amplitude a.
+    pub amplitude: f64,
+    /// Phase φ, radians.
+    pub phase: f64,
 }
 
 /// Why numbers make no waveform.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WaveformError {
-    /// The key of a study file that is wrong: `harmonics`, `values`, `on`, `off` or `carrier`.
+    /// The key of a study file that is wrong: `harmonics`, `values`, `on`, `off`, `carrier`, `band`, `lines` or `seed`.
     pub key: &'static str,
     /// What is allowed.
     pub allowed: String,
@@ -86,6 +102,8 @@ pub const FOURIER: &str = "fourier";
 pub const SAMPLES: &str = "samples";
 /// See [`FOURIER`].
 pub const BURST: &str = "burst";
+/// See [`FOURIER`].
+pub const NOISE: &str = "noise";
 
 impl Waveform {
     /// The waveforms without numbers of their own.
@@ -93,7 +111,7 @@ impl Waveform {
 
     /// The names of all waveforms in a study file.
     pub const NAMES: &'static [&'static str] =
-        &["sine", "triangle", "square", FOURIER, SAMPLES, BURST];
+        &["sine", "triangle", "square", FOURIER, SAMPLES, BURST, NOISE];
 
     /// The constants of a waveform without numbers of its own.
     fn shape(&self) -> Option<&'static Shape> {
@@ -101,7 +119,7 @@ impl Waveform {
             Self::Sine => Some(&sine::SHAPE),
             Self::Triangle => Some(&triangle::SHAPE),
             Self::Square => Some(&square::SHAPE),
-            Self::Fourier(_) | Self::Samples(_) | Self::Burst(_) => None,
+            Self::Fourier(_) | Self::Samples(_) | Self::Burst(_) | Self::Noise(_) => None,
         }
     }
 
@@ -120,6 +138,7 @@ impl Waveform {
             Self::Fourier(_) => FOURIER,
             Self::Samples(_) => SAMPLES,
             Self::Burst(_) => BURST,
+            Self::Noise(_) => NOISE,
             _ => self.shape().map_or("", |shape| shape.name),
         }
     }
@@ -137,9 +156,22 @@ impl Waveform {
         }
     }
 
-    /// The period, radians of the phase.
+    /// The period, radians of the phase. Noise has none ([`Waveform::is_periodic`]): the value is the cycle of the middle of its band.
     pub fn period(&self) -> f64 {
         TAU * f64::from(self.cycles())
+    }
+
+    /// Whether it repeats: every waveform but noise.
+    pub fn is_periodic(&self) -> bool {
+        self.noise().is_none()
+    }
+
+    /// The lines of a noise.
+    pub fn noise(&self) -> Option<&Noise> {
+        match self {
+            Self::Noise(noise) => Some(noise),
+            _ => None,
+        }
     }
 
     /// Whether G is even and antiperiodic, as for the waveforms of the dissertation: it is known from a quarter of its period.
@@ -149,8 +181,10 @@ impl Waveform {
 
     /// g(θ). At a jump the value after it.
     pub fn value(&self, phase: f64) -> f64 {
-        if let Self::Fourier(series) = self {
-            return series.value(phase);
+        match self {
+            Self::Fourier(series) => return series.value(phase),
+            Self::Noise(noise) => return noise.value(phase),
+            _ => {}
         }
         let phase = self.wrapped(phase);
         match self.piece_at(phase) {
@@ -161,8 +195,10 @@ impl Waveform {
 
     /// g′(θ), per radian. At a kink the slope after it; a jump has none.
     pub fn slope(&self, phase: f64) -> f64 {
-        if let Self::Fourier(series) = self {
-            return series.slope(phase);
+        match self {
+            Self::Fourier(series) => return series.slope(phase),
+            Self::Noise(noise) => return noise.slope(phase),
+            _ => {}
         }
         let phase = self.wrapped(phase);
         match self.piece_at(phase) {
@@ -175,16 +211,18 @@ impl Waveform {
     pub fn integral(&self, phase: f64) -> f64 {
         match (self, self.shape(), self.table()) {
             (Self::Fourier(series), ..) => series.integral(phase),
+            (Self::Noise(noise), ..) => noise.integral(phase),
             (_, Some(shape), _) => (shape.integral)(self.wrapped(phase)),
             (_, _, Some(table)) => table.integral(self.wrapped(phase)),
             _ => 0.0,
         }
     }
 
-    /// Least and largest value of G: ∓1, ∓π/4, ∓π/2 for the waveforms of the dissertation.
+    /// Least and largest value of G: ∓1, ∓π/4, ∓π/2 for the waveforms of the dissertation; of noise four standard deviations.
     pub fn integral_range(&self) -> (f64, f64) {
         match self {
             Self::Fourier(series) => series.integral_range(),
+            Self::Noise(noise) => (-noise.reach_of_integral(), noise.reach_of_integral()),
             _ => match (self.shape(), self.table()) {
                 (Some(shape), _) => (-shape.peak_integral, shape.peak_integral),
                 (_, Some(table)) => table.integral_range(),
@@ -203,6 +241,7 @@ impl Waveform {
     pub fn mean_square_integral(&self) -> f64 {
         match self {
             Self::Fourier(series) => series.mean_square_integral(),
+            Self::Noise(noise) => noise.mean_square_integral(),
             _ => match (self.shape(), self.table()) {
                 (Some(shape), _) => shape.mean_square_integral,
                 (_, Some(table)) => table.mean_square_integral(),
@@ -215,6 +254,7 @@ impl Waveform {
     pub fn root_mean_square(&self) -> f64 {
         match self {
             Self::Fourier(series) => series.root_mean_square(),
+            Self::Noise(_) => std::f64::consts::FRAC_1_SQRT_2,
             _ => match (self.shape(), self.table()) {
                 (Some(shape), _) => shape.root_mean_square,
                 (_, Some(table)) => table.root_mean_square(),
@@ -223,10 +263,11 @@ impl Waveform {
         }
     }
 
-    /// Least and largest value of g: ∓1 for the waveforms of the dissertation.
+    /// Least and largest value of g: ∓1 for the waveforms of the dissertation; of noise bounds, where all lines are in phase.
     pub fn range(&self) -> (f64, f64) {
         match self {
             Self::Fourier(series) => series.range(),
+            Self::Noise(noise) => (-noise.bound(), noise.bound()),
             _ => self.table().map_or((-1.0, 1.0), WaveTable::range),
         }
     }
@@ -257,7 +298,7 @@ impl Waveform {
     /// Phases of kinks and jumps within a period, ascending from 0.
     pub fn breaks(&self) -> &[f64] {
         match self {
-            Self::Sine | Self::Fourier(_) => &[],
+            Self::Sine | Self::Fourier(_) | Self::Noise(_) => &[],
             Self::Triangle => triangle::SHAPE.breaks,
             Self::Square => square::SHAPE.breaks,
             Self::Samples(samples) => samples.table().breaks(),
@@ -265,13 +306,13 @@ impl Waveform {
         }
     }
 
-    /// The pieces: `pieces()[i]` follows `breaks()[i]`; a single piece if there are no breaks, and none for a sum of harmonics.
+    /// The pieces: `pieces()[i]` follows `breaks()[i]`; a single piece if there are no breaks, and none for a sum of sines.
     pub fn pieces(&self) -> &[Piece] {
         match self {
             Self::Sine => sine::SHAPE.pieces,
             Self::Triangle => triangle::SHAPE.pieces,
             Self::Square => square::SHAPE.pieces,
-            Self::Fourier(_) => &[],
+            Self::Fourier(_) | Self::Noise(_) => &[],
             Self::Samples(samples) => samples.table().pieces(),
             Self::Burst(burst) => burst.table().pieces(),
         }
@@ -282,12 +323,49 @@ impl Waveform {
         self.harmonics().and_then(<[Harmonic]>::last).map_or(1, |harmonic| harmonic.order)
     }
 
-    /// −g, where it is a waveform: a burst has none.
+    /// The highest frequency in it, as a multiple of its own.
+    pub fn highest_multiple(&self) -> f64 {
+        let last = self.noise().and_then(|noise| noise.lines().last());
+        last.map_or_else(|| f64::from(self.highest_order()), |line| line.ratio)
+    }
+
+    /// The lowest frequency of noise, that of its first line, as a multiple of that of the middle of its band; 1 of others.
+    pub fn lowest_multiple(&self) -> f64 {
+        self.noise().and_then(|noise| noise.lines().first()).map_or(1.0, |line| line.ratio)
+    }
+
+    /// The sines of which it is the sum, where it is given by them.
+    pub fn sines(&self) -> Option<Vec<WaveSine>> {
+        let of_harmonic = |harmonic: &Harmonic| WaveSine {
+            multiple: f64::from(harmonic.order),
+            amplitude: harmonic.amplitude(),
+            phase: harmonic.phase(),
+        };
+        match self {
+            Self::Fourier(series) => Some(series.harmonics().iter().map(of_harmonic).collect()),
+            Self::Noise(noise) => {
+                let amplitude = noise.line_amplitude();
+                let sine = |line: &NoiseLine| {
+                    let NoiseLine { ratio, phase } = *line;
+                    WaveSine { multiple: ratio, amplitude, phase }
+                };
+                Some(noise.lines().iter().map(sine).collect())
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether it is given as a sum of sines ([`Waveform::sines`]).
+    pub fn is_sum_of_sines(&self) -> bool {
+        matches!(self, Self::Fourier(_) | Self::Noise(_))
+    }
+
+    /// −g, where it is a waveform: bursts and noise have none.
     pub fn negated(&self) -> Option<Self> {
         match self {
             Self::Fourier(series) => Some(Self::Fourier(series.negated().into())),
             Self::Samples(samples) => Some(Self::Samples(samples.negated().into())),
-            Self::Sine | Self::Triangle | Self::Square | Self::Burst(_) => None,
+            Self::Sine | Self::Triangle | Self::Square | Self::Burst(_) | Self::Noise(_) => None,
         }
     }
 

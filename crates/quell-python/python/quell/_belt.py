@@ -31,10 +31,10 @@ class Dither(Table):
     direction :
         "tangential", a force on the mass along the belt, or "normal", a variation of the normal load.
     waveform :
-        "sine", "triangle" or "square"; "fourier", "samples" or "burst" with the keys below; or a function of the phase in radians,
-        which is sampled over one period.
+        "sine", "triangle" or "square"; "fourier", "samples", "burst" or "noise" with the keys below; or a function of the phase in
+        radians, which is sampled over one period.
     amplitude :
-        D, the peak of the force over k: a length, ≥ 0. For a disc: the relative amplitude α.
+        D, the peak of the force over k: a length, ≥ 0; of noise its root mean square times √2. For a disc: the relative amplitude α.
     frequency_ratio :
         R, in units of ω₀ (belt) or ω_ref (disc), > 0.
     phase :
@@ -48,6 +48,9 @@ class Dither(Table):
         "linear" (straight lines) or "zero" (held).
     carrier, on, off :
         "burst": the waveform of the carrier, and its periods in a burst and in a pause.
+    band, lines, seed :
+        "noise": lowest and highest frequency in units of ω₀, instead of ``frequency_ratio`` and ``phase``; the number of equal lines
+        [default: 64]; and the seed of their frequencies and phases [default: 1]. ``band_hz``: the band in Hz, in a study in SI.
     envelope :
         Share of the amplitude over time: a :class:`Profile` with ``share``.
     """
@@ -69,12 +72,18 @@ class Dither(Table):
     carrier: str | None
     on: int | None
     off: int | None
+    band: Any
+    band_hz: Any
+    lines: int | None
+    seed: int | None
     envelope: Any
 
     def __init__(
         self,
         direction: Literal["tangential", "normal"] | None = None,
-        waveform: Literal["sine", "triangle", "square", "fourier", "samples", "burst"] | Callable[[float], float] | None = None,
+        waveform: Literal["sine", "triangle", "square", "fourier", "samples", "burst", "noise"]
+        | Callable[[float], float]
+        | None = None,
         *,
         amplitude: Number | None = None,
         frequency_ratio: Number | None = None,
@@ -89,6 +98,10 @@ class Dither(Table):
         carrier: Literal["sine", "triangle", "square"] | None = None,
         on: int | None = None,
         off: int | None = None,
+        band: tuple[Number, Number] | None = None,
+        band_hz: tuple[Number, Number] | None = None,
+        lines: int | None = None,
+        seed: int | None = None,
         envelope: Profile | Mapping[str, Any] | None = None,
         **unknown: Unknown,
     ) -> None:

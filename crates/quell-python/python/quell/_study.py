@@ -285,10 +285,18 @@ class Study(CheckedStudy):
     @overload
     def response(self, *, window: tuple[Number, Number]) -> results.Window: ...
 
+    @overload
+    def response(self, *, seeds: int) -> results.NoiseResponse: ...
+
     @keywords
     def response(
-        self, *, settle: Number | None = None, record: Number | None = None, window: tuple[Number, Number] | None = None
-    ) -> results.Response | results.Window:
+        self,
+        *,
+        settle: Number | None = None,
+        record: Number | None = None,
+        window: tuple[Number, Number] | None = None,
+        seeds: int | None = None,
+    ) -> results.Response | results.Window | results.NoiseResponse:
         """The steady response, the effect of the dither (``effect``; residual vibration E, equation (2.27)), and its cost.
 
         Of a system, the response of ``observe`` in the band below the lowest dither frequency.
@@ -301,8 +309,20 @@ class Study(CheckedStudy):
         window :
             Beginning and end of a part of the run from its start, which is measured instead of a steady response: also where drive,
             load or dither varies in time.
+        seeds :
+            Belt under noise: number of runs, each with another seed, of which the share that ends quiet is counted
+            [default: 16].
         """
         arguments = Arguments()
+        noisy = seeds is not None or (settle is None and record is None and window is None and self._native.is_noise())
+        if noisy:
+            for name, given in (("settle", settle), ("record", record), ("window", window)):
+                if given is not None:
+                    allowed = "left out: the solver of the study has the times of the runs"
+                    arguments.wrong.append(complaint(name, given, allowed, "conflict"))
+            count = None if seeds is None else arguments.whole("seeds", seeds, 1, 10_000)
+            arguments.done()
+            return results.NoiseResponse(self, self._native.response_of_seeds(count))
         allowed = 'a finite number, or a time with its unit such as "0.5s"'
         if window is not None:
             for name, given in (("settle", settle), ("record", record)):

@@ -127,8 +127,8 @@ class SystemDither(Table):
     reaction :
         Whether the structure bears the modulation of the load [default: True].
     waveform :
-        "sine", "triangle" or "square"; "fourier", "samples" or "burst" with the keys below; or a function of the phase in radians,
-        which is sampled over one period.
+        "sine", "triangle" or "square"; "fourier", "samples", "burst" or "noise" with the keys below; or a function of the phase in
+        radians, which is sampled over one period.
     amplitude, frequency, phase :
         Peak of the force, angular frequency, and phase at time 0 in radians [default: 0].
     amplitude_n, amplitude_n_rms, frequency_hz :
@@ -140,6 +140,9 @@ class SystemDither(Table):
         "linear" (straight lines) or "zero" (held).
     carrier, on, off :
         "burst": the waveform of the carrier, and its periods in a burst and in a pause.
+    band, lines, seed :
+        "noise": lowest and highest angular frequency, instead of ``frequency`` and ``phase``; the number of equal lines
+        [default: 64]; and the seed of their frequencies and phases [default: 1]. ``band_hz``: the band in Hz, in a study with units.
     envelope :
         Share of the amplitude over time: a :class:`Profile` with ``share``.
     """
@@ -164,12 +167,18 @@ class SystemDither(Table):
     carrier: str | None
     on: int | None
     off: int | None
+    band: Any
+    band_hz: Any
+    lines: int | None
+    seed: int | None
     envelope: Any
 
     def __init__(
         self,
         at: Row | None = None,
-        waveform: Literal["sine", "triangle", "square", "fourier", "samples", "burst"] | Callable[[float], float] | None = None,
+        waveform: Literal["sine", "triangle", "square", "fourier", "samples", "burst", "noise"]
+        | Callable[[float], float]
+        | None = None,
         *,
         contact: str | None = None,
         direction: Literal["tangential", "normal"] | None = None,
@@ -187,6 +196,10 @@ class SystemDither(Table):
         carrier: Literal["sine", "triangle", "square"] | None = None,
         on: int | None = None,
         off: int | None = None,
+        band: tuple[Number, Number] | None = None,
+        band_hz: tuple[Number, Number] | None = None,
+        lines: int | None = None,
+        seed: int | None = None,
         envelope: Profile | Mapping[str, Any] | None = None,
         **unknown: Unknown,
     ) -> None:

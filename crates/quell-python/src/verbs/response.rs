@@ -6,6 +6,11 @@ use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
 
 use crate::answer::NativeAnswer;
 
+/// Runs the verb for runs under noise with different seeds.
+pub(crate) fn of_seeds(study: &Study, seeds: Option<usize>) -> Result<NativeAnswer, Failure> {
+    Ok(NativeAnswer::new(verbs(study).response_of_seeds(seeds)?))
+}
+
 /// Runs the verb; `times`: the settling time and the length of the record of a system.
 pub(crate) fn run(
     study: &Study,

@@ -66,19 +66,26 @@ fn table(which: SystemTable, required: &[&str]) -> Json {
         SystemTable::Mode => "a mode",
         SystemTable::Component => "a body given by its modes",
         SystemTable::Initial => "initial state of a run",
-        SystemTable::Dither => "a periodic force on coordinates, or a modulation of a load",
+        SystemTable::Dither => {
+            "a force on coordinates, periodic or noise, or a modulation of a load"
+        }
         SystemTable::Drive => "velocity of the surface over time",
         SystemTable::Load => "normal load over time",
         SystemTable::Envelope => "share of the amplitude over time",
         _ => "a friction contact",
     };
-    json!({
+    let mut object = json!({
         "type": "object",
         "description": about,
         "properties": properties,
         "required": required,
         "additionalProperties": false,
-    })
+    });
+    if which == SystemTable::Dither {
+        let relation = super::waveform::noise_or_periodic(&["frequency", "frequency_hz", "phase"]);
+        object["allOf"] = json!([relation]);
+    }
+    object
 }
 
 fn described(mut schema: Json, about: &str) -> Json {

@@ -43,7 +43,7 @@ pub use disc::{DiscSetup, DiscStudy};
 pub use kind::{Kind, Study};
 pub use quell_dynamics::response::Solver;
 pub use quell_dynamics::start::InitialState;
-pub use steady::varies_in_time;
+pub use steady::{not_periodic, varies_in_time};
 pub use study_kind::{Given, StudyKind, not_available};
 pub use sweep::{Axis, AxisTarget, Sweep};
 pub use system::{

@@ -1,9 +1,10 @@
-//! The steady study of one moment of a study whose drive, load or dither varies in time.
+//! The steady study of one moment of a study whose drive, load or dither varies in time, and what makes a study vary or not repeat.
 
 use quell_model::Belt;
-use quell_model::parameter::{BELT_VELOCITY, NORMAL_LOAD, Parameter};
-use quell_model::system::Contact;
+use quell_model::parameter::{BELT_VELOCITY, NORMAL_LOAD, Parameter, indexed};
+use quell_model::system::{Contact, Input};
 use quell_model::units::measure;
+use quell_model::waveform::NOISE;
 use serde_json::Value as Json;
 
 use super::document::{Node, Table, Value};
@@ -36,6 +37,25 @@ impl Study {
                 first.or(second).or(envelope.then_some("dither.envelope"))
             }
         }
+    }
+
+    /// The key of the first dither of noise, which has no period, such as `dither.waveform`; `None` where every dither is periodic.
+    pub fn noise(&self) -> Option<String> {
+        let (place, count) = match self.kind() {
+            Kind::Belt(setup) => {
+                let dithers = setup.belt().dithers();
+                (dithers.iter().position(|dither| !dither.waveform.is_periodic()), dithers.len())
+            }
+            Kind::Disc(_) => (None, 0),
+            Kind::System(setup) => {
+                let inputs = &setup.system().inputs;
+                let is_noise = |input: &Input| {
+                    input.profile.waves().iter().any(|wave| !wave.waveform.is_periodic())
+                };
+                (inputs.iter().position(is_noise), inputs.len())
+            }
+        };
+        Some(indexed("dither", place?, count, "waveform"))
     }
 
     /// The steady study with the velocities, loads and amplitudes of a time.
@@ -159,6 +179,16 @@ fn each(
         }
         _ => Ok(()),
     }
+}
+
+/// The complaint about a question that only periodic dither answers; `key` is that of the noise.
+pub fn not_periodic(verb: &str, key: impl Into<String>) -> Complaint {
+    let allowed = format!(
+        "a periodic waveform for {verb}, which is about a response that repeats, and under noise none does: simulate computes runs, \
+         response of a belt the share of seeds that quench, response --window the record of one run, and friction, stability and \
+         maps of averaged quantities the mean over the distribution of the noise"
+    );
+    Complaint::new(Fault::Conflict, key, Origin::Whole, NOISE, allowed)
 }
 
 /// The complaint about a question that only a steady study answers.

@@ -1,8 +1,9 @@
-//! The waveform of a dither: its name, and the keys that describe one by harmonics, by samples, or by bursts.
+//! The waveform of a dither: its name, and the keys that describe one by harmonics, by samples, by bursts, or as noise.
 
 use quell_model::Waveform;
 use quell_model::waveform::{
-    BURST, Burst, FOURIER, FourierWave, Harmonic, Hold, SAMPLES, SampledWave, WaveformError,
+    BURST, Burst, FOURIER, FourierWave, Harmonic, Hold, LARGEST_SEED, NOISE, Noise, SAMPLES,
+    SampledWave, WaveformError,
 };
 use serde_json::Value as Json;
 
@@ -12,14 +13,29 @@ use crate::study::reader::Reader;
 use crate::study::vocabulary::{Choice, WAVE_KEYS, join};
 use crate::study::wave_file::WaveFiles;
 
-/// Reads the waveform of a dither; `header` is the place of its table.
+/// Lines of noise by default.
+const LINES: f64 = 64.0;
+
+/// Seed of noise by default.
+const SEED: f64 = 1.0;
+
+/// The keys of a periodic dither that noise does not have.
+const OF_PERIODIC: [&str; 4] = ["frequency_ratio", "frequency", "frequency_hz", "phase"];
+
+/// Whether the waveform of a dither is noise, which has a band instead of a frequency and a phase.
+pub(super) fn is_noise(table: &Table) -> bool {
+    matches!(table.get("waveform").map(|node| &node.value), Some(Value::Text(name)) if name == NOISE)
+}
+
+/// Reads the waveform of a dither, and of noise the middle of its band; `header` is the place of its table, `band` reads the key
+/// of the band, in the unit of the frequency: `Some(None)` where it is not given.
 pub(super) fn read(
     reader: &mut Reader,
     table: &Table,
-    prefix: &str,
-    header: Origin,
+    (prefix, header): (&str, Origin),
     files: &mut WaveFiles<'_>,
-) -> Option<Waveform> {
+    band: impl FnOnce(&mut Reader) -> Option<Option<[f64; 2]>>,
+) -> Option<(Waveform, Option<f64>)> {
     let name = reader.needed_choice(table, prefix, header, "waveform", Choice::Waveform)?;
     let mut fits = true;
     for (key, wave) in WAVE_KEYS {
@@ -36,16 +52,25 @@ pub(super) fn read(
             fits = false;
         }
     }
+    let not_of_noise = OF_PERIODIC.into_iter().filter(|_| name == NOISE);
+    for (key, node) in not_of_noise.filter_map(|key| Some((key, table.get(key)?))) {
+        let allowed = "left out: noise has the frequencies of its band and random phases";
+        let key = join(prefix, key);
+        reader.complain(Complaint::new(Fault::Conflict, key, node.origin, node.given(), allowed));
+        fits = false;
+    }
     if !fits {
         return None;
     }
     let place = WavePlace { table, prefix, header };
-    match name {
+    let waveform = match name {
         FOURIER => place.fourier(reader),
         SAMPLES => place.samples(reader, files),
         BURST => place.burst(reader),
+        NOISE => return place.noise(reader, band),
         _ => Waveform::from_name(name),
-    }
+    };
+    Some((waveform?, None))
 }
 
 /// The table of a dither.
@@ -69,8 +94,10 @@ impl<'a> WavePlace<'a> {
 
     /// Reports why numbers make no waveform.
     fn refused(&self, reader: &mut Reader, why: WaveformError) -> Option<Waveform> {
-        let key = join(self.prefix, why.key);
-        let node = self.table.get(why.key);
+        let in_si = self.table.has("band_hz") && why.key == "band";
+        let name = if in_si { "band_hz" } else { why.key };
+        let key = join(self.prefix, name);
+        let node = self.table.get(name);
         let (origin, given) =
             node.map_or((self.header, Json::Null), |node| (node.origin, node.given()));
         reader.complain(Complaint::new(Fault::Value, key, origin, given, why.allowed));
@@ -174,26 +201,74 @@ impl<'a> WavePlace<'a> {
         let count = |reader: &mut Reader, name: &str| {
             let allowed = "a whole number of periods of the carrier";
             let node = self.needed(reader, name, allowed)?;
-            let whole = match node.value {
-                Value::Number(value) if value.fract() == 0.0 && (0.0..=1e6).contains(&value) => {
-                    Some(value)
-                }
-                _ => None,
-            };
-            if whole.is_none() {
-                reader.wrong(&join(self.prefix, name), node, allowed);
-            }
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "a whole number up to 10⁶"
-            )]
-            whole.map(|value| value as u32)
+            self.whole(reader, name, node, (1e6, allowed))
         };
         let (on, off) = (count(reader, "on"), count(reader, "off"));
+        let small = |count: Option<u64>| count.and_then(|count| u32::try_from(count).ok());
+        let (on, off) = (small(on), small(off));
         match Burst::new(Waveform::from_name(carrier?)?, on?, off?) {
             Ok(burst) => Some(burst.into_waveform()),
             Err(why) => self.refused(reader, why),
+        }
+    }
+}
+
+impl WavePlace<'_> {
+    /// A whole number from 0 to `most`.
+    fn whole(
+        &self,
+        reader: &mut Reader,
+        name: &str,
+        node: &Node,
+        (most, allowed): (f64, &str),
+    ) -> Option<u64> {
+        match node.value {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a whole number up to 2⁵³"
+            )]
+            Value::Number(value) if value.fract() == 0.0 && (0.0..=most).contains(&value) => {
+                Some(value as u64)
+            }
+            _ => {
+                reader.wrong(&join(self.prefix, name), node, allowed);
+                None
+            }
+        }
+    }
+
+    /// Noise, with the middle of its band.
+    fn noise(
+        &self,
+        reader: &mut Reader,
+        band: impl FnOnce(&mut Reader) -> Option<Option<[f64; 2]>>,
+    ) -> Option<(Waveform, Option<f64>)> {
+        const ALLOWED: &str = "the lowest and the highest frequency of the noise, such as [8.0, 12.0]; or band_hz in hertz";
+        let band = band(reader);
+        if band == Some(None) {
+            self.needed(reader, "band", ALLOWED);
+        }
+        let mut count = |name: &str, default: f64, most: f64| match self.table.get(name) {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "the default, a small whole number"
+            )]
+            None => Some(default as u64),
+            Some(node) => {
+                self.whole(reader, name, node, (most, &format!("a whole number from 0 to {most}")))
+            }
+        };
+        let (lines, seed) = (count("lines", LINES, 1e6), count("seed", SEED, LARGEST_SEED as f64));
+        let lines = lines.and_then(|lines| u32::try_from(lines).ok());
+        let (band, lines, seed) = (band??, lines?, seed?);
+        match Noise::new(band, lines, seed) {
+            Ok(noise) => Some((Waveform::Noise(noise.into()), Some(Noise::middle(band)))),
+            Err(why) => {
+                self.refused(reader, why);
+                None
+            }
         }
     }
 }

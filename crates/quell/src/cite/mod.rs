@@ -26,8 +26,8 @@ pub use references::{
     ARMSTRONG_HELOUVRY_1994, CANUDAS_DE_WIT_1995, CHAN_1994, CUNEFARE_GRAF_2002,
     DAS_SAIKI_SANDER_YORKE_2017, FILIPPOV_1988, GELB_VANDER_VELDE_1968, HAIRER_NORSETT_WANNER_1993,
     HARRIS_1978, HOFFMANN_2002, IWAN_STAHL_1973, JORBA_ZOU_2005, MENCK_2013, MICHAUX_2005,
-    NAYFEH_MOOK_1979, SOURCES, Source, TAKAHASHI_IMADA_1984, THOMSEN_1999, THOMSEN_FIDLIN_2003,
-    VOGEL_SKINNER_1965, WILSON_1927,
+    NAYFEH_MOOK_1979, SOURCES, STEELE_2014, Source, TAKAHASHI_IMADA_1984, THOMSEN_1999,
+    THOMSEN_FIDLIN_2003, VOGEL_SKINNER_1965, WILSON_1927,
 };
 
 /// Sources of a study's computations.
@@ -89,7 +89,16 @@ fn citations(study: &BeltStudy) -> Vec<Citation> {
         }
         match task {
             Task::Friction | Task::Stability => averaging(belt, task, &mut cite),
-            Task::Simulate | Task::Response => simulation(task, &mut cite),
+            Task::Simulate | Task::Response => {
+                simulation(task, &mut cite);
+                let noise = belt.dithers().iter().any(|dither| !dither.waveform.is_periodic());
+                if noise {
+                    cite(task, STEELE_2014, "the random numbers of noise (SplitMix64)");
+                    if task == Task::Response {
+                        cite(task, WILSON_1927, "confidence interval of the share of quiet runs");
+                    }
+                }
+            }
             Task::Bifurcation | Task::Basins => attractors(task, &mut cite),
             Task::Thresholds | Task::Modes | Task::Resonances => {}
         }
@@ -140,6 +149,10 @@ fn averaging(belt: &Belt, task: Task, cite: &mut impl FnMut(Task, Source, &'stat
             MICHAUX_2005,
             "fast motion under normal dither (4.13)–(4.23), effective friction (4.27), (4.28)",
         );
+    }
+    if belt.dithers().iter().any(|dither| !dither.waveform.is_periodic()) {
+        let used = "mean and gain of friction under Gaussian noise (statistical linearisation)";
+        cite(task, GELB_VANDER_VELDE_1968, used);
     }
     if task == Task::Stability {
         cite(

@@ -132,6 +132,13 @@ pub const HAIRER_NORSETT_WANNER_1993: Source = Source {
                 2nd edition, Springer, Berlin, 1993",
 };
 
+/// The generator SplitMix64.
+pub const STEELE_2014: Source = Source {
+    key: "steele2014",
+    reference: "G. L. Steele, D. Lea, C. H. Flood: Fast splittable pseudorandom number generators. Proceedings of the 2014 ACM \
+                International Conference on Object Oriented Programming Systems Languages & Applications (OOPSLA), 453–472, 2014",
+};
+
 /// Every source that can be cited.
 pub const SOURCES: &[Source] = &[
     MICHAUX_2005,
@@ -154,4 +161,5 @@ pub const SOURCES: &[Source] = &[
     TAKAHASHI_IMADA_1984,
     HOFFMANN_2002,
     HAIRER_NORSETT_WANNER_1993,
+    STEELE_2014,
 ];

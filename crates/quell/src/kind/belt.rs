@@ -6,8 +6,8 @@ use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::{
-    basins, bifurcation, curves, describing, found_attractor, friction, orbit, ramp, response,
-    simulate, stability, thresholds, waveforms, window,
+    basins, bifurcation, curves, describing, found_attractor, friction, noise_response, orbit,
+    ramp, response, simulate, stability, thresholds, waveforms, window,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -69,6 +69,10 @@ impl Verbs for BeltStudy {
 
     fn response(&self) -> Reply {
         answer(self, response::run(self))
+    }
+
+    fn response_of_seeds(&self, seeds: Option<usize>) -> Reply {
+        answer(self, noise_response::run(self, seeds))
     }
 
     fn response_within(&self, window: (f64, f64)) -> Reply {

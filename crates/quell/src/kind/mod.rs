@@ -24,6 +24,7 @@ use crate::sweep::Running;
 
 mod belt;
 mod disc;
+mod noise;
 mod system;
 
 /// The answer of a verb, or why it failed.
@@ -128,6 +129,15 @@ pub trait Verbs: Send + Sync {
     /// A kind without this verb; as [`crate::run::response::run`].
     fn response(&self) -> Reply {
         Err(self.lacks("response"))
+    }
+
+    /// The response under noise: runs with different seeds, and the share of them that ends quiet.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::noise_response::run`].
+    fn response_of_seeds(&self, seeds: Option<usize>) -> Reply {
+        let _ = seeds;
+        Err(self.lacks("response --seeds"))
     }
 
     /// What a run does between two of its times.
@@ -281,7 +291,10 @@ pub trait Verbs: Send + Sync {
 
 /// The verbs of a study.
 pub fn verbs(study: &Study) -> Box<dyn Verbs> {
-    let steady = of_kind(study);
+    let steady = match study.noise() {
+        Some(key) => Box::new(UnderNoise { periodic: of_kind(study), key }),
+        None => of_kind(study),
+    };
     match study.varies_by() {
         Some(table) => Box::new(OverTime { steady, table }),
         None => steady,
@@ -294,6 +307,14 @@ fn of_kind(study: &Study) -> Box<dyn Verbs> {
         Kind::Disc(setup) => Box::new(study.narrowed(setup.as_ref())),
         Kind::System(setup) => Box::new(study.narrowed(setup.as_ref())),
     }
+}
+
+/// The verbs of a study with noise, which are those of runs and of averages (`noise.rs`).
+struct UnderNoise {
+    /// The verbs of its kind.
+    periodic: Box<dyn Verbs>,
+    /// The key of the waveform.
+    key: String,
 }
 
 /// The verbs of a study whose drive, load or dither varies in time, which are those of runs: every other verb is about a steady

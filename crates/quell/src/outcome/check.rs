@@ -1,11 +1,13 @@
 //! `check`: the values of a valid study.
 
 use quell_model::Profile;
+use quell_model::profile::Wave;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
 use super::table::{TextTable, figure};
+use crate::noise::lines_in_words;
 use crate::run::check::Check;
 use crate::run::disc;
 use crate::run::law;
@@ -89,8 +91,15 @@ fn table_of_belt(study: &BeltStudy) -> String {
     for dither in belt.dithers() {
         table.word("dither", &format!("{} {}", dither.direction.name(), dither.waveform.name()));
         table.number("  amplitude D", Quantity::Force, dither.amplitude);
-        table.number("  frequency ratio R", Quantity::FrequencyRatio, dither.frequency_ratio);
-        table.number("  phase φ", Quantity::Angle, dither.phase);
+        if let Some(noise) = dither.waveform.noise() {
+            let [low, high] = noise.band(dither.frequency_ratio);
+            table.number("  band of R: from", Quantity::FrequencyRatio, low);
+            table.number("    to", Quantity::FrequencyRatio, high);
+            table.word("  lines", &lines_in_words(noise));
+        } else {
+            table.number("  frequency ratio R", Quantity::FrequencyRatio, dither.frequency_ratio);
+            table.number("  phase φ", Quantity::Angle, dither.phase);
+        }
         table.number("  amplitude ratio α = D/R", Quantity::Velocity, dither.amplitude_ratio());
         if let Some(envelope) = &dither.envelope {
             let (least, largest) = envelope.range();
@@ -147,15 +156,29 @@ fn table_of_system(study: &SystemStudy) -> String {
             wave.waveform.name(),
             with(Quantity::Force, wave.amplitude),
             if wave.envelope.is_some() { " times its envelope" } else { "" },
-            match study.units() {
-                SystemUnits::None => format!("angular frequency {}", figure(wave.frequency)),
-                _ => format!("{} Hz", figure(wave.frequency / std::f64::consts::TAU)),
-            }
+            frequency_of(study.units(), wave)
         );
         table.word("dither", &words);
     }
     axes(&mut table, study);
     table.text()
+}
+
+/// The frequency of a wave, of noise its band.
+fn frequency_of(units: SystemUnits, wave: &Wave) -> String {
+    let of = |frequency: f64| match units {
+        SystemUnits::None => figure(frequency),
+        _ => figure(frequency / std::f64::consts::TAU),
+    };
+    let noise = wave.waveform.noise().map(|noise| {
+        let [low, high] = noise.band(wave.frequency).map(of);
+        (format!("{low} to {high}"), format!(" ({})", lines_in_words(noise)))
+    });
+    let (range, lines) = noise.unwrap_or_else(|| (of(wave.frequency), String::new()));
+    match units {
+        SystemUnits::None => format!("angular frequency {range}{lines}"),
+        _ => format!("{range} Hz{lines}"),
+    }
 }
 
 fn table_of_disc(study: &DiscStudy) -> String {

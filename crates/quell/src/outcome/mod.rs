@@ -21,6 +21,7 @@ mod disc_motion;
 mod friction;
 mod map;
 mod modes;
+mod noise_response;
 mod orbit;
 mod ramp;
 mod resonances;

@@ -6,6 +6,7 @@ use quell_model::Direction;
 use quell_model::units::Quantity;
 
 use super::ruler::{short, words};
+use crate::noise::{band_in_words, lines_in_words};
 use crate::study::disc::ModeSource;
 use crate::study::{BeltStudy, DiscStudy, Kind, Study, StudyKind, StudyOf, SystemStudy};
 use crate::words::{plural, start_in_words};
@@ -52,7 +53,14 @@ pub(super) fn caption(study: &BeltStudy) -> String {
             dither.direction.name(),
             dither.waveform.name(),
             words(study, Quantity::Force, dither.amplitude),
-            words(study, Quantity::FrequencyRatio, dither.frequency_ratio),
+            match dither.waveform.noise() {
+                Some(noise) => {
+                    let in_words = |quantity, value| words(study, quantity, value);
+                    let band = band_in_words(noise, dither.frequency_ratio, in_words);
+                    format!("{band} ({})", lines_in_words(noise))
+                }
+                None => words(study, Quantity::FrequencyRatio, dither.frequency_ratio),
+            },
         ));
         if dither.envelope.is_some() {
             parts.push(format!("its amplitude {over_time}"));

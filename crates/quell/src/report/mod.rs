@@ -27,8 +27,8 @@ use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::kind::verbs;
 use crate::output::Output;
 use crate::run::sketch;
-use crate::study::varies_in_time;
 use crate::study::{Kind, Study};
+use crate::study::{not_periodic, varies_in_time};
 use crate::sweep::Progress;
 
 pub use parts::StudyReport;
@@ -68,6 +68,9 @@ pub fn run_with_progress(
 ) -> Result<StudyReport, Failure> {
     if let Some(table) = study.varies_by() {
         return Err(varies_in_time("report", table).into());
+    }
+    if let Some(key) = study.noise() {
+        return Err(not_periodic("report", key).into());
     }
     let plan = planned(study);
     for name in &request.without {

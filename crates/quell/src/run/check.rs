@@ -7,6 +7,7 @@ use serde_json::Value as Json;
 use super::law;
 use crate::contact_state::passivity;
 use crate::fields::Fields;
+use crate::noise;
 use crate::range;
 use crate::study::BeltStudy;
 
@@ -56,9 +57,19 @@ impl Check<'_> {
                 .plain("waveform", dither.waveform.name())
                 .number("amplitude", Quantity::Force, dither.amplitude)
                 .number("frequency_ratio", Quantity::FrequencyRatio, dither.frequency_ratio)
-                .number("phase", Quantity::Angle, dither.phase)
+                .known(
+                    "phase",
+                    Quantity::Angle,
+                    match dither.waveform.noise() {
+                        Some(_) => Err("the lines of noise have random phases".to_owned()),
+                        None => Ok(dither.phase),
+                    },
+                )
                 .number("amplitude_ratio", Quantity::Velocity, dither.amplitude_ratio())
                 .plain("has_envelope", dither.envelope.is_some());
+            if let Some(noise) = dither.waveform.noise() {
+                inner.plain("noise", noise::json(noise, dither.frequency_ratio));
+            }
             inner
         });
         fields.list("dithers", dithers.collect::<Vec<_>>());
@@ -74,6 +85,7 @@ impl Check<'_> {
         });
         fields.list("sweeps", axes.collect::<Vec<_>>());
         let warnings = range::averaged(study).into_iter().chain(passivity(study.belt()));
+        let warnings = warnings.chain(noise::few_lines(study.belt()));
         fields.plain("warnings", warnings.collect::<Vec<String>>());
         fields.finish()
     }

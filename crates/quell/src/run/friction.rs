@@ -12,6 +12,7 @@ use serde_json::Value as Json;
 use crate::contact_state;
 use crate::dataset::Dataset;
 use crate::fields::Fields;
+use crate::noise::few_lines;
 use crate::range;
 use crate::study::BeltStudy;
 use crate::words::in_words;
@@ -79,6 +80,7 @@ pub fn grid(belt: &Belt) -> Vec<f64> {
 pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
     let belt = study.belt();
     let law = belt.friction();
+    let has_noise = belt.dithers().iter().any(|dither| !dither.waveform.is_periodic());
     let points = at.par_iter().map(|&v| FrictionPoint {
         slip_velocity: v,
         coefficient: if v == 0.0 {
@@ -87,7 +89,9 @@ pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
         } else {
             Ok(v.signum() * law.coefficient(v.abs()))
         },
-        effective: if belt.has_contact_state() {
+        effective: if belt.has_contact_state() && has_noise {
+            Err("the mean of a contact with a state of its own is that of its periodic state, and under noise it has none".to_owned())
+        } else if belt.has_contact_state() {
             mean_friction(belt, v).map_err(|why| why.to_string())
         } else {
             FastMotion::of(belt, v, AveragingOptions::default())
@@ -235,6 +239,7 @@ impl FrictionCurve {
         let mut warnings = range::averaged_at(study, fastest);
         let belt = study.belt();
         warnings.extend(contact_state::passivity(belt));
+        warnings.extend(few_lines(belt));
         if belt.has_contact_state() {
             let slowest = self.points.iter().map(|point| point.slip_velocity.abs());
             let slowest = slowest.filter(|speed| *speed > 0.0).fold(f64::INFINITY, f64::min);

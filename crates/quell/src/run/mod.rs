@@ -18,6 +18,7 @@ pub mod friction;
 pub mod law;
 pub mod manoeuvre;
 pub mod map;
+pub mod noise_response;
 pub mod orbit;
 pub mod protocol;
 pub mod ramp;

@@ -11,12 +11,13 @@ use quell_linear::averaging::{
     critical_amplitudes, everywhere_stable_amplitude, fast_wave, unstable_bands,
 };
 use quell_linear::growth::of_criterion;
-use quell_model::Belt;
 use quell_model::units::Quantity;
+use quell_model::{Belt, Dither};
 use serde_json::Value as Json;
 
 use crate::contact_state;
 use crate::fields::Fields;
+use crate::noise::few_lines;
 use crate::range;
 use crate::study::BeltStudy;
 use crate::words::in_words;
@@ -54,8 +55,9 @@ pub fn run(study: &BeltStudy) -> BeltStability {
     let slow = belt
         .dithers()
         .iter()
-        .find(|dither| dither.frequency_ratio <= 1.0)
-        .map(|dither| AveragingError::NotFast { frequency_ratio: dither.frequency_ratio });
+        .map(Dither::lowest_ratio)
+        .find(|ratio| *ratio <= 1.0)
+        .map(|frequency_ratio| AveragingError::NotFast { frequency_ratio });
     BeltStability {
         limit: averaged(belt, AveragingOptions::default()),
         sharper: match slow {
@@ -89,6 +91,11 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
             _ => "it is defined for a single dither, and this study has several".to_owned(),
         });
     };
+    if !dither.waveform.is_periodic() {
+        return Err(
+            "it is known for sine, triangle and square; under noise see the unstable belt velocities at a given amplitude".to_owned()
+        );
+    }
     if !dither.waveform.is_symmetric() {
         let name = dither.waveform.name();
         return Err(format!(
@@ -330,12 +337,9 @@ impl BeltStability {
 
     /// Warnings about the result.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
-        let slow = study.belt().dithers().iter().filter(|dither| dither.frequency_ratio < FAST);
-        let hardly = slow.map(|dither| {
-            format!(
-                "averaging assumes fast dither, and R = {} is hardly fast; check with `simulate`",
-                dither.frequency_ratio
-            )
+        let ratios = study.belt().dithers().iter().map(Dither::lowest_ratio);
+        let hardly = ratios.filter(|ratio| *ratio < FAST).map(|ratio| {
+            format!("averaging assumes fast dither, and R = {ratio} is hardly fast; check with `simulate`")
         });
         let verdicts = self.finite().ok().map(|finite| (finite.verdict(), self.limit.verdict()));
         let apart = verdicts.filter(|(finite, limit)| finite != limit).map(|(finite, limit)| {
@@ -348,7 +352,7 @@ impl BeltStability {
         let rigid = contact_state::rigid_average(belt, belt.belt_velocity());
         let bristles = belt.friction().bristles().map(|_| contact_state::small_motions(""));
         let state = contact_state::passivity(belt).into_iter().chain(rigid).chain(bristles);
-        hardly.chain(apart).chain(range).chain(state).collect()
+        hardly.chain(apart).chain(range).chain(state).chain(few_lines(belt)).collect()
     }
 
     /// Warnings about critical amplitudes and bands outside the range of the friction law.

@@ -62,6 +62,19 @@ impl Computation {
         )
     }
 
+    /// Whether it averages over the dither, or needs none, so that the dither may be noise.
+    pub fn is_average(self) -> bool {
+        matches!(
+            self,
+            Self::Criterion
+                | Self::CriterionSharper
+                | Self::CriticalAmplitudes
+                | Self::SystemGrowth
+                | Self::SystemGrowthUndithered
+                | Self::SystemCritical
+        )
+    }
+
     /// Whether it integrates responses.
     pub fn is_response(self) -> bool {
         matches!(self, Self::Response | Self::ResponseWithCost | Self::ResponseWithEffect)
@@ -380,7 +393,7 @@ fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
                 results.criterion = Some(found.map_err(status));
             }
             Computation::CriterionSharper => {
-                let slow = belt.dithers().iter().any(|dither| dither.frequency_ratio <= 1.0);
+                let slow = belt.dithers().iter().any(|dither| dither.lowest_ratio() <= 1.0);
                 results.criterion_sharper = Some(match belt.dithers() {
                     [] => Err(Status::NoDither),
                     _ if slow => Err(Status::NotFast),

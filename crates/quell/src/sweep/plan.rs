@@ -10,7 +10,7 @@ use super::quantity::MapQuantity;
 use super::sheet::{Data, Sheet};
 use crate::complaint::Complaint;
 use crate::contact_state::{complaint_of_belt, complaint_of_system};
-use crate::study::{Kind, Study, varies_in_time};
+use crate::study::{Kind, Study, not_periodic, varies_in_time};
 
 /// A map to be computed.
 #[derive(Clone, Debug)]
@@ -43,6 +43,11 @@ impl Plan {
         }
         if let Some(table) = study.varies_by() {
             return Err(Box::new(varies_in_time("map", table)));
+        }
+        if let Some(key) = study.noise()
+            && let Some(quantity) = asked.iter().find(|asked| !asked.computation.is_average())
+        {
+            return Err(Box::new(not_periodic(&format!("map --quantity {}", quantity.name), key)));
         }
         let mapped = kind::of(&study);
         for quantity in asked {

@@ -252,7 +252,9 @@ impl From<&AveragingError> for Status {
             AveragingError::SetValued { .. } => Self::SetValued,
             AveragingError::TooManyGroups { .. } => Self::TooManyGroups,
             AveragingError::NotFast { .. } => Self::NotFast,
-            AveragingError::NoResponse(_) => Self::NoAverageOfWaveform,
+            AveragingError::NoResponse(_) | AveragingError::SecondOrderNoise => {
+                Self::NoAverageOfWaveform
+            }
             AveragingError::Quadrature(_) => Self::NotConverged,
         }
     }

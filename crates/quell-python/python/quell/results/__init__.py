@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from .._dataset import Arrays, Variable
 from .._result import Result
-from ._motion import Attractor, Orbit, Response, Simulation, Window
+from ._motion import Attractor, NoiseResponse, Orbit, Response, Simulation, Window
 from ._steady import Check, Citations, DescribingFunction, ExactStability, FrictionCurve, Modes, Resonances, Stability, TrackedStability, Waveforms
 from ._sweeps import Basins, Bifurcation, Map, Ramp, Shard, ThresholdCurves, Thresholds
 
@@ -31,6 +31,7 @@ __all__ = [
     "FrictionCurve",
     "Map",
     "Modes",
+    "NoiseResponse",
     "Orbit",
     "Ramp",
     "Resonances",

@@ -419,6 +419,12 @@ class ModesColumns:
     shape_at_load: npt.NDArray[np.float64]
 
 
+class NoiseResponseColumns:
+    """Of :class:`quell.results.NoiseResponse`."""
+
+    seed: npt.NDArray[np.float64]
+
+
 class OrbitColumns:
     """Of :class:`quell.results.Orbit`."""
 

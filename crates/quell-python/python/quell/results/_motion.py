@@ -110,6 +110,52 @@ class Window(_columns.WindowColumns, Result):
     ``least_normal``, ``friction_power``."""
 
 
+class NoiseResponse(_columns.NoiseResponseColumns, Result):
+    """The response of a belt under noise: runs with different seeds."""
+
+    verb = "response"
+    runs: int
+    """Number of runs; run k has the seed of the study plus k."""
+    quiet_below: float
+    """Residual vibration below which a run counts as quiet."""
+    quiet_runs: int | None
+    """Number of quiet runs."""
+    quiet_fraction: float | None
+    """Their share."""
+    quiet_fraction_low: float | None
+    """Lower end of its interval."""
+    quiet_fraction_high: float | None
+    """Upper end of its interval."""
+    interval: str
+    """The interval: "Wilson, 95 %"."""
+    seeds: list[int]
+    """Seed of the first noise in each run."""
+    efficiency: npt.NDArray[np.float64]
+    """Residual vibration E (2.27) of each run."""
+    efficiency_least: float | None
+    """Least E."""
+    efficiency_median: float | None
+    """Median of E."""
+    efficiency_largest: float | None
+    """Largest E."""
+    amplitude: npt.NDArray[np.float64]
+    """Largest spectral amplitude of each run with 0 < ω ≤ 1.9 ω₀: a length."""
+    undithered_amplitude: float
+    """The same without dither."""
+    stick_fraction: npt.NDArray[np.float64]
+    """Fraction of the time during which the mass sticks, of each run."""
+    mean_friction: float
+    """Mean friction force over k, averaged over the runs: a length."""
+    mean_friction_undithered: float
+    """The same without dither."""
+    cost: dict[str, Any]
+    """Linear response without friction: ``force_rms``, ``displacement_rms``, ``velocity_rms`` and ``power``; peaks have no value."""
+    settle: float
+    """Time before the record."""
+    record_length: float
+    """Length of the record."""
+
+
 class Response(_columns.ResponseColumns, Result):
     """The steady response with and without dither."""
 

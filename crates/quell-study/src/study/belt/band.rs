@@ -1,4 +1,4 @@
-//! `[response]`: optional; the band in which a vibration level is requested.
+//! Bands of frequencies: that of `[response]`, in which a vibration level is requested, and that of noise.
 
 use quell_model::parameter::Bounds;
 use quell_model::units::Quantity;
@@ -6,10 +6,7 @@ use quell_model::units::Quantity;
 use crate::complaint::{Complaint, Fault};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
-use crate::study::vocabulary::Section;
-
-const BAND: &str = "response.band";
-const BAND_HZ: &str = "response.band_hz";
+use crate::study::vocabulary::{Section, join};
 
 /// Reads `[response]`: the ends of the band in ω₀, `Some(None)` without a band, `None` if it is invalid.
 #[expect(clippy::option_option, reason = "invalid, absent, given")]
@@ -17,29 +14,36 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Option<[f64; 2]>
     let Some(node) = root.get("response") else { return Some(None) };
     let table = reader.table("response", node)?;
     reader.unknown_keys(table, Section::Response, "response", &[]);
+    given(reader, table, "response")
+}
+
+/// Reads the key `band` or `band_hz` of a table: the ends in ω₀, `Some(None)` without a band, `None` if it is invalid.
+#[expect(clippy::option_option, reason = "invalid, absent, given")]
+pub(super) fn given(reader: &mut Reader, table: &Table, prefix: &str) -> Option<Option<[f64; 2]>> {
+    let (band, in_si) = (join(prefix, "band"), join(prefix, "band_hz"));
     match (table.get("band"), table.get("band_hz")) {
         (None, None) => Some(None),
-        (Some(node), None) => Some(Some(ends(reader, BAND, node, "ω₀")?)),
-        (None, Some(node)) => in_hertz(reader, node).map(Some),
+        (Some(node), None) => Some(Some(ends(reader, &band, node, "ω₀")?)),
+        (None, Some(node)) => in_hertz(reader, node, (&band, &in_si)).map(Some),
         (Some(_), Some(node)) => {
-            let allowed = format!("give either {BAND} or {BAND_HZ}, not both");
+            let allowed = format!("give either {band} or {in_si}, not both");
             let complaint =
-                Complaint::new(Fault::Conflict, BAND_HZ, node.origin, node.given(), allowed);
+                Complaint::new(Fault::Conflict, in_si, node.origin, node.given(), allowed);
             reader.complain(complaint);
             None
         }
     }
 }
 
-fn in_hertz(reader: &mut Reader, node: &Node) -> Option<[f64; 2]> {
+fn in_hertz(reader: &mut Reader, node: &Node, (band, in_si): (&str, &str)) -> Option<[f64; 2]> {
     if !reader.is_si() {
         let allowed =
-            format!("the study is dimensionless, but {BAND_HZ} is in SI: use {BAND}, in ω₀");
-        let complaint = Complaint::new(Fault::Mixed, BAND_HZ, node.origin, node.given(), allowed);
-        reader.complain(complaint.suggesting(Some(BAND.to_owned())));
+            format!("the study is dimensionless, but {in_si} is in SI: use {band}, in ω₀");
+        let complaint = Complaint::new(Fault::Mixed, in_si, node.origin, node.given(), allowed);
+        reader.complain(complaint.suggesting(Some(band.to_owned())));
         return None;
     }
-    let ends = ends(reader, BAND_HZ, node, "Hz")?;
+    let ends = ends(reader, in_si, node, "Hz")?;
     let scales = reader.known_scales()?;
     Some(ends.map(|end| scales.from_si(Quantity::FrequencyRatio, end)))
 }

@@ -3,6 +3,7 @@
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE};
 use quell_model::{Direction, Dither};
 
+use super::band;
 use crate::study::course::{Course, CoursePlace, CourseUnits};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
@@ -58,14 +59,22 @@ fn one(
     let direction = reader
         .needed_choice(table, prefix, node.origin, "direction", Choice::Direction)
         .and_then(Direction::from_name);
-    let waveform = waveform::read(reader, table, prefix, node.origin, files);
+    let is_noise = waveform::is_noise(table);
+    let wave = waveform::read(reader, table, (prefix, node.origin), files, |reader| {
+        band::given(reader, table, prefix)
+    });
+    let (waveform, middle) = wave.unzip();
     let amplitude = match reader.optional(table, prefix, DITHER_AMPLITUDE, waveform.as_ref()) {
         Found::Value(value) => Some(value),
         Found::Wrong => None,
         Found::Absent => reader.number(table, prefix, node.origin, DITHER_AMPLITUDE),
     };
-    let frequency_ratio = reader.number(table, prefix, node.origin, DITHER_FREQUENCY_RATIO);
-    let phase = reader.optional(table, prefix, DITHER_PHASE, None).or(0.0);
+    let (frequency_ratio, phase) = if is_noise {
+        (middle.flatten(), Some(0.0))
+    } else {
+        let frequency_ratio = reader.number(table, prefix, node.origin, DITHER_FREQUENCY_RATIO);
+        (frequency_ratio, reader.optional(table, prefix, DITHER_PHASE, None).or(0.0))
+    };
     let place = CoursePlace { what: ENVELOPE, units: CourseUnits::Belt, folder: files.folder() };
     let envelope = place.optional(reader, table, prefix, "envelope").map(Course::knots);
     Some(Dither {

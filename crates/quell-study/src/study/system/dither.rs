@@ -1,4 +1,4 @@
-//! `[[dither]]`: periodic forces on coordinates and modulations of the load of a contact.
+//! `[[dither]]`: forces on coordinates and modulations of the load of a contact, periodic or noise.
 
 use std::path::Path;
 
@@ -61,11 +61,20 @@ fn one(
 ) -> Option<Input> {
     unknown_keys_of_dither(reader, table, prefix);
     let target = target(reader, prefix, node, table, context);
-    let waveform = waveform::read(reader, table, prefix, node.origin, files);
     let numbers = context.numbers;
+    let is_noise = waveform::is_noise(table);
+    let read = waveform::read(reader, table, (prefix, node.origin), files, |reader| {
+        band(reader, prefix, table, numbers)
+    });
+    let (waveform, middle) = read.unzip();
     let amplitude = amplitude(reader, prefix, node, table, waveform.as_ref(), numbers);
-    let frequency = numbers.needed(reader, table, prefix, node.origin, SYSTEM_DITHER_FREQUENCY);
-    let phase = numbers.optional(reader, table, prefix, DITHER_PHASE);
+    let (frequency, phase) = if is_noise {
+        (middle.flatten(), Ok(None))
+    } else {
+        let parameter = SYSTEM_DITHER_FREQUENCY;
+        let frequency = numbers.needed(reader, table, prefix, node.origin, parameter);
+        (frequency, numbers.optional(reader, table, prefix, DITHER_PHASE))
+    };
     let units = CourseUnits::System(CourseNumbers(numbers));
     let place = CoursePlace { what: ENVELOPE, units, folder: context.folder };
     let envelope = place.optional(reader, table, prefix, "envelope").map(Course::knots);
@@ -77,6 +86,33 @@ fn one(
         envelope: envelope.ok()?,
     };
     Some(Input { target: target?, profile: Profile::constant(0.0).with(wave) })
+}
+
+/// The band of noise, in the unit of `frequency`; `Some(None)` without one, `None` if it is wrong.
+#[expect(clippy::option_option, reason = "invalid, absent, given")]
+fn band(
+    reader: &mut Reader,
+    prefix: &str,
+    table: &Table,
+    numbers: &Numbers,
+) -> Option<Option<[f64; 2]>> {
+    let before = reader.complaints_so_far();
+    let Some(found) = numbers.keyed(reader, table, prefix, "band", Some("band_hz")) else {
+        return (reader.complaints_so_far() == before).then_some(None);
+    };
+    let ends = match &found.node.value {
+        Value::List(list) => <&[Node; 2]>::try_from(list.as_slice()).ok(),
+        _ => None,
+    };
+    let Some(ends) = ends else {
+        reader.wrong(&found.key, found.node, "two frequencies [low, high] with 0 < low < high");
+        return None;
+    };
+    let wanted = WantedNumber { twin: found.twin, ..WantedNumber::of(SYSTEM_DITHER_FREQUENCY) };
+    let [low, high] = [0, 1].map(|place: usize| {
+        numbers.number(reader, || format!("{}[{place}]", found.key), &ends[place], wanted)
+    });
+    Some(Some([low?, high?]))
 }
 
 /// The key that gives the amplitude as a root mean square.

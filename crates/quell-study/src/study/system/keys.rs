@@ -100,6 +100,7 @@ impl SystemKey {
         match self.role {
             SystemRole::Number(parameter) => Some(parameter.quantity),
             SystemRole::Matrix(quantity) | SystemRole::Row(quantity) => quantity,
+            SystemRole::Wave(WaveKey::Band) => Some(Quantity::FrequencyRatio),
             _ => None,
         }
     }
@@ -287,6 +288,9 @@ const DITHER: &[SystemKey] = &[
     wave(4),
     wave(5),
     wave(6),
+    wave(7),
+    wave(8),
+    wave(9),
     number(DITHER_AMPLITUDE, "amplitude"),
     number(SYSTEM_DITHER_FREQUENCY, "frequency"),
     number(DITHER_PHASE, "phase"),

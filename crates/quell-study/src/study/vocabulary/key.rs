@@ -139,6 +139,14 @@ pub enum WaveKey {
     On,
     /// Periods of the carrier in a pause.
     Off,
+    /// The ends of the band of noise.
+    Band,
+    /// The same in hertz.
+    BandHz,
+    /// The number of lines of noise.
+    Lines,
+    /// The seed of noise.
+    Seed,
 }
 
 impl WaveKey {
@@ -148,6 +156,7 @@ impl WaveKey {
             Self::Harmonics => quell_model::waveform::FOURIER,
             Self::Values | Self::File | Self::Hold => quell_model::waveform::SAMPLES,
             Self::Carrier | Self::On | Self::Off => quell_model::waveform::BURST,
+            Self::Band | Self::BandHz | Self::Lines | Self::Seed => quell_model::waveform::NOISE,
         }
     }
 
@@ -167,12 +176,19 @@ impl WaveKey {
             Self::Carrier => "waveform \"burst\": waveform of the carrier",
             Self::On => "waveform \"burst\": periods of the carrier in a burst",
             Self::Off => "waveform \"burst\": periods of the carrier in a pause",
+            Self::Band | Self::BandHz => {
+                "waveform \"noise\": lowest and highest frequency, instead of the frequency of a periodic dither"
+            }
+            Self::Lines => {
+                "waveform \"noise\": number of equal lines at irregular frequencies [default: 64]"
+            }
+            Self::Seed => "waveform \"noise\": seed of their frequencies and phases [default: 1]",
         }
     }
 }
 
 /// The keys of waveforms that are more than a name.
-pub const WAVE_KEYS: [(&str, WaveKey); 7] = [
+pub const WAVE_KEYS: [(&str, WaveKey); 11] = [
     ("harmonics", WaveKey::Harmonics),
     ("values", WaveKey::Values),
     ("file", WaveKey::File),
@@ -180,6 +196,10 @@ pub const WAVE_KEYS: [(&str, WaveKey); 7] = [
     ("carrier", WaveKey::Carrier),
     ("on", WaveKey::On),
     ("off", WaveKey::Off),
+    ("band", WaveKey::Band),
+    ("lines", WaveKey::Lines),
+    ("seed", WaveKey::Seed),
+    ("band_hz", WaveKey::BandHz),
 ];
 
 /// The kind of value that a key takes.

@@ -6,7 +6,7 @@ use quell_model::LawKind;
 use quell_model::parameter::{self, COEFFICIENT, Parameter, STATIC_COEFFICIENT, VISCOUS};
 
 use super::course::{CourseKey, CourseTable};
-use super::key::{Key, Role, SCHEMA_ABOUT, Section, WAVE_KEYS};
+use super::key::{Key, Role, SCHEMA_ABOUT, Section, WAVE_KEYS, WaveKey};
 use super::words::Choice;
 
 /// Every key, table by table.
@@ -45,7 +45,11 @@ fn words() -> Vec<Key> {
     let waves = WAVE_KEYS.iter().map(|&(name, wave)| Key {
         section: Dither,
         name,
-        role: Role::Wave(wave),
+        role: match wave {
+            WaveKey::Band => Role::Band { hertz: false },
+            WaveKey::BandHz => Role::Band { hertz: true },
+            other => Role::Wave(other),
+        },
         about: wave.about(),
     });
     let words = vec![

@@ -4,6 +4,7 @@ use quell_model::units::Quantity;
 use quell_model::{Direction, Profile};
 
 use super::symbols::{glyph, index, indexed, item, number};
+use crate::noise::{band_in_words, lines_in_words};
 use crate::picture::ruler::words;
 use crate::plot::{LabelSide, Sketch, SketchInk, SketchKey, SketchPart, SketchShape};
 use crate::study::BeltStudy;
@@ -181,8 +182,18 @@ fn key(sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
         let bare = |letter: &str| indexed(letter, &number_of).trim_matches('$').to_owned();
         let mut items = vec![
             equal(&bare(letters.force), Quantity::Force, dither.amplitude),
-            equal(&bare(letters.rate), Quantity::FrequencyRatio, dither.frequency_ratio),
+            match dither.waveform.noise() {
+                Some(noise) => {
+                    let in_words = |quantity, value| words(study, quantity, value);
+                    let band = band_in_words(noise, dither.frequency_ratio, in_words);
+                    format!("${}$ = {band}", bare(letters.rate))
+                }
+                None => {
+                    equal(&bare(letters.rate), Quantity::FrequencyRatio, dither.frequency_ratio)
+                }
+            },
         ];
+        items.extend(dither.waveform.noise().map(lines_in_words));
         if dither.envelope.is_some() {
             items.push("times its envelope".to_owned());
         }

@@ -15,7 +15,7 @@ pub(super) fn glyph(waveform: &Waveform) -> WaveGlyph {
         Waveform::Triangle => WaveGlyph::Triangle,
         Waveform::Square => WaveGlyph::Square,
         Waveform::Burst(_) => WaveGlyph::Burst,
-        Waveform::Fourier(_) | Waveform::Samples(_) => WaveGlyph::Other,
+        Waveform::Fourier(_) | Waveform::Samples(_) | Waveform::Noise(_) => WaveGlyph::Other,
     }
 }
 

@@ -5,6 +5,7 @@ use quell_model::system::{InputTarget, Structure};
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
+use crate::noise;
 use crate::study::{SystemStart, SystemStudy, SystemUnits};
 
 /// The study as JSON.
@@ -92,6 +93,10 @@ fn dithers(study: &SystemStudy) -> Vec<Json> {
             object["amplitude"] = wave.amplitude.into();
             object["frequency"] = wave.frequency.into();
             object["phase"] = wave.phase.into();
+            if let Some(noise) = wave.waveform.noise() {
+                object["phase"] = Json::Null;
+                object["noise"] = noise::json(noise, wave.frequency);
+            }
             dithers.push(object);
         }
     }

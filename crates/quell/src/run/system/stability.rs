@@ -107,8 +107,11 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
 
 /// The warning about motions that are not much slower than the dither.
 fn not_slow(study: &SystemStudy, undithered: &MotionSpectrum) -> Option<String> {
-    let waves = study.system().waves();
-    let slowest = waves.map(Wave::repetition).fold(f64::INFINITY, f64::min);
+    let lowest = |wave: &Wave| match wave.waveform.noise() {
+        Some(_) => wave.frequency * wave.waveform.lowest_multiple(),
+        None => wave.repetition(),
+    };
+    let slowest = study.system().waves().map(lowest).fold(f64::INFINITY, f64::min);
     let near = upper(undithered).filter(|motion| natural(motion) * FAR > slowest);
     let distance = |motion: &SmallMotion| (natural(motion) - slowest).abs();
     let nearest = near.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;

@@ -10,6 +10,7 @@ use super::body::{BodyKind, counted};
 use super::contacts::stiffness_symbol;
 use super::drawing::SystemDrawing;
 use super::key_rows::{KeyRow, add_rows};
+use crate::noise::lines_in_words;
 use crate::picture::sketch::symbols::{combination, index, indexed, item, number};
 use crate::plot::{Sketch, SketchKey};
 use crate::study::SystemUnits;
@@ -214,10 +215,18 @@ fn input_row(drawing: &SystemDrawing<'_>, input: &Input, symbol: &str) -> (Strin
     }
     for wave in input.profile.waves() {
         items.push(item(&format!("{} {symbol}", wave.waveform.name()), wave.amplitude, force_unit));
-        items.push(match units {
-            SystemUnits::None => item("$ω$", wave.frequency, None),
-            _ => format!("{} Hz", number(wave.frequency / TAU)),
+        let noise = wave.waveform.noise();
+        let ends = noise.map_or([wave.frequency; 2], |noise| noise.band(wave.frequency));
+        let [low, high] = ends.map(|end| match units {
+            SystemUnits::None => number(end),
+            _ => number(end / TAU),
         });
+        let range = if noise.is_some() { format!("{low} to {high}") } else { low };
+        items.push(match units {
+            SystemUnits::None => format!("$ω$ = {range}"),
+            _ => format!("{range} Hz"),
+        });
+        items.extend(noise.map(lines_in_words));
         if wave.phase != 0.0 {
             items.push(format!("$φ$ = {} rad", number(wave.phase)));
         }

@@ -1,0 +1,105 @@
+//! The verbs of a study with noise: runs, and averages over the distribution of the noise. Every other verb is about a response that
+//! repeats, and one refusal names it.
+
+use super::{Reply, UnderNoise, Verbs};
+use crate::cite::Sources;
+use crate::complaint::Failure;
+use crate::outcome::Outcome;
+use crate::run::simulate::Options;
+use crate::run::system::response::ResponseRequest;
+use crate::run::system::simulate::MotionRequest;
+use crate::study::{BeltSetup, not_periodic};
+
+impl Verbs for UnderNoise {
+    fn kind(&self) -> &'static str {
+        self.periodic.kind()
+    }
+
+    fn names(&self) -> &'static [&'static str] {
+        match self.periodic.kind() {
+            BeltSetup::NAME => {
+                &["check", "sketch", "cite", "friction", "stability", "simulate", "response", "map"]
+            }
+            _ => &[
+                "check",
+                "sketch",
+                "cite",
+                "modes",
+                "stability",
+                "resonances",
+                "simulate",
+                "response --window",
+            ],
+        }
+    }
+
+    fn draws(&self, verb: &str) -> bool {
+        self.periodic.draws(verb)
+    }
+
+    fn check(&self) -> Box<dyn Outcome> {
+        self.periodic.check()
+    }
+
+    fn sources(&self) -> Sources {
+        self.periodic.sources()
+    }
+
+    fn cite(&self) -> Box<dyn Outcome> {
+        self.periodic.cite()
+    }
+
+    fn friction(&self, at: Option<Vec<f64>>, measured: bool) -> Reply {
+        if measured {
+            return Err(self.lacks("friction --measured"));
+        }
+        self.periodic.friction(at, measured)
+    }
+
+    fn describing(&self, largest: f64) -> Reply {
+        self.periodic.describing(largest)
+    }
+
+    fn stability(&self) -> Reply {
+        self.periodic.stability()
+    }
+
+    fn modes(&self) -> Reply {
+        self.periodic.modes()
+    }
+
+    fn reach(&self, frequencies: Option<(f64, f64)>) -> Reply {
+        self.periodic.reach(frequencies)
+    }
+
+    fn simulate(&self, until: f64, options: Options) -> Reply {
+        self.periodic.simulate(until, options)
+    }
+
+    fn simulate_from(&self, request: &MotionRequest) -> Reply {
+        self.periodic.simulate_from(request)
+    }
+
+    fn response(&self) -> Reply {
+        self.response_of_seeds(None)
+    }
+
+    fn response_of_seeds(&self, seeds: Option<usize>) -> Reply {
+        if self.kind() != BeltSetup::NAME {
+            return Err(self.lacks("response"));
+        }
+        self.periodic.response_of_seeds(seeds)
+    }
+
+    fn response_after(&self, _: ResponseRequest) -> Reply {
+        Err(self.lacks("response"))
+    }
+
+    fn response_within(&self, window: (f64, f64)) -> Reply {
+        self.periodic.response_within(window)
+    }
+
+    fn lacks(&self, verb: &str) -> Failure {
+        not_periodic(verb, self.key.as_str()).into()
+    }
+}
