@@ -21,6 +21,32 @@ pub(super) fn read(
     files: &mut WaveFiles<'_>,
 ) -> Option<Waveform> {
     let name = reader.needed_choice(table, prefix, header, "waveform", Choice::Waveform)?;
+    described(reader, table, prefix, header, (name, files))
+}
+
+/// As [`read`], a sine where no waveform is named.
+pub(super) fn read_or_sine(
+    reader: &mut Reader,
+    table: &Table,
+    prefix: &str,
+    header: Origin,
+    files: &mut WaveFiles<'_>,
+) -> Option<Waveform> {
+    let name = match table.get("waveform") {
+        None => Waveform::Sine.name(),
+        Some(node) => reader.choice(&join(prefix, "waveform"), node, Choice::Waveform)?,
+    };
+    described(reader, table, prefix, header, (name, files))
+}
+
+/// The waveform of a name, by the keys that describe it.
+fn described(
+    reader: &mut Reader,
+    table: &Table,
+    prefix: &str,
+    header: Origin,
+    (name, files): (&str, &mut WaveFiles<'_>),
+) -> Option<Waveform> {
     let mut fits = true;
     for (key, wave) in WAVE_KEYS {
         if let Some(node) = table.get(key).filter(|_| wave.waveform() != name) {
