@@ -127,7 +127,7 @@ fn by_runge_kutta(disc: &Disc, steps: u32) -> f64 {
         let step = (part[1] - part[0]) / f64::from(steps);
         for k in 0..steps {
             let from = part[0] + step * f64::from(k);
-            // Both ends within the piece, whatever the rounding of its breaks.
+            // Both ends within the piece, regardless of the rounding of its breaks.
             let inside = 1e-13 * period;
             let (one, middle, two) =
                 (matrix(from + inside), matrix(from + 0.5 * step), matrix(from + step - inside));

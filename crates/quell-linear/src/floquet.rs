@@ -300,7 +300,7 @@ fn growth_of(found: Exponent) -> Growth {
     Growth { rate: found.growth_rate, error: found.error, frequency: found.frequency }
 }
 
-/// The breaks of all contacts in one period, as fractions of it, ascending; the start of the period where there are none.
+/// The breaks of all contacts in one period, as fractions of it, ascending, or the start of the period if no contact has a break.
 fn breaks(factors: &[Factor]) -> Vec<f64> {
     let of_one = |factor: &Factor| {
         let cycles = f64::from(factor.wave.waveform.cycles());

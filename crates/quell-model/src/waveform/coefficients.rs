@@ -14,9 +14,6 @@ use std::f64::consts::{PI, TAU};
 use super::shape::Piece;
 use super::{Burst, Waveform};
 
-/// Real and imaginary part.
-type Parts = [f64; 2];
-
 impl Waveform {
     /// Fourier coefficients [a, b] of the harmonic n ≥ 1 of the period: g = Σ a_n cos(nθ/c) + b_n sin(nθ/c), c the cycles of a
     /// period. Only those of bursts are counted from a frequency below that of the waveform.
@@ -49,8 +46,8 @@ impl Waveform {
     }
 }
 
-/// ∫ g e^{−ikθ} dθ of a burst over its period.
-fn of_burst(burst: &Burst, breaks: &[f64], pieces: &[Piece], harmonic: u32) -> Parts {
+/// ∫ g e^{−ikθ} dθ of a burst over its period, its real and its imaginary part.
+fn of_burst(burst: &Burst, breaks: &[f64], pieces: &[Piece], harmonic: u32) -> [f64; 2] {
     let (cycles, on) = (u64::from(burst.cycles()), u64::from(burst.on()));
     let k = f64::from(harmonic) / cycles as f64;
     let in_first = breaks.partition_point(|start| *start < TAU);
@@ -67,8 +64,8 @@ fn of_burst(burst: &Burst, breaks: &[f64], pieces: &[Piece], harmonic: u32) -> P
     [along * real - across * imaginary, along * imaginary + across * real]
 }
 
-/// ∫ g e^{−ikθ} dθ over pieces that begin at `breaks`, the last of which ends at `end`.
-fn transform(breaks: &[f64], pieces: &[Piece], end: f64, k: f64) -> Parts {
+/// ∫ g e^{−ikθ} dθ, its real and its imaginary part, over pieces that begin at `breaks`, the last of which ends at `end`.
+fn transform(breaks: &[f64], pieces: &[Piece], end: f64, k: f64) -> [f64; 2] {
     let ends = breaks.iter().skip(1).copied().chain([end]);
     let (mut real, mut imaginary) = (0.0, 0.0);
     for ((start, piece), end) in breaks.iter().zip(pieces).zip(ends) {
