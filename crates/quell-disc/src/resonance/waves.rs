@@ -212,7 +212,7 @@ impl Waves {
             let second = self.order == Order::Second && self.harmonics.is_sum_of_strong(*h);
             self.harmonics.size(*h) > 0.0 || second
         };
-        (1..).take_while(|h| f64::from(*h) <= highest).filter(acts).collect()
+        (1..=i32::MAX).take_while(|h| f64::from(*h) <= highest).filter(acts).collect()
     }
 
     /// g² of a mode.
