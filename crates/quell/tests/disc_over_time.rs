@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use quell::kind::verbs;
+use quell::run::disc::resonances::ResonancesRequest;
 use quell::run::disc::{motion, stability};
 use quell::run::system::simulate::MotionRequest;
 use quell::study::{DiscStudy, Study};
@@ -85,8 +86,9 @@ fn by_runge_kutta(disc: &DiscStudy, state: &[f64], until: f64, knots: &[f64]) ->
         let steps = ((part[1] - part[0]) / longest).ceil();
         let step = (part[1] - part[0]) / steps;
         let inside = 1e-11;
-        for k in 0..steps as u32 {
-            let begin = part[0] + step * f64::from(k);
+        for begin in
+            (0..).map(|k| part[0] + step * f64::from(k)).take_while(|at| *at < part[1] - 0.5 * step)
+        {
             let rate = |time: f64, y: &[f64]| -> Vec<f64> {
                 let a = matrix(time);
                 (0..y.len()).map(|i| a.row(i).iter().zip(y).map(|(a, y)| a * y).sum()).collect()
@@ -202,7 +204,8 @@ fn verbs_about_a_steady_disc_refuse_one_that_varies() {
     let ramp = "[disc.load.envelope]\ntime = [0.0, 10.0]\nshare = [0.5, 1.5]\n";
     let varying = study(&format!("{PLATE}{LOAD}{ramp}"));
     let verbs = verbs(&varying);
-    for reply in [verbs.stability(), verbs.modes(), verbs.resonances(Default::default())] {
+    for reply in [verbs.stability(), verbs.modes(), verbs.resonances(ResonancesRequest::default())]
+    {
         let Err(why) = reply else { panic!("an answer about a steady disc") };
         let why = why.to_string();
         assert!(why.contains("disc.load.envelope") && why.contains("--at-time"), "{why}");
@@ -282,7 +285,7 @@ fn stability_knows_every_waveform() {
         assert!(found.growth.error < 1e-11 && found.growth.rate.is_finite());
         assert!(found.changes.is_err_and(|why| why.contains("sinusoidal")));
         let done = verbs(&study(&text));
-        let json = done.resonances(Default::default()).expect("resonances").json();
+        let json = done.resonances(ResonancesRequest::default()).expect("resonances").json();
         let dithered = json["dithered"].as_array().expect("a list");
         assert!(
             dithered
