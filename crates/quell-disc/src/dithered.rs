@@ -1,5 +1,5 @@
-//! Stability with dither: Floquet exponents (sections 5.4 and 5.5), f(τ) = f(1 + α cos Rτ) or f α cos Rτ, or with a square
-//! wave sgn cos Rτ instead of the cosine. Each load may have
+//! Stability with dither: Floquet exponents (sections 5.4 and 5.5), f(τ) = f(1 + α cos Rτ) or f α cos Rτ.
+//! Other waveforms take the place of the cosine. Each load may have
 //! a phase of its own, cos(Rτ + φ_l), which the dissertation does not have: under one load it only shifts the time.
 
 use quell_linear::floquet::{FollowerDither, NotFollowerDither};

@@ -3,7 +3,6 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use quell_disc::partition::{NoPartition, crossings};
-use quell_disc::resonance::{WaveError, Waves};
 use quell_disc::tangential::TangentialDither;
 use quell_disc::{dithered, undithered};
 use quell_linear::floquet::{FollowerDither, NotFollowerDither};
@@ -149,13 +148,11 @@ fn a_square_wave_of_no_amplitude_is_no_dither() {
 }
 
 #[test]
-fn only_sines_and_squares_are_accepted() {
+fn a_waveform_takes_the_place_of_the_cosine() {
     let plain = disc(vec![load()], SQUARE);
     assert_eq!(plain.clone().shaped(Waveform::Sine).expect("the default"), plain);
-    assert!(plain.shaped(Waveform::Triangle).is_err());
     let square = square(vec![load()], SQUARE);
     assert_eq!(crossings(&square), Err(NoPartition::Waveform));
-    assert_eq!(Waves::new(&square), Err(WaveError::Waveform));
     assert_eq!(
         square.with("disc.load.speed", 0.2).expect("in bounds").waveform(),
         &Waveform::Square

@@ -1,33 +1,44 @@
-//! Floquet exponents of small motions where an input multiplies the friction forces: f_c(t) = f_c (m + α g(ωt + φ_c)), g a cosine
-//! or a square wave.
+//! Floquet exponents of small motions where an input multiplies the friction forces: f_c(t) = f_c (m + α g(ωt + φ_c)), g any
+//! waveform, the same at every contact.
 //!
 //! All friction is in the kicks, ẋ = A₀x + Σ_c f_c(t) U_c V_cᵀ x, so that A₀ is the same for every friction:
 //! [`FollowerDither`] prepares it once and serves a whole row of a map. A point gives the same bits either way.
 //! Contacts have no tangent here, so that VᵀU = 0 and the exponents are of fourth order for any number of contacts.
-//! Under a square wave friction is constant between the jumps, so that the map is an exact product of exponentials.
+//!
+//! | waveform | map of a period |
+//! |---|---|
+//! | sine | splitting with kicks, extrapolated ([`Floquet`]) |
+//! | constant between jumps: square, held samples, their bursts | exact product of exponentials ([`of_pieces`]) |
+//! | any other | Taylor series of the map between kinks and jumps ([`VaryingFlow`]) |
+//!
+//! The period of a burst is that of its carrier times its cycles. Kinks and jumps of every contact, each at its own phase, are
+//! ends of pieces, so that no step passes one.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt;
 
 use quell_model::profile::Wave;
 use quell_model::system::InputTarget;
+use quell_model::waveform::Piece;
 use quell_model::{System, Waveform};
 use quell_numerics::eigen::EigenError;
 use quell_numerics::floquet::{
-    ConstantFlow, ConstantPiece, Effort, Exponent, Floquet, Phase, of_pieces,
+    ConstantFlow, ConstantPiece, Effort, Exponent, Floquet, Phase, Sinusoid, Strength, VaryingFlow,
+    VaryingPiece, of_pieces,
 };
 use quell_numerics::matrix::Matrix;
 
 use crate::growth::Growth;
 use crate::linearised::{LinearContact, Linearised};
 
-/// Jumps closer than this fraction of the period are one.
-const SAME_JUMP: f64 = 1e-14;
+/// Breaks closer than this fraction of the period are one.
+const SAME_BREAK: f64 = 1e-14;
 
 /// Why the exponents of a system are not those of a dithered follower force.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NotFollowerDither {
-    /// An input does not multiply the friction of a contact, or it is not one sine or square wave of the frequency given.
+    /// An input does not multiply the friction of a contact, or it is not one wave of the frequency given and of constant
+    /// amplitude.
     Input,
     /// The waveforms of the contacts differ.
     Waveforms,
@@ -49,7 +60,7 @@ impl fmt::Display for NotFollowerDither {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Input => f.write_str(
-                "Floquet exponents require inputs that multiply the friction of contacts by one sine or square wave",
+                "Floquet exponents require inputs that multiply the friction of contacts by one wave",
             ),
             Self::Waveforms => {
                 f.write_str("Floquet exponents require the same waveform at every contact")
@@ -95,8 +106,27 @@ pub struct FollowerDither {
 enum FollowerWave {
     /// A sine: kicks on a constant flow.
     Smooth(Box<Floquet>),
-    /// A square wave: the linear equations, the period, and the jumps in cycles, ascending.
-    Square { linear: Box<Linearised>, period: f64, jumps: Vec<f64> },
+    /// Constant between jumps: the linear equations, and where the pieces begin.
+    Constant { linear: Box<Linearised>, pieces: Pieces },
+    /// Analytic between breaks.
+    Varying { flow: Box<VaryingFlow>, pieces: Pieces },
+}
+
+/// The pieces of a period.
+#[derive(Clone, Debug)]
+struct Pieces {
+    period: f64,
+    /// Where they begin, as fractions of the period, ascending; at least one.
+    begin: Vec<f64>,
+}
+
+impl Pieces {
+    /// Begin and end of each piece, as fractions of the period.
+    fn ends(&self) -> impl Iterator<Item = (f64, f64)> {
+        let first = self.begin.first().copied().unwrap_or(0.0);
+        let ends = self.begin.iter().skip(1).copied().chain([first + 1.0]);
+        self.begin.iter().copied().zip(ends)
+    }
 }
 
 impl FollowerDither {
@@ -122,15 +152,21 @@ impl FollowerDither {
         if factors.iter().any(|factor| factor.wave.waveform != waveform) {
             return Err(NotFollowerDither::Waveforms);
         }
-        let period = TAU / frequency;
-        let engine = if waveform == Waveform::Square {
-            let jumps = jumps(&factors);
-            FollowerWave::Square { linear: Box::new(linear.clone()), period, jumps }
-        } else {
-            let none = vec![0.0; factors.len()];
+        let period = TAU / frequency * f64::from(waveform.cycles());
+        let none = vec![0.0; factors.len()];
+        let engine = if waveform == Waveform::Sine {
             let (u, v) = linear.follower_columns();
             let flow = ConstantFlow::new(&linear.state_matrix(&none), &u, &v)?;
             FollowerWave::Smooth(Box::new(Floquet::new(flow, period)))
+        } else {
+            let pieces = Pieces { period, begin: breaks(&factors) };
+            if waveform.is_piecewise_constant() {
+                FollowerWave::Constant { linear: Box::new(linear.clone()), pieces }
+            } else {
+                let (u, v) = linear.follower_columns();
+                let flow = VaryingFlow::new(linear.state_matrix(&none), u, &v);
+                FollowerWave::Varying { flow: Box::new(flow), pieces }
+            }
         };
         Ok(Self { engine, friction, factors })
     }
@@ -152,8 +188,8 @@ impl FollowerDither {
             FollowerWave::Smooth(engine) => {
                 engine.growth(&|phase, to| self.kick(factor, phase, to), effort)
             }
-            FollowerWave::Square { .. } => {
-                let found = of_pieces(&self.pieces(factor))?;
+            FollowerWave::Constant { .. } | FollowerWave::Varying { .. } => {
+                let found = self.of_period(factor)?;
                 let mut leading = found.first().copied().ok_or(EigenError::NotConverged)?;
                 // A slightly smaller exponent with a larger error may be the true leading one.
                 for other in found {
@@ -174,8 +210,8 @@ impl FollowerDither {
             FollowerWave::Smooth(engine) => {
                 engine.growing(&|phase, to| self.kick(1.0, phase, to), effort)?
             }
-            FollowerWave::Square { .. } => {
-                let found = of_pieces(&self.pieces(1.0))?.into_iter();
+            FollowerWave::Constant { .. } | FollowerWave::Varying { .. } => {
+                let found = self.of_period(1.0)?.into_iter();
                 found.filter(|exponent| exponent.growth_rate > exponent.error).collect()
             }
         };
@@ -189,31 +225,74 @@ impl FollowerDither {
         }
     }
 
-    /// The pieces of one period between the jumps of a square wave, with the friction in the middle of each.
-    fn pieces(&self, factor: f64) -> Vec<ConstantPiece> {
-        let FollowerWave::Square { linear, period, jumps } = &self.engine else {
-            return Vec::new();
-        };
-        let first = jumps.first().copied().unwrap_or(0.0);
-        let ends = jumps.iter().skip(1).copied().chain([first + 1.0]);
-        jumps
-            .iter()
-            .zip(ends)
-            .map(|(from, to)| {
-                let middle = 0.5 * (from + to);
-                let acting = |(friction, dither): (&f64, &Factor)| {
-                    let cycles = middle + dither.wave.phase / TAU;
-                    let wave = dither.wave.waveform.value(TAU * (cycles - cycles.floor()));
-                    factor * friction * dither.wave.amplitude.mul_add(wave, dither.mean)
+    /// All exponents of the map of a period made of pieces.
+    fn of_period(&self, factor: f64) -> Result<Vec<Exponent>, EigenError> {
+        match &self.engine {
+            FollowerWave::Smooth(_) => Err(EigenError::NotConverged),
+            FollowerWave::Constant { linear, pieces } => {
+                let piece = |(from, to): (f64, f64)| {
+                    let acting = |(friction, dither): (&f64, &Factor)| {
+                        let wave = dither.wave.waveform.value(dither.phase_at(0.5 * (from + to)));
+                        factor * friction * dither.wave.amplitude.mul_add(wave, dither.mean)
+                    };
+                    let friction: Vec<f64> =
+                        self.friction.iter().zip(&self.factors).map(acting).collect();
+                    let matrix = linear.state_matrix(&friction);
+                    ConstantPiece { duration: (to - from) * pieces.period, matrix }
                 };
-                let friction: Vec<f64> =
-                    self.friction.iter().zip(&self.factors).map(acting).collect();
-                ConstantPiece {
-                    duration: (to - from) * period,
-                    matrix: linear.state_matrix(&friction),
-                }
-            })
-            .collect()
+                of_pieces(&pieces.ends().map(piece).collect::<Vec<_>>())
+            }
+            FollowerWave::Varying { flow, pieces } => {
+                let piece = |(from, to): (f64, f64)| {
+                    let duration = (to - from) * pieces.period;
+                    let contacts = self.friction.iter().zip(&self.factors);
+                    let strength = |(friction, dither): (&f64, &Factor)| {
+                        dither.strength(factor * friction, (from, to), duration)
+                    };
+                    VaryingPiece { duration, strengths: contacts.map(strength).collect() }
+                };
+                flow.exponents(&pieces.ends().map(piece).collect::<Vec<_>>())
+            }
+        }
+    }
+}
+
+impl Factor {
+    /// The phase of the wave at a fraction of the period, within one period.
+    fn phase_at(&self, fraction: f64) -> f64 {
+        let cycles = f64::from(self.wave.waveform.cycles());
+        let turns = fraction + self.wave.phase / TAU / cycles;
+        TAU * cycles * (turns - turns.floor())
+    }
+
+    /// `friction` times the factor over a piece between two breaks, given as fractions of the period.
+    fn strength(&self, friction: f64, (from, to): (f64, f64), duration: f64) -> Strength {
+        let Wave { waveform, amplitude, frequency, .. } = &self.wave;
+        let (start, middle) = (self.phase_at(from), self.phase_at(0.5 * (from + to)));
+        let sinusoid = |order: f64, size: f64, phase: f64| Sinusoid {
+            amplitude: friction * amplitude * size,
+            frequency: order * frequency,
+            phase: order.mul_add(start, phase),
+        };
+        let (line, sinusoids) = match (waveform.harmonics(), waveform.piece_after(middle)) {
+            (Some(harmonics), _) => {
+                let sines = harmonics.iter().map(|harmonic| {
+                    let order = f64::from(harmonic.order);
+                    sinusoid(order, harmonic.amplitude(), harmonic.phase())
+                });
+                ((0.0, 0.0), sines.collect())
+            }
+            (None, Some(Piece::Affine { slope, .. })) => {
+                let rate = slope * frequency;
+                ((waveform.value(middle) - 0.5 * duration * rate, rate), Vec::new())
+            }
+            (None, _) => ((0.0, 0.0), vec![sinusoid(1.0, 1.0, 0.0)]),
+        };
+        Strength {
+            value: friction * amplitude.mul_add(line.0, self.mean),
+            slope: friction * amplitude * line.1,
+            sinusoids,
+        }
     }
 }
 
@@ -221,22 +300,25 @@ fn growth_of(found: Exponent) -> Growth {
     Growth { rate: found.growth_rate, error: found.error, frequency: found.frequency }
 }
 
-/// The jumps of square waves in one period, in cycles, ascending: those of g are at the phases 0 and π.
-fn jumps(factors: &[Factor]) -> Vec<f64> {
+/// The breaks of all contacts in one period, as fractions of it, ascending, or the start of the period if no contact has a break.
+fn breaks(factors: &[Factor]) -> Vec<f64> {
     let of_one = |factor: &Factor| {
-        [0.0, 0.5].map(|cycles| {
-            let at = cycles - factor.wave.phase / TAU;
+        let cycles = f64::from(factor.wave.waveform.cycles());
+        let lead = factor.wave.phase / TAU / cycles;
+        let breaks = factor.wave.waveform.breaks().to_vec().into_iter();
+        breaks.map(move |phase| {
+            let at = phase / TAU / cycles - lead;
             at - at.floor()
         })
     };
-    let mut jumps: Vec<f64> = factors.iter().flat_map(of_one).collect();
-    jumps.sort_by(f64::total_cmp);
-    jumps.dedup_by(|next, before| *next - *before <= SAME_JUMP);
+    let mut breaks: Vec<f64> = factors.iter().flat_map(of_one).collect();
+    breaks.sort_by(f64::total_cmp);
+    breaks.dedup_by(|next, before| *next - *before <= SAME_BREAK);
     // The last may be the first again, one period later.
-    if jumps.len() > 1 && jumps[0] + 1.0 - jumps[jumps.len() - 1] <= SAME_JUMP {
-        jumps.pop();
+    if breaks.len() > 1 && breaks[0] + 1.0 - breaks[breaks.len() - 1] <= SAME_BREAK {
+        breaks.pop();
     }
-    jumps
+    if breaks.is_empty() { vec![0.0] } else { breaks }
 }
 
 /// The factor of each contact.
@@ -247,8 +329,7 @@ fn factors(system: &System, frequency: f64) -> Result<Vec<Factor>, NotFollowerDi
             return Err(NotFollowerDither::Input);
         };
         let [wave] = input.profile.waves() else { return Err(NotFollowerDither::Input) };
-        let known = matches!(wave.waveform, Waveform::Sine | Waveform::Square);
-        if wave.frequency != frequency || !known {
+        if wave.frequency != frequency || !input.profile.is_steady() {
             return Err(NotFollowerDither::Input);
         }
         // A sine that leads by a quarter of a cycle is a cosine.

@@ -229,7 +229,7 @@ def keys(table: str) -> set[str]:
         (quell.Solver, "solver", set()),
         (quell.Disc, "disc", {"friction", "dither", "mode", "load", "axes", "title"}),
         (quell.Mode, "disc.mode", set()),
-        (quell.Load, "disc.load", set()),
+        (quell.Load, "disc.load", {"envelope"}),
         (quell.System, "system", {"contact", "friction", "dither", "parameters", "axes", "title"}),
         (quell.SystemMode, "system_mode", set()),
         (quell.Component, "system_component", set()),

@@ -18,7 +18,7 @@ use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
 use crate::study::vocabulary::{
-    self, Choice, Key, MOST_POINTS, Role, SCHEMA_ABOUT, SCHEMA_VERSION, Section,
+    self, Choice, Key, MOST_POINTS, Role, SCHEMA_ABOUT, SCHEMA_VERSION, Section, WAVE_KEYS,
 };
 
 /// The dialect of the schema.
@@ -141,7 +141,8 @@ fn disc(definitions: &mut Map<String, Json>) {
         object(section, &properties, required)
     };
     let mode = table(Section::DiscMode, &["diameters", "shape_at_load"]);
-    let load = table(Section::DiscLoad, &[]);
+    let mut load = table(Section::DiscLoad, &[]);
+    load["properties"]["envelope"] = json!({ "$ref": "#/$defs/disc_load_envelope" });
     let mut whole = table(Section::Disc, &[]);
     whole["properties"]["mode"] =
         json!({ "type": "array", "items": { "$ref": "#/$defs/disc_mode" }, "minItems": 1 });
@@ -150,12 +151,11 @@ fn disc(definitions: &mut Map<String, Json>) {
         "description": Section::DiscLoad.about(),
         "oneOf": [one.clone(), { "type": "array", "items": one }],
     });
-    let dither = json!({
+    let mut dither = json!({
         "type": "object",
         "description": "modulation of the friction of every load",
         "properties": {
             "direction": { "enum": Choice::Direction.names() },
-            "waveform": { "enum": ["sine", "square"] },
             "amplitude": property_of(DISC_DITHER_AMPLITUDE),
             "frequency_ratio": property_of(DITHER_FREQUENCY_RATIO),
             "frequency_hz": vocabulary::key(Section::Dither, "frequency_hz").map_or(json!({}), property),
@@ -164,6 +164,11 @@ fn disc(definitions: &mut Map<String, Json>) {
         "oneOf": [{ "required": ["frequency_ratio"] }, { "required": ["frequency_hz"] }],
         "additionalProperties": false,
     });
+    for name in ["waveform"].into_iter().chain(WAVE_KEYS.iter().map(|(name, _)| *name)) {
+        let described = vocabulary::key(Section::Dither, name).map_or(json!({}), property);
+        dither["properties"][name] = described;
+    }
+    dither["properties"]["envelope"] = json!({ "$ref": "#/$defs/disc_dither_envelope" });
     let root = json!({
         "type": "object",
         "description": "a study of a disc",
@@ -186,6 +191,8 @@ fn disc(definitions: &mut Map<String, Json>) {
     for (name, definition) in [
         ("disc_mode", mode),
         ("disc_load", load),
+        ("disc_load_envelope", table(Section::LoadEnvelope, &[])),
+        ("disc_dither_envelope", table(Section::Envelope, &[])),
         ("disc", whole),
         ("disc_dither", dither),
         ("study_disc", root),

@@ -115,11 +115,11 @@ fn complaints_about_a_plate_name_the_key() {
         (
             format!(
                 "{PLATE}{}",
-                DITHER.replace("\"normal\"", "\"normal\"\nwaveform = \"triangle\"")
+                DITHER.replace("\"normal\"", "\"normal\"\nwaveform = \"sawtooth\"")
             ),
             "dither.waveform",
             Some(13),
-            "\"sine\" or \"square\"",
+            "triangle",
         ),
         (format!("{PLATE}{axis}{axis}"), "sweep[1].parameter", Some(16), "sweep[0] already varies"),
         (format!("sweep = 3\n{PLATE}"), "sweep", Some(1), "tables [[sweep]]"),

@@ -6,6 +6,9 @@
 //! interval from the minimum of the lower curve to the maximum of the upper one. The remaining frequencies of the requested range
 //! are therefore an exact list of intervals, to the accuracy of first-order theory, without a grid of frequencies.
 //!
+//! At a harmonic h of another waveform, the band of hR replaces that of R. Of a burst, R stands for the frequency at which it
+//! repeats itself, and its results are multiplied by the cycles of the carrier.
+//!
 //! Under tangential dither friction has zero mean, and the undithered tongues vanish at this order: they remain suppressed.
 //! [`within`] lists the resonances in the range for a single frequency, including tongues revived at second order.
 //! The dissertation ends with this question.
@@ -43,6 +46,8 @@ pub struct Blocked {
     pub waves: [TravellingWave; 2],
     /// Whether the second wave couples through its conjugate.
     pub sum: bool,
+    /// Harmonic h of the dither at which they meet.
+    pub harmonic: i32,
 }
 
 /// Why clear frequencies could not be determined.
@@ -125,11 +130,15 @@ pub fn clear_frequencies(
         }
     }
     let mut blocked = Vec::new();
-    for family in waves.families(1) {
-        for part in grown_speeds(&waves, &family, &speeds) {
-            let [from, to] = swept(&waves, &family, part);
-            if to >= *frequencies.start() && from <= *frequencies.end() {
-                blocked.push(Blocked { from, to, waves: family.waves, sum: family.conjugate });
+    let cycles = waves.harmonics.cycles();
+    for h in waves.driven(&speeds, *frequencies.start() / cycles) {
+        for family in waves.families(h) {
+            for part in grown_speeds(&waves, &family, &speeds) {
+                let [from, to] = swept(&waves, &family, part).map(|end| cycles * end);
+                if to >= *frequencies.start() && from <= *frequencies.end() {
+                    let (sum, harmonic) = (family.conjugate, family.h);
+                    blocked.push(Blocked { from, to, waves: family.waves, sum, harmonic });
+                }
             }
         }
     }
@@ -158,7 +167,9 @@ pub fn within(waves: &Waves, speeds: RangeInclusive<f64>) -> Vec<Nearby> {
     let first = waves.clone().with_order(Order::First);
     let mut found = Vec::new();
     if let Some(frequency) = first.dither_frequency() {
-        for family in first.families(1).iter().filter(|family| family.slope != 0.0) {
+        let driven = first.driven(&speeds, frequency).into_iter();
+        let families: Vec<MeetingFamily> = driven.flat_map(|h| first.families(h)).collect();
+        for family in families.iter().filter(|family| family.slope != 0.0) {
             let speed = (family.offset + f64::from(family.h) * frequency) / family.slope;
             let inside = speeds.contains(&speed);
             let mut reaches_in = reaches(&first, family, &speeds, frequency);

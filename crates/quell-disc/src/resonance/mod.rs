@@ -9,6 +9,9 @@
 //! w₁ = w₂          (5.55): undithered            w₁ = w₂ + hR, h = ±1     (5.56): induced by dither
 //! ```
 //!
+//! A dither of another waveform than the sine couples waves at each of its harmonics, h = ±n with the n-th Fourier coefficient in
+//! place of that of the cosine (`harmonics`); of a burst R is the frequency at which it repeats itself.
+//!
 //! The dissertation gives these speeds only. Here each meeting also has its pair of waves and the slow 2 × 2 system of their
 //! amplitudes, which determines whether the coupling can be unstable, the friction at the tip of the tongue, both edges, and the
 //! largest growth rate.
@@ -25,6 +28,7 @@
 //! two.
 
 mod clear;
+mod harmonics;
 mod meetings;
 mod pair;
 mod threshold;

@@ -1,6 +1,6 @@
 //! Friction at the tip of a tongue.
 //!
-//! With f₀ = μf and f₁ = αf/2, the damping of a wave is η = A − Bf, A = (g²/2β)c(β + sΩ) + ξβ, B = μ(g²/2β)s, and a
+//! With f₀ = μf and f₁ = αf/2 (|f_h| = αf|c_h| at harmonic h of another waveform), the damping of a wave is η = A − Bf, A = (g²/2β)c(β + sΩ) + ξβ, B = μ(g²/2β)s, and a
 //! dither-induced pair of equal direction has p = b₁b₂α²f²/4, b = (g²/2β)s. The tip is at p = η₁η₂, a quadratic in f:
 //!
 //! * tangential dither (μ = 0): f = (2/α)√(A₁A₂/(b₁b₂)); with ξ = 0 it is 2c/α √((β₁/l₁ ∓ Ω)(β₂/l₂ ∓ Ω)), with − for forward
@@ -48,7 +48,7 @@ impl Waves {
         if !(a1 > 0.0 && a2 > 0.0) {
             return Some(0.0);
         }
-        let (mean, half) = self.friction_parts(1.0);
+        let (mean, half) = self.friction_parts(1.0, meeting.h);
         // half² b₁b₂ f² = (A₁ − μb₁f)(A₂ − μb₂f)
         let square = b1 * b2 * (mean * mean - half * half);
         let linear = -mean * (a1 * b2 + a2 * b1);

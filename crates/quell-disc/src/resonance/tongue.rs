@@ -117,15 +117,15 @@ impl Waves {
         self.meetings(0, &speeds).iter().map(|meeting| self.resonance(meeting)).collect()
     }
 
-    /// Meetings of waves induced by dither (5.56) with a speed in the range, in ascending order; at second order also those at
-    /// twice the dither frequency. Empty without dither.
+    /// Meetings of waves induced by dither (5.56) with a speed in the range, in ascending order, at every harmonic of the dither;
+    /// at second order also those at sums of its harmonics, of a sine at twice its frequency. Empty without dither.
     #[must_use]
     pub fn dithered(&self, speeds: RangeInclusive<f64>) -> Vec<Resonance> {
-        let mut meetings = self.meetings(1, &speeds);
-        if self.order == Order::Second {
-            meetings.extend(self.meetings(2, &speeds));
-            meetings.sort_by(|a, b| a.speed.total_cmp(&b.speed));
-        }
+        let Some(repetition) = self.dither_frequency() else { return Vec::new() };
+        let driven = self.driven(&speeds, repetition).into_iter();
+        let mut meetings: Vec<WaveMeeting> =
+            driven.flat_map(|h| self.meetings(h, &speeds)).collect();
+        meetings.sort_by(|a, b| a.speed.total_cmp(&b.speed));
         meetings.iter().map(|meeting| self.resonance(meeting)).collect()
     }
 
@@ -159,21 +159,24 @@ impl Waves {
     pub(super) fn coupling(&self, meeting: &WaveMeeting) -> Coupling {
         let [first, second] = meeting.signed();
         let excited = self.coupling_squared(first.mode) * self.coupling_squared(second.mode) > 0.0;
-        let (mean, half) = self.friction_parts(1.0);
+        let revived = self.order == Order::Second;
+        let amplitude = self.dither.mean_and_amplitude().1;
+        let (mean, size) = self.friction_parts(1.0, meeting.h);
         if !excited || first.l == second.l {
             return Coupling::None;
         }
         if meeting.h == 0 {
             let w = self.signed_frequency(&first, meeting.speed);
             let elastic = self.impedance(w).re != 0.0;
-            let driven = mean > 0.0 || (self.order == Order::Second && half > 0.0);
+            let driven = mean > 0.0 || (revived && amplitude > 0.0);
             return if elastic && driven { Coupling::Destabilising } else { Coupling::None };
         }
         // Sign of the product of the couplings: (σ₁l₁)(σ₂l₂).
         let sign = first.sigma * first.l * second.sigma * second.l;
-        if half > 0.0 && sign > 0.0 {
+        let driven = size > 0.0 || (revived && amplitude > 0.0);
+        if driven && sign > 0.0 {
             Coupling::Destabilising
-        } else if half > 0.0 && sign < 0.0 {
+        } else if driven && sign < 0.0 {
             Coupling::SharesDamping
         } else {
             Coupling::None

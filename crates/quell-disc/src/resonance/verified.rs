@@ -1,7 +1,7 @@
 //! Verification of clear dither frequencies by exact Floquet exponents over the range of speeds.
 //!
-//! First-order theory neglects the terms quadratic in friction: revived undithered tongues, meetings at twice the dither
-//! frequency, and waves that lose their damping under strong friction. Frequencies of the clear intervals are therefore tested by
+//! First-order theory neglects the terms quadratic in friction: revived undithered tongues, meetings at sums of the harmonics of
+//! the dither (of a sine at twice its frequency), and waves that lose their damping under strong friction. Frequencies of the clear intervals are therefore tested by
 //! their Floquet exponents, on a grid of speeds with a point in every second-order tongue. Among those without growth, the middle
 //! of the widest interval is examined closely: with a finer grid, several points per tongue, and a refinement of the largest
 //! growth rate. If the closer examination finds growth, the next widest interval follows.
@@ -178,7 +178,11 @@ impl Exact<'_> {
         let equal = |k: u32| (to - from).mul_add(f64::from(k) / f64::from(steps), from);
         let mut grid: Vec<f64> = (0..=steps).map(equal).collect();
         let waves = self.waves.with_dither_frequency(ratio).ok()?;
-        for meeting in (0..=2).flat_map(|h| waves.meetings(h, &self.speeds)) {
+        let repetition = waves.dither_frequency()?;
+        let driven = waves.driven(&self.speeds, repetition).into_iter();
+        for meeting in
+            std::iter::once(0).chain(driven).flat_map(|h| waves.meetings(h, &self.speeds))
+        {
             if waves.coupling(&meeting) != Coupling::Destabilising {
                 continue;
             }

@@ -12,14 +12,17 @@
 //! ```
 //!
 //! Without dither: f₀ = f. Normal dither, f(1 + α cos Rτ): f₀ = f, f₁ = αf/2. Tangential dither, fα cos Rτ: f₀ = 0, f₁ = αf/2.
+//! Other waveforms have f_h = αf c_h at every harmonic (`harmonics`); at second order their sums extend over the strong ones.
 //! ξ is the damping ratio of a disc at rest: every wave decays at the rate ξβ.
+
+use core::ops::RangeInclusive;
 
 use num_complex::Complex64;
 
 use crate::boundaries::NOT_PLAIN;
 
+use super::harmonics::Harmonics;
 use super::wave::{SignedWave, TravellingWave, WaveDirection};
-use quell_model::Waveform;
 use quell_model::disc::{Disc, DiscDither};
 use quell_model::disc::{Load, Mode};
 
@@ -39,6 +42,7 @@ pub struct Waves {
     pub(super) list: Vec<TravellingWave>,
     pub(super) load: Load,
     pub(super) dither: DiscDither,
+    pub(super) harmonics: Harmonics,
     pub(super) order: Order,
 }
 
@@ -51,8 +55,6 @@ pub enum WaveError {
     NotPlain,
     /// Centrifugal stress changes the frequencies of the waves with the speed.
     Stiffened,
-    /// The dither is not a sine.
-    Waveform,
     /// Friction is negative: describe the disc from the other side instead (−Ω, −f).
     NegativeFriction {
         /// The friction given.
@@ -72,7 +74,6 @@ impl core::fmt::Display for WaveError {
                 write!(f, "resonance theory applies to one load only, but the disc has {count}")
             }
             Self::NotPlain => f.write_str(NOT_PLAIN),
-            Self::Waveform => f.write_str("resonance theory applies to sinusoidal dither only"),
             Self::Stiffened => f.write_str(
                 "resonance theory requires frequencies that do not depend on the speed, but centrifugal stress stiffens the disc",
             ),
@@ -108,9 +109,6 @@ impl Waves {
         if disc.is_stiffened() {
             return Err(WaveError::Stiffened);
         }
-        if *disc.waveform() != Waveform::Sine {
-            return Err(WaveError::Waveform);
-        }
         if load.friction < 0.0 {
             return Err(WaveError::NegativeFriction { friction: load.friction });
         }
@@ -121,7 +119,9 @@ impl Waves {
             .map(|(index, mode)| Mode { shape_at_load: disc.shape(index, 0), ..*mode })
             .collect();
         let list = list(&modes);
-        Ok(Self { modes, list, load: load.clone(), dither: disc.dither(), order: Order::First })
+        let harmonics = Harmonics::of(disc.waveform());
+        let (load, dither) = (load.clone(), disc.dither());
+        Ok(Self { modes, list, load, dither, harmonics, order: Order::First })
     }
 
     /// These waves with another order of the expansion.
@@ -170,15 +170,49 @@ impl Waves {
         self.self_term(&SignedWave::new(wave, false), speed, &[]).re
     }
 
-    /// Frequency R of the dither, if there is dither.
+    /// Frequency ratio R′ at which the dither repeats itself, if there is dither: R, of a burst R over its cycles.
     pub(super) fn dither_frequency(&self) -> Option<f64> {
-        self.dither.frequency_ratio()
+        self.dither.frequency_ratio().map(|ratio| ratio / self.harmonics.cycles())
     }
 
-    /// f₀ and f₁ for a friction f.
-    pub(super) fn friction_parts(&self, friction: f64) -> (f64, f64) {
+    /// f₀ and |f_h| for a friction f.
+    pub(super) fn friction_parts(&self, friction: f64, h: i32) -> (f64, f64) {
         let (mean, amplitude) = self.dither.mean_and_amplitude();
-        (mean * friction, 0.5 * amplitude * friction)
+        (mean * friction, self.harmonics.size(h) * amplitude * friction)
+    }
+
+    /// The largest harmonic at which two waves can meet at a speed of this size, for a dither that repeats itself at the
+    /// frequency ratio R′.
+    pub(super) fn highest_harmonic(&self, speed: f64, repetition: f64) -> f64 {
+        let fastest = |wave: &TravellingWave| {
+            wave.signed_diameters().abs().mul_add(speed.abs(), self.modes[wave.mode].ratio)
+        };
+        // A meeting at the end of the range counts as inside.
+        2.0 * self.list.iter().map(fastest).fold(0.0, f64::max) / repetition + COINCIDENCE
+    }
+
+    /// Number of harmonics of the dither that are examined for meetings in a range of speeds at a frequency ratio R of its
+    /// carrier; their meetings are proportional to it. 0 without dither.
+    #[must_use]
+    pub fn harmonics_within(&self, speeds: &RangeInclusive<f64>, frequency_ratio: f64) -> f64 {
+        let speed = speeds.start().abs().max(speeds.end().abs());
+        let repetition = frequency_ratio / self.harmonics.cycles();
+        match self.dither {
+            DiscDither::None => 0.0,
+            _ => self.highest_harmonic(speed, repetition).floor(),
+        }
+    }
+
+    /// The harmonics h ≥ 1 of the dither at which two waves can meet and couple in a range of speeds, for a dither that repeats
+    /// itself at the frequency ratio R′.
+    pub(super) fn driven(&self, speeds: &RangeInclusive<f64>, repetition: f64) -> Vec<i32> {
+        let speed = speeds.start().abs().max(speeds.end().abs());
+        let highest = self.highest_harmonic(speed, repetition).min(f64::from(i32::MAX));
+        let acts = |h: &i32| {
+            let second = self.order == Order::Second && self.harmonics.is_sum_of_strong(*h);
+            self.harmonics.size(*h) > 0.0 || second
+        };
+        (1..=i32::MAX).take_while(|h| f64::from(*h) <= highest).filter(acts).collect()
     }
 
     /// g² of a mode.
@@ -212,18 +246,18 @@ impl Waves {
         speed: f64,
         resonant: &[SignedWave],
     ) -> Complex64 {
-        let (mean, half) = self.friction_parts(self.load.friction);
+        let friction = self.load.friction;
+        let (mean, amplitude) = self.dither.mean_and_amplitude();
         let part = |a: i32| match a {
-            0 => mean,
-            1 | -1 => half,
-            _ => 0.0,
+            0 => Complex64::new(mean * friction, 0.0),
+            _ => self.harmonics.coefficient(a) * amplitude * friction,
         };
-        let mut sum = Complex64::new(part(h), 0.0);
+        let mut sum = part(h);
         if self.order == Order::Second {
             let dither = self.dither_frequency().unwrap_or(0.0);
-            for b in -1..=1 {
+            for &(b, _) in self.harmonics.strong() {
                 let product = part(h - b) * part(b);
-                if product != 0.0 {
+                if product.norm_sqr() > 0.0 {
                     let shifted = frequency + f64::from(b) * dither;
                     sum += product * self.slope_response(shifted, speed, resonant);
                 }

@@ -1,6 +1,7 @@
 //! An annular disc under rotating loads, valid by construction.
 
 use crate::parameter::disc::{CENTRIFUGAL, DISC_SPEED, MODE_CENTRIFUGAL};
+use crate::profile::Knots;
 use crate::units::DiscScales;
 use crate::{Friction, Invalid, InvalidValues, Waveform};
 
@@ -17,7 +18,7 @@ mod structure;
 
 pub use carrier::Carrier;
 pub use contributions::{Contribution, Contributions};
-pub use dither::DiscDither;
+pub use dither::{DiscDither, DitherShape};
 pub use mode::{Load, Mode};
 pub use patch::{Patch, PatchPoint, PatchRadius};
 
@@ -27,7 +28,7 @@ pub struct Disc {
     modes: Vec<Mode>,
     loads: Vec<Load>,
     dither: DiscDither,
-    waveform: Waveform,
+    shape: DitherShape,
     speed: f64,
     law: Option<Friction>,
     /// κ of each mode; none where the disc is at rest.
@@ -48,6 +49,19 @@ impl Disc {
         dither: DiscDither,
         speed: f64,
     ) -> Result<Self, InvalidValues> {
+        Self::dithered_by(modes, loads, (dither, DitherShape::default()), speed)
+    }
+
+    /// As [`Disc::new`], with the waveform and the envelope of its dither.
+    ///
+    /// # Errors
+    /// As [`Disc::new`]; an amplitude at which normal dither would pull a contact apart, an envelope of tangential dither.
+    pub fn dithered_by(
+        modes: Vec<Mode>,
+        loads: Vec<Load>,
+        (dither, shape): (DiscDither, DitherShape),
+        speed: f64,
+    ) -> Result<Self, InvalidValues> {
         let mut complaints = Vec::new();
         if modes.is_empty() {
             complaints.push(Invalid::new("disc.mode", "none", "at least one mode"));
@@ -58,7 +72,7 @@ impl Disc {
         for (index, load) in loads.iter().enumerate() {
             complaints.extend(load.complaints(modes.len(), index, loads.len()));
         }
-        complaints.extend(dither.complaints());
+        complaints.extend(dither.complaints(&shape));
         complaints.extend(DISC_SPEED.check(speed).err());
         if complaints.is_empty() {
             let centrifugal = Vec::new();
@@ -66,7 +80,7 @@ impl Disc {
                 modes,
                 loads,
                 dither,
-                waveform: Waveform::Sine,
+                shape,
                 speed,
                 law: None,
                 centrifugal,
@@ -98,9 +112,9 @@ impl Disc {
         dither: DiscDither,
         speed: f64,
     ) -> Result<Self, InvalidValues> {
-        let disc = Self::new(self.modes.clone(), loads, dither, speed)?;
-        let disc =
-            Self { centrifugal: self.centrifugal.clone(), waveform: self.waveform.clone(), ..disc };
+        let shaped = (dither, self.shape.clone());
+        let disc = Self::dithered_by(self.modes.clone(), loads, shaped, speed)?;
+        let disc = Self { centrifugal: self.centrifugal.clone(), ..disc };
         let disc = match &self.law {
             Some(law) => disc.under_law(law.clone())?,
             None => disc,
@@ -186,24 +200,52 @@ impl Disc {
         self.dither
     }
 
-    /// The same disc with another wave in place of the cosine of its dither: sgn cos Rτ for [`Waveform::Square`].
+    /// The same disc with another wave in place of the cosine of its dither: g(Rτ + π/2), g the waveform as it is defined for
+    /// every kind of study. For [`Waveform::Square`] it is sgn cos Rτ.
     ///
     /// # Errors
-    /// A waveform other than sine and square.
+    /// A waveform so large that normal dither would pull a contact apart.
     pub fn shaped(self, waveform: Waveform) -> Result<Self, InvalidValues> {
-        match waveform {
-            Waveform::Sine | Waveform::Square => Ok(Self { waveform, ..self }),
-            _ => Err(InvalidValues::from(Invalid::new(
-                "dither.waveform",
-                waveform.name(),
-                "\"sine\" or \"square\": friction that follows the sign of the slip is a square wave",
-            ))),
-        }
+        let next = Self { shape: DitherShape { waveform, ..self.shape.clone() }, ..self };
+        next.rebuilt(next.loads.clone(), next.dither, next.speed)
     }
 
     /// Waveform of the dither.
     pub fn waveform(&self) -> &Waveform {
-        &self.waveform
+        &self.shape.waveform
+    }
+
+    /// Share of the amplitude of the dither over time; `None` for the whole amplitude at all times.
+    pub fn envelope(&self) -> Option<&Knots> {
+        self.shape.envelope.as_ref()
+    }
+
+    /// Whether loads and dither are steady: no load varies in time, and the dither has no envelope.
+    pub fn is_steady(&self) -> bool {
+        self.envelope().is_none() && self.loads.iter().all(|load| load.share.is_none())
+    }
+
+    /// The steady disc of a time: loads, with their friction, and dither have their shares of that moment.
+    #[must_use]
+    pub fn steady_at(&self, time: f64) -> Self {
+        let loads = self.loads.iter().map(|load| {
+            let share = load.share.as_ref().map_or(1.0, |share| share.value(time));
+            Load {
+                friction: share * load.friction,
+                normal_load: load.normal_load.map(|normal| share * normal),
+                share: None,
+                ..load.clone()
+            }
+        });
+        let share = self.envelope().map_or(1.0, |envelope| envelope.value(time));
+        let shape = DitherShape { waveform: self.waveform().clone(), envelope: None };
+        let dither = self.dither.with_amplitude_times(share);
+        Self { loads: loads.collect(), dither, shape, ..self.clone() }
+    }
+
+    /// Frequency ratio at which the dither repeats itself: R, of a burst R over its cycles of the carrier; `None` without dither.
+    pub fn repetition_ratio(&self) -> Option<f64> {
+        self.dither.frequency_ratio().map(|ratio| ratio / f64::from(self.waveform().cycles()))
     }
 
     /// Speed Ω of the loads over the disc, in ω_ref.
@@ -256,7 +298,7 @@ impl Disc {
     /// The same disc without dither: f(τ) = f.
     #[must_use]
     pub fn undithered(&self) -> Self {
-        Self { dither: DiscDither::None, ..self.clone() }
+        Self { dither: DiscDither::None, shape: DitherShape::default(), ..self.clone() }
     }
 }
 

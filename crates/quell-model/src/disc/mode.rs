@@ -1,5 +1,7 @@
 //! A mode of the disc and a load that rotates over it.
 
+use std::cmp::Ordering;
+
 use super::complaint::complain;
 use super::{Carrier, Patch};
 use crate::Invalid;
@@ -10,6 +12,7 @@ use crate::parameter::disc::{
     PAD_MASS, PAD_STIFFNESS,
 };
 use crate::parameter::indexed;
+use crate::profile::Profile;
 
 /// A mode R(r)·(A cos qφ + B sin qφ) of the plate at rest, φ counted from the first load.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +60,9 @@ pub struct Load {
     pub shapes: Option<Vec<f64>>,
     /// The area over which it is distributed; `None` for a point.
     pub patch: Option<Patch>,
+    /// Share s > 0 of the normal load over time, and with it of friction: `friction` and `normal_load` are those of s = 1. `None`
+    /// for a load that does not vary.
+    pub share: Option<Profile>,
     /// The pad, between the spring and damper of the contact and the caliper or the ground; `None` where they are at rest.
     pub pad: Option<Carrier>,
     /// The caliper that carries the pad; `None` for a pad on the ground. Ignored without a pad.
@@ -80,9 +86,16 @@ impl Load {
             radius_ratio: None,
             shapes: None,
             patch: None,
+            share: None,
             pad: None,
             caliper: None,
         }
+    }
+
+    /// The same load with a share of it over time.
+    #[must_use]
+    pub fn varying(self, share: Profile) -> Self {
+        Self { share: Some(share), ..self }
     }
 
     /// The same load on a pad that moves.
@@ -177,6 +190,14 @@ impl Load {
         let slip_ratio = self.slip_ratio;
         complaints
             .extend(slip_ratio.and_then(|value| complain(&LOAD_SLIP_RATIO, value, index, count)));
+        if let Some((least, _)) = self.share.as_ref().map(Profile::bounds)
+            && least.partial_cmp(&0.0) != Some(Ordering::Greater)
+        {
+            let key = indexed("disc.load", index, count, "envelope");
+            let allowed =
+                "a share above 0 at all times: a load that vanishes would open its contact";
+            complaints.push(Invalid::new(key, least, allowed));
+        }
         if let Some(patch) = &self.patch {
             complaints.extend(patch.complaints(modes, index, count));
         }

@@ -26,7 +26,7 @@ use quell_numerics::matrix::Matrix;
 use super::{Carrier, Contribution, Contributions, Disc, Load, PatchPoint};
 use crate::friction::{Coulomb, Friction};
 use crate::parameter::Parameter;
-use crate::profile::{Profile, Wave};
+use crate::profile::{KnotShape, Knots, Profile, Wave};
 use crate::system::{Contact, Input, InputTarget, MassMatrix, Mechanical, System};
 use crate::{InvalidValues, Parametrisation};
 
@@ -59,7 +59,8 @@ impl Disc {
     /// The follower force of the dissertation depends neither on the speed nor on the load: it is a Coulomb contact of unit
     /// load with μ = |f| on a surface that moves, at unit speed, in the direction of f. Its dither is a factor on the
     /// friction force. A load over a patch is a contact at every quadrature point, which has its share of the load.
-    /// In large motions friction follows the load, and a contact with a spring or damper opens where its load vanishes; lengths
+    /// A load over time is added to that of its contacts, so that it multiplies friction by its share; the amplitude of a dither is
+    /// relative to it. In large motions friction follows the load, and a contact with a spring or damper opens where its load vanishes; lengths
     /// are then in N/(M_pω_ref²), N the normal load of every load.
     pub fn system_of(&self, parts: Contributions) -> System {
         let (mut damping, mut stiffness) = self.plate(parts);
@@ -75,6 +76,7 @@ impl Disc {
                 mass = mass.attach(point.weight * load_mass, surface.clone());
                 inputs.push(self.factor(parts, load, contacts.len()));
                 let sliding = self.sliding(load, point, slope);
+                inputs.extend(load.added(sliding.normal_load, contacts.len()));
                 contacts.push(Contact {
                     name: load.contact_name(l, index),
                     tangent: sliding.tangent,
@@ -132,13 +134,13 @@ impl Disc {
         let (mean, amplitude) = self.dither().mean_and_amplitude();
         let mut factor = Profile::constant(on(Contribution::FollowerForce, mean));
         if let Some(frequency) = self.dither().frequency_ratio() {
-            // cos(Rτ + φ) is a sine, and sgn cos a square wave, that leads by a quarter of a cycle.
+            // cos(Rτ + φ) is a sine, and sgn cos a square wave, that leads by a quarter of a cycle; so does every waveform.
             factor = factor.with(Wave {
                 waveform: self.waveform().clone(),
                 amplitude: on(Contribution::Dither, amplitude),
                 frequency,
                 phase: load.dither_phase + FRAC_PI_2,
-                envelope: None,
+                envelope: self.envelope().cloned(),
             });
         }
         Input { target: InputTarget::Friction { contact }, profile: factor }
@@ -217,6 +219,19 @@ struct Sliding {
 }
 
 impl Load {
+    /// The load over time less the constant one, (s − 1)N, of a contact whose constant load is N. Guides bear it: a load presses the
+    /// disc from both sides.
+    fn added(&self, normal_load: f64, contact: usize) -> Option<Input> {
+        let varied = self.share.as_ref()?.scaled(normal_load);
+        let mean = varied.mean() - normal_load;
+        // An envelope of 1 marks an oscillation as part of a load that varies, which no verb about a steady disc may take as dither.
+        let always = Knots::new(vec![0.0], vec![1.0], KnotShape::Linear).ok();
+        let waves =
+            varied.waves().iter().map(|wave| Wave { envelope: always.clone(), ..wave.clone() });
+        let profile = waves.fold(varied.without_waves().about(mean), Profile::with);
+        Some(Input { target: InputTarget::NormalLoad { contact, reaction: false }, profile })
+    }
+
     /// The pad and the caliper, as far as they are given.
     fn carriers(&self) -> impl Iterator<Item = &Carrier> {
         let caliper = self.pad.as_ref().and(self.caliper.as_ref());

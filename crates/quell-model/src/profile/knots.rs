@@ -137,7 +137,13 @@ impl Knots {
     /// The knots with values of the opposite sign.
     #[must_use]
     pub fn reversed(&self) -> Self {
-        Self { values: self.values.iter().map(|value| -value).collect(), ..self.clone() }
+        self.scaled(-1.0)
+    }
+
+    /// The knots with values multiplied by a factor.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self { values: self.values.iter().map(|value| factor * value).collect(), ..self.clone() }
     }
 
     /// Whether all values are equal.

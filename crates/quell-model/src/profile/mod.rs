@@ -83,6 +83,13 @@ impl Profile {
         Self { mean: -self.mean, knots: self.knots.as_ref().map(Knots::reversed), ..reversed }
     }
 
+    /// The profile multiplied by a factor.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let knots = self.knots.as_ref().map(|knots| knots.scaled(factor));
+        Self { mean: factor * self.mean, knots, ..self.with_waves_scaled(factor) }
+    }
+
     /// The same profile without its waves.
     #[must_use]
     pub fn without_waves(&self) -> Self {
@@ -129,5 +136,8 @@ mod tests {
             assert!((steady.value(time) - profile.value(time)).abs() < 1e-15);
         }
         assert_eq!(profile.bounds(), (-2.5, 1.5));
+        for time in [-1.0, 1.3, 7.0] {
+            assert!((profile.scaled(-3.0).value(time) + 3.0 * profile.value(time)).abs() < 1e-14);
+        }
     }
 }

@@ -12,12 +12,14 @@
 //! | `samples` | one period by samples, joined by straight lines or held |
 //! | `burst` | whole periods of a carrier, and a pause |
 //! | `noise` | equal lines at irregular frequencies of a band; the one waveform without a period |
+//! | `coefficients` | Fourier coefficients of all of them, in closed form |
 //! | `shape`, `table` | breaks, pieces and averages: of constants, and computed from pieces |
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 mod burst;
+mod coefficients;
 mod fourier;
 mod noise;
 mod samples;
@@ -293,6 +295,19 @@ impl Waveform {
             _ => return None,
         };
         Some(if odd { value } else { 0.0 })
+    }
+
+    /// Whether the waveform is constant between its jumps: a square wave, held samples, bursts of squares.
+    pub fn is_piecewise_constant(&self) -> bool {
+        let pieces = self.pieces();
+        let constant = |piece: &Piece| matches!(piece, Piece::Affine { slope: 0.0, .. });
+        !pieces.is_empty() && pieces.iter().all(constant)
+    }
+
+    /// The analytic piece at a phase, that after it at a break; `None` for a sum of harmonics, which is analytic everywhere.
+    pub fn piece_after(&self, phase: f64) -> Option<Piece> {
+        let has_pieces = !self.pieces().is_empty();
+        has_pieces.then(|| self.piece_at(self.wrapped(phase)).1)
     }
 
     /// Phases of kinks and jumps within a period, ascending from 0.

@@ -20,10 +20,12 @@ mod pieces;
 mod processing;
 mod shared;
 mod steps;
+mod varying;
 
 pub use flow::ConstantFlow;
 pub use pieces::{ConstantPiece, of_pieces};
 pub use steps::Phase;
+pub use varying::{Sinusoid, Strength, VaryingFlow, VaryingPiece};
 
 use num_complex::Complex64;
 

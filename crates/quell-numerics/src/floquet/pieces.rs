@@ -39,7 +39,19 @@ pub fn of_pieces(pieces: &[ConstantPiece]) -> Result<Vec<Exponent>, EigenError> 
         let flow = exponential_of_matrix(&piece.matrix, piece.duration);
         map = Some(map.map_or_else(|| flow.clone(), |before| flow.times(&before)));
     }
-    let decomposition = Decomposition::of_balanced(&map.unwrap_or_else(|| Matrix::identity(0)))?;
+    let map = map.unwrap_or_else(|| Matrix::identity(0));
+    exponents_of(&map, period, ROUNDING * f64::EPSILON * norm, pieces.len())
+}
+
+/// The exponents of a map of one period, one of each conjugate pair, the fastest first. `phase` is the rounding of the phase of the
+/// map, per unit of time.
+pub(super) fn exponents_of(
+    map: &Matrix,
+    period: f64,
+    phase: f64,
+    steps: usize,
+) -> Result<Vec<Exponent>, EigenError> {
+    let decomposition = Decomposition::of_balanced(map)?;
     let values = decomposition.values();
     let mut found: Vec<Exponent> = values
         .iter()
@@ -47,12 +59,11 @@ pub fn of_pieces(pieces: &[ConstantPiece]) -> Result<Vec<Exponent>, EigenError> 
         .filter(|(value, _)| value.im >= 0.0)
         .map(|(&value, condition)| {
             let eigenvalue = decomposition.backward_error() / (modulus(value) * period);
-            let phase = ROUNDING * f64::EPSILON * norm;
             Exponent {
                 growth_rate: libm::log(modulus(value)) / period,
                 error: condition * (eigenvalue + phase) + FLOOR,
                 frequency: libm::atan2(value.im.abs(), value.re) / period,
-                steps: pieces.len(),
+                steps,
             }
         })
         .collect();

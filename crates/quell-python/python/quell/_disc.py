@@ -9,6 +9,7 @@ from typing import Any, Literal
 from ._axes import Axes, axes_tables
 from ._belt import Dither, as_given, listed_tables, several, single
 from ._laws import Friction, law_of
+from ._profile import Profile
 from ._study import Study
 from ._tables import Number, Table, Unknown, given
 
@@ -47,6 +48,8 @@ class Load(Table):
         The caliper in SI.
     dither_phase_deg :
         Phase of the dither of this load's friction, in degrees [default: 0].
+    envelope :
+        Share of the load, and with it of friction, over time: a :class:`Profile` with ``share``, or with an ``oscillation`` about 1.
     speed :
         Ω in units of ω_ref, the same for every load.
     speed_hz, speed_rpm :
@@ -88,6 +91,7 @@ class Load(Table):
     caliper_stiffness: float | str | None
     caliper_stiffness_n_per_m: float | str | None
     dither_phase_deg: float | str | None
+    envelope: Any
     speed: float | str | None
     speed_hz: float | str | None
     speed_rpm: float | str | None
@@ -128,6 +132,7 @@ class Load(Table):
         caliper_stiffness: Number | None = None,
         caliper_stiffness_n_per_m: Number | None = None,
         dither_phase_deg: Number | None = None,
+        envelope: Profile | Mapping[str, Any] | None = None,
         speed: Number | None = None,
         speed_hz: Number | None = None,
         speed_rpm: Number | None = None,
@@ -200,7 +205,8 @@ class Disc(Study):
     friction :
         A friction law, for loads with a normal load.
     dither :
-        A :class:`Dither` of the friction, with ``waveform="sine"``.
+        A :class:`Dither` of the friction, of any waveform [default: "sine"]; it leads by a quarter of a cycle, so that a sine is
+        cos Rτ.
     without :
         Contributions that are left out of the equations.
     youngs_modulus_pa, density_kg_per_m3, thickness_m, outer_radius_m :

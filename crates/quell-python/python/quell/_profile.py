@@ -20,7 +20,8 @@ class Profile(Table):
     time :
         Times of the knots in ascending order, from the start of the run. In SI ``time_s``, in seconds.
     velocity, load, share :
-        Values at these times: of a drive ``velocity``, of a load ``load``, of an envelope ``share``, the share of the amplitude.
+        Values at these times: of a drive ``velocity``, of a load ``load``, of an envelope ``share``, the share of the amplitude, or of
+        the load of a disc.
     velocity_m_per_s, load_n :
         The same in SI.
     shape :
@@ -28,7 +29,7 @@ class Profile(Table):
     file :
         CSV file of times and values, instead of the lists.
     oscillation :
-        Of a drive or a load, instead of knots: a sine added to the constant value, as ``{"amplitude": a, "frequency_ratio": r,
+        Of a drive or a load (of a disc its envelope), instead of knots: a sine added to the constant value, as ``{"amplitude": a, "frequency_ratio": r,
         "phase": p}`` (systems: ``frequency``).
     """
 

@@ -127,6 +127,15 @@ impl Change {
                 };
                 Ok(self.table(dither, "envelope"))
             }
+            Section::LoadEnvelope => {
+                let Some(disc) = self.table(root, "disc") else {
+                    return Ok(None);
+                };
+                let Some(load) = self.entry(disc, "load", index)? else {
+                    return Ok(None);
+                };
+                Ok(self.table(load, "envelope"))
+            }
             Section::Constants => {
                 let Some(friction) = self.table(root, "friction") else {
                     return Ok(None);

@@ -1,4 +1,4 @@
-//! Numbers over time: drives, loads and envelopes, of belts and of systems.
+//! Numbers over time: drives, loads and envelopes, of belts, discs and systems.
 //!
 //! A table has knots (`time` and values, or a file of both) or, for drives and loads, an oscillation about the constant value.
 
@@ -27,6 +27,8 @@ pub(super) enum CourseUnits<'a> {
     Belt,
     /// Those of a system: in the units of the file, or by keys in SI.
     System(CourseNumbers<'a>),
+    /// Those of a disc: each key dimensionless or in SI.
+    Disc,
 }
 
 /// What a table over time gives.
@@ -180,7 +182,7 @@ impl CoursePlace<'_> {
             }
             let si = match self.units {
                 CourseUnits::Belt => Some(reader.is_si()),
-                CourseUnits::System(_) => None,
+                CourseUnits::System(_) | CourseUnits::Disc => None,
             };
             let fit = |key: &CourseKey| key.si().zip(si).is_none_or(|(own, si)| own == si);
             let there: Vec<&str> =
@@ -310,6 +312,19 @@ impl CoursePlace<'_> {
             CourseUnits::System(numbers) => {
                 numbers.number(reader, key, node, quantity, bounds, twin)
             }
+            CourseUnits::Disc => {
+                let unit = if twin { quantity.si_unit().map_or("", |(unit, _)| unit) } else { "" };
+                let given = reader.within(key, node, bounds, unit, false)?;
+                let per_unit = self.per_unit(reader, quantity, twin);
+                if per_unit.is_none() {
+                    let allowed = "left out: values in seconds and hertz require disc.youngs_modulus_pa, density_kg_per_m3, \
+                                   thickness_m and outer_radius_m, or modes in hertz";
+                    let (origin, given) = (node.origin, node.given());
+                    let conflict = Complaint::new(Fault::Conflict, key, origin, given, allowed);
+                    reader.complain(conflict);
+                }
+                Some(given / per_unit?)
+            }
         }
     }
 
@@ -319,6 +334,7 @@ impl CoursePlace<'_> {
             _ if !twin => Some(1.0),
             CourseUnits::Belt => reader.known_scales().map(|scales| scales.si_per_unit(quantity)),
             CourseUnits::System(numbers) => Some(1.0 / numbers.factor(quantity, twin)),
+            CourseUnits::Disc => reader.si_per_unit(quantity),
         }
     }
 
@@ -342,13 +358,16 @@ impl CoursePlace<'_> {
             reader.wrong(&prefix, node, allowed);
             return None;
         };
-        let of_belt = matches!(self.units, CourseUnits::Belt);
-        let frequency = if of_belt { "frequency_ratio" } else { "frequency" };
+        let is_ratio = matches!(self.units, CourseUnits::Belt | CourseUnits::Disc);
+        let frequency = if is_ratio { "frequency_ratio" } else { "frequency" };
         let amplitude_in_si = match self.what.quantity {
-            Quantity::Velocity => "amplitude_m_per_s",
-            _ => "amplitude_n",
+            Quantity::Velocity => Some("amplitude_m_per_s"),
+            Quantity::Force => Some("amplitude_n"),
+            _ => None,
         };
-        let known = ["amplitude", amplitude_in_si, frequency, "frequency_hz", "phase"];
+        let mut known = vec!["amplitude"];
+        known.extend(amplitude_in_si);
+        known.extend([frequency, "frequency_hz", "phase"]);
         for (name, other) in inner.iter() {
             if !known.contains(&name) {
                 let key = join(&prefix, name);
@@ -367,8 +386,7 @@ impl CoursePlace<'_> {
             let (found, name, twin) = self.keyed(reader, inner, node, &prefix, name, si_name)?;
             self.number(reader, &join(&prefix, name), found, quantity, bounds, twin)
         };
-        let amplitude =
-            one("amplitude", Some(amplitude_in_si), self.what.quantity, Bounds::NOT_NEGATIVE);
+        let amplitude = one("amplitude", amplitude_in_si, self.what.quantity, Bounds::NOT_NEGATIVE);
         let hertz = Some("frequency_hz");
         let frequency = one(frequency, hertz, Quantity::FrequencyRatio, Bounds::POSITIVE);
         let phase = match inner.get("phase") {
@@ -431,6 +449,7 @@ impl CoursePlace<'_> {
         let (si_only, may_be_si) = match self.units {
             CourseUnits::Belt => (reader.is_si(), reader.is_si()),
             CourseUnits::System(numbers) => (false, numbers.has_units()),
+            CourseUnits::Disc => (false, reader.si_per_unit(Quantity::Time).is_some()),
         };
         let si = |name: &'static str, quantity| in_si(name, quantity).filter(|_| may_be_si);
         let time = column("time", si("time", Quantity::Time), si_only);

@@ -1,10 +1,11 @@
 //! The steady study of one moment of a study whose drive, load or dither varies in time, and what makes a study vary or not repeat.
 
-use quell_model::Belt;
+use quell_model::parameter::disc::{DISC_DITHER_AMPLITUDE, LOAD_FRICTION, LOAD_NORMAL};
 use quell_model::parameter::{BELT_VELOCITY, NORMAL_LOAD, Parameter, indexed};
 use quell_model::system::{Contact, Input};
 use quell_model::units::measure;
 use quell_model::waveform::NOISE;
+use quell_model::{Belt, Disc};
 use serde_json::Value as Json;
 
 use super::document::{Node, Table, Value};
@@ -22,7 +23,12 @@ impl Study {
                 let load = belt.load().map(|_| "belt.load");
                 drive.or(load).or(envelope.then_some("dither.envelope"))
             }
-            Kind::Disc(_) => None,
+            Kind::Disc(setup) => {
+                let disc = setup.disc();
+                let load = disc.loads().iter().any(|load| load.share.is_some());
+                let envelope = disc.envelope().map(|_| "dither.envelope");
+                load.then_some("disc.load.envelope").or(envelope)
+            }
             Kind::System(setup) => {
                 let system = setup.system();
                 let drive = |contact: &Contact| {
@@ -67,7 +73,7 @@ impl Study {
         let mut changes = self.source.changes.clone();
         match self.kind() {
             Kind::Belt(setup) => belt_at(&mut document, setup.belt(), time)?,
-            Kind::Disc(_) => {}
+            Kind::Disc(setup) => disc_at(&mut document, setup.disc(), time)?,
             Kind::System(setup) => {
                 let system = setup.system();
                 each(&mut document, "contact", |index, table| {
@@ -125,6 +131,34 @@ fn belt_at(document: &mut Table, belt: &Belt, time: f64) -> Result<(), Complaint
     })
 }
 
+/// Multiplies the friction or the normal load of each load, and the amplitude of the dither, by their shares.
+fn disc_at(document: &mut Table, disc: &Disc, time: f64) -> Result<(), Complaints> {
+    if let Some(Value::Table(table)) = document.get_mut("disc").map(|node| &mut node.value) {
+        each(table, "load", |index, table| {
+            let share = disc.loads().get(index).and_then(|load| load.share.as_ref());
+            let share = share.map_or(1.0, |share| share.value(time));
+            let several = disc.loads().len() > 1;
+            let path = if several { format!("disc.load[{index}]") } else { "disc.load".to_owned() };
+            let is_friction = |name: &str| {
+                [LOAD_FRICTION, LOAD_NORMAL].iter().any(|parameter| {
+                    parameter.key() == name || parameter.si.iter().any(|twin| twin.key == name)
+                })
+            };
+            scale_by(table, &path, share, is_friction)
+        })?;
+    }
+    each(document, "dither", |_, table| {
+        let share = disc.envelope().map_or(1.0, |envelope| envelope.value(time));
+        if table.has("envelope") && !table.has(DISC_DITHER_AMPLITUDE.key()) {
+            // The amplitude that is not given is 1.
+            let value = Value::Number(1.0);
+            let origin = Origin::Argument("--at-time");
+            table.set(DISC_DITHER_AMPLITUDE.key(), Node { value, origin });
+        }
+        scale_by(table, "dither", share, |name| name == DISC_DITHER_AMPLITUDE.key())
+    })
+}
+
 /// Replaces a table over time by the constant value of its moment.
 fn replace(table: &mut Table, course: &str, keys: &[String], key: &str, value: f64) {
     if !table.has(course) {
@@ -139,11 +173,21 @@ fn replace(table: &mut Table, course: &str, keys: &[String], key: &str, value: f
 
 /// Replaces an envelope by its share of the amplitude.
 fn scale(table: &mut Table, index: usize, share: f64) -> Result<(), Complaints> {
+    scale_by(table, &format!("dither[{index}]"), share, |name| name.starts_with("amplitude"))
+}
+
+/// Replaces an envelope by its share of the numbers of some keys.
+fn scale_by(
+    table: &mut Table,
+    path: &str,
+    share: f64,
+    scales: impl Fn(&str) -> bool,
+) -> Result<(), Complaints> {
     if !table.has("envelope") {
         return Ok(());
     }
     table.remove("envelope");
-    for (name, node) in table.iter_mut().filter(|(name, _)| name.starts_with("amplitude")) {
+    for (name, node) in table.iter_mut().filter(|(name, _)| scales(name)) {
         node.value = match &node.value {
             Value::Number(amplitude) => Value::Number(share * amplitude),
             Value::Text(text) if !measure::has_unit(text) => {
@@ -152,7 +196,7 @@ fn scale(table: &mut Table, index: usize, share: f64) -> Result<(), Complaints> 
             _ => {
                 let allowed =
                     "a number or a formula, so that its share at --at-time is one as well";
-                let key = format!("dither[{index}].{name}");
+                let key = format!("{path}.{name}");
                 let (origin, given) = (node.origin, node.given());
                 return Err(vec![Complaint::new(Fault::Value, key, origin, given, allowed)].into());
             }

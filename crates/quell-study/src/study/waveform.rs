@@ -37,6 +37,38 @@ pub(super) fn read(
     band: impl FnOnce(&mut Reader) -> Option<Option<[f64; 2]>>,
 ) -> Option<(Waveform, Option<f64>)> {
     let name = reader.needed_choice(table, prefix, header, "waveform", Choice::Waveform)?;
+    described(reader, table, (prefix, header), (name, files), band)
+}
+
+/// As [`read`], a sine where no waveform is named, and periodic waveforms only.
+pub(super) fn read_or_sine(
+    reader: &mut Reader,
+    table: &Table,
+    prefix: &str,
+    header: Origin,
+    files: &mut WaveFiles<'_>,
+) -> Option<Waveform> {
+    let name = match table.get("waveform") {
+        None => Waveform::Sine.name(),
+        Some(node) => reader.choice(&join(prefix, "waveform"), node, Choice::Waveform)?,
+    };
+    if let Some(node) = table.get("waveform").filter(|_| name == NOISE) {
+        let allowed = "periodic: the exponents of a disc, its resonances and tongues exist under periodic dither only";
+        reader.wrong(&join(prefix, "waveform"), node, allowed);
+        return None;
+    }
+    described(reader, table, (prefix, header), (name, files), |_| None)
+        .map(|(waveform, _)| waveform)
+}
+
+/// The waveform of a name, by the keys that describe it, and of noise the middle of its band.
+fn described(
+    reader: &mut Reader,
+    table: &Table,
+    (prefix, header): (&str, Origin),
+    (name, files): (&str, &mut WaveFiles<'_>),
+    band: impl FnOnce(&mut Reader) -> Option<Option<[f64; 2]>>,
+) -> Option<(Waveform, Option<f64>)> {
     let mut fits = true;
     for (key, wave) in WAVE_KEYS {
         if let Some(node) = table.get(key).filter(|_| wave.waveform() != name) {

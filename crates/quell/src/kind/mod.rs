@@ -19,7 +19,9 @@ use crate::run::system::simulate::MotionRequest;
 use crate::run::system::thresholds::MotionThresholdsRequest;
 use crate::run::system::tracked::TrackRequest;
 use crate::run::{basins, bifurcation, curves, simulate, thresholds};
-use crate::study::{Kind, Study, StudyKind, StudyOf, SystemStudy, not_available, varies_in_time};
+use crate::study::{
+    BeltSetup, Kind, Study, StudyKind, StudyOf, SystemStudy, not_available, varies_in_time,
+};
 use crate::sweep::Running;
 
 mod belt;
@@ -330,7 +332,11 @@ impl Verbs for OverTime {
     }
 
     fn names(&self) -> &'static [&'static str] {
-        &["check", "sketch", "cite", "simulate", "response --window", "bifurcation --ramp"]
+        if self.kind() == BeltSetup::NAME {
+            &["check", "sketch", "cite", "simulate", "response --window", "bifurcation --ramp"]
+        } else {
+            &["check", "sketch", "cite", "simulate", "response --window"]
+        }
     }
 
     fn draws(&self, verb: &str) -> bool {

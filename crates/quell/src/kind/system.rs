@@ -58,7 +58,7 @@ impl Verbs for SystemStudy {
 
     fn draws(&self, verb: &str) -> bool {
         match verb {
-            "check" | "cite" | "stability --exact" | "waveforms" => false,
+            "check" | "cite" | "stability --exact" => false,
             "stability" => self.frequency_response().is_none(),
             _ => true,
         }

@@ -57,7 +57,12 @@ fn table(study: &DiscStudy, done: &Resonances) -> String {
         for resonance in list {
             let (speed, label) = (figure(resonance.speed), resonance.label());
             let rpm = in_rpm(study, resonance.speed);
-            let _ = writeln!(text, "  Ω = {speed:<9}{rpm}  {label}: {}", tongue(resonance));
+            let harmonic = match resonance.harmonic.unsigned_abs() {
+                0 | 1 => String::new(),
+                order => format!(" at harmonic {order}"),
+            };
+            let tongue = tongue(resonance);
+            let _ = writeln!(text, "  Ω = {speed:<9}{rpm}  {label}{harmonic}: {tongue}");
         }
     }
     if let Some(clear) = &done.clear {

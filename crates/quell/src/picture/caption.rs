@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 
-use quell_model::Direction;
+use quell_model::disc::DiscDither;
 use quell_model::units::Quantity;
+use quell_model::{Direction, Waveform};
 
 use super::ruler::{short, words};
 use crate::noise::{band_in_words, lines_in_words};
@@ -105,14 +106,25 @@ pub(super) fn caption_of_disc(study: &DiscStudy) -> String {
             short(load.friction)
         ));
     }
-    match disc.dither() {
-        quell_model::disc::DiscDither::None => parts.push("no dither".to_owned()),
-        quell_model::disc::DiscDither::Normal { amplitude, frequency_ratio } => {
-            parts.push(format!("normal dither, $α$ = {amplitude}, $R$ = {frequency_ratio}"));
+    let wave = match disc.waveform() {
+        Waveform::Sine => String::new(),
+        other => format!("{} ", other.name()),
+    };
+    let dither = match disc.dither() {
+        DiscDither::None => "no dither".to_owned(),
+        DiscDither::Normal { amplitude, frequency_ratio } => {
+            format!("normal {wave}dither, $α$ = {amplitude}, $R$ = {frequency_ratio}")
         }
-        quell_model::disc::DiscDither::Tangential { amplitude, frequency_ratio } => {
-            parts.push(format!("tangential dither, $α$ = {amplitude}, $R$ = {frequency_ratio}"));
+        DiscDither::Tangential { amplitude, frequency_ratio } => {
+            format!("tangential {wave}dither, $α$ = {amplitude}, $R$ = {frequency_ratio}")
         }
+    };
+    parts.push(dither);
+    if disc.envelope().is_some() {
+        parts.push("its amplitude varies in time".to_owned());
+    }
+    if disc.loads().iter().any(|load| load.share.is_some()) {
+        parts.push("the load varies in time".to_owned());
     }
     let without = study.without();
     if !without.is_empty() {

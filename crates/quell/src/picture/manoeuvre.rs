@@ -4,9 +4,10 @@ use std::f64::consts::TAU;
 
 use quell_dynamics::motion::MotionSampler;
 use quell_dynamics::simulation::Sample;
-use quell_model::Profile;
-use quell_model::profile::Wave;
+use quell_model::profile::{Knots, Wave};
+use quell_model::system::InputTarget;
 use quell_model::units::Quantity;
+use quell_model::{Input, Profile, System};
 
 use super::caption::caption_of_run;
 use super::ruler::{Ruler, time_axis};
@@ -131,6 +132,18 @@ fn heatmap(
     Some(Panel::new(axis, frequency.axis("frequency", "")).with(grid))
 }
 
+/// The load of a contact, if it varies: its own, or the constant one with what guides add to it over time.
+fn load_over_time(system: &System, place: usize) -> Option<Profile> {
+    let contact = system.contacts.get(place)?;
+    let added = system.inputs.iter().find(|input| {
+        let on = matches!(input.target, InputTarget::NormalLoad { contact, reaction: false } if contact == place);
+        on && !input.profile.is_steady()
+    });
+    let whole =
+        |input: &Input| input.profile.clone().about(input.profile.mean() + contact.normal_load);
+    contact.varying_load.clone().or_else(|| added.map(whole))
+}
+
 /// Panels above the response of a system whose drives, loads or dithers vary in time, and the spectrogram below it.
 pub(super) fn around_response(
     study: &SystemStudy,
@@ -165,7 +178,8 @@ pub(super) fn around_response(
         .map(|contact| (contact.name.clone(), contact.surface_velocity.clone()))
         .collect();
     let loads: Vec<(String, Profile)> = contacts()
-        .filter_map(|contact| Some((contact.name.clone(), contact.varying_load.clone()?)))
+        .enumerate()
+        .filter_map(|(place, contact)| Some((contact.name.clone(), load_over_time(system, place)?)))
         .collect();
     let dithers: Vec<(String, Profile)> = system
         .inputs
@@ -173,7 +187,8 @@ pub(super) fn around_response(
         .take(MOST_CURVES)
         .enumerate()
         .filter_map(|(place, input)| {
-            let envelope = input.profile.waves().first()?.envelope.clone()?;
+            let envelope = input.profile.waves().first()?.envelope.clone();
+            let envelope = envelope.filter(|envelope| !Knots::is_constant(envelope))?;
             Some((format!("dither {}", place + 1), Profile::over(envelope)))
         })
         .collect();

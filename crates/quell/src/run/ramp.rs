@@ -14,7 +14,7 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::manoeuvre::{Manoeuvre, VibrationInterval};
-use super::simulate::{self, Options, Simulation};
+use super::simulate::{self, NATURAL_PERIOD, Options, Simulation};
 use super::thresholds::side;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::refused_of_belt;
@@ -29,6 +29,9 @@ const STEPS: u32 = 40;
 
 /// Thresholds are searched from this share of the largest value on: there is no sliding at rest.
 const LEAST: f64 = 1e-3;
+
+/// A vibration from the start on counts if it lasts longer than two natural periods.
+const TRANSIENT: f64 = 2.0 * NATURAL_PERIOD;
 
 /// What a ramp changes.
 #[derive(Clone, Debug, PartialEq)]
@@ -149,15 +152,19 @@ pub fn run(study: &BeltStudy) -> Result<Ramp, Failure> {
     Ok(Ramp { ramped, run, switches, thresholds })
 }
 
+/// When a run begins and ceases to vibrate. A vibration that the start itself excites, and that has decayed within
+/// [`TRANSIENT`], is no part of the ramp.
 fn switches(found: &Manoeuvre, ramped: &Ramped) -> Vec<RampSwitch> {
     let (begin, end) = found.whole;
+    let is_transient =
+        |interval: &&VibrationInterval| interval.from <= begin && interval.to <= begin + TRANSIENT;
     let switch = |time: f64, to_quiet| RampSwitch { time, value: ramped.value(time), to_quiet };
     let of = |interval: &VibrationInterval| {
         let begins = (interval.from > begin).then(|| switch(interval.from, false));
         let ends = (interval.to < end).then(|| switch(interval.to, true));
         [begins, ends].into_iter().flatten().collect::<Vec<_>>()
     };
-    found.vibration.iter().flat_map(of).collect()
+    found.vibration.iter().filter(|interval| !is_transient(interval)).flat_map(of).collect()
 }
 
 /// Thresholds of the steady belt over the values of the ramp.
@@ -199,17 +206,17 @@ impl Ramp {
         let Ramped { words, quantity, course, .. } = &self.ramped;
         let in_its_unit = |value: f64| in_words(study, *quantity, value);
         let moment = |time: f64| in_words(study, Quantity::Time, time);
-        let times = course.times();
-        let (first, last) = (times.first().copied(), times.last().copied());
-        let (first, last) = (first.unwrap_or_default(), last.unwrap_or_default());
+        let (least, largest) = self.ramped.range();
+        let until = course.times().last().copied().unwrap_or_default();
         let mut text = format!(
-            "While the {words} goes from {} to {} (τ = {} to {}), ",
-            in_its_unit(self.ramped.value(first)),
-            in_its_unit(self.ramped.value(last)),
-            moment(first),
-            moment(last)
+            "While the {words} moves between {} and {} until {}, ",
+            in_its_unit(least),
+            in_its_unit(largest),
+            moment(until)
         );
-        let vibrates = self.run.manoeuvre.as_ref().is_some_and(|found| !found.vibration.is_empty());
+        let vibrates = self.run.manoeuvre.as_ref().is_some_and(|found| {
+            found.vibration.iter().any(|interval| interval.to > found.whole.0 + TRANSIENT)
+        });
         let each = self.switches.iter().map(|switch| {
             let becomes = if switch.to_quiet { "ceases" } else { "begins" };
             let mut text = format!("{becomes} to vibrate at {}", in_its_unit(switch.value));

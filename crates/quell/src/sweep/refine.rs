@@ -48,10 +48,14 @@ fn beside(study: &DiscStudy, (from, to): (f64, f64)) -> Vec<f64> {
     points
 }
 
-/// Meetings of waves that can be unstable; none if the theory does not apply.
+/// Meetings of waves, those at higher harmonics of the dither where they have a tongue, of which a burst has hundreds; none if
+/// the theory does not apply.
 fn resonances(study: &DiscStudy, low: f64, high: f64) -> Vec<Resonance> {
     let Ok(waves) = Waves::new(study.disc()) else { return Vec::new() };
     let mut found = waves.undithered(low..=high);
-    found.extend(waves.dithered(low..=high));
+    let is_listed = |resonance: &Resonance| {
+        resonance.harmonic.unsigned_abs() <= 1 || resonance.tongue.edges().is_some()
+    };
+    found.extend(waves.dithered(low..=high).into_iter().filter(is_listed));
     found
 }

@@ -38,7 +38,8 @@ impl Body {
         folder: &Path,
         known: Option<&ModeSource>,
     ) -> Option<Self> {
-        reader.unknown_keys(table, Section::Disc, "disc", &["mode", "load"]);
+        loads::refuse_drive(reader, table, "disc");
+        reader.unknown_keys(table, Section::Disc, "disc", &["mode", "load", loads::DRIVE]);
         let damping = reader.optional(table, "disc", MODAL_DAMPING, None).or(0.0);
         let parts = without(reader, table);
         let material = plate::material(reader, table, header);
@@ -50,7 +51,7 @@ impl Body {
             // The error has been reported already; the loads are still checked.
             _ => LoadScales { disc: Some(UNIT), outer_radius_m: Some(1.0) },
         };
-        let pads = loads::read(reader, table, scales);
+        let pads = loads::read(reader, table, scales, folder);
         reader.set_disc_scales(scales.disc);
         let (pads, source) = (pads?, source?);
         let (damping, parts, material) = (damping?, parts?, material?);

@@ -1,5 +1,7 @@
 //! `[disc.load]` and `[[disc.load]]`.
 
+use std::path::Path;
+
 use quell_model::disc::Load;
 use quell_model::parameter::disc::{
     DISC_SPEED, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_HALF_THICKNESS,
@@ -10,9 +12,10 @@ use quell_model::units::DiscScales;
 use super::carriers;
 use super::patch::PatchSize;
 use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::course::{CoursePlace, CourseUnits};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
-use crate::study::vocabulary::Section;
+use crate::study::vocabulary::{LOAD_ENVELOPE, Section};
 
 /// Scales that convert the numbers of loads to SI, each at its own radius.
 #[derive(Clone, Copy, Debug)]
@@ -50,18 +53,23 @@ pub(super) struct Pad {
 }
 
 /// Reads every load; a disc without loads is free.
-pub(super) fn read(reader: &mut Reader, disc: &Table, scales: LoadScales) -> Option<Vec<Pad>> {
+pub(super) fn read(
+    reader: &mut Reader,
+    disc: &Table,
+    scales: LoadScales,
+    folder: &Path,
+) -> Option<Vec<Pad>> {
     let Some(node) = disc.get("load") else { return Some(Vec::new()) };
     let pads: Vec<Option<Pad>> = match &node.value {
         Value::List(list) if list.len() > 1 => list
             .iter()
             .enumerate()
-            .map(|(index, node)| one(reader, node, &format!("disc.load[{index}]"), scales))
+            .map(|(index, node)| one(reader, node, &format!("disc.load[{index}]"), scales, folder))
             .collect(),
         Value::List(list) => {
-            list.iter().map(|node| one(reader, node, "disc.load", scales)).collect()
+            list.iter().map(|node| one(reader, node, "disc.load", scales, folder)).collect()
         }
-        _ => vec![one(reader, node, "disc.load", scales)],
+        _ => vec![one(reader, node, "disc.load", scales, folder)],
     };
     let pads: Vec<Pad> = pads.into_iter().collect::<Option<_>>()?;
     let mut speeds = pads.iter().filter_map(|pad| Some((pad.speed?, &pad.path)));
@@ -79,9 +87,16 @@ pub(super) fn read(reader: &mut Reader, disc: &Table, scales: LoadScales) -> Opt
     Some(pads)
 }
 
-fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Option<Pad> {
+fn one(
+    reader: &mut Reader,
+    node: &Node,
+    path: &str,
+    scales: LoadScales,
+    folder: &Path,
+) -> Option<Pad> {
     let table = reader.table(path, node)?;
-    reader.unknown_keys(table, Section::DiscLoad, path, &[]);
+    refuse_drive(reader, table, path);
+    reader.unknown_keys(table, Section::DiscLoad, path, &["envelope", DRIVE]);
     let radius = match reader.optional(table, path, LOAD_RADIUS, None) {
         Found::Value(value) => Some(Some(value)),
         Found::Absent => Some(None),
@@ -110,12 +125,15 @@ fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Opti
         Found::Absent => None,
         Found::Wrong => return None,
     };
+    let place = CoursePlace { what: LOAD_ENVELOPE, units: CourseUnits::Disc, folder };
+    let share = place.optional(reader, table, path, "envelope").ok()?;
     let patch = PatchSize::read(reader, table, path)?;
     let twins = DISC_SPEED.si.iter().map(|twin| twin.key);
     let given = [DISC_SPEED.key()].into_iter().chain(twins).find_map(|key| table.get(key));
     let origin = given.map_or(node.origin, |node| node.origin);
     Some(Pad {
         load: Load {
+            share: share.map(|course| course.profile(1.0)),
             static_load: static_load?,
             slip_ratio,
             normal_load,
@@ -132,4 +150,16 @@ fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Opti
         path: path.to_owned(),
         origin: table.get("radius_ratio").map_or(node.origin, |node| node.origin),
     })
+}
+
+/// The table that gives a velocity over time in other kinds of study.
+pub(super) const DRIVE: &str = "drive";
+
+/// Reports a speed over time, which discs do not have.
+pub(super) fn refuse_drive(reader: &mut Reader, table: &Table, path: &str) {
+    let Some(node) = table.get(DRIVE) else { return };
+    let allowed = "left out: the speed of a disc is constant, because the equations of its plate in the frame of the loads depend \
+                   on it; a study at each speed, or a map over disc.load.speed, has the verdicts of steady speeds";
+    let (key, origin, given) = (format!("{path}.{DRIVE}"), node.origin, node.given());
+    reader.complain(Complaint::new(Fault::Conflict, key, origin, given, allowed));
 }

@@ -2,10 +2,12 @@
 //!
 //! Modes are computed from the plate, listed as `[[disc.mode]]`, or read from a CSV file; loads are one `[disc.load]` or
 //! several `[[disc.load]]`, each at a point or over an area, on the ground or on a pad and a caliper; `without` switches contributions off; `[friction]` gives the friction of all
-//! loads by a law instead of a force each; `[dither]` modulates every load's friction.
+//! loads by a law instead of a force each; `[dither]` modulates every load's friction, and `[disc.load.envelope]` gives a load over
+//! time.
 
 mod body;
 mod carriers;
+mod dither;
 mod law;
 mod loads;
 mod mode_line;
@@ -20,19 +22,19 @@ use std::path::Path;
 use std::sync::Arc;
 
 use quell_disc::plate::PlateMaterial;
+use quell_model::Disc;
 use quell_model::disc::{Contribution, Contributions, DiscDither};
-use quell_model::parameter::DITHER_FREQUENCY_RATIO;
-use quell_model::parameter::disc::{DISC_DITHER_AMPLITUDE, LOAD_SLIP_RATIO};
+use quell_model::parameter::disc::LOAD_SLIP_RATIO;
 use quell_model::units::DiscScales;
-use quell_model::{Direction, Disc, Waveform};
 use serde_json::Value as Json;
 
 use super::StudyOf;
-use super::document::{Table, Value};
-use super::reader::{Found, Reader};
+use super::document::Table;
+use super::reader::{CourseFile, Reader};
 use super::study_kind::{Given, StudyKind};
 use super::system::{DescribedSystem, SystemStudy};
-use super::vocabulary::{self, Choice, Role, join};
+use super::vocabulary::{self, Role};
+use super::wave_file::{WaveFile, WaveFiles};
 use crate::complaint::{Complaint, Fault, Origin};
 
 pub use modes::{Listed, ModeSource};
@@ -49,6 +51,10 @@ pub struct DiscSetup {
     disc: Disc,
     parts: Contributions,
     plate: Arc<PlateSetup>,
+    /// Files of loads and envelopes.
+    courses: Arc<[CourseFile]>,
+    /// Files of sampled waveforms.
+    waves: Vec<WaveFile>,
 }
 
 /// The parts that most points of a map share.
@@ -81,16 +87,22 @@ impl StudyKind for DiscSetup {
                 reader.complain(complaint);
             }
         }
+        if let Some(known) = given.known {
+            reader.knows(&known.courses);
+        }
         let table = document.get("disc").and_then(|node| reader.table("disc", node));
         let known = given.known.map(|setup| &setup.plate.source);
         let read = table.map(|table| {
             let origin = document.get("disc").map_or(Origin::Whole, |node| node.origin);
             Body::read(reader, table, origin, given.folder, known)
         });
-        let dither = dither(reader, document);
+        let known = given.known.map_or(&[][..], |setup| &setup.waves);
+        let mut files = WaveFiles::new(given.folder, known);
+        let dither = dither::read(reader, document, &mut files);
+        let waves = files.into_found();
         let read = read.flatten();
         let law = law::read(reader, document, read.as_ref());
-        let (body, (dither, waveform), law) = (read?, dither?, law?);
+        let (body, (dither, shape), law) = (read?, dither?, law?);
         let shaken = body.loads.iter().find_map(|load| load.slip_ratio);
         if let Some(ratio) = shaken.filter(|_| !matches!(dither, DiscDither::Tangential { .. })) {
             let allowed = "only with tangential dither, whose force it determines";
@@ -103,8 +115,8 @@ impl StudyKind for DiscSetup {
         let Body { source, material, modes, loads, radii, speed, parts, centrifugal, warnings } =
             body;
         let scales = body::scales(&source, material.as_ref());
-        let disc = Disc::new(modes, loads, dither, speed);
-        let disc = disc.and_then(|disc| disc.stiffened(centrifugal)?.shaped(waveform));
+        let disc = Disc::dithered_by(modes, loads, (dither, shape), speed);
+        let disc = disc.and_then(|disc| disc.stiffened(centrifugal));
         let disc = disc.and_then(|disc| match law {
             Some(law) => disc.under_law(law),
             None => Ok(disc),
@@ -114,6 +126,8 @@ impl StudyKind for DiscSetup {
                 disc: disc.in_si(scales.disc, scales.outer_radius_m),
                 parts,
                 plate: Arc::new(PlateSetup { source, material, radii, warnings }),
+                courses: reader.take_files(),
+                waves,
             }),
             Err(invalid) => {
                 // The reader knows where most numbers were written; the others are reported by key alone.
@@ -132,10 +146,13 @@ impl StudyKind for DiscSetup {
     }
 
     fn data_files(&self) -> Vec<&Path> {
-        match &self.plate.source {
-            ModeSource::File { path, .. } => vec![path.as_path()],
-            ModeSource::Plate(_) | ModeSource::List(_) => Vec::new(),
-        }
+        let modes = match &self.plate.source {
+            ModeSource::File { path, .. } => Some(path.as_path()),
+            ModeSource::Plate(_) | ModeSource::List(_) => None,
+        };
+        let waves = self.waves.iter().map(WaveFile::path);
+        let courses = self.courses.iter().map(|file| file.path.as_path());
+        modes.into_iter().chain(waves).chain(courses).collect()
     }
 
     fn file_settings(&self) -> Vec<(String, String)> {
@@ -153,7 +170,8 @@ impl StudyKind for DiscSetup {
             }
             (format!("disc.modes_file[{index}]"), numbers)
         });
-        modes.collect()
+        let waves = self.waves.iter().enumerate().map(|(index, wave)| wave.settings(index));
+        modes.chain(waves).chain(CourseFile::settings(&self.courses)).collect()
     }
 }
 
@@ -249,57 +267,4 @@ impl DiscStudy {
         };
         self.settings().iter().any(|(path, _)| said(path))
     }
-}
-
-/// `[dither]` of a disc.
-fn dither(reader: &mut Reader, document: &Table) -> Option<(DiscDither, Waveform)> {
-    let Some(node) = document.get("dither") else {
-        return Some((DiscDither::None, Waveform::Sine));
-    };
-    let node = match &node.value {
-        Value::List(list) if list.len() == 1 => &list[0],
-        _ => node,
-    };
-    let table = reader.table("dither", node)?;
-    let keys = ["direction", "waveform", "amplitude", "frequency_ratio", "frequency_hz"];
-    for (name, node) in table.iter().filter(|(name, _)| !keys.contains(name)) {
-        let nearest = super::suggest::word(name, keys).map(|word| join("dither", &word));
-        let complaint = Complaint::new(
-            Fault::Unknown,
-            join("dither", name),
-            node.origin,
-            node.given(),
-            keys.join(", "),
-        );
-        reader.complain(complaint.suggesting(nearest));
-    }
-    let direction = reader
-        .needed_choice(table, "dither", node.origin, "direction", Choice::Direction)
-        .and_then(Direction::from_name);
-    let waveform = match table.get("waveform") {
-        None => Some(Waveform::Sine),
-        Some(node) => match reader.choice("dither.waveform", node, Choice::Waveform) {
-            Some("sine") => Some(Waveform::Sine),
-            Some("square") => Some(Waveform::Square),
-            Some(_) => {
-                let allowed = "\"sine\" or \"square\", the waveforms for the dither of a disc";
-                reader.wrong("dither.waveform", node, allowed);
-                None
-            }
-            None => None,
-        },
-    };
-    let amplitude = match reader.optional(table, "dither", DISC_DITHER_AMPLITUDE, None) {
-        // The dissertation's tangential dither.
-        Found::Absent => Some(1.0),
-        found => found.or(1.0),
-    };
-    let frequency_ratio = reader.number(table, "dither", node.origin, DITHER_FREQUENCY_RATIO);
-    let waveform = waveform?;
-    let (amplitude, frequency_ratio) = (amplitude?, frequency_ratio?);
-    let dither = match direction? {
-        Direction::Normal => DiscDither::Normal { amplitude, frequency_ratio },
-        Direction::Tangential => DiscDither::Tangential { amplitude, frequency_ratio },
-    };
-    Some((dither, waveform))
 }

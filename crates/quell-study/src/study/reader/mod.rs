@@ -150,7 +150,7 @@ impl Reader {
     }
 
     /// SI value of one unit of a quantity, if known.
-    fn si_per_unit(&self, quantity: Quantity) -> Option<f64> {
+    pub(super) fn si_per_unit(&self, quantity: Quantity) -> Option<f64> {
         match self.units {
             Units::Scaled => None,
             Units::Si(scales) => scales.map(|scales| scales.si_per_unit(quantity)),
@@ -313,8 +313,8 @@ pub(super) fn is_si(root: &Table) -> bool {
 /// The tables of a section.
 fn tables(root: &Table, section: Section) -> Vec<&Table> {
     let node = match section {
-        // An envelope is within its dither, of which there may be several.
-        Section::Root | Section::Sweep | Section::Envelope => None,
+        // An envelope is within its dither or load, of which there may be several.
+        Section::Root | Section::Sweep | Section::Envelope | Section::LoadEnvelope => None,
         Section::Constants => {
             root.get("friction").and_then(Node::table).and_then(|table| table.get("constants"))
         }

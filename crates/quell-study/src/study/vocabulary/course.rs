@@ -45,6 +45,15 @@ pub const ENVELOPE: CourseTable = CourseTable {
     jumps: true,
 };
 
+/// `[disc.load.envelope]`: share of the normal load, and with it of friction.
+pub const LOAD_ENVELOPE: CourseTable = CourseTable {
+    value: "share",
+    quantity: Quantity::Ratio,
+    bounds: Bounds::POSITIVE,
+    oscillates: true,
+    jumps: true,
+};
+
 /// A key of such a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CourseKey {

@@ -4,7 +4,7 @@ use quell_model::friction::expression;
 use quell_model::parameter::{COEFFICIENT, Parameter, ScaleKey, SiTwin};
 use quell_model::units::Quantity;
 
-use super::course::{CourseKey, CourseTable, DRIVE, ENVELOPE, LOAD};
+use super::course::{CourseKey, CourseTable, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
 use super::words::Choice;
 
 /// What the key `schema` of a study is.
@@ -33,6 +33,8 @@ pub enum Section {
     DiscMode,
     /// `[disc.load]` or `[[disc.load]]`.
     DiscLoad,
+    /// `[disc.load.envelope]`.
+    LoadEnvelope,
     /// `[dither]` or `[[dither]]`.
     Dither,
     /// `[dither.envelope]`.
@@ -58,6 +60,7 @@ impl Section {
         Self::Disc,
         Self::DiscMode,
         Self::DiscLoad,
+        Self::LoadEnvelope,
         Self::Dither,
         Self::Envelope,
         Self::Solver,
@@ -78,6 +81,7 @@ impl Section {
             Self::Disc => "disc",
             Self::DiscMode => "disc.mode",
             Self::DiscLoad => "disc.load",
+            Self::LoadEnvelope => "disc.load.envelope",
             Self::Dither => "dither",
             Self::Envelope => "dither.envelope",
             Self::Solver => "solver",
@@ -102,6 +106,7 @@ impl Section {
             Self::Friction => "the friction law",
             Self::Constants => "named numbers of a formula",
             Self::Dither => "one dither force; several as [[dither]]",
+            Self::LoadEnvelope => "share of the normal load, and with it of friction, over time",
             Self::Envelope => "share of the amplitude over time",
             Self::Solver => "accuracy and length of the computations",
             Self::Response => {
@@ -116,6 +121,7 @@ impl Section {
         match self {
             Self::Drive => Some(DRIVE),
             Self::Load => Some(LOAD),
+            Self::LoadEnvelope => Some(LOAD_ENVELOPE),
             Self::Envelope => Some(ENVELOPE),
             _ => None,
         }

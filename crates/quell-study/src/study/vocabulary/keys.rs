@@ -60,8 +60,9 @@ fn words() -> Vec<Key> {
         word(Dither, "direction", Choice::Direction, "direction of the force"),
         word(Dither, "waveform", Choice::Waveform, "shape of the force in time"),
     ];
-    let courses =
-        [Section::Drive, Section::Load, Section::Envelope].into_iter().flat_map(|section| {
+    let courses = [Section::Drive, Section::Load, Section::Envelope, Section::LoadEnvelope]
+        .into_iter()
+        .flat_map(|section| {
             let keys = section.course().map_or_else(Vec::new, CourseTable::keys);
             keys.into_iter().map(move |(name, course)| Key {
                 section,

@@ -6,6 +6,7 @@ use quell_model::parameter::disc::{
     CALIPER_DAMPING, CALIPER_MASS, CALIPER_STIFFNESS, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS,
     LOAD_NORMAL, LOAD_STATIC, LOAD_STIFFNESS, PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
 };
+use quell_model::profile::Profile;
 
 use super::disc_load::{SECTION_WIDTH, section};
 use super::symbols::{index, indexed, number};
@@ -150,8 +151,13 @@ fn key(sheet: Sketch, study: &DiscStudy) -> Sketch {
             _ => "tangential",
         };
         let head = capital(&format!("{direction} {} dither", disc.waveform().name()));
-        let items =
-            [format!("$α$ = {}", number(amplitude)), format!("$R$ = {}", number(frequency_ratio))];
+        let mut items = vec![
+            format!("$α$ = {}", number(amplitude)),
+            format!("$R$ = {}", number(frequency_ratio)),
+        ];
+        if disc.envelope().is_some() {
+            items.push("times its envelope".to_owned());
+        }
         sheet = sheet.with_key(SketchKey::new(head, items));
     }
     let without = study.without();
@@ -185,6 +191,9 @@ fn load_items(study: &DiscStudy, place: usize, load: &Load) -> Vec<String> {
     match load.normal_load {
         Some(normal) => items.push(item("N", LOAD_NORMAL, normal)),
         None => items.push(item("f", LOAD_FRICTION, load.friction)),
+    }
+    if let Some((least, largest)) = load.share.as_ref().map(Profile::bounds) {
+        items.push(format!("times {} to {} over time", number(least), number(largest)));
     }
     if load.static_load != 0.0 {
         items.push(item("P", LOAD_STATIC, load.static_load));

@@ -7,6 +7,7 @@ use quell_model::parameter::disc::{
     LOAD_RADIAL_POINTS, LOAD_STATIC, LOAD_STIFFNESS, PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
 };
 use quell_model::parameter::{DITHER_FREQUENCY_RATIO, Parameter};
+use quell_model::profile::Profile;
 use quell_model::units::{DiscScales, measure};
 use quell_model::{Direction, Disc, Waveform};
 use serde_json::{Value as Json, json};
@@ -45,6 +46,10 @@ pub fn json(study: &DiscStudy) -> Json {
                 put_both(&mut object, LOAD_HALF_THICKNESS, load.half_thickness, scales);
             }
             put_area(&mut object, load);
+            if let Some((least, largest)) = load.share.as_ref().map(Profile::bounds) {
+                object["least_share"] = least.into();
+                object["largest_share"] = largest.into();
+            }
             let of_pad = [PAD_MASS, PAD_DAMPING, PAD_STIFFNESS];
             let of_caliper = [CALIPER_MASS, CALIPER_DAMPING, CALIPER_STIFFNESS];
             for (body, names) in [(load.pad, of_pad), (load.caliper, of_caliper)] {
@@ -147,6 +152,9 @@ fn dither(disc: &Disc) -> Json {
     };
     if *disc.waveform() != Waveform::Sine {
         object["waveform"] = disc.waveform().name().into();
+    }
+    if disc.envelope().is_some() {
+        object["has_envelope"] = true.into();
     }
     object
 }

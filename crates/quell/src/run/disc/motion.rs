@@ -31,6 +31,9 @@ pub const RUNAWAY: f64 = 1e6;
 const GROWS: &str = "the motion grows without bound: in this model friction follows the load, and the loads of the springs follow \
                      the deflection";
 
+/// Why a run under a load or dither over time has no growth rate.
+const VARIES: &str = "a load or the dither varies in time: the growth rate is that of no moment";
+
 /// The unit of a friction force.
 const FORCE: &str = "r₀M_pω_ref²";
 
@@ -88,7 +91,11 @@ pub fn at_rest(study: &DiscStudy) -> SystemStudy {
 /// As [`simulate::run`](crate::run::system::simulate::run); [`Failure::Failed`] without steady sliding.
 pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation, Failure> {
     let system = study.disc().system_of(study.parts());
-    let kick = kick::of(&system, &observed_row(study))?;
+    let begin = request.from.as_ref().map_or(0.0, |from| from.time);
+    let is_steady = study.disc().is_steady();
+    // Of a load or dither that varies, the leading motion is that of the moment at which the run begins.
+    let moment = (!is_steady).then(|| study.disc().steady_at(begin).system_of(study.parts()));
+    let kick = kick::of(moment.as_ref().unwrap_or(&system), &observed_row(study))?;
     let initial = if request.begins_as_the_study() {
         let words = "the leading small motion".to_owned();
         SystemStart::Described { state: kick.state.clone(), words }
@@ -96,7 +103,6 @@ pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation,
         SystemStart::Rest
     };
     let system = described(study, system, initial);
-    let begin = request.from.as_ref().map_or(0.0, |from| from.time);
     let until = match request.until {
         Some(until) => until,
         None => begin + usual_duration(&system, &kick)?,
@@ -112,7 +118,7 @@ pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation,
         motion,
         kick,
         amplitude: (until > begin).then(|| watch.amplitude()),
-        growth: watch.growth(),
+        growth: if is_steady { watch.growth() } else { Err(VARIES.to_owned()) },
         chosen: request.until.is_none(),
         ran_away,
     })

@@ -18,6 +18,9 @@ use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
 use crate::study::DiscStudy;
 
+/// Largest number of harmonics of a dither that are examined: their meetings fill an answer of some hundred thousand lines.
+const MOST_HARMONICS: f64 = 5000.0;
+
 /// Options of `resonances`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResonancesRequest {
@@ -131,13 +134,24 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
             }
             WaveError::NotPlain
             | WaveError::Stiffened
-            | WaveError::Waveform
             | WaveError::NegativeFriction { .. }
             | WaveError::Frequency { .. } => "",
         };
         refuse("disc.load", format!("{why}{instead}"))
     })?;
     let waves = waves.with_order(question.order);
+    let own = study.disc().dither().frequency_ratio().map(|ratio| (&question.speeds, ratio));
+    let searched = question.clear.iter().map(|(speeds, range)| (speeds, *range.start()));
+    for (speeds, ratio) in own.into_iter().chain(searched) {
+        let count = waves.harmonics_within(speeds, ratio);
+        if count > MOST_HARMONICS {
+            let why = format!(
+                "{count} harmonics of this dither can resonate in these speeds, more than {MOST_HARMONICS}: a shorter burst, \
+                 a higher frequency or a smaller range of speeds has fewer"
+            );
+            return Err(refuse("dither", why));
+        }
+    }
     let clear = match &question.clear {
         None => None,
         Some((speeds, frequencies)) => {
@@ -241,6 +255,7 @@ fn blocked(block: &Blocked) -> Json {
         "to": block.to,
         "waves": [first.to_string(), second.to_string()],
         "conjugate": block.sum,
+        "harmonic": block.harmonic,
     })
 }
 
