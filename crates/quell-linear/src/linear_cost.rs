@@ -7,7 +7,7 @@
 use quell_model::{Direction, Dither};
 use quell_numerics::matrix::Matrix;
 
-use crate::periodic_response::{NoPeriodicResponse, PeriodicResponse};
+use crate::periodic_response::{NoPeriodicResponse, ResponseToWave};
 
 /// Steady response of the structure without friction to one tangential dither.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,9 +59,8 @@ pub fn linear_cost(dither: &Dither, damping_ratio: f64) -> Result<LinearCost, No
     let damping = 2.0 * damping_ratio;
     let matrix = Matrix::from_fn(2, 2, |i, j| [[0.0, 1.0], [-1.0, -damping]][i][j]);
     let source = [0.0, dither.amplitude];
-    let response =
-        PeriodicResponse::new(&matrix, &source, &dither.waveform, dither.frequency_ratio)
-            .map_err(NoLinearCost::NoResponse)?;
+    let response = ResponseToWave::new(&matrix, &source, &dither.waveform, dither.frequency_ratio)
+        .map_err(NoLinearCost::NoResponse)?;
     let outputs = response.outputs(&[(&[1.0, 0.0], 0.0), (&[0.0, 1.0], 0.0)]);
     let [displacement, velocity] = [&outputs[0], &outputs[1]];
     let [[least, largest], [slowest, fastest]] = [displacement.range(), velocity.range()];

@@ -55,7 +55,7 @@ impl std::error::Error for NoPeriodicResponse {}
 
 /// The periodic response to a wave of unit amplitude, as a function of the phase θ.
 #[derive(Clone, Debug)]
-pub struct PeriodicResponse<'w> {
+pub struct ResponseToWave<'w> {
     waveform: &'w Waveform,
     /// A/ω in balanced coordinates, b/ω in them, and the factors that lead back.
     matrix: Matrix,
@@ -66,7 +66,7 @@ pub struct PeriodicResponse<'w> {
     states: Vec<Vec<f64>>,
 }
 
-impl<'w> PeriodicResponse<'w> {
+impl<'w> ResponseToWave<'w> {
     /// The response of x′ = `matrix`·x + `source`·g(`frequency`·t).
     ///
     /// # Errors
@@ -180,7 +180,7 @@ impl<'w> PeriodicResponse<'w> {
             }
             return wave;
         }
-        // The middle of the interval is in its piece, whatever rounding does to its start.
+        // The middle of the interval is in its piece, however its start is rounded.
         let middle = 0.5f64.mul_add(self.length(place), start);
         let (begin, piece) = self.waveform.piece_at(middle);
         match piece {
@@ -272,7 +272,8 @@ fn start_of_period(
     let inverse = Matrix::from_fn(n, n, |i, j| solved[(i, j)]);
     // e^{BΘ} − 1 has rounding errors of this size, times ε: all of it may be rounding.
     let size = grown.frobenius_norm().max((norm * period).min(1.0));
-    if !(inverse.frobenius_norm() * size < RESONANT) {
+    let condition = inverse.frobenius_norm() * size;
+    if condition.is_nan() || condition >= RESONANT {
         return Err(NoPeriodicResponse::Resonance);
     }
     Ok((0..n).map(|i| solved[(i, n)]).collect())

@@ -3,7 +3,7 @@
 //! An actuator that lengthens by u between the structure and the surface presses the contact by k u + d u̇ more than the approach
 //! of the structure does, where k is the normal stiffness of the contact and d its damping. A modulation ΔN of the load therefore
 //! needs k u + d u̇ = ΔN. The actuator works against the whole normal load, so that it delivers the mean power ⟨N u̇⟩: what the
-//! structure takes up, and what the damping of the contact loses. A prescribed load has no stiffness, and tells neither.
+//! structure takes up, and what the damping of the contact loses. A prescribed load has no stiffness, so that both are unknown.
 
 use quell_model::Waveform;
 use quell_model::profile::Wave;
@@ -11,7 +11,7 @@ use quell_model::waveform::Piece;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 
-use crate::periodic_response::{NoPeriodicResponse, PeriodicResponse};
+use crate::periodic_response::{NoPeriodicResponse, ResponseToWave};
 
 /// Difference of two values of a waveform, over the larger, below which they do not jump.
 const EQUAL: f64 = 1e-12;
@@ -79,7 +79,7 @@ impl SeriesActuator {
         }
         let matrix = Matrix::from_fn(1, 1, |_, _| -stiffness / damping);
         let response =
-            PeriodicResponse::new(&matrix, &[damping.recip()], &wave.waveform, wave.frequency)
+            ResponseToWave::new(&matrix, &[damping.recip()], &wave.waveform, wave.frequency)
                 .map_err(NoSeriesActuator::NoResponse)?;
         // u̇ = (g − k u)/d.
         let rows: [(&[f64], f64); 2] = [(&[1.0], 0.0), (&[-stiffness / damping], damping.recip())];
@@ -92,12 +92,11 @@ impl SeriesActuator {
 
     /// Peak-to-peak elongation, a length.
     pub fn stroke(&self) -> f64 {
-        let [least, largest] = match &self.damped {
-            Some([elongation, _]) => elongation.range(),
-            None => {
-                let (least, largest) = self.wave.waveform.range();
-                [least / self.stiffness, largest / self.stiffness]
-            }
+        let [least, largest] = if let Some([elongation, _]) = &self.damped {
+            elongation.range()
+        } else {
+            let (least, largest) = self.wave.waveform.range();
+            [least / self.stiffness, largest / self.stiffness]
         };
         self.wave.amplitude.abs() * (largest - least)
     }

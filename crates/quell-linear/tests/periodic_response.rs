@@ -8,7 +8,7 @@ use quell_linear::averaging::{
     AveragingOptions, DitheredSystem, FastMotion, FastResponse, FastWave, criterion,
     critical_amplitudes, fast_wave,
 };
-use quell_linear::periodic_response::{NoPeriodicResponse, PeriodicResponse};
+use quell_linear::periodic_response::{NoPeriodicResponse, ResponseToWave};
 use quell_model::waveform::{Burst, FourierWave, Harmonic, Hold, SampledWave};
 use quell_model::{Belt, Direction, Dither, LawKind, Parametrisation, Waveform};
 use quell_numerics::matrix::Matrix;
@@ -43,7 +43,7 @@ fn a_sine_and_a_sum_of_harmonics() {
     let one = vec![Harmonic { order: 1, sine: 1.0, cosine: 0.0 }];
     for (waveform, harmonics) in [(Waveform::Sine, one), (sum, harmonics)] {
         let response =
-            PeriodicResponse::new(&oscillator(damping), &[0.0, 1.0], &waveform, ratio).unwrap();
+            ResponseToWave::new(&oscillator(damping), &[0.0, 1.0], &waveform, ratio).unwrap();
         let outputs = response.outputs(&[(&[1.0, 0.0], 0.0), (&[0.0, 1.0], 0.0), (&[0.0; 2], 1.0)]);
         for k in 0..100 {
             let phase = 0.1 * f64::from(k);
@@ -71,7 +71,7 @@ fn closed_forms_of_triangle_and_square() {
     for waveform in [Waveform::Triangle, Waveform::Square] {
         for ratio in [1.3, 10.0, 1e3] {
             let response =
-                PeriodicResponse::new(&oscillator(0.0), &[0.0, ratio], &waveform, ratio).unwrap();
+                ResponseToWave::new(&oscillator(0.0), &[0.0, ratio], &waveform, ratio).unwrap();
             let velocity = response.outputs(&[(&[0.0, 1.0], 0.0)]).swap_remove(0);
             let shape = FastWave::Oscillator { waveform: waveform.clone(), frequency_ratio: ratio };
             let [least, largest] = velocity.range();
@@ -98,7 +98,7 @@ fn a_burst_against_integration() {
     let source = [0.0, 1.0, 0.2];
     let waveform = Burst::new(Waveform::Triangle, 2, 3).unwrap().into_waveform();
     let frequency = 4.0;
-    let response = PeriodicResponse::new(&matrix, &source, &waveform, frequency).unwrap();
+    let response = ResponseToWave::new(&matrix, &source, &waveform, frequency).unwrap();
     let steps = 4000;
     let h = waveform.period() / frequency / f64::from(steps);
     let rate = |time: f64, x: &[f64; 3]| -> [f64; 3] {
@@ -130,7 +130,7 @@ fn a_burst_against_integration() {
 #[test]
 fn descriptions_of_one_wave() {
     let of = |waveform: &Waveform| {
-        PeriodicResponse::new(&oscillator(0.02), &[0.0, 1.0], waveform, 7.0).unwrap().state(0.0)
+        ResponseToWave::new(&oscillator(0.02), &[0.0, 1.0], waveform, 7.0).unwrap().state(0.0)
     };
     let held = samples(vec![1.0, 1.0, -1.0, -1.0], Hold::Zero);
     let lines = samples(vec![0.0, 1.0, 0.0, -1.0], Hold::Linear);
@@ -150,11 +150,11 @@ fn resonance_is_refused() {
     for (waveform, frequency) in
         [(&Waveform::Sine, 1.0), (&burst, 4.0), (&Waveform::Square, 1.0 / 3.0)]
     {
-        let found = PeriodicResponse::new(&oscillator(0.0), &[0.0, 1.0], waveform, frequency);
+        let found = ResponseToWave::new(&oscillator(0.0), &[0.0, 1.0], waveform, frequency);
         assert_eq!(found.map(|_| ()), Err(NoPeriodicResponse::Resonance), "{waveform:?}");
-        assert!(PeriodicResponse::new(&oscillator(1e-3), &[0.0, 1.0], waveform, frequency).is_ok());
+        assert!(ResponseToWave::new(&oscillator(1e-3), &[0.0, 1.0], waveform, frequency).is_ok());
     }
-    let found = PeriodicResponse::new(&oscillator(0.0), &[0.0, 1.0], &Waveform::Square, 1e-7);
+    let found = ResponseToWave::new(&oscillator(0.0), &[0.0, 1.0], &Waveform::Square, 1e-7);
     assert_eq!(found.map(|_| ()), Err(NoPeriodicResponse::TooSlow));
 }
 

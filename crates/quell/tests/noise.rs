@@ -88,7 +88,7 @@ fn wrong_keys_are_named() {
     assert!(text.contains("dither.band: left out: only the waveform \"noise\""), "{text}");
     assert!(text.contains("dither.seed: left out"), "{text}");
     let disc = "[disc]\nradius_ratio = 0.5\npoisson_ratio = 0.3\n[dither]\ndirection = \"normal\"\nwaveform = \"noise\"\n";
-    assert!(refused(disc).contains("dither.waveform: \"sine\" or \"square\""));
+    assert!(refused(disc).contains("dither.waveform: periodic"));
     // The load must not vanish when all lines are in phase: √64 D ≤ F.
     let normal = |amplitude: f64| with_noise(amplitude, BAND).replace("tangential", "normal");
     assert!(refused(&normal(0.2)).contains("dither.amplitude: at most the normal load"));

@@ -27,7 +27,7 @@ use super::fast_motion::FastMotion;
 use super::mean_friction::effective;
 use super::periodic_motion::{LoadTerm, LoadWave, PeriodicMotion, SlipTerm};
 use super::wave::{FastWave, sine_gain};
-use crate::periodic_response::PeriodicResponse;
+use crate::periodic_response::ResponseToWave;
 
 /// Velocity that a tangential force of high frequency is assumed to produce.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -138,7 +138,7 @@ pub fn fast_wave(dither: &Dither, response: FastResponse) -> Result<FastWave, Av
             // x″ + x = R g, so that the velocity belongs to D/R = 1.
             let matrix = Matrix::from_fn(2, 2, |i, j| [[0.0, 1.0], [-1.0, 0.0]][i][j]);
             let source = [0.0, frequency_ratio];
-            let response = PeriodicResponse::new(&matrix, &source, &waveform, frequency_ratio)
+            let response = ResponseToWave::new(&matrix, &source, &waveform, frequency_ratio)
                 .map_err(AveragingError::NoResponse)?;
             let velocity = response.outputs(&[(&[0.0, 1.0], 0.0)]).swap_remove(0);
             Ok(FastWave::Response(velocity.into()))

@@ -62,14 +62,14 @@ struct PieceSums {
 }
 
 /// s over an interval by its coefficients, and the part of the interval on which it is monotone.
-struct Part {
+struct PolynomialPart {
     coefficients: Vec<f64>,
     ends: [f64; 2],
     /// s at the ends. The end of a part has the value at the start of the next one, so that every crossing is counted once.
     values: [f64; 2],
 }
 
-impl Part {
+impl PolynomialPart {
     fn at(&self, delta: f64) -> f64 {
         value_of(&self.coefficients, delta)
     }
@@ -101,12 +101,12 @@ impl Part {
 }
 
 /// s = αG of samples over one period, or a response times α; `None` for other waves.
-fn parts(wave: &FastWave, alpha: f64) -> Option<Vec<Part>> {
+fn parts(wave: &FastWave, alpha: f64) -> Option<Vec<PolynomialPart>> {
     let mut parts = Vec::new();
     let mut push = |coefficients: &[f64], ends: [f64; 2]| {
         let coefficients: Vec<f64> = coefficients.iter().map(|c| alpha * c).collect();
         let first = value_of(&coefficients, ends[0]);
-        parts.push(Part { coefficients, ends, values: [first, first] });
+        parts.push(PolynomialPart { coefficients, ends, values: [first, first] });
     };
     match wave {
         FastWave::Integral(waveform) => {
@@ -183,7 +183,13 @@ pub(super) fn effective(law: &Friction, wave: &FastWave, alpha: f64, v: f64) -> 
 
 impl PieceSums {
     /// Adds an interval over which s is monotone.
-    fn monotone(&mut self, law: &Friction, v: f64, part: &Part, at_corner: bool) -> Option<()> {
+    fn monotone(
+        &mut self,
+        law: &Friction,
+        v: f64,
+        part: &PolynomialPart,
+        at_corner: bool,
+    ) -> Option<()> {
         let ([from, to], [first, last]) = (part.ends, part.values);
         if (first < v) == (last < v) || at_corner {
             return self.part(law, v, part, [from, to]);
@@ -195,7 +201,13 @@ impl PieceSums {
     }
 
     /// Adds an interval in which the slip velocity v − s keeps its sign.
-    fn part(&mut self, law: &Friction, v: f64, slip: &Part, [from, to]: [f64; 2]) -> Option<()> {
+    fn part(
+        &mut self,
+        law: &Friction,
+        v: f64,
+        slip: &PolynomialPart,
+        [from, to]: [f64; 2],
+    ) -> Option<()> {
         let length = to - from;
         if length <= 0.0 {
             return Some(());

@@ -23,7 +23,7 @@ use super::no_average::NoAverage;
 use crate::growth::Growth;
 use crate::harmonic::{self, ContactResponse, DrivenEquations};
 use crate::linearised::{FrictionSlopes, Linearised};
-use crate::periodic_response::PeriodicResponse;
+use crate::periodic_response::ResponseToWave;
 use crate::spectrum::{self, MotionSpectrum};
 use crate::steady::{NoSteadySliding, SteadySliding};
 
@@ -140,7 +140,7 @@ impl<'a> DitheredSystem<'a> {
                 WaveShape::Polynomials(_) => {
                     let Wave { waveform, amplitude, frequency, phase, .. } = &response.wave;
                     let equations = driven(self.system, &self.sliding, target)?;
-                    let moved = PeriodicResponse::new(
+                    let moved = ResponseToWave::new(
                         &equations.matrix,
                         &equations.source,
                         waveform,
@@ -229,12 +229,8 @@ fn wave_response(
         return Ok(WaveResponse { input, wave, shape: WaveShape::Lines(lines?) });
     }
     let equations = driven(system, sliding, target)?;
-    let response = PeriodicResponse::new(
-        &equations.matrix,
-        &equations.source,
-        &wave.waveform,
-        wave.frequency,
-    )?;
+    let response =
+        ResponseToWave::new(&equations.matrix, &equations.source, &wave.waveform, wave.frequency)?;
     let contacts = sliding.contacts().iter().enumerate();
     let rows: Vec<(Vec<f64>, f64)> = contacts
         .flat_map(|(index, contact)| {

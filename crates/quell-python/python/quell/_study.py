@@ -671,8 +671,8 @@ class Study(CheckedStudy):
         up, down :
             Directions of the sweep [default: both]. A sweep down alone begins with the initial state of the study.
         ramp :
-            Instead of a sweep, one run of the study as it varies in time, from its first knot to its last, beside the exact
-            thresholds.
+            Instead of a sweep, one run of the study as it varies in time, from its first knot to its last, compared with the
+            exact thresholds.
         progress :
             Called from time to time with (finished values, all values).
         """

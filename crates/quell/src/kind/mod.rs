@@ -151,7 +151,7 @@ pub trait Verbs: Send + Sync {
         Err(self.lacks("response --window"))
     }
 
-    /// One run in which a drive, a load or an amplitude changes slowly, beside the exact thresholds.
+    /// One run in which a drive, a load or an amplitude changes slowly, compared with the exact thresholds.
     ///
     /// # Errors
     /// A kind without this verb; as [`crate::run::ramp::run`].

@@ -69,7 +69,7 @@ pub fn ramp(study: &BeltStudy, done: &Ramp) -> Figure {
         .caption(format!("{} {}", caption_of_run(study), done.sentence(study)))
 }
 
-/// Adds values over time as one curve for each stretch in which the ramp rises or falls; `to_points` places them.
+/// Adds values over time as one curve for each interval in which the ramp rises or falls; `to_points` places them.
 fn with_ways(
     panel: Panel,
     done: &Ramp,

@@ -1,9 +1,11 @@
-//! `bifurcation --ramp`: one run in which the drive, the load or the amplitude of the dither changes slowly, beside the exact
+//! `bifurcation --ramp`: one run in which the drive, the load or the amplitude of the dither changes slowly, compared with the exact
 //! thresholds of the steady study.
 //!
 //! A run follows the response of the moment with a delay: vibration begins beyond the threshold, by more the faster the ramp, and
 //! where responses coexist it ends at another value than it begins at. The thresholds are those of the base response at constant
 //! values ([`local`]), over the values that the ramp passes.
+
+use std::fmt::Write as _;
 
 use quell_dynamics::orbit::threshold::{BranchEnding, NoThresholds, Threshold, local};
 use quell_dynamics::simulation::{Sample, within};
@@ -221,18 +223,19 @@ impl Ramp {
             let becomes = if switch.to_quiet { "ceases" } else { "begins" };
             let mut text = format!("{becomes} to vibrate at {}", in_its_unit(switch.value));
             if let Some(threshold) = self.nearest(switch.value) {
-                text += &format!(" (exact threshold next to it: {})", in_its_unit(threshold.value));
+                let _ =
+                    write!(text, " (exact threshold next to it: {})", in_its_unit(threshold.value));
             }
             text
         });
         let each: Vec<String> = each.collect();
-        text += &match (each.as_slice(), vibrates) {
-            ([], true) => "the mass vibrates all the time.".to_owned(),
-            ([], false) => "the mass does not vibrate.".to_owned(),
-            (some, _) => format!("the mass {}.", some.join(", ")),
+        let _ = match (each.as_slice(), vibrates) {
+            ([], true) => write!(text, "the mass vibrates all the time."),
+            ([], false) => write!(text, "the mass does not vibrate."),
+            (some, _) => write!(text, "the mass {}.", some.join(", ")),
         };
         if let Err(why) = &self.thresholds {
-            text += &format!(" The exact thresholds are unknown: {why}.");
+            let _ = write!(text, " The exact thresholds are unknown: {why}.");
         }
         text
     }

@@ -278,7 +278,7 @@ impl MeasuredResponse {
         fields.list("peaks", peaks);
         let only_normal = || {
             "all dither is normal, and a prescribed load has no motion in the normal direction; a system with a normal row and a \
-             normal stiffness tells power and stroke"
+             normal stiffness has power and stroke"
                 .to_owned()
         };
         fields

@@ -134,7 +134,7 @@ class Bifurcation(_columns.BifurcationColumns, Result):
 
 
 class Ramp(_columns.RampColumns, Result):
-    """One run in which a drive, a load or an amplitude changes slowly, beside the exact thresholds."""
+    """One run in which a drive, a load or an amplitude changes slowly, compared with the exact thresholds."""
 
     verb = "bifurcation --ramp"
     parameter: str

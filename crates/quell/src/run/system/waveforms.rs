@@ -9,7 +9,8 @@ use quell_linear::growth::Verdict;
 use quell_linear::harmonic::DrivenEquations;
 use quell_linear::linear_cost::LinearCost;
 use quell_linear::linearised::Linearised;
-use quell_linear::periodic_response::PeriodicResponse;
+use quell_linear::periodic_response::ResponseToWave;
+use quell_linear::spectrum::spectrum;
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Input, InputTarget};
 use quell_model::units::Quantity;
@@ -17,6 +18,8 @@ use quell_model::{System, Waveform};
 use rayon::prelude::*;
 use serde_json::Value as Json;
 
+use super::modes::natural;
+use super::stability::FAR;
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
@@ -62,6 +65,8 @@ pub struct SystemWaveforms {
     pub rows: Vec<SystemWaveform>,
     /// Name of the carrier of the bursts.
     pub carrier: &'static str,
+    /// Labels of the waveforms that repeat at less than [`FAR`] times the highest eigenfrequency of the structure.
+    pub slow: Vec<String>,
 }
 
 /// A compared quantity: its name in JSON, in words, and its value.
@@ -99,7 +104,14 @@ pub fn run(study: &SystemStudy) -> Result<SystemWaveforms, Failure> {
         averaged: least(system, &sliding, first, &waveform),
         waveform,
     });
-    Ok(SystemWaveforms { rows: rows.collect(), carrier })
+    let rows: Vec<SystemWaveform> = rows.collect();
+    let motions =
+        spectrum(&sliding, &sliding.friction()).map_err(|why| failed("waveforms", why))?;
+    let highest = motions.motions.iter().map(natural).fold(0.0, f64::max);
+    let repetition = |row: &&SystemWaveform| first.frequency / f64::from(row.waveform.cycles());
+    let slow = rows.iter().filter(|row| repetition(row) < FAR * highest);
+    let slow = slow.map(SystemWaveform::label).collect();
+    Ok(SystemWaveforms { rows, carrier, slow })
 }
 
 /// The least dither of a waveform.
@@ -163,7 +175,7 @@ fn cost(
     let [along, rate] = [0, 1].map(|order| equations.over_state(row, order));
     let nothing = vec![0.0; along.len()];
     let response =
-        PeriodicResponse::new(&equations.matrix, &equations.source, &wave.waveform, wave.frequency)
+        ResponseToWave::new(&equations.matrix, &equations.source, &wave.waveform, wave.frequency)
             .map_err(|why| why.to_string())?;
     let outputs = response.outputs(&[(&along, 0.0), (&rate, 0.0), (&nothing, 1.0)]);
     let [[least, largest], [slowest, fastest]] = [0, 1].map(|output| outputs[output].range());
@@ -257,9 +269,18 @@ impl SystemWaveforms {
         fields.finish()
     }
 
-    /// The warnings of the study.
+    /// The warnings of the study, and one about waveforms whose repetition is not fast.
     pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
-        study.warnings().to_vec()
+        let mut warnings = study.warnings().to_vec();
+        if !self.slow.is_empty() {
+            warnings.push(format!(
+                "{} repeat{} at less than {FAR} times the highest eigenfrequency of the sliding structure: averaging assumes that a \
+                 dither is much faster than every motion, and the least amplitude there is that of a resonance",
+                self.slow.join(", "),
+                if self.slow.len() == 1 { "s" } else { "" }
+            ));
+        }
+        warnings
     }
 
     /// As a dataset: one row for each waveform.
