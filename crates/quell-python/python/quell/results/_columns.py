@@ -422,6 +422,13 @@ class ModesColumns:
 class NoiseResponseColumns:
     """Of :class:`quell.results.NoiseResponse`."""
 
+    cost_displacement_rms: float
+    cost_force_peak: float
+    cost_force_rms: float
+    cost_power: float
+    cost_stroke: float
+    cost_velocity_rms: float
+    mean_friction_value: float
     seed: npt.NDArray[np.float64]
 
 
@@ -479,6 +486,24 @@ class OrbitColumns:
 
 class RampColumns:
     """Of :class:`quell.results.Ramp`."""
+
+    displacement: npt.NDArray[np.float64]
+    manoeuvre_dither_onset: float
+    manoeuvre_overshoot: float
+    manoeuvre_time_to_quench: float
+    manoeuvre_vibration_amplitude: npt.NDArray[np.float64]
+    manoeuvre_vibration_from: npt.NDArray[np.float64]
+    manoeuvre_vibration_to: npt.NDArray[np.float64]
+    switch_becomes: npt.NDArray[np.str_]
+    switch_threshold: npt.NDArray[np.float64]
+    switch_time: npt.NDArray[np.float64]
+    switch_value: npt.NDArray[np.float64]
+    threshold_becomes: npt.NDArray[np.str_]
+    threshold_kind: npt.NDArray[np.str_]
+    threshold_value: npt.NDArray[np.float64]
+    time: npt.NDArray[np.float64]
+    value: npt.NDArray[np.float64]
+    velocity: npt.NDArray[np.float64]
 
 
 class ResonancesColumns:
@@ -572,6 +597,10 @@ class ResponseColumns:
     contact_stick_fraction: npt.NDArray[np.float64]
     displacement: npt.NDArray[np.float64]
     displacement_m: npt.NDArray[np.float64]
+    dither_actuator_power: npt.NDArray[np.float64]
+    dither_actuator_power_w: npt.NDArray[np.float64]
+    dither_actuator_stroke: npt.NDArray[np.float64]
+    dither_actuator_stroke_m: npt.NDArray[np.float64]
     dither_power_w: Any
     dither_stroke_m: Any
     frequency: npt.NDArray[np.float64]
