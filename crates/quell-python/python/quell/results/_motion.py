@@ -130,7 +130,7 @@ class NoiseResponse(_columns.NoiseResponseColumns, Result):
     """The interval: "Wilson, 95 %"."""
     seeds: list[int]
     """Seed of the first noise in each run."""
-    efficiency: npt.NDArray[np.float64]
+    efficiency: list[float]
     """Residual vibration E (2.27) of each run."""
     efficiency_least: float | None
     """Least E."""
@@ -138,11 +138,11 @@ class NoiseResponse(_columns.NoiseResponseColumns, Result):
     """Median of E."""
     efficiency_largest: float | None
     """Largest E."""
-    amplitude: npt.NDArray[np.float64]
+    amplitude: list[float]
     """Largest spectral amplitude of each run with 0 < ω ≤ 1.9 ω₀: a length."""
     undithered_amplitude: float
     """The same without dither."""
-    stick_fraction: npt.NDArray[np.float64]
+    stick_fraction: list[float]
     """Fraction of the time during which the mass sticks, of each run."""
     mean_friction: float
     """Mean friction force over k, averaged over the runs: a length."""
