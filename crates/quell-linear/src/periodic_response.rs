@@ -1,7 +1,7 @@
 //! The periodic response of a linear structure to a wave: x′ = A x + b g(ωt), for any waveform.
 //!
 //! Between two breaks of the waveform the response is analytic, and its Taylor series follows from the equation by recurrence. With
-//! the phase θ = ωt, x_{k+1} = (A x_k/ω + b g_k/ω)/(k + 1). Intervals are so short that [`DEGREE`] terms are exact to rounding. The
+//! the phase θ = ωt, x_{k+1} = (A x_k/ω + b g_k/ω)/(k + 1). Intervals are so short that `DEGREE` terms are exact to rounding. The
 //! start of the period solves x(Θ) = x(0), where Θ is the period: (e^{AΘ/ω} − 1) x(0) = −f with the response f to rest.
 //! e^{AΘ/ω} − 1 is computed without its leading 1, which would hide slow motion under a fast wave.
 //!

@@ -65,7 +65,7 @@ pub struct SystemWaveforms {
     pub rows: Vec<SystemWaveform>,
     /// Name of the carrier of the bursts.
     pub carrier: &'static str,
-    /// Labels of the waveforms that repeat at less than [`FAR`] times the highest eigenfrequency of the structure.
+    /// Labels of the waveforms that repeat too slowly for averaging, compared with the highest eigenfrequency of the structure.
     pub slow: Vec<String>,
 }
 
