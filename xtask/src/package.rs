@@ -15,6 +15,7 @@ const ORDER: &[&str] = &[
     "quell-linear",
     "quell-dynamics",
     "quell-disc",
+    "quell-design",
     "quell-plot",
     "quell-study",
     "quell",

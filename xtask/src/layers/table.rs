@@ -18,7 +18,10 @@ const NOUNS_AND_ZOO: &[&str] = &["quell-model", "quell-numerics", "quell-zoo"];
 const LINEAR_AND_ZOO: &[&str] = &["quell-linear", "quell-model", "quell-numerics", "quell-zoo"];
 const PHYSICS: &[&str] =
     &["quell-disc", "quell-dynamics", "quell-linear", "quell-model", "quell-numerics"];
+const PHYSICS_AND_ZOO: &[&str] =
+    &["quell-disc", "quell-dynamics", "quell-linear", "quell-model", "quell-numerics", "quell-zoo"];
 const ENGINES_AND_STUDIES: &[&str] = &[
+    "quell-design",
     "quell-disc",
     "quell-dynamics",
     "quell-linear",
@@ -48,6 +51,7 @@ pub(crate) const LAYERS: &[CrateLayer] = &[
     layer("quell-linear",   NOUNS_AND_ZOO, "linear questions about steady sliding: no trajectory is computed here"),
     layer("quell-dynamics", LINEAR_AND_ZOO, "motion, its orbits and attractors: no file, no thread and no particular kind of structure"),
     layer("quell-disc",     LINEAR_AND_ZOO, "what only a disc has; its motion is that of any structure"),
+    layer("quell-design",   PHYSICS_AND_ZOO, "questions about many studies at once: it asks the engines, and knows no file and no thread"),
     layer("quell-plot",     NOTHING,     "a figure is data plus a renderer, independent of physics and studies"),
     layer("quell-study",    PHYSICS,     "reads and checks studies; computes nothing"),
     layer("quell",          ENGINES_AND_STUDIES, "runs the physics, independent of its clients"),
