@@ -54,6 +54,9 @@ pub struct SystemWaveform {
     pub duty_cycle: f64,
     /// Whether it is that of the study.
     pub own: bool,
+    /// Whether it repeats too slowly for averaging, compared with the highest eigenfrequency of the structure: then it is never the
+    /// best.
+    pub slow: bool,
     /// The least dither by averaging, or why no amplitude is known.
     pub averaged: Result<LeastInput, String>,
 }
@@ -65,8 +68,6 @@ pub struct SystemWaveforms {
     pub rows: Vec<SystemWaveform>,
     /// Name of the carrier of the bursts.
     pub carrier: &'static str,
-    /// Labels of the waveforms that repeat too slowly for averaging, compared with the highest eigenfrequency of the structure.
-    pub slow: Vec<String>,
 }
 
 /// A compared quantity: its name in JSON, in words, and its value.
@@ -98,20 +99,17 @@ pub fn run(study: &SystemStudy) -> Result<SystemWaveforms, Failure> {
     };
     let sliding = Linearised::new(system).map_err(|why| failed("waveforms", why))?;
     let Candidates { waveforms, carrier } = Candidates::beside(&first.waveform);
-    let rows = waveforms.into_par_iter().map(|waveform| SystemWaveform {
-        own: waveform == first.waveform,
-        duty_cycle: duty_cycle(&waveform),
-        averaged: least(system, &sliding, first, &waveform),
-        waveform,
-    });
-    let rows: Vec<SystemWaveform> = rows.collect();
     let motions =
         spectrum(&sliding, &sliding.friction()).map_err(|why| failed("waveforms", why))?;
     let highest = motions.motions.iter().map(natural).fold(0.0, f64::max);
-    let repetition = |row: &&SystemWaveform| first.frequency / f64::from(row.waveform.cycles());
-    let slow = rows.iter().filter(|row| repetition(row) < FAR * highest);
-    let slow = slow.map(SystemWaveform::label).collect();
-    Ok(SystemWaveforms { rows, carrier, slow })
+    let rows = waveforms.into_par_iter().map(|waveform| SystemWaveform {
+        own: waveform == first.waveform,
+        duty_cycle: duty_cycle(&waveform),
+        slow: first.frequency / f64::from(waveform.cycles()) < FAR * highest,
+        averaged: least(system, &sliding, first, &waveform),
+        waveform,
+    });
+    Ok(SystemWaveforms { rows: rows.collect(), carrier })
 }
 
 /// The least dither of a waveform.
@@ -200,9 +198,10 @@ impl SystemWaveform {
 }
 
 impl SystemWaveforms {
-    /// The waveform that is smallest in a column.
+    /// The waveform that is smallest in a column, of those that repeat fast enough for averaging.
     pub(crate) fn best(&self, column: &Column) -> Option<&SystemWaveform> {
-        let known = self.rows.iter().filter_map(|row| Some((row, row.value(column).ok()?)));
+        let fast = self.rows.iter().filter(|row| !row.slow);
+        let known = fast.filter_map(|row| Some((row, row.value(column).ok()?)));
         known.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(row, _)| row)
     }
 
@@ -212,15 +211,19 @@ impl SystemWaveforms {
             let why = self.rows.iter().find_map(|row| row.averaged.as_ref().err());
             return format!(
                 "By averaging no waveform quenches: {}.",
-                why.map_or("none is known", String::as_str)
+                why.map_or(
+                    "all that have an amplitude repeat too slowly for averaging",
+                    String::as_str
+                )
             );
         };
         let unit =
             study.units().unit(Quantity::Force).map_or(String::new(), |unit| format!(" {unit}"));
         let value = best.value(&COLUMNS[0]).map_or(String::new(), digits);
         format!(
-            "By averaging, of {} waveforms a {} stabilises steady sliding with the least amplitude, {value}{unit}.",
-            self.rows.len(),
+            "By averaging, of the {} waveforms that repeat fast enough a {} stabilises steady sliding with the least amplitude, \
+             {value}{unit}.",
+            self.rows.iter().filter(|row| !row.slow).count(),
             best.label()
         )
     }
@@ -234,6 +237,7 @@ impl SystemWaveforms {
                 .plain("waveform", row.waveform.name())
                 .plain("label", row.label())
                 .plain("own", row.own)
+                .plain("slow", row.slow)
                 .number("duty_cycle", Quantity::Ratio, row.duty_cycle);
             if let Waveform::Burst(burst) = &row.waveform {
                 inner.plain("on", burst.on()).plain("off", burst.off());
@@ -272,12 +276,14 @@ impl SystemWaveforms {
     /// The warnings of the study, and one about waveforms whose repetition is not fast.
     pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let mut warnings = study.warnings().to_vec();
-        if !self.slow.is_empty() {
+        let slow: Vec<String> =
+            self.rows.iter().filter(|row| row.slow).map(SystemWaveform::label).collect();
+        if !slow.is_empty() {
             warnings.push(format!(
                 "{} repeat{} at less than {FAR} times the highest eigenfrequency of the sliding structure: averaging assumes that a \
-                 dither is much faster than every motion, and the least amplitude there is that of a resonance",
-                self.slow.join(", "),
-                if self.slow.len() == 1 { "s" } else { "" }
+                 dither is much faster than every motion, and the least amplitude there is that of a resonance; none of them is called best",
+                slow.join(", "),
+                if slow.len() == 1 { "s" } else { "" }
             ));
         }
         warnings
