@@ -1,0 +1,190 @@
+//! A belt under dither as a structure whose dither is designed.
+
+use quell_dynamics::attractor::{Reached, switches};
+use quell_dynamics::orbit::threshold::{BranchEnding, local};
+use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
+use quell_dynamics::response::{Solver, respond};
+use quell_dynamics::simulation::Start;
+use quell_dynamics::start::{InitialState, NoSquealingStart};
+use quell_linear::averaging::{
+    AveragedVerdict, AveragingOptions, Becomes, criterion, critical_amplitudes,
+};
+use quell_linear::linear_cost::linear_cost;
+use quell_model::{Belt, Direction};
+
+use super::{DesignStart, DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
+
+/// Steps of the continuation over a range of amplitudes.
+const STEPS: u32 = 8;
+
+/// Steps by which the dither grows from zero to a verified base response.
+const GROWTH_STEPS: u32 = 8;
+
+/// Values tried between the ends of a range for runs from a start, and the relative closeness of their changes.
+const TRIED: (u32, f64) = (24, 1e-4);
+
+/// Slow periods over which the mean friction of a periodic response is measured.
+const LOSS_PERIODS: u32 = 20;
+
+/// A belt whose first dither is designed.
+#[derive(Clone, Debug)]
+pub struct BeltPlant {
+    /// The belt.
+    pub belt: Belt,
+    /// Paths of the coordinates of the box.
+    pub over: Vec<String>,
+    /// Paths of the design variables other than the amplitude.
+    pub others: Vec<String>,
+    /// The runs that must end quiet.
+    pub start: DesignStart,
+}
+
+impl BeltPlant {
+    fn path(&self) -> String {
+        self.belt.dither_path(0, "amplitude")
+    }
+
+    /// The belt at a point, with the amplitude of the study.
+    fn at(&self, at: OperatingPoint<'_>) -> Result<Belt, String> {
+        let points = self.over.iter().zip(at.point);
+        let others = self.others.iter().zip(at.others);
+        // The amplitude of the study must not make a point invalid.
+        let mut belt = self.belt.with(&self.path(), 0.0).map_err(|why| why.to_string())?;
+        for (path, value) in points.chain(others) {
+            belt = belt.with(path, *value).map_err(|why| why.to_string())?;
+        }
+        Ok(belt)
+    }
+
+    fn dithered(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<Belt, String> {
+        self.at(at)?.with(&self.path(), amplitude).map_err(|why| why.to_string())
+    }
+
+    /// The initial state of the runs that must end quiet; `None` where there is nothing to quench.
+    fn initial(&self, belt: &Belt) -> Result<Option<Start>, quell_dynamics::orbit::NoOrbit> {
+        let state = match self.start {
+            DesignStart::Local => InitialState::Sliding,
+            DesignStart::Rest => InitialState::Rest,
+            DesignStart::Squeal => InitialState::Squealing,
+        };
+        match state.resolve(belt) {
+            Ok(start) => Ok(Some(start)),
+            Err(NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest) => Ok(None),
+            Err(NoSquealingStart::Stalled(why)) => {
+                Err(quell_dynamics::orbit::NoOrbit::Stalled(why))
+            }
+        }
+    }
+
+    fn by_runs(&self, belt: &Belt, (from, to): (f64, f64)) -> Result<QuietAmplitudes, String> {
+        let (steps, closeness) = TRIED;
+        let found =
+            switches(belt, &self.path(), (from, to), steps, closeness, |belt| self.initial(belt))
+                .map_err(|why| why.to_string())?;
+        let quiet = |reached: Reached| matches!(reached, Reached::Base | Reached::Forced);
+        let changes = found.changes.iter().map(|change| (change.value, quiet(change.becomes)));
+        Ok(QuietAmplitudes::of_changes((from, to), quiet(found.first), changes))
+    }
+
+    fn by_multipliers(
+        &self,
+        belt: &Belt,
+        (from, to): (f64, f64),
+    ) -> Result<QuietAmplitudes, String> {
+        let found = local(belt, &self.path(), from, to, STEPS).map_err(|why| why.to_string())?;
+        let stable = Some(OrbitVerdict::Stable);
+        let first = match (found.thresholds.first(), found.branch.first()) {
+            (Some(threshold), _) => threshold.was == stable,
+            (None, Some(response)) => response.radius < 1.0,
+            (None, None) => false,
+        };
+        let mut changes: Vec<(f64, bool)> =
+            found.thresholds.iter().map(|found| (found.value, found.becomes == stable)).collect();
+        // Beyond the end of the branch there is no base response that could be quiet.
+        let end = match found.ending {
+            BranchEnding::Covered => None,
+            BranchEnding::TurnedBack { at }
+            | BranchEnding::Touch { at }
+            | BranchEnding::Lost { at } => Some(at),
+            BranchEnding::LostTurning { furthest, .. } => Some(furthest),
+        };
+        changes.extend(end.map(|at| (at, false)));
+        Ok(QuietAmplitudes::of_changes((from, to), first, changes))
+    }
+}
+
+impl Plant for BeltPlant {
+    fn averaged(
+        &self,
+        at: OperatingPoint<'_>,
+        (from, to): (f64, f64),
+    ) -> Result<QuietAmplitudes, String> {
+        let belt = self.at(at)?;
+        let options = AveragingOptions::FINITE_R;
+        let without = criterion(&belt, options).map_err(|why| why.to_string())?;
+        let found = critical_amplitudes(&belt, options).map_err(|why| why.to_string())?;
+        let changes = found.iter().filter(|critical| critical.contact_stays_closed);
+        let changes =
+            changes.map(|critical| (critical.amplitude, critical.becomes == Becomes::Stable));
+        let open = found.iter().find(|critical| !critical.contact_stays_closed);
+        let end = open.map(|critical| (critical.amplitude, false));
+        let stable = without.verdict == AveragedVerdict::Stable;
+        let whole = QuietAmplitudes::of_changes((0.0, to), stable, changes.chain(end));
+        // The part of the searched range.
+        let inside =
+            whole.intervals().iter().flat_map(|(low, high)| [(*low, true), (*high, false)]);
+        let inside = inside.filter(|(at, quiet)| *quiet || *at < to);
+        Ok(QuietAmplitudes::of_changes((from, to), false, inside))
+    }
+
+    fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {
+        let belt = self.at(at)?;
+        match self.start {
+            DesignStart::Local => self.by_multipliers(&belt, range),
+            DesignStart::Rest | DesignStart::Squeal => self.by_runs(&belt, range),
+        }
+    }
+
+    fn verdict(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<ExactVerdict, String> {
+        let belt = self.dithered(at, amplitude)?;
+        let orbit = from_sliding(&belt, GROWTH_STEPS).map_err(|why| why.to_string())?;
+        let stable = orbit.verdict() == OrbitVerdict::Stable;
+        let quiet = match self.start {
+            DesignStart::Local => stable,
+            DesignStart::Rest | DesignStart::Squeal => {
+                let width = (amplitude, amplitude * (1.0 + 1e-6));
+                stable && self.by_runs(&self.at(at)?, width)?.contains(amplitude)
+            }
+        };
+        Ok(ExactVerdict { quiet, multiplier: orbit.radius() })
+    }
+
+    fn price(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<DitherPrice, String> {
+        let belt = self.at(at)?;
+        let first = belt.dithers().first().ok_or("the study has no dither")?;
+        let acting = quell_model::Dither { amplitude, ..first.clone() };
+        let cost = linear_cost(&acting, belt.damping_ratio()).map_err(|why| why.to_string())?;
+        Ok(DitherPrice { stroke: cost.stroke, velocity: cost.velocity, power: cost.power })
+    }
+
+    fn averaged_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+        let belt = self.dithered(at, amplitude)?;
+        let dithered =
+            criterion(&belt, AveragingOptions::FINITE_R).map_err(|why| why.to_string())?;
+        let without = belt.friction().coefficient(belt.belt_velocity());
+        Ok(1.0 - dithered.effective.coefficient / without)
+    }
+
+    fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+        let belt = self.dithered(at, amplitude)?;
+        let orbit = from_sliding(&belt, GROWTH_STEPS).map_err(|why| why.to_string())?;
+        let solver = Solver { settle: 0.0, record_periods: LOSS_PERIODS, ..Solver::default() };
+        let response = respond(&belt, orbit.start, &solver).map_err(|why| why.to_string())?;
+        Ok(1.0 - response.mean_friction / response.steady_sliding_friction)
+    }
+
+    fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+        let belt = self.dithered(at, amplitude)?;
+        Ok(belt.normal_load() - belt.total_amplitude(Direction::Normal))
+    }
+}

@@ -1,0 +1,414 @@
+//! The least dither by exact thresholds, near that of averaging, and its verification.
+
+use super::covered::{CoveredBox, covered};
+use super::search::{AveragedSearch, DesignBasin, DesignPoint};
+use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
+use super::{DesignObjective, DesignProblem, DesignStart, LimitedQuantity, OperatingPoint};
+
+/// Window of exact thresholds about the amplitude of averaging, as factors.
+const WINDOW: (f64, f64) = (0.85, 1.15);
+
+/// First step over the box about the points of averaging, and the last one, as shares of its ranges.
+const STEPS: (f64, f64) = (0.015625, 1e-7);
+
+/// The same where runs are judged: each takes many of them.
+const STEPS_OF_RUNS: (f64, f64) = (0.015625, 1e-3);
+
+/// Share by which a search begins below the end of a loud set, so that the set decides.
+const BELOW: f64 = 1e-12;
+
+/// A limit binds by averaging if at least this share of it is used.
+const BINDS: f64 = 1.0 - 1e-6;
+
+/// Steps of the secant method along a limit, and the closeness to it.
+const SECANT: (usize, f64) = (12, 1e-7);
+
+/// Rounds in which points that fail the verification are added to those that decide.
+const ROUNDS: usize = 4;
+
+/// Share of the least amplitude by which the verified dither exceeds it.
+pub const MARGIN: f64 = 1e-3;
+
+/// An operating point at which the answer was verified.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VerifiedPoint {
+    /// The point of the box.
+    pub point: Vec<f64>,
+    /// Modulus of the deciding multiplier of the exact base response.
+    pub multiplier: f64,
+}
+
+/// A least dither.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FeasibleDesign {
+    /// The exact least dither.
+    pub critical: DesignPoint,
+    /// The dither of averaging alone.
+    pub averaged: DesignPoint,
+    /// The amplitude at which the answer was verified: the critical one and a margin.
+    pub verified_amplitude: f64,
+    /// The points at which it was verified: the one that decides first.
+    pub verified: Vec<VerifiedPoint>,
+    /// The largest loss of mean friction on the exact responses, with its operating point, or why it is unknown.
+    pub friction_loss: Result<(f64, Vec<f64>), String>,
+}
+
+/// Why there is no dither, and how far one reaches.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InfeasibleDesign {
+    /// The dither that comes nearest, if one is quiet everywhere without the limits.
+    pub nearest: Option<DesignPoint>,
+    /// Why no dither is allowed.
+    pub why: NoDesign,
+    /// The largest part of the box for which one dither suffices.
+    pub covered: Result<CoveredBox, String>,
+}
+
+/// Why no dither is allowed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoDesign {
+    /// No allowed amplitude is quiet at this operating point.
+    NeverQuiet {
+        /// The point.
+        point: Vec<f64>,
+    },
+    /// The nearest dither exceeds a limit.
+    Limit {
+        /// The limited quantity.
+        quantity: LimitedQuantity,
+        /// The ratio of its value to the limit (of the limit to its value for a smallest load).
+        used: f64,
+        /// The operating point, if it decides.
+        point: Option<Vec<f64>>,
+    },
+    /// A point has no answer.
+    Failed {
+        /// The point.
+        point: Vec<f64>,
+        /// Why.
+        why: String,
+    },
+}
+
+/// The answer about one waveform.
+#[derive(Clone, Debug)]
+pub struct Designed {
+    /// The least dither, or why there is none.
+    pub answer: Result<FeasibleDesign, InfeasibleDesign>,
+    /// The local minima over the design variables, by averaging, the best first.
+    pub basins: Vec<DesignBasin>,
+    /// Every choice of the design variables that was tried by averaging, in the order of the first design variable.
+    pub tried: Vec<DesignPoint>,
+}
+
+impl From<NoLeast> for NoDesign {
+    fn from(why: NoLeast) -> Self {
+        match why {
+            NoLeast::NeverQuiet { point } => Self::NeverQuiet { point },
+            NoLeast::Failed { point, why } => Self::Failed { point, why },
+        }
+    }
+}
+
+/// The least dither of a problem.
+pub fn design(problem: DesignProblem<'_>) -> Designed {
+    let searched = problem.averaged_search();
+    let basins = searched.found.iter().map(|point| DesignBasin {
+        others: point.others.clone(),
+        amplitude: point.amplitude,
+        objective: point.objective.clone().unwrap_or(f64::INFINITY),
+    });
+    let basins = basins.collect();
+    let mut first_failure = None;
+    let mut answer = None;
+    for averaged in &searched.found {
+        match problem.feasible(averaged) {
+            Ok(feasible) => {
+                answer = Some(feasible);
+                break;
+            }
+            Err(why) => first_failure = first_failure.or(Some((averaged.clone(), why))),
+        }
+    }
+    let answer = answer.ok_or_else(|| {
+        let (nearest, why) = match first_failure {
+            Some((nearest, why)) => (Some(nearest), why),
+            None => nearest(&searched),
+        };
+        InfeasibleDesign { nearest, why, covered: covered(problem) }
+    });
+    let mut tried = searched.tried;
+    tried.sort_by(|a, b| {
+        let first = |point: &DesignPoint| point.others.first().copied().unwrap_or(0.0);
+        first(a).total_cmp(&first(b))
+    });
+    Designed { answer, basins, tried }
+}
+
+/// The choice that comes nearest to keeping every limit, and the limit that it exceeds.
+fn nearest(searched: &AveragedSearch) -> (Option<DesignPoint>, NoDesign) {
+    let point =
+        searched.tried.iter().min_by(|a, b| a.use_of_limits().total_cmp(&b.use_of_limits()));
+    let Some(point) = point else {
+        let why = searched.refused.first().map(|(_, why)| why.clone().into());
+        let nothing = NoDesign::Failed { point: Vec::new(), why: "nothing was tried".to_owned() };
+        return (None, why.unwrap_or(nothing));
+    };
+    (Some(point.clone()), exceeded(point))
+}
+
+/// The limit that a choice exceeds most.
+fn exceeded(point: &DesignPoint) -> NoDesign {
+    let mut worst: Option<(LimitedQuantity, f64)> = None;
+    for (quantity, used) in &point.used {
+        match used {
+            Err(why) => {
+                return NoDesign::Failed {
+                    point: point.worst.clone().unwrap_or_default(),
+                    why: format!("{}: {why}", quantity.name()),
+                };
+            }
+            Ok(used) if worst.is_none_or(|(_, most)| *used > most) => {
+                worst = Some((*quantity, *used))
+            }
+            Ok(_) => {}
+        }
+    }
+    match (worst, &point.objective) {
+        (Some((quantity, used)), _) if used > 1.0 => {
+            NoDesign::Limit { quantity, used, point: point.worst.clone() }
+        }
+        (_, Err(why)) => {
+            NoDesign::Failed { point: point.worst.clone().unwrap_or_default(), why: why.clone() }
+        }
+        _ => NoDesign::Failed { point: Vec::new(), why: "no choice keeps every limit".to_owned() },
+    }
+}
+
+impl DesignProblem<'_> {
+    /// The exact least dither near that of averaging.
+    fn feasible(&self, averaged: &DesignPoint) -> Result<FeasibleDesign, NoDesign> {
+        let mut critical = self.exact_point(&averaged.others, averaged)?;
+        if averaged.use_of_limits() >= BINDS || critical.use_of_limits() > 1.0 {
+            critical = self.at_the_limit(critical)?;
+        } else if !self.others.is_empty() {
+            critical = self.at_the_minimum(critical);
+        }
+        let (critical, verified) = self.verified(critical)?;
+        if critical.use_of_limits() > 1.0 + SECANT.1 * 10.0 {
+            return Err(exceeded(&critical));
+        }
+        let verified_amplitude = critical.amplitude * (1.0 + MARGIN);
+        let friction_loss = self.exact_loss(&critical, verified_amplitude);
+        let limit =
+            self.limits.iter().find(|(quantity, _)| *quantity == LimitedQuantity::FrictionLoss);
+        if let Some((quantity, limit)) = limit {
+            match &friction_loss {
+                Ok((loss, point)) if loss / limit > 1.0 => {
+                    let (quantity, used, point) = (*quantity, loss / limit, Some(point.clone()));
+                    return Err(NoDesign::Limit { quantity, used, point });
+                }
+                Ok(_) => {}
+                Err(why) => {
+                    let point = critical.worst.clone().unwrap_or_default();
+                    return Err(NoDesign::Failed { point, why: why.clone() });
+                }
+            }
+        }
+        let averaged = averaged.clone();
+        Ok(FeasibleDesign { critical, averaged, verified_amplitude, verified, friction_loss })
+    }
+
+    /// The exact least amplitude at a choice of the other design variables, near that of a neighbouring choice.
+    fn exact_point(&self, others: &[f64], near: &DesignPoint) -> Result<DesignPoint, NoDesign> {
+        self.exact_point_from(others, near, near.amplitude * WINDOW.0)
+    }
+
+    /// The points that decide at a neighbouring choice, and points on both sides of each: an exact tip may end before that of averaging.
+    fn neighbourhood(&self, near: &DesignPoint) -> Vec<Vec<f64>> {
+        let mut points = near.decisive.clone();
+        points.extend(near.worst.clone());
+        points.dedup();
+        if points.is_empty() {
+            return self.points();
+        }
+        for point in points.clone() {
+            for (coordinate, (low, high)) in self.over.iter().enumerate() {
+                for sign in [1.0, -1.0] {
+                    let mut next = point.clone();
+                    let value = point[coordinate] + sign * STEPS.0 * (high - low);
+                    next[coordinate] = value.clamp(*low, *high);
+                    if !points.contains(&next) {
+                        points.push(next);
+                    }
+                }
+            }
+        }
+        points
+    }
+
+    /// The same, with amplitudes from `lowest` on.
+    fn exact_point_from(
+        &self,
+        others: &[f64],
+        near: &DesignPoint,
+        lowest: f64,
+    ) -> Result<DesignPoint, NoDesign> {
+        let (from, to) = self.amplitude;
+        let points = self.neighbourhood(near);
+        let (first, last) = match self.start {
+            DesignStart::Local => STEPS,
+            DesignStart::Rest | DesignStart::Squeal => STEPS_OF_RUNS,
+        };
+        // Runs from afar may need much more than the local threshold.
+        let upper = match self.start {
+            DesignStart::Local => (near.amplitude.max(lowest) * WINDOW.1).min(to),
+            DesignStart::Rest | DesignStart::Squeal => to,
+        };
+        let least = |points: Vec<Vec<f64>>, lower: f64, near: Option<f64>| {
+            let quiet =
+                |point: &[f64]| self.plant.exact(OperatingPoint { point, others }, (lower, upper));
+            // Averaging has shown that smaller amplitudes are loud somewhere: the search begins at the loud sets that end near its
+            // amplitude.
+            let mut begin = lower;
+            for (point, near) in points.iter().zip(near.into_iter().cycle()) {
+                let set =
+                    quiet(point).map_err(|why| NoLeast::Failed { point: point.clone(), why })?;
+                let ends = set.intervals().iter().map(|(low, _)| *low).filter(|low| *low > lower);
+                let nearest = ends.min_by(|a, b| (a - near).abs().total_cmp(&(b - near).abs()));
+                begin = begin.max(nearest.map_or(lower, |end| end * (1.0 - BELOW)));
+            }
+            let search = BoxSearch { ranges: self.over, from: begin, step: first, closeness: last };
+            least_of_box(search, points, &quiet)
+        };
+        let lower = lowest.clamp(from, upper);
+        let mut found: LeastOfBox = least(points, lower, Some(near.amplitude.max(lower)))?;
+        // By exact thresholds nothing is loud near the amplitude of averaging: the whole range is searched, and the whole box.
+        if found.worst.is_none() && lower > from {
+            found = least(self.points(), from, None)?;
+        }
+        Ok(self.priced(others, found))
+    }
+
+    /// The choice on the limit: the first design variable moves until the exact amplitude uses the limit wholly.
+    fn at_the_limit(&self, start: DesignPoint) -> Result<DesignPoint, NoDesign> {
+        let Some((low, high)) = self.others.first().copied() else { return Ok(start) };
+        let mut before = start.clone();
+        let moved = |point: &DesignPoint, value: f64| {
+            let mut others = point.others.clone();
+            others[0] = value.clamp(low, high);
+            self.exact_point(&others, point)
+        };
+        let step = if start.others[0] * (1.0 + 1e-3) <= high { 1e-3 } else { -1e-3 };
+        let mut now = moved(&start, start.others[0] * (1.0 + step))?;
+        for _ in 0..SECANT.0 {
+            let (use_before, use_now) = (before.use_of_limits(), now.use_of_limits());
+            if (use_now - 1.0).abs() < SECANT.1 {
+                break;
+            }
+            let (x, y) = (before.others[0], now.others[0]);
+            if use_now == use_before || x == y {
+                break;
+            }
+            let next = y - (use_now - 1.0) * (y - x) / (use_now - use_before);
+            let next = moved(&now, next)?;
+            before = std::mem::replace(&mut now, next);
+        }
+        Ok(now)
+    }
+
+    /// The choice at a smooth minimum of the exact objective: the vertex of a parabola along each design variable.
+    fn at_the_minimum(&self, start: DesignPoint) -> DesignPoint {
+        const STEP: f64 = 0.01;
+        let mut best = start;
+        for (coordinate, (low, high)) in self.others.iter().enumerate() {
+            let value = best.others[coordinate];
+            let at = |value: f64| {
+                let mut others = best.others.clone();
+                others[coordinate] = value;
+                let point = self.exact_point(&others, &best).ok()?;
+                let objective = point.allowed()?;
+                Some((objective, point))
+            };
+            let size = STEP * if *low > 0.0 { value } else { high - low };
+            if value - size < *low || value + size > *high {
+                continue;
+            }
+            let (Some(left), Some(right), Some(middle)) =
+                (at(value - size), at(value + size), best.allowed())
+            else {
+                continue;
+            };
+            let curvature = left.0 - 2.0 * middle + right.0;
+            let shift = 0.5 * size * (left.0 - right.0) / curvature;
+            let vertex = (curvature > 0.0 && shift.abs() <= size).then(|| at(value + shift));
+            let candidates = [Some(left), Some(right), vertex.flatten()];
+            for (objective, point) in candidates.into_iter().flatten() {
+                if best.allowed().is_none_or(|known| objective < known) {
+                    best = point;
+                }
+            }
+        }
+        best
+    }
+
+    /// Verifies the dither by exact responses at the points of the box; points that fail are added to those that decide.
+    fn verified(
+        &self,
+        mut critical: DesignPoint,
+    ) -> Result<(DesignPoint, Vec<VerifiedPoint>), NoDesign> {
+        for _ in 0..ROUNDS {
+            let amplitude = critical.amplitude * (1.0 + MARGIN);
+            let mut points: Vec<Vec<f64>> = critical.worst.iter().cloned().collect();
+            points.extend(self.points());
+            let mut verified = Vec::new();
+            let mut failing = Vec::new();
+            for point in points {
+                let at = OperatingPoint { point: &point, others: &critical.others };
+                match self.plant.verdict(at, amplitude) {
+                    Ok(verdict) if verdict.quiet => {
+                        verified.push(VerifiedPoint { point, multiplier: verdict.multiplier });
+                    }
+                    Ok(_) => failing.push(point),
+                    Err(why) => return Err(NoDesign::Failed { point, why }),
+                }
+            }
+            if failing.is_empty() {
+                return Ok((critical, verified));
+            }
+            critical.decisive.extend(failing);
+            let others = critical.others.clone();
+            let lowest = critical.amplitude;
+            critical = self.exact_point_from(&others, &critical, lowest)?;
+        }
+        let point = critical.decisive.last().cloned().unwrap_or_default();
+        Err(NoDesign::NeverQuiet { point })
+    }
+
+    /// The largest loss of mean friction in the box on the exact responses.
+    fn exact_loss(
+        &self,
+        critical: &DesignPoint,
+        amplitude: f64,
+    ) -> Result<(f64, Vec<f64>), String> {
+        let wanted = self.objective == DesignObjective::FrictionLoss
+            || self.limits.iter().any(|(quantity, _)| *quantity == LimitedQuantity::FrictionLoss);
+        // The loss is asked for at every point only where it matters.
+        let points = if wanted {
+            self.points()
+        } else {
+            let mut points = super::search::grid(self.over, [1, 2, 2, 2], false);
+            points.extend(critical.worst.clone());
+            points
+        };
+        let mut largest: Option<(f64, Vec<f64>)> = None;
+        for point in points {
+            let at = OperatingPoint { point: &point, others: &critical.others };
+            let loss = self.plant.exact_loss(at, amplitude)?;
+            if largest.as_ref().is_none_or(|(most, _)| loss > *most) {
+                largest = Some((loss, point));
+            }
+        }
+        largest.ok_or_else(|| "the box has no points".to_owned())
+    }
+}

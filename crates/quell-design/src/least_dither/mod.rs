@@ -1,0 +1,218 @@
+//! The least dither that is quiet over a whole box of operating points, under limits.
+//!
+//! For every choice of the other design variables (a frequency, say) the least amplitude that is quiet in the whole box is sought
+//! (`worst_point`), first by averaging and finite-R closed forms, which is cheap. Over the other variables the search is global: a grid,
+//! then a pattern search from the best of its local minima, because resonances make the objective multimodal (`search`). The exact
+//! thresholds are then computed only at the points of the box that decide, and followed where a limit binds (`exact`). The answer is
+//! verified by exact periodic responses at points of the box (`verified`). What the structure is stays behind [`Plant`].
+
+mod belt;
+mod covered;
+mod exact;
+mod quiet;
+mod search;
+mod worst_point;
+
+pub use belt::BeltPlant;
+pub use covered::CoveredBox;
+pub use exact::{
+    Designed, FeasibleDesign, InfeasibleDesign, MARGIN, NoDesign, VerifiedPoint, design,
+};
+pub use quiet::QuietAmplitudes;
+pub use search::{DesignBasin, DesignPoint};
+pub use worst_point::NoLeast;
+
+/// What is to be small.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DesignObjective {
+    /// The amplitude of the dither.
+    Amplitude,
+    /// The peak-to-peak stroke of the linear response without friction.
+    Stroke,
+    /// The largest velocity of that response.
+    Velocity,
+    /// The mean power that the dither brings into that response.
+    Power,
+    /// The share of the mean friction that is lost, at the operating point where it is largest.
+    FrictionLoss,
+}
+
+impl DesignObjective {
+    /// Every objective.
+    pub const ALL: [Self; 5] =
+        [Self::Amplitude, Self::Stroke, Self::Velocity, Self::Power, Self::FrictionLoss];
+
+    /// Name in a study.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Amplitude => "amplitude",
+            Self::Stroke => "stroke",
+            Self::Velocity => "velocity",
+            Self::Power => "power",
+            Self::FrictionLoss => "friction-loss",
+        }
+    }
+}
+
+/// A quantity with a limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LimitedQuantity {
+    /// Amplitude of the dither, at most.
+    Amplitude,
+    /// Peak-to-peak stroke of the linear response without friction, at most.
+    Stroke,
+    /// Largest velocity of that response, at most.
+    Velocity,
+    /// Mean power of that response, at most.
+    Power,
+    /// Share of the mean friction that is lost at the worst operating point, at most.
+    FrictionLoss,
+    /// Smallest normal load of a contact under normal dither, at least.
+    MinimumNormalLoad,
+}
+
+impl LimitedQuantity {
+    /// Every quantity.
+    pub const ALL: [Self; 6] = [
+        Self::Amplitude,
+        Self::Stroke,
+        Self::Velocity,
+        Self::Power,
+        Self::FrictionLoss,
+        Self::MinimumNormalLoad,
+    ];
+
+    /// Name in a study.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Amplitude => "amplitude",
+            Self::Stroke => "stroke",
+            Self::Velocity => "velocity",
+            Self::Power => "power",
+            Self::FrictionLoss => "friction_loss",
+            Self::MinimumNormalLoad => "minimum_normal_load",
+        }
+    }
+}
+
+/// The runs that must end quiet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DesignStart {
+    /// Those near the base response: its multipliers decide.
+    Local,
+    /// A run from rest.
+    Rest,
+    /// A run from the limit cycle without dither.
+    Squeal,
+}
+
+impl DesignStart {
+    /// Every start.
+    pub const ALL: [Self; 3] = [Self::Local, Self::Rest, Self::Squeal];
+
+    /// Name in a study.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Local => "local",
+            Self::Rest => "rest",
+            Self::Squeal => "squeal",
+        }
+    }
+}
+
+/// A point of the box and the design variables other than the amplitude.
+#[derive(Clone, Copy, Debug)]
+pub struct OperatingPoint<'a> {
+    /// Coordinates in the box of operating points.
+    pub point: &'a [f64],
+    /// Values of the other design variables.
+    pub others: &'a [f64],
+}
+
+/// What a dither costs the linear structure without friction, in numbers of the equations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DitherPrice {
+    /// Peak-to-peak displacement.
+    pub stroke: f64,
+    /// Largest velocity.
+    pub velocity: f64,
+    /// Mean power.
+    pub power: f64,
+}
+
+/// An exact answer about one dither at one operating point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExactVerdict {
+    /// Whether the run of the design's start is quiet.
+    pub quiet: bool,
+    /// Modulus of the deciding multiplier of the base response.
+    pub multiplier: f64,
+}
+
+/// A structure under a dither that is to be designed: it answers about one operating point.
+pub trait Plant {
+    /// The amplitudes in a range that are quiet by averaging at a finite frequency ratio.
+    ///
+    /// # Errors
+    /// Why there is no answer.
+    fn averaged(
+        &self,
+        at: OperatingPoint<'_>,
+        range: (f64, f64),
+    ) -> Result<QuietAmplitudes, String>;
+
+    /// The amplitudes in a range that are quiet by exact thresholds.
+    ///
+    /// # Errors
+    /// Why there is no answer.
+    fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String>;
+
+    /// The exact verdict about one amplitude.
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn verdict(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<ExactVerdict, String>;
+
+    /// The response of the linear structure without friction.
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn price(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<DitherPrice, String>;
+
+    /// The share of the mean friction that is lost by averaging.
+    ///
+    /// # Errors
+    /// Why it is unknown.
+    fn averaged_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String>;
+
+    /// The share of the mean friction that is lost on the exact base response.
+    ///
+    /// # Errors
+    /// Why it is unknown.
+    fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String>;
+
+    /// The smallest normal load under the dither.
+    ///
+    /// # Errors
+    /// Why it is unknown.
+    fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String>;
+}
+
+/// A design question about one waveform, in numbers of the equations.
+#[derive(Clone, Copy)]
+pub struct DesignProblem<'a> {
+    /// The structure.
+    pub plant: &'a dyn Plant,
+    /// What is to be small.
+    pub objective: DesignObjective,
+    /// Smallest and largest amplitude.
+    pub amplitude: (f64, f64),
+    /// Ranges of the other design variables.
+    pub others: &'a [(f64, f64)],
+    /// The box of operating points.
+    pub over: &'a [(f64, f64)],
+    /// Limits.
+    pub limits: &'a [(LimitedQuantity, f64)],
+    /// The runs that must end quiet.
+    pub start: DesignStart,
+}

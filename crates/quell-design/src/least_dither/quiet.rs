@@ -1,0 +1,100 @@
+//! Amplitudes of a dither at which a structure is quiet.
+
+/// Amplitudes at which a structure is quiet: disjoint intervals in ascending order, within the range that was searched.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct QuietAmplitudes {
+    intervals: Vec<(f64, f64)>,
+}
+
+impl QuietAmplitudes {
+    /// From the verdict at the lower end of a range and the changes of the verdict in it, in ascending order: (amplitude, whether
+    /// larger amplitudes are quiet).
+    pub fn of_changes(
+        (from, to): (f64, f64),
+        quiet_at_first: bool,
+        changes: impl IntoIterator<Item = (f64, bool)>,
+    ) -> Self {
+        let mut intervals = Vec::new();
+        let mut begin = quiet_at_first.then_some(from);
+        for (at, becomes_quiet) in changes {
+            match (begin, becomes_quiet) {
+                (None, true) => begin = Some(at),
+                (Some(since), false) => {
+                    intervals.push((since, at));
+                    begin = None;
+                }
+                (None, false) | (Some(_), true) => {}
+            }
+        }
+        intervals.extend(begin.map(|since| (since, to)));
+        intervals.retain(|(low, high)| *high >= from && *low <= to);
+        for (low, high) in &mut intervals {
+            (*low, *high) = (low.max(from), high.min(to));
+        }
+        Self { intervals }
+    }
+
+    /// The intervals.
+    pub fn intervals(&self) -> &[(f64, f64)] {
+        &self.intervals
+    }
+
+    /// Whether an amplitude is quiet.
+    pub fn contains(&self, amplitude: f64) -> bool {
+        self.intervals.iter().any(|(low, high)| (*low..=*high).contains(&amplitude))
+    }
+
+    /// The least quiet amplitude from one on.
+    pub fn least_from(&self, amplitude: f64) -> Option<f64> {
+        let beyond = self.intervals.iter().find(|(_, high)| *high >= amplitude)?;
+        Some(beyond.0.max(amplitude))
+    }
+}
+
+/// The least amplitude from `from` on that is quiet in every set, with the set that decides (`None`: `from` itself is quiet in all).
+///
+/// # Errors
+/// The number of a set that has no quiet amplitude beyond those that the others need.
+pub(super) fn least_of_all<'a>(
+    sets: impl Iterator<Item = &'a QuietAmplitudes> + Clone,
+    from: f64,
+) -> Result<(f64, Option<usize>), usize> {
+    let mut least = (from, None);
+    loop {
+        let before = least.0;
+        for (number, set) in sets.clone().enumerate() {
+            let next = set.least_from(least.0).ok_or(number)?;
+            if next > least.0 {
+                least = (next, Some(number));
+            }
+        }
+        if least.0 == before {
+            return Ok(least);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gaps_of_several_sets_are_stepped_over() {
+        let range = (0.0, 10.0);
+        // Quiet up to 1 and from 3 on; quiet up to 4 and from 5 on; quiet everywhere.
+        let one = QuietAmplitudes::of_changes(range, true, [(1.0, false), (3.0, true)]);
+        let two = QuietAmplitudes::of_changes(range, true, [(4.0, false), (5.0, true)]);
+        let all = QuietAmplitudes::of_changes(range, true, []);
+        let sets = [one.clone(), two.clone(), all];
+        assert_eq!(least_of_all(sets.iter(), 0.0), Ok((0.0, None)));
+        assert_eq!(least_of_all(sets.iter(), 2.0), Ok((3.0, Some(0))));
+        assert_eq!(least_of_all(sets.iter(), 4.5), Ok((5.0, Some(1))));
+        // The gap of the second set begins where that of the first ends.
+        let three = QuietAmplitudes::of_changes(range, true, [(2.5, false), (3.5, true)]);
+        assert_eq!(least_of_all([&one, &three].into_iter(), 2.0), Ok((3.5, Some(1))));
+        let never = QuietAmplitudes::of_changes(range, true, [(4.0, false)]);
+        assert_eq!(least_of_all([&two, &never].into_iter(), 4.5), Err(1));
+        assert!(one.contains(1.0) && !one.contains(2.0) && one.contains(3.0));
+        assert_eq!(one.intervals(), [(0.0, 1.0), (3.0, 10.0)]);
+    }
+}

@@ -1,0 +1,316 @@
+//! The least dither by averaging, globally over the design variables other than the amplitude.
+//!
+//! A grid over these variables (equal ratios where a range is positive) finds the local minima of the objective among the points that
+//! keep every limit; the best of them are refined by a pattern search that stays on the allowed side of the limits.
+
+use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
+use super::{DesignObjective, DesignProblem, LimitedQuantity, OperatingPoint};
+
+/// Points of the grid along each design variable, by their number.
+const GRID: [usize; 4] = [1, 49, 13, 6];
+
+/// Points of the box along each coordinate where every point is judged, and while design variables are searched.
+const FINE: [usize; 4] = [1, 33, 9, 5];
+const COARSE: [usize; 4] = [1, 7, 3, 2];
+
+/// Local minima that are refined.
+const BASINS: usize = 4;
+
+/// Steps of the search over design variables, as shares of their ranges.
+const CLOSENESS: f64 = 1e-9;
+
+/// Steps of the search over the box.
+const BOX_CLOSENESS: f64 = 1e-9;
+
+/// A choice of the design variables with its least amplitude.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignPoint {
+    /// Values of the design variables other than the amplitude.
+    pub others: Vec<f64>,
+    /// The least amplitude that is quiet in the whole box.
+    pub amplitude: f64,
+    /// The objective there.
+    pub objective: Result<f64, String>,
+    /// The operating point that decides; `None` where the smallest allowed amplitude is quiet everywhere.
+    pub worst: Option<Vec<f64>>,
+    /// Every operating point at which a loud set was climbed.
+    pub decisive: Vec<Vec<f64>>,
+    /// For each limit how far it is used: at most 1 where it is kept.
+    pub used: Vec<(LimitedQuantity, Result<f64, String>)>,
+}
+
+/// A local minimum of the objective over the design variables, by averaging.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignBasin {
+    /// Values of the design variables other than the amplitude.
+    pub others: Vec<f64>,
+    /// The least amplitude.
+    pub amplitude: f64,
+    /// The objective.
+    pub objective: f64,
+}
+
+/// What the search over design variables found.
+#[derive(Clone, Debug, Default)]
+pub(super) struct AveragedSearch {
+    /// The local minima that keep the limits, the best first.
+    pub(super) found: Vec<DesignPoint>,
+    /// Every choice that was tried, whether or not it keeps the limits, in the order of the grid first.
+    pub(super) tried: Vec<DesignPoint>,
+    /// Why choices have no amplitude.
+    pub(super) refused: Vec<(Vec<f64>, NoLeast)>,
+}
+
+impl DesignPoint {
+    /// How far the tightest limit is used; infinite where a limit cannot be judged.
+    pub fn use_of_limits(&self) -> f64 {
+        let one = |used: &Result<f64, String>| used.as_ref().map_or(f64::INFINITY, |used| *used);
+        self.used.iter().map(|(_, used)| one(used)).fold(0.0, f64::max)
+    }
+
+    /// The objective where every limit is kept.
+    pub(super) fn allowed(&self) -> Option<f64> {
+        self.objective.as_ref().ok().copied().filter(|_| self.use_of_limits() <= 1.0)
+    }
+}
+
+/// A grid over ranges, with `counts[d]` points along each of d coordinates (two beyond the list): the last coordinate varies fastest.
+pub(super) fn grid(ranges: &[(f64, f64)], counts: [usize; 4], in_ratios: bool) -> Vec<Vec<f64>> {
+    let count = counts.get(ranges.len()).copied().unwrap_or(2);
+    let mut points = vec![Vec::new()];
+    for (low, high) in ranges {
+        let value = |k: usize| {
+            let share = k as f64 / (count - 1) as f64;
+            match k {
+                0 => *low,
+                k if k + 1 == count => *high,
+                _ if in_ratios && *low > 0.0 => low * libm::exp(share * libm::log(high / low)),
+                _ => low + share * (high - low),
+            }
+        };
+        let single = low == high || count == 1;
+        let values: Vec<f64> = if single { vec![*low] } else { (0..count).map(value).collect() };
+        points = points
+            .iter()
+            .flat_map(|point: &Vec<f64>| {
+                values.iter().map(|value| [point.as_slice(), &[*value]].concat())
+            })
+            .collect();
+    }
+    points
+}
+
+impl DesignProblem<'_> {
+    /// Points of the box at which every answer is judged.
+    pub(super) fn points(&self) -> Vec<Vec<f64>> {
+        grid(self.over, FINE, false)
+    }
+
+    /// The largest value of a quantity over the corners of the box and the point that decides.
+    fn largest(
+        &self,
+        worst: Option<&Vec<f64>>,
+        value: impl Fn(&[f64]) -> Result<f64, String>,
+    ) -> Result<f64, String> {
+        let corners = grid(self.over, [1, 2, 2, 2], false);
+        let mut largest = f64::NEG_INFINITY;
+        for point in corners.iter().chain(worst) {
+            largest = largest.max(value(point)?);
+        }
+        Ok(largest)
+    }
+
+    /// How far a limit is used at an amplitude.
+    fn used(
+        &self,
+        (quantity, limit): (LimitedQuantity, f64),
+        others: &[f64],
+        amplitude: f64,
+        worst: Option<&Vec<f64>>,
+    ) -> Result<f64, String> {
+        let price = |of: fn(super::DitherPrice) -> f64| {
+            self.largest(worst, |point| {
+                self.plant.price(OperatingPoint { point, others }, amplitude).map(of)
+            })
+        };
+        let value = match quantity {
+            LimitedQuantity::Amplitude => amplitude,
+            LimitedQuantity::Stroke => price(|price| price.stroke)?,
+            LimitedQuantity::Velocity => price(|price| price.velocity)?,
+            LimitedQuantity::Power => price(|price| price.power)?,
+            LimitedQuantity::FrictionLoss => self.averaged_loss(others, amplitude, worst)?,
+            LimitedQuantity::MinimumNormalLoad => {
+                let left = -self.largest(worst, |point| {
+                    self.plant
+                        .minimum_normal_load(OperatingPoint { point, others }, amplitude)
+                        .map(|load| -load)
+                })?;
+                return Ok(if left > 0.0 { limit / left } else { f64::INFINITY });
+            }
+        };
+        Ok(value.max(0.0) / limit)
+    }
+
+    /// The largest loss of mean friction in the box, by averaging.
+    pub(super) fn averaged_loss(
+        &self,
+        others: &[f64],
+        amplitude: f64,
+        worst: Option<&Vec<f64>>,
+    ) -> Result<f64, String> {
+        let loss =
+            |point: &[f64]| self.plant.averaged_loss(OperatingPoint { point, others }, amplitude);
+        self.largest(worst, loss)
+    }
+
+    /// A choice of design variables with an amplitude, its objective and the use of every limit.
+    pub(super) fn priced(&self, others: &[f64], least: LeastOfBox) -> DesignPoint {
+        let LeastOfBox { amplitude, worst, decisive } = least;
+        let price = |of: fn(super::DitherPrice) -> f64| {
+            self.largest(worst.as_ref(), |point| {
+                self.plant.price(OperatingPoint { point, others }, amplitude).map(of)
+            })
+        };
+        let objective = match self.objective {
+            DesignObjective::Amplitude => Ok(amplitude),
+            DesignObjective::Stroke => price(|price| price.stroke),
+            DesignObjective::Velocity => price(|price| price.velocity),
+            DesignObjective::Power => price(|price| price.power),
+            DesignObjective::FrictionLoss => self.averaged_loss(others, amplitude, worst.as_ref()),
+        };
+        let used = self.limits.iter().map(|&(quantity, limit)| {
+            (quantity, self.used((quantity, limit), others, amplitude, worst.as_ref()))
+        });
+        let used = used.collect();
+        DesignPoint { others: others.to_vec(), amplitude, objective, worst, decisive, used }
+    }
+
+    /// The least amplitude by averaging at a choice of design variables.
+    pub(super) fn averaged_point(
+        &self,
+        others: &[f64],
+        points: Vec<Vec<f64>>,
+    ) -> Result<DesignPoint, NoLeast> {
+        let (from, to) = self.amplitude;
+        let search = BoxSearch { ranges: self.over, from, step: 0.0625, closeness: BOX_CLOSENESS };
+        let quiet =
+            |point: &[f64]| self.plant.averaged(OperatingPoint { point, others }, (from, to));
+        Ok(self.priced(others, least_of_box(search, points, &quiet)?))
+    }
+
+    /// The search over all design variables.
+    pub(super) fn averaged_search(&self) -> AveragedSearch {
+        let mut done = AveragedSearch::default();
+        if self.others.is_empty() {
+            match self.averaged_point(&[], self.points()) {
+                Ok(point) => {
+                    done.found.extend(point.allowed().map(|_| point.clone()));
+                    done.tried.push(point);
+                }
+                Err(why) => done.refused.push((Vec::new(), why)),
+            }
+            return done;
+        }
+        let coarse = grid(self.over, COARSE, false);
+        let choices = grid(self.others, GRID, true);
+        let mut values = Vec::new();
+        for choice in &choices {
+            let point = self.averaged_point(choice, coarse.clone());
+            values.push(point.as_ref().ok().and_then(DesignPoint::allowed));
+            match point {
+                Ok(point) => done.tried.push(point),
+                Err(why) => done.refused.push((choice.clone(), why)),
+            }
+        }
+        for start in self.local_minima(&choices, &values) {
+            let Ok(point) = self.averaged_point(&choices[start], coarse.clone()) else { continue };
+            let refined = self.refined(point, &mut done.tried);
+            // Every point of the box, not only the coarse ones.
+            let mut points = self.points();
+            points.extend(refined.decisive.iter().cloned());
+            match self.averaged_point(&refined.others, points) {
+                Ok(point) if point.allowed().is_some() => done.found.push(point),
+                Ok(point) => done.tried.push(point),
+                Err(why) => done.refused.push((refined.others, why)),
+            }
+        }
+        let value = |point: &DesignPoint| point.allowed().unwrap_or(f64::INFINITY);
+        done.found.sort_by(|a, b| value(a).total_cmp(&value(b)));
+        done
+    }
+
+    /// The choices on the grid that are better than their neighbours, the best first.
+    fn local_minima(&self, choices: &[Vec<f64>], values: &[Option<f64>]) -> Vec<usize> {
+        let count = GRID.get(self.others.len()).copied().unwrap_or(2);
+        let better = |place: usize, value: f64| {
+            (0..self.others.len()).all(|coordinate| {
+                let stride =
+                    count.pow(u32::try_from(self.others.len() - 1 - coordinate).unwrap_or(0));
+                let along = (place / stride) % count;
+                let lower = along.checked_sub(1).map(|_| place - stride);
+                let upper = (along + 1 < count).then_some(place + stride);
+                [lower, upper].into_iter().flatten().all(|next| {
+                    values.get(next).copied().flatten().is_none_or(|there| value <= there)
+                })
+            })
+        };
+        let mut minima: Vec<(usize, f64)> = (0..choices.len())
+            .filter_map(|place| Some((place, values[place]?)))
+            .filter(|(place, value)| better(*place, *value))
+            .collect();
+        minima.sort_by(|a, b| a.1.total_cmp(&b.1));
+        minima.truncate(BASINS);
+        minima.into_iter().map(|(place, _)| place).collect()
+    }
+
+    /// A local minimum by pattern search on the allowed side of the limits.
+    fn refined(&self, mut best: DesignPoint, tried: &mut Vec<DesignPoint>) -> DesignPoint {
+        let count = GRID.get(self.others.len()).copied().unwrap_or(2);
+        let mut step = 1.0 / (count - 1) as f64;
+        while step > CLOSENESS {
+            let mut moved = false;
+            for (coordinate, (low, high)) in self.others.iter().enumerate() {
+                for sign in [1.0, -1.0] {
+                    let mut others = best.others.clone();
+                    let value = others[coordinate];
+                    let size = if *low > 0.0 { value * libm::log(high / low) } else { high - low };
+                    others[coordinate] = (value + sign * step * size).clamp(*low, *high);
+                    if others == best.others {
+                        continue;
+                    }
+                    let mut points = best.decisive.clone();
+                    points.extend(grid(self.over, [1, 2, 2, 2], false));
+                    let Ok(next) = self.averaged_point(&others, points) else { continue };
+                    let allowed = next.allowed();
+                    let better = allowed.zip(best.allowed()).is_some_and(|(new, old)| new < old);
+                    tried.push(next.clone());
+                    if better {
+                        (best, moved) = (next, true);
+                        break;
+                    }
+                }
+            }
+            if !moved {
+                step *= 0.5;
+            }
+        }
+        best
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grids_keep_both_ends() {
+        let points = grid(&[(2.0, 8.0), (0.0, 1.0)], [1, 2, 3, 2], true);
+        assert_eq!(points.len(), 9);
+        assert_eq!(
+            (points[0].as_slice(), points[8].as_slice()),
+            (&[2.0, 0.0][..], &[8.0, 1.0][..])
+        );
+        assert!((points[3][0] - 4.0).abs() < 1e-15 && points[4][1] == 0.5);
+        assert_eq!(grid(&[], [1, 2, 3, 2], true), [Vec::<f64>::new()]);
+    }
+}
