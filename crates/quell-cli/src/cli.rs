@@ -12,9 +12,9 @@ use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
 use crate::verbs::{
-    attractor, basins, bifurcation, check, cite, completions, friction, map, modes, new, orbit,
-    report, reproduce, resonances, response, schema, simulate, sketch, stability, thresholds,
-    waveforms,
+    attractor, basins, bifurcation, check, cite, completions, design, friction, map, modes, new,
+    orbit, report, reproduce, resonances, response, schema, simulate, sketch, stability,
+    thresholds, waveforms,
 };
 use crate::{answer, help};
 
@@ -46,6 +46,7 @@ enum Verb {
     Attractor(attractor::Arguments),
     Thresholds(thresholds::Arguments),
     Waveforms(waveforms::Arguments),
+    Design(design::Arguments),
     Bifurcation(bifurcation::Arguments),
     Basins(basins::Arguments),
     Map(map::Arguments),
@@ -87,6 +88,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Attractor(arguments) => attractor::run(arguments),
         Verb::Thresholds(arguments) => thresholds::run(arguments),
         Verb::Waveforms(arguments) => waveforms::run(arguments),
+        Verb::Design(arguments) => design::run(arguments),
         Verb::Bifurcation(arguments) => bifurcation::run(arguments),
         Verb::Basins(arguments) => basins::run(arguments),
         Verb::Map(arguments) => map::run(arguments),

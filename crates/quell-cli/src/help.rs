@@ -60,6 +60,13 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 ],
             ),
             (
+                "design",
+                &[
+                    "quell design design.toml",
+                    "quell design design.toml --set design.limits.stroke=0.05 --plot design.svg",
+                ],
+            ),
+            (
                 "friction",
                 &[
                     "quell friction own-law.toml --at 0,0.05,0.1",

@@ -53,6 +53,8 @@ pub fn schema() -> Json {
             Section::Envelope,
             Section::Solver,
             Section::Response,
+            Section::Design,
+            Section::DesignLimits,
         ] {
             definitions.insert(name(section, system), table(section, system));
         }
@@ -84,6 +86,7 @@ fn name(section: Section, system: UnitSystem) -> String {
         Section::Drive => "drive",
         Section::Load => "load",
         Section::Envelope => "envelope",
+        Section::DesignLimits => "limits",
         _ => section.path(),
     };
     format!("{table}_{}", system.suffix())
@@ -116,6 +119,7 @@ fn root(system: UnitSystem) -> Json {
             },
             "solver": { "$ref": reference(Section::Solver, system) },
             "response": { "$ref": reference(Section::Response, system) },
+            "design": { "$ref": reference(Section::Design, system) },
             "sweep": { "type": "array", "items": { "$ref": "#/$defs/sweep" } },
         },
         "required": ["belt", "friction"],
@@ -245,6 +249,11 @@ fn table(section: Section, system: UnitSystem) -> Json {
         {
             properties.insert(key.into(), json!({ "$ref": reference(inner, system) }));
         }
+    }
+    if section == Section::Design {
+        properties
+            .insert("limits".into(), json!({ "$ref": reference(Section::DesignLimits, system) }));
+        required.extend(["minimise", "vary", "from", "to"]);
     }
     if section == Section::Dither {
         properties
@@ -477,6 +486,11 @@ fn property(key: &Key) -> Json {
         Role::AxisPoints => json!({ "type": "integer", "minimum": 2, "maximum": MOST_POINTS }),
         Role::AxisValues => {
             json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 })
+        }
+        Role::Paths => json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 }),
+        Role::Ranges => {
+            let range = json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 });
+            json!({ "type": "object", "additionalProperties": range, "minProperties": 1 })
         }
     };
     if key.measured_in().is_some() {

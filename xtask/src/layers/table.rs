@@ -20,6 +20,14 @@ const PHYSICS: &[&str] =
     &["quell-disc", "quell-dynamics", "quell-linear", "quell-model", "quell-numerics"];
 const PHYSICS_AND_ZOO: &[&str] =
     &["quell-disc", "quell-dynamics", "quell-linear", "quell-model", "quell-numerics", "quell-zoo"];
+const PHYSICS_AND_DESIGN: &[&str] = &[
+    "quell-design",
+    "quell-disc",
+    "quell-dynamics",
+    "quell-linear",
+    "quell-model",
+    "quell-numerics",
+];
 const ENGINES_AND_STUDIES: &[&str] = &[
     "quell-design",
     "quell-disc",
@@ -53,7 +61,7 @@ pub(crate) const LAYERS: &[CrateLayer] = &[
     layer("quell-disc",     LINEAR_AND_ZOO, "what only a disc has; its motion is that of any structure"),
     layer("quell-design",   PHYSICS_AND_ZOO, "questions about many studies at once: it asks the engines, and knows no file and no thread"),
     layer("quell-plot",     NOTHING,     "a figure is data plus a renderer, independent of physics and studies"),
-    layer("quell-study",    PHYSICS,     "reads and checks studies; computes nothing"),
+    layer("quell-study",    PHYSICS_AND_DESIGN,     "reads and checks studies; computes nothing"),
     layer("quell",          ENGINES_AND_STUDIES, "runs the physics, independent of its clients"),
     layer("quell-reproduce", CLIENT,     "the dissertation is a client of `quell`; only user interfaces use it"),
     layer("quell-cli",      FRONT_DOOR,  "a user interface parses and displays: no physics, no other interface"),

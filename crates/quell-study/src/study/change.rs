@@ -121,6 +121,12 @@ impl Change {
                 };
                 Ok(self.table(belt, section.path().trim_start_matches("belt.")))
             }
+            Section::DesignLimits => {
+                let Some(design) = self.table(root, "design") else {
+                    return Ok(None);
+                };
+                Ok(self.table(design, "limits"))
+            }
             Section::Envelope => {
                 let Some(dither) = self.entry(root, "dither", index)? else {
                     return Ok(None);

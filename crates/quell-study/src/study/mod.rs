@@ -21,6 +21,7 @@ pub mod belt;
 mod change;
 mod course;
 mod data_file;
+mod design;
 pub mod disc;
 pub mod document;
 mod file;
@@ -39,6 +40,7 @@ mod waveform;
 
 pub use belt::{BeltSetup, BeltStudy, Measured};
 pub use change::Change;
+pub use design::{Design, DesignRange};
 pub use disc::{DiscSetup, DiscStudy};
 pub use kind::{Kind, Study};
 pub use quell_dynamics::response::Solver;

@@ -25,6 +25,12 @@ pub(super) fn read(reader: &mut Reader, document: &Table, tables: &[&str]) -> Op
         if vocabulary::key(Section::Root, name).is_some() || tables.contains(&name) {
             continue;
         }
+        if name == Section::Design.path() {
+            let allowed = "[design] is implemented for studies of a belt alone";
+            let complaint = Complaint::new(Fault::NotBuilt, name, node.origin, Json::Null, allowed);
+            reader.complain(complaint);
+            continue;
+        }
         if keys::TABLES.contains(&name) && !known.contains(&name) {
             let allowed = format!("[{name}] belongs to a study of a system, with [system]");
             let complaint = Complaint::new(Fault::Conflict, name, node.origin, Json::Null, allowed);

@@ -6,8 +6,8 @@ use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::{
-    basins, bifurcation, curves, describing, found_attractor, friction, noise_response, orbit,
-    ramp, response, simulate, stability, thresholds, waveforms, window,
+    basins, bifurcation, curves, describing, design, found_attractor, friction, noise_response,
+    orbit, ramp, response, simulate, stability, thresholds, waveforms, window,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -31,6 +31,7 @@ impl Verbs for BeltStudy {
             "attractor",
             "thresholds",
             "waveforms",
+            "design",
             "bifurcation",
             "basins",
             "map",
@@ -97,6 +98,10 @@ impl Verbs for BeltStudy {
 
     fn threshold_curves(&self, request: &curves::CurvesRequest) -> Reply {
         answer(self, curves::run(self, request))
+    }
+
+    fn design(&self) -> Reply {
+        answer(self, design::run(self))
     }
 
     fn waveforms(&self) -> Reply {

@@ -266,6 +266,14 @@ pub trait Verbs: Send + Sync {
         Err(self.lacks("waveforms"))
     }
 
+    /// The least dither that is quiet over a box of operating points.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::design::run`].
+    fn design(&self) -> Reply {
+        Err(self.lacks("design"))
+    }
+
     /// Natural frequencies and shapes.
     ///
     /// # Errors

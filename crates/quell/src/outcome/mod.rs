@@ -17,6 +17,7 @@ mod bifurcation;
 pub mod check;
 mod cite;
 mod describing;
+mod design;
 mod disc_motion;
 mod friction;
 mod map;

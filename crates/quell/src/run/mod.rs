@@ -10,6 +10,7 @@ pub mod check;
 pub mod criticality;
 pub mod curves;
 pub mod describing;
+pub mod design;
 pub mod disc;
 mod effect_words;
 pub mod exponents;

@@ -17,6 +17,7 @@ use quell_model::units::{Quantity, Scales};
 use quell_model::{Belt, Dither, Friction, LawKind};
 
 use super::StudyOf;
+use super::design::{self, Design};
 use super::disc::DiscSetup;
 use super::document::Table;
 use super::reader::{CourseFile, Reader};
@@ -43,6 +44,8 @@ pub struct BeltSetup {
     courses: Arc<[CourseFile]>,
     /// Files of sampled waveforms.
     waves: Vec<WaveFile>,
+    /// The design that is asked for.
+    design: Option<Design>,
 }
 
 impl StudyKind for BeltSetup {
@@ -51,7 +54,7 @@ impl StudyKind for BeltSetup {
     }
 
     fn tables(_: &Table) -> &'static [&'static str] {
-        &["schema", "title", "belt", "friction", "dither", "solver", "response", "sweep"]
+        &["schema", "title", "belt", "friction", "dither", "solver", "response", "design", "sweep"]
     }
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
@@ -83,6 +86,7 @@ impl StudyKind for BeltSetup {
             friction.map_or((None, None), |read| (Some(read.law), read.measured));
         let solver = solver::read(reader, document);
         let band = band::read(reader, document);
+        let design = design::read(reader, document, dithers.as_deref());
         let initial = belt.initial;
         table::slider_has_one_state(reader, document, friction.as_ref());
         let built = build(reader, belt, friction, dithers);
@@ -94,6 +98,7 @@ impl StudyKind for BeltSetup {
             measured: measured.map(Arc::new),
             courses: reader.take_files(),
             waves,
+            design: design?,
         })
     }
 
@@ -144,6 +149,11 @@ impl BeltStudy {
     /// Mass and stiffness of a study in SI.
     pub fn scales(&self) -> Option<Scales> {
         self.kind().belt.scales()
+    }
+
+    /// The design that the study asks for.
+    pub fn design(&self) -> Option<&Design> {
+        self.kind().design.as_ref()
     }
 
     /// The samples of a measured law.

@@ -318,6 +318,9 @@ fn tables(root: &Table, section: Section) -> Vec<&Table> {
         Section::Constants => {
             root.get("friction").and_then(Node::table).and_then(|table| table.get("constants"))
         }
+        Section::DesignLimits => {
+            root.get("design").and_then(Node::table).and_then(|design| design.get("limits"))
+        }
         Section::Initial | Section::Drive | Section::Load => {
             let name = section.path().trim_start_matches("belt.");
             root.get("belt").and_then(Node::table).and_then(|belt| belt.get(name))

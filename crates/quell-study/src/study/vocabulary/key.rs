@@ -43,6 +43,10 @@ pub enum Section {
     Solver,
     /// `[response]`.
     Response,
+    /// `[design]`.
+    Design,
+    /// `[design.limits]`.
+    DesignLimits,
     /// `[[sweep]]`.
     Sweep,
 }
@@ -65,6 +69,8 @@ impl Section {
         Self::Envelope,
         Self::Solver,
         Self::Response,
+        Self::Design,
+        Self::DesignLimits,
         Self::Sweep,
     ];
 
@@ -86,6 +92,8 @@ impl Section {
             Self::Envelope => "dither.envelope",
             Self::Solver => "solver",
             Self::Response => "response",
+            Self::Design => "design",
+            Self::DesignLimits => "design.limits",
             Self::Sweep => "sweep",
         }
     }
@@ -112,6 +120,8 @@ impl Section {
             Self::Response => {
                 "measurements of a response in addition to the band of slow vibration"
             }
+            Self::Design => "the least dither over a box of operating points",
+            Self::DesignLimits => "limits of the dither that is designed",
             Self::Sweep => "one axis of a map; several in order",
         }
     }
@@ -255,6 +265,10 @@ pub enum Role {
     AxisPoints,
     /// The list of values of an axis.
     AxisValues,
+    /// The paths of the numbers that a design varies.
+    Paths,
+    /// The ranges of the numbers over which a design holds, by their paths.
+    Ranges,
 }
 
 /// One key of the study file.

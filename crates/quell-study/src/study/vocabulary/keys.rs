@@ -32,6 +32,7 @@ fn all() -> Vec<Key> {
     keys.extend(disc());
     keys.extend(band());
     keys.extend(axis());
+    keys.extend(design());
     keys.sort_by_key(|key| Section::ALL.iter().position(|section| *section == key.section));
     keys
 }
@@ -90,7 +91,9 @@ fn numbers() -> Vec<Key> {
     // Kinds may share keys (the dither of a disc has those of a belt): the first kind defines them.
     let mut parameters: Vec<Parameter> = Vec::new();
     // A study of a system has keys of its own (`study::system`), which only it knows.
-    for parameter in parameter::BELT.iter().chain(parameter::disc::DISC) {
+    for parameter in
+        parameter::BELT.iter().chain(parameter::disc::DISC).chain(parameter::design::LIMITS)
+    {
         if !parameters.iter().any(|known| known.path == parameter.path) {
             parameters.push(*parameter);
         }
@@ -192,6 +195,36 @@ fn band() -> Vec<Key> {
         about: "lower and upper limit of the band in which vibration levels with and without dither are compared",
     };
     vec![key("band", false), key("band_hz", true)]
+}
+
+/// Keys of a design.
+fn design() -> Vec<Key> {
+    let key = |name, role, about| Key { section: Section::Design, name, role, about };
+    vec![
+        key("minimise", Role::Choice(Choice::Objective), "what is to be small"),
+        key(
+            "vary",
+            Role::Paths,
+            "paths of the numbers to choose: the amplitude of the dither and others, such as its frequency",
+        ),
+        key("from", Role::AxisValues, "their smallest values"),
+        key("to", Role::AxisValues, "their largest values"),
+        key(
+            "waveforms",
+            Role::Choices(Choice::Waveform),
+            "waveforms that are tried in turn [default: that of the dither]",
+        ),
+        key(
+            "start",
+            Role::Choice(Choice::DesignStart),
+            "runs that must end quiet: near the base response, from rest, from squeal [default: local]",
+        ),
+        key(
+            "over",
+            Role::Ranges,
+            "ranges of the numbers over which the dither must be quiet, by their paths",
+        ),
+    ]
 }
 
 /// Keys of an axis.

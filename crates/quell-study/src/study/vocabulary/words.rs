@@ -1,5 +1,6 @@
 //! Lists of words that keys take.
 
+use quell_design::least_dither::{DesignObjective, DesignStart};
 use quell_model::disc::Contribution;
 use quell_model::profile::KnotShape;
 use quell_model::waveform::Hold;
@@ -34,6 +35,10 @@ pub enum Choice {
     Normalisation,
     /// The part of a disc study that rotates.
     Rotating,
+    /// What a design makes small.
+    Objective,
+    /// The runs that a design keeps quiet.
+    DesignStart,
 }
 
 impl Choice {
@@ -53,6 +58,10 @@ impl Choice {
             Self::Normalisation => vec!["mass", "max"],
             Self::Contribution => Contribution::ALL.iter().map(|part| part.name()).collect(),
             Self::Rotating => vec!["loads", "disc"],
+            Self::Objective => {
+                DesignObjective::ALL.iter().map(|objective| objective.name()).collect()
+            }
+            Self::DesignStart => DesignStart::ALL.iter().map(|start| start.name()).collect(),
         }
     }
 }

@@ -1,0 +1,33 @@
+//! `quell design`: the least dither that is quiet over a box of operating points.
+
+use clap::Args;
+use quell::Failure;
+use quell::kind::verbs;
+
+use crate::answer::Answer;
+use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
+
+/// Finds the least dither that is quiet over a range of operating points, under limits, as [design] asks
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    #[command(flatten)]
+    output: OutputArguments,
+    #[command(flatten)]
+    plot: PlotArguments,
+}
+
+/// Runs the verb.
+pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
+    let mut complaints = Gathered::default();
+    let study = complaints.take(arguments.study.read());
+    let inputs = inputs(study.as_ref());
+    let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
+    let plot = arguments.plot.prepare(&inputs);
+    let plot = complaints.take(plot.and_then(|plot| plot.drawn_by(study.as_ref(), "design")));
+    let (study, (outputs, plot)) = complaints.finish(study.zip(outputs.zip(plot)))?;
+
+    let done = verbs(&study).design()?;
+    answer(arguments.study.json, done.as_ref(), outputs, plot)
+}

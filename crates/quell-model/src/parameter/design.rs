@@ -1,0 +1,78 @@
+//! Limits of a design.
+
+use super::{Bounds, Parameter, si};
+use crate::units::Quantity;
+
+const fn limit(
+    path: &'static str,
+    symbol: &'static str,
+    about: &'static str,
+    quantity: Quantity,
+    si: &'static [super::SiTwin],
+) -> Parameter {
+    Parameter { path, symbol, about, quantity, bounds: Bounds::POSITIVE, si }
+}
+
+/// Largest amplitude of the dither.
+pub const LIMIT_AMPLITUDE: Parameter = limit(
+    "design.limits.amplitude",
+    "D",
+    "largest amplitude of the dither",
+    Quantity::Force,
+    &[si("amplitude_n", "N")],
+);
+
+/// Largest peak-to-peak stroke of the linear response without friction.
+pub const LIMIT_STROKE: Parameter = limit(
+    "design.limits.stroke",
+    "Δx",
+    "largest peak-to-peak stroke of the response without friction",
+    Quantity::Displacement,
+    &[si("stroke_m", "m")],
+);
+
+/// Largest velocity of that response.
+pub const LIMIT_VELOCITY: Parameter = limit(
+    "design.limits.velocity",
+    "x′",
+    "largest velocity of the response without friction",
+    Quantity::Velocity,
+    &[si("velocity_m_per_s", "m/s")],
+);
+
+/// Largest mean power of that response.
+pub const LIMIT_POWER: Parameter = limit(
+    "design.limits.power",
+    "P",
+    "largest mean power of the response without friction",
+    Quantity::Power,
+    &[si("power_w", "W")],
+);
+
+/// Largest share of the mean friction that may be lost.
+pub const LIMIT_FRICTION_LOSS: Parameter = limit(
+    "design.limits.friction_loss",
+    "1 − ⟨T⟩/T₀",
+    "largest share of the mean friction that may be lost at any operating point",
+    Quantity::Ratio,
+    &[],
+);
+
+/// Smallest normal load that must remain.
+pub const LIMIT_NORMAL_LOAD: Parameter = limit(
+    "design.limits.minimum_normal_load",
+    "N",
+    "smallest normal load that must remain under normal dither",
+    Quantity::Force,
+    &[si("minimum_normal_load_n", "N")],
+);
+
+/// Every limit, in the order of a study file.
+pub const LIMITS: &[Parameter] = &[
+    LIMIT_AMPLITUDE,
+    LIMIT_STROKE,
+    LIMIT_VELOCITY,
+    LIMIT_POWER,
+    LIMIT_FRICTION_LOSS,
+    LIMIT_NORMAL_LOAD,
+];

@@ -1,0 +1,282 @@
+//! `[design]`: the least dither over a box of operating points.
+
+use quell_design::least_dither::{DesignObjective, DesignStart, LimitedQuantity};
+use quell_model::parameter::Bounds;
+use quell_model::parameter::design::LIMITS;
+use quell_model::{Dither, Waveform};
+use serde_json::Value as Json;
+
+use super::document::{Node, Table, Value};
+use super::reader::{Found, Reader};
+use super::vocabulary::{self, Choice, Section, join};
+use crate::complaint::{Complaint, Fault};
+
+/// A number of the study with a range, in the unit of its key.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignRange {
+    /// Path of the number, as it was written.
+    pub path: String,
+    /// Smallest value.
+    pub from: f64,
+    /// Largest value, not below the smallest.
+    pub to: f64,
+}
+
+/// What `[design]` asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Design {
+    /// What is to be small.
+    pub minimise: DesignObjective,
+    /// The numbers to choose.
+    pub vary: Vec<DesignRange>,
+    /// The waveforms that are tried in turn.
+    pub waveforms: Vec<Waveform>,
+    /// The runs that must end quiet.
+    pub start: DesignStart,
+    /// The box of operating points; empty for the study's own.
+    pub over: Vec<DesignRange>,
+    /// Limits in numbers of the equations.
+    pub limits: Vec<(LimitedQuantity, f64)>,
+}
+
+/// Reads `[design]`: `Some(None)` without it, `None` if it is invalid.
+#[expect(clippy::option_option, reason = "invalid, absent, given")]
+pub(super) fn read(
+    reader: &mut Reader,
+    root: &Table,
+    dithers: Option<&[Dither]>,
+) -> Option<Option<Design>> {
+    let Some(node) = root.get("design") else { return Some(None) };
+    let table = reader.table("design", node)?;
+    let before = reader.complaints_so_far();
+    reader.unknown_keys(table, Section::Design, "design", &["limits"]);
+    let minimise =
+        reader.needed_choice(table, "design", node.origin, "minimise", Choice::Objective);
+    let start = match table.get("start") {
+        Some(node) => reader.choice("design.start", node, Choice::DesignStart),
+        None => Some(DesignStart::Local.name()),
+    };
+    let vary = varied(reader, table, node);
+    let over = operating_points(reader, table);
+    let waveforms = waveforms(reader, table, dithers);
+    let limits = limits(reader, table);
+    if let (Some(vary), Some(over)) = (&vary, &over)
+        && let Some(both) =
+            over.iter().find(|range| vary.iter().any(|known| known.path == range.path))
+    {
+        let allowed =
+            format!("{} is chosen by design.vary and cannot be an operating point too", both.path);
+        let complaint =
+            Complaint::new(Fault::Conflict, "design.over", node.origin, Json::Null, allowed);
+        reader.complain(complaint);
+    }
+    let minimise = DesignObjective::ALL.into_iter().find(|known| Some(known.name()) == minimise)?;
+    let start = DesignStart::ALL.into_iter().find(|known| Some(known.name()) == start)?;
+    let design = Design {
+        minimise,
+        vary: vary?,
+        waveforms: waveforms?,
+        start,
+        over: over?,
+        limits: limits?,
+    };
+    (reader.complaints_so_far() == before).then_some(Some(design))
+}
+
+/// `vary`, `from` and `to`: lists of one length.
+fn varied(reader: &mut Reader, table: &Table, header: &Node) -> Option<Vec<DesignRange>> {
+    let mut list = |name: &str, what: &str| -> Option<Vec<Node>> {
+        let key = join("design", name);
+        let Some(node) = table.get(name) else {
+            let allowed = format!("an array of {what}, one for each number to choose");
+            reader.complain(Complaint::new(
+                Fault::Missing,
+                key,
+                header.origin,
+                Json::Null,
+                allowed,
+            ));
+            return None;
+        };
+        match &node.value {
+            Value::List(list) if !list.is_empty() => Some(list.clone()),
+            _ => {
+                reader.wrong(
+                    &key,
+                    node,
+                    format!("an array of at least one of {what}; got {}", node.kind()),
+                );
+                None
+            }
+        }
+    };
+    let (paths, from, to) =
+        (list("vary", "paths")?, list("from", "numbers")?, list("to", "numbers")?);
+    if from.len() != paths.len() || to.len() != paths.len() {
+        let allowed = format!("as many numbers in from and to as paths in vary, {}", paths.len());
+        let complaint =
+            Complaint::new(Fault::Conflict, "design.vary", header.origin, Json::Null, allowed);
+        reader.complain(complaint);
+        return None;
+    }
+    let mut ranges: Vec<Option<DesignRange>> = Vec::new();
+    for (place, ((path, from), to)) in paths.iter().zip(&from).zip(&to).enumerate() {
+        let key = format!("design.vary[{place}]");
+        let path = path_of(reader, &key, path);
+        let keys = [format!("design.from[{place}]"), format!("design.to[{place}]")];
+        ranges.push(range(reader, path, [&keys[0], &keys[1]], [from, to]));
+    }
+    ranges.into_iter().collect()
+}
+
+/// `over`: ranges by path.
+fn operating_points(reader: &mut Reader, table: &Table) -> Option<Vec<DesignRange>> {
+    let Some(node) = table.get("over") else { return Some(Vec::new()) };
+    let over = reader.table("design.over", node)?.clone();
+    if over.iter().next().is_none() {
+        reader.wrong(
+            "design.over",
+            node,
+            "a table with at least one range, such as \"belt.belt_velocity\" = [0.05, 0.2]",
+        );
+        return None;
+    }
+    let mut ranges: Vec<Option<DesignRange>> = Vec::new();
+    for (path, node) in over.iter() {
+        let key = format!("design.over.\"{path}\"");
+        let named = named(reader, &key, node, path);
+        let Value::List(list) = &node.value else {
+            reader.wrong(
+                &key,
+                node,
+                format!("an array of the smallest and the largest value; got {}", node.kind()),
+            );
+            ranges.push(None);
+            continue;
+        };
+        let [low, high] = list.as_slice() else {
+            reader.wrong(
+                &key,
+                node,
+                format!("the smallest and the largest value; got {} values", list.len()),
+            );
+            ranges.push(None);
+            continue;
+        };
+        let keys = [format!("{key}[0]"), format!("{key}[1]")];
+        ranges.push(range(reader, named, [&keys[0], &keys[1]], [low, high]));
+    }
+    ranges.into_iter().collect()
+}
+
+/// A path that names a number of the study.
+fn path_of(reader: &mut Reader, key: &str, node: &Node) -> Option<String> {
+    let path = reader.text(key, node)?;
+    named(reader, key, node, &path)
+}
+
+fn named(reader: &mut Reader, key: &str, node: &Node, path: &str) -> Option<String> {
+    let nearest = match vocabulary::resolve(path) {
+        Ok(address) if address.key.takes_number() => return Some(path.to_owned()),
+        Ok(_) => None,
+        Err(nearest) => nearest,
+    };
+    let allowed = "the path of a number in the study, such as \"dither.amplitude\"";
+    let complaint = Complaint::new(Fault::Value, key, node.origin, path, allowed);
+    reader.complain(complaint.suggesting(nearest.map(|path| reader.in_system(&path))));
+    None
+}
+
+/// A number with its range.
+fn range(
+    reader: &mut Reader,
+    path: Option<String>,
+    keys: [&str; 2],
+    nodes: [&Node; 2],
+) -> Option<DesignRange> {
+    let address = path.as_deref().and_then(|path| vocabulary::resolve(path).ok());
+    let unit = address.and_then(|address| address.key.measured_in()).filter(|unit| *unit != "1");
+    let unit = unit.unwrap_or_default();
+    let mut end =
+        |place: usize| reader.within(keys[place], nodes[place], Bounds::FINITE, unit, false);
+    let (from, to) = (end(0), end(1));
+    let (from, to) = (from?, to?);
+    if from > to {
+        reader.wrong(keys[1], nodes[1], format!("at least the smallest value, {from}"));
+        return None;
+    }
+    Some(DesignRange { path: path?, from, to })
+}
+
+/// The waveforms that are tried in turn: named ones, and that of the dither.
+fn waveforms(
+    reader: &mut Reader,
+    table: &Table,
+    dithers: Option<&[Dither]>,
+) -> Option<Vec<Waveform>> {
+    let own = dithers.and_then(<[Dither]>::first).map(|dither| &dither.waveform);
+    let Some(node) = table.get("waveforms") else {
+        return Some(own.into_iter().cloned().collect());
+    };
+    let Value::List(list) = &node.value else {
+        reader.wrong(
+            "design.waveforms",
+            node,
+            format!("an array of waveforms; got {}", node.kind()),
+        );
+        return None;
+    };
+    let mut found: Vec<Option<Waveform>> = Vec::new();
+    for (place, node) in list.iter().enumerate() {
+        let key = format!("design.waveforms[{place}]");
+        let Some(name) = reader.choice(&key, node, Choice::Waveform) else {
+            found.push(None);
+            continue;
+        };
+        let plain = Waveform::NAMED.iter().find(|known| known.name() == name);
+        let known = plain.or_else(|| own.filter(|own| own.name() == name));
+        if known.is_none() {
+            reader.wrong(
+                &key,
+                node,
+                "\"sine\", \"triangle\", \"square\", or the waveform of the study's dither",
+            );
+        }
+        found.push(known.cloned());
+    }
+    if found.is_empty() {
+        reader.wrong("design.waveforms", node, "an array of at least one waveform");
+        return None;
+    }
+    found.into_iter().collect()
+}
+
+/// `[design.limits]`.
+fn limits(reader: &mut Reader, table: &Table) -> Option<Vec<(LimitedQuantity, f64)>> {
+    let Some(node) = table.get("limits") else { return Some(Vec::new()) };
+    let prefix = Section::DesignLimits.path();
+    let limits = reader.table(prefix, node)?;
+    reader.unknown_keys(limits, Section::DesignLimits, prefix, &[]);
+    let mut found = Vec::new();
+    for (quantity, parameter) in LimitedQuantity::ALL.into_iter().zip(LIMITS) {
+        match reader.optional(limits, prefix, *parameter, None) {
+            Found::Absent => {}
+            Found::Wrong => return None,
+            Found::Value(value) => found.push((quantity, value)),
+        }
+    }
+    Some(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_have_the_names_of_their_quantities() {
+        for (quantity, parameter) in LimitedQuantity::ALL.into_iter().zip(LIMITS) {
+            assert_eq!(quantity.name(), parameter.key());
+        }
+        assert_eq!(LimitedQuantity::ALL.len(), LIMITS.len());
+    }
+}
