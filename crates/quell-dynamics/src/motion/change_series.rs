@@ -10,6 +10,13 @@
 //! by order this is the recurrence of the state itself, linear in δx. μ′(w(t)) is the composition of the law's own series about
 //! w(0), from its recurrence along a straight path, with w(t).
 //!
+//! A contact with a state of its own has its change among the columns. T of an adhering slider changes by k_t δγ, that of a sliding one
+//! is T = sμ(|γ|)N again, whatever its own number changed by before. Bristles have
+//!
+//! ```text
+//! δż = (1 − σ₀ z u′) δγ − σ₀ u δz,    δT = P (σ₀ δz + σ₁ δż + σ₂ δγ) + (T/P) f δN,    u = |γ|/g(γ)
+//! ```
+//!
 //! Changes are computed [`LANES`] columns at a time. Time is in units of the interval, so that the terms of order k are its
 //! contributions at the end; where the last two are not negligible, the interval is shortened.
 
@@ -23,9 +30,10 @@ use quell_numerics::polynomial::step_length;
 use super::MOTION_TOLERANCE;
 use super::change_block::{BlockSeries, ChangeRow, ColumnBlock, LANES, ZERO, add, product, times};
 use super::equations::MotionEquations;
-use super::law_along_slip::{along_slip, counted, integrated, multiplied};
+use super::law_along_slip::{along_slip, counted, divided, integrated, multiplied};
 use super::observer::MotionSegment;
-use super::phase::{ContactNow, ContactPhase};
+use super::own_state::{OwnSeries, OwnState, OwnStateKind};
+use super::phase::{ContactNow, ContactPhase, OwnNow};
 use super::stuck::StuckForces;
 use crate::simulation::{ORDER, RECIPROCALS, Series, shift};
 
@@ -55,8 +63,22 @@ struct ContactChanges {
     /// T and sᵀx, where the contact has a slope.
     friction: Series,
     tilt: Series,
-    /// Changes of slip, load, tilt and force, order by order.
-    changes: Box<[BlockSeries; 4]>,
+    /// Its own number, and where it is the deflection of bristles, their equation linearised.
+    own: Option<OwnState>,
+    bristles: Option<Box<LinearBristles>>,
+    /// Changes of slip, load, tilt, force, and of z and T/P of bristles, order by order.
+    changes: Box<[BlockSeries; 6]>,
+}
+
+/// The equation of bristles linearised along an interval.
+#[derive(Clone, Debug)]
+struct LinearBristles {
+    /// ∂ż/∂γ = 1 − σ₀ z u′ and −∂ż/∂z = σ₀ u.
+    by_slip: Series,
+    by_deflection: Series,
+    /// P, and the change of T per change of the load.
+    pressed: Series,
+    by_load: Series,
 }
 
 /// Places in [`ContactChanges::changes`].
@@ -64,6 +86,8 @@ const SLIP: usize = 0;
 const LOAD: usize = 1;
 const TILT: usize = 2;
 const FORCE: usize = 3;
+const DEFLECTION: usize = 4;
+const SHARE: usize = 5;
 
 /// The memory of the series of changes, kept from step to step.
 #[derive(Clone, Debug)]
@@ -106,7 +130,9 @@ impl ChangeSeries {
             by_load: ([0.0; ORDER + 1], 0),
             friction: [0.0; ORDER + 1],
             tilt: [0.0; ORDER + 1],
-            changes: Box::new([[ZERO; ORDER + 1]; 4]),
+            own: contact.own,
+            bristles: None,
+            changes: Box::new([[ZERO; ORDER + 1]; 6]),
         }
         });
         Self {
@@ -272,11 +298,35 @@ impl ChangeExpansion<'_> {
                     *series = multiplied(series, &within(&along.factor, interval));
                 }
             };
+            if let Some(OwnState { kind: OwnStateKind::Bristles { stiffness, .. }, .. }) =
+                contact.own
+            {
+                let ContactPhase::Slip(sign) = contact.phase else { continue };
+                let Some(own) = along.own.as_deref() else { continue };
+                let scaled = within(&along.scaled, interval);
+                let law = &mut self.laws[index];
+                let (first, slope) = along_slip(law, f64::from(sign), &scaled);
+                let level = (integrated(first, &slope, &scaled), slope, equation.inverse_scale);
+                let pressed = within(&along.pressed, interval);
+                let mut by_load = within(&own.share, interval);
+                factor(&mut by_load);
+                let linear = linear_bristles(own, interval, level, stiffness);
+                let [by_slip, by_deflection] = linear;
+                let linear = LinearBristles { by_slip, by_deflection, pressed, by_load };
+                contact.bristles = Some(Box::new(linear));
+                continue;
+            }
             match contact.phase {
                 ContactPhase::Slip(sign) => {
                     let scaled = within(&along.scaled, interval);
                     let law = &mut self.laws[index];
-                    let (first, slope) = along_slip(law, f64::from(sign), &scaled);
+                    // An elastic slider is on the branch of γ, and slides in a direction of its own.
+                    let (branch, turned) = match now[index].own {
+                        OwnNow::Elastic(own) => (own.branch, f64::from(sign * own.branch)),
+                        OwnNow::Rigid | OwnNow::Bristles => (sign, 1.0),
+                    };
+                    let (first, slope) = along_slip(law, f64::from(branch), &scaled);
+                    let (first, slope) = (turned * first, slope.map(|term| turned * term));
                     let mut pressed = [along.pressed[0]; ORDER + 1];
                     if along.is_plain {
                         pressed[1..].fill(0.0);
@@ -306,6 +356,25 @@ impl ChangeExpansion<'_> {
     }
 }
 
+/// ∂ż/∂γ and −∂ż/∂z of bristles along an interval, from the signed level, its slope, and the reciprocal of the velocity that scales it.
+#[inline(always)]
+fn linear_bristles(
+    own: &OwnSeries,
+    interval: (f64, f64),
+    (level, slope, inverse_scale): (Series, Series, f64),
+    stiffness: f64,
+) -> [Series; 2] {
+    let turnover = within(&own.turnover, interval);
+    let deflection = within(&own.deflection, interval);
+    // u = γ/L, so that u′ = (1 − u L′)/L.
+    let mut rise = multiplied(&turnover, &slope).map(|term| -inverse_scale * term);
+    rise[0] += 1.0;
+    let rise = divided(&rise, &level);
+    let mut by_slip = multiplied(&rise, &deflection).map(|term| -stiffness * term);
+    by_slip[0] += 1.0;
+    [by_slip, turnover.map(|term| stiffness * term)]
+}
+
 /// A series of a step in the time of an interval of it.
 #[inline(always)]
 fn within(series: &Series, (since, length): (f64, f64)) -> Series {
@@ -333,10 +402,11 @@ fn expand(
     let size = rates.len();
     for k in 0..ORDER {
         let (known, next) = orders.split_at_mut((k + 1) * size);
-        let change = &known[k * size..];
+        let change = &mut known[k * size..];
         times(&equations.matrix, change, rates);
         for contact in contacts.iter_mut() {
             contact.force(k, change, rates);
+            contact.own(k, change);
         }
         hold(stuck, k, contacts, rates);
         let share = length * RECIPROCALS[k + 1];
@@ -373,17 +443,77 @@ impl ContactChanges {
             }
             return;
         }
+        let force = match self.own {
+            Some(OwnState { place, kind: OwnStateKind::Elastic { stiffness } })
+                if self.phase == ContactPhase::Stick =>
+            {
+                rates[place] = self.tangent.dot(change).map(|slip| -stiffness * slip);
+                change[place]
+            }
+            Some(OwnState { place, kind: OwnStateKind::Bristles { .. } }) => {
+                let (force, rate) = self.of_bristles(k, change);
+                rates[place] = rate;
+                force
+            }
+            Some(_) | None => self.by_law(k, change),
+        };
+        self.changes[FORCE][k] = force;
+        self.along.add_to(&force, rates);
+        if is_tilted {
+            let tilted = product(&self.tilt, ORDER + 1, &self.changes[FORCE], k, 0);
+            self.across.add_to(&tilted, rates);
+        }
+    }
+
+    /// The change of a friction force that its law gives.
+    #[inline(always)]
+    fn by_law(&mut self, k: usize, change: &[ColumnBlock]) -> ColumnBlock {
         let mut force = product(&self.by_load.0, self.by_load.1, &self.changes[LOAD], k, 0);
         if self.by_slip.1 > 0 {
             self.changes[SLIP][k] = self.tangent.dot(change);
             let lost = product(&self.by_slip.0, self.by_slip.1, &self.changes[SLIP], k, 0);
             add(&mut force, -1.0, &lost);
         }
-        self.along.add_to(&force, rates);
-        if is_tilted {
-            self.changes[FORCE][k] = force;
-            let tilted = product(&self.tilt, ORDER + 1, &self.changes[FORCE], k, 0);
-            self.across.add_to(&tilted, rates);
+        force
+    }
+
+    /// The changes of the force of bristles and of ż.
+    #[inline(always)]
+    fn of_bristles(&mut self, k: usize, change: &[ColumnBlock]) -> (ColumnBlock, ColumnBlock) {
+        let (Some(own), Some(linear)) = (self.own, &self.bristles) else { return (ZERO, ZERO) };
+        let OwnStateKind::Bristles { stiffness, damping, viscous } = own.kind else {
+            return (ZERO, ZERO);
+        };
+        let slip = self.tangent.dot(change).map(|value| -value);
+        self.changes[SLIP][k] = slip;
+        self.changes[DEFLECTION][k] = change[own.place];
+        let terms = ORDER + 1;
+        let mut rate = product(&linear.by_slip, terms, &self.changes[SLIP], k, 0);
+        let lost = product(&linear.by_deflection, terms, &self.changes[DEFLECTION], k, 0);
+        add(&mut rate, -1.0, &lost);
+        let mut share = ZERO;
+        add(&mut share, stiffness, &change[own.place]);
+        add(&mut share, damping, &rate);
+        add(&mut share, viscous, &slip);
+        self.changes[SHARE][k] = share;
+        let mut force = product(&linear.pressed, terms, &self.changes[SHARE], k, 0);
+        if !self.approach.is_empty() {
+            let by_load = product(&linear.by_load, terms, &self.changes[LOAD], k, 0);
+            add(&mut force, 1.0, &by_load);
+        }
+        (force, rate)
+    }
+
+    /// Where the state of the structure gives the contact's own number, that of a sliding or an open contact, its change at order k.
+    #[inline(always)]
+    fn own(&self, k: usize, change: &mut [ColumnBlock]) {
+        let Some(own) = self.own else { return };
+        match (own.kind, self.phase) {
+            (_, ContactPhase::Open) => change[own.place] = ZERO,
+            (OwnStateKind::Elastic { .. }, ContactPhase::Slip(_)) => {
+                change[own.place] = self.changes[FORCE][k];
+            }
+            _ => {}
         }
     }
 }

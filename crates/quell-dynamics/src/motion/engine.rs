@@ -118,11 +118,13 @@ impl<'a> MotionRun<'a> {
 
     /// Contacts with a phase here keep it throughout: the smooth continuation of a motion beyond the borders of these phases.
     pub(super) fn keeping(mut self, phases: &[Option<ContactPhase>]) -> Self {
-        let contacts = self.equations.contacts.iter().zip(&mut self.now).zip(phases);
-        for ((contact, now), phase) in contacts {
-            // A contact with a state of its own has no branch to continue: its phases follow from the state.
-            if let Some(phase) = phase.filter(|_| contact.own.is_none()) {
-                *now = ContactNow::keeping(phase);
+        for (contact, phase) in phases.iter().enumerate() {
+            let Some(phase) = *phase else { continue };
+            if self.equations.contacts[contact].own.is_none() {
+                self.now[contact] = ContactNow::keeping(phase);
+            } else if let ContactPhase::Slip(direction) = phase {
+                // A contact with a state of its own has no branch to continue: its phases follow from the state.
+                self.begin_sliding(contact, direction);
             }
         }
         self

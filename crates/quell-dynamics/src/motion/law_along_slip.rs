@@ -28,6 +28,18 @@ pub(super) fn multiplied(a: &Series, b: &Series) -> Series {
     product
 }
 
+/// The quotient of two series.
+#[inline(always)]
+pub(super) fn divided(a: &Series, b: &Series) -> Series {
+    let inverse = 1.0 / b[0];
+    let mut quotient = [0.0; ORDER + 1];
+    for k in 0..=ORDER {
+        let known = partial_product(b, &quotient, k, 1, k);
+        quotient[k] = (a[k] - known) * inverse;
+    }
+    quotient
+}
+
 /// μ at the start of a slip w(t), and the series of μ′(w(t)) up to the order that the last order of a change needs.
 #[inline(always)]
 pub(super) fn along_slip(law: &mut FrictionConstants, sign: f64, w: &Series) -> (f64, Series) {

@@ -61,7 +61,6 @@ use quell_model::System;
 
 use engine::MotionRun;
 use equations::MotionEquations;
-use phase::OwnNow;
 use selection::first_minor_not_positive;
 
 pub use contact_meter::{ContactMeans, ContactMeter};
@@ -150,23 +149,6 @@ impl<'s> Motion<'s> {
         let mut state = structure.to_vec();
         state.resize(self.size(), 0.0);
         state
-    }
-
-    /// Places of the numbers of the elastic sliders that slide at a state at t = 0: there T follows from the slip and the load.
-    pub(crate) fn sliding_sliders(&self, state: &[f64]) -> Vec<usize> {
-        let start = MotionStart { time: 0.0, state: state.to_vec() };
-        let parts = (self.system, &self.equations);
-        let mut observer = ();
-        let mut run = MotionRun::new(parts, &start, 0.0, MOTION_TOLERANCE, &mut observer);
-        if run.open().is_err() {
-            return Vec::new();
-        }
-        let slides = |contact: &usize| {
-            let now = &run.now[*contact];
-            matches!((now.own, now.phase), (OwnNow::Elastic(_), ContactPhase::Slip(_)))
-        };
-        let places = (0..self.equations.contacts.len()).filter(slides);
-        places.filter_map(|contact| self.own_place(contact)).collect()
     }
 
     /// Time scale of the system: the reciprocal of its fastest rate.

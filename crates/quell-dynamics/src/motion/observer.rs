@@ -55,6 +55,15 @@ impl<'a> MotionSegment<'a> {
         with_fused_multiply_add(StateAt { states: self.states, since, out });
     }
 
+    /// One number of the state at time `since` after its start.
+    pub(super) fn number(&self, place: usize, since: f64) -> f64 {
+        let mut series = [0.0; ORDER + 1];
+        for (coefficient, state) in series.iter_mut().zip(self.states.chunks(self.size)) {
+            *coefficient = state[place];
+        }
+        Self::value(&series, since)
+    }
+
     /// Taylor coefficients of the slip velocity γ of a contact; zero where a rigid contact sticks.
     pub fn slip_velocity(&self, contact: usize) -> &'a [f64; ORDER + 1] {
         &self.contacts[contact].slip

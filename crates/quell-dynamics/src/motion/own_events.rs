@@ -100,6 +100,18 @@ impl MotionRun<'_> {
         Ok(())
     }
 
+    /// T of an elastic slider that slides from the start of a run follows from the slip and the load, whatever its number was.
+    pub(super) fn begin_sliding(&mut self, contact: usize, direction: i8) {
+        let Some((OwnState { kind: OwnStateKind::Elastic { .. }, .. }, _)) = self.own(contact)
+        else {
+            return;
+        };
+        let pressed = self.load(contact).max(0.0) * self.factor(contact);
+        let slip = self.slip(contact).0;
+        let level = self.system.contacts[contact].friction.coefficient(slip.abs()) * pressed;
+        self.series_start(contact, f64::from(direction) * level);
+    }
+
     /// Bristles slip in the direction of γ; where γ = 0, in that of its first derivative that is not zero.
     fn begin_bristles(&mut self, contact: usize) -> MotionProgress {
         if self.now[contact].slip_zeros == 0 {

@@ -287,6 +287,8 @@ impl MotionRun<'_> {
         let clock = self.clock;
         let others = triggers.iter().filter(|other| other.what != first.what);
         let reached = [&first].into_iter().chain(others).map(|guard| (guard.what, guard.rate));
+        // A sign change of γ under an elastic slider changes no rate.
+        let decisive = triggers.iter().filter(|guard| !matches!(guard.what, Trigger::Turn(_)));
         self.observer.moment(&MotionMoment {
             clock,
             state,
@@ -294,7 +296,7 @@ impl MotionRun<'_> {
             after: &after,
             triggers: &reached.collect::<Vec<_>>(),
             is_jump: first.after == 0.0 && self.last_break == clock.time(),
-            is_one_sided: triggers.len() > 1 && !self.stuck.is_dependent,
+            is_one_sided: decisive.count() > 1 && !self.stuck.is_dependent,
         });
         let mut last = None;
         for (contact, (was, is)) in before.iter().zip(&after).enumerate() {

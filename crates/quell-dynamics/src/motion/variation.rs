@@ -16,6 +16,11 @@
 //! Where two independent guards reach zero together, S depends on the order in which a change separates them: the multipliers
 //! are one-sided, and [`MotionVariation::is_one_sided`] says so.
 //!
+//! A contact with a state of its own contributes its number to the state. Where a contact lands its own number begins at zero at that
+//! moment, so that S has the row f⁺∇hᵀ/ḣ there. An elastic slider whose T drops at its release has no change of its own from there on:
+//! T = sμN gives it. The ends of its slips, the sign changes of γ, and the reversals of bristles have f⁺ = f⁻ and S = I: T and ż are
+//! continuous there.
+//!
 //! Between events the changes are Taylor series like the state (`change_series`). Reference: Leine and Nijmeijer (2004), ch. 7.
 
 use quell_model::System;
@@ -30,18 +35,24 @@ use super::extremes::least;
 use super::observer::{
     MotionEvent, MotionMoment, MotionObserver, MotionSegment, RecordedEvent, Trigger,
 };
-use super::phase::{ContactNow, ContactPhase};
+use super::own_state::{OwnState, OwnStateKind, law_of};
+use super::phase::{ContactNow, ContactPhase, OwnNow};
 use super::rows::StateRow;
 use super::stuck::{StuckForces, independent};
 use crate::simulation::ORDER;
 
-/// Friction of a contact linearised at one instant: δT = −a tᵀδx + b rᵀδx.
+/// Share of itself by which T of an elastic slider drops: less is the rounding of a step.
+const DROPPED: f64 = 1e-9;
+
+/// Friction of a contact linearised at one instant: δT = −a tᵀδx + b rᵀδx + c δs, with the change δs of its own number.
 #[derive(Clone, Copy, Debug, Default)]
 struct LinearFriction {
     /// a = μ′ N.
     by_slip: f64,
     /// b = μ, times the factor on friction.
     by_load: f64,
+    /// c: 1 of an elastic slider that adheres.
+    by_own: f64,
     /// The factor on friction.
     factor: f64,
     /// T.
@@ -65,8 +76,9 @@ pub struct MotionVariation<'a> {
     pub is_one_sided: bool,
     /// Whether the integration of changes failed.
     pub has_failed: bool,
-    /// ẋ at the end of the last step, and what the contacts did on it.
+    /// ẋ and x at the end of the last step, and what the contacts did on it.
     rates: Vec<f64>,
+    ends: Vec<f64>,
     now: Vec<ContactNow>,
     stuck: StuckForces,
     /// The guards of a moment whose f⁺ is not known yet.
@@ -91,14 +103,14 @@ impl<'a> MotionVariation<'a> {
         let (system, equations) = (motion.system, &motion.equations);
         let size = equations.size;
         Self {
-            laws: system.contacts.iter().map(|c| FrictionConstants::of(&c.friction)).collect(),
+            laws: system.contacts.iter().map(|c| law_of(&c.friction)).collect(),
             columns: Matrix::identity(size).as_slice().to_vec(),
             events: Vec::new(),
             approaches: vec![[f64::INFINITY; 2]; system.contacts.len()],
             is_one_sided: false,
-            // The changes of a contact's own state are not known.
-            has_failed: system.has_contact_state(),
+            has_failed: false,
             rates: vec![0.0; size],
+            ends: Vec::new(),
             now: Vec::new(),
             stuck: StuckForces::default(),
             pending: Vec::new(),
@@ -134,19 +146,42 @@ impl<'a> MotionVariation<'a> {
             let load = MotionSegment::value(segment.normal_load(index), since);
             let factor = if load == 0.0 { 1.0 } else { pressed / load };
             instant.factor = factor;
-            match self.now[index].phase {
-                ContactPhase::Slip(sign) => {
+            let own = contact.own.map(|own| own.kind);
+            match (self.now[index].phase, own) {
+                (ContactPhase::Slip(sign), _) => {
                     let slip = MotionSegment::value(segment.slip_velocity(index), since);
+                    let (branch, turned) = match self.now[index].own {
+                        OwnNow::Elastic(own) => (own.branch, f64::from(sign * own.branch)),
+                        OwnNow::Rigid | OwnNow::Bristles => (sign, 1.0),
+                    };
                     let branch =
-                        self.laws[index].series::<1>(f64::from(sign), slip / contact.scale);
-                    instant.by_slip = branch.slope() / contact.scale * pressed;
-                    instant.by_load = branch.first() * factor;
+                        self.laws[index].series::<1>(f64::from(branch), slip / contact.scale);
+                    let slope = branch.slope() / contact.scale;
+                    match own {
+                        Some(OwnStateKind::Bristles { stiffness, damping, viscous }) => {
+                            let level = branch.first();
+                            let turnover = slip / level;
+                            let own = contact.own.map_or(0, |own| own.place);
+                            let deflection = segment.number(own, since);
+                            let rise = (1.0 - turnover * slope) / level;
+                            let rate_by_slip = 1.0 - stiffness * deflection * rise;
+                            instant.by_slip = pressed * (damping * rate_by_slip + viscous);
+                            instant.by_own = pressed * stiffness * (1.0 - damping * turnover);
+                            let share = if pressed == 0.0 { 0.0 } else { friction / pressed };
+                            instant.by_load = share * factor;
+                        }
+                        Some(OwnStateKind::Elastic { .. }) | None => {
+                            instant.by_slip = turned * slope * pressed;
+                            instant.by_load = turned * branch.first() * factor;
+                        }
+                    }
                 }
-                ContactPhase::Stick => {
+                (ContactPhase::Stick, Some(_)) => instant.by_own = 1.0,
+                (ContactPhase::Stick, None) => {
                     let side = f64::from(self.now[index].saturated);
                     instant.by_load = side * contact.static_coefficient * factor;
                 }
-                ContactPhase::Open => {}
+                (ContactPhase::Open, _) => {}
             }
             out.push(instant);
         }
@@ -179,7 +214,9 @@ impl<'a> MotionVariation<'a> {
             if !contact.slope.is_empty() {
                 contact.across.add_to(instant.friction * contact.slope.dot(change), out);
             }
-            let force = instant.by_load * load - instant.by_slip * contact.tangent.dot(change);
+            let own = contact.own.map_or(0.0, |own| instant.by_own * change[own.place]);
+            let force =
+                instant.by_load * load - instant.by_slip * contact.tangent.dot(change) + own;
             if force != 0.0 {
                 contact.along.add_to(force, out);
                 contact.across.add_to(force * instant.tilt, out);
@@ -187,13 +224,30 @@ impl<'a> MotionVariation<'a> {
         }
     }
 
+    /// Whether T of an elastic slider has dropped at a moment that leaves it in adhesion: it was released, slid at the lower level and
+    /// adhered again at once. The moment of that depends on the state, and the change of T after it is not known here.
+    fn drops_in_adhesion(&self, segment: &MotionSegment<'_>) -> bool {
+        let contacts = self.now.iter().zip(segment.now).zip(&self.equations.contacts);
+        contacts.enumerate().any(|(contact, ((before, now), equation))| {
+            let Some(OwnState { place, kind: OwnStateKind::Elastic { .. } }) = equation.own else {
+                return false;
+            };
+            let released = self.pending.iter().any(|jump| jump.contact == contact);
+            let adhered = before.phase == ContactPhase::Stick || released;
+            let (was, is) = (self.ends[place], segment.states[place]);
+            adhered
+                && now.phase == ContactPhase::Stick
+                && (is - was).abs() > DROPPED * was.abs().max(is.abs())
+        })
+    }
+
     /// Advances all columns over a segment.
     fn flow(&mut self, segment: &MotionSegment<'_>) {
         let step = ChangeStep { equations: self.equations, segment, now: &self.now };
         let Self { laws, stuck, columns, .. } = self;
         self.has_failed |= self.series.advance(step, laws, stuck, columns).is_err();
-        // The margin of a contact that sticks is linearised at its root.
-        if self.now.iter().any(ContactNow::sticks) {
+        // The margin of a contact that sticks or adheres is linearised at its root.
+        if self.now.iter().any(|now| now.phase == ContactPhase::Stick) {
             let mut last = std::mem::take(&mut self.last);
             self.instants(segment, segment.duration, &mut last);
             self.last = last;
@@ -221,6 +275,8 @@ impl<'a> MotionVariation<'a> {
                 part
             })
             .collect();
+        let mut parts = parts;
+        self.own_parts(&pending, after, &mut own, &mut parts);
         for column in self.columns.chunks_mut(size) {
             let before = column.to_vec();
             for (jump, part) in [(first, &own)].into_iter().chain(others.iter().zip(&parts)) {
@@ -233,6 +289,27 @@ impl<'a> MotionVariation<'a> {
         }
         if !others.is_empty() {
             self.project();
+        }
+    }
+
+    /// The jump of the rate of a contact's own number belongs to the guard of that contact alone.
+    fn own_parts(
+        &self,
+        pending: &[PendingJump],
+        after: &[f64],
+        first: &mut [f64],
+        others: &mut [Vec<f64>],
+    ) {
+        for (contact, equation) in self.equations.contacts.iter().enumerate() {
+            let Some(OwnState { place, .. }) = equation.own else { continue };
+            first[place] = 0.0;
+            others.iter_mut().for_each(|part| part[place] = 0.0);
+            let jump = after[place] - self.rates[place];
+            match pending.iter().position(|jump| jump.contact == contact) {
+                Some(0) => first[place] = jump,
+                Some(other) => others[other - 1][place] = jump,
+                None => {}
+            }
         }
     }
 
@@ -270,7 +347,15 @@ impl<'a> MotionVariation<'a> {
     fn gradient(&mut self, trigger: Trigger) -> Option<Vec<f64>> {
         let size = self.equations.size;
         match trigger {
-            Trigger::Load(_) | Trigger::Turn(_) => None,
+            // Where a contact lands, its own number begins at zero.
+            Trigger::Load(contact) => {
+                let equation = &self.equations.contacts[contact];
+                let lands = self.now[contact].is_open() && equation.own.is_some();
+                let row = || equation.approach.dense(size).into_iter().map(|entry| -entry);
+                lands.then(|| row().collect())
+            }
+            Trigger::Turn(_) => None,
+            Trigger::Slip(contact) if self.equations.contacts[contact].own.is_some() => None,
             Trigger::Slip(contact) => {
                 let sign = f64::from(self.now[contact].phase.slip_sign());
                 let row = self.equations.contacts[contact].tangent.dense(size);
@@ -278,6 +363,13 @@ impl<'a> MotionVariation<'a> {
             }
             Trigger::Margin(contact, side) => {
                 let equation = &self.equations.contacts[contact];
+                if let Some(own) = equation.own {
+                    let level = equation.static_coefficient * self.last[contact].factor;
+                    let mut gradient: Vec<f64> = equation.approach.dense(size);
+                    gradient.iter_mut().for_each(|entry| *entry *= level);
+                    gradient[own.place] -= f64::from(side);
+                    return Some(gradient);
+                }
                 let mut change = vec![0.0; size];
                 let mut out = vec![0.0; size];
                 let mut gradient = vec![0.0; size];
@@ -299,6 +391,10 @@ impl<'a> MotionVariation<'a> {
         for index in 0..self.now.len() {
             let ContactPhase::Slip(sign) = self.now[index].phase else { continue };
             let equation = &self.equations.contacts[index];
+            if equation.own.is_some() {
+                // Its phases follow from its state: its motion is not continued beyond a border.
+                continue;
+            }
             let contact = &self.system.contacts[index];
             let mut nearer = |series: &[f64; ORDER + 1], scale: f64, is_load: bool| {
                 let known = self.approaches[index][usize::from(is_load)];
@@ -368,6 +464,7 @@ impl MotionObserver for MotionVariation<'_> {
         let is_held = self.now.len() == segment.now.len()
             && !self.equations.follows
             && self.now.iter().zip(segment.now).all(sticks_alike);
+        self.has_failed |= self.drops_in_adhesion(segment);
         self.now.clear();
         self.now.extend_from_slice(segment.now);
         if !is_held {
@@ -382,6 +479,8 @@ impl MotionObserver for MotionVariation<'_> {
         self.flow(segment);
         let (states, since) = (segment.states, segment.duration);
         with_fused_multiply_add(RatesAt { states, since, out: &mut self.rates });
+        self.ends.resize(size, 0.0);
+        segment.state(since, &mut self.ends);
     }
 
     fn event(&mut self, event: &MotionEvent<'_>) {
@@ -394,7 +493,10 @@ impl MotionObserver for MotionVariation<'_> {
             return;
         }
         for &(trigger, rate) in moment.triggers {
-            let (Trigger::Slip(contact) | Trigger::Margin(contact, _)) = trigger else { continue };
+            let (Trigger::Slip(contact)
+            | Trigger::Margin(contact, _)
+            | Trigger::Load(contact)
+            | Trigger::Turn(contact)) = trigger;
             if let Some(gradient) = self.gradient(trigger) {
                 self.pending.push(PendingJump { contact, gradient, rate: -rate });
             }

@@ -10,7 +10,6 @@ use quell_linear::pure_slip::period;
 use quell_model::System;
 use quell_model::system::Contact;
 use quell_numerics::continuation::{Image, PeriodMap};
-use quell_numerics::matrix::Matrix;
 
 use super::super::{
     ContactPhase, Immobile, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver, MotionStart,
@@ -200,59 +199,17 @@ pub(super) fn shot_within(
 ) -> Result<(Image<MotionSignature>, Shot), NoImage> {
     let mut variation = MotionVariation::new(motion);
     let end = run_over(motion, state, (time, tolerance), held, &mut variation)?;
-    let by_differences = motion.system().has_contact_state();
-    if variation.has_failed && !by_differences {
+    if variation.has_failed {
         return Err(NoImage::NoVariation);
     }
     let phases: Vec<ContactPhase> = end.contacts.iter().map(|contact| contact.phase).collect();
     let events = in_order(&variation.events, SIMULTANEOUS * motion.time_scale());
     let signature = MotionSignature::of(&events, phases);
-    let derivative = if by_differences {
-        differences(motion, state, (time, tolerance), held)?
-    } else {
-        variation.matrix()
-    };
+    let derivative = variation.matrix();
     let MotionVariation { events, is_one_sided, approaches, .. } = variation;
     let shot = Shot { events, is_one_sided, approaches };
     let distance = shot.nearest(&signature).map_or(f64::INFINITY, |(_, distance)| distance);
     Ok((Image { state: end.state, derivative, distance, signature }, shot))
-}
-
-/// Step of differences by the state, over the state: with fourth order the truncation of a smooth map is below 10⁻¹² of it, and the
-/// rounding of two runs 10⁻⁹.
-const DIFFERENCE: f64 = 1e-4;
-
-/// The derivative of the image by the state, by differences of fourth order. It is for systems whose contacts have states of their
-/// own, whose changes the variational equation does not have.
-///
-/// T of an elastic slider that slides at t = 0 is given by the other numbers: the derivative by it is zero.
-fn differences(
-    motion: &Motion<'_>,
-    state: &[f64],
-    (time, tolerance): (f64, f64),
-    held: Option<&MotionSignature>,
-) -> Result<Matrix, NoImage> {
-    let scale = scale_of(motion, state);
-    let sliding = motion.sliding_sliders(state);
-    let image = |place: usize, change: f64| {
-        let mut moved = state.to_vec();
-        moved[place] += change;
-        run_over(motion, &moved, (time, tolerance), held, &mut ()).map(|end| end.state)
-    };
-    let mut matrix = Matrix::from_fn(state.len(), state.len(), |_, _| 0.0);
-    for place in 0..state.len() {
-        if sliding.contains(&place) {
-            continue;
-        }
-        let own = if place < motion.structure_size() { scale } else { state[place].abs() };
-        let step = DIFFERENCE * if own > 0.0 { own } else { scale };
-        let (a, b) = (image(place, step)?, image(place, -step)?);
-        let (c, d) = (image(place, 2.0 * step)?, image(place, -2.0 * step)?);
-        for i in 0..state.len() {
-            matrix[(i, place)] = (8.0 * (a[i] - b[i]) - (c[i] - d[i])) / (12.0 * step);
-        }
-    }
-    Ok(matrix)
 }
 
 /// Events of different contacts within a time are listed in the order of contacts, as events of one moment are: of equal parts of a
