@@ -1,2 +1,4 @@
 //! Questions about many studies at once: the least dither of an actuator, friction laws fitted to measurements, and the probability
 //! that a structure vibrates.
+
+pub mod fit;
