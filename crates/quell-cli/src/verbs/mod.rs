@@ -6,6 +6,7 @@ pub(crate) mod bifurcation;
 pub(crate) mod check;
 pub(crate) mod cite;
 pub(crate) mod completions;
+pub(crate) mod fit;
 pub(crate) mod friction;
 pub(crate) mod map;
 pub(crate) mod modes;

@@ -18,6 +18,7 @@ pub mod check;
 mod cite;
 mod describing;
 mod disc_motion;
+mod fit;
 mod friction;
 mod map;
 mod modes;

@@ -13,6 +13,7 @@ pub mod describing;
 pub mod disc;
 mod effect_words;
 pub mod exponents;
+pub mod fit;
 pub mod found_attractor;
 pub mod friction;
 pub mod law;
