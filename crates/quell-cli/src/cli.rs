@@ -12,7 +12,7 @@ use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
 use crate::verbs::{
-    attractor, basins, bifurcation, check, cite, completions, design, friction, map, modes, new,
+    attractor, basins, bifurcation, check, cite, completions, design, fit, friction, map, modes, new,
     orbit, report, reproduce, resonances, response, schema, simulate, sketch, stability,
     thresholds, waveforms,
 };
@@ -38,6 +38,7 @@ enum Verb {
     Sketch(sketch::Arguments),
     Report(report::Arguments),
     Cite(cite::Arguments),
+    Fit(fit::Arguments),
     Friction(friction::Arguments),
     Stability(stability::Arguments),
     Simulate(simulate::Arguments),
@@ -80,6 +81,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Sketch(arguments) => sketch::run(arguments),
         Verb::Report(arguments) => report::run(arguments),
         Verb::Cite(arguments) => cite::run(arguments),
+        Verb::Fit(arguments) => fit::run(arguments),
         Verb::Friction(arguments) => friction::run(arguments),
         Verb::Stability(arguments) => stability::run(arguments),
         Verb::Simulate(arguments) => simulate::run(arguments),

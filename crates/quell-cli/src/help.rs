@@ -1,6 +1,7 @@
 //! The help: verbs in groups, with examples of each.
 //!
-//! Examples use the files that `quell new NAME --save NAME.toml` creates, so that each can be run unchanged; a test does that.
+//! Examples use the files that `quell new NAME --save NAME.toml` creates, and `studies/synthetic-friction.csv`, so that each can be
+//! run unchanged; a test does that.
 
 use std::fmt::Write as _;
 
@@ -135,6 +136,16 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 ],
             ),
         ],
+    ),
+    (
+        "Measurements",
+        &[(
+            "fit",
+            &[
+                "quell fit synthetic-friction.csv",
+                "quell fit synthetic-friction.csv --law decreasing --fix static_coefficient=0.38 --plot fit.svg",
+            ],
+        )],
     ),
     (
         "Maps",

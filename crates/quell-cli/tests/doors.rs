@@ -11,8 +11,10 @@ use quell::template::TEMPLATES;
 fn place(name: &str) -> Place {
     let files: Vec<(String, &str)> =
         TEMPLATES.iter().map(|item| (format!("{}.toml", item.name), item.text)).collect();
-    let files: Vec<(&str, &str)> =
+    let mut files: Vec<(&str, &str)> =
         files.iter().map(|(name, text)| (name.as_str(), *text)).collect();
+    let measured = include_str!("../../../studies/synthetic-friction.csv");
+    files.push(("synthetic-friction.csv", measured));
     Place::with(name, &files)
 }
 
@@ -36,9 +38,15 @@ fn the_help_lists_every_verb_in_its_group() {
     let place = place("doors-help");
     let help = said(&place, "quell --help");
     let mut at = 0;
-    for heading in
-        ["Start here:", "Belts and systems:", "Discs and systems:", "Maps:", "Papers:", "Options:"]
-    {
+    for heading in [
+        "Start here:",
+        "Belts and systems:",
+        "Discs and systems:",
+        "Measurements:",
+        "Maps:",
+        "Papers:",
+        "Options:",
+    ] {
         let found = help[at..].find(heading).unwrap_or_else(|| panic!("{heading}: {help}"));
         at += found;
     }

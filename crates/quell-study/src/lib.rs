@@ -6,6 +6,7 @@
 //! | [`complaint`] | errors: the key, the line, the value and the allowed values |
 //! | [`quantity`] | numbers with units in options and arguments |
 //! | [`input`] | the files that a study was read from, which outputs never overwrite |
+//! | [`measurement`] | a CSV file of measured friction |
 //! | [`schema`] | the JSON Schema of a study file |
 //!
 //! This crate computes nothing: the engines take the belt or the disc of a study, and the crate `quell` runs them.
@@ -30,6 +31,7 @@
 
 pub mod complaint;
 pub mod input;
+pub mod measurement;
 pub mod quantity;
 pub mod schema;
 pub mod study;

@@ -7,6 +7,7 @@
 //! the scale of a dimensionless number is given separately.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use quell_model::units::{Quantity, Scales};
 
@@ -60,7 +61,7 @@ pub struct Provenance {
     pub verb: &'static str,
     /// Title of the study.
     pub title: Option<String>,
-    /// Text of the study file.
+    /// Text of the study file; empty for an answer without a study.
     pub text: String,
     /// Changes made to it, as `path=value`.
     pub changes: Vec<String>,
@@ -97,6 +98,18 @@ impl Dataset {
             axes: Vec::new(),
             arrays: Vec::new(),
         }
+    }
+
+    /// An empty dataset of an answer about a data file, without a study.
+    pub fn of_file(path: &Path, verb: &'static str) -> Self {
+        let provenance = Provenance {
+            verb,
+            title: None,
+            text: String::new(),
+            changes: Vec::new(),
+            facts: vec![format!("data: {}", path.display())],
+        };
+        Self { provenance, scales: None, axes: Vec::new(), arrays: Vec::new() }
     }
 
     /// Adds a fact to the provenance.
@@ -251,7 +264,9 @@ impl Dataset {
             lines.push(format!("scaling: {}", scalings.join(", ")));
         }
         lines.extend(changes.iter().map(|change| format!("changed: {change}")));
-        lines.push("study:".to_owned());
+        if !text.is_empty() {
+            lines.push("study:".to_owned());
+        }
         lines.extend(text.lines().map(|line| format!("  {line}")));
         lines.iter().fold(String::new(), |mut header, line| {
             header.push_str("# ");

@@ -7,6 +7,7 @@ pub(crate) mod check;
 pub(crate) mod cite;
 pub(crate) mod completions;
 pub(crate) mod design;
+pub(crate) mod fit;
 pub(crate) mod friction;
 pub(crate) mod map;
 pub(crate) mod modes;

@@ -19,7 +19,7 @@ const SHOWN: usize = 24;
 ///
 /// # Errors
 /// Why it cannot be read.
-pub(super) fn text(path: &Path, what: &str) -> Result<String, String> {
+pub(crate) fn text(path: &Path, what: &str) -> Result<String, String> {
     let bytes = read_regular(path, LARGEST)
         .map_err(|error| format!("{what} of at most 16 MiB; it cannot be read: {error}"))?;
     String::from_utf8(bytes).map_err(|_| format!("{what}; this file is not text"))
@@ -27,14 +27,14 @@ pub(super) fn text(path: &Path, what: &str) -> Result<String, String> {
 
 /// A CSV file whose columns are known.
 #[derive(Debug)]
-pub(super) struct DataFile<'t> {
+pub(crate) struct DataFile<'t> {
     names: Vec<&'t str>,
     rows: Vec<Row<'t>>,
 }
 
 /// A line of numbers.
 #[derive(Debug)]
-pub(super) struct Row<'t> {
+pub(crate) struct Row<'t> {
     /// Number of the line, from 1.
     line: usize,
     cells: Vec<&'t str>,
@@ -45,7 +45,7 @@ impl<'t> DataFile<'t> {
     ///
     /// # Errors
     /// If there is no header line.
-    pub(super) fn new(text: &'t str, what: &str) -> Result<Self, String> {
+    pub(crate) fn new(text: &'t str, what: &str) -> Result<Self, String> {
         let mut lines = text
             .lines()
             .enumerate()
@@ -61,29 +61,34 @@ impl<'t> DataFile<'t> {
     }
 
     /// Index of a column.
-    pub(super) fn column(&self, name: &str) -> Option<usize> {
+    pub(crate) fn column(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| *known == name)
     }
 
     /// Names of the columns.
-    pub(super) fn names(&self) -> &[&'t str] {
+    pub(crate) fn names(&self) -> &[&'t str] {
         &self.names
     }
 
     /// The lines of numbers.
-    pub(super) fn rows(&self) -> &[Row<'t>] {
+    pub(crate) fn rows(&self) -> &[Row<'t>] {
         &self.rows
     }
 }
 
 impl Row<'_> {
     /// The text in a column; empty if the line is too short.
-    pub(super) fn text(&self, at: usize) -> &str {
+    pub(crate) fn text(&self, at: usize) -> &str {
         self.cells.get(at).copied().unwrap_or_default().trim_matches('"')
     }
 
+    /// Number of the line, from 1.
+    pub(crate) fn line(&self) -> usize {
+        self.line
+    }
+
     /// Where the row is in its file.
-    pub(super) fn place(&self) -> String {
+    pub(crate) fn place(&self) -> String {
         format!("line {}", self.line)
     }
 
@@ -91,7 +96,7 @@ impl Row<'_> {
     ///
     /// # Errors
     /// Line, column, the cell, and what it must be.
-    pub(super) fn number(
+    pub(crate) fn number(
         &self,
         at: usize,
         name: &str,
@@ -107,7 +112,7 @@ impl Row<'_> {
     }
 
     /// Whether the number in a column is below 0.
-    pub(super) fn is_negative(&self, at: usize) -> bool {
+    pub(crate) fn is_negative(&self, at: usize) -> bool {
         self.cells
             .get(at)
             .and_then(|cell| cell.parse::<f64>().ok())

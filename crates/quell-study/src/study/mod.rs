@@ -20,7 +20,7 @@ use vocabulary::SCHEMA_VERSION;
 pub mod belt;
 mod change;
 mod course;
-mod data_file;
+pub(crate) mod data_file;
 mod design;
 pub mod disc;
 pub mod document;

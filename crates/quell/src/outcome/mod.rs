@@ -19,6 +19,7 @@ mod cite;
 mod describing;
 mod design;
 mod disc_motion;
+mod fit;
 mod friction;
 mod map;
 mod modes;

@@ -14,6 +14,7 @@ pub mod design;
 pub mod disc;
 mod effect_words;
 pub mod exponents;
+pub mod fit;
 pub mod found_attractor;
 pub mod friction;
 pub mod law;

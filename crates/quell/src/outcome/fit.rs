@@ -1,0 +1,366 @@
+//! `fit`: parameters of friction laws with standard errors, their comparison, and tables for a study.
+
+use std::fmt::Write as _;
+
+use quell_design::fit::{Finding, LawFit, diagnose};
+use quell_model::parameter::Parameter;
+use quell_model::units::Quantity;
+use serde_json::{Map, Value as Json, json};
+
+use super::Outcome;
+use super::table::figure;
+use crate::complaint::Failure;
+use crate::dataset::{Array, Dataset};
+use crate::fields::{Fields, PER_VELOCITY};
+use crate::input::Inputs;
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::fit::FrictionFit;
+use crate::words::{digits, listed, plural};
+
+/// Number of slip speeds of the curve.
+const CURVE: usize = 201;
+
+/// Most lines that a warning lists.
+const LISTED: usize = 12;
+
+impl Outcome for FrictionFit {
+    fn inputs(&self) -> Inputs {
+        self.data.inputs()
+    }
+
+    fn json(&self) -> Json {
+        json(self)
+    }
+
+    fn sentence(&self) -> Option<String> {
+        Some(sentence(self))
+    }
+
+    fn table(&self) -> String {
+        table(self)
+    }
+
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        vec![("curve", curve(self)), ("points", points(self))]
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::fit(self)))
+    }
+}
+
+/// Unit of a quantity of the file.
+fn unit(fit: &FrictionFit, quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::PerVelocity if fit.data.is_si() => PER_VELOCITY.1,
+        quantity if fit.data.is_si() => quantity.si_unit().map_or("1", |(unit, _)| unit),
+        quantity => quantity.scaled_unit(),
+    }
+}
+
+/// A number with the unit of the file.
+fn in_unit(fit: &FrictionFit, quantity: Quantity, value: f64) -> String {
+    match unit(fit, quantity) {
+        unit if fit.data.is_si() && unit != "1" => format!("{} {unit}", digits(value)),
+        _ => digits(value),
+    }
+}
+
+fn speed(fit: &FrictionFit, value: f64) -> String {
+    in_unit(fit, Quantity::Velocity, value)
+}
+
+fn sentence(done: &FrictionFit) -> String {
+    let best = done.best();
+    let values: Vec<String> = best
+        .parameters
+        .iter()
+        .filter(|fitted| fitted.is_free())
+        .map(|fitted| {
+            let quantity = fitted.parameter.quantity;
+            let error = fitted.certainty.standard_error();
+            let error = error.map_or_else(
+                |_| String::new(),
+                |error| format!(" ± {}", quell_model::digits::digits(error, 2)),
+            );
+            let value = digits(fitted.value);
+            let unit = unit(done, quantity);
+            let unit =
+                if done.data.is_si() && unit != "1" { format!(" {unit}") } else { String::new() };
+            format!("{} = {value}{error}{unit}", fitted.parameter.key())
+        })
+        .collect();
+    let mut text = format!(
+        "The law {} fits {} point{} with a residual standard deviation of {}: {}.",
+        best.name(),
+        done.points.len(),
+        plural(done.points.len()),
+        quell_model::digits::digits(best.residual(), 3),
+        listed(&values)
+    );
+    if let (Some(weights), true) = (&done.weights, done.fits.len() > 1) {
+        let _ = write!(
+            text,
+            " Of {} laws it has the least AIC, with an Akaike weight of {}.",
+            done.fits.len(),
+            quell_model::digits::digits(weights[0], 3)
+        );
+    }
+    text
+}
+
+/// The parameters as an object; reasons for missing standard errors are recorded under `prefix`.
+fn parameters(done: &FrictionFit, fit: &LawFit) -> Fields {
+    let mut inner = Fields::new(None);
+    for fitted in &fit.parameters {
+        let key = fitted.parameter.key();
+        let error = fitted.certainty.standard_error();
+        let mut object = Map::new();
+        object.insert("value".to_owned(), fitted.value.into());
+        object.insert("standard_error".to_owned(), error.clone().ok().into());
+        object.insert("fixed".to_owned(), (!fitted.is_free()).into());
+        inner.measured(key, unit(done, fitted.parameter.quantity), object);
+        if let Err(why) = error {
+            inner.why(&format!("{key}.standard_error"), why);
+        }
+    }
+    inner
+}
+
+/// What every fit has: parameters, residual, AIC.
+fn numbers(fields: &mut Fields, done: &FrictionFit, fit: &LawFit) {
+    fields
+        .plain("law", fit.name())
+        .nested("parameters", parameters(done, fit))
+        .measured("residual", "1", fit.residual())
+        .measured("rss", "1", fit.rss)
+        .plain("p", fit.free);
+    match fit.aic() {
+        Ok(aic) => fields.measured("aic", "1", aic),
+        Err(why) => fields.unknown("aic", why),
+    };
+}
+
+fn json(done: &FrictionFit) -> Json {
+    let best = done.best();
+    let mut fields = Fields::new(None);
+    fields.plain("ok", true);
+    fields.plain("sentence", sentence(done));
+    numbers(&mut fields, done, best);
+    let covariance = &best.covariance;
+    let order: Vec<&str> = covariance.order.iter().map(Parameter::key).collect();
+    fields.plain("covariance", json!({ "order": order, "matrix": covariance.matrix }));
+    match covariance.condition {
+        Some(condition) => fields.measured("condition", "1", condition),
+        None => fields.unknown("condition", "the information matrix is singular"),
+    };
+    fields.plain("n", best.points);
+    fields.plain("confidence", crate::run::fit::CONFIDENCE);
+    fields.measured("quantile", "1", done.quantile(best));
+    fields.plain("file", done.data.path().display().to_string());
+    fields.plain("columns", done.data.columns().to_vec());
+    fields.plain("weighted", done.data.is_weighted());
+    fields.plain("sign", done.sign.name());
+    fields.plain("at_rest", done.at_rest.clone());
+    fields.plain("not_determinable", FrictionFit::not_in_steady_sliding(best));
+    let compared: Vec<Fields> = done
+        .fits
+        .iter()
+        .enumerate()
+        .map(|(place, fit)| {
+            let mut entry = Fields::new(None);
+            numbers(&mut entry, done, fit);
+            match (&done.weights, best.aic(), fit.aic()) {
+                (Some(weights), Ok(least), Ok(aic)) => {
+                    entry.measured("difference", "1", aic - least).measured(
+                        "weight",
+                        "1",
+                        weights[place],
+                    );
+                }
+                _ => {
+                    let why =
+                        "a law passes through every point, so that its AIC has no lower bound";
+                    entry.unknown("difference", why).unknown("weight", why);
+                }
+            }
+            entry
+        })
+        .collect();
+    fields.list("comparison", compared);
+    let left_out: Vec<Json> =
+        done.left_out.iter().map(|(kind, why)| json!({ "law": kind.name(), "why": why })).collect();
+    fields.plain("left_out", left_out);
+    let (friction, uncertainty) = done.fragments(best);
+    fields.plain("study", json!({ "friction": friction, "uncertainty": uncertainty }));
+    fields.plain("warnings", warnings(done));
+    fields.finish()
+}
+
+/// What the measurements cannot determine, with what to do.
+fn warnings(done: &FrictionFit) -> Vec<String> {
+    let best = done.best();
+    let mut warnings: Vec<String> =
+        diagnose(best, &done.points).iter().map(|finding| in_words(done, finding)).collect();
+    if !done.at_rest.is_empty() {
+        warnings.push(format!(
+            "{} at slip velocity 0 left out: friction at rest takes any value up to the static level. A measured static \
+             coefficient is given by --fix static_coefficient=VALUE",
+            lines_of(&done.at_rest)
+        ));
+    }
+    warnings
+}
+
+fn in_words(done: &FrictionFit, finding: &Finding) -> String {
+    match finding {
+        Finding::Uncertain { key, value, error } => format!(
+            "{key} = {} is not determined: its standard error {} exceeds it. Fix it with --fix {key}=VALUE, or measure where \
+             the curve depends on it",
+            digits(*value),
+            quell_model::digits::digits(*error, 2)
+        ),
+        Finding::WithoutError { key, why } => format!(
+            "{key} has no standard error: {why}. Choose a law with fewer parameters, or fix it with --fix {key}=VALUE"
+        ),
+        Finding::Correlated { keys: [first, second], correlation } => format!(
+            "{first} and {second} are determined only in combination (correlation {correlation:.4}): fix one of them, or \
+             measure over a wider range of slip velocities"
+        ),
+        Finding::IllConditioned { condition } => format!(
+            "the information matrix is nearly singular (condition {condition:.1e}): fix a parameter, or measure over a wider \
+             range of slip velocities"
+        ),
+        Finding::NothingSlow { slowest, reference, below } => format!(
+            "the static level and the slope at rest are extrapolated: the slowest point slips at {}, the reference velocity is \
+             {}. Measure below {}, or give a measured level with --fix static_coefficient=VALUE",
+            speed(done, *slowest),
+            speed(done, *reference),
+            speed(done, *below)
+        ),
+        Finding::NothingFast { key, fastest, reference, above } => format!(
+            "{key} is extrapolated: the fastest point slips at {}, the reference velocity is {}. Measure above {}",
+            speed(done, *fastest),
+            speed(done, *reference),
+            speed(done, *above)
+        ),
+        Finding::BeyondRange { count, limit } => format!(
+            "{count} point{} beyond {}, up to which the law {} holds: choose another law, or leave these points out",
+            if *count == 1 { " slips" } else { "s slip" },
+            speed(done, *limit),
+            done.best().name()
+        ),
+        Finding::Outliers { places, deviation } => {
+            let lines: Vec<usize> = places.iter().map(|place| done.lines[*place]).collect();
+            let unit = if done.data.is_weighted() { " standard deviations" } else { "" };
+            format!(
+                "{} deviate{} by more than four robust standard deviations of {}{unit}: check {}, which a least-squares fit \
+                 follows",
+                lines_of(&lines),
+                if lines.len() == 1 { "s" } else { "" },
+                quell_model::digits::digits(*deviation, 2),
+                if lines.len() == 1 { "it" } else { "them" }
+            )
+        }
+        Finding::Pattern { runs, expected } => format!(
+            "the residuals have {runs} run{} of equal sign over the slip speed where {expected:.1} are expected: the law does \
+             not have the shape of the data, and the standard errors are too small. Compare laws with --law all",
+            if *runs == 1 { "" } else { "s" }
+        ),
+        Finding::Directions { difference } => format!(
+            "friction differs between the two directions of slip, by {} on average, but laws are equal in both: fit each \
+             direction in a file of its own",
+            quell_model::digits::digits(*difference, 2)
+        ),
+    }
+}
+
+/// "line 3", "lines 3, 5 and 8".
+fn lines_of(lines: &[usize]) -> String {
+    let mut names: Vec<String> = lines.iter().take(LISTED).map(ToString::to_string).collect();
+    if lines.len() > LISTED {
+        names.push(format!("{} more", lines.len() - LISTED));
+    }
+    format!("line{} {}", if lines.len() == 1 { "" } else { "s" }, listed(&names))
+}
+
+fn table(done: &FrictionFit) -> String {
+    let best = done.best();
+    let mut text = String::new();
+    let width = best.parameters.iter().map(|one| one.parameter.key().len()).max().unwrap_or(0);
+    for fitted in &best.parameters {
+        let known = match fitted.certainty.standard_error() {
+            Ok(error) => format!("± {}", figure(error)),
+            Err(why) => format!("({why})"),
+        };
+        let unit = unit(done, fitted.parameter.quantity);
+        let unit = if unit == "1" { String::new() } else { format!("  {unit}") };
+        let key = fitted.parameter.key();
+        let _ = writeln!(text, "  {key:<width$}  {:>12} {known}{unit}", figure(fitted.value));
+    }
+    for key in FrictionFit::not_in_steady_sliding(best) {
+        let _ = writeln!(
+            text,
+            "  {key:<width$}  not determinable: steady sliding does not depend on it"
+        );
+    }
+    let _ = writeln!(text, "  {}", done.sign.in_words());
+    if done.fits.len() > 1 {
+        let _ = writeln!(
+            text,
+            "\n  {:<22}{:>14}{:>14}{:>10}{:>4}",
+            "law", "residual", "AIC", "weight", "p"
+        );
+        for (place, fit) in done.fits.iter().enumerate() {
+            let aic = fit.aic().map_or_else(|_| "unbounded".to_owned(), |aic| format!("{aic:.3}"));
+            let weight = done.weights.as_ref().map(|weights| weights[place]);
+            let weight =
+                weight.map_or_else(|| "unknown".to_owned(), |weight| format!("{weight:.4}"));
+            let residual = figure(fit.residual());
+            let _ = writeln!(
+                text,
+                "  {:<22}{residual:>14}{aic:>14}{weight:>10}{:>4}",
+                fit.name(),
+                fit.free
+            );
+        }
+    }
+    for (kind, why) in &done.left_out {
+        let _ = writeln!(text, "  {} is left out: {why}", kind.name());
+    }
+    let (friction, uncertainty) = done.fragments(best);
+    let _ = write!(text, "\n{friction}");
+    if !uncertainty.is_empty() {
+        let _ = write!(text, "\n{uncertainty}");
+    }
+    text
+}
+
+/// The fitted curve with its confidence band.
+fn curve(done: &FrictionFit) -> Dataset {
+    let best = done.best();
+    let curve = done.curve(best, CURVE);
+    let velocity = unit(done, Quantity::Velocity);
+    Dataset::of_file(done.data.path(), "fit")
+        .fact(format!("law: {}", best.name()))
+        .with_axis(Array::new("slip_velocity", velocity, curve.speeds))
+        .with(Array::new("coefficient", "1", curve.coefficients))
+        .with(Array::new("coefficient_low", "1", curve.low))
+        .with(Array::new("coefficient_high", "1", curve.high))
+}
+
+/// The points with their residuals.
+fn points(done: &FrictionFit) -> Dataset {
+    let best = done.best();
+    let velocity = unit(done, Quantity::Velocity);
+    let of =
+        |value: fn(&quell_design::fit::FitPoint) -> f64| done.points.iter().map(value).collect();
+    Dataset::of_file(done.data.path(), "fit")
+        .fact(format!("law: {}", best.name()))
+        .with_axis(Array::new("line", "1", done.lines.iter().map(|line| *line as f64).collect()))
+        .with(Array::new("point_velocity", velocity, of(|point| point.slip_velocity)))
+        .with(Array::new("point_coefficient", "1", of(|point| point.coefficient)))
+        .with(Array::new("point_deviation", "1", of(|point| point.standard_deviation)))
+        .with(Array::new("point_residual", "1", best.residuals.clone()))
+}
