@@ -96,8 +96,8 @@ impl<'a> MotionVariation<'a> {
             events: Vec::new(),
             approaches: vec![[f64::INFINITY; 2]; system.contacts.len()],
             is_one_sided: false,
-            // The changes of a contact's own state are not known.
-            has_failed: system.has_contact_state(),
+            // Neither the changes of a contact's own state are known, nor those under a matrix that varies in time.
+            has_failed: system.has_contact_state() || equations.by_speed.is_some(),
             rates: vec![0.0; size],
             now: Vec::new(),
             stuck: StuckForces::default(),
