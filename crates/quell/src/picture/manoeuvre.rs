@@ -173,7 +173,7 @@ pub(super) fn around_response(
     let contacts = || system.contacts.iter().take(MOST_CURVES);
     let speed = system.structure.mechanical().and_then(Mechanical::by_speed);
     let speeds: Vec<(String, Profile)> =
-        speed.map(|by_speed| (String::new(), by_speed.speed.clone())).into_iter().collect();
+        speed.map(|by_speed| ("$Ω$".to_owned(), by_speed.speed.clone())).into_iter().collect();
     // The surface of every load has the speed of the disc.
     let moved = contacts().take(if speed.is_some() { 0 } else { MOST_CURVES });
     let drives: Vec<(String, Profile)> = moved
