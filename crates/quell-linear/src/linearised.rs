@@ -105,7 +105,7 @@ impl Linearised {
     /// Linearises a system about a steady sliding.
     ///
     /// # Errors
-    /// [`NoSteadySliding::NoMass`].
+    /// [`NoSteadySliding::NoMass`], [`NoSteadySliding::SpeedVaries`].
     pub fn about(system: &System, steady: SteadySliding) -> Result<Self, NoSteadySliding> {
         let n = system.structure.size();
         let given = system.contacts.iter();
@@ -124,6 +124,9 @@ impl Linearised {
             .collect();
         let equations = match &system.structure {
             Structure::StateSpace(states) => LinearEquations::StateSpace(states.matrix().clone()),
+            Structure::Mechanical(mechanical) if mechanical.by_speed().is_some() => {
+                return Err(NoSteadySliding::SpeedVaries);
+            }
             Structure::Mechanical(mechanical) => {
                 let damping = with_dampers(system, mechanical.damping());
                 let stiffness = with_springs(system, mechanical.stiffness());

@@ -41,6 +41,8 @@ pub enum NoSteadySliding {
     Singular,
     /// The mass matrix is singular.
     NoMass,
+    /// The matrices of the structure depend on a speed that varies in time.
+    SpeedVaries,
 }
 
 impl fmt::Display for NoSteadySliding {
@@ -55,6 +57,9 @@ impl fmt::Display for NoSteadySliding {
                 "the equations of steady sliding are singular: no spring holds some coordinate, or friction buckles the structure",
             ),
             Self::NoMass => f.write_str("the mass matrix is singular"),
+            Self::SpeedVaries => f.write_str(
+                "the speed of the structure varies in time: steady sliding is that of the system of one moment",
+            ),
         }
     }
 }
@@ -138,6 +143,9 @@ impl SteadySliding {
     pub fn with(system: &System, lines: &[FrictionLine]) -> Result<Self, NoSteadySliding> {
         let factors: Vec<f64> = (0..lines.len()).map(|index| mean_factor(system, index)).collect();
         let position = match &system.structure {
+            Structure::Mechanical(mechanical) if mechanical.by_speed().is_some() => {
+                return Err(NoSteadySliding::SpeedVaries);
+            }
             Structure::Mechanical(mechanical) => {
                 let stiffness = with_springs(system, mechanical.stiffness());
                 equilibrium(system, &stiffness, lines, &factors)?

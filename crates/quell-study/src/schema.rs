@@ -150,6 +150,7 @@ fn disc(definitions: &mut Map<String, Json>) {
     let mut whole = table(Section::Disc, &[]);
     whole["properties"]["mode"] =
         json!({ "type": "array", "items": { "$ref": "#/$defs/disc_mode" }, "minItems": 1 });
+    whole["properties"]["drive"] = json!({ "$ref": "#/$defs/disc_drive" });
     let one = json!({ "$ref": "#/$defs/disc_load" });
     whole["properties"]["load"] = json!({
         "description": Section::DiscLoad.about(),
@@ -195,6 +196,7 @@ fn disc(definitions: &mut Map<String, Json>) {
     for (name, definition) in [
         ("disc_mode", mode),
         ("disc_load", load),
+        ("disc_drive", table(Section::DiscDrive, &[])),
         ("disc_load_envelope", table(Section::LoadEnvelope, &[])),
         ("disc_dither_envelope", table(Section::Envelope, &[])),
         ("disc", whole),

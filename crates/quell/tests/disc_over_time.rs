@@ -231,8 +231,8 @@ fn wrong_tables_are_named() {
         ),
         ("[disc.load.envelope]\ntime_s = [0.0]\nshare = [1.0]\n", "in seconds and hertz require"),
         ("[disc.load.envelope]\ntime = [0.0]\nload = [1.0]\n", "disc.load.envelope.load"),
-        ("[disc.drive]\ntime = [0.0]\nvelocity = [0.3]\n", "the speed of a disc is constant"),
-        ("[disc.load.drive]\ntime = [0.0]\nvelocity = [0.3]\n", "the speed of a disc is constant"),
+        ("[disc.drive]\ntime = [0.0]\nvelocity = [0.3]\n", "disc.drive.velocity"),
+        ("[disc.load.drive]\ntime = [0.0]\nspeed = [0.3]\n", "all loads rotate together"),
         (
             "[dither]\ndirection = \"normal\"\nfrequency_ratio = 3\nwaveform = \"burst\"\ncarrier = \"sine\"\noff = 1\n",
             "dither.on",

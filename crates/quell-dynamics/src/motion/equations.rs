@@ -4,6 +4,7 @@
 //! ẋ = A x + p + Σ_j b_j u_j(t) + Σ_c [ (g_c + h_c s_cᵀx) T_c − h_c P_c ]
 //! ```
 //!
+//! where A may depend on a speed over time (`speed_terms`), and
 //! with g = M⁻¹t and h = M⁻¹n in the rows of velocities (first-order equations: the column g of the study). The springs of the
 //! contacts are not in A: a contact reads its load N = N₀ + ΔN(t) + rᵀx, and adds the reaction P. Opening a contact then changes no
 //! matrix, and a modal structure stays sparse.
@@ -14,6 +15,7 @@ use quell_numerics::matrix::Matrix;
 
 use super::own_state::{OwnState, OwnStateKind};
 use super::rows::{RowEntries, StateMatrix, StateRow};
+use super::speed_terms::SpeedMatrices;
 use super::stopped::Immobile;
 use crate::simulation::{Clock, Forcing};
 
@@ -75,6 +77,8 @@ pub(super) struct MotionEquations {
     pub(super) constant: Vec<f64>,
     /// Columns b of the inputs that are forces.
     pub(super) pushes: Vec<RowEntries>,
+    /// What a speed over time adds to the matrix.
+    pub(super) by_speed: Option<SpeedMatrices>,
     pub(super) contacts: Vec<ContactEquation>,
     /// Estimate of the fastest rate of the closed structure.
     pub(super) rate: f64,
@@ -89,6 +93,8 @@ pub(super) struct MotionEquations {
 #[derive(Clone, Debug)]
 pub(super) struct Forcings {
     pub(super) pushes: Vec<Forcing>,
+    /// The speed on which the matrix depends.
+    pub(super) speed: Option<Forcing>,
     pub(super) contacts: Vec<ContactForcing>,
 }
 
@@ -143,13 +149,15 @@ impl Forcings {
                 }
             })
             .collect();
-        Self { pushes, contacts }
+        let by_speed = system.structure.mechanical().and_then(Mechanical::by_speed);
+        let speed = by_speed.map(|given| Forcing::of_profiles(&[&given.speed], clock));
+        Self { pushes, speed, contacts }
     }
 
     /// Every forcing.
     pub(super) fn all(&self) -> impl Iterator<Item = &Forcing> {
         let contacts = self.contacts.iter().flat_map(ContactForcing::all);
-        self.pushes.iter().chain(contacts.flatten())
+        self.pushes.iter().chain(&self.speed).chain(contacts.flatten())
     }
 
     /// The next kink or jump.
@@ -165,6 +173,9 @@ impl Forcings {
     /// Advances past every break that is not after `clock`.
     pub(super) fn pass_breaks(&mut self, clock: Clock) {
         self.pushes.iter_mut().for_each(|forcing| forcing.pass_breaks(clock));
+        if let Some(speed) = &mut self.speed {
+            speed.pass_breaks(clock);
+        }
         for contact in &mut self.contacts {
             contact.surface.pass_breaks(clock);
             contact.load.pass_breaks(clock);
@@ -219,7 +230,13 @@ impl MotionEquations {
         };
         let coupling = product(|contact| &contact.along);
         let follower = product(|contact| &contact.across);
-        let rate = fastest_rate(&adhering(&matrix, &contacts), &contacts);
+        let by_speed = system.structure.mechanical().and_then(SpeedMatrices::of).transpose()?;
+        let closed = adhering(&matrix, &contacts);
+        let closed = match &by_speed {
+            Some(given) => given.largest(&closed),
+            None => closed,
+        };
+        let rate = fastest_rate(&closed, &contacts);
         let follows = contacts.iter().any(|contact| !contact.slope.is_empty());
         let matrix = StateMatrix::of(&matrix);
         Ok(Self {
@@ -228,6 +245,7 @@ impl MotionEquations {
             matrix,
             constant,
             pushes,
+            by_speed,
             contacts,
             rate,
             coupling,

@@ -44,7 +44,7 @@ impl Work for StepExpansion<'_> {
     #[inline(always)]
     fn run(self) -> ExpandedStep {
         let matrix = &self.equations.matrix;
-        if self.now.len() <= FEW_CONTACTS {
+        if self.now.len() <= FEW_CONTACTS && self.equations.by_speed.is_none() {
             if let Some(storage) = FewStates::<2>::of(matrix) {
                 return self.few(storage);
             }
@@ -93,6 +93,7 @@ impl<'a> StepExpansion<'a> {
             storage,
             constant: &self.equations.constant,
             pushes: &self.equations.pushes,
+            by_speed: self.equations.by_speed.as_ref(),
             contacts: &self.equations.contacts,
             masks,
             holding: self.stuck.holding(),
@@ -115,6 +116,9 @@ impl<'a> StepExpansion<'a> {
     fn forcings(&mut self) {
         for (series, forcing) in self.out.pushes.iter_mut().zip(&self.forcings.pushes) {
             *series = forcing.series(self.clock);
+        }
+        if let (Some(series), Some(speed)) = (&mut self.out.by_speed, &self.forcings.speed) {
+            series.begin(speed, self.clock);
         }
         for (contact, forcing) in self.out.contacts.iter_mut().zip(&self.forcings.contacts) {
             if !forcing.surface.is_constant() {

@@ -50,6 +50,7 @@ mod row_meter;
 mod rows;
 mod selection;
 mod series;
+mod speed_terms;
 mod state;
 mod step_recurrence;
 mod stopped;
@@ -57,7 +58,7 @@ mod stuck;
 mod transitions;
 mod variation;
 
-use quell_model::System;
+use quell_model::{Profile, System};
 
 use engine::MotionRun;
 use equations::MotionEquations;
@@ -87,6 +88,15 @@ pub struct Motion<'s> {
     equations: MotionEquations,
 }
 
+/// Whether a surface has no velocity about which it moves; of one over knots, whether it ever stands still.
+fn may_rest(surface: &Profile) -> bool {
+    let (least, most) = surface.bounds();
+    match surface.knots() {
+        Some(_) => least <= 0.0 && most >= 0.0,
+        None => surface.mean() == 0.0,
+    }
+}
+
 impl<'s> Motion<'s> {
     /// Checks that sticking has one solution, as far as that does not depend on the state.
     ///
@@ -105,7 +115,7 @@ impl<'s> Motion<'s> {
                 if equations.coupling[(index, index)] <= 0.0 {
                     return Err(Immobile::Unopposed { contact: name(index) });
                 }
-            } else if system.contacts[index].surface_velocity.mean() == 0.0 {
+            } else if may_rest(&system.contacts[index].surface_velocity) {
                 return Err(Immobile::AtRest { contact: name(index) });
             }
         }

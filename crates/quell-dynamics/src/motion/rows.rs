@@ -225,6 +225,9 @@ pub(super) trait StateStorage<V: Lane>: Copy {
     /// Whether the loop over orders is unrolled, which pays where a step is short.
     const IS_UNROLLED: bool;
 
+    /// Whether the matrix may depend on a speed over time: the others are for constant matrices, and have no code for it.
+    const TAKES_SPEED: bool = false;
+
     /// Length of the state.
     fn size(self) -> usize;
 
@@ -300,6 +303,7 @@ impl StateStorage<f64> for ManyStates<'_> {
     type Row = RowEntries;
 
     const IS_UNROLLED: bool = false;
+    const TAKES_SPEED: bool = true;
 
     #[inline(always)]
     fn size(self) -> usize {

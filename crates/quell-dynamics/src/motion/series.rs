@@ -9,6 +9,7 @@ use quell_numerics::lane::Lane;
 use super::contact_series::{ContactSeries, SeriesOf};
 use super::equations::{Forcings, MotionEquations};
 use super::own_state::OwnSeries;
+use super::speed_terms::SpeedSeries;
 use crate::simulation::{Clock, ORDER};
 
 /// Series of a step; the memory is kept from step to step.
@@ -21,6 +22,8 @@ pub(super) struct StepSeries<V = f64> {
     pub(super) buffers: [Vec<V>; 2],
     pub(super) pushes: Vec<SeriesOf<V>>,
     pub(super) contacts: Vec<ContactSeries<V>>,
+    /// The terms of a speed over time: none in lanes.
+    pub(super) by_speed: Option<Box<SpeedSeries<V>>>,
     /// Magnitude of every number of the state in the last steps, over the time scale of the system.
     pub(super) scales: Vec<V>,
 }
@@ -45,7 +48,8 @@ impl StepSeries {
                 ..ContactSeries::zero()
             }
         });
-        Self::with(size, equations.pushes.len(), contacts.collect())
+        let by_speed = equations.by_speed.as_ref().map(|given| Box::new(SpeedSeries::new(given)));
+        Self { by_speed, ..Self::with(size, equations.pushes.len(), contacts.collect()) }
     }
 }
 
@@ -59,6 +63,7 @@ impl<V: Lane> StepSeries<V> {
             buffers: [zeros(size), zeros(size)],
             pushes: vec![[V::splat(0.0); ORDER + 1]; pushes],
             contacts,
+            by_speed: None,
             scales: zeros(size),
         }
     }

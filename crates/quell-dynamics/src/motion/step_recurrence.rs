@@ -14,6 +14,7 @@ use super::equations::ContactEquation;
 use super::own_friction;
 use super::rows::{StateRow, StateStorage};
 use super::series::StepSeries;
+use super::speed_terms::SpeedMatrices;
 use super::stuck::HoldingForces;
 use crate::simulation::{ORDER, RECIPROCALS};
 
@@ -48,6 +49,8 @@ pub(super) struct StepRecurrence<'a, V: Lane, S: StateStorage<V>> {
     pub(super) storage: S,
     pub(super) constant: &'a [V],
     pub(super) pushes: &'a [S::Row],
+    /// What a speed over time adds to the matrix; none in lanes, and none with a storage of few states.
+    pub(super) by_speed: Option<&'a SpeedMatrices>,
     pub(super) contacts: &'a [ContactEquation<S::Row, V>],
     pub(super) masks: &'a [ContactMasks<V>],
     pub(super) holding: HoldingForces<'a, V>,
@@ -142,7 +145,12 @@ impl<V: Lane, S: StateStorage<V>> StepRecurrence<'_, V, S> {
             storage.add(push, series[k], rates);
         }
         let contacts = self.contacts.iter().zip(self.masks);
-        let StepSeries { states, contacts: series, .. } = &mut *self.series;
+        let StepSeries { states, contacts: series, by_speed, .. } = &mut *self.series;
+        if S::TAKES_SPEED
+            && let (Some(matrices), Some(series)) = (self.by_speed, by_speed)
+        {
+            matrices.add(k, series, state, rates);
+        }
         let series = series.iter_mut().zip(branches);
         for ((contact, masks), (series, branch)) in contacts.zip(series) {
             let slip = series.surface[k] - storage.dot(&contact.tangent, state);

@@ -236,6 +236,9 @@ impl MotionRun<'_> {
         let state = self.series.start();
         let mut rates = vec![0.0; state.len()];
         self.equations.matrix.times(state, &mut rates);
+        if let (Some(matrices), Some(speed)) = (&self.equations.by_speed, &self.forcings.speed) {
+            matrices.add_now(speed, self.clock, state, &mut rates);
+        }
         for (rate, constant) in rates.iter_mut().zip(&self.equations.constant) {
             *rate += constant;
         }

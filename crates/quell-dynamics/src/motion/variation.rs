@@ -108,7 +108,8 @@ impl<'a> MotionVariation<'a> {
             events: Vec::new(),
             approaches: vec![[f64::INFINITY; 2]; system.contacts.len()],
             is_one_sided: false,
-            has_failed: false,
+            // The changes under a matrix that varies in time are not known.
+            has_failed: equations.by_speed.is_some(),
             rates: vec![0.0; size],
             ends: Vec::new(),
             now: Vec::new(),

@@ -5,7 +5,7 @@
 pub enum Contribution {
     /// Inertia and elasticity of the plate: y″ + β²y.
     Plate,
-    /// The waves in the frame of the loads: −2qΩB′, +2qΩA′ and −q²Ω².
+    /// The waves in the frame of the loads: −2qΩB′, +2qΩA′ and −q²Ω², and where the speed varies −qΩ′B and +qΩ′A.
     Gyroscopic,
     /// Damping by the velocity in the frame of the loads, 2ξβA′, 2ξβB′.
     DiscDamping,

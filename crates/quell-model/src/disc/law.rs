@@ -8,6 +8,7 @@
 //! t = −η s with η = h/(2r): friction acts on the slope of the disc, and a rate of slope changes the slip and with it μ. For h = 0
 //! there is no tangent row, and a law of constant μ is the follower force of the dissertation in every bit.
 
+use super::drive::DISC_DRIVE;
 use super::{Disc, Load};
 use crate::parameter::disc::{DISC_SPEED, LOAD_FRICTION, LOAD_NORMAL};
 use crate::parameter::indexed;
@@ -52,7 +53,14 @@ impl Disc {
                 complaints.push(Invalid::new(key, load.friction, allowed));
             }
         }
-        if self.speed == 0.0 && count > 0 {
+        if let Some(drive) = self.drive().filter(|_| count > 0) {
+            let (least, most) = drive.bounds();
+            if least <= 0.0 && most >= 0.0 {
+                let allowed = "a speed of one sign at all times: a friction law requires sliding, and a load that stands still or turns \
+                               round has no direction of sliding";
+                complaints.push(Invalid::new(DISC_DRIVE, format!("{least} to {most}"), allowed));
+            }
+        } else if self.speed == 0.0 && count > 0 {
             let allowed = "a speed other than 0: a friction law requires sliding";
             complaints.push(Invalid::new(DISC_SPEED.path, self.speed, allowed));
         }

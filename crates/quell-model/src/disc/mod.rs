@@ -1,7 +1,7 @@
 //! An annular disc under rotating loads, valid by construction.
 
 use crate::parameter::disc::{CENTRIFUGAL, DISC_SPEED, MODE_CENTRIFUGAL};
-use crate::profile::Knots;
+use crate::profile::{Knots, Profile};
 use crate::units::DiscScales;
 use crate::{Friction, Invalid, InvalidValues, Waveform};
 
@@ -9,6 +9,7 @@ mod carrier;
 mod complaint;
 mod contributions;
 mod dither;
+mod drive;
 mod law;
 mod mode;
 mod numbers;
@@ -30,6 +31,8 @@ pub struct Disc {
     dither: DiscDither,
     shape: DitherShape,
     speed: f64,
+    /// The speed over time, in place of the constant one.
+    drive: Option<Profile>,
     law: Option<Friction>,
     /// κ of each mode; none where the disc is at rest.
     centrifugal: Vec<f64>,
@@ -82,6 +85,7 @@ impl Disc {
                 dither,
                 shape,
                 speed,
+                drive: None,
                 law: None,
                 centrifugal,
                 scales: None,
@@ -115,6 +119,12 @@ impl Disc {
         let shaped = (dither, self.shape.clone());
         let disc = Self::dithered_by(self.modes.clone(), loads, shaped, speed)?;
         let disc = Self { centrifugal: self.centrifugal.clone(), ..disc };
+        let disc = match &self.drive {
+            // Knots give the whole speed; an oscillation is about the constant one.
+            Some(drive) if drive.knots().is_none() => disc.driven(drive.clone().about(speed))?,
+            Some(drive) => disc.driven(drive.clone())?,
+            None => disc,
+        };
         let disc = match &self.law {
             Some(law) => disc.under_law(law.clone())?,
             None => disc,
@@ -220,12 +230,13 @@ impl Disc {
         self.shape.envelope.as_ref()
     }
 
-    /// Whether loads and dither are steady: no load varies in time, and the dither has no envelope.
+    /// Whether speed, loads and dither are steady: neither the speed nor a load varies in time, and the dither has no envelope.
     pub fn is_steady(&self) -> bool {
-        self.envelope().is_none() && self.loads.iter().all(|load| load.share.is_none())
+        let steady_loads = self.loads.iter().all(|load| load.share.is_none());
+        self.drive.is_none() && self.envelope().is_none() && steady_loads
     }
 
-    /// The steady disc of a time: loads, with their friction, and dither have their shares of that moment.
+    /// The steady disc of a time: it has the speed of that moment, and loads, with their friction, and dither have their shares.
     #[must_use]
     pub fn steady_at(&self, time: f64) -> Self {
         let loads = self.loads.iter().map(|load| {
@@ -240,7 +251,8 @@ impl Disc {
         let share = self.envelope().map_or(1.0, |envelope| envelope.value(time));
         let shape = DitherShape { waveform: self.waveform().clone(), envelope: None };
         let dither = self.dither.with_amplitude_times(share);
-        Self { loads: loads.collect(), dither, shape, ..self.clone() }
+        let speed = self.speed_at(time);
+        Self { loads: loads.collect(), dither, shape, speed, drive: None, ..self.clone() }
     }
 
     /// Frequency ratio at which the dither repeats itself: R, of a burst R over its cycles of the carrier; `None` without dither.
@@ -248,7 +260,7 @@ impl Disc {
         self.dither.frequency_ratio().map(|ratio| ratio / f64::from(self.waveform().cycles()))
     }
 
-    /// Speed Ω of the loads over the disc, in ω_ref.
+    /// Speed Ω of the loads over the disc, in ω_ref; where it varies, the mean of an oscillation, or the speed at t = 0.
     pub fn speed(&self) -> f64 {
         self.speed
     }
@@ -271,12 +283,13 @@ impl Disc {
         self.modes.iter().map(|mode| if mode.diameters == 0 { 1 } else { 2 }).sum()
     }
 
-    /// The same disc at another speed.
+    /// The same disc at another, constant speed.
     ///
     /// # Errors
     /// A speed out of bounds.
     pub fn at_speed(&self, speed: f64) -> Result<Self, InvalidValues> {
-        self.rebuilt(self.loads.clone(), self.dither, speed)
+        let steady = Self { drive: None, ..self.clone() };
+        steady.rebuilt(self.loads.clone(), self.dither, speed)
     }
 
     /// The same disc with every load's friction times `factor`.

@@ -65,7 +65,7 @@ impl Disc {
 
     fn number(&mut self, path: &str) -> Option<&mut f64> {
         if path == DISC_SPEED.path {
-            return Some(&mut self.speed);
+            return self.has_speed().then_some(&mut self.speed);
         }
         if path == MODAL_DAMPING.path {
             let (first, rest) = self.modes.split_first_mut()?;
@@ -92,7 +92,7 @@ impl Disc {
         }
         let (index, key) = split_index(path, "disc.load")?;
         if key == DISC_SPEED.key() {
-            return Some(&mut self.speed);
+            return self.has_speed().then_some(&mut self.speed);
         }
         let load = self.loads.get_mut(index)?;
         load.number(key)

@@ -13,6 +13,10 @@
 //! row reads w − p: the contact's spring, damper and friction act on the pad with the opposite sign, and the pad has a spring and
 //! a damper to its caliper, or to the ground. The mass of the load moves with the disc.
 //!
+//! Where the speed varies in time, −qΩ′B and +qΩ′A are added (`plate.rs`), and the terms in Ω, Ω² and Ω′ are a
+//! [`SpeedDependence`](crate::system::SpeedDependence) of the structure. A given friction force f does not depend on the speed; under
+//! a law every load slides at the speed of the moment.
+//!
 //! Corrections to the print. Inside the double sum of (5.18), (5.25) and (5.32) the accelerations and velocities carry the
 //! indices of the equation (A_pq″, A_pq′); they must be those of the sum (A_ij″, A_ij′), as (5.15) has them. Taken
 //! literally it is another system whose verdict differs (Ω = 0.2, m = c = k = 0.3, f = 0.1: −2.1·10⁻² instead of +9.3·10⁻⁵).
@@ -23,6 +27,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use quell_numerics::matrix::Matrix;
 
+use super::plate::SpeedFactors;
 use super::{Carrier, Contribution, Contributions, Disc, Load, PatchPoint};
 use crate::friction::{Coulomb, Friction};
 use crate::parameter::Parameter;
@@ -63,7 +68,11 @@ impl Disc {
     /// relative to it. In large motions friction follows the load, and a contact with a spring or damper opens where its load vanishes; lengths
     /// are then in N/(M_pω_ref²), N the normal load of every load.
     pub fn system_of(&self, parts: Contributions) -> System {
-        let (mut damping, mut stiffness) = self.plate(parts);
+        let factors = match self.drive() {
+            Some(_) => SpeedFactors::REST,
+            None => SpeedFactors::at(self.speed()),
+        };
+        let (mut damping, mut stiffness) = self.plate(parts, factors);
         let mut mass = self.masses();
         let mut contacts = Vec::new();
         let mut inputs = Vec::new();
@@ -87,7 +96,7 @@ impl Disc {
                     normal_stiffness: point.weight * on(Contribution::Spring, load.stiffness),
                     tangential_stiffness: None,
                     normal_damping: point.weight * on(Contribution::Damper, load.damping),
-                    surface_velocity: Profile::constant(sliding.velocity),
+                    surface_velocity: sliding.velocity,
                     friction: sliding.law,
                     varying_load: None,
                 });
@@ -100,6 +109,10 @@ impl Disc {
             mass = MassMatrix::dense(mass.matrix());
         }
         let structure = Mechanical::new(self.coordinate_names(), mass, damping, stiffness);
+        let structure = match self.drive() {
+            Some(drive) => structure.at_speed(self.speed_dependence(parts, drive)),
+            None => structure,
+        };
         System { structure: structure.into(), contacts, inputs }
     }
 
@@ -110,7 +123,7 @@ impl Disc {
                 tangent: None,
                 slope,
                 normal_load: point.weight,
-                velocity: 1f64.copysign(load.friction),
+                velocity: Profile::constant(1f64.copysign(load.friction)),
                 law: Friction::Coulomb(Coulomb::constant(point.lever * load.friction.abs())),
             };
         };
@@ -122,7 +135,10 @@ impl Disc {
         Sliding {
             tangent,
             normal_load: share * radius * load.normal_load.unwrap_or(1.0),
-            velocity: radius * self.speed(),
+            velocity: match self.drive() {
+                Some(drive) => drive.scaled(radius),
+                None => Profile::constant(radius * self.speed()),
+            },
             slope: slope.into_iter().map(|slope| slope / radius).collect(),
             law: law.clone(),
         }
@@ -214,7 +230,7 @@ struct Sliding {
     tangent: Option<Vec<f64>>,
     slope: Vec<f64>,
     normal_load: f64,
-    velocity: f64,
+    velocity: Profile,
     law: Friction,
 }
 

@@ -19,7 +19,7 @@ mod structure;
 pub use contact::Contact;
 pub use input::{Input, InputTarget};
 pub use mass::MassMatrix;
-pub use structure::{Mechanical, StateSpace, Structure};
+pub use structure::{Mechanical, SpeedDependence, StateSpace, Structure};
 
 use crate::profile::Wave;
 
@@ -77,14 +77,17 @@ impl System {
         system
     }
 
-    /// Whether drives and loads are constant, and dithers periodic: nothing has knots or an envelope, and no surface oscillates.
+    /// Whether drives and loads are constant, and dithers periodic: nothing has knots or an envelope, no surface oscillates, and
+    /// the matrices of the structure are constant.
     /// Averages, orbits, thresholds and steady sliding are those of a steady system.
     pub fn is_steady(&self) -> bool {
         let steady = |contact: &Contact| {
             let drive = &contact.surface_velocity;
             drive.is_steady() && drive.waves().is_empty() && contact.varying_load.is_none()
         };
-        self.contacts.iter().all(steady)
+        let turning = self.structure.mechanical().and_then(Mechanical::by_speed);
+        turning.is_none()
+            && self.contacts.iter().all(steady)
             && self.inputs.iter().all(|input| input.profile.is_steady())
     }
 
@@ -92,6 +95,9 @@ impl System {
     #[must_use]
     pub fn steady_at(&self, time: f64) -> Self {
         let mut system = self.clone();
+        if let Some(mechanical) = self.structure.mechanical() {
+            system.structure = mechanical.steady_at(time).into();
+        }
         for contact in &mut system.contacts {
             *contact = contact.steady_at(time);
         }

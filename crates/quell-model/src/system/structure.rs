@@ -3,6 +3,7 @@
 use quell_numerics::matrix::Matrix;
 
 use super::MassMatrix;
+use crate::profile::Profile;
 
 /// The linear part of a system.
 #[derive(Clone, Debug, PartialEq)]
@@ -122,6 +123,26 @@ pub struct Mechanical {
     damping: Matrix,
     stiffness: Matrix,
     force: Vec<f64>,
+    by_speed: Option<Box<SpeedDependence>>,
+}
+
+/// The parts of C and K that a speed Ω(t) multiplies, as of a structure in a rotating frame:
+///
+/// ```text
+/// M q̈ + (C + Ω C₁) q̇ + (K + Ω K₁ + Ω² K₂ + Ω′ K₃) q = p + …
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpeedDependence {
+    /// Ω over time.
+    pub speed: Profile,
+    /// C₁.
+    pub damping: Matrix,
+    /// K₁.
+    pub stiffness: Matrix,
+    /// K₂.
+    pub square: Matrix,
+    /// K₃.
+    pub rate: Matrix,
 }
 
 impl Mechanical {
@@ -143,7 +164,8 @@ impl Mechanical {
         ] {
             assert_eq!((rows, columns), (n, n), "sizes of a structure");
         }
-        Self { coordinates, mass, damping, stiffness, force: vec![0.0; n] }
+        let force = vec![0.0; n];
+        Self { coordinates, mass, damping, stiffness, force, by_speed: None }
     }
 
     /// The same structure under the constant forces p, one for each coordinate.
@@ -154,6 +176,41 @@ impl Mechanical {
     pub fn under(self, force: Vec<f64>) -> Self {
         assert_eq!(force.len(), self.size(), "one force for each coordinate");
         Self { force, ..self }
+    }
+
+    /// The same structure with matrices that also depend on a speed over time.
+    ///
+    /// # Panics
+    /// If the sizes do not agree.
+    #[must_use]
+    pub fn at_speed(self, by_speed: SpeedDependence) -> Self {
+        let n = self.size();
+        let SpeedDependence { damping, stiffness, square, rate, .. } = &by_speed;
+        for matrix in [damping, stiffness, square, rate] {
+            assert_eq!((matrix.rows(), matrix.columns()), (n, n), "sizes of a structure");
+        }
+        Self { by_speed: Some(Box::new(by_speed)), ..self }
+    }
+
+    /// The parts of C and K that depend on a speed over time; `None` for constant matrices.
+    pub fn by_speed(&self) -> Option<&SpeedDependence> {
+        self.by_speed.as_deref()
+    }
+
+    /// The structure with the constant matrices of the speed of a time, without those of its rate of change.
+    #[must_use]
+    pub fn steady_at(&self, time: f64) -> Self {
+        let Some(by_speed) = self.by_speed() else { return self.clone() };
+        let speed = by_speed.speed.value(time);
+        let n = self.size();
+        let damping = Matrix::from_fn(n, n, |i, j| {
+            speed.mul_add(by_speed.damping[(i, j)], self.damping[(i, j)])
+        });
+        let stiffness = Matrix::from_fn(n, n, |i, j| {
+            let by_speed = speed.mul_add(by_speed.square[(i, j)], by_speed.stiffness[(i, j)]);
+            speed.mul_add(by_speed, self.stiffness[(i, j)])
+        });
+        Self { damping, stiffness, by_speed: None, ..self.clone() }
     }
 
     /// Number n of coordinates; the state has 2n numbers.
@@ -171,12 +228,12 @@ impl Mechanical {
         &self.mass
     }
 
-    /// C.
+    /// C, without the parts that depend on a speed over time.
     pub fn damping(&self) -> &Matrix {
         &self.damping
     }
 
-    /// K, without the contacts' own stiffness.
+    /// K, without the contacts' own stiffness and the parts that depend on a speed over time.
     pub fn stiffness(&self) -> &Matrix {
         &self.stiffness
     }

@@ -202,6 +202,8 @@ class Disc(Study):
         A CSV file of modes instead of computed ones.
     load :
         One :class:`Load` or several.
+    drive :
+        Speed over time, a :class:`Profile` with ``speed``, instead of the speed of the loads, or with an ``oscillation`` about it.
     friction :
         A friction law, for loads with a normal load.
     dither :
@@ -233,6 +235,7 @@ class Disc(Study):
     nodal_diameters: int | None
     reference_frequency: str | float | None
     modes_file: str | None
+    drive: Any
     without: list[str] | None
     youngs_modulus_pa: float | None
     density_kg_per_m3: float | None
@@ -253,6 +256,7 @@ class Disc(Study):
         mode: Mode | Iterable[Mode] | None = None,
         modes_file: str | os.PathLike[str] | None = None,
         load: Load | Iterable[Load] | None = None,
+        drive: Profile | Mapping[str, Any] | None = None,
         friction: Friction | Mapping[str, Any] | None = None,
         dither: Dither | Iterable[Dither] | None = None,
         without: Iterable[str] | None = None,

@@ -19,10 +19,10 @@ class Profile(Table):
     ----------
     time :
         Times of the knots in ascending order, from the start of the run. In SI ``time_s``, in seconds.
-    velocity, load, share :
-        Values at these times: of a drive ``velocity``, of a load ``load``, of an envelope ``share``, the share of the amplitude, or of
-        the load of a disc.
-    velocity_m_per_s, load_n :
+    velocity, speed, load, share :
+        Values at these times: of a drive ``velocity``, of the drive of a disc ``speed``, of a load ``load``, of an envelope ``share``,
+        the share of the amplitude, or of the load of a disc.
+    velocity_m_per_s, speed_hz, load_n :
         The same in SI.
     shape :
         "linear", straight between the knots, or "smooth", a cubic with slope zero at them [default: "linear"].
@@ -37,10 +37,12 @@ class Profile(Table):
 
     time: Any
     velocity: Any
+    speed: Any
     load: Any
     share: Any
     time_s: Any
     velocity_m_per_s: Any
+    speed_hz: Any
     load_n: Any
     shape: str | None
     file: str | None
@@ -51,10 +53,12 @@ class Profile(Table):
         time: Iterable[float] | None = None,
         *,
         velocity: Iterable[float] | None = None,
+        speed: Iterable[float] | None = None,
         load: Iterable[float] | None = None,
         share: Iterable[float] | None = None,
         time_s: Iterable[float] | None = None,
         velocity_m_per_s: Iterable[float] | None = None,
+        speed_hz: Iterable[float] | None = None,
         load_n: Iterable[float] | None = None,
         shape: Literal["linear", "smooth"] | None = None,
         file: str | None = None,

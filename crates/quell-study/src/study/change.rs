@@ -133,6 +133,12 @@ impl Change {
                 };
                 Ok(self.table(dither, "envelope"))
             }
+            Section::DiscDrive => {
+                let Some(disc) = self.table(root, "disc") else {
+                    return Ok(None);
+                };
+                Ok(self.table(disc, "drive"))
+            }
             Section::LoadEnvelope => {
                 let Some(disc) = self.table(root, "disc") else {
                     return Ok(None);

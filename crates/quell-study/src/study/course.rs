@@ -167,7 +167,14 @@ impl CoursePlace<'_> {
         match knots.first_jump().filter(|_| !self.what.jumps) {
             None => Ok(knots),
             Some(place) => {
-                let allowed = "later than the time before it: a velocity cannot jump, no force could make a sticking mass follow";
+                let allowed = match self.units {
+                    CourseUnits::Disc => {
+                        "later than the time before it: the speed of a disc cannot jump"
+                    }
+                    _ => {
+                        "later than the time before it: a velocity cannot jump, no force could make a sticking mass follow"
+                    }
+                };
                 Err(Invalid::new(format!("time[{place}]"), knots.times()[place], allowed))
             }
         }
@@ -363,6 +370,7 @@ impl CoursePlace<'_> {
         let amplitude_in_si = match self.what.quantity {
             Quantity::Velocity => Some("amplitude_m_per_s"),
             Quantity::Force => Some("amplitude_n"),
+            Quantity::FrequencyRatio => Some("amplitude_hz"),
             _ => None,
         };
         let mut known = vec!["amplitude"];
@@ -493,6 +501,7 @@ fn in_si(name: &str, quantity: Quantity) -> Option<&'static str> {
         ("time", _) => Some("time_s"),
         ("velocity", _) => Some("velocity_m_per_s"),
         ("load", _) => Some("load_n"),
+        ("speed", _) => Some("speed_hz"),
         _ => None,
     }
 }

@@ -1,9 +1,9 @@
 //! The steady study of one moment of a study whose drive, load or dither varies in time, and what makes a study vary or not repeat.
 
-use quell_model::parameter::disc::{DISC_DITHER_AMPLITUDE, LOAD_FRICTION, LOAD_NORMAL};
+use quell_model::parameter::disc::{DISC_DITHER_AMPLITUDE, DISC_SPEED, LOAD_FRICTION, LOAD_NORMAL};
 use quell_model::parameter::{BELT_VELOCITY, NORMAL_LOAD, Parameter, indexed};
 use quell_model::system::{Contact, Input};
-use quell_model::units::measure;
+use quell_model::units::{DiscScales, measure};
 use quell_model::waveform::NOISE;
 use quell_model::{Belt, Disc};
 use serde_json::Value as Json;
@@ -25,9 +25,10 @@ impl Study {
             }
             Kind::Disc(setup) => {
                 let disc = setup.disc();
+                let drive = disc.drive().map(|_| "disc.drive");
                 let load = disc.loads().iter().any(|load| load.share.is_some());
                 let envelope = disc.envelope().map(|_| "dither.envelope");
-                load.then_some("disc.load.envelope").or(envelope)
+                drive.or(load.then_some("disc.load.envelope")).or(envelope)
             }
             Kind::System(setup) => {
                 let system = setup.system();
@@ -131,9 +132,17 @@ fn belt_at(document: &mut Table, belt: &Belt, time: f64) -> Result<(), Complaint
     })
 }
 
-/// Multiplies the friction or the normal load of each load, and the amplitude of the dither, by their shares.
+/// Gives every load the speed of a moment, and multiplies its friction or normal load and the amplitude of the dither by their shares.
 fn disc_at(document: &mut Table, disc: &Disc, time: f64) -> Result<(), Complaints> {
     if let Some(Value::Table(table)) = document.get_mut("disc").map(|node| &mut node.value) {
+        if disc.drive().is_some() {
+            table.remove("drive");
+            let speed = disc.speed_at(time);
+            each(table, "load", |index, table| {
+                set_speed(table, speed, disc.scales(index));
+                Ok(())
+            })?;
+        }
         each(table, "load", |index, table| {
             let share = disc.loads().get(index).and_then(|load| load.share.as_ref());
             let share = share.map_or(1.0, |share| share.value(time));
@@ -157,6 +166,21 @@ fn disc_at(document: &mut Table, disc: &Disc, time: f64) -> Result<(), Complaint
         }
         scale_by(table, "dither", share, |name| name == DISC_DITHER_AMPLITUDE.key())
     })
+}
+
+/// Sets the speed of a load, in hertz where it was given in SI.
+fn set_speed(table: &mut Table, speed: f64, scales: Option<DiscScales>) {
+    let hertz = scales.and_then(|scales| scales.si_per_unit(DISC_SPEED.quantity));
+    let twins = || DISC_SPEED.si.iter().map(|twin| twin.key);
+    let si = hertz.filter(|_| twins().any(|key| table.has(key)));
+    let (key, value) = match si {
+        Some(hertz) => ("speed_hz", hertz * speed),
+        None => (DISC_SPEED.key(), speed),
+    };
+    for key in twins().chain([DISC_SPEED.key()]) {
+        table.remove(key);
+    }
+    table.set(key, Node { value: Value::Number(value), origin: Origin::Argument("--at-time") });
 }
 
 /// Replaces a table over time by the constant value of its moment.

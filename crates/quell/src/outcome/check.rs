@@ -189,7 +189,12 @@ fn table_of_disc(study: &DiscStudy) -> String {
         "modes",
         &format!("{}, from the {}", object["disc"]["modes"], word(&object["disc"]["modes_from"])),
     );
-    table.word("speed Ω", &object["disc"]["speed"].to_string());
+    match study.disc().drive().map(Profile::bounds) {
+        None => table.word("speed Ω", &object["disc"]["speed"].to_string()),
+        Some((least, largest)) => {
+            table.word("speed Ω, over time", &format!("{least} to {largest}"))
+        }
+    };
     for (index, load) in object["disc"]["loads"].as_array().into_iter().flatten().enumerate() {
         let words: Vec<String> = load
             .as_object()

@@ -123,6 +123,9 @@ pub(super) fn caption_of_disc(study: &DiscStudy) -> String {
     if disc.envelope().is_some() {
         parts.push("its amplitude varies in time".to_owned());
     }
+    if disc.drive().is_some() {
+        parts.push("$Ω$ varies in time".to_owned());
+    }
     if disc.loads().iter().any(|load| load.share.is_some()) {
         parts.push("the load varies in time".to_owned());
     }

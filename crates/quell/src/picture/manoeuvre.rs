@@ -1,11 +1,11 @@
-//! A manoeuvre of a belt or a system: drive, load, dither, response and spectrogram over one time axis.
+//! A manoeuvre of a belt, a disc or a system: drive, load, dither, response and spectrogram over one time axis.
 
 use std::f64::consts::TAU;
 
 use quell_dynamics::motion::MotionSampler;
 use quell_dynamics::simulation::Sample;
 use quell_model::profile::{Knots, Wave};
-use quell_model::system::InputTarget;
+use quell_model::system::{InputTarget, Mechanical};
 use quell_model::units::Quantity;
 use quell_model::{Input, Profile, System};
 
@@ -171,7 +171,12 @@ pub(super) fn around_response(
         (!profiles.is_empty()).then(|| panel.with_all(lines.collect::<Vec<_>>()))
     };
     let contacts = || system.contacts.iter().take(MOST_CURVES);
-    let drives: Vec<(String, Profile)> = contacts()
+    let speed = system.structure.mechanical().and_then(Mechanical::by_speed);
+    let speeds: Vec<(String, Profile)> =
+        speed.map(|by_speed| ("$Ω$".to_owned(), by_speed.speed.clone())).into_iter().collect();
+    // The surface of every load has the speed of the disc.
+    let moved = contacts().take(if speed.is_some() { 0 } else { MOST_CURVES });
+    let drives: Vec<(String, Profile)> = moved
         .filter(|contact| {
             contact.surface_velocity != Profile::constant(contact.surface_velocity.mean())
         })
@@ -193,13 +198,14 @@ pub(super) fn around_response(
         })
         .collect();
     let above = [
+        panel("speed of the disc", Quantity::FrequencyRatio, &speeds),
         panel("belt velocity", Quantity::Velocity, &drives),
         panel("normal load", Quantity::Force, &loads),
         panel("share of the amplitude", Quantity::Ratio, &dithers),
     ];
     let step = (to - from) / (samples.times.len() - 1) as f64;
     let motion = SampledMotion { start: from, step, displacement };
-    let period = natural_period(study, to - from);
+    let period = natural_period(study, (from, to));
     let own = TAU / period;
     let fastest = system.waves().map(Wave::repetition).fold(0.0, f64::max);
     let highest = if fastest <= 40.0 * own { (1.25 * fastest).max(6.0 * own) } else { 8.0 * own };

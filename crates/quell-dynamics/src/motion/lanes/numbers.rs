@@ -203,6 +203,7 @@ impl<V: Lane> LaneNumbers<V> {
             storage: LaneStates { size: self.size, columns: &self.columns },
             constant: &self.constant,
             pushes: &self.pushes,
+            by_speed: None,
             contacts: &self.contacts,
             masks: &self.masks,
             holding: self.holding.forces(),

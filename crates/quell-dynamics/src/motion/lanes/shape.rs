@@ -36,9 +36,10 @@ impl PartialEq for ContactShape {
 impl LaneShape {
     /// The shape of a system; `None` if it cannot share lanes.
     pub(super) fn of(motion: &Motion<'_>) -> Option<Self> {
-        let MotionEquations { size, contacts, .. } = &motion.equations;
+        let MotionEquations { size, contacts, by_speed, .. } = &motion.equations;
         let has_own_state = contacts.iter().any(|contact| contact.own.is_some());
-        if ![2, 4, 6, 8].contains(size) || contacts.len() > FEW_CONTACTS || has_own_state {
+        let is_small = [2, 4, 6, 8].contains(size) && contacts.len() <= FEW_CONTACTS;
+        if !is_small || has_own_state || by_speed.is_some() {
             return None;
         }
         let forcings = Forcings::of(motion.system, Clock::at(0.0));

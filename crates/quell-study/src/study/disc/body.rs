@@ -6,6 +6,7 @@ use quell_disc::plate::PlateMaterial;
 use quell_model::disc::{Contribution, Contributions};
 use quell_model::disc::{Load, Mode, Patch};
 use quell_model::parameter::disc::MODAL_DAMPING;
+use quell_model::profile::Profile;
 use quell_model::units::DiscScales;
 
 use super::super::document::{Node, Table, Value};
@@ -24,6 +25,8 @@ pub(super) struct Body {
     pub(super) loads: Vec<Load>,
     pub(super) radii: Vec<Option<f64>>,
     pub(super) speed: f64,
+    /// The speed over time.
+    pub(super) drive: Option<Profile>,
     pub(super) parts: Contributions,
     /// Centrifugal stiffening of each mode.
     pub(super) centrifugal: Vec<f64>,
@@ -38,8 +41,7 @@ impl Body {
         folder: &Path,
         known: Option<&ModeSource>,
     ) -> Option<Self> {
-        loads::refuse_drive(reader, table, "disc");
-        reader.unknown_keys(table, Section::Disc, "disc", &["mode", "load", loads::DRIVE]);
+        reader.unknown_keys(table, Section::Disc, "disc", &["mode", "load", rotation::DRIVE]);
         let damping = reader.optional(table, "disc", MODAL_DAMPING, None).or(0.0);
         let parts = without(reader, table);
         let material = plate::material(reader, table, header);
@@ -54,12 +56,14 @@ impl Body {
         let pads = loads::read(reader, table, scales, folder);
         reader.set_disc_scales(scales.disc);
         let (pads, source) = (pads?, source?);
+        let drive = rotation::drive(reader, table, folder, &pads).ok()?;
         let (damping, parts, material) = (damping?, parts?, material?);
         let centrifugal = centrifugal?;
         let radii: Vec<Option<f64>> = pads.iter().map(|pad| pad.radius).collect();
         let (modes, shapes, warnings) = modes::at_loads(reader, &source, &pads, damping)?;
         let patches = patches(reader, &source, &pads, &modes)?;
         let speed = pads.iter().find_map(|pad| pad.speed.map(|(speed, _)| speed)).unwrap_or(0.0);
+        let drive = drive.map(|course| course.profile(speed));
         let half_thickness = |pad: &Pad| {
             let known = material.as_ref().zip(pad.radius).map(|((material, _), radius)| {
                 0.5 * material.thickness() / (radius * material.outer_radius())
@@ -83,7 +87,18 @@ impl Body {
             .collect();
         let material = material.map(|(material, _)| material);
         let centrifugal = rotation::stiffening(&source, centrifugal, modes.len());
-        Some(Self { source, material, modes, loads, radii, speed, parts, centrifugal, warnings })
+        Some(Self {
+            source,
+            material,
+            modes,
+            loads,
+            radii,
+            speed,
+            drive,
+            parts,
+            centrifugal,
+            warnings,
+        })
     }
 }
 

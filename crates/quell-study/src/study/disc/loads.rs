@@ -11,6 +11,7 @@ use quell_model::units::DiscScales;
 
 use super::carriers;
 use super::patch::PatchSize;
+use super::rotation::DRIVE;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::course::{CoursePlace, CourseUnits};
 use crate::study::document::{Node, Table, Value};
@@ -152,14 +153,11 @@ fn one(
     })
 }
 
-/// The table that gives a velocity over time in other kinds of study.
-pub(super) const DRIVE: &str = "drive";
-
-/// Reports a speed over time, which discs do not have.
-pub(super) fn refuse_drive(reader: &mut Reader, table: &Table, path: &str) {
+/// Reports a speed over time of one load.
+fn refuse_drive(reader: &mut Reader, table: &Table, path: &str) {
     let Some(node) = table.get(DRIVE) else { return };
-    let allowed = "left out: the speed of a disc is constant, because the equations of its plate in the frame of the loads depend \
-                   on it; a study at each speed, or a map over disc.load.speed, has the verdicts of steady speeds";
+    let allowed =
+        "left out: all loads rotate together, and [disc.drive] gives their speed over time";
     let (key, origin, given) = (format!("{path}.{DRIVE}"), node.origin, node.given());
     reader.complain(Complaint::new(Fault::Conflict, key, origin, given, allowed));
 }

@@ -2,8 +2,8 @@
 //!
 //! Modes are computed from the plate, listed as `[[disc.mode]]`, or read from a CSV file; loads are one `[disc.load]` or
 //! several `[[disc.load]]`, each at a point or over an area, on the ground or on a pad and a caliper; `without` switches contributions off; `[friction]` gives the friction of all
-//! loads by a law instead of a force each; `[dither]` modulates every load's friction, and `[disc.load.envelope]` gives a load over
-//! time.
+//! loads by a law instead of a force each; `[dither]` modulates every load's friction, `[disc.load.envelope]` gives a load over time
+//! and `[disc.drive]` the speed.
 
 mod body;
 mod carriers;
@@ -112,11 +112,14 @@ impl StudyKind for DiscSetup {
         if reader.complaints_so_far() > 0 {
             return None;
         }
-        let Body { source, material, modes, loads, radii, speed, parts, centrifugal, warnings } =
-            body;
+        let Body { source, material, modes, loads, radii, parts, warnings, .. } = body;
         let scales = body::scales(&source, material.as_ref());
-        let disc = Disc::dithered_by(modes, loads, (dither, shape), speed);
-        let disc = disc.and_then(|disc| disc.stiffened(centrifugal));
+        let disc = Disc::dithered_by(modes, loads, (dither, shape), body.speed);
+        let disc = disc.and_then(|disc| match body.drive {
+            Some(drive) => disc.driven(drive),
+            None => Ok(disc),
+        });
+        let disc = disc.and_then(|disc| disc.stiffened(body.centrifugal));
         let disc = disc.and_then(|disc| match law {
             Some(law) => disc.under_law(law),
             None => Ok(disc),

@@ -1,12 +1,47 @@
-//! Which part rotates, and how centrifugal stress stiffens the disc.
+//! Which part rotates, at which speed over time, and how centrifugal stress stiffens the disc.
+
+use std::path::Path;
 
 use quell_model::parameter::disc::CENTRIFUGAL;
 
+use super::loads::Pad;
 use super::modes::{Listed, ModeSource};
 use crate::complaint::{Complaint, Fault};
+use crate::study::course::{Course, CoursePlace, CourseUnits, replaces_constant};
 use crate::study::document::Table;
 use crate::study::reader::Reader;
-use crate::study::vocabulary::Choice;
+use crate::study::vocabulary::{Choice, DISC_DRIVE};
+
+/// The table of the speed over time.
+pub(super) const DRIVE: &str = "drive";
+
+/// The speed over time, `Ok(None)` at a constant speed; `Err` if it is wrong, which has been reported.
+///
+/// Knots take the place of the speed of the loads, an oscillation is added to it.
+pub(super) fn drive(
+    reader: &mut Reader,
+    table: &Table,
+    folder: &Path,
+    pads: &[Pad],
+) -> Result<Option<Course>, ()> {
+    let Some(node) = table.get(DRIVE) else { return Ok(None) };
+    if pads.is_empty() {
+        let allowed = "left out: a disc without loads has no speed";
+        let (origin, given) = (node.origin, node.given());
+        reader.complain(Complaint::new(Fault::Conflict, "disc.drive", origin, given, allowed));
+        return Err(());
+    }
+    if replaces_constant(Some(node)) {
+        let said = pads.iter().filter_map(|pad| Some((pad.speed?, &pad.path)));
+        for ((speed, origin), path) in said {
+            let allowed = "left out: disc.drive gives it over time";
+            let key = format!("{path}.speed");
+            reader.complain(Complaint::new(Fault::Conflict, key, origin, speed, allowed));
+        }
+    }
+    let place = CoursePlace { what: DISC_DRIVE, units: CourseUnits::Disc, folder };
+    place.optional(reader, table, "disc", DRIVE)
+}
 
 /// Centrifugal stiffening κ of the disc, 0 if its loads rotate instead, as the dissertation has it.
 pub(super) fn read(reader: &mut Reader, table: &Table, source: Option<&ModeSource>) -> Option<f64> {

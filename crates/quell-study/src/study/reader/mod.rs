@@ -315,6 +315,9 @@ fn tables(root: &Table, section: Section) -> Vec<&Table> {
     let node = match section {
         // An envelope is within its dither or load, of which there may be several.
         Section::Root | Section::Sweep | Section::Envelope | Section::LoadEnvelope => None,
+        Section::DiscDrive => {
+            root.get("disc").and_then(Node::table).and_then(|disc| disc.get("drive"))
+        }
         Section::Constants => {
             root.get("friction").and_then(Node::table).and_then(|table| table.get("constants"))
         }

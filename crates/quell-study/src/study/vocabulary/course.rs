@@ -54,6 +54,15 @@ pub const LOAD_ENVELOPE: CourseTable = CourseTable {
     jumps: true,
 };
 
+/// `[disc.drive]`: speed of the disc under its loads.
+pub const DISC_DRIVE: CourseTable = CourseTable {
+    value: "speed",
+    quantity: Quantity::FrequencyRatio,
+    bounds: Bounds::FINITE,
+    oscillates: true,
+    jumps: false,
+};
+
 /// A key of such a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CourseKey {
@@ -98,6 +107,7 @@ impl CourseTable {
         match self.quantity {
             Quantity::Velocity => Some("velocity_m_per_s"),
             Quantity::Force => Some("load_n"),
+            Quantity::FrequencyRatio => Some("speed_hz"),
             _ => None,
         }
     }

@@ -4,7 +4,7 @@ use quell_model::friction::expression;
 use quell_model::parameter::{COEFFICIENT, Parameter, ScaleKey, SiTwin};
 use quell_model::units::Quantity;
 
-use super::course::{CourseKey, CourseTable, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
+use super::course::{CourseKey, CourseTable, DISC_DRIVE, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
 use super::words::Choice;
 
 /// What the key `schema` of a study is.
@@ -33,6 +33,8 @@ pub enum Section {
     DiscMode,
     /// `[disc.load]` or `[[disc.load]]`.
     DiscLoad,
+    /// `[disc.drive]`.
+    DiscDrive,
     /// `[disc.load.envelope]`.
     LoadEnvelope,
     /// `[dither]` or `[[dither]]`.
@@ -64,6 +66,7 @@ impl Section {
         Self::Disc,
         Self::DiscMode,
         Self::DiscLoad,
+        Self::DiscDrive,
         Self::LoadEnvelope,
         Self::Dither,
         Self::Envelope,
@@ -87,6 +90,7 @@ impl Section {
             Self::Disc => "disc",
             Self::DiscMode => "disc.mode",
             Self::DiscLoad => "disc.load",
+            Self::DiscDrive => "disc.drive",
             Self::LoadEnvelope => "disc.load.envelope",
             Self::Dither => "dither",
             Self::Envelope => "dither.envelope",
@@ -114,6 +118,9 @@ impl Section {
             Self::Friction => "the friction law",
             Self::Constants => "named numbers of a formula",
             Self::Dither => "one dither force; several as [[dither]]",
+            Self::DiscDrive => {
+                "speed of the disc over time, instead of or added to disc.load.speed"
+            }
             Self::LoadEnvelope => "share of the normal load, and with it of friction, over time",
             Self::Envelope => "share of the amplitude over time",
             Self::Solver => "accuracy and length of the computations",
@@ -131,6 +138,7 @@ impl Section {
         match self {
             Self::Drive => Some(DRIVE),
             Self::Load => Some(LOAD),
+            Self::DiscDrive => Some(DISC_DRIVE),
             Self::LoadEnvelope => Some(LOAD_ENVELOPE),
             Self::Envelope => Some(ENVELOPE),
             _ => None,

@@ -61,21 +61,20 @@ fn words() -> Vec<Key> {
         word(Dither, "direction", Choice::Direction, "direction of the force"),
         word(Dither, "waveform", Choice::Waveform, "shape of the force in time"),
     ];
-    let courses = [Section::Drive, Section::Load, Section::Envelope, Section::LoadEnvelope]
-        .into_iter()
-        .flat_map(|section| {
-            let keys = section.course().map_or_else(Vec::new, CourseTable::keys);
-            keys.into_iter().map(move |(name, course)| Key {
-                section,
-                name,
-                role: if course == CourseKey::Shape {
-                    Role::Choice(Choice::KnotShape)
-                } else {
-                    Role::Course(course)
-                },
-                about: course.about(),
-            })
-        });
+    let tables = Section::ALL.iter().copied().filter(|section| section.course().is_some());
+    let courses = tables.flat_map(|section| {
+        let keys = section.course().map_or_else(Vec::new, CourseTable::keys);
+        keys.into_iter().map(move |(name, course)| Key {
+            section,
+            name,
+            role: if course == CourseKey::Shape {
+                Role::Choice(Choice::KnotShape)
+            } else {
+                Role::Course(course)
+            },
+            about: course.about(),
+        })
+    });
     words.into_iter().chain(waves).chain(courses).collect()
 }
 

@@ -8,7 +8,7 @@ mod keys;
 mod resolve;
 mod words;
 
-pub use course::{CourseKey, CourseTable, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
+pub use course::{CourseKey, CourseTable, DISC_DRIVE, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
 pub use key::{Key, Role, SCHEMA_ABOUT, Section, WAVE_KEYS, WaveKey, join};
 pub use keys::{key, keys, keys_of};
 pub use resolve::{Address, in_system, resolve};

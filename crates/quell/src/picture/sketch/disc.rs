@@ -119,7 +119,13 @@ fn key(sheet: Sketch, study: &DiscStudy) -> Sketch {
         plate.push(format!("unit of frequency {}", super::symbols::measured(hertz, Some("Hz"))));
     }
     let moving = if disc.is_stiffened() { "disc rotates, loads at rest" } else { "loads rotate" };
-    let speed = vec![format!("$Ω$ = {}", number(disc.speed())), moving.to_owned()];
+    let speed = match disc.drive().map(Profile::bounds) {
+        None => format!("$Ω$ = {}", number(disc.speed())),
+        Some((least, largest)) => {
+            format!("$Ω$ from {} to {} over time", number(least), number(largest))
+        }
+    };
+    let speed = vec![speed, moving.to_owned()];
     let mut sheet =
         sheet.with_key(SketchKey::new("Disc", plate)).with_key(SketchKey::new("Speed", speed));
     let loads = disc.loads();

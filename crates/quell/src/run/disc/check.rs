@@ -96,14 +96,35 @@ pub fn json(study: &DiscStudy) -> Json {
         object["friction"]["law"] = kind.name().into();
     }
     let scales = study.scales(0);
-    put_both(&mut object["disc"], DISC_SPEED, disc.speed(), scales);
+    put_speed(&mut object, disc, scales);
     if let Some(ratio) = disc.dither().frequency_ratio() {
         put_both(&mut object["dither"], DITHER_FREQUENCY_RATIO, ratio, scales);
     }
     if study.title().is_none() {
-        object["why"] = json!({ "title": "the study has no title" });
+        object["why"]["title"] = "the study has no title".into();
     }
     object
+}
+
+/// Adds the speed; where it varies in time, its least and its largest value.
+fn put_speed(object: &mut Json, disc: &Disc, scales: Option<DiscScales>) {
+    let Some((least, largest)) = disc.drive().map(Profile::bounds) else {
+        put_both(&mut object["disc"], DISC_SPEED, disc.speed(), scales);
+        return;
+    };
+    object["disc"][DISC_SPEED.key()] = Json::Null;
+    object["why"]["disc.speed"] = "varies in time".into();
+    let mut ends = json!({});
+    for (name, value) in [("least", least), ("largest", largest)] {
+        let mut one = json!({});
+        put_both(&mut one, DISC_SPEED, value, scales);
+        for (key, value) in one.as_object().into_iter().flatten() {
+            ends[format!("{name}_{key}")] = value.clone();
+        }
+    }
+    if let (Some(whole), Json::Object(mut ends)) = (object["disc"].as_object_mut(), ends) {
+        whole.append(&mut ends);
+    }
 }
 
 /// Adds the area of a distributed load: its extent and its numbers of quadrature points.

@@ -31,8 +31,9 @@ pub const RUNAWAY: f64 = 1e6;
 const GROWS: &str = "the motion grows without bound: in this model friction follows the load, and the loads of the springs follow \
                      the deflection";
 
-/// Why a run under a load or dither over time has no growth rate.
-const VARIES: &str = "a load or the dither varies in time: the growth rate is that of no moment";
+/// Why a run under a speed, load or dither over time has no growth rate.
+const VARIES: &str =
+    "the speed, a load or the dither varies in time: the growth rate is that of no moment";
 
 /// The unit of a friction force.
 const FORCE: &str = "r₀M_pω_ref²";
@@ -93,7 +94,7 @@ pub fn run(study: &DiscStudy, request: &MotionRequest) -> Result<DiscSimulation,
     let system = study.disc().system_of(study.parts());
     let begin = request.from.as_ref().map_or(0.0, |from| from.time);
     let is_steady = study.disc().is_steady();
-    // Of a load or dither that varies, the leading motion is that of the moment at which the run begins.
+    // Of a speed, load or dither that varies, the leading motion is that of the moment at which the run begins.
     let moment = (!is_steady).then(|| study.disc().steady_at(begin).system_of(study.parts()));
     let kick = kick::of(moment.as_ref().unwrap_or(&system), &observed_row(study))?;
     let initial = if request.begins_as_the_study() {

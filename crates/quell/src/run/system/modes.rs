@@ -2,6 +2,7 @@
 
 use quell_linear::linearised::{FrictionSlopes, Linearised};
 use quell_linear::spectrum::{SmallMotion, spectrum};
+use quell_model::System;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -24,7 +25,14 @@ pub struct SystemModes {
 /// [`Failure::Failed`] if a matrix overflows or the mass is singular.
 pub fn run(study: &SystemStudy) -> Result<SystemModes, Failure> {
     has_equations(study, "modes")?;
-    let system = study.system();
+    of(study.system())
+}
+
+/// The modes of a system.
+///
+/// # Errors
+/// [`Failure::Failed`] if a matrix overflows or the mass is singular.
+pub(crate) fn of(system: &System) -> Result<SystemModes, Failure> {
     let linear = Linearised::frictionless(system).map_err(|why| failed("modes", why))?;
     let none = FrictionSlopes { force: 0.0, by_velocity: 0.0, by_load: 0.0 };
     let found = spectrum(&linear, &vec![none; system.contacts.len()]);

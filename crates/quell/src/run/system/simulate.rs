@@ -9,6 +9,7 @@ use quell_dynamics::motion::{
 };
 use quell_model::System;
 use quell_model::profile::Wave;
+use quell_model::system::Mechanical;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -202,21 +203,32 @@ fn manoeuvre(study: &SystemStudy, traced: TracedRow, start: f64) -> Option<Manoe
     let slowest = waves().map(Wave::repetition).reduce(f64::min);
     Some(Manoeuvre::of(
         motion,
-        natural_period(study, meter.samples.len() as f64 * step),
+        natural_period(study, (start, start + meter.samples.len() as f64 * step)),
         slowest.map(|rate| TAU / rate),
         onset,
     ))
 }
 
-/// Period of the slowest oscillation of the structure; of a structure without one a fiftieth of the run.
-pub(crate) fn natural_period(study: &SystemStudy, length: f64) -> f64 {
-    let found = modes::run(study).map(|found| {
+/// Period of the slowest oscillation of the structure, at the beginning of the run where its speed varies; of a structure without one a
+/// fiftieth of the run.
+pub(crate) fn natural_period(study: &SystemStudy, (from, until): (f64, f64)) -> f64 {
+    let length = until - from;
+    let found = modes_at(study, from).map(|found| {
         let oscillating = found.modes.iter().filter(|mode| mode.eigenvalue.im > mode.error);
         oscillating.map(modes::natural).fold(f64::INFINITY, f64::min)
     });
     match found {
         Ok(slowest) if slowest.is_finite() && TAU / slowest < length / 4.0 => TAU / slowest,
         _ => length / 50.0,
+    }
+}
+
+/// The modes of a study; where its speed varies, those of a moment.
+fn modes_at(study: &SystemStudy, time: f64) -> Result<modes::SystemModes, Failure> {
+    let structure = &study.system().structure;
+    match structure.mechanical().and_then(Mechanical::by_speed) {
+        Some(_) => modes::of(&study.system().steady_at(time)),
+        None => modes::run(study),
     }
 }
 
@@ -257,7 +269,7 @@ pub(crate) fn beyond_laws(system: &System, largest: impl Fn(usize) -> f64) -> Ve
 /// # Errors
 /// A complaint about `option`, the missing duration, if nothing oscillates.
 pub(crate) fn slowest_period(study: &SystemStudy, option: &'static str) -> Result<f64, Failure> {
-    let found = modes::run(study)?;
+    let found = modes_at(study, 0.0)?;
     let oscillating = found.modes.iter().filter(|mode| mode.eigenvalue.im > mode.error);
     let slowest = oscillating.map(modes::natural).chain(study.system().acting_frequencies());
     let slowest = slowest.fold(f64::INFINITY, f64::min);
