@@ -12,8 +12,8 @@ use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
 use crate::verbs::{
-    attractor, basins, bifurcation, check, cite, completions, design, fit, friction, map, modes, new,
-    orbit, report, reproduce, resonances, response, schema, simulate, sketch, stability,
+    attractor, basins, bifurcation, check, cite, completions, design, fit, friction, map, modes,
+    new, orbit, report, reproduce, resonances, response, schema, simulate, sketch, stability,
     thresholds, waveforms,
 };
 use crate::{answer, help};

@@ -3,6 +3,8 @@
 #[expect(dead_code, reason = "other files of tests use the rest of it")]
 mod place;
 
+use std::fmt::Write as _;
+
 use std::fs;
 
 use place::Place;
@@ -93,7 +95,7 @@ fn the_sign_of_the_coefficient_is_found() {
                     "opposed" => c.copysign(-v),
                     _ => c,
                 };
-                turned += &format!("{v:?},{c:?}\n");
+                let _ = writeln!(turned, "{v:?},{c:?}");
             }
             place.write("turned.csv", turned);
             let done = place.good(&["fit", "turned.csv", "--law", "stribeck"]);

@@ -1,8 +1,8 @@
 //! Laws fitted to points: stored fits, planted laws, bounds, weights and what is reported as unknown.
 
 use quell_design::fit::{
-    Certainty, Estimate, Finding, FitModel, FitPoint, LawFit, Unfitted, akaike_weights, diagnose,
-    fit,
+    Certainty, Estimate, FitFinding, FitModel, FitPoint, LawFit, Unfitted, akaike_weights,
+    diagnose, fit,
 };
 use quell_model::friction::LawKind;
 use serde_json::Value;
@@ -153,12 +153,14 @@ fn points_without_a_fall_tie_the_levels() {
     let without: Vec<&str> = diagnose(&decreasing, &points)
         .iter()
         .filter_map(|finding| match finding {
-            Finding::WithoutError { key, .. } => Some(*key),
+            FitFinding::WithoutError { key, .. } => Some(*key),
             _ => None,
         })
         .collect();
     assert_eq!(without, ["minimum_coefficient", "reference_velocity"]);
-    assert!(diagnose(&constant, &points).iter().any(|one| matches!(one, Finding::Pattern { .. })));
+    assert!(
+        diagnose(&constant, &points).iter().any(|one| matches!(one, FitFinding::Pattern { .. }))
+    );
 }
 
 #[test]
@@ -265,16 +267,16 @@ fn what_the_points_cannot_determine_is_found() {
     };
     let slow = range(0.005, 0.1);
     let found = diagnose(&fit(&model(LawKind::Decreasing), &slow).expect("a fit"), &slow);
-    assert!(found.iter().any(|one| matches!(one, Finding::NothingFast { .. })), "{found:?}");
+    assert!(found.iter().any(|one| matches!(one, FitFinding::NothingFast { .. })), "{found:?}");
     let fast = range(0.35, 1.0);
     let found = diagnose(&fit(&model(LawKind::Decreasing), &fast).expect("a fit"), &fast);
-    assert!(found.iter().any(|one| matches!(one, Finding::NothingSlow { .. })), "{found:?}");
+    assert!(found.iter().any(|one| matches!(one, FitFinding::NothingSlow { .. })), "{found:?}");
     // One wild point, by its place.
     let mut wild = range(0.01, 1.0);
     wild[11].coefficient += 0.05;
     let found = diagnose(&fit(&model(LawKind::Decreasing), &wild).expect("a fit"), &wild);
     let outliers = found.iter().find_map(|one| match one {
-        Finding::Outliers { places, .. } => Some(places.clone()),
+        FitFinding::Outliers { places, .. } => Some(places.clone()),
         _ => None,
     });
     assert_eq!(outliers, Some(vec![11]));
@@ -286,7 +288,7 @@ fn what_the_points_cannot_determine_is_found() {
     }
     let found = diagnose(&fit(&model(LawKind::Decreasing), &uneven).expect("a fit"), &uneven);
     assert!(found.iter().any(
-        |one| matches!(one, Finding::Directions { difference } if (difference - 0.01).abs() < 1e-3)
+        |one| matches!(one, FitFinding::Directions { difference } if (difference - 0.01).abs() < 1e-3)
     ));
     // The cubic is not intended beyond √3 of its reference velocity.
     let cubic = fit(&model(LawKind::Stribeck), &wild).expect("a fit");

@@ -61,7 +61,7 @@ fn exact(modes: &[Mode], drive: &Profile, time: f64) -> Vec<f64> {
     displacements
 }
 
-fn run(modes: &[Mode], drive: Option<&Profile>, start: MotionStart, until: f64) -> Vec<f64> {
+fn run(modes: &[Mode], drive: Option<&Profile>, start: &MotionStart, until: f64) -> Vec<f64> {
     let disc = Disc::new(modes.to_vec(), Vec::new(), DiscDither::None, 0.4).expect("valid");
     let disc = match drive {
         Some(drive) => disc.driven(drive.clone()).expect("valid"),
@@ -69,7 +69,7 @@ fn run(modes: &[Mode], drive: Option<&Profile>, start: MotionStart, until: f64) 
     };
     let system = disc.system();
     let motion = Motion::new(&system).expect("a motion");
-    motion.run(&start, until, MOTION_TOLERANCE, &mut ()).expect("a run").state
+    motion.run(start, until, MOTION_TOLERANCE, &mut ()).expect("a run").state
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn a_plate_in_a_frame_of_any_speed_is_the_same_plate() {
             Profile::over(knots(KnotShape::Smooth)).with(wave.clone()),
         ] {
             let start = MotionStart { time: 0.0, state: exact(modes, &drive, 0.0) };
-            let end = run(modes, Some(&drive), start, 12.0);
+            let end = run(modes, Some(&drive), &start, 12.0);
             for (found, wanted) in end.iter().zip(exact(modes, &drive, 12.0)) {
                 // Truncation of 10⁻¹³ per step and rounding over some hundred steps.
                 assert!((found - wanted).abs() < 1e-11, "{drive:?}: {found} {wanted}");
@@ -105,9 +105,9 @@ fn a_constant_profile_is_the_constant_speed() {
     let modes = vec![mode(0, 1.4, 0.02), mode(1, 1.1, 0.0), mode(3, 3.3, 0.05)];
     let constant = Knots::new(vec![1.0, 5.0], vec![0.4, 0.4], KnotShape::Linear).expect("valid");
     let start = || MotionStart { time: 0.0, state: exact(&modes, &Profile::constant(0.4), 0.0) };
-    let plain = run(&modes, None, start(), 20.0);
+    let plain = run(&modes, None, &start(), 20.0);
     for drive in [Profile::constant(0.4), Profile::over(constant)] {
-        for (found, wanted) in run(&modes, Some(&drive), start(), 20.0).iter().zip(&plain) {
+        for (found, wanted) in run(&modes, Some(&drive), &start(), 20.0).iter().zip(&plain) {
             assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
         }
     }
@@ -119,7 +119,7 @@ fn breaks_of_the_speed_are_exact() {
     let modes = vec![mode(2, 2.0, 0.0)];
     let drive = Profile::over(knots(KnotShape::Linear));
     let start = MotionStart { time: 0.0, state: exact(&modes, &drive, 0.0) };
-    let whole = run(&modes, Some(&drive), start.clone(), 7.0);
+    let whole = run(&modes, Some(&drive), &start, 7.0);
     let mut now = start;
     for until in [2.0, 4.7, 7.0] {
         let state = run(&modes, Some(&drive), now, until);

@@ -40,6 +40,8 @@ mod _quell {
     #[pymodule_export]
     use crate::study::NativeStudy;
     #[pymodule_export]
+    use crate::verbs::fit::fit;
+    #[pymodule_export]
     use crate::verbs::new::new;
     #[pymodule_export]
     use crate::verbs::reproduce::{reproduce, reproduce_names};

@@ -18,8 +18,8 @@ use crate::verbs::attractor::TimeTexts;
 use crate::verbs::map::Asked;
 use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
 use crate::verbs::{
-    attractor, basins, bifurcation, check, cite, friction, map, modes, orbit, report, resonances,
-    response, simulate, sketch, stability, thresholds, waveforms, window,
+    attractor, basins, bifurcation, check, cite, design, friction, map, modes, orbit, report,
+    resonances, response, simulate, sketch, stability, thresholds, waveforms, window,
 };
 use crate::{call, convert, errors};
 
@@ -476,6 +476,11 @@ impl NativeStudy {
     fn waveforms(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
         let study = self.study();
         call::run(py, move || waveforms::run(&study))
+    }
+
+    fn design(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || design::run(&study))
     }
 
     fn modes(&self, py: Python<'_>) -> PyResult<NativeAnswer> {

@@ -92,6 +92,17 @@ def belt_in_si() -> quell.Belt:
 
 
 @cache
+def design_in_si() -> quell.Study:
+    """A question about the least dither, in SI."""
+    over = {"belt.belt_velocity_m_per_s": [0.5, 1.0]}
+    limits = {"stroke_m": 1.0, "friction_loss": 2.0}
+    design = {
+        "minimise": "power", "vary": ["dither.amplitude_n"], "from": [1.0], "to": [4000.0], "over": over, "limits": limits,
+    }  # fmt: skip
+    return belt_in_si().replace(design=design)
+
+
+@cache
 def disc() -> quell.Disc:
     """The disc of the README."""
     return quell.Disc(
@@ -163,6 +174,8 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "friction measured": lambda: belt().friction(at=[0.02, 0.1], measured=True),
     "describing function": lambda: belt().friction(describing=0.3),
     "describing function in SI": lambda: belt_in_si().friction(describing=3.0),
+    "design": lambda: quell.Study.from_toml(STUDIES / "design.toml").design(),
+    "design in SI": lambda: design_in_si().design(),
     "waveforms": lambda: belt().waveforms(),
     "waveforms of a system": lambda: study("drive in SI").waveforms(),
     "waveforms in SI": lambda: belt_in_si().waveforms(),

@@ -222,7 +222,7 @@ def keys(table: str) -> set[str]:
         (
             quell.Belt,
             "belt",
-            {"friction", "dither", "initial", "drive", "load", "solver", "axes", "title"} | keys("response"),
+            {"friction", "dither", "initial", "drive", "load", "solver", "design", "axes", "title"} | keys("response"),
         ),
         (quell.Initial, "belt.initial", set()),
         (quell.Dither, "dither", {"envelope"}),

@@ -88,6 +88,7 @@ def test_the_options_are_the_same(verb: str) -> None:
         "basins": {"progress"},
         "reproduce": {"names"},
         "new": {"question", "save"},
+        "fit": {"data"},
     }
     assert wanted <= given, f"Python lacks {wanted - given}"
     assert given - wanted <= python_only.get(verb, set()), f"the command line lacks {given - wanted}"
@@ -105,6 +106,7 @@ CASES: list[tuple[str, str, list[str], Any]] = [
     ("friction", SI, [], lambda study: study.friction()),
     ("friction", BELT, ["--describing", "0.2"], lambda study: study.friction(describing=0.2)),
     ("waveforms", BELT, [], lambda study: study.waveforms()),
+    ("design", str(STUDIES / "design.toml"), [], lambda study: study.design()),
     ("stability", BELT, [], lambda study: study.stability()),
     ("stability", SI, [], lambda study: study.stability()),
     ("stability", DISC, [], lambda study: study.stability()),
@@ -139,12 +141,19 @@ def test_the_answers_are_the_same(verb: str, path: str, options: list[str], call
 
 
 def test_cases_are_of_every_verb_of_a_study() -> None:
-    functions = {"schema", "new", "reproduce", "map", *DRAWINGS}
+    functions = {"schema", "new", "reproduce", "map", "fit", *DRAWINGS}
     assert {case[0] for case in CASES} == set(offered()) - functions
 
 
 def test_the_schema_is_the_same(cli: Any) -> None:
     assert quell.schema() == cli("schema")
+
+
+def test_a_fit_is_the_same(cli: Any) -> None:
+    data = str(STUDIES / "synthetic-friction.csv")
+    assert quell.fit(data, law=["stribeck", "coulomb"]) == cli("fit", data, "--law", "stribeck", "--law", "coulomb")
+    with pytest.raises(quell.StudyError, match="stribeck"):
+        quell.fit(data, law="stribek")
 
 
 def test_a_new_study_is_the_same(cli: Any, tmp_path: Any) -> None:

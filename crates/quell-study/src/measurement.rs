@@ -131,7 +131,7 @@ const DEVIATION: &str = "standard_deviation";
 
 /// A column by its place and name.
 #[derive(Clone, Copy, Debug)]
-struct Column {
+struct NamedColumn {
     at: usize,
     name: &'static str,
 }
@@ -139,16 +139,16 @@ struct Column {
 /// The columns that a file has.
 #[derive(Clone, Copy, Debug)]
 struct Columns {
-    velocity: Column,
+    velocity: NamedColumn,
     friction: FrictionColumns,
-    deviation: Option<Column>,
+    deviation: Option<NamedColumn>,
 }
 
 /// How a file gives the coefficient.
 #[derive(Clone, Copy, Debug)]
 enum FrictionColumns {
-    Coefficient(Column),
-    Forces { force: Column, load: Column },
+    Coefficient(NamedColumn),
+    Forces { force: NamedColumn, load: NamedColumn },
 }
 
 impl Columns {
@@ -187,7 +187,7 @@ impl Columns {
     /// The point of a row, or what is wrong with its cells.
     fn point(&self, row: &Row<'_>) -> Result<MeasuredPoint, Vec<String>> {
         let mut wrong = Vec::new();
-        let mut number = |column: Column, allowed: &str, right: fn(f64) -> bool| {
+        let mut number = |column: NamedColumn, allowed: &str, right: fn(f64) -> bool| {
             let found = row
                 .number(column.at, column.name, allowed, |value| value.is_finite() && right(value));
             found.map_err(|why| wrong.push(why)).unwrap_or(f64::NAN)
@@ -220,9 +220,11 @@ impl Columns {
 }
 
 /// The one column of these names that the file has.
-fn one_of(file: &DataFile<'_>, names: &[&'static str]) -> Result<Option<Column>, String> {
-    let found: Vec<Column> =
-        names.iter().filter_map(|&name| Some(Column { at: file.column(name)?, name })).collect();
+fn one_of(file: &DataFile<'_>, names: &[&'static str]) -> Result<Option<NamedColumn>, String> {
+    let found: Vec<NamedColumn> = names
+        .iter()
+        .filter_map(|&name| Some(NamedColumn { at: file.column(name)?, name }))
+        .collect();
     match found[..] {
         [] => Ok(None),
         [only] => Ok(Some(only)),

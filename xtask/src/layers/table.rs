@@ -16,8 +16,6 @@ const NOUNS: &[&str] = &["quell-model", "quell-numerics"];
 /// Lists with the models that the tests of a crate share.
 const NOUNS_AND_ZOO: &[&str] = &["quell-model", "quell-numerics", "quell-zoo"];
 const LINEAR_AND_ZOO: &[&str] = &["quell-linear", "quell-model", "quell-numerics", "quell-zoo"];
-const PHYSICS: &[&str] =
-    &["quell-disc", "quell-dynamics", "quell-linear", "quell-model", "quell-numerics"];
 const PHYSICS_AND_ZOO: &[&str] =
     &["quell-disc", "quell-dynamics", "quell-linear", "quell-model", "quell-numerics", "quell-zoo"];
 const PHYSICS_AND_DESIGN: &[&str] = &[

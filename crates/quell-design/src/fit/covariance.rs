@@ -7,10 +7,36 @@ use quell_model::parameter::Parameter;
 use quell_numerics::matrix::Matrix;
 use quell_numerics::symmetric::{SymmetricMatrix, pencil_eigenvalues};
 
-use super::Certainty;
 use super::model::{Estimate, FitModel, Influence};
-use super::projection::{Position, Samples};
-use super::search::{Minimum, interior, linear_columns};
+use super::projection::{FitSamples, Position};
+use super::search::{FitMinimum, interior, linear_columns};
+
+/// What is known of the value of a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Certainty {
+    /// The standard error of the estimate.
+    StandardError(f64),
+    /// The value was given.
+    Fixed,
+    /// The least RSS is on a bound, described in words; linearised errors do not hold there.
+    OnBound(String),
+    /// The RSS does not depend on the parameter at the minimum, or only together with others; the reason in words.
+    Undetermined(String),
+}
+
+impl Certainty {
+    /// The standard error, or why it has none.
+    ///
+    /// # Errors
+    /// The reason in words.
+    pub fn standard_error(&self) -> Result<f64, String> {
+        match self {
+            Self::StandardError(error) => Ok(*error),
+            Self::Fixed => Err("the value is fixed".to_owned()),
+            Self::OnBound(why) | Self::Undetermined(why) => Err(why.clone()),
+        }
+    }
+}
 
 /// Condition of the scaled JᵀJ above which its inverse has no digit left.
 const SINGULAR: f64 = 1e14;
@@ -47,8 +73,8 @@ impl Covariance {
 /// The covariance at a minimum, and what is known of each parameter of the law.
 pub(super) fn covariance(
     model: &FitModel,
-    samples: &Samples,
-    found: &Minimum,
+    samples: &FitSamples,
+    found: &FitMinimum,
     scale: f64,
 ) -> (Covariance, Vec<Certainty>) {
     let gradient = model.gradient(&found.values, &samples.speeds);
@@ -128,7 +154,7 @@ fn condition(matrix: &Matrix) -> Option<f64> {
 /// What is known of each parameter of the law.
 fn certainties(
     model: &FitModel,
-    found: &Minimum,
+    found: &FitMinimum,
     error: &dyn Fn(usize) -> Option<f64>,
 ) -> Vec<Certainty> {
     let parameters = model.kind().parameters();

@@ -30,7 +30,7 @@ const UNLIKELY: f64 = 3.0;
 
 /// One thing to know about a fit.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Finding {
+pub enum FitFinding {
     /// The standard error exceeds the value.
     Uncertain {
         /// Key of the parameter.
@@ -108,7 +108,7 @@ pub enum Finding {
 }
 
 /// The findings of a fit to these points, the most serious first.
-pub fn diagnose(fit: &LawFit, points: &[FitPoint]) -> Vec<Finding> {
+pub fn diagnose(fit: &LawFit, points: &[FitPoint]) -> Vec<FitFinding> {
     let mut findings = errors(fit);
     findings.extend(extrapolations(fit, points));
     findings.extend(beyond_range(fit, points));
@@ -116,16 +116,16 @@ pub fn diagnose(fit: &LawFit, points: &[FitPoint]) -> Vec<Finding> {
     findings
 }
 
-fn errors(fit: &LawFit) -> Vec<Finding> {
+fn errors(fit: &LawFit) -> Vec<FitFinding> {
     let mut findings = Vec::new();
     for fitted in &fit.parameters {
         let key = fitted.parameter.key();
         match &fitted.certainty {
             Certainty::StandardError(error) if *error > fitted.value.abs() => {
-                findings.push(Finding::Uncertain { key, value: fitted.value, error: *error });
+                findings.push(FitFinding::Uncertain { key, value: fitted.value, error: *error });
             }
             Certainty::OnBound(why) | Certainty::Undetermined(why) => {
-                findings.push(Finding::WithoutError { key, why: why.clone() });
+                findings.push(FitFinding::WithoutError { key, why: why.clone() });
             }
             Certainty::StandardError(_) | Certainty::Fixed => {}
         }
@@ -136,17 +136,17 @@ fn errors(fit: &LawFit) -> Vec<Finding> {
             let correlation = covariance.correlation(i, j);
             if correlation.abs() > CORRELATED {
                 let keys = [covariance.order[j].key(), covariance.order[i].key()];
-                findings.push(Finding::Correlated { keys, correlation });
+                findings.push(FitFinding::Correlated { keys, correlation });
             }
         }
     }
     let condition = covariance.condition.filter(|condition| *condition > ILL_CONDITIONED);
-    findings.extend(condition.map(|condition| Finding::IllConditioned { condition }));
+    findings.extend(condition.map(|condition| FitFinding::IllConditioned { condition }));
     findings
 }
 
 /// Levels that are determined only by the shape of the law.
-fn extrapolations(fit: &LawFit, points: &[FitPoint]) -> Vec<Finding> {
+fn extrapolations(fit: &LawFit, points: &[FitPoint]) -> Vec<FitFinding> {
     let mut findings = Vec::new();
     let free = |path: &str| fit.parameter(path).filter(|fitted| fitted.is_free());
     let Some(reference) = fit.parameter(REFERENCE_VELOCITY.path).map(|fitted| fitted.value) else {
@@ -157,25 +157,25 @@ fn extrapolations(fit: &LawFit, points: &[FitPoint]) -> Vec<Finding> {
     let fastest = speeds().fold(0.0, f64::max);
     let below = SLOW * reference;
     if free(STATIC_COEFFICIENT.path).is_some() && slowest > below {
-        findings.push(Finding::NothingSlow { slowest, reference, below });
+        findings.push(FitFinding::NothingSlow { slowest, reference, below });
     }
     // The cubic has its minimum at the reference velocity itself.
     let above = if fit.kind == LawKind::Stribeck { reference } else { FAST * reference };
     let level = free(MINIMUM_COEFFICIENT.path).or_else(|| free(COEFFICIENT.path));
     if let Some(level) = level.filter(|_| fastest < above) {
         let key = level.parameter.key();
-        findings.push(Finding::NothingFast { key, fastest, reference, above });
+        findings.push(FitFinding::NothingFast { key, fastest, reference, above });
     }
     findings
 }
 
-fn beyond_range(fit: &LawFit, points: &[FitPoint]) -> Option<Finding> {
+fn beyond_range(fit: &LawFit, points: &[FitPoint]) -> Option<FitFinding> {
     let limit = fit.upper_limit()?;
     let count = points.iter().filter(|point| point.speed() > limit).count();
-    (count > 0).then_some(Finding::BeyondRange { count, limit })
+    (count > 0).then_some(FitFinding::BeyondRange { count, limit })
 }
 
-fn residuals(fit: &LawFit, points: &[FitPoint]) -> Vec<Finding> {
+fn residuals(fit: &LawFit, points: &[FitPoint]) -> Vec<FitFinding> {
     let mut findings = Vec::new();
     let scaled: Vec<f64> = fit
         .residuals
@@ -192,7 +192,7 @@ fn residuals(fit: &LawFit, points: &[FitPoint]) -> Vec<Finding> {
         })
         .collect();
     if !places.is_empty() {
-        findings.push(Finding::Outliers { places, deviation });
+        findings.push(FitFinding::Outliers { places, deviation });
     }
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|a, b| points[*a].speed().total_cmp(&points[*b].speed()));
@@ -201,14 +201,14 @@ fn residuals(fit: &LawFit, points: &[FitPoint]) -> Vec<Finding> {
     if let Some((runs, expected, score)) = runs(&sorted).filter(|_| !exact)
         && score < -UNLIKELY
     {
-        findings.push(Finding::Pattern { runs, expected });
+        findings.push(FitFinding::Pattern { runs, expected });
     }
     findings.extend(directions(fit, points).filter(|_| !exact));
     findings
 }
 
 /// The difference of the mean residuals of the two directions, if it is not by chance.
-fn directions(fit: &LawFit, points: &[FitPoint]) -> Option<Finding> {
+fn directions(fit: &LawFit, points: &[FitPoint]) -> Option<FitFinding> {
     let mean = |forward: bool| {
         let own = points.iter().zip(&fit.residuals);
         let own = own.filter(|(point, _)| (point.slip_velocity > 0.0) == forward);
@@ -220,5 +220,5 @@ fn directions(fit: &LawFit, points: &[FitPoint]) -> Option<Finding> {
     let difference = ahead - behind;
     let spread = fit.residuals.iter().map(|residual| residual * residual).sum::<f64>();
     let variance = spread / points.len() as f64 * (forward.recip() + backward.recip());
-    (difference.abs() > UNLIKELY * variance.sqrt()).then_some(Finding::Directions { difference })
+    (difference.abs() > UNLIKELY * variance.sqrt()).then_some(FitFinding::Directions { difference })
 }

@@ -12,6 +12,7 @@
 mod covariance;
 mod diagnosis;
 mod model;
+mod point;
 mod projection;
 mod search;
 mod statistics;
@@ -21,28 +22,11 @@ use std::fmt;
 use quell_model::friction::{Friction, LawKind};
 use quell_model::parameter::Parameter;
 
-pub use covariance::Covariance;
-pub use diagnosis::{Finding, diagnose};
+pub use covariance::{Certainty, Covariance};
+pub use diagnosis::{FitFinding, diagnose};
 pub use model::{Estimate, FitModel};
+pub use point::FitPoint;
 pub use statistics::student_quantile;
-
-/// One measured coefficient of friction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FitPoint {
-    /// Slip velocity v, not 0; its sign is the direction of slip.
-    pub slip_velocity: f64,
-    /// Coefficient, positive where friction opposes slip.
-    pub coefficient: f64,
-    /// Standard deviation σ > 0 of the coefficient; 1 if none is given.
-    pub standard_deviation: f64,
-}
-
-impl FitPoint {
-    /// Slip speed |v|.
-    pub fn speed(&self) -> f64 {
-        self.slip_velocity.abs()
-    }
-}
 
 /// Why a law cannot be fitted.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,33 +67,6 @@ impl fmt::Display for Unfitted {
             Self::Unsolvable => {
                 f.write_str("the numbers are too large or too small for a least-squares solution")
             }
-        }
-    }
-}
-
-/// What is known of the value of a parameter.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Certainty {
-    /// The standard error of the estimate.
-    StandardError(f64),
-    /// The value was given.
-    Fixed,
-    /// The least RSS is on a bound, described in words; linearised errors do not hold there.
-    OnBound(String),
-    /// The RSS does not depend on the parameter at the minimum, or only together with others; the reason in words.
-    Undetermined(String),
-}
-
-impl Certainty {
-    /// The standard error, or why there is none.
-    ///
-    /// # Errors
-    /// The reason in words.
-    pub fn standard_error(&self) -> Result<f64, String> {
-        match self {
-            Self::StandardError(error) => Ok(*error),
-            Self::Fixed => Err("the value is fixed".to_owned()),
-            Self::OnBound(why) | Self::Undetermined(why) => Err(why.clone()),
         }
     }
 }
@@ -241,7 +198,7 @@ pub fn fit(model: &FitModel, points: &[FitPoint]) -> Result<LawFit, Unfitted> {
     if free > 1 && points.iter().all(|point| point.speed() == speed) {
         return Err(Unfitted::OneSpeed { speed });
     }
-    let samples = projection::Samples::of(points);
+    let samples = projection::FitSamples::of(points);
     let found = search::least(model, &samples).ok_or(Unfitted::Unsolvable)?;
     let curve = model.law(&found.values).ok_or(Unfitted::Unsolvable)?;
     let scale = found.rss / (points.len() - free) as f64;

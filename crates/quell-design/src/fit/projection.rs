@@ -6,19 +6,19 @@
 
 use quell_numerics::least_squares::least_squares;
 
-use super::FitPoint;
 use super::model::{Estimate, FitModel, Influence};
+use super::point::FitPoint;
 
 /// The points as columns.
 #[derive(Clone, Debug)]
-pub(super) struct Samples {
+pub(super) struct FitSamples {
     pub(super) speeds: Vec<f64>,
     pub(super) coefficients: Vec<f64>,
     /// 1/σ.
     pub(super) weights: Vec<f64>,
 }
 
-impl Samples {
+impl FitSamples {
     pub(super) fn of(points: &[FitPoint]) -> Self {
         Self {
             speeds: points.iter().map(FitPoint::speed).collect(),
@@ -66,7 +66,7 @@ impl Projected {
 }
 
 /// The best free coefficients with the other parameters as in `values`.
-pub(super) fn project(model: &FitModel, samples: &Samples, values: &[f64]) -> Option<Projected> {
+pub(super) fn project(model: &FitModel, samples: &FitSamples, values: &[f64]) -> Option<Projected> {
     let bases = model.bases(values, &samples.speeds)?;
     let bases: Vec<(usize, Vec<f64>)> =
         bases.into_iter().map(|(place, basis)| (place, samples.weighted(&basis))).collect();
@@ -82,7 +82,7 @@ pub(super) fn project(model: &FitModel, samples: &Samples, values: &[f64]) -> Op
         .iter()
         .filter_map(|place| bases.iter().find(|(own, _)| own == place).map(|(_, basis)| basis))
         .collect();
-    let problem = Problem { model, free: &free, columns: &columns, target: &target, values };
+    let problem = ActiveProblem { model, free: &free, columns: &columns, target: &target, values };
     let interior = vec![Position::Interior; free.len()];
     if let Some(found) = problem.on_face(&interior) {
         return Some(found);
@@ -128,7 +128,7 @@ fn faces(choices: &[Vec<Position>]) -> Vec<Vec<Position>> {
     })
 }
 
-struct Problem<'a> {
+struct ActiveProblem<'a> {
     model: &'a FitModel,
     free: &'a [usize],
     columns: &'a [&'a Vec<f64>],
@@ -136,7 +136,7 @@ struct Problem<'a> {
     values: &'a [f64],
 }
 
-impl Problem<'_> {
+impl ActiveProblem<'_> {
     /// The minimum on one face; `None` if it is not unique or violates a bound.
     fn on_face(&self, face: &[Position]) -> Option<Projected> {
         let mut target = self.target.to_vec();

@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 use quell_numerics::least_squares::least_squares;
 
 use super::model::{FitModel, Influence};
-use super::projection::{Position, Projected, Samples, project};
+use super::projection::{FitSamples, Position, Projected, project};
 
 /// The reference velocity is searched from the least slip speed divided by this factor to the largest one multiplied by it: a law
 /// whose fall is ten times faster or slower than every measured speed is flat or straight there.
@@ -41,14 +41,14 @@ const LARGEST_DAMPING: f64 = 1e12;
 
 /// A parameter that is searched, with its limits.
 #[derive(Clone, Copy, Debug)]
-struct Searched {
+struct SearchedParameter {
     place: usize,
     lower: f64,
     upper: f64,
     points: usize,
 }
 
-impl Searched {
+impl SearchedParameter {
     fn value(&self, index: usize) -> f64 {
         let share = index as f64 / (self.points - 1) as f64;
         self.lower * libm::exp(share * libm::log(self.upper / self.lower))
@@ -57,7 +57,7 @@ impl Searched {
 
 /// A minimum.
 #[derive(Clone, Debug)]
-pub(super) struct Minimum {
+pub(super) struct FitMinimum {
     /// Values of all parameters.
     pub(super) values: Vec<f64>,
     pub(super) projected: Projected,
@@ -67,11 +67,11 @@ pub(super) struct Minimum {
 }
 
 /// The least RSS; `None` if it cannot be computed anywhere.
-pub(super) fn least(model: &FitModel, samples: &Samples) -> Option<Minimum> {
+pub(super) fn least(model: &FitModel, samples: &FitSamples) -> Option<FitMinimum> {
     let searched = searched(model, samples);
-    let mut best: Option<Minimum> = None;
+    let mut best: Option<FitMinimum> = None;
     for start in starts(model, samples, &searched) {
-        let Some(found) = refined(model, samples, &searched, start) else { continue };
+        let Some(found) = refined(model, samples, &searched, &start) else { continue };
         if best.as_ref().is_none_or(|best| found.rss < best.rss) {
             best = Some(found);
         }
@@ -85,7 +85,7 @@ pub(super) fn least(model: &FitModel, samples: &Samples) -> Option<Minimum> {
     clippy::cast_sign_loss,
     reason = "a few hundred points at most for any range of doubles"
 )]
-fn searched(model: &FitModel, samples: &Samples) -> Vec<Searched> {
+fn searched(model: &FitModel, samples: &FitSamples) -> Vec<SearchedParameter> {
     let speeds = || samples.speeds.iter().copied();
     let lower = speeds().fold(f64::INFINITY, f64::min) / BEYOND;
     let upper = speeds().fold(0.0, f64::max) * BEYOND;
@@ -93,8 +93,8 @@ fn searched(model: &FitModel, samples: &Samples) -> Vec<Searched> {
     model
         .free()
         .filter_map(|place| match model.influence(place) {
-            Influence::Velocity => Some(Searched { place, lower, upper, points }),
-            Influence::Exponent => Some(Searched {
+            Influence::Velocity => Some(SearchedParameter { place, lower, upper, points }),
+            Influence::Exponent => Some(SearchedParameter {
                 place,
                 lower: EXPONENTS.0,
                 upper: EXPONENTS.1,
@@ -106,7 +106,7 @@ fn searched(model: &FitModel, samples: &Samples) -> Vec<Searched> {
 }
 
 /// Values to refine: the lowest local minima of the grid.
-fn starts(model: &FitModel, samples: &Samples, searched: &[Searched]) -> Vec<Vec<f64>> {
+fn starts(model: &FitModel, samples: &FitSamples, searched: &[SearchedParameter]) -> Vec<Vec<f64>> {
     let start = model.start();
     let (rows, columns) = match searched {
         [] => return vec![start],
@@ -153,11 +153,11 @@ fn starts(model: &FitModel, samples: &Samples, searched: &[Searched]) -> Vec<Vec
 /// Refines a start to a minimum.
 fn refined(
     model: &FitModel,
-    samples: &Samples,
-    searched: &[Searched],
-    start: Vec<f64>,
-) -> Option<Minimum> {
-    let mut current = project(model, samples, &start)?;
+    samples: &FitSamples,
+    searched: &[SearchedParameter],
+    start: &[f64],
+) -> Option<FitMinimum> {
+    let mut current = project(model, samples, start)?;
     let mut damping = 0.0_f64;
     for _ in 0..STEPS {
         let Some(step) = step(model, samples, searched, &current, damping) else { break };
@@ -194,14 +194,19 @@ fn refined(
         })
         .map(|own| own.place)
         .collect();
-    Some(Minimum { values: current.values.clone(), rss: current.rss, projected: current, at_limit })
+    Some(FitMinimum {
+        values: current.values.clone(),
+        rss: current.rss,
+        projected: current,
+        at_limit,
+    })
 }
 
 /// The change of the searched parameters in one damped Gauss–Newton step.
 fn step(
     model: &FitModel,
-    samples: &Samples,
-    searched: &[Searched],
+    samples: &FitSamples,
+    searched: &[SearchedParameter],
     current: &Projected,
     damping: f64,
 ) -> Option<Vec<f64>> {
@@ -231,7 +236,7 @@ fn step(
 /// The weighted derivatives by the coefficients inside their bounds; that of a tied level is added to the other one.
 pub(super) fn linear_columns(
     model: &FitModel,
-    samples: &Samples,
+    samples: &FitSamples,
     current: &Projected,
     gradient: &[Vec<f64>],
 ) -> Vec<Vec<f64>> {

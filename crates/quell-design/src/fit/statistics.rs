@@ -43,8 +43,8 @@ fn central(t: f64, degrees: usize) -> f64 {
     if odd { std::f64::consts::FRAC_2_PI * (angle + sine * sum) } else { sine * sum }
 }
 
-/// The median of absolute values times 1.4826, which estimates the standard deviation of a normal distribution whatever a minority
-/// of outliers does.
+/// The median of absolute values times 1.4826, which estimates the standard deviation of a normal distribution for any minority
+/// of outliers.
 pub(super) fn robust_deviation(values: &[f64]) -> f64 {
     let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
     sizes.sort_by(f64::total_cmp);

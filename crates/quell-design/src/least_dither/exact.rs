@@ -93,7 +93,7 @@ pub enum NoDesign {
 /// The answer about one waveform.
 #[derive(Clone, Debug)]
 pub struct Designed {
-    /// The least dither, or why there is none.
+    /// The least dither, or why no dither is allowed.
     pub answer: Result<FeasibleDesign, InfeasibleDesign>,
     /// The local minima over the design variables, by averaging, the best first.
     pub basins: Vec<DesignBasin>,
@@ -169,7 +169,7 @@ fn exceeded(point: &DesignPoint) -> NoDesign {
                 };
             }
             Ok(used) if worst.is_none_or(|(_, most)| *used > most) => {
-                worst = Some((*quantity, *used))
+                worst = Some((*quantity, *used));
             }
             Ok(_) => {}
         }

@@ -170,13 +170,13 @@ pub trait Plant {
     /// The exact verdict about one amplitude.
     ///
     /// # Errors
-    /// Why there is none.
+    /// Why it is unknown.
     fn verdict(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<ExactVerdict, String>;
 
     /// The response of the linear structure without friction.
     ///
     /// # Errors
-    /// Why there is none.
+    /// Why it is unknown.
     fn price(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<DitherPrice, String>;
 
     /// The share of the mean friction that is lost by averaging.

@@ -56,7 +56,7 @@ impl QuietAmplitudes {
 /// # Errors
 /// The number of a set that has no quiet amplitude beyond those that the others need.
 pub(super) fn least_of_all<'a>(
-    sets: impl Iterator<Item = &'a QuietAmplitudes> + Clone,
+    sets: &(impl Iterator<Item = &'a QuietAmplitudes> + Clone),
     from: f64,
 ) -> Result<(f64, Option<usize>), usize> {
     let mut least = (from, None);
@@ -86,14 +86,14 @@ mod tests {
         let two = QuietAmplitudes::of_changes(range, true, [(4.0, false), (5.0, true)]);
         let all = QuietAmplitudes::of_changes(range, true, []);
         let sets = [one.clone(), two.clone(), all];
-        assert_eq!(least_of_all(sets.iter(), 0.0), Ok((0.0, None)));
-        assert_eq!(least_of_all(sets.iter(), 2.0), Ok((3.0, Some(0))));
-        assert_eq!(least_of_all(sets.iter(), 4.5), Ok((5.0, Some(1))));
+        assert_eq!(least_of_all(&sets.iter(), 0.0), Ok((0.0, None)));
+        assert_eq!(least_of_all(&sets.iter(), 2.0), Ok((3.0, Some(0))));
+        assert_eq!(least_of_all(&sets.iter(), 4.5), Ok((5.0, Some(1))));
         // The gap of the second set begins where that of the first ends.
         let three = QuietAmplitudes::of_changes(range, true, [(2.5, false), (3.5, true)]);
-        assert_eq!(least_of_all([&one, &three].into_iter(), 2.0), Ok((3.5, Some(1))));
+        assert_eq!(least_of_all(&[&one, &three].into_iter(), 2.0), Ok((3.5, Some(1))));
         let never = QuietAmplitudes::of_changes(range, true, [(4.0, false)]);
-        assert_eq!(least_of_all([&two, &never].into_iter(), 4.5), Err(1));
+        assert_eq!(least_of_all(&[&two, &never].into_iter(), 4.5), Err(1));
         assert!(one.contains(1.0) && !one.contains(2.0) && one.contains(3.0));
         assert_eq!(one.intervals(), [(0.0, 1.0), (3.0, 10.0)]);
     }

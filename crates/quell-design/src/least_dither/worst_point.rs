@@ -67,7 +67,7 @@ pub(super) fn least_of_box(
     let mut decisive: Vec<Vec<f64>> = Vec::new();
     let mut from = search.from;
     for _ in 0..ROUNDS {
-        let found = least_of_all(known.iter().map(|(_, set)| set), from);
+        let found = least_of_all(&known.iter().map(|(_, set)| set), from);
         let (amplitude, place) =
             found.map_err(|place| NoLeast::NeverQuiet { point: known[place].0.clone() })?;
         let Some(place) = place else { break };
@@ -76,7 +76,7 @@ pub(super) fn least_of_box(
         decisive.push(climbed.point.clone());
         known.push((climbed.point, climbed.set));
     }
-    let (amplitude, place) = least_of_all(known.iter().map(|(_, set)| set), from)
+    let (amplitude, place) = least_of_all(&known.iter().map(|(_, set)| set), from)
         .map_err(|place| NoLeast::NeverQuiet { point: known[place].0.clone() })?;
     // After all rounds a known point may still need more than the last top.
     let worst = place.map(|place| known[place].0.clone()).or_else(|| decisive.last().cloned());

@@ -11,7 +11,7 @@
 //! w(0), from its recurrence along a straight path, with w(t).
 //!
 //! A contact with a state of its own has its change among the columns. T of an adhering slider changes by k_t δγ, that of a sliding one
-//! is T = sμ(|γ|)N again, whatever its own number changed by before. Bristles have
+//! is T = sμ(|γ|)N again, for any earlier change of its own number. Bristles have
 //!
 //! ```text
 //! δż = (1 − σ₀ z u′) δγ − σ₀ u δz,    δT = P (σ₀ δz + σ₁ δż + σ₂ δγ) + (T/P) f δN,    u = |γ|/g(γ)

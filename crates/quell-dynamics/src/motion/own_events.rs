@@ -100,7 +100,7 @@ impl MotionRun<'_> {
         Ok(())
     }
 
-    /// T of an elastic slider that slides from the start of a run follows from the slip and the load, whatever its number was.
+    /// T of an elastic slider that slides from the start of a run follows from the slip and the load, for any number before.
     pub(super) fn begin_sliding(&mut self, contact: usize, direction: i8) {
         let Some((OwnState { kind: OwnStateKind::Elastic { .. }, .. }, _)) = self.own(contact)
         else {

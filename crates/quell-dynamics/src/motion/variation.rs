@@ -304,7 +304,9 @@ impl<'a> MotionVariation<'a> {
         for (contact, equation) in self.equations.contacts.iter().enumerate() {
             let Some(OwnState { place, .. }) = equation.own else { continue };
             first[place] = 0.0;
-            others.iter_mut().for_each(|part| part[place] = 0.0);
+            for part in others.iter_mut() {
+                part[place] = 0.0;
+            }
             let jump = after[place] - self.rates[place];
             match pending.iter().position(|jump| jump.contact == contact) {
                 Some(0) => first[place] = jump,
@@ -367,7 +369,9 @@ impl<'a> MotionVariation<'a> {
                 if let Some(own) = equation.own {
                     let level = equation.static_coefficient * self.last[contact].factor;
                     let mut gradient: Vec<f64> = equation.approach.dense(size);
-                    gradient.iter_mut().for_each(|entry| *entry *= level);
+                    for entry in &mut gradient {
+                        *entry *= level;
+                    }
                     gradient[own.place] -= f64::from(side);
                     return Some(gradient);
                 }

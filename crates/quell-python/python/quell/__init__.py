@@ -87,6 +87,7 @@ __all__ = [
     "explore",
     "new",
     "quantities",
+    "fit",
     "reproduce",
     "results",
     "schema",
@@ -137,6 +138,45 @@ def new(
         arguments.wrong.append(complaint("save", save, "given with the name of a question", "conflict"))
     arguments.done()
     return _quell.new(name, place, bool(overwrite))
+
+
+@keywords
+def fit(
+    data: str | os.PathLike[str],
+    *,
+    law: str | list[str] | None = None,
+    free: str | list[str] | None = None,
+    fix: str | list[str] | None = None,
+) -> dict[str, Any]:
+    """Fits friction laws to measured coefficients, with standard errors, and compares the laws.
+
+    Parameters
+    ----------
+    data :
+        CSV file with ``slip_velocity`` (or ``slip_velocity_m_per_s``) and ``coefficient``, or ``friction_force`` and ``normal_load``.
+    law :
+        Names of laws, or "all" [default: "all"].
+    free :
+        Parameters to estimate that are otherwise fixed, such as "exponent".
+    fix :
+        Parameters to fix, such as "static_coefficient=0.4".
+
+    Returns
+    -------
+    dict
+        What the command line prints with ``--json``: ``parameters`` with ``value`` and ``standard_error``, ``covariance``,
+        ``residual``, ``aic`` and the comparison of the laws.
+    """
+    arguments = Arguments()
+    place = arguments.path("data", data)
+
+    def names(name: str, given: str | list[str] | None) -> list[str]:
+        listed = [given] if isinstance(given, str) else list(given or [])
+        return [arguments.text(name, it, "a text or a list of texts") or "" for it in listed]
+
+    laws, freed, fixed = names("law", law), names("free", free), names("fix", fix)
+    arguments.done()
+    return _quell.fit(str(place), laws, freed, fixed)
 
 
 def quantities() -> dict[str, dict[str, str]]:

@@ -216,6 +216,9 @@ class Belt(Study):
     band :
         (lower, upper) frequency, in ω₀, of a band in which the level of the vibration with dither is compared with that
         without. In SI ``band_hz``, in Hz.
+    design :
+        The table ``[design]`` of :meth:`Study.design`, such as ``{"minimise": "amplitude", "vary": ["dither.amplitude"], "from": [0.01],
+        "to": [20], "over": {"belt.belt_velocity": [0.05, 0.2]}}``.
     axes :
         Axes of a map: see :meth:`Study.map`.
     title :
@@ -275,9 +278,11 @@ class Belt(Study):
         tangential_stiffness_n_per_m: Number | None = None,
         drive: Profile | Mapping[str, Any] | None = None,
         load: Profile | Mapping[str, Any] | None = None,
+        design: Mapping[str, Any] | None = None,
         **unknown: Unknown,
     ) -> None:
-        belt = Table(**given(locals(), "friction", "dither", "initial", "solver", "band", "band_hz", "axes", "title"))
+        others = ("friction", "dither", "initial", "solver", "band", "band_hz", "design", "axes", "title")
+        belt = Table(**given(locals(), *others))
         if initial is not None:
             si = any(name in belt.given for name in ("mass_kg", "stiffness_n_per_m", "natural_frequency_hz"))
             belt.given["initial"] = start(initial, si)
@@ -290,6 +295,7 @@ class Belt(Study):
             dither=several(dither),
             solver=solver,
             response=levels(band, band_hz),
+            design=None if design is None else dict(design),
             sweep=axes_tables(axes),
         )
 

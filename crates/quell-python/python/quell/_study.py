@@ -782,6 +782,17 @@ class Study(CheckedStudy):
         """
         return results.Waveforms(self, self._native.waveforms())
 
+    @keywords
+    def design(self) -> results.Design:
+        """The least dither that is quiet over a range of operating points, as the table ``[design]`` asks; of a belt.
+
+        Returns
+        -------
+        quell.results.Design
+            The exact least dither, that of averaging, what decides it, and its verification.
+        """
+        return results.Design(self, self._native.design())
+
     def modes(self) -> results.Modes:
         """Natural frequencies and shapes of a disc or of a system, and critical speeds of a disc."""
         return results.Modes(self, self._native.modes())

@@ -192,9 +192,9 @@ fn table_of_disc(study: &DiscStudy) -> String {
     match study.disc().drive().map(Profile::bounds) {
         None => table.word("speed Ω", &object["disc"]["speed"].to_string()),
         Some((least, largest)) => {
-            table.word("speed Ω, over time", &format!("{least} to {largest}"))
+            table.word("speed Ω, over time", &format!("{least} to {largest}"));
         }
-    };
+    }
     for (index, load) in object["disc"]["loads"].as_array().into_iter().flatten().enumerate() {
         let words: Vec<String> = load
             .as_object()

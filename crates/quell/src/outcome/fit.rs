@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use quell_design::fit::{Finding, LawFit, diagnose};
+use quell_design::fit::{FitFinding, LawFit, diagnose};
 use quell_model::parameter::Parameter;
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
@@ -171,19 +171,12 @@ fn json(done: &FrictionFit) -> Json {
         .map(|(place, fit)| {
             let mut entry = Fields::new(None);
             numbers(&mut entry, done, fit);
-            match (&done.weights, best.aic(), fit.aic()) {
-                (Some(weights), Ok(least), Ok(aic)) => {
-                    entry.measured("difference", "1", aic - least).measured(
-                        "weight",
-                        "1",
-                        weights[place],
-                    );
-                }
-                _ => {
-                    let why =
-                        "a law passes through every point, so that its AIC has no lower bound";
-                    entry.unknown("difference", why).unknown("weight", why);
-                }
+            if let (Some(weights), Ok(least), Ok(aic)) = (&done.weights, best.aic(), fit.aic()) {
+                let weight = weights[place];
+                entry.measured("difference", "1", aic - least).measured("weight", "1", weight);
+            } else {
+                let why = "a law passes through every point, so that its AIC has no lower bound";
+                entry.unknown("difference", why).unknown("weight", why);
             }
             entry
         })
@@ -213,45 +206,45 @@ fn warnings(done: &FrictionFit) -> Vec<String> {
     warnings
 }
 
-fn in_words(done: &FrictionFit, finding: &Finding) -> String {
+fn in_words(done: &FrictionFit, finding: &FitFinding) -> String {
     match finding {
-        Finding::Uncertain { key, value, error } => format!(
+        FitFinding::Uncertain { key, value, error } => format!(
             "{key} = {} is not determined: its standard error {} exceeds it. Fix it with --fix {key}=VALUE, or measure where \
              the curve depends on it",
             digits(*value),
             quell_model::digits::digits(*error, 2)
         ),
-        Finding::WithoutError { key, why } => format!(
+        FitFinding::WithoutError { key, why } => format!(
             "{key} has no standard error: {why}. Choose a law with fewer parameters, or fix it with --fix {key}=VALUE"
         ),
-        Finding::Correlated { keys: [first, second], correlation } => format!(
+        FitFinding::Correlated { keys: [first, second], correlation } => format!(
             "{first} and {second} are determined only in combination (correlation {correlation:.4}): fix one of them, or \
              measure over a wider range of slip velocities"
         ),
-        Finding::IllConditioned { condition } => format!(
+        FitFinding::IllConditioned { condition } => format!(
             "the information matrix is nearly singular (condition {condition:.1e}): fix a parameter, or measure over a wider \
              range of slip velocities"
         ),
-        Finding::NothingSlow { slowest, reference, below } => format!(
+        FitFinding::NothingSlow { slowest, reference, below } => format!(
             "the static level and the slope at rest are extrapolated: the slowest point slips at {}, the reference velocity is \
              {}. Measure below {}, or give a measured level with --fix static_coefficient=VALUE",
             speed(done, *slowest),
             speed(done, *reference),
             speed(done, *below)
         ),
-        Finding::NothingFast { key, fastest, reference, above } => format!(
+        FitFinding::NothingFast { key, fastest, reference, above } => format!(
             "{key} is extrapolated: the fastest point slips at {}, the reference velocity is {}. Measure above {}",
             speed(done, *fastest),
             speed(done, *reference),
             speed(done, *above)
         ),
-        Finding::BeyondRange { count, limit } => format!(
+        FitFinding::BeyondRange { count, limit } => format!(
             "{count} point{} beyond {}, up to which the law {} holds: choose another law, or leave these points out",
             if *count == 1 { " slips" } else { "s slip" },
             speed(done, *limit),
             done.best().name()
         ),
-        Finding::Outliers { places, deviation } => {
+        FitFinding::Outliers { places, deviation } => {
             let lines: Vec<usize> = places.iter().map(|place| done.lines[*place]).collect();
             let unit = if done.data.is_weighted() { " standard deviations" } else { "" };
             format!(
@@ -263,12 +256,12 @@ fn in_words(done: &FrictionFit, finding: &Finding) -> String {
                 if lines.len() == 1 { "it" } else { "them" }
             )
         }
-        Finding::Pattern { runs, expected } => format!(
+        FitFinding::Pattern { runs, expected } => format!(
             "the residuals have {runs} run{} of equal sign over the slip speed where {expected:.1} are expected: the law does \
              not have the shape of the data, and the standard errors are too small. Compare laws with --law all",
             if *runs == 1 { "" } else { "s" }
         ),
-        Finding::Directions { difference } => format!(
+        FitFinding::Directions { difference } => format!(
             "friction differs between the two directions of slip, by {} on average, but laws are equal in both: fit each \
              direction in a file of its own",
             quell_model::digits::digits(*difference, 2)

@@ -6,6 +6,7 @@ use crate::plot::{
     SharedLegend, Sharing,
 };
 use crate::run::fit::FrictionFit;
+use quell_design::fit::FitPoint;
 
 /// Number of slip speeds of a curve.
 const CURVE: usize = 201;
@@ -13,7 +14,7 @@ const CURVE: usize = 201;
 /// Two panels over the slip speed: coefficients and residuals.
 pub fn fit(done: &FrictionFit) -> Figure {
     let best = done.best();
-    let largest = done.points.iter().map(|point| point.speed()).fold(0.0, f64::max);
+    let largest = done.points.iter().map(FitPoint::speed).fold(0.0, f64::max);
     let ruler = Ruler::of_unit(if done.data.is_si() { "m/s" } else { "" }, largest);
     let axis = || ruler.axis("slip speed", "|v_r|");
     let curve = done.curve(best, CURVE);

@@ -1,5 +1,7 @@
 //! `design`: the least dither that is quiet over a box of operating points, under limits.
 
+use std::fmt::Write as _;
+
 use quell_design::least_dither::{
     BeltPlant, DesignObjective, DesignPoint, DesignProblem, Designed, FeasibleDesign,
     InfeasibleDesign, LimitedQuantity, MARGIN, NoDesign, OperatingPoint, Plant, design,
@@ -267,11 +269,10 @@ impl LeastDitherFound {
         let force = |value: f64| in_words(study, Quantity::Force, value);
         let chosen = |others: &[f64]| -> String {
             let values = self.others.iter().zip(others);
-            values
-                .map(|(number, value)| {
-                    format!(", {} = {}", number.path, digits(value * number.per_unit))
-                })
-                .collect()
+            values.fold(String::new(), |mut text, (number, value)| {
+                let _ = write!(text, ", {} = {}", number.path, digits(value * number.per_unit));
+                text
+            })
         };
         match &self.answer().answer {
             Ok(found) => {

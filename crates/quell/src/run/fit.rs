@@ -3,6 +3,7 @@
 //! Laws are odd in the slip velocity. The sign that a file gives the coefficient is found for each direction of slip: friction has
 //! the sign of the majority there. Points at rest are left out, because friction there may have any value up to the static level.
 
+use std::fmt::Write as _;
 use std::path::Path;
 
 use quell_design::fit::{
@@ -317,14 +318,16 @@ impl FrictionFit {
         };
         let mut friction = format!("[friction]\nlaw = \"{}\"\n", fit.name());
         for fitted in &fit.parameters {
-            friction += &format!("{} = {:?}\n", key(&fitted.parameter), fitted.value);
+            let _ = writeln!(friction, "{} = {:?}", key(&fitted.parameter), fitted.value);
         }
         for parameter in fit.kind.parameters() {
             let given = fit.parameter(parameter.path).is_some();
             if !given && fit.kind.default_of(parameter.path).is_none() {
                 let name = key(parameter);
-                friction +=
-                    &format!("# {name} = …    # required; steady sliding does not depend on it\n");
+                let _ = writeln!(
+                    friction,
+                    "# {name} = …    # required; steady sliding does not depend on it"
+                );
             }
         }
         let path = |parameter: &Parameter| format!("friction.{}", key(parameter));

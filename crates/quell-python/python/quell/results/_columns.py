@@ -294,6 +294,11 @@ class DescribingFunctionColumns:
     velocity_amplitude_m_per_s: list[float | None]
 
 
+class DesignColumns:
+    """Of :class:`quell.results.Design`."""
+
+
+
 class ExactStabilityColumns:
     """Of :class:`quell.results.ExactStability`."""
 

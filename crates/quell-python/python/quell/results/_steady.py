@@ -164,6 +164,51 @@ class DescribingFunction(_columns.DescribingFunctionColumns, Result):
         return self.arrays["balance"].values
 
 
+class Design(_columns.DesignColumns, Result):
+    """The least dither that is quiet over a box of operating points; arrays over the choices that were tried (n,)."""
+
+    verb = "design"
+    feasible: bool
+    """Whether one dither is quiet in the whole box and keeps every limit."""
+    waveform: str
+    """Its waveform."""
+    minimise: str
+    """What is to be small."""
+    critical: dict[str, float] | None
+    """The exact least dither by paths; ``None`` where no dither is allowed."""
+    parameters: dict[str, float] | None
+    """The dither that was verified, 0.1 % above the least one; where no dither is allowed, that of ``covered``."""
+    averaged: dict[str, float] | None
+    """The least dither by averaging alone."""
+    objective: float | None
+    """The objective of the exact least dither."""
+    binding: list[str] | None
+    """Names of the limits that are used wholly, and paths of numbers at an end of their range."""
+    worst: dict[str, float] | None
+    """The operating point that decides."""
+    margin: float | None
+    """Share by which the verified amplitude exceeds the least one."""
+    verified: dict[str, Any] | None
+    """``protocol``, ``multiplier`` and ``point`` of the deciding operating point, and the number of ``operating_points``."""
+    friction_loss: float | None
+    """The largest share of the mean friction that is lost, on exact responses."""
+    limits: list[dict[str, Any]]
+    """How far each limit is ``used``."""
+    frontier: list[dict[str, Any]]
+    """The least objective by averaging against each ``limit`` and its ``value``."""
+    basins: list[dict[str, Any]]
+    """The local minima that were found by averaging: ``parameters`` and ``objective``."""
+    waveforms: list[dict[str, Any]]
+    """The answer of each waveform: ``waveform``, ``feasible``, ``objective``."""
+    covered: dict[str, list[float]] | None
+    """Where no dither is allowed: the largest part of the box that one dither serves."""
+
+    @property
+    def used(self) -> npt.NDArray[np.float64]:
+        """Largest use of a limit at each choice (n,): at most 1 where every limit is kept."""
+        return self.arrays["used"].values
+
+
 class Waveforms(_columns.WaveformsColumns, Result):
     """The least dither of each waveform that quenches, and its cost; arrays over the waveforms (n,)."""
 

@@ -41,7 +41,7 @@ impl Body {
         folder: &Path,
         known: Option<&ModeSource>,
     ) -> Option<Self> {
-        reader.unknown_keys(table, Section::Disc, "disc", &["mode", "load", rotation::DRIVE]);
+        reader.unknown_keys(table, Section::Disc, "disc", &["mode", "load", loads::DRIVE]);
         let damping = reader.optional(table, "disc", MODAL_DAMPING, None).or(0.0);
         let parts = without(reader, table);
         let material = plate::material(reader, table, header);

@@ -11,12 +11,14 @@ use quell_model::units::DiscScales;
 
 use super::carriers;
 use super::patch::PatchSize;
-use super::rotation::DRIVE;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::course::{CoursePlace, CourseUnits};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::{LOAD_ENVELOPE, Section};
+
+/// The table of the speed over time.
+pub(super) const DRIVE: &str = "drive";
 
 /// Scales that convert the numbers of loads to SI, each at its own radius.
 #[derive(Clone, Copy, Debug)]

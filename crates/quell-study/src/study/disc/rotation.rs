@@ -4,16 +4,13 @@ use std::path::Path;
 
 use quell_model::parameter::disc::CENTRIFUGAL;
 
-use super::loads::Pad;
+use super::loads::{DRIVE, Pad};
 use super::modes::{Listed, ModeSource};
 use crate::complaint::{Complaint, Fault};
 use crate::study::course::{Course, CoursePlace, CourseUnits, replaces_constant};
 use crate::study::document::Table;
 use crate::study::reader::Reader;
 use crate::study::vocabulary::{Choice, DISC_DRIVE};
-
-/// The table of the speed over time.
-pub(super) const DRIVE: &str = "drive";
 
 /// The speed over time, `Ok(None)` at a constant speed; `Err` if it is wrong, which has been reported.
 ///

@@ -1,0 +1,11 @@
+//! `design`: the least dither that is quiet over a box of operating points.
+
+use quell::kind::verbs;
+use quell::{Failure, Study};
+
+use crate::answer::NativeAnswer;
+
+/// Runs the verb.
+pub(crate) fn run(study: &Study) -> Result<NativeAnswer, Failure> {
+    Ok(NativeAnswer::new(verbs(study).design()?))
+}
