@@ -15,6 +15,7 @@ fn place(name: &str) -> Place {
         files.iter().map(|(name, text)| (name.as_str(), *text)).collect();
     let measured = include_str!("../../../studies/synthetic-friction.csv");
     files.push(("synthetic-friction.csv", measured));
+    files.push(("design.toml", include_str!("../../../studies/design.toml")));
     Place::with(name, &files)
 }
 

@@ -122,7 +122,7 @@ fn breaks_of_the_speed_are_exact() {
     let whole = run(&modes, Some(&drive), &start, 7.0);
     let mut now = start;
     for until in [2.0, 4.7, 7.0] {
-        let state = run(&modes, Some(&drive), now, until);
+        let state = run(&modes, Some(&drive), &now, until);
         now = MotionStart { time: until, state };
     }
     for (found, wanted) in now.state.iter().zip(&whole) {

@@ -1,0 +1,88 @@
+//! `design` of a belt: units, complaints with their keys, and several waveforms.
+
+use quell::kind::verbs;
+use quell::{Failure, Study};
+use serde_json::Value as Json;
+
+const BELT: &str = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.1\n[friction]\nlaw = \"stribeck\"\n\
+                    static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\n\
+                    direction = \"tangential\"\nwaveform = \"sine\"\namplitude = 1.0\nfrequency_ratio = 10.0\n";
+
+const DESIGN: &str = "[design]\nminimise = \"amplitude\"\nvary = [\"dither.amplitude\"]\nfrom = [0.01]\nto = [20.0]\n\
+                      waveforms = [\"sine\", \"triangle\", \"square\"]\n[design.over]\n\"belt.belt_velocity\" = [0.05, 0.15]\n";
+
+fn facts(text: &str) -> Json {
+    let study = Study::parse(text, &[]).expect("a study");
+    verbs(&study).design().expect("an answer").facts()
+}
+
+fn keys_of_complaints(text: &str) -> String {
+    match Study::parse(text, &[]) {
+        Err(complaints) => complaints.to_string(),
+        Ok(study) => match verbs(&study).design() {
+            Err(Failure::Wrong(complaints)) => complaints.to_string(),
+            Err(other) => other.to_string(),
+            Ok(_) => panic!("accepted: {text}"),
+        },
+    }
+}
+
+/// An independent program: 0.9486004564844978 for the square wave, which needs least.
+#[test]
+fn the_best_of_several_waveforms() {
+    let found = facts(&format!("{BELT}{DESIGN}"));
+    assert_eq!(found["feasible"], true);
+    assert_eq!(found["waveform"], "square");
+    let amplitude = found["critical"]["dither.amplitude"].as_f64().expect("a number");
+    assert!((amplitude / 0.9486004564844978 - 1.0).abs() < 1e-6, "{amplitude}");
+    assert_eq!(found["worst"]["belt.belt_velocity"], 0.15);
+    let verified = found["parameters"]["dither.amplitude"].as_f64().expect("a number");
+    assert!((verified / amplitude - 1.001).abs() < 1e-12);
+    assert!(found["verified"]["multiplier"].as_f64().expect("a number") < 1.0);
+    assert_eq!(found["waveforms"].as_array().map(Vec::len), Some(3));
+}
+
+/// The belt in SI with ω₀ = 10 rad/s and k = 200 N/m has the same answer: D k in newtons.
+#[test]
+fn a_study_in_si_has_the_same_answer() {
+    let belt = "[belt]\nmass_kg = 2.0\nstiffness_n_per_m = 200.0\ndamping_ratio = 0.005\nnormal_force_n = 200.0\n\
+                belt_velocity_m_per_s = 1.0\n[friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\n\
+                minimum_coefficient = 0.2857\nreference_velocity_m_per_s = 2.0\n[dither]\ndirection = \"tangential\"\n\
+                waveform = \"sine\"\namplitude_n = 200.0\nfrequency_hz = 15.915494309189533\n";
+    let design = "[design]\nminimise = \"stroke\"\nvary = [\"dither.amplitude_n\"]\nfrom = [2.0]\nto = [4000.0]\n[design.over]\n\
+                  \"belt.belt_velocity_m_per_s\" = [0.5, 1.5]\n[design.limits]\nstroke_m = 0.5\namplitude_n = 1000.0\n";
+    let found = facts(&format!("{belt}{design}"));
+    let newtons = found["critical"]["dither.amplitude_n"].as_f64().expect("a number");
+    assert!((newtons / (200.0 * 1.4863197137178406) - 1.0).abs() < 1e-6, "{newtons}");
+    assert_eq!(found["worst"]["belt.belt_velocity_m_per_s"], 1.5);
+    // 2 D/(R² − 1) metres, with the damping's part of 10⁻⁶.
+    let stroke = found["objective"].as_f64().expect("a number");
+    assert!((stroke / (2.0 * 1.4863197137178406 / 99.0) - 1.0).abs() < 1e-5, "{stroke}");
+    assert_eq!(found["binding"].as_array().map(Vec::len), Some(0));
+}
+
+#[test]
+fn wrong_designs_are_refused_with_their_keys() {
+    let with =
+        |from: &str, to: &str| keys_of_complaints(&format!("{BELT}{DESIGN}").replace(from, to));
+    for (from, to, key) in [
+        ("minimise = \"amplitude\"", "minimise = \"amplitud\"", "design.minimise"),
+        ("to = [20.0]", "to = [0.001]", "design.to[0]"),
+        ("to = [20.0]", "to = [20.0, 3.0]", "design.vary"),
+        ("[0.05, 0.15]", "[0.15, 0.05]", "design.over"),
+        ("\"belt.belt_velocity\" = ", "\"belt.belt_velcity\" = ", "design.over"),
+        ("\"belt.belt_velocity\" = ", "\"dither.amplitude\" = ", "design.over"),
+        ("\"square\"]", "\"sqare\"]", "design.waveforms[2]"),
+        ("\"square\"]", "\"burst\"]", "design.waveforms[2]"),
+        ("vary = [\"dither.amplitude\"]", "vary = [\"dither.frequency_ratio\"]", "design.vary"),
+        ("[0.05, 0.15]", "[-0.05, 0.15]", "design.over"),
+    ] {
+        let said = with(from, to);
+        assert!(said.contains(key), "{to}: {said}");
+    }
+    assert!(keys_of_complaints(BELT).contains("design"));
+    let without = BELT.split("[dither]").next().expect("a part");
+    let said =
+        keys_of_complaints(&format!("{without}{}", DESIGN.replace("\"sine\", \"triangle\", ", "")));
+    assert!(said.contains("dither"), "{said}");
+}
