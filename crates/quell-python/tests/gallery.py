@@ -176,6 +176,7 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "describing function in SI": lambda: belt_in_si().friction(describing=3.0),
     "design": lambda: quell.Study.from_toml(STUDIES / "design.toml").design(),
     "design in SI": lambda: design_in_si().design(),
+    "design without an answer": lambda: design_in_si().set({"design.limits.amplitude_n": 100.0}).design(),
     "waveforms": lambda: belt().waveforms(),
     "waveforms of a system": lambda: study("drive in SI").waveforms(),
     "waveforms in SI": lambda: belt_in_si().waveforms(),

@@ -281,8 +281,9 @@ class Belt(Study):
         design: Mapping[str, Any] | None = None,
         **unknown: Unknown,
     ) -> None:
-        others = ("friction", "dither", "initial", "solver", "band", "band_hz", "design", "axes", "title")
-        belt = Table(**given(locals(), *others))
+        belt = Table(
+            **given(locals(), "friction", "dither", "initial", "solver", "band", "band_hz", "design", "axes", "title")
+        )
         if initial is not None:
             si = any(name in belt.given for name in ("mass_kg", "stiffness_n_per_m", "natural_frequency_hz"))
             belt.given["initial"] = start(initial, si)

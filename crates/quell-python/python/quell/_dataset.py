@@ -220,7 +220,9 @@ class Facts:
             self.attrs[label] = value
         elif isinstance(value, Mapping):
             for inner, it in self.in_units(value).items():
-                self.add(f"{label}_{inner}", f"{former}_{inner}", inner, it)
+                # Some keys are paths of numbers of the study.
+                key = inner.replace(".", "_").replace("[", "_").replace("]", "")
+                self.add(f"{label}_{key}", f"{former}_{key}", inner, it)
         elif isinstance(value, list):
             self.many(label, former, name, value)
         else:

@@ -297,6 +297,39 @@ class DescribingFunctionColumns:
 class DesignColumns:
     """Of :class:`quell.results.Design`."""
 
+    amplitude: npt.NDArray[np.float64]
+    averaged_dither_amplitude: float
+    averaged_dither_amplitude_n: float
+    averaged_dither_frequency_ratio: float
+    basin_objective: npt.NDArray[np.float64]
+    basin_objective_w: npt.NDArray[np.float64]
+    binding_value: npt.NDArray[np.str_]
+    critical_dither_amplitude: float
+    critical_dither_amplitude_n: float
+    critical_dither_frequency_ratio: float
+    dither_frequency_ratio: npt.NDArray[np.float64]
+    frontier_limit: npt.NDArray[np.str_]
+    frontier_objective: npt.NDArray[np.float64]
+    frontier_objective_w: npt.NDArray[np.float64]
+    frontier_value: npt.NDArray[np.float64]
+    frontier_value_m: npt.NDArray[np.float64]
+    limit_limit: npt.NDArray[np.str_]
+    limit_used: npt.NDArray[np.float64]
+    number: npt.NDArray[np.float64]
+    objective_w: float
+    parameters_dither_amplitude: float
+    parameters_dither_amplitude_n: float
+    parameters_dither_frequency_ratio: float
+    verified_multiplier: float
+    verified_operating_points: Any
+    verified_point_belt_belt_velocity: float
+    verified_point_belt_belt_velocity_m_per_s: float
+    waveform_feasible: npt.NDArray[Any]
+    waveform_objective: npt.NDArray[np.float64]
+    waveform_objective_w: npt.NDArray[np.float64]
+    waveform_waveform: npt.NDArray[np.str_]
+    worst_belt_belt_velocity: float
+    worst_belt_belt_velocity_m_per_s: float
 
 
 class ExactStabilityColumns:
@@ -949,6 +982,11 @@ class WaveformsColumns:
     """Of :class:`quell.results.Waveforms`."""
 
     amplitude_n: npt.NDArray[np.float64]
+    best_amplitude: float
+    best_power: float
+    best_root_mean_square: float
+    best_stroke: float
+    best_velocity: float
     exact_amplitude_n: npt.NDArray[np.float64]
     number: npt.NDArray[np.float64]
     power_w: npt.NDArray[np.float64]
@@ -971,6 +1009,7 @@ class WaveformsColumns:
     waveform_power_w: npt.NDArray[np.float64]
     waveform_root_mean_square: npt.NDArray[np.float64]
     waveform_root_mean_square_n: npt.NDArray[np.float64]
+    waveform_slow: npt.NDArray[Any]
     waveform_stroke: npt.NDArray[np.float64]
     waveform_stroke_m: npt.NDArray[np.float64]
     waveform_until: npt.NDArray[np.float64]
