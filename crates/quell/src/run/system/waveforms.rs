@@ -259,7 +259,10 @@ impl SystemWaveforms {
         for column in &COLUMNS {
             match self.best(column) {
                 Some(row) => best.plain(column.0, row.label()),
-                None => best.unknown(column.0, "no waveform has a value"),
+                None => best.unknown(
+                    column.0,
+                    "no waveform that repeats fast enough for averaging has a value",
+                ),
             };
         }
         let mut fields = Fields::of_system(units);
