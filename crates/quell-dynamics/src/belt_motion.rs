@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use quell_model::{Belt, Parametrisation};
+use quell_model::{Belt, Parametrisation, System};
 
 use crate::motion::orbit::sliding_state;
 use crate::motion::{
@@ -52,12 +52,39 @@ pub fn is_of_the_engine_for_belts(belt: &Belt) -> bool {
 }
 
 /// The state of a contact that has one, where a run of a belt begins.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ContactStart {
     /// Without load: T of an elastic slider and z of bristles are zero.
     Relaxed,
     /// As in steady sliding.
     Sliding,
+    /// With this number, in which an earlier run has ended: T of an elastic slider, or z of bristles.
+    Carried(f64),
+}
+
+impl BeltEnd {
+    /// The start of a run that goes on from here.
+    pub fn restart(&self) -> (Start, ContactStart) {
+        let own = self.contact.map(|contact| contact.bristle.unwrap_or(contact.friction));
+        (self.state.restart(), own.map_or(ContactStart::Relaxed, ContactStart::Carried))
+    }
+}
+
+/// The start of a belt's run as that of its system.
+pub fn motion_start(system: &System, (start, contact): (Start, ContactStart)) -> MotionStart {
+    let mut state = vec![start.displacement, start.velocity];
+    let structure = state.len();
+    state.resize(system.state_size(), 0.0);
+    match contact {
+        ContactStart::Relaxed => {}
+        ContactStart::Carried(own) => state[structure..].fill(own),
+        ContactStart::Sliding => {
+            if let Ok(sliding) = sliding_state(system) {
+                state[structure..].copy_from_slice(&sliding[structure..]);
+            }
+        }
+    }
+    MotionStart { time: start.time, state }
 }
 
 /// Integrates `belt` from `start` to τ = `until` and passes every segment and event to `observer`.
@@ -80,11 +107,7 @@ pub fn run_belt(
     }
     let system = belt.system();
     let motion = Motion::new(&system).map_err(|why| BeltStopped::Immobile(why.to_string()))?;
-    let mut state = motion.relaxed(&[start.displacement, start.velocity]);
-    if let (ContactStart::Sliding, Ok(sliding)) = (contact, sliding_state(&system)) {
-        state[motion.structure_size()..].copy_from_slice(&sliding[motion.structure_size()..]);
-    }
-    let start = MotionStart { time: start.time, state };
+    let start = motion_start(&system, (start, contact));
     let mut watch = AsBelt { observer };
     let end = motion.run(&start, until, tolerance.min(MOTION_TOLERANCE), &mut watch);
     let end = end.map_err(BeltStopped::Stopped)?;

@@ -40,7 +40,11 @@ pub fn first_lyapunov(
     linear: &Linearised,
     frequency: f64,
 ) -> Result<FirstLyapunov, NoFirstLyapunov> {
-    let matrix = linear.state_matrix_with(&linear.friction());
+    let friction = linear.friction();
+    if friction.iter().any(|friction| friction.bristles.is_some()) {
+        return Err(NoFirstLyapunov::Bristles);
+    }
+    let matrix = linear.state_matrix_with(&friction);
     let decomposition = Decomposition::new(&matrix).map_err(|_| NoFirstLyapunov::NotCritical)?;
     let target = Complex64::new(0.0, frequency);
     let distances = decomposition.values().iter().map(|z| modulus(*z - target)).enumerate();

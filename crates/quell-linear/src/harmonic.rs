@@ -91,7 +91,7 @@ impl DrivenEquations {
         let frozen: Vec<FrictionSlopes> = linear
             .friction()
             .into_iter()
-            .map(|friction| FrictionSlopes { by_velocity: 0.0, ..friction })
+            .map(|friction| FrictionSlopes { by_velocity: 0.0, ..friction.at_once() })
             .collect();
         let matrix = linear.state_matrix_with(&frozen);
         let mut source = vec![0.0; matrix.rows() - n];

@@ -11,9 +11,12 @@
 //! with T_γ = μ′N and T_N = μ without dither. The contacts' own springs and dampers (−k, −d) are gathered in K and C once; what
 //! friction does (T_γ, T_N and T) is added for a friction that is given, so that a row of a map shares the assembly. First-order
 //! equations have U_c = g_c, V_c = t_c and Φ_c = −T_γ.
+//!
+//! Bristles (LuGre) add their deflections z_c as states after those of the structure ([`BristleSlopes`]).
 
-use quell_model::System;
-use quell_model::system::Structure;
+use num_complex::Complex64;
+use quell_model::system::{Contact, Structure};
+use quell_model::{Friction, System};
 use quell_numerics::matrix::Matrix;
 
 pub use crate::steady::{FrictionLine, NoSteadySliding};
@@ -28,6 +31,70 @@ pub struct FrictionSlopes {
     pub by_velocity: f64,
     /// T_N = ∂T/∂N.
     pub by_load: f64,
+    /// How bristles move; `None` of a friction that follows the slip velocity at once. T_γ is then the slope of steady friction.
+    pub bristles: Option<BristleSlopes>,
+}
+
+/// Small motions of bristles about steady sliding at the slip velocity V: ζ̇ = aδγ − bζ and δT = T_z ζ + T_γ δγ, where
+///
+/// ```text
+/// a = Vg′/g,    b = σ₀|V|/g,    T_z = N(σ₀ − σ₁b),    T_γ = N(σ₁a + σ₂)
+/// ```
+///
+/// follow from ż = γ − σ₀|γ|z/g(γ), T = N(σ₀z + σ₁ż + σ₂γ). At rest relative to each other, ζ = aδγ/b gives the slope N(g′ + σ₂)
+/// of steady friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BristleSlopes {
+    /// a, by which the slip velocity deflects them.
+    pub by_slip: f64,
+    /// b, the rate at which they relax.
+    pub rate: f64,
+    /// T_z = ∂T/∂z.
+    pub by_deflection: f64,
+    /// T_γ at a deflection that does not change.
+    pub at_once: f64,
+}
+
+impl BristleSlopes {
+    /// The bristles of a contact that slides steadily under the load N; `None` of another law.
+    fn of(contact: &Contact, normal_load: f64, factor: f64) -> Option<Self> {
+        let Friction::Lugre(law) = &contact.friction else { return None };
+        let bristles = contact.friction.bristles()?;
+        let speed = contact.surface_velocity.mean().abs();
+        let level = Friction::StribeckExponential(law.level());
+        let (saturated, slope) = (level.coefficient(speed), level.slope(speed));
+        let (by_slip, rate) = (speed * slope / saturated, bristles.stiffness * speed / saturated);
+        let load = factor * normal_load;
+        Some(Self {
+            by_slip,
+            rate,
+            by_deflection: load * (bristles.stiffness - bristles.damping * rate),
+            at_once: load * (bristles.damping * by_slip + bristles.viscous),
+        })
+    }
+}
+
+impl FrictionSlopes {
+    /// The friction of the steady law, which follows the slip velocity at once.
+    #[must_use]
+    pub fn at_once(self) -> Self {
+        Self { bristles: None, ..self }
+    }
+
+    /// ∂T/∂γ at fixed deflections of bristles.
+    fn direct(&self) -> f64 {
+        self.bristles.map_or(self.by_velocity, |bristles| bristles.at_once)
+    }
+
+    /// ∂T/∂γ for a motion e^{λt}.
+    pub fn by_velocity_of(&self, eigenvalue: Complex64) -> Complex64 {
+        match self.bristles {
+            None => Complex64::new(self.by_velocity, 0.0),
+            Some(BristleSlopes { by_slip, rate, by_deflection, at_once }) => {
+                by_deflection * by_slip / (eigenvalue + rate) + at_once
+            }
+        }
+    }
 }
 
 /// A contact of linearised equations.
@@ -44,6 +111,7 @@ pub struct LinearContact {
     along: Vec<f64>,
     /// M⁻¹n.
     across: Vec<f64>,
+    bristles: Option<BristleSlopes>,
 }
 
 /// What is linear without friction.
@@ -86,7 +154,12 @@ impl Linearised {
     /// # Errors
     /// [`NoSteadySliding`] with the contact and the reason.
     pub fn new(system: &System) -> Result<Self, NoSteadySliding> {
-        Self::about(system, SteadySliding::new(system)?)
+        let mut linear = Self::about(system, SteadySliding::new(system)?)?;
+        for (linear, contact) in linear.contacts.iter_mut().zip(&system.contacts) {
+            let SteadyContact { normal_load, factor, .. } = linear.steady;
+            linear.bristles = BristleSlopes::of(contact, normal_load, factor);
+        }
+        Ok(linear)
     }
 
     /// The equations without friction about q = 0: masses, dampers and springs, those of the contacts included. There need not
@@ -102,7 +175,7 @@ impl Linearised {
         Self::about(system, at_rest)
     }
 
-    /// Linearises a system about a steady sliding.
+    /// Linearises a system about a steady sliding, whose friction follows the slip velocity at once.
     ///
     /// # Errors
     /// [`NoSteadySliding::NoMass`], [`NoSteadySliding::SpeedVaries`].
@@ -120,6 +193,7 @@ impl Linearised {
                 damping: contact.normal_damping,
                 along: contact.force.clone().unwrap_or_else(|| vec![0.0; n]),
                 across: vec![0.0; n],
+                bristles: None,
             })
             .collect();
         let equations = match &system.structure {
@@ -184,14 +258,16 @@ impl Linearised {
 
     /// The friction of each contact in steady sliding, its factor included.
     pub fn friction(&self) -> Vec<FrictionSlopes> {
-        let contacts = self.contacts.iter().map(|contact| &contact.steady);
-        contacts
-            .map(|SteadyContact { line, normal_load, friction, factor, .. }| FrictionSlopes {
+        let slopes = |contact: &LinearContact| {
+            let SteadyContact { line, normal_load, friction, factor, .. } = contact.steady;
+            FrictionSlopes {
                 force: factor * friction,
                 by_velocity: factor * (line.slope * normal_load + line.slope_constant),
                 by_load: factor * line.coefficient,
-            })
-            .collect()
+                bristles: contact.bristles,
+            }
+        };
+        self.contacts.iter().map(slopes).collect()
     }
 
     /// The state matrix of small motions under a friction T_c that is given for each contact without dither; μ_c = T_c/N_c,
@@ -204,14 +280,45 @@ impl Linearised {
                 let unchanged = line.coefficient == 0.0;
                 let share = if unchanged { 1.0 } else { by_load / line.coefficient };
                 let by_velocity = share * line.slope * normal_load;
-                FrictionSlopes { force, by_velocity, by_load }
+                FrictionSlopes { force, by_velocity, by_load, bristles: None }
             })
             .collect();
         self.state_matrix_with(&slopes)
     }
 
-    /// The state matrix of small motions under a given friction of each contact.
+    /// The state matrix of small motions under a given friction of each contact: the states of the structure, then the deflections
+    /// of bristles in the order of their contacts.
     pub fn state_matrix_with(&self, friction: &[FrictionSlopes]) -> Matrix {
+        let rigid = self.structure_matrix(friction);
+        let moving: Vec<(&LinearContact, BristleSlopes)> = self
+            .contacts
+            .iter()
+            .zip(friction)
+            .filter_map(|(contact, friction)| Some((contact, friction.bristles?)))
+            .collect();
+        if moving.is_empty() {
+            return rigid;
+        }
+        let (n, size) = (self.coordinates(), rigid.rows());
+        let mut a = Matrix::zeros(size + moving.len(), size + moving.len());
+        for i in 0..size {
+            a.row_mut(i)[..size].copy_from_slice(rigid.row(i));
+        }
+        // The last n states are velocities, or all those of first-order equations.
+        let first = size - n;
+        for (index, (contact, bristles)) in moving.into_iter().enumerate() {
+            let own = size + index;
+            for i in 0..n {
+                a[(first + i, own)] = contact.along[i] * bristles.by_deflection;
+            }
+            add(&mut a.row_mut(own)[first..size], -bristles.by_slip, contact.tangent.as_deref());
+            a[(own, own)] = -bristles.rate;
+        }
+        a
+    }
+
+    /// The rows and columns of the structure in the state matrix.
+    fn structure_matrix(&self, friction: &[FrictionSlopes]) -> Matrix {
         let n = self.coordinates();
         let [damping, stiffness] = match &self.equations {
             LinearEquations::Mechanical { over_mass, .. } => over_mass,
@@ -221,7 +328,7 @@ impl Linearised {
                     for i in 0..n {
                         add(
                             a.row_mut(i),
-                            -contact.along[i] * friction.by_velocity,
+                            -contact.along[i] * friction.direct(),
                             contact.tangent.as_deref(),
                         );
                     }
@@ -298,8 +405,9 @@ impl LinearContact {
         if self.along[i] == 0.0 {
             return;
         }
-        if friction.by_velocity != 0.0 {
-            add(on_velocity, -(self.along[i] * friction.by_velocity), self.tangent.as_deref());
+        let by_velocity = friction.direct();
+        if by_velocity != 0.0 {
+            add(on_velocity, -(self.along[i] * by_velocity), self.tangent.as_deref());
         }
         if friction.by_load != 0.0 {
             let factor = self.along[i] * friction.by_load;

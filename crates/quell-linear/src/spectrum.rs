@@ -8,7 +8,8 @@
 //! P_c = ½ Re[ ((t + nσ)ᵀv̂)* (−T_γ tᵀv̂ + T_N (k nᵀq̂ + d nᵀv̂)) + (nᵀv̂)* T sᵀq̂ ]
 //! ```
 //!
-//! K_s is the symmetric part of K with the springs of the contacts. The identity is exact, for real eigenvalues too.
+//! K_s is the symmetric part of K with the springs of the contacts, and T_γ of bristles is complex. The identity is exact, for real
+//! eigenvalues too.
 
 use num_complex::Complex64;
 use quell_numerics::eigen::{Decomposition, EigenError};
@@ -126,7 +127,7 @@ fn shares(
     }
     let contacts = linear.contacts().iter().zip(friction);
     let power = contacts.map(|(contact, friction)| {
-        power(contact, friction, displacement, &velocity) / (2.0 * energy)
+        power(contact, friction, eigenvalue, [displacement, &velocity]) / (2.0 * energy)
     });
     power.collect()
 }
@@ -135,8 +136,8 @@ fn shares(
 fn power(
     contact: &LinearContact,
     friction: &FrictionSlopes,
-    displacement: &[Complex64],
-    velocity: &[Complex64],
+    eigenvalue: Complex64,
+    [displacement, velocity]: [&[Complex64]; 2],
 ) -> f64 {
     let along = |row: Option<&[f64]>, x: &[Complex64]| -> Complex64 {
         row.unwrap_or_default().iter().zip(x).map(|(r, x)| x * *r).sum()
@@ -145,8 +146,8 @@ fn power(
     let sliding = along(contact.tangent(), velocity);
     let approach = along(contact.normal(), displacement);
     let rate = along(contact.normal(), velocity);
-    let force =
-        (approach * stiffness + rate * damping) * friction.by_load - sliding * friction.by_velocity;
+    let force = (approach * stiffness + rate * damping) * friction.by_load
+        - sliding * friction.by_velocity_of(eigenvalue);
     let turned = along(contact.slope_row(), displacement) * friction.force;
     let at = sliding + rate * contact.steady.tilt;
     0.5 * (at.conj() * force + rate.conj() * turned).re

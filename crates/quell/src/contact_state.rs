@@ -13,7 +13,10 @@ use crate::words::digits;
 const LARGE: f64 = 30.0;
 
 /// Verbs of systems that do not know the state of a contact.
-const WITHOUT_STATES: &[&str] = &["attractor", "thresholds", "bifurcation", "basins", "map"];
+const WITHOUT_STATES: &[&str] = &["map"];
+
+/// Verbs of belts that know the state of a contact; `simulate` and `friction` ask nothing here.
+const OF_BELTS_WITH_STATES: &[&str] = &["response"];
 
 /// Verbs of systems about motions that repeat.
 const OF_PERIODIC_DITHER: &[&str] =
@@ -37,6 +40,9 @@ pub(crate) fn refused_of_belt(study: &BeltStudy, verb: &str) -> Result<(), Failu
     {
         return Err(not_periodic(verb, key).into());
     }
+    if OF_BELTS_WITH_STATES.contains(&verb) {
+        return Ok(());
+    }
     complaint_of_belt(study.belt(), verb).map_or(Ok(()), |complaint| Err(complaint.into()))
 }
 
@@ -50,8 +56,8 @@ pub(crate) fn complaint_of_belt(belt: &Belt, verb: &str) -> Option<Complaint> {
         None => ("friction.law", Json::from(belt.friction().kind().name())),
     };
     let allowed = format!(
-        "a rigid contact with a law of the slip velocity alone for `{verb}`; `simulate` and `friction` know contacts with a state of \
-         their own"
+        "a rigid contact with a law of the slip velocity alone for `{verb}`; `simulate`, `response`, `friction`, `orbit`, \
+         `attractor`, `thresholds`, `bifurcation` and `basins` know contacts with a state of their own"
     );
     Some(Complaint::new(Fault::Conflict, key, Origin::Whole, value, allowed))
 }
@@ -72,16 +78,12 @@ pub(crate) fn refused_of_system(study: &SystemStudy, verb: &str) -> Result<(), F
 /// The complaint of a verb about a contact whose state it does not know; `None` where it knows all.
 pub(crate) fn complaint_of_system(system: &System, verb: &str) -> Option<Complaint> {
     let contacts = &system.contacts;
-    let is_unknown = |contact: &Contact| match verb {
-        // A slider that slides has no state in addition to its slip; the state of bristles moves with every small motion.
-        "stability --exact" | "stability --parameter" => contact.friction.bristles().is_some(),
-        _ => WITHOUT_STATES.contains(&verb) && contact.has_state(),
-    };
+    let is_unknown = |contact: &Contact| WITHOUT_STATES.contains(&verb) && contact.has_state();
     let index = contacts.iter().position(is_unknown)?;
     let (key, value) = cause(&contacts[index], &format!("contact.{}", contacts[index].name));
     let allowed = format!(
-        "a rigid contact with a law of the slip velocity alone for `{verb}`; `simulate`, `response` and `orbit` know contacts with a state of \
-         their own"
+        "a rigid contact with a law of the slip velocity alone for `{verb}`; `simulate`, `response`, `orbit`, `attractor`, `thresholds`, \
+         `bifurcation` and `basins` know contacts with a state of their own"
     );
     Some(Complaint::new(Fault::Conflict, key, Origin::Whole, value, allowed))
 }
@@ -177,7 +179,9 @@ pub(crate) fn rigid_laws(study: &SystemStudy, fast: Option<(&[f64], f64)>) -> Ve
             if displacement > 0.0 && ratio < LARGE {
                 warnings.push(bristles_follow(ratio, &of));
             }
-            warnings.push(small_motions(&of));
+            if !study.system().inputs.is_empty() {
+                warnings.push(small_motions(&of));
+            }
         } else if let Some(stiffness) = contact.tangential_stiffness {
             let breakaway = law.static_coefficient() * contact.normal_load / stiffness;
             if displacement > 0.0 && displacement < LARGE * breakaway {
@@ -191,7 +195,7 @@ pub(crate) fn rigid_laws(study: &SystemStudy, fast: Option<(&[f64], f64)>) -> Ve
 /// The warning about small motions of bristles.
 pub(crate) fn small_motions(of: &str) -> String {
     format!(
-        "small motions are those of the steady friction{of}: the bristles are taken to follow the slip at once, which holds for motions \
-         slower than σ₀v/g"
+        "averaged small motions are those of the steady friction{of}: the bristles are taken to follow the slip at once, which holds for \
+         motions slower than σ₀v/g"
     )
 }

@@ -5,6 +5,7 @@
 
 use std::f64::consts::TAU;
 
+use quell_dynamics::belt_motion::{ContactStart, run_belt};
 use quell_dynamics::simulation::{
     DEFAULT_TOLERANCE, LargestSlip, Observer, SimulationRun, Start, simulate, simulate_many,
 };
@@ -83,7 +84,10 @@ impl SlipMet {
     /// Adds a run of duration `length` from a state. A run that stops counts up to there.
     pub(crate) fn add_run(&mut self, belt: &Belt, state: Start, length: f64) {
         let mut slip = LargestSlip::of(belt);
-        if slip.watches() {
+        if slip.watches() && belt.has_contact_state() {
+            let from = (state, ContactStart::Relaxed);
+            run_belt(belt, from, state.time + length, DEFAULT_TOLERANCE, &mut slip).ok();
+        } else if slip.watches() {
             simulate(belt, state, state.time + length, DEFAULT_TOLERANCE, &mut slip).ok();
         }
         self.add(belt, slip.speed);

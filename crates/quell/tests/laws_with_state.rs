@@ -2,13 +2,20 @@
 //!
 //! Numbers: `reference/laws-with-state.json` (source and tolerance in `reference/README.md`).
 
+use quell::kind::verbs;
+use quell::run::found_attractor::AttractorRequest;
+use quell::run::protocol::Protocol;
 use quell::run::system::exact::run as system_exact;
 use quell::run::system::orbit::{WantedMotion, run as orbit_of_system};
 use quell::run::system::protocol::SystemProtocol;
 use quell::run::system::simulate::{MotionRequest, run as run_system};
 use quell::run::system::stability::run as system_stability;
-use quell::run::{friction, orbit, simulate, stability};
-use quell::study::{BeltStudy, SystemStudy};
+use quell::run::system::thresholds::MotionThresholdsRequest;
+use quell::run::thresholds::ThresholdsRequest;
+use quell::run::{friction, orbit, response, simulate, stability};
+use quell::study::{BeltStudy, Study, SystemStudy};
+use quell_linear::linearised::Linearised;
+use quell_linear::spectrum::spectrum;
 use serde_json::Value as Json;
 
 fn reference() -> Json {
@@ -180,10 +187,10 @@ fn averaged_verbs_warn_where_the_rigid_law_does_not_hold() {
 }
 
 #[test]
-fn other_verbs_refuse_a_contact_with_a_state_by_name() {
+fn verbs_of_averages_refuse_a_contact_with_a_state_by_name() {
     let reference = reference();
     let study = belt(text(&rows(&reference, "elastic_slider")[0]["study"]));
-    let refused = orbit::run(&study, orbit::Wanted::default()).expect_err("no orbit");
+    let refused = verbs(&study.into()).waveforms().err().expect("no waveforms");
     let refused = refused.json().to_string();
     assert!(refused.contains("belt.tangential_stiffness"), "{refused}");
     let both = text(&rows(&reference, "lugre")[0]["study"])
@@ -259,4 +266,126 @@ fn systems_name_the_numbers_of_their_contacts() {
     let stable = system_stability(&study).expect("an answer").json(&study);
     assert!(warnings(&stable).contains("bristles"), "{stable}");
     assert!(system_exact(&study).is_err());
+}
+
+/// [`SLIDER`] as a belt.
+const SLIDER_ON_A_BELT: &str = r#"
+schema = 1
+[belt]
+damping_ratio = 0.01
+normal_load = 1.0
+belt_velocity = 0.05
+tangential_stiffness = 30.0
+[friction]
+law = "coulomb"
+coefficient = 0.3
+[dither]
+direction = "tangential"
+waveform = "sine"
+amplitude = 0.8
+frequency_ratio = 10.0
+"#;
+
+/// A belt whose contact has a state is answered as its system, with its own paths.
+#[test]
+fn belts_with_a_state_are_answered_as_their_systems() {
+    let (of_belt, of_system) =
+        (verbs(&Study::from(&belt(SLIDER_ON_A_BELT))), verbs(&system(SLIDER).into()));
+    let pairs = [
+        (
+            of_belt.orbit(orbit::Wanted::After(Protocol::Rest)).expect("an orbit").json(),
+            of_system
+                .orbit_of_system(&WantedMotion::After(SystemProtocol::Rest))
+                .expect("an orbit")
+                .json(),
+        ),
+        (
+            of_belt.attractor(&AttractorRequest::default()).expect("an end").json(),
+            of_system.attractor(&AttractorRequest::default()).expect("an end").json(),
+        ),
+    ];
+    for (a, b) in &pairs {
+        for key in ["period", "state", "multipliers", "verdict", "kind"] {
+            assert_eq!(a.get(key), b.get(key), "{key}");
+        }
+    }
+    let near = orbit::Wanted::Near { state: (0.28, 0.0), periods: 1 };
+    assert_eq!(of_belt.orbit(near).expect("an orbit").json()["verdict"], "stable");
+    let request = ThresholdsRequest {
+        parameter: "dither.amplitude".to_owned(),
+        from: 0.3,
+        to: 0.8,
+        protocols: vec![Protocol::Rest],
+        ramp: 0.0,
+    };
+    let a = of_belt.thresholds(request.clone()).expect("thresholds").json();
+    let b = MotionThresholdsRequest {
+        parameter: "dither[0].amplitude".to_owned(),
+        window: (0.3, 0.8),
+        near: None,
+        protocols: vec![SystemProtocol::Rest],
+        ramp: 0.0,
+    };
+    let b = of_system.thresholds_of_system(&b).expect("thresholds").json();
+    assert_eq!(a["thresholds"], b["thresholds"], "{a}");
+}
+
+/// The record of a belt with an elastic slider has the amplitude of the same motion as a system, and the belt's words.
+#[test]
+fn the_response_of_a_belt_with_a_slider_is_that_of_its_motion() {
+    let study = belt(SLIDER_ON_A_BELT);
+    let found = response::run(&study).expect("a response");
+    let orbit = verbs(&system(SLIDER).into());
+    let orbit =
+        orbit.orbit_of_system(&WantedMotion::After(SystemProtocol::Rest)).expect("an orbit").json();
+    let json = found.json(&study);
+    assert!(found.response.settled, "{json}");
+    let sticks = number(&orbit["contacts"][0]["stick_fraction"]);
+    assert!((found.response.stick_fraction - sticks).abs() < 1e-3, "{json} {orbit}");
+    // The mean force of the spring is the mean friction, and the work of friction over a period that of the dither and the damper.
+    let [low, high] = ["lowest", "highest"].map(|key| number(&orbit[key]));
+    let samples = found.response.record.samples.iter().map(|sample| sample.displacement);
+    let (least, most) =
+        samples.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+    assert!((least - low).abs() < 1e-3 * (high - low), "{least} {low}");
+    assert!((most - high).abs() < 1e-3 * (high - low), "{most} {high}");
+}
+
+/// Small motions about steady sliding of bristles: the run decays or grows at the rate of the eigenvalue, which differs from that of the
+/// steady law.
+#[test]
+fn bristles_move_in_small_motions() {
+    let text = |damping: f64, stiffness: f64| {
+        format!(
+            "schema = 1\n[system]\ncoordinates = [\"x\"]\nmass = [1.0]\ndamping = [[{damping}]]\nstiffness = [[1.0]]\n\
+             [[contact]]\nname = \"pad\"\ntangent = {{ x = 1.0 }}\nnormal_load = 1.0\nbelt_velocity = 0.1\n\
+             [contact.friction]\nlaw = \"lugre\"\nbristle_stiffness = {stiffness}\nbristle_damping = 0.3\nviscous = 0.05\n\
+             coefficient = 0.3\nstatic_coefficient = 0.4\nreference_velocity = 0.15\n"
+        )
+    };
+    let rate = |study: &SystemStudy| {
+        let json = system_stability(study).expect("a verdict").json(study);
+        (number(&json["growth_rate"]), warnings(&json))
+    };
+    let (growth, words) = rate(&system(&text(0.8, 20.0)));
+    assert!(!words.contains("follow the slip at once"), "{words}");
+    let (stiff, ..) = rate(&system(&text(0.8, 2e6)));
+    // Stiff bristles follow at once: 2Re λ = −(c + T_γ), T_γ the slope of steady friction.
+    let g = |v: f64| 0.3 + 0.1 * (-(v / 0.15_f64).powi(2)).exp() + 0.05 * v;
+    let slope = (g(0.1 + 1e-6) - g(0.1 - 1e-6)) / 2e-6;
+    assert!((stiff + 0.5 * (0.8 + slope)).abs() < 1e-4, "{stiff} {slope}");
+    assert!((growth - stiff).abs() > 1e-3, "{growth} {stiff}");
+    // The whole equations: the deviation from steady sliding shrinks at that rate in the periods of the small motion.
+    let study = system(&text(0.8, 20.0));
+    let linear = Linearised::new(study.system()).expect("slides");
+    let value = spectrum(&linear, &linear.friction()).expect("a spectrum").motions[0].eigenvalue;
+    assert_eq!(value.re, growth);
+    let deviation = |time: f64| {
+        let request = MotionRequest { until: Some(time), ..MotionRequest::default() };
+        run_system(&study, &request).expect("a run").end.state[0] - g(0.1)
+    };
+    let (begin, periods) = (12.0 / growth.abs(), 2.0);
+    let length = periods * std::f64::consts::TAU / value.im.abs();
+    let measured = (deviation(begin + length) / deviation(begin)).ln() / length;
+    assert!((measured - growth).abs() < 1e-3 * growth.abs(), "{measured} {growth}");
 }

@@ -32,6 +32,8 @@ pub(super) struct Meter {
     length: f64,
     friction_impulse: f64,
     with_power: bool,
+    /// Whether a contact that sticks moves with the belt: an elastic slider that adheres does not.
+    is_rigid: bool,
 }
 
 impl Meter {
@@ -53,6 +55,7 @@ impl Meter {
             length: 0.0,
             friction_impulse: 0.0,
             with_power,
+            is_rigid: !belt.has_contact_state(),
         }
     }
 
@@ -127,7 +130,7 @@ impl Meter {
         if self.tangential.is_empty() || !self.with_power {
             return;
         }
-        self.dither_work += if segment.slip_sign() == 0 {
+        self.dither_work += if self.is_rigid && segment.slip_sign() == 0 {
             let start = segment.clock().time();
             self.belt_velocity * self.impulse(start, start + segment.duration())
         } else {

@@ -6,16 +6,27 @@
 
 use std::fmt;
 
-use quell_model::Belt;
+use quell_model::{Belt, Parametrisation};
 
+use super::BAND_END;
 use super::measure::{Compared, Undefined};
 use super::record_lines::RecordLines;
+use super::system_ending::SystemEnding;
 use crate::attractor::{Reached, StroboscopicSection, reached};
+use crate::belt_motion::{ContactStart, motion_start};
+use crate::motion::orbit::base_motion;
 use crate::orbit::NoOrbit;
 use crate::simulation::Start;
 
 /// A response with less than this fraction of the undithered vibration is quenched.
 pub const QUENCHED: f64 = 0.01;
+
+/// Steps in which the base response of a belt with a state is followed from steady sliding.
+const BASE_STEPS: u32 = 8;
+
+/// Mismatch of two states, relative to their size, of one periodic response: far above the error of a closed one, and far below the
+/// distance of two responses.
+const SAME_STATE: f64 = 1e-6;
 
 /// The effect of a dither on the vibration below 1.9 ω₀, from one start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,6 +127,37 @@ impl RunEnding {
             Ok(reached) => Self::Reached(reached),
             Err(why) => Self::Unknown(why),
         }
+    }
+
+    /// For the run of a belt whose friction has a state of its own, by the judge of systems. Without dither the base response is steady
+    /// sliding.
+    pub(super) fn with_state(belt: &Belt, start: (Start, ContactStart)) -> Self {
+        let system = belt.system();
+        let from = motion_start(&system, start);
+        let reached = match SystemEnding::of(&system, &from) {
+            SystemEnding::Rest => Reached::Base,
+            SystemEnding::Orbit { state, period, .. } => {
+                let base = || base_motion(&system, BASE_STEPS).ok();
+                let is_base = system.is_dithered()
+                    && base().is_some_and(|base| {
+                        let size =
+                            base.state.iter().chain(&state).fold(0.0, |m: f64, x| m.max(x.abs()));
+                        let off = base.state.iter().zip(&state).map(|(a, b)| (a - b).abs());
+                        off.fold(0.0, f64::max) <= SAME_STATE * size
+                    });
+                if is_base {
+                    Reached::Base
+                } else if system.is_dithered() && std::f64::consts::TAU / period > BAND_END {
+                    Reached::Forced
+                } else {
+                    Reached::Elsewhere
+                }
+            }
+            SystemEnding::UnstableSliding | SystemEnding::Drift | SystemEnding::Record => {
+                Reached::Unknown
+            }
+        };
+        Self::Reached(reached)
     }
 
     /// The word in outputs.

@@ -11,6 +11,7 @@ use super::cost::{self, Meter};
 use super::record_lines::RecordLines;
 use super::solver::Solver;
 use super::spectral_meter::{Sampling, SpectralMeter};
+use crate::belt_motion::{BeltStopped, ContactStart, run_belt};
 use crate::orbit::NoOrbit;
 use crate::orbit::cycle::keeps_vibrating;
 use crate::simulation::{
@@ -233,16 +234,7 @@ pub(super) fn record_many<O: Observer>(
         .iter()
         .zip(settled)
         .map(|(case, settled)| {
-            let settled = settled?;
-            let sampling = Sampling::of(&case.belt, case.start.time + solver.settle, solver);
-            Ok(RecordObserver {
-                settled,
-                sampling,
-                meter: Meter::new(&case.belt, &settled, observables.dither_cost),
-                spectral: SpectralMeter::new(&case.belt, sampling, observables.dither_cost),
-                slip: LargestSlip::of(&case.belt),
-                observer: observer(case, &sampling),
-            })
+            Ok(RecordObserver::new(case, settled?, solver, observables, &observer))
         })
         .collect();
     let runs = cases
@@ -276,7 +268,44 @@ struct RecordObserver<O> {
     observer: O,
 }
 
+/// [`record_many`] of one belt whose friction has a state of its own, which begins as given.
+///
+/// # Errors
+/// [`BeltStopped`].
+pub(super) fn record_with_state<O: Observer>(
+    case: &ResponseCase,
+    contact: ContactStart,
+    solver: &Solver,
+    observables: Observables,
+    observer: impl Fn(&ResponseCase, &Sampling) -> O,
+) -> Result<(MeasuredRecord, O), BeltStopped> {
+    let (belt, settle) = (&case.belt, case.start.time + solver.settle);
+    let settled = run_belt(belt, (case.start, contact), settle, solver.tolerance, &mut ())?;
+    let mut record = RecordObserver::new(case, settled.state, solver, observables, observer);
+    let until = record.sampling.end();
+    let end = run_belt(belt, settled.restart(), until, solver.tolerance, &mut record)?;
+    Ok(record.measured(case, observables, &end.state))
+}
+
 impl<O> RecordObserver<O> {
+    fn new(
+        case: &ResponseCase,
+        settled: FinalState,
+        solver: &Solver,
+        observables: Observables,
+        observer: impl Fn(&ResponseCase, &Sampling) -> O,
+    ) -> Self {
+        let sampling = Sampling::of(&case.belt, case.start.time + solver.settle, solver);
+        Self {
+            settled,
+            sampling,
+            meter: Meter::new(&case.belt, &settled, observables.dither_cost),
+            spectral: SpectralMeter::new(&case.belt, sampling, observables.dither_cost),
+            slip: LargestSlip::of(&case.belt),
+            observer: observer(case, &sampling),
+        }
+    }
+
     fn measured(
         mut self,
         case: &ResponseCase,

@@ -41,7 +41,7 @@ pub use record::SettledRecord;
 pub use record_lines::{HALVES_AGREE, HALVES_NEGLIGIBLE, RecordLines};
 pub use solver::Solver;
 pub use spectral_meter::samples_per_slow_period;
-pub use steady_response::{PEAK_FLOOR, SteadyResponse, respond};
+pub use steady_response::{PEAK_FLOOR, SteadyResponse, respond, respond_with_state};
 pub use system_ending::SystemEnding;
 pub use system_response::{
     ResponsePlan, ResponseRefused, SystemRecord, SystemResponse, respond_system,

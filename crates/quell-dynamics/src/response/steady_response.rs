@@ -6,10 +6,13 @@ use quell_numerics::spectrum::Peak;
 use super::effect::{Effect, RunEnding, effect, still_decays};
 use super::measure::{
     Compared, Observables, ResponseCase, Undefined, keeps_vibrating_without, record_many,
+    record_with_state,
 };
 use super::record::SettledRecord;
 use super::solver::Solver;
 use super::spectral_meter::Sampling;
+use crate::attractor::Reached;
+use crate::belt_motion::{BeltStopped, ContactStart};
 use crate::simulation::{Sampler, Stalled, Start};
 
 /// Peaks below this fraction of the largest are not listed.
@@ -79,25 +82,73 @@ pub fn respond(belt: &Belt, start: Start, solver: &Solver) -> Result<SteadyRespo
     let case = ResponseCase { belt: belt.undithered(), start };
     let vibrates = keeps_vibrating_without(&case)?;
     let compared = Compared { dithered, undithered, vibrates };
-    let ending = RunEnding::of(belt, start);
-    let effect = effect(belt, &compared, ending);
-    Ok(SteadyResponse {
-        effect,
-        ending,
-        amplitude: dithered.lines.whole,
-        peaks: record.spectrum.peaks(PEAK_FLOOR),
-        stick_fraction: dithered.stick_fraction,
-        efficiency: compared.efficiency(),
-        undithered_amplitude: undithered.lines.whole,
-        settled: compared.settled() && !still_decays(effect, &compared),
-        undithered_settled: compared.undithered_settled(),
-        mean_friction: dithered.mean_friction,
-        mean_friction_undithered: undithered.mean_friction,
-        steady_sliding_friction: belt.steady_sliding(),
-        dither_power: dithered.dither_power,
-        dither_stroke: dithered.dither_stroke,
-        minimum_normal_load: dithered.minimum_normal_load,
-        record,
-        undithered_record,
-    })
+    Ok(SteadyResponse::of(belt, &compared, RunEnding::of(belt, start), [record, undithered_record]))
+}
+
+/// [`respond`] of a belt whose friction has a state of its own, which begins as given: by the engine for systems and its judge of where
+/// runs end.
+///
+/// # Errors
+/// [`BeltStopped`] if a run stops.
+pub fn respond_with_state(
+    belt: &Belt,
+    (start, contact): (Start, ContactStart),
+    solver: &Solver,
+) -> Result<SteadyResponse, BeltStopped> {
+    let one = |belt: &Belt, wanted, like: Option<&SettledRecord>| {
+        let case = ResponseCase { belt: belt.clone(), start };
+        let sampler = |_: &ResponseCase, sampling: &Sampling| match like {
+            Some(like) => Sampler::new(sampling.from, like.step, like.samples.len()),
+            None => Sampler::new(sampling.from, sampling.step, sampling.count),
+        };
+        let (measured, sampler) = record_with_state(&case, contact, solver, wanted, sampler)?;
+        let step = sampler.step();
+        Ok((measured, SettledRecord::of(sampler.samples, step)))
+    };
+    let still = belt.undithered();
+    let (dithered, record) = one(belt, Observables { dither_cost: true }, None)?;
+    let (undithered, undithered_record) = one(&still, Observables::default(), Some(&record))?;
+    let without = RunEnding::with_state(&still, (start, contact));
+    let vibrates = match without {
+        _ if belt.belt_velocity() == 0.0 => Err(Undefined::UnditheredAtRest),
+        RunEnding::Reached(Reached::Elsewhere) => Ok(()),
+        RunEnding::Reached(Reached::Base) => Err(Undefined::UnditheredSettles),
+        _ => Err(Undefined::UnditheredUnknown),
+    };
+    let is_still = belt.dithers().iter().all(|dither| dither.amplitude == 0.0);
+    let ending = if is_still { without } else { RunEnding::with_state(belt, (start, contact)) };
+    let compared = Compared { dithered, undithered, vibrates };
+    Ok(SteadyResponse::of(belt, &compared, ending, [record, undithered_record]))
+}
+
+impl SteadyResponse {
+    /// From the measurements of both runs.
+    fn of(
+        belt: &Belt,
+        compared: &Compared,
+        ending: RunEnding,
+        [record, undithered_record]: [SettledRecord; 2],
+    ) -> Self {
+        let effect = effect(belt, compared, ending);
+        let Compared { dithered, undithered, .. } = *compared;
+        Self {
+            effect,
+            ending,
+            amplitude: dithered.lines.whole,
+            peaks: record.spectrum.peaks(PEAK_FLOOR),
+            stick_fraction: dithered.stick_fraction,
+            efficiency: compared.efficiency(),
+            undithered_amplitude: undithered.lines.whole,
+            settled: compared.settled() && !still_decays(effect, compared),
+            undithered_settled: compared.undithered_settled(),
+            mean_friction: dithered.mean_friction,
+            mean_friction_undithered: undithered.mean_friction,
+            steady_sliding_friction: belt.steady_sliding(),
+            dither_power: dithered.dither_power,
+            dither_stroke: dithered.dither_stroke,
+            minimum_normal_load: dithered.minimum_normal_load,
+            record,
+            undithered_record,
+        }
+    }
 }

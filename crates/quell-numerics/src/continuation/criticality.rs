@@ -98,6 +98,8 @@ pub enum NoFirstLyapunov {
     Singular,
     /// The equations are linear as long as no contact sticks or opens.
     Linear,
+    /// Bristles of a contact move in the critical motion, whose nonlinear terms are not computed.
+    Bristles,
     /// States next to the fixed point have no image or meet other events, however near.
     OtherEvents,
 }
@@ -121,6 +123,9 @@ impl fmt::Display for NoFirstLyapunov {
             }
             Self::Singular => f.write_str(
                 "another eigenvalue is in resonance with the critical one, and the coefficient does not exist",
+            ),
+            Self::Bristles => f.write_str(
+                "the nonlinear terms of bristles are not computed; a run from next to the threshold shows which side it is",
             ),
             Self::Linear => f.write_str(
                 "the equations are linear until a contact sticks or opens, and nothing limits the vibration before that",

@@ -6,8 +6,8 @@ use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::{
-    basins, bifurcation, curves, describing, design, found_attractor, friction, noise_response,
-    orbit, ramp, response, simulate, stability, thresholds, waveforms, window,
+    basins, belt_system, bifurcation, curves, describing, design, found_attractor, friction,
+    noise_response, orbit, ramp, response, simulate, stability, thresholds, waveforms, window,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -85,18 +85,30 @@ impl Verbs for BeltStudy {
     }
 
     fn attractor(&self, request: &AttractorRequest) -> Reply {
+        if let Some(system) = belt_system::of_state(self, "attractor")? {
+            return system.attractor_of_system(&belt_system::attractor(request));
+        }
         answer(self, found_attractor::run(self, request))
     }
 
     fn orbit(&self, wanted: orbit::Wanted) -> Reply {
+        if let Some(system) = belt_system::of_state(self, "orbit")? {
+            return system.orbit_of_system(&belt_system::wanted(wanted));
+        }
         answer(self, orbit::run(self, wanted))
     }
 
     fn thresholds(&self, request: thresholds::ThresholdsRequest) -> Reply {
+        if let Some(system) = belt_system::of_state(self, "thresholds")? {
+            return system.thresholds_of_system(&belt_system::thresholds(request));
+        }
         answer(self, thresholds::run(self, request))
     }
 
     fn threshold_curves(&self, request: &curves::CurvesRequest) -> Reply {
+        if let Some(system) = belt_system::of_state(self, "thresholds")? {
+            return system.threshold_curves(request);
+        }
         answer(self, curves::run(self, request))
     }
 
@@ -109,10 +121,16 @@ impl Verbs for BeltStudy {
     }
 
     fn bifurcation(&self, request: &bifurcation::SweepRequest, running: Running<'_>) -> Reply {
+        if let Some(system) = belt_system::of_state(self, "bifurcation")? {
+            return system.bifurcation(request, running);
+        }
         answer(self, bifurcation::run(self, request, running))
     }
 
     fn basins(&self, request: &basins::BasinsRequest, running: Running<'_>) -> Reply {
+        if let Some(system) = belt_system::of_state(self, "basins")? {
+            return system.basins(request, running);
+        }
         answer(self, basins::run(self, request, running))
     }
 }

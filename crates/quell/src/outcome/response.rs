@@ -51,7 +51,7 @@ fn table(study: &BeltStudy, done: &MeasuredResponse) -> String {
     );
     table.number("amplitude M", Quantity::Displacement, response.amplitude);
     table.number("undithered amplitude M₀", Quantity::Displacement, response.undithered_amplitude);
-    table.number("stick fraction", Quantity::Ratio, response.stick_fraction);
+    table.known("stick fraction", Quantity::Ratio, done.stick_fraction(study));
     table.word("settled", if response.settled { "yes" } else { "no" });
     table.number("mean friction", Quantity::Force, response.mean_friction);
     table.number("  without dither", Quantity::Force, response.mean_friction_undithered);

@@ -5,6 +5,8 @@
 
 pub mod attractor;
 pub mod basins;
+mod belt_start;
+pub(crate) mod belt_system;
 pub mod bifurcation;
 pub mod check;
 pub mod criticality;

@@ -3,17 +3,19 @@
 use quell_dynamics::attractor::Reached;
 use quell_dynamics::response::{
     BAND_END, Effect, RunEnding, SettledRecord, SteadyResponse, Uncertain, respond,
-    samples_per_slow_period,
+    respond_with_state, samples_per_slow_period,
 };
-use quell_dynamics::simulation::{Sample, Start};
+use quell_dynamics::simulation::{Sample, Start, within};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::belt_start::begin;
 use super::effect_words::{EffectWords, MOST_DECIBELS, level_of, percent, residual_in_words};
-use super::{failed, start};
+use super::failed;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::contact_state::refused_of_belt;
+use crate::contact_state::{passivity, refused_of_belt};
 use crate::dataset::Dataset;
+use crate::effort::STEPS_OF_A_SEARCH;
 use crate::fields::Fields;
 use crate::range::SlipMet;
 use crate::study::BeltStudy;
@@ -44,8 +46,14 @@ pub struct MeasuredResponse {
 pub fn run(study: &BeltStudy) -> Result<MeasuredResponse, Failure> {
     refused_of_belt(study, "response")?;
     record_fits(study)?;
-    let start = start(study)?;
-    let response = respond(study.belt(), start, study.solver()).map_err(failed)?;
+    let from = begin(study)?;
+    let (start, solver) = (from.0, study.solver());
+    let response = if study.belt().has_contact_state() {
+        let found = within(STEPS_OF_A_SEARCH, || respond_with_state(study.belt(), from, solver));
+        found.map_err(failed)?
+    } else {
+        respond(study.belt(), start, solver).map_err(failed)?
+    };
     let moves = study.belt().belt_velocity() > 0.0;
     let belt = study.belt();
     let samples = response.record.samples.iter().chain(&response.undithered_record.samples);
@@ -150,6 +158,17 @@ impl MeasuredResponse {
         }
     }
 
+    /// Fraction of the record spent in stick; an elastic slider that adheres counts as sticking.
+    ///
+    /// # Errors
+    /// Bristles never stick.
+    pub fn stick_fraction(&self, study: &BeltStudy) -> Result<f64, String> {
+        match study.belt().friction().bristles() {
+            Some(_) => Err("bristles slip at any load, however slowly, and never stick".to_owned()),
+            None => Ok(self.response.stick_fraction),
+        }
+    }
+
     /// 20 lg E, in dB; `None` if E is undefined or zero.
     pub fn level(&self) -> Option<f64> {
         self.response.efficiency.ok().and_then(level_of)
@@ -235,6 +254,7 @@ impl MeasuredResponse {
         let time = if study.scales().is_some() { "t" } else { "τ" };
         let settle = in_words(study, Quantity::Time, study.solver().settle);
         let mut warnings = self.slip.warnings(study);
+        warnings.extend(passivity(study.belt()));
         let mut warn = |which: &str, settled: bool| {
             if !settled {
                 warnings.push(format!(
@@ -282,7 +302,7 @@ impl MeasuredResponse {
                 .to_owned()
         };
         fields
-            .number("stick_fraction", Quantity::Ratio, response.stick_fraction)
+            .known("stick_fraction", Quantity::Ratio, self.stick_fraction(study))
             .known(
                 "efficiency",
                 Quantity::Ratio,

@@ -12,17 +12,18 @@ use quell_model::Dither;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
+use super::belt_start::begin;
+use super::failed;
 use super::manoeuvre::{self, Manoeuvre, SampledMotion};
 use super::sample_times;
 use super::sound_tap::{SoundTap, fastest_dither, plan};
-use super::{failed, start};
 use crate::complaint::Failure;
 use crate::contact_state::passivity;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::range::SlipMet;
 use crate::sound::{Sound, SoundOptions};
-use crate::study::{BeltStudy, InitialState};
+use crate::study::BeltStudy;
 use crate::words::{in_words, plural, start_in_words};
 
 /// Samples per period of the fastest dither, and at least this many in a slow period.
@@ -86,12 +87,13 @@ pub struct Simulation {
 /// a sample is not within it, or if the sound would be too long;
 /// [`Failure::Failed`] if the engine stops.
 pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation, Failure> {
-    let Options { start: begin, times, events, samples: sampled, undithered, sound } = options;
+    let Options { start: given, times, events, samples: sampled, undithered, sound } = options;
     let belt = study.belt();
-    let start = match begin {
-        Some(given) => given,
-        None => start(study)?,
+    let from = match given {
+        Some(state) => (state, ContactStart::Relaxed),
+        None => begin(study)?,
     };
+    let start = from.0;
     sample_times::are_within(start.time, until, times.as_deref())?;
     let sound = sound.map(|sound| plan(study, until - start.time, sound)).transpose()?;
     let (intervals, coarse) =
@@ -113,11 +115,6 @@ pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation
     let mut tap = SoundTap::new(start, sound.as_ref());
     let mut trace = trace(study, start.time, until);
     let mut watch = (&mut largest, (&mut sampler, (&mut tap, &mut trace)));
-    let own = match study.initial() {
-        InitialState::Sliding if begin.is_none() => ContactStart::Sliding,
-        _ => ContactStart::Relaxed,
-    };
-    let from = (start, own);
     let end = if events {
         run_belt(belt, from, until, tolerance, &mut (&mut recorder, &mut watch))
     } else {
@@ -138,7 +135,7 @@ pub fn run(study: &BeltStudy, until: f64, options: Options) -> Result<Simulation
     };
     Ok(Simulation {
         start,
-        given: begin.is_some(),
+        given: given.is_some(),
         end,
         contact,
         events: events.then_some(recorder.events),

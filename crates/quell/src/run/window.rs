@@ -1,7 +1,7 @@
 //! `response --window`: what a run does between two of its times. A study whose drive, load or dither varies has no steady
 //! response; a steady study has one as well.
 
-use quell_dynamics::motion::orbit::sliding_state;
+use quell_dynamics::belt_motion::motion_start;
 use quell_dynamics::motion::{
     ContactMeans, ContactMeter, MOTION_TOLERANCE, Motion, MotionStart, RowMeter,
 };
@@ -11,15 +11,15 @@ use quell_model::{Parametrisation, System};
 use quell_numerics::spectrum::{Peak, Spectrum};
 use serde_json::Value as Json;
 
+use super::belt_start::begin;
 use super::failed;
-use super::start;
 use super::system::has_equations;
 use super::system::simulate::{beyond_laws, of_engine, put_means};
 use super::system::start::start_of;
 use crate::complaint::{Complaint, Failure};
 use crate::contact_state::{passivity, passivity_of_system};
 use crate::fields::Fields;
-use crate::study::{BeltStudy, InitialState, SystemStudy};
+use crate::study::{BeltStudy, SystemStudy};
 
 /// Samples of the window.
 const MOST_SAMPLES: f64 = 1_000_000.0;
@@ -50,16 +50,7 @@ pub struct WindowedResponse {
 /// A window that does not go forward; a start that does not exist; [`Failure::Failed`] if the engine stops.
 pub fn of_belt(study: &BeltStudy, window: (f64, f64)) -> Result<WindowedResponse, Failure> {
     let system = study.belt().system();
-    let start = start(study)?;
-    let mut state = vec![start.displacement, start.velocity];
-    // The contact begins as in `simulate`: without load, or as in steady sliding.
-    state.resize(system.state_size(), 0.0);
-    if study.initial() == InitialState::Sliding
-        && let Ok(sliding) = sliding_state(&system)
-    {
-        state[2..].copy_from_slice(&sliding[2..]);
-    }
-    let start = MotionStart { time: start.time, state };
+    let start = motion_start(&system, begin(study)?);
     let mut found = measured(&system, &[1.0], &start, window)?;
     found.warnings.extend(passivity(study.belt()));
     Ok(found)

@@ -63,7 +63,7 @@ impl WatchLengths {
 /// of it decays by e; 0 where nothing oscillates or decays.
 fn slowest(system: &System) -> (f64, f64) {
     let Ok(linear) = Linearised::frictionless(system) else { return (0.0, 0.0) };
-    let none = FrictionSlopes { force: 0.0, by_velocity: 0.0, by_load: 0.0 };
+    let none = FrictionSlopes { force: 0.0, by_velocity: 0.0, by_load: 0.0, bristles: None };
     let Ok(found) = spectrum(&linear, &vec![none; system.contacts.len()]) else {
         return (0.0, 0.0);
     };

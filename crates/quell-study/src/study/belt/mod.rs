@@ -22,7 +22,7 @@ use super::disc::DiscSetup;
 use super::document::Table;
 use super::reader::{CourseFile, Reader};
 use super::study_kind::{Given, StudyKind, wrong_kind};
-use super::system::SystemSetup;
+use super::system::{DescribedSystem, SystemSetup, SystemStudy};
 
 pub use friction::Measured;
 use table::BeltTable;
@@ -149,6 +149,11 @@ impl BeltStudy {
     /// Mass and stiffness of a study in SI.
     pub fn scales(&self) -> Option<Scales> {
         self.kind().belt.scales()
+    }
+
+    /// The belt as a system, with the given row and start.
+    pub fn as_system(&self, described: DescribedSystem) -> SystemStudy {
+        self.map_kind(described.into())
     }
 
     /// The design that the study asks for.

@@ -33,13 +33,14 @@ use crate::study::wave_file::WaveFile;
 use std::path::Path;
 use std::sync::Arc;
 
-use quell_model::System;
+use quell_model::{Belt, Invalid, Parametrisation, System};
+use serde_json::Value as Json;
 
 use super::StudyOf;
 use super::document::{Node, Table, Value};
 use super::reader::{CourseFile, Reader};
 use super::study_kind::{Given, StudyKind};
-use crate::complaint::{Complaint, Complaints, Origin};
+use crate::complaint::{Complaint, Complaints, Fault, Origin};
 
 pub use frequency_response::FrequencyResponse;
 pub use initial::SystemStart;
@@ -146,6 +147,11 @@ impl SystemStudy {
         self.kind().observe.clone()
     }
 
+    /// The belt whose numbers, in those of the equations, are the parameters of this system.
+    pub fn belt(&self) -> Option<&Belt> {
+        self.kind().belt.as_deref()
+    }
+
     /// Where a run begins.
     pub fn initial(&self) -> &SystemStart {
         &self.kind().initial
@@ -154,11 +160,17 @@ impl SystemStudy {
     /// The number at a path, such as `contact.pad.friction.coefficient`, its formula evaluated: in the units of the file, or
     /// in SI for a path that ends in a twin. `None` where the study has no such number.
     pub fn number(&self, path: &str) -> Option<f64> {
+        if let Some(belt) = self.belt() {
+            return belt.get(path);
+        }
         path::number(&self.source.document, &self.kind().numbers, path)
     }
 
     /// The unit of the number at a path, `1` for a ratio; `None` without a unit and where the study has no such number.
     pub fn unit_of(&self, path: &str) -> Option<&'static str> {
+        if let Some(belt) = self.belt() {
+            return belt.get(path).map(|_| "1");
+        }
         path::measured_in(&self.source.document, path)
     }
 
@@ -167,6 +179,9 @@ impl SystemStudy {
     /// # Errors
     /// All complaints about the changed study.
     pub fn system_at(&self, numbers: &[(&str, f64)]) -> Result<System, Complaints> {
+        if let Some(belt) = self.belt() {
+            return belt_at(belt, numbers);
+        }
         let mut document = self.source.document.clone();
         document.remove("sweep");
         for (path, value) in numbers {
@@ -182,4 +197,19 @@ impl SystemStudy {
             _ => Err(complaints.into()),
         }
     }
+}
+
+/// The system of a belt with these numbers set in order.
+fn belt_at(belt: &Belt, numbers: &[(&str, f64)]) -> Result<System, Complaints> {
+    let mut changed = belt.clone();
+    for (path, value) in numbers {
+        changed = changed.with(path, *value).map_err(|invalid| {
+            let complaint = |invalid: Invalid| {
+                let Invalid { key, value, allowed } = invalid;
+                Complaint::new(Fault::Value, key, Origin::Whole, Json::String(value), allowed)
+            };
+            invalid.into_iter().map(complaint).collect::<Vec<Complaint>>()
+        })?;
+    }
+    Ok(changed.system())
 }

@@ -97,6 +97,7 @@ pub(super) fn study(
         response,
         courses: reader.take_files(),
         time: None,
+        belt: None,
     })
 }
 

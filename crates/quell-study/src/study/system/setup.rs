@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use quell_model::System;
+use quell_model::{Belt, System};
 
 use super::frequency_response::FrequencyResponse;
 use super::initial::SystemStart;
@@ -32,6 +32,8 @@ pub struct SystemSetup {
     pub(super) courses: Arc<[CourseFile]>,
     /// Time of numbers without units in seconds; `None` where the study does not determine it.
     pub(super) time: Option<ScaledTime>,
+    /// The belt whose numbers are the parameters, where the system is that of a belt.
+    pub(super) belt: Option<Arc<Belt>>,
 }
 
 /// The unit of time of a study whose other numbers have no units.
@@ -56,11 +58,13 @@ pub struct DescribedSystem {
     pub warnings: Vec<String>,
     /// Its unit of time, if it is known.
     pub time: Option<ScaledTime>,
+    /// The belt whose numbers are the parameters of the system.
+    pub belt: Option<Belt>,
 }
 
 impl From<DescribedSystem> for SystemSetup {
     fn from(described: DescribedSystem) -> Self {
-        let DescribedSystem { system, observe, initial, warnings, time } = described;
+        let DescribedSystem { system, observe, initial, warnings, time, belt } = described;
         Self {
             system: Arc::new(system),
             observe,
@@ -73,6 +77,7 @@ impl From<DescribedSystem> for SystemSetup {
             response: None,
             courses: Arc::default(),
             time,
+            belt: belt.map(Arc::new),
         }
     }
 }

@@ -77,6 +77,7 @@ fn described(study: &DiscStudy, system: System, initial: SystemStart) -> SystemS
         initial,
         warnings: study.warnings().to_vec(),
         time,
+        belt: None,
     })
 }
 

@@ -34,7 +34,7 @@ pub fn run(study: &SystemStudy) -> Result<SystemModes, Failure> {
 /// [`Failure::Failed`] if a matrix overflows or the mass is singular.
 pub(crate) fn of(system: &System) -> Result<SystemModes, Failure> {
     let linear = Linearised::frictionless(system).map_err(|why| failed("modes", why))?;
-    let none = FrictionSlopes { force: 0.0, by_velocity: 0.0, by_load: 0.0 };
+    let none = FrictionSlopes { force: 0.0, by_velocity: 0.0, by_load: 0.0, bristles: None };
     let found = spectrum(&linear, &vec![none; system.contacts.len()]);
     let found = found.map_err(|why| failed("modes", why))?;
     let mut modes: Vec<SmallMotion> =

@@ -138,7 +138,7 @@ fn undamped(linear: &Linearised) -> Vec<f64> {
     let frozen: Vec<FrictionSlopes> = linear
         .friction()
         .into_iter()
-        .map(|friction| FrictionSlopes { by_velocity: 0.0, ..friction })
+        .map(|friction| FrictionSlopes { by_velocity: 0.0, ..friction.at_once() })
         .collect();
     let Ok(found) = spectrum(linear, &frozen) else { return Vec::new() };
     let undamped = found

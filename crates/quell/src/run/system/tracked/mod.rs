@@ -6,7 +6,7 @@ use std::cell::RefCell;
 
 use quell_linear::averaging::DitheredSystem;
 use quell_linear::criticality::first_lyapunov;
-use quell_linear::linearised::Linearised;
+use quell_linear::linearised::{FrictionSlopes, Linearised};
 use quell_linear::steady::NoSteadySliding;
 use quell_linear::tracking::{Family, StabilityChange, ThresholdOfStability, Tracked, track};
 use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov};
@@ -95,7 +95,12 @@ impl Family for StudyFamily<'_> {
         }
         let linear = Linearised::new(&system).map_err(|why| why.to_string())?;
         ContactRanges::add(self.recorded, at, &system, None);
-        Ok(linear.state_matrix_with(&linear.friction()))
+        // Where dither may be averaged, bristles follow the slip at once, with dither and without.
+        let at_once = !system.inputs.is_empty();
+        let slopes = linear.friction().into_iter();
+        let slopes: Vec<FrictionSlopes> =
+            slopes.map(|slope| if at_once { slope.at_once() } else { slope }).collect();
+        Ok(linear.state_matrix_with(&slopes))
     }
 
     fn overflows(why: EigenError) -> String {
@@ -267,9 +272,13 @@ pub(super) fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<
     for ((option, from, to), path, window) in [Some(first), along].into_iter().flatten() {
         if study.number(path).is_none() {
             let contact = study.system().contacts.first().map_or("NAME", |contact| &contact.name);
-            let allowed = format!(
-                "the path of a number of the study, such as contact.{contact}.normal_load; quell check lists the contacts"
-            );
+            let allowed = if study.belt().is_some() {
+                "the path of a number of the study, such as belt.belt_velocity".to_owned()
+            } else {
+                format!(
+                    "the path of a number of the study, such as contact.{contact}.normal_load; quell check lists the contacts"
+                )
+            };
             let complaint = Complaint::option(option, path.as_str(), allowed);
             wrong.push(complaint.suggesting(nearest(study, path)));
             continue;
