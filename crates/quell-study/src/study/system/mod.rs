@@ -36,6 +36,7 @@ use std::sync::Arc;
 use quell_model::System;
 
 use super::StudyOf;
+use super::design::Design;
 use super::document::{Node, Table, Value};
 use super::reader::{CourseFile, Reader};
 use super::study_kind::{Given, StudyKind};
@@ -146,6 +147,16 @@ impl SystemStudy {
         self.kind().observe.clone()
     }
 
+    /// The design that the study requests.
+    pub fn design(&self) -> Option<&Design> {
+        self.kind().design.as_ref()
+    }
+
+    /// The dither, counted from 0, whose amplitude a path names; `None` for any other number.
+    pub fn dither_of(&self, path: &str) -> Option<usize> {
+        path::amplitude_of(&self.source.document, path)
+    }
+
     /// Where a run begins.
     pub fn initial(&self) -> &SystemStart {
         &self.kind().initial
@@ -169,6 +180,7 @@ impl SystemStudy {
     pub fn system_at(&self, numbers: &[(&str, f64)]) -> Result<System, Complaints> {
         let mut document = self.source.document.clone();
         document.remove("sweep");
+        document.remove("design");
         for (path, value) in numbers {
             let node = Node { value: Value::Number(*value), origin: Origin::Whole };
             set(&mut document, path, &node)?;
