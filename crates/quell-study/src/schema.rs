@@ -5,6 +5,7 @@
 //! judges them.
 
 mod course;
+mod list;
 mod system;
 mod waveform;
 
@@ -446,23 +447,6 @@ fn needed(parameter: Parameter) -> bool {
     !optional.iter().any(|path| parameter.path.starts_with(path))
 }
 
-/// Several words from a list.
-fn choices(choice: Choice) -> Json {
-    json!({ "type": "array", "items": { "enum": choice.names() } })
-}
-
-/// At least one number.
-fn numbers() -> Json {
-    json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 })
-}
-
-/// Smallest and largest values by paths.
-fn ranges() -> Json {
-    let range =
-        json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 });
-    json!({ "type": "object", "additionalProperties": range, "minProperties": 1 })
-}
-
 fn property(key: &Key) -> Json {
     let mut schema = match key.role {
         Role::Number(parameter) => bounded(parameter.bounds, parameter.quantity),
@@ -480,7 +464,7 @@ fn property(key: &Key) -> Json {
         Role::Course(course) => course::property(course, key.section.course()),
         Role::Text => json!({ "type": "string" }),
         Role::Schema => json!({ "const": SCHEMA_VERSION }),
-        Role::Choices(choice) => choices(choice),
+        Role::Choices(choice) => list::choices(choice),
         Role::Reference => {
             json!({ "oneOf": [{ "const": "critical" }, { "type": "number", "exclusiveMinimum": 0.0 }] })
         }
@@ -501,9 +485,9 @@ fn property(key: &Key) -> Json {
         Role::Terms => json!({ "type": "integer", "minimum": 1, "maximum": MOST_TERMS }),
         Role::AxisNumber | Role::Constant => json!({ "type": "number" }),
         Role::AxisPoints => json!({ "type": "integer", "minimum": 2, "maximum": MOST_POINTS }),
-        Role::AxisValues => numbers(),
+        Role::AxisValues => list::numbers(),
         Role::Paths => json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 }),
-        Role::Ranges => ranges(),
+        Role::Ranges => list::ranges(),
     };
     if key.measured_in().is_some() {
         schema = with_units(schema);

@@ -185,7 +185,7 @@ fn what_design_cannot_do_is_refused_by_name() {
 /// A structure of 20 modes: the answer is verified, and averaging is near it because the dither is fast.
 #[test]
 fn a_structure_of_twenty_modes() {
-    let modes: String = (0..20)
+    let modes: Vec<String> = (0..20)
         .map(|k| {
             let (frequency, share) = (1.0 + 0.2 * f64::from(k), 1.0 / f64::from(1 + k));
             format!(
@@ -194,15 +194,14 @@ fn a_structure_of_twenty_modes() {
             )
         })
         .collect();
+    let modes = modes.concat();
     let text = format!(
         "[system]\nunits = \"none\"\n{modes}[[contact]]\nname = \"belt\"\ntangent = {{ tip = 1.0 }}\nnormal_load = 1.0\n\
          belt_velocity = 0.1\n[friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\n\
          reference_velocity = 0.2\n[[dither]]\nat = {{ drive = 1.0 }}\nwaveform = \"sine\"\namplitude = 1.0\nfrequency = 40.0\n{}",
         design("vary = [\"dither.amplitude\"]\nfrom = [0.01]\nto = [100.0]", "[0.05, 0.15]", "")
     );
-    let since = std::time::Instant::now();
     let found = facts(&text);
-    println!("20 modes: {:?}", since.elapsed());
     assert_eq!(found["feasible"], true, "{found}");
     let [exact, averaged] =
         ["critical", "averaged"].map(|name| number(&found[name]["dither.amplitude"]));

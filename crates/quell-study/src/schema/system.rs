@@ -111,9 +111,9 @@ fn property(key: &SystemKey) -> Json {
         SystemRole::Names => {
             json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 })
         }
-        SystemRole::Numbers => super::numbers(),
-        SystemRole::Ranges => super::ranges(),
-        SystemRole::Choices(choice) => super::choices(choice),
+        SystemRole::Numbers => super::list::numbers(),
+        SystemRole::Ranges => super::list::ranges(),
+        SystemRole::Choices(choice) => super::list::choices(choice),
         SystemRole::Choice(choice) => json!({ "enum": choice.names() }),
         SystemRole::Wave(wave) => super::waveform::property(wave),
         SystemRole::Course(course) => super::course::property(course, None),
