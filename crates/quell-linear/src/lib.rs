@@ -5,6 +5,7 @@
 //! * [`criticality`]: whether the vibration beyond a Hopf bifurcation of steady sliding grows from zero, or jumps;
 //! * [`growth`]: growth rate, its error and the verdict that they allow;
 //! * [`linear_cost`]: stroke, velocity and power of a dither on the structure of one mass without friction;
+//! * [`input_cost`]: the same of any sliding system at the driven point;
 //! * [`periodic_response`]: what any wave does to a linear structure, exactly;
 //! * [`series_actuator`]: stroke and power of normal dither through the spring of a contact;
 //! * [`averaging`]: effective friction under fast dither, stability of steady sliding, critical amplitudes, of one mass.
@@ -15,6 +16,7 @@ pub mod eigenvalues;
 pub mod floquet;
 pub mod growth;
 pub mod harmonic;
+pub mod input_cost;
 pub mod linear_cost;
 pub mod linearised;
 pub mod measured;

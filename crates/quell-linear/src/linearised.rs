@@ -480,7 +480,7 @@ mod tests {
         assert!(growth(0.7501) > 1e-3);
         // λ² = −2 ± √(1 − μ·4/3): past the coalescence |Re λ| follows from the square root.
         let beyond: f64 = growth(0.9);
-        let root = num_complex::Complex64::new(-2.0, (0.9f64 * 4.0 / 3.0 - 1.0).sqrt()).sqrt();
+        let root = Complex64::new(-2.0, (0.9f64 * 4.0 / 3.0 - 1.0).sqrt()).sqrt();
         assert!((beyond - root.re.abs()).abs() < 1e-12, "{beyond} {root}");
     }
 

@@ -230,7 +230,7 @@ def keys(table: str) -> set[str]:
         (quell.Disc, "disc", {"friction", "dither", "mode", "load", "drive", "axes", "title"}),
         (quell.Mode, "disc.mode", set()),
         (quell.Load, "disc.load", {"envelope"}),
-        (quell.System, "system", {"contact", "friction", "dither", "parameters", "axes", "title"}),
+        (quell.System, "system", {"contact", "friction", "dither", "parameters", "design", "axes", "title"}),
         (quell.SystemMode, "system_mode", set()),
         (quell.Component, "system_component", set()),
         (quell.SystemInitial, "system_initial", set()),

@@ -5,6 +5,7 @@
 //! judges them.
 
 mod course;
+mod list;
 mod system;
 mod waveform;
 
@@ -463,9 +464,7 @@ fn property(key: &Key) -> Json {
         Role::Course(course) => course::property(course, key.section.course()),
         Role::Text => json!({ "type": "string" }),
         Role::Schema => json!({ "const": SCHEMA_VERSION }),
-        Role::Choices(choice) => {
-            json!({ "type": "array", "items": { "enum": choice.names() } })
-        }
+        Role::Choices(choice) => list::choices(choice),
         Role::Reference => {
             json!({ "oneOf": [{ "const": "critical" }, { "type": "number", "exclusiveMinimum": 0.0 }] })
         }
@@ -486,14 +485,9 @@ fn property(key: &Key) -> Json {
         Role::Terms => json!({ "type": "integer", "minimum": 1, "maximum": MOST_TERMS }),
         Role::AxisNumber | Role::Constant => json!({ "type": "number" }),
         Role::AxisPoints => json!({ "type": "integer", "minimum": 2, "maximum": MOST_POINTS }),
-        Role::AxisValues => {
-            json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 })
-        }
+        Role::AxisValues => list::numbers(),
         Role::Paths => json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 }),
-        Role::Ranges => {
-            let range = json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 });
-            json!({ "type": "object", "additionalProperties": range, "minProperties": 1 })
-        }
+        Role::Ranges => list::ranges(),
     };
     if key.measured_in().is_some() {
         schema = with_units(schema);

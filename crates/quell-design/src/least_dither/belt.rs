@@ -1,7 +1,7 @@
 //! A belt under dither as a structure whose dither is designed.
 
 use quell_dynamics::attractor::{Reached, switches};
-use quell_dynamics::orbit::threshold::{BranchEnding, local};
+use quell_dynamics::orbit::threshold::local;
 use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
 use quell_dynamics::response::{Solver, respond};
 use quell_dynamics::simulation::Start;
@@ -12,6 +12,7 @@ use quell_linear::averaging::{
 use quell_linear::linear_cost::linear_cost;
 use quell_model::{Belt, Direction};
 
+use super::quiet::AveragedChange;
 use super::{DesignStart, DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
 
 /// Steps of the continuation over a range of amplitudes.
@@ -92,24 +93,13 @@ impl BeltPlant {
         (from, to): (f64, f64),
     ) -> Result<QuietAmplitudes, String> {
         let found = local(belt, &self.path(), from, to, STEPS).map_err(|why| why.to_string())?;
-        let stable = Some(OrbitVerdict::Stable);
-        let first = match (found.thresholds.first(), found.branch.first()) {
-            (Some(threshold), _) => threshold.was == stable,
-            (None, Some(response)) => response.radius < 1.0,
-            (None, None) => false,
-        };
-        let mut changes: Vec<(f64, bool)> =
-            found.thresholds.iter().map(|found| (found.value, found.becomes == stable)).collect();
-        // Beyond the end of the branch there is no base response that could be quiet.
-        let end = match found.ending {
-            BranchEnding::Covered => None,
-            BranchEnding::TurnedBack { at }
-            | BranchEnding::Touch { at }
-            | BranchEnding::Lost { at } => Some(at),
-            BranchEnding::LostTurning { furthest, .. } => Some(furthest),
-        };
-        changes.extend(end.map(|at| (at, false)));
-        Ok(QuietAmplitudes::of_changes((from, to), first, changes))
+        let thresholds: Vec<_> = found
+            .thresholds
+            .iter()
+            .map(|threshold| (threshold.value, [threshold.was, threshold.becomes]))
+            .collect();
+        let radius = found.branch.first().map(|response| response.radius);
+        Ok(QuietAmplitudes::of_branch((from, to), radius, &thresholds, found.ending))
     }
 }
 
@@ -117,24 +107,22 @@ impl Plant for BeltPlant {
     fn averaged(
         &self,
         at: OperatingPoint<'_>,
-        (from, to): (f64, f64),
+        range: (f64, f64),
     ) -> Result<QuietAmplitudes, String> {
         let belt = self.at(at)?;
         let options = AveragingOptions::FINITE_R;
         let without = criterion(&belt, options).map_err(|why| why.to_string())?;
         let found = critical_amplitudes(&belt, options).map_err(|why| why.to_string())?;
-        let changes = found.iter().filter(|critical| critical.contact_stays_closed);
-        let changes =
-            changes.map(|critical| (critical.amplitude, critical.becomes == Becomes::Stable));
-        let open = found.iter().find(|critical| !critical.contact_stays_closed);
-        let end = open.map(|critical| (critical.amplitude, false));
-        let stable = without.verdict == AveragedVerdict::Stable;
-        let whole = QuietAmplitudes::of_changes((0.0, to), stable, changes.chain(end));
-        // The part of the searched range.
-        let inside =
-            whole.intervals().iter().flat_map(|(low, high)| [(*low, true), (*high, false)]);
-        let inside = inside.filter(|(at, quiet)| *quiet || *at < to);
-        Ok(QuietAmplitudes::of_changes((from, to), false, inside))
+        let changes: Vec<_> = found
+            .iter()
+            .map(|critical| AveragedChange {
+                amplitude: critical.amplitude,
+                becomes_quiet: critical.becomes == Becomes::Stable,
+                holds: critical.contact_stays_closed,
+            })
+            .collect();
+        let quiet_without = without.verdict == AveragedVerdict::Stable;
+        Ok(QuietAmplitudes::by_averaging(range, quiet_without, &changes))
     }
 
     fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {

@@ -11,6 +11,7 @@ mod covered;
 mod exact;
 mod quiet;
 mod search;
+mod system;
 mod worst_point;
 
 pub use belt::BeltPlant;
@@ -20,6 +21,7 @@ pub use exact::{
 };
 pub use quiet::QuietAmplitudes;
 pub use search::{DesignBasin, DesignPoint};
+pub use system::{SystemAtPoint, SystemPlant};
 pub use worst_point::NoLeast;
 
 /// What is to be small.
@@ -65,7 +67,7 @@ pub enum LimitedQuantity {
     Velocity,
     /// Mean power of that response, at most.
     Power,
-    /// Share of the mean friction that is lost at the worst operating point, at most.
+    /// Share of the mean friction that is lost at the worst operating point, at most; of several contacts the largest.
     FrictionLoss,
     /// Smallest normal load of a contact under normal dither, at least.
     MinimumNormalLoad,

@@ -1,5 +1,18 @@
 //! Amplitudes of a dither at which a structure is quiet.
 
+use quell_dynamics::orbit::OrbitVerdict;
+use quell_dynamics::orbit::threshold::BranchEnding;
+
+/// An amplitude at which averaged sliding changes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AveragedChange {
+    pub(super) amplitude: f64,
+    /// Whether larger amplitudes are quiet.
+    pub(super) becomes_quiet: bool,
+    /// Whether averaging describes the contacts there.
+    pub(super) holds: bool,
+}
+
 /// Amplitudes at which a structure is quiet: disjoint intervals in ascending order, within the range that was searched.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QuietAmplitudes {
@@ -32,6 +45,49 @@ impl QuietAmplitudes {
             (*low, *high) = (low.max(from), high.min(to));
         }
         Self { intervals }
+    }
+
+    /// The part in a range of the amplitudes that are quiet by averaging. Beyond the first change at which averaging does not describe
+    /// the contacts, nothing is quiet.
+    pub(super) fn by_averaging(
+        (from, to): (f64, f64),
+        quiet_without: bool,
+        changes: &[AveragedChange],
+    ) -> Self {
+        let end = changes.iter().find(|change| !change.holds);
+        let end = end.map(|change| (change.amplitude, false));
+        let valid = changes.iter().filter(|change| change.holds);
+        let valid = valid.map(|change| (change.amplitude, change.becomes_quiet));
+        let whole = Self::of_changes((0.0, to), quiet_without, valid.chain(end));
+        let inside =
+            whole.intervals().iter().flat_map(|(low, high)| [(*low, true), (*high, false)]);
+        let inside = inside.filter(|(at, quiet)| *quiet || *at < to);
+        Self::of_changes((from, to), false, inside)
+    }
+
+    /// The amplitudes that are quiet on a branch of base responses, from its thresholds (value, verdicts below and above it), the
+    /// largest multiplier of its first response, and its ending: beyond the end there is no base response that could be quiet.
+    pub(super) fn of_branch(
+        range: (f64, f64),
+        first_radius: Option<f64>,
+        thresholds: &[(f64, [Option<OrbitVerdict>; 2])],
+        ending: BranchEnding,
+    ) -> Self {
+        let stable = Some(OrbitVerdict::Stable);
+        let first = match (thresholds.first(), first_radius) {
+            (Some((_, [was, _])), _) => *was == stable,
+            (None, Some(radius)) => radius < 1.0,
+            (None, None) => false,
+        };
+        let changes = thresholds.iter().map(|(value, [_, becomes])| (*value, *becomes == stable));
+        let end = match ending {
+            BranchEnding::Covered => None,
+            BranchEnding::TurnedBack { at }
+            | BranchEnding::Touch { at }
+            | BranchEnding::Lost { at } => Some(at),
+            BranchEnding::LostTurning { furthest, .. } => Some(furthest),
+        };
+        Self::of_changes(range, first, changes.chain(end.map(|at| (at, false))))
     }
 
     /// The intervals.

@@ -26,7 +26,7 @@ Entries = Union["npt.ArrayLike", "Iterable[Iterable[Number]]"]
 """A matrix: a diagonal, or rows. An entry may be a formula of the study's parameters, as a text."""
 
 
-OTHER_TABLES = ("contact", "friction", "dither", "initial", "parameters", "axes", "title", "mode", "component")
+OTHER_TABLES = ("contact", "friction", "dither", "initial", "parameters", "design", "axes", "title", "mode", "component")
 """Arguments of a system that are tables of their own."""
 
 
@@ -363,6 +363,9 @@ class System(Study):
         "rest", "sliding", "squealing", "base", or a :class:`SystemInitial` [default: "rest"].
     parameters :
         Named numbers for formulas; a text in place of a number is a formula of them, such as ``stiffness=[[2, "1 - kappa"], …]``.
+    design :
+        The table ``[design]`` of :meth:`Study.design`, such as ``{"minimise": "amplitude", "vary": ["dither.amplitude"], "from": [0.01],
+        "to": [20], "over": {"contact.pad.belt_velocity": [0.05, 0.2]}}``.
     axes :
         Axes of a map: see :meth:`Study.map`.
     title :
@@ -442,6 +445,7 @@ class System(Study):
         dither: SystemDither | Iterable[SystemDither] | None = None,
         initial: Literal["rest", "sliding", "squealing", "base"] | SystemInitial | None = None,
         parameters: Mapping[str, Number] | None = None,
+        design: Mapping[str, Any] | None = None,
         axes: Axes | None = None,
         title: str | None = None,
         **unknown: Unknown,
@@ -459,6 +463,7 @@ class System(Study):
             contact=tables(contact),
             friction=friction,
             dither=tables(dither),
+            design=None if design is None else dict(design),
             sweep=axes_tables(axes),
         )
 

@@ -18,6 +18,8 @@ pub(super) fn define(definitions: &mut Map<String, Json>) {
         (SystemTable::Drive, &[]),
         (SystemTable::Load, &[]),
         (SystemTable::Envelope, &[]),
+        (SystemTable::Design, &["minimise", "vary", "from", "to"]),
+        (SystemTable::DesignLimits, &[]),
     ] {
         definitions.insert(name(which).to_owned(), table(which, required));
     }
@@ -44,6 +46,8 @@ fn name(which: SystemTable) -> &'static str {
         SystemTable::Drive => "contact_drive",
         SystemTable::Load => "contact_load",
         SystemTable::Envelope => "system_envelope",
+        SystemTable::Design => "system_design",
+        SystemTable::DesignLimits => "system_limits",
         SystemTable::Named => "parameters",
     }
 }
@@ -72,6 +76,8 @@ fn table(which: SystemTable, required: &[&str]) -> Json {
         SystemTable::Drive => "velocity of the surface over time",
         SystemTable::Load => "normal load over time",
         SystemTable::Envelope => "share of the amplitude over time",
+        SystemTable::Design => Section::Design.about(),
+        SystemTable::DesignLimits => Section::DesignLimits.about(),
         _ => "a friction contact",
     };
     let mut object = json!({
@@ -105,6 +111,9 @@ fn property(key: &SystemKey) -> Json {
         SystemRole::Names => {
             json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 })
         }
+        SystemRole::Numbers => super::list::numbers(),
+        SystemRole::Ranges => super::list::ranges(),
+        SystemRole::Choices(choice) => super::list::choices(choice),
         SystemRole::Choice(choice) => json!({ "enum": choice.names() }),
         SystemRole::Wave(wave) => super::waveform::property(wave),
         SystemRole::Course(course) => super::course::property(course, None),

@@ -1,13 +1,14 @@
 //! `[design]`: the least dither over a box of operating points.
 
 use quell_design::least_dither::{DesignObjective, DesignStart, LimitedQuantity};
+use quell_model::Waveform;
 use quell_model::parameter::Bounds;
 use quell_model::parameter::design::LIMITS;
-use quell_model::{Dither, Waveform};
 use serde_json::Value as Json;
 
 use super::document::{Node, Table, Value};
 use super::reader::{Found, Reader};
+use super::system::{CourseNumbers, resolve_in};
 use super::vocabulary::{self, Choice, Section, join};
 use crate::complaint::{Complaint, Fault};
 
@@ -39,12 +40,41 @@ pub struct Design {
     pub limits: Vec<(LimitedQuantity, f64)>,
 }
 
+/// The study whose dither is designed.
+#[derive(Clone, Copy)]
+pub(super) struct DesignContext<'a> {
+    /// The waveform of the study's dither.
+    pub(super) waveform: Option<&'a Waveform>,
+    /// Of a system its document and its numbers.
+    pub(super) system: Option<(&'a Table, CourseNumbers<'a>)>,
+}
+
+impl DesignContext<'_> {
+    /// The unit of the number that a path names, empty for a ratio.
+    ///
+    /// # Errors
+    /// The nearest path that names a number.
+    fn unit_of(self, path: &str) -> Result<&'static str, Option<String>> {
+        let unit = match self.system {
+            Some((document, _)) => resolve_in(document, path)?.unit,
+            None => match vocabulary::resolve(path) {
+                Ok(address) if address.key.takes_number() => {
+                    address.key.measured_in().unwrap_or_default()
+                }
+                Ok(_) => return Err(None),
+                Err(nearest) => return Err(nearest),
+            },
+        };
+        Ok(if unit == "1" { "" } else { unit })
+    }
+}
+
 /// Reads `[design]`: `Some(None)` without it, `None` if it is invalid.
 #[expect(clippy::option_option, reason = "invalid, absent, given")]
 pub(super) fn read(
     reader: &mut Reader,
     root: &Table,
-    dithers: Option<&[Dither]>,
+    context: DesignContext<'_>,
 ) -> Option<Option<Design>> {
     let Some(node) = root.get("design") else { return Some(None) };
     let table = reader.table("design", node)?;
@@ -56,10 +86,10 @@ pub(super) fn read(
         Some(node) => reader.choice("design.start", node, Choice::DesignStart),
         None => Some(DesignStart::Local.name()),
     };
-    let vary = varied(reader, table, node);
-    let over = operating_points(reader, table);
-    let waveforms = waveforms(reader, table, dithers);
-    let limits = limits(reader, table);
+    let vary = varied(reader, table, node, context);
+    let over = operating_points(reader, table, context);
+    let waveforms = waveforms(reader, table, context.waveform);
+    let limits = limits(reader, table, context);
     if let (Some(vary), Some(over)) = (&vary, &over)
         && let Some(both) =
             over.iter().find(|range| vary.iter().any(|known| known.path == range.path))
@@ -84,7 +114,12 @@ pub(super) fn read(
 }
 
 /// `vary`, `from` and `to`: lists of one length.
-fn varied(reader: &mut Reader, table: &Table, header: &Node) -> Option<Vec<DesignRange>> {
+fn varied(
+    reader: &mut Reader,
+    table: &Table,
+    header: &Node,
+    context: DesignContext<'_>,
+) -> Option<Vec<DesignRange>> {
     let mut list = |name: &str, what: &str| -> Option<Vec<Node>> {
         let key = join("design", name);
         let Some(node) = table.get(name) else {
@@ -122,7 +157,8 @@ fn varied(reader: &mut Reader, table: &Table, header: &Node) -> Option<Vec<Desig
     let mut ranges: Vec<Option<DesignRange>> = Vec::new();
     for (place, ((path, from), to)) in paths.iter().zip(&from).zip(&to).enumerate() {
         let key = format!("design.vary[{place}]");
-        let path = path_of(reader, &key, path);
+        let path =
+            reader.text(&key, path).and_then(|text| named(reader, &key, path, &text, context));
         let keys = [format!("design.from[{place}]"), format!("design.to[{place}]")];
         ranges.push(range(reader, path, [&keys[0], &keys[1]], [from, to]));
     }
@@ -130,7 +166,11 @@ fn varied(reader: &mut Reader, table: &Table, header: &Node) -> Option<Vec<Desig
 }
 
 /// `over`: ranges by path.
-fn operating_points(reader: &mut Reader, table: &Table) -> Option<Vec<DesignRange>> {
+fn operating_points(
+    reader: &mut Reader,
+    table: &Table,
+    context: DesignContext<'_>,
+) -> Option<Vec<DesignRange>> {
     let Some(node) = table.get("over") else { return Some(Vec::new()) };
     let over = reader.table("design.over", node)?.clone();
     if over.iter().next().is_none() {
@@ -144,7 +184,7 @@ fn operating_points(reader: &mut Reader, table: &Table) -> Option<Vec<DesignRang
     let mut ranges: Vec<Option<DesignRange>> = Vec::new();
     for (path, node) in over.iter() {
         let key = format!("design.over.\"{path}\"");
-        let named = named(reader, &key, node, path);
+        let named = named(reader, &key, node, path, context);
         let Value::List(list) = &node.value else {
             reader.wrong(
                 &key,
@@ -169,34 +209,36 @@ fn operating_points(reader: &mut Reader, table: &Table) -> Option<Vec<DesignRang
     ranges.into_iter().collect()
 }
 
-/// A path that names a number of the study.
-fn path_of(reader: &mut Reader, key: &str, node: &Node) -> Option<String> {
-    let path = reader.text(key, node)?;
-    named(reader, key, node, &path)
-}
-
-fn named(reader: &mut Reader, key: &str, node: &Node, path: &str) -> Option<String> {
-    let nearest = match vocabulary::resolve(path) {
-        Ok(address) if address.key.takes_number() => return Some(path.to_owned()),
-        Ok(_) => None,
+/// A path that names a number of the study, with the unit of the number.
+fn named(
+    reader: &mut Reader,
+    key: &str,
+    node: &Node,
+    path: &str,
+    context: DesignContext<'_>,
+) -> Option<(String, &'static str)> {
+    let nearest = match context.unit_of(path) {
+        Ok(unit) => return Some((path.to_owned(), unit)),
         Err(nearest) => nearest,
     };
     let allowed = "the path of a number in the study, such as \"dither.amplitude\"";
     let complaint = Complaint::new(Fault::Value, key, node.origin, path, allowed);
-    reader.complain(complaint.suggesting(nearest.map(|path| reader.in_system(&path))));
+    let nearest = nearest.map(|path| match context.system {
+        Some(_) => path,
+        None => reader.in_system(&path),
+    });
+    reader.complain(complaint.suggesting(nearest));
     None
 }
 
 /// A number with its range.
 fn range(
     reader: &mut Reader,
-    path: Option<String>,
+    named: Option<(String, &'static str)>,
     keys: [&str; 2],
     nodes: [&Node; 2],
 ) -> Option<DesignRange> {
-    let address = path.as_deref().and_then(|path| vocabulary::resolve(path).ok());
-    let unit = address.and_then(|address| address.key.measured_in()).filter(|unit| *unit != "1");
-    let unit = unit.unwrap_or_default();
+    let unit = named.as_ref().map_or("", |(_, unit)| unit);
     let mut end =
         |place: usize| reader.within(keys[place], nodes[place], Bounds::FINITE, unit, false);
     let (from, to) = (end(0), end(1));
@@ -205,16 +247,11 @@ fn range(
         reader.wrong(keys[1], nodes[1], format!("at least the smallest value, {from}"));
         return None;
     }
-    Some(DesignRange { path: path?, from, to })
+    Some(DesignRange { path: named?.0, from, to })
 }
 
 /// The waveforms that are tried in turn: named ones, and that of the dither.
-fn waveforms(
-    reader: &mut Reader,
-    table: &Table,
-    dithers: Option<&[Dither]>,
-) -> Option<Vec<Waveform>> {
-    let own = dithers.and_then(<[Dither]>::first).map(|dither| &dither.waveform);
+fn waveforms(reader: &mut Reader, table: &Table, own: Option<&Waveform>) -> Option<Vec<Waveform>> {
     let Some(node) = table.get("waveforms") else {
         return Some(own.into_iter().cloned().collect());
     };
@@ -252,14 +289,22 @@ fn waveforms(
 }
 
 /// `[design.limits]`.
-fn limits(reader: &mut Reader, table: &Table) -> Option<Vec<(LimitedQuantity, f64)>> {
+fn limits(
+    reader: &mut Reader,
+    table: &Table,
+    context: DesignContext<'_>,
+) -> Option<Vec<(LimitedQuantity, f64)>> {
     let Some(node) = table.get("limits") else { return Some(Vec::new()) };
     let prefix = Section::DesignLimits.path();
     let limits = reader.table(prefix, node)?;
     reader.unknown_keys(limits, Section::DesignLimits, prefix, &[]);
     let mut found = Vec::new();
     for (quantity, parameter) in LimitedQuantity::ALL.into_iter().zip(LIMITS) {
-        match reader.optional(limits, prefix, *parameter, None) {
+        let limit = match context.system {
+            Some((_, numbers)) => numbers.optional(reader, limits, prefix, *parameter),
+            None => reader.optional(limits, prefix, *parameter, None),
+        };
+        match limit {
             Found::Absent => {}
             Found::Wrong => return None,
             Found::Value(value) => found.push((quantity, value)),

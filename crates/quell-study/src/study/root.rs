@@ -26,7 +26,8 @@ pub(super) fn read(reader: &mut Reader, document: &Table, tables: &[&str]) -> Op
             continue;
         }
         if name == Section::Design.path() {
-            let allowed = "[design] is implemented for studies of a belt alone";
+            let allowed =
+                "[design] is implemented for belts and systems; a disc has `resonances --clear`";
             let complaint = Complaint::new(Fault::NotBuilt, name, node.origin, Json::Null, allowed);
             reader.complain(complaint);
             continue;

@@ -22,8 +22,8 @@ use crate::run::system::thresholds::{
 };
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
-    basins, bifurcation, curves, exact, found_attractor, measured, modes, orbit, reach, response,
-    simulate, stability, thresholds, tracked, waveforms,
+    basins, bifurcation, curves, design, exact, found_attractor, measured, modes, orbit, reach,
+    response, simulate, stability, thresholds, tracked, waveforms,
 };
 use crate::run::thresholds::ThresholdsRequest;
 use crate::run::window;
@@ -49,6 +49,7 @@ impl Verbs for SystemStudy {
             "attractor",
             "thresholds",
             "waveforms",
+            "design",
             "bifurcation",
             "basins",
             "resonances",
@@ -92,6 +93,10 @@ impl Verbs for SystemStudy {
 
     fn waveforms(&self) -> Reply {
         answer(self, waveforms::run(self))
+    }
+
+    fn design(&self) -> Reply {
+        answer(self, design::run(self))
     }
 
     fn modes(&self) -> Reply {

@@ -84,7 +84,7 @@ pub(super) fn axis_of(
 }
 
 /// The number at a path in words: "belt velocity of contact guide", "amplitude of dither[1]".
-fn name_of(path: &str) -> String {
+pub(super) fn name_of(path: &str) -> String {
     let mut parts = path.split('.').rev();
     let key = parts.next().unwrap_or_default().replace('_', " ");
     let places: Vec<&str> = parts.collect();

@@ -19,7 +19,8 @@ use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::refused_of_belt;
 use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
-use crate::study::{BeltStudy, DesignRange};
+use crate::run::system::in_units;
+use crate::study::{BeltStudy, Design, DesignRange, SystemStudy};
 use crate::words::{digits, in_words};
 
 /// A limit binds if at least this share of it is used.
@@ -59,25 +60,86 @@ pub struct LeastDitherFound {
     pub schedule: Vec<(f64, Option<f64>)>,
 }
 
-/// The least dither of a study.
+/// A study with a design: its units and what it requests.
+pub trait StudyWithDesign {
+    /// The table `[design]`.
+    fn asked(&self) -> Option<&Design>;
+
+    /// An empty answer in the units of the study.
+    fn fields(&self) -> Fields;
+
+    /// A quantity of the equations with its unit.
+    fn in_words(&self, quantity: Quantity, value: f64) -> String;
+}
+
+impl StudyWithDesign for BeltStudy {
+    fn asked(&self) -> Option<&Design> {
+        self.design()
+    }
+
+    fn fields(&self) -> Fields {
+        Fields::new(self.scales())
+    }
+
+    fn in_words(&self, quantity: Quantity, value: f64) -> String {
+        in_words(self, quantity, value)
+    }
+}
+
+impl StudyWithDesign for SystemStudy {
+    fn asked(&self) -> Option<&Design> {
+        self.design()
+    }
+
+    fn fields(&self) -> Fields {
+        Fields::of_system(self.units())
+    }
+
+    fn in_words(&self, quantity: Quantity, value: f64) -> String {
+        in_units(self.units(), quantity, value)
+    }
+}
+
+/// The numbers that a design chooses and over which it ranges.
+#[derive(Clone, Debug)]
+pub(crate) struct DesignNumbers {
+    pub(crate) amplitude: DesignNumber,
+    pub(crate) others: Vec<DesignNumber>,
+    pub(crate) over: Vec<DesignNumber>,
+}
+
+/// The table `[design]` of a study with a dither.
+///
+/// # Errors
+/// A complaint about what is missing.
+pub(crate) fn asked(study: &dyn StudyWithDesign, has_dither: bool) -> Result<&Design, Failure> {
+    let (key, allowed) = match study.asked() {
+        Some(design) if has_dither => return Ok(design),
+        Some(_) => {
+            ("dither", "given: its direction, frequency and waveform are where the design begins")
+        }
+        None => (
+            "design",
+            "a table [design] with minimise, vary, from and to: what is to be small, and over which numbers",
+        ),
+    };
+    Err(Complaint::new(Fault::Missing, key, Origin::Whole, Json::Null, allowed).into())
+}
+
+/// The complaint about `vary` without the amplitude of one dither.
+pub(crate) fn without_amplitude(asked: &Design, allowed: String) -> Failure {
+    let given: Vec<&str> = asked.vary.iter().map(|range| range.path.as_str()).collect();
+    Complaint::new(Fault::Value, "design.vary", Origin::Whole, given, allowed).into()
+}
+
+/// The least dither of a belt.
 ///
 /// # Errors
 /// A complaint about a study without `[design]` or a number in it; a contact with a state.
 pub fn run(study: &BeltStudy) -> Result<LeastDitherFound, Failure> {
     refused_of_belt(study, "design")?;
-    let Some(asked) = study.design() else {
-        let allowed = "a table [design] with minimise, vary, from and to: what is to be small, and over which numbers";
-        return Err(
-            Complaint::new(Fault::Missing, "design", Origin::Whole, Json::Null, allowed).into()
-        );
-    };
     let belt = study.belt();
-    if belt.dithers().is_empty() {
-        let allowed = "given: its direction, frequency and waveform are where the design begins";
-        return Err(
-            Complaint::new(Fault::Missing, "dither", Origin::Whole, Json::Null, allowed).into()
-        );
-    }
+    let asked = asked(study, !belt.dithers().is_empty())?;
     let (vary, over) = (numbers(study, "vary", &asked.vary)?, numbers(study, "over", &asked.over)?);
     let own = belt.dither_path(0, "amplitude");
     let is_own = |path: &str| path == own || path == "dither.amplitude";
@@ -87,19 +149,12 @@ pub fn run(study: &BeltStudy) -> Result<LeastDitherFound, Failure> {
         let allowed = format!(
             "a list with {own}, the amplitude of the first dither, once: the least one is sought"
         );
-        let given: Vec<&str> = asked.vary.iter().map(|range| range.path.as_str()).collect();
-        return Err(
-            Complaint::new(Fault::Value, "design.vary", Origin::Whole, given, allowed).into()
-        );
+        return Err(without_amplitude(asked, allowed));
     };
     let paths = |numbers: &[(String, DesignNumber)]| -> Vec<String> {
         numbers.iter().map(|(path, _)| path.clone()).collect()
     };
     let (over_paths, other_paths) = (paths(&over), paths(&others));
-    let only = |numbers: Vec<(String, DesignNumber)>| -> Vec<DesignNumber> {
-        numbers.into_iter().map(|(_, number)| number).collect()
-    };
-    let (over, others) = (only(over), only(others));
     let plant = |waveform: &Waveform| -> Result<BeltPlant, Failure> {
         let belt = with_waveform(belt, waveform).map_err(|why| failed(why.to_string()))?;
         let (over, others) = (over_paths.clone(), other_paths.clone());
@@ -110,11 +165,26 @@ pub fn run(study: &BeltStudy) -> Result<LeastDitherFound, Failure> {
         .iter()
         .map(|waveform| Ok((waveform.clone(), plant(waveform)?)))
         .collect::<Result<_, Failure>>()?;
+    let only = |numbers: Vec<(String, DesignNumber)>| -> Vec<DesignNumber> {
+        numbers.into_iter().map(|(_, number)| number).collect()
+    };
+    let numbers =
+        DesignNumbers { amplitude: amplitude.clone(), others: only(others), over: only(over) };
+    Ok(least_dither(asked, numbers, &plants))
+}
+
+/// The least dither of the waveforms of a study, each with its structure.
+pub(crate) fn least_dither<P: Plant + Sync>(
+    asked: &Design,
+    numbers: DesignNumbers,
+    plants: &[(Waveform, P)],
+) -> LeastDitherFound {
+    let DesignNumbers { amplitude, others, over } = numbers;
     let ranges = |numbers: &[DesignNumber]| -> Vec<(f64, f64)> {
         numbers.iter().map(|number| number.range).collect()
     };
     let (box_ranges, other_ranges) = (ranges(&over), ranges(&others));
-    let designed = |(waveform, plant): &(Waveform, BeltPlant)| {
+    let designed = |(waveform, plant): &(Waveform, P)| {
         let problem = DesignProblem {
             plant,
             objective: asked.minimise,
@@ -140,12 +210,12 @@ pub fn run(study: &BeltStudy) -> Result<LeastDitherFound, Failure> {
         }
         _ => Vec::new(),
     };
-    Ok(LeastDitherFound { amplitude: amplitude.clone(), others, over, waveforms, best, schedule })
+    LeastDitherFound { amplitude, others, over, waveforms, best, schedule }
 }
 
 /// The least amplitude at single operating points, by averaging.
 fn schedule(
-    plant: &BeltPlant,
+    plant: &dyn Plant,
     (low, high): (f64, f64),
     others: &[f64],
     range: (f64, f64),
@@ -264,9 +334,9 @@ impl LeastDitherFound {
     }
 
     /// The answer in a few sentences.
-    pub fn sentence(&self, study: &BeltStudy) -> String {
+    pub fn sentence(&self, study: &dyn StudyWithDesign) -> String {
         let waveform = label(self.waveform());
-        let force = |value: f64| in_words(study, Quantity::Force, value);
+        let force = |value: f64| study.in_words(Quantity::Force, value);
         let chosen = |others: &[f64]| -> String {
             let values = self.others.iter().zip(others);
             values.fold(String::new(), |mut text, (number, value)| {
@@ -329,12 +399,12 @@ impl LeastDitherFound {
     }
 
     /// Why there is no dither.
-    fn why(&self, study: &BeltStudy, none: &InfeasibleDesign) -> String {
+    fn why(&self, study: &dyn StudyWithDesign, none: &InfeasibleDesign) -> String {
         match &none.why {
             NoDesign::NeverQuiet { point } => format!(
                 "no amplitude from {} to {} of those that the other operating points need is quiet{}",
-                in_words(study, Quantity::Force, self.amplitude.range.0),
-                in_words(study, Quantity::Force, self.amplitude.range.1),
+                study.in_words(Quantity::Force, self.amplitude.range.0),
+                study.in_words(Quantity::Force, self.amplitude.range.1),
                 self.point_in_words(point)
             ),
             NoDesign::Limit { quantity, used, point } => {
@@ -363,7 +433,7 @@ impl LeastDitherFound {
     }
 
     /// Warnings: waveforms without an answer, and minima that were searched.
-    pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
+    pub fn warnings(&self, study: &dyn StudyWithDesign) -> Vec<String> {
         let mut warnings = Vec::new();
         for (waveform, designed) in &self.waveforms {
             if let (Err(none), true) = (&designed.answer, self.waveforms.len() > 1) {
@@ -388,11 +458,10 @@ impl LeastDitherFound {
     }
 
     /// As JSON.
-    pub fn json(&self, study: &BeltStudy) -> Json {
-        let scales = study.scales();
-        let asked = study.design();
+    pub fn json(&self, study: &dyn StudyWithDesign) -> Json {
+        let asked = study.asked();
         let minimise = asked.map_or(DesignObjective::Amplitude, |asked| asked.minimise);
-        let mut fields = Fields::new(scales);
+        let mut fields = study.fields();
         fields.plain("ok", true).plain("sentence", self.sentence(study));
         fields.plain("feasible", self.answer().answer.is_ok());
         fields.plain("waveform", self.waveform().name()).plain("minimise", minimise.name());
@@ -401,14 +470,14 @@ impl LeastDitherFound {
             Err(none) => self.put_infeasible(&mut fields, study, none),
         }
         let basins = self.answer().basins.iter().map(|basin| {
-            let mut inner = Fields::new(scales);
+            let mut inner = study.fields();
             inner.plain("parameters", self.by_path(basin.amplitude, &basin.others));
             inner.number("objective", quantity_of(minimise), basin.objective);
             inner
         });
         fields.list("basins", basins.collect::<Vec<_>>());
         let rows = self.waveforms.iter().map(|(waveform, designed)| {
-            let mut inner = Fields::new(scales);
+            let mut inner = study.fields();
             inner.plain("waveform", waveform.name()).plain("feasible", designed.answer.is_ok());
             let objective = match &designed.answer {
                 Ok(found) => found.critical.objective.clone(),
@@ -425,7 +494,7 @@ impl LeastDitherFound {
     fn put_feasible(
         &self,
         fields: &mut Fields,
-        study: &BeltStudy,
+        study: &dyn StudyWithDesign,
         found: &FeasibleDesign,
         minimise: DesignObjective,
     ) {
@@ -442,8 +511,8 @@ impl LeastDitherFound {
             None => fields.unknown("worst", "the smallest allowed amplitude is quiet everywhere"),
         };
         fields.number("margin", Quantity::Ratio, MARGIN);
-        let start = study.design().map_or("local", |asked| asked.start.name());
-        let mut inner = Fields::new(study.scales());
+        let start = study.asked().map_or("local", |asked| asked.start.name());
+        let mut inner = study.fields();
         inner.plain("protocol", start);
         if let Some(first) = verified.first() {
             inner.number("multiplier", Quantity::Ratio, first.multiplier);
@@ -457,7 +526,7 @@ impl LeastDitherFound {
             friction_loss.as_ref().map(|(loss, _)| *loss).map_err(Clone::clone),
         );
         let used = critical.used.iter().map(|(quantity, used)| {
-            let mut inner = Fields::new(study.scales());
+            let mut inner = study.fields();
             inner.plain("limit", quantity.name()).known("used", Quantity::Ratio, used.clone());
             inner
         });
@@ -465,7 +534,12 @@ impl LeastDitherFound {
         fields.list("frontier", self.frontier(study));
     }
 
-    fn put_infeasible(&self, fields: &mut Fields, study: &BeltStudy, none: &InfeasibleDesign) {
+    fn put_infeasible(
+        &self,
+        fields: &mut Fields,
+        study: &dyn StudyWithDesign,
+        none: &InfeasibleDesign,
+    ) {
         let why = self.why(study, none);
         for name in ["critical", "averaged", "objective"] {
             fields.unknown(name, why.clone());
@@ -491,8 +565,8 @@ impl LeastDitherFound {
     }
 
     /// The objective against each limit, from the choices that were tried by averaging.
-    fn frontier(&self, study: &BeltStudy) -> Vec<Fields> {
-        let Some(asked) = study.design() else { return Vec::new() };
+    fn frontier(&self, study: &dyn StudyWithDesign) -> Vec<Fields> {
+        let Some(asked) = study.asked() else { return Vec::new() };
         let mut rows = Vec::new();
         for (place, (quantity, limit)) in asked.limits.iter().enumerate() {
             for share in FRONTIER {
@@ -507,7 +581,7 @@ impl LeastDitherFound {
                 let least = tried
                     .filter_map(|point| point.objective.clone().ok())
                     .fold(f64::INFINITY, f64::min);
-                let mut inner = Fields::new(study.scales());
+                let mut inner = study.fields();
                 inner.plain("limit", quantity.name());
                 let value = if *quantity == LimitedQuantity::MinimumNormalLoad {
                     limit / share

@@ -17,7 +17,7 @@ use quell_model::units::{Quantity, Scales};
 use quell_model::{Belt, Dither, Friction, LawKind};
 
 use super::StudyOf;
-use super::design::{self, Design};
+use super::design::{self, Design, DesignContext};
 use super::disc::DiscSetup;
 use super::document::Table;
 use super::reader::{CourseFile, Reader};
@@ -86,7 +86,10 @@ impl StudyKind for BeltSetup {
             friction.map_or((None, None), |read| (Some(read.law), read.measured));
         let solver = solver::read(reader, document);
         let band = band::read(reader, document);
-        let design = design::read(reader, document, dithers.as_deref());
+        let first = dithers.as_deref().and_then(<[Dither]>::first);
+        let context =
+            DesignContext { waveform: first.map(|dither| &dither.waveform), system: None };
+        let design = design::read(reader, document, context);
         let initial = belt.initial;
         table::slider_has_one_state(reader, document, friction.as_ref());
         let built = build(reader, belt, friction, dithers);

@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use quell_model::parameter::design::LIMITS;
 use quell_model::parameter::system::{
     CONTACT_BELT_VELOCITY, CONTACT_NORMAL_DAMPING, CONTACT_NORMAL_LOAD, CONTACT_NORMAL_STIFFNESS,
     CONTACT_TANGENTIAL_STIFFNESS, SYSTEM_DITHER_FREQUENCY, SYSTEM_MODAL_MASS, SYSTEM_MODE_DAMPING,
@@ -12,7 +13,7 @@ use quell_model::units::Quantity;
 
 use crate::study::document::Table;
 use crate::study::vocabulary::{
-    Choice, CourseKey, CourseTable, DRIVE, ENVELOPE, LOAD, WAVE_KEYS, WaveKey,
+    self, Choice, CourseKey, CourseTable, DRIVE, ENVELOPE, LOAD, Role, Section, WAVE_KEYS, WaveKey,
 };
 
 /// Whether a document is the study of a system.
@@ -24,8 +25,17 @@ pub(in crate::study) fn is_described(document: &Table) -> bool {
 pub(in crate::study) const OTHER_KINDS: &[&str] = &["belt", "disc"];
 
 /// The tables of a study of a system.
-pub(in crate::study) const TABLES: &[&str] =
-    &["schema", "title", "system", "contact", "friction", "dither", "parameters", "sweep"];
+pub(in crate::study) const TABLES: &[&str] = &[
+    "schema",
+    "title",
+    "system",
+    "contact",
+    "friction",
+    "dither",
+    "parameters",
+    "design",
+    "sweep",
+];
 
 /// A table of a study of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,6 +62,10 @@ pub enum SystemTable {
     Load,
     /// `[dither.envelope]`.
     Envelope,
+    /// `[design]`.
+    Design,
+    /// `[design.limits]`.
+    DesignLimits,
     /// `[parameters]` or the constants of a formula: names that the study chooses.
     Named,
 }
@@ -67,8 +81,14 @@ pub enum SystemRole {
     Row(Option<Quantity>),
     /// Names of coordinates or states.
     Names,
+    /// Numbers, each in the unit of another key.
+    Numbers,
+    /// Ranges of numbers by their paths.
+    Ranges,
     /// A word from a list.
     Choice(Choice),
+    /// Several words from a list.
+    Choices(Choice),
     /// Free text.
     Text,
     /// `true` or `false`.
@@ -143,6 +163,8 @@ pub fn system_keys(table: SystemTable) -> &'static [SystemKey] {
         SystemTable::Drive => &DRIVE_KEYS,
         SystemTable::Load => &LOAD_KEYS,
         SystemTable::Envelope => &ENVELOPE_KEYS,
+        SystemTable::Design => &DESIGN_KEYS,
+        SystemTable::DesignLimits => &LIMIT_KEYS,
         SystemTable::Friction | SystemTable::Named => &[],
     }
 }
@@ -162,6 +184,26 @@ static DRIVE_KEYS: LazyLock<Vec<SystemKey>> = LazyLock::new(|| course(DRIVE));
 static LOAD_KEYS: LazyLock<Vec<SystemKey>> = LazyLock::new(|| course(LOAD));
 static ENVELOPE_KEYS: LazyLock<Vec<SystemKey>> = LazyLock::new(|| course(ENVELOPE));
 
+/// The keys of a design, as those of a belt.
+fn design() -> Vec<SystemKey> {
+    let keys = vocabulary::keys_of(Section::Design).map(|known| {
+        let role = match known.role {
+            Role::Choice(choice) => SystemRole::Choice(choice),
+            Role::Choices(choice) => SystemRole::Choices(choice),
+            Role::AxisValues => SystemRole::Numbers,
+            Role::Ranges => SystemRole::Ranges,
+            _ => SystemRole::Names,
+        };
+        key(known.name, role, known.about)
+    });
+    let limits = SystemRole::Table(SystemTable::DesignLimits);
+    keys.chain([key("limits", limits, Section::DesignLimits.about())]).collect()
+}
+
+static DESIGN_KEYS: LazyLock<Vec<SystemKey>> = LazyLock::new(design);
+static LIMIT_KEYS: LazyLock<Vec<SystemKey>> =
+    LazyLock::new(|| LIMITS.iter().map(|limit| number(*limit, limit.key())).collect());
+
 const ROOT: &[SystemKey] = &[
     key("system", SystemRole::Table(SystemTable::System), "the linear structure"),
     key("contact", SystemRole::Tables(SystemTable::Contact), "a friction contact"),
@@ -171,6 +213,11 @@ const ROOT: &[SystemKey] = &[
         "parameters",
         SystemRole::Table(SystemTable::Named),
         "named numbers for formulas: numbers, or formulas of other parameters",
+    ),
+    key(
+        "design",
+        SystemRole::Table(SystemTable::Design),
+        "the least dither over a box of operating points",
     ),
 ];
 

@@ -37,6 +37,7 @@ use quell_model::{Belt, Invalid, Parametrisation, System};
 use serde_json::Value as Json;
 
 use super::StudyOf;
+use super::design::Design;
 use super::document::{Node, Table, Value};
 use super::reader::{CourseFile, Reader};
 use super::study_kind::{Given, StudyKind};
@@ -152,6 +153,16 @@ impl SystemStudy {
         self.kind().belt.as_deref()
     }
 
+    /// The design that the study requests.
+    pub fn design(&self) -> Option<&Design> {
+        self.kind().design.as_ref()
+    }
+
+    /// The dither, counted from 0, whose amplitude a path names; `None` for any other number.
+    pub fn dither_of(&self, path: &str) -> Option<usize> {
+        path::amplitude_of(&self.source.document, path)
+    }
+
     /// Where a run begins.
     pub fn initial(&self) -> &SystemStart {
         &self.kind().initial
@@ -184,6 +195,7 @@ impl SystemStudy {
         }
         let mut document = self.source.document.clone();
         document.remove("sweep");
+        document.remove("design");
         for (path, value) in numbers {
             let node = Node { value: Value::Number(*value), origin: Origin::Whole };
             set(&mut document, path, &node)?;

@@ -13,7 +13,7 @@ use super::keys::{SystemTable, system_keys, twin};
 use super::units::SystemUnits;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
-use crate::study::reader::Reader;
+use crate::study::reader::{Found, Reader};
 use crate::study::suggest;
 use crate::study::vocabulary::join;
 
@@ -265,6 +265,21 @@ impl CourseNumbers<'_> {
     /// The unit of a key in the units of the file.
     pub(in crate::study) fn factor(self, quantity: Quantity, twin: bool) -> f64 {
         self.0.file_units(WantedNumber { quantity: Some(quantity), bounds: Bounds::FINITE, twin })
+    }
+
+    /// A number of the registry in the units of the file, if it is given.
+    pub(in crate::study) fn optional(
+        self,
+        reader: &mut Reader,
+        table: &Table,
+        prefix: &str,
+        parameter: Parameter,
+    ) -> Found {
+        match self.0.optional(reader, table, prefix, parameter) {
+            Ok(Some(value)) => Found::Value(value),
+            Ok(None) => Found::Absent,
+            Err(Reported) => Found::Wrong,
+        }
     }
 
     /// A number in the units of the file.

@@ -5,6 +5,7 @@
 
 use std::fmt::Write as _;
 
+use quell_model::parameter::DITHER_AMPLITUDE;
 use quell_model::units::Quantity;
 
 use super::found::{PathStep, node_at};
@@ -60,6 +61,20 @@ pub fn resolve_in(document: &Table, path: &str) -> Result<SystemAddress, Option<
         quantity: found.quantity,
         twin: found.twin,
     })
+}
+
+/// The dither, counted from 0, whose amplitude a path names; `None` for any other number.
+pub(in crate::study) fn amplitude_of(document: &Table, path: &str) -> Option<usize> {
+    let found = follow(document, path).ok()?;
+    let (PathStep::Key(last), steps) = found.steps.split_last()? else { return None };
+    if found.parameter.map(|parameter| parameter.path) != Some(DITHER_AMPLITUDE.path) {
+        return None;
+    }
+    match (last.starts_with(DITHER_AMPLITUDE.key()), steps) {
+        (true, [PathStep::Key(table)]) if table == "dither" => Some(0),
+        (true, [PathStep::Key(table), PathStep::Index(index)]) if table == "dither" => Some(*index),
+        _ => None,
+    }
 }
 
 /// The unit to which values of a path are converted.

@@ -3,7 +3,8 @@
 use crate::study::wave_file::WaveFiles;
 use std::sync::Arc;
 
-use quell_model::{Contact, System};
+use quell_model::system::Input;
+use quell_model::{Contact, System, Waveform};
 use serde_json::Value as Json;
 
 use super::contact::{self, ContactContext};
@@ -12,13 +13,15 @@ use super::frequency_response::{self, FrequencyResponse};
 use super::keys::{OTHER_KINDS, SystemTable};
 use super::modes::{self, ModesContext};
 use super::modes_file::ModeList;
-use super::numbers::{Numbers, missing, unknown_keys};
+use super::numbers::{CourseNumbers, Numbers, missing, unknown_keys};
+use super::path::amplitude_of;
 use super::setup::SystemSetup;
 use super::structure::{self, ReadStructure};
 use super::units::SystemUnits;
 use super::{initial, parameters, plausible, unused};
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::Table;
+use crate::study::design::{self, DesignContext};
+use crate::study::document::{Table, Value};
 use crate::study::reader::Reader;
 use crate::study::study_kind::Given;
 use crate::study::vocabulary::Choice;
@@ -74,6 +77,11 @@ pub(super) fn study(
     let known = given.known.map_or(&[][..], |setup| &setup.waves);
     let mut files = WaveFiles::new(given.folder, known);
     let inputs = dither::read(reader, document, context, &mut files);
+    let context = DesignContext {
+        waveform: inputs.as_deref().and_then(|inputs| designed_wave(document, inputs)),
+        system: Some((document, CourseNumbers(&numbers))),
+    };
+    let design = design::read(reader, document, context);
     let observe = initial::observe(reader, table, &numbers, &basis);
     let initial = initial::read(reader, table, &numbers, &basis, first_order);
     let (structure, contacts, inputs) = (structure?, contacts?, inputs?);
@@ -96,9 +104,21 @@ pub(super) fn study(
         waves: files.into_found().into(),
         response,
         courses: reader.take_files(),
+        design: design?,
         time: None,
         belt: None,
     })
+}
+
+/// The waveform of the dither whose amplitude `[design]` chooses.
+fn designed_wave<'i>(document: &Table, inputs: &'i [Input]) -> Option<&'i Waveform> {
+    let design = document.get("design")?.table()?;
+    let Value::List(paths) = &design.get("vary")?.value else { return None };
+    let input = paths.iter().find_map(|node| match &node.value {
+        Value::Text(path) => amplitude_of(document, path),
+        _ => None,
+    });
+    inputs.get(input?)?.profile.waves().first().map(|wave| &wave.waveform)
 }
 
 /// A system, and whether its structure is measured.

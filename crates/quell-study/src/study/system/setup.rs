@@ -10,6 +10,7 @@ use super::modes_file::ModeList;
 use super::numbers::Numbers;
 use super::units::SystemUnits;
 use crate::study::belt::friction::Measured;
+use crate::study::design::Design;
 use crate::study::reader::CourseFile;
 use crate::study::wave_file::WaveFile;
 
@@ -30,6 +31,8 @@ pub struct SystemSetup {
     pub(super) response: Option<Arc<FrequencyResponse>>,
     /// Files of drives, loads and envelopes.
     pub(super) courses: Arc<[CourseFile]>,
+    /// The design that is requested.
+    pub(super) design: Option<Design>,
     /// Time of numbers without units in seconds; `None` where the study does not determine it.
     pub(super) time: Option<ScaledTime>,
     /// The belt whose numbers are the parameters, where the system is that of a belt.
@@ -76,6 +79,7 @@ impl From<DescribedSystem> for SystemSetup {
             modes: Arc::default(),
             response: None,
             courses: Arc::default(),
+            design: None,
             time,
             belt: belt.map(Arc::new),
         }

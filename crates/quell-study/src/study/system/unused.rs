@@ -19,6 +19,7 @@ const WORDS: &[&str] = &[
     "frequency_response",
     "normalisation",
     "sweep",
+    "design",
 ];
 
 /// The warning about parameters that are used nowhere in a document, not even by another parameter.

@@ -9,6 +9,7 @@ pub mod check;
 pub mod curves;
 pub mod cycle;
 pub mod cycle_samples;
+pub mod design;
 pub mod exact;
 pub mod found_attractor;
 pub mod history;

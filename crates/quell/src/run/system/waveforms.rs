@@ -1,18 +1,14 @@
 //! `waveforms` of a system: the least first dither of each waveform that quenches by averaging, and its cost.
 //!
-//! The cost is that of the sliding structure without the slope of friction ([`quell_linear::harmonic`]) at the driven point, exact
+//! The cost is that of the sliding structure without the slope of friction ([`quell_linear::input_cost`]) at the driven point, exact
 //! for every waveform: the stroke of bᵀq, the largest velocity, and the mean power ⟨u bᵀq̇⟩ of a force b u(t).
 
-use quell_dynamics::motion::NoPower;
 use quell_linear::averaging::{Becomes, DitheredSystem};
 use quell_linear::growth::Verdict;
-use quell_linear::harmonic::DrivenEquations;
-use quell_linear::linear_cost::LinearCost;
+use quell_linear::input_cost::input_cost;
 use quell_linear::linearised::Linearised;
-use quell_linear::periodic_response::ResponseToWave;
 use quell_linear::spectrum::spectrum;
 use quell_model::profile::{Profile, Wave};
-use quell_model::system::{Input, InputTarget};
 use quell_model::units::Quantity;
 use quell_model::{System, Waveform};
 use rayon::prelude::*;
@@ -139,7 +135,8 @@ fn least(
         return Err("a contact would open at the least amplitude".to_owned());
     }
     let acting = Wave { amplitude: critical.amplitude, ..wave };
-    let cost = cost(&changed.inputs[0], &changed, sliding, &acting);
+    let cost = input_cost(&changed, sliding, &changed.inputs[0].target, &acting);
+    let cost = cost.map_err(|why| why.to_string());
     Ok(LeastInput {
         amplitude: critical.amplitude,
         until: found[place..]
@@ -150,38 +147,6 @@ fn least(
         stroke: cost.clone().map(|cost| cost.stroke),
         velocity: cost.clone().map(|cost| cost.velocity),
         power: cost.map(|cost| cost.power),
-    })
-}
-
-/// Stroke and largest velocity of the driven point, and mean power of a wave.
-fn cost(
-    input: &Input,
-    system: &System,
-    sliding: &Linearised,
-    wave: &Wave,
-) -> Result<LinearCost, String> {
-    let InputTarget::Force(row) = &input.target else {
-        return Err(
-            "this dither modulates the load of a contact: it has no stroke of its own".to_owned()
-        );
-    };
-    if sliding.matrices().is_none() {
-        return Err(NoPower::FirstOrder.why().to_owned());
-    }
-    let equations = DrivenEquations::new(system, sliding, &input.target)
-        .ok_or("the mass of the structure is singular")?;
-    let [along, rate] = [0, 1].map(|order| equations.over_state(row, order));
-    let nothing = vec![0.0; along.len()];
-    let response =
-        ResponseToWave::new(&equations.matrix, &equations.source, &wave.waveform, wave.frequency)
-            .map_err(|why| why.to_string())?;
-    let outputs = response.outputs(&[(&along, 0.0), (&rate, 0.0), (&nothing, 1.0)]);
-    let [[least, largest], [slowest, fastest]] = [0, 1].map(|output| outputs[output].range());
-    let amplitude = wave.amplitude.abs();
-    Ok(LinearCost {
-        stroke: amplitude * (largest - least),
-        velocity: amplitude * fastest.max(-slowest),
-        power: amplitude * amplitude * outputs[1].mean_of_product(&outputs[2]),
     })
 }
 

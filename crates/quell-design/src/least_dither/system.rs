@@ -1,0 +1,142 @@
+//! Any linear structure with friction contacts as one whose dither is designed.
+
+use quell_dynamics::motion::orbit::{MotionOrbit, base_motion, motion_thresholds};
+use quell_dynamics::motion::{ContactMeter, MOTION_TOLERANCE, Motion, MotionStart};
+use quell_dynamics::orbit::OrbitVerdict;
+use quell_linear::averaging::{Becomes, DitheredSystem};
+use quell_linear::growth::Verdict;
+use quell_linear::input_cost::input_cost;
+use quell_linear::linearised::Linearised;
+use quell_model::System;
+use quell_model::profile::Wave;
+
+use super::quiet::AveragedChange;
+use super::{DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
+
+/// Steps of the continuation over a range of amplitudes.
+const STEPS: u32 = 8;
+
+/// Steps by which the dither grows from zero to a verified base response.
+const GROWTH_STEPS: u32 = 8;
+
+/// A system at an operating point with an amplitude of the dither that is designed, or why it is no valid system.
+pub type SystemAtPoint<'a> = dyn Fn(OperatingPoint<'_>, f64) -> Result<System, String> + Sync + 'a;
+
+/// A system one of whose dithers is designed, judged by small motions: averaged sliding, then the multipliers of the base response.
+#[derive(Clone, Copy)]
+pub struct SystemPlant<'a> {
+    /// The system at an operating point with an amplitude.
+    pub at: &'a SystemAtPoint<'a>,
+    /// The input whose dither is designed, counted from 0.
+    pub input: usize,
+}
+
+fn in_words(why: impl std::fmt::Display) -> String {
+    why.to_string()
+}
+
+impl SystemPlant<'_> {
+    fn wave(&self, system: &System) -> Result<Wave, String> {
+        let input = system.inputs.get(self.input);
+        let wave = input.and_then(|input| input.profile.waves().first());
+        wave.cloned().ok_or_else(|| "the dither that is designed does not act".to_owned())
+    }
+
+    /// The base response under an amplitude.
+    fn base(system: &System) -> Result<MotionOrbit, String> {
+        base_motion(system, GROWTH_STEPS).map_err(in_words)
+    }
+
+    /// The largest share of the friction of steady sliding that a contact loses, from the mean friction of every contact.
+    fn largest_loss(
+        linear: &Linearised,
+        mean_friction: impl Iterator<Item = f64>,
+    ) -> Result<f64, String> {
+        let steady = linear.friction();
+        let known = steady.iter().zip(mean_friction).filter(|(steady, _)| steady.force != 0.0);
+        known
+            .map(|(steady, mean)| 1.0 - mean / steady.force)
+            .max_by(f64::total_cmp)
+            .ok_or_else(|| "no contact has friction in steady sliding".to_owned())
+    }
+}
+
+impl Plant for SystemPlant<'_> {
+    fn averaged(
+        &self,
+        at: OperatingPoint<'_>,
+        range: (f64, f64),
+    ) -> Result<QuietAmplitudes, String> {
+        let system = (self.at)(at, range.1)?;
+        let prepared = DitheredSystem::new(&system).map_err(in_words)?;
+        let without = prepared.average_with(Some((self.input, 0.0))).map_err(in_words)?;
+        let without = without.growth().map_err(in_words)?.verdict();
+        let found = prepared.critical_amplitudes(self.input).map_err(in_words)?;
+        let changes: Vec<_> = found
+            .iter()
+            .map(|critical| AveragedChange {
+                amplitude: critical.amplitude,
+                becomes_quiet: critical.becomes == Becomes::Stable,
+                holds: critical.contacts_stay_closed && critical.within_laws,
+            })
+            .collect();
+        Ok(QuietAmplitudes::by_averaging(range, without == Verdict::Stable, &changes))
+    }
+
+    fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {
+        let system = |values: &[f64]| (self.at)(at, values[0]);
+        let found = motion_thresholds(&system, range, STEPS, None).map_err(in_words)?;
+        let thresholds: Vec<_> = found
+            .thresholds
+            .iter()
+            .map(|threshold| (threshold.value, [threshold.was, threshold.becomes]))
+            .collect();
+        let radius = found.branch.first().map(|response| response.radius);
+        Ok(QuietAmplitudes::of_branch(range, radius, &thresholds, found.ending))
+    }
+
+    fn verdict(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<ExactVerdict, String> {
+        let orbit = Self::base(&(self.at)(at, amplitude)?)?;
+        Ok(ExactVerdict {
+            quiet: orbit.verdict() == OrbitVerdict::Stable,
+            multiplier: orbit.radius(),
+        })
+    }
+
+    fn price(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<DitherPrice, String> {
+        let system = (self.at)(at, amplitude)?;
+        let sliding = Linearised::new(&system).map_err(in_words)?;
+        let wave = self.wave(&system)?;
+        let target = &system.inputs[self.input].target;
+        let cost = input_cost(&system, &sliding, target, &wave).map_err(in_words)?;
+        Ok(DitherPrice { stroke: cost.stroke, velocity: cost.velocity, power: cost.power })
+    }
+
+    fn averaged_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+        let system = (self.at)(at, amplitude)?;
+        let prepared = DitheredSystem::new(&system).map_err(in_words)?;
+        let average = prepared.average().map_err(in_words)?;
+        let means = average.contacts.iter().map(|contact| contact.friction);
+        Self::largest_loss(prepared.sliding(), means)
+    }
+
+    fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+        let system = (self.at)(at, amplitude)?;
+        let orbit = Self::base(&system)?;
+        let motion = Motion::new(&system).map_err(in_words)?;
+        let mut meter = ContactMeter::new(system.contacts.len());
+        let start = MotionStart { time: 0.0, state: orbit.state.clone() };
+        motion.run(&start, orbit.period, MOTION_TOLERANCE, &mut meter).map_err(in_words)?;
+        let means = meter.means().ok_or("the base response has no period")?;
+        let linear = Linearised::new(&system.undithered()).map_err(in_words)?;
+        Self::largest_loss(&linear, means.iter().map(|means| means.friction))
+    }
+
+    fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+        let system = (self.at)(at, amplitude)?;
+        let prepared = DitheredSystem::new(&system).map_err(in_words)?;
+        let average = prepared.average().map_err(in_words)?;
+        let least = average.contacts.iter().map(|found| found.normal_load - found.load_amplitude);
+        least.min_by(f64::total_cmp).ok_or_else(|| "the system has no contact".to_owned())
+    }
+}

@@ -1,0 +1,22 @@
+//! The schemas of lists and ranges, in studies of every kind.
+
+use serde_json::{Value as Json, json};
+
+use crate::study::vocabulary::Choice;
+
+/// Several words from a list.
+pub(super) fn choices(choice: Choice) -> Json {
+    json!({ "type": "array", "items": { "enum": choice.names() } })
+}
+
+/// At least one number.
+pub(super) fn numbers() -> Json {
+    json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 })
+}
+
+/// Smallest and largest values by paths.
+pub(super) fn ranges() -> Json {
+    let range =
+        json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 });
+    json!({ "type": "object", "additionalProperties": range, "minProperties": 1 })
+}

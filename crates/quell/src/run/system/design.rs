@@ -1,0 +1,100 @@
+//! `design` of a system: the least amplitude of one of its dithers that is quiet over a box of operating points, under limits.
+
+use quell_design::least_dither::{DesignStart, OperatingPoint, SystemAtPoint, SystemPlant};
+use quell_model::profile::{Profile, Wave};
+use quell_model::{System, Waveform};
+
+use super::has_equations;
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::run::design::{
+    DesignNumber, DesignNumbers, LeastDitherFound, asked, least_dither, without_amplitude,
+};
+use crate::study::{DesignRange, SystemStudy};
+
+/// The least dither of a system.
+///
+/// # Errors
+/// A complaint about a study without `[design]` or without equations, about a number in it, a start other than `local`, and a
+/// contact with a state.
+pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
+    has_equations(study, "design")?;
+    let asked = asked(study, !study.system().inputs.is_empty())?;
+    if asked.start != DesignStart::Local {
+        let allowed = "\"local\": for a system the base response and its multipliers decide; `thresholds --from-rest` and \
+                       `--from-squeal` judge runs from afar";
+        let name = asked.start.name();
+        return Err(
+            Complaint::new(Fault::Conflict, "design.start", Origin::Whole, name, allowed).into()
+        );
+    }
+    let is_amplitude = |range: &&DesignRange| study.dither_of(&range.path).is_some();
+    let (amplitude, others): (Vec<_>, Vec<_>) = asked.vary.iter().partition(is_amplitude);
+    let [amplitude] = amplitude.as_slice() else {
+        let allowed = "a list with the amplitude of one dither, such as dither.amplitude: the least one is sought";
+        return Err(without_amplitude(asked, allowed.to_owned()));
+    };
+    let input = study.dither_of(&amplitude.path).unwrap_or(0);
+    accepted(study, "vary", &asked.vary)?;
+    accepted(study, "over", &asked.over)?;
+    let at = |waveform: &Waveform, at: OperatingPoint<'_>, value: f64| -> Result<System, String> {
+        let over = asked.over.iter().map(|range| range.path.as_str()).zip(at.point.iter().copied());
+        let other = others.iter().map(|range| range.path.as_str()).zip(at.others.iter().copied());
+        let numbers: Vec<(&str, f64)> =
+            over.chain(other).chain([(amplitude.path.as_str(), value)]).collect();
+        let system = study.system_at(&numbers).map_err(|why| why.to_string())?;
+        Ok(with_waveform(system, input, waveform))
+    };
+    let systems: Vec<(&Waveform, Box<SystemAtPoint<'_>>)> = asked
+        .waveforms
+        .iter()
+        .map(|waveform| {
+            let system = move |point: OperatingPoint<'_>, value: f64| at(waveform, point, value);
+            (waveform, Box::new(system) as Box<SystemAtPoint<'_>>)
+        })
+        .collect();
+    let plants: Vec<(Waveform, SystemPlant<'_>)> = systems
+        .iter()
+        .map(|(waveform, at)| ((*waveform).clone(), SystemPlant { at: at.as_ref(), input }))
+        .collect();
+    // The values of a path are those of the study: the equations are in its units.
+    let number = |range: &DesignRange| DesignNumber {
+        path: range.path.clone(),
+        per_unit: 1.0,
+        range: (range.from, range.to),
+    };
+    let numbers = DesignNumbers {
+        amplitude: number(amplitude),
+        others: others.iter().map(|range| number(range)).collect(),
+        over: asked.over.iter().map(number).collect(),
+    };
+    Ok(least_dither(asked, numbers, &plants))
+}
+
+/// The system with another waveform of one dither.
+fn with_waveform(mut system: System, input: usize, waveform: &Waveform) -> System {
+    if let Some(input) = system.inputs.get_mut(input)
+        && let [wave] = input.profile.waves()
+        && wave.waveform != *waveform
+    {
+        let wave = Wave { waveform: waveform.clone(), ..wave.clone() };
+        input.profile = Profile::constant(input.profile.mean()).with(wave);
+    }
+    system
+}
+
+/// Rejects ranges whose ends give no valid study.
+fn accepted(study: &SystemStudy, key: &str, ranges: &[DesignRange]) -> Result<(), Failure> {
+    let mut wrong: Vec<Complaint> = Vec::new();
+    for range in ranges {
+        for value in [range.from, range.to] {
+            let refused = study.system_at(&[(range.path.as_str(), value)]).err();
+            wrong.extend(refused.into_iter().flatten().map(|complaint| Complaint {
+                key: format!("design.{key}"),
+                origin: Origin::Whole,
+                allowed: format!("{}: {}", range.path, complaint.allowed),
+                ..complaint
+            }));
+        }
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
+}

@@ -1,0 +1,228 @@
+//! `design` of a system: the belt written as a system against independent numbers, dither on one of two masses, and refusals.
+
+use quell::kind::verbs;
+use quell::{Failure, Study};
+use serde_json::Value as Json;
+
+/// The belt with ζ = 0.005 and F = 1 as a system of one mass.
+const BELT: &str = "[system]\ncoordinates = [\"x\"]\nmass = [1.0]\ndamping = [0.01]\nstiffness = [1.0]\n[[contact]]\n\
+                    name = \"belt\"\ntangent = { x = 1.0 }\nnormal_load = 1.0\nbelt_velocity = 0.1\n[friction]\n\
+                    law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n\
+                    [[dither]]\nat = { x = 1.0 }\nwaveform = \"sine\"\namplitude = 1.0\nfrequency = 10.0\n";
+
+fn design(vary: &str, over: &str, limits: &str) -> String {
+    format!(
+        "[design]\nminimise = \"amplitude\"\n{vary}\n[design.over]\n\"contact.belt.belt_velocity\" = {over}\n{limits}"
+    )
+}
+
+const AMPLITUDE: &str = "vary = [\"dither.amplitude\"]\nfrom = [0.01]\nto = [20.0]";
+
+fn facts(text: &str) -> Json {
+    let study = Study::parse(text, &[]).unwrap_or_else(|errors| panic!("{errors}\n{text}"));
+    verbs(&study).design().unwrap_or_else(|why| panic!("{why}")).facts()
+}
+
+fn complaint(text: &str) -> String {
+    match Study::parse(text, &[]) {
+        Err(complaints) => complaints.to_string(),
+        Ok(study) => match verbs(&study).design() {
+            Err(Failure::Wrong(complaints)) => complaints.to_string(),
+            Err(other) => other.to_string(),
+            Ok(_) => panic!("accepted: {text}"),
+        },
+    }
+}
+
+fn number(value: &Json) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("no number: {value}"))
+}
+
+/// An independent program: D = 1.4863197137, 1.8916513091 and 0.9486004565 over the speeds .05 to .15.
+#[test]
+fn the_belt_as_a_system_has_its_numbers() {
+    let waveforms = "\nwaveforms = [\"sine\", \"triangle\", \"square\"]";
+    let found =
+        facts(&format!("{BELT}{}", design(&format!("{AMPLITUDE}{waveforms}"), "[0.05, 0.15]", "")));
+    assert_eq!((&found["feasible"], &found["waveform"]), (&true.into(), &"square".into()));
+    let wanted = [1.4863197137178406, 1.8916513090546048, 0.9486004564844978];
+    let rows = found["waveforms"].as_array().expect("a list");
+    assert_eq!(rows.len(), 3);
+    for (row, wanted) in rows.iter().zip(wanted) {
+        let amplitude = number(&row["objective"]);
+        assert!((amplitude / wanted - 1.0).abs() < 1e-6, "{row}");
+    }
+    assert_eq!(found["worst"]["contact.belt.belt_velocity"], 0.15);
+    assert!(number(&found["verified"]["multiplier"]) < 1.0);
+    assert_eq!(found["verified"]["protocol"], "local");
+    let verified = number(&found["parameters"]["dither.amplitude"]);
+    assert!((verified / number(&found["critical"]["dither.amplitude"]) - 1.001).abs() < 1e-12);
+}
+
+/// The same program: the box ends beyond the tip at .1623452749, where D = 1.6085159881.
+#[test]
+fn the_point_that_decides_is_a_tip_inside_the_box() {
+    let found = facts(&format!("{BELT}{}", design(AMPLITUDE, "[0.05, 0.2]", "")));
+    assert!(
+        (number(&found["critical"]["dither.amplitude"]) / 1.6085159880796942 - 1.0).abs() < 1e-6
+    );
+    let worst = number(&found["worst"]["contact.belt.belt_velocity"]);
+    assert!((worst / 0.16234527494519785 - 1.0).abs() < 1e-5, "{worst}");
+}
+
+/// The same program, with R chosen and the stroke limited to .04: R = 8.1272892355, D = 1.3010566064.
+#[test]
+fn the_stroke_decides_the_frequency() {
+    let vary = "vary = [\"dither.amplitude\", \"dither.frequency\"]\nfrom = [0.01, 2.0]\nto = [20.0, 20.0]";
+    let found = facts(&format!(
+        "{BELT}{}",
+        design(vary, "[0.05, 0.2]", "[design.limits]\nstroke = 0.04\n")
+    ));
+    assert_eq!(found["binding"], serde_json::json!(["stroke"]));
+    let [amplitude, frequency] =
+        ["dither.amplitude", "dither.frequency"].map(|path| number(&found["critical"][path]));
+    assert!((amplitude / 1.3010566063571558 - 1.0).abs() < 1e-5, "{amplitude}");
+    assert!((frequency / 8.127289235523428 - 1.0).abs() < 1e-5, "{frequency}");
+    assert!(!found["frontier"].as_array().expect("a list").is_empty());
+}
+
+/// Two masses, friction at the carriage, and dither on the motor or on the carriage.
+fn two_masses(at: &str) -> String {
+    format!(
+        "[system]\ncoordinates = [\"motor\", \"carriage\"]\nmass = [1.0, 1.0]\ndamping = [[0.02, -0.01], [-0.01, 0.02]]\n\
+         stiffness = [[2.0, -1.0], [-1.0, 1.0]]\n[[contact]]\nname = \"belt\"\ntangent = {{ carriage = 1.0 }}\n\
+         normal_load = 1.0\nbelt_velocity = 0.1\n[friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\n\
+         minimum_coefficient = 0.2857\nreference_velocity = 0.2\n[[dither]]\nat = {{ {at} = 1.0 }}\nwaveform = \"sine\"\n\
+         amplitude = 1.0\nfrequency = 10.0\n"
+    )
+}
+
+/// The least amplitude of a box is the largest threshold of its points, found by another verb; a force on the motor reaches the
+/// contact through the spring between the masses and must be about R² as large.
+#[test]
+fn dither_on_one_of_two_masses() {
+    use quell::run::thresholds::ThresholdsRequest;
+    let mut least = Vec::new();
+    for (at, to) in [("carriage", 20.0), ("motor", 400.0)] {
+        let vary = format!("vary = [\"dither.amplitude\"]\nfrom = [0.01]\nto = [{to}]");
+        let found = facts(&format!("{}{}", two_masses(at), design(&vary, "[0.05, 0.15]", "")));
+        assert_eq!(found["feasible"], true, "{found}");
+        let amplitude = number(&found["critical"]["dither.amplitude"]);
+        let worst = number(&found["worst"]["contact.belt.belt_velocity"]);
+        let text =
+            two_masses(at).replace("belt_velocity = 0.1", &format!("belt_velocity = {worst}"));
+        let study = Study::parse(&text, &[]).expect("a study");
+        let request = ThresholdsRequest {
+            parameter: "dither.amplitude".to_owned(),
+            from: 0.9 * amplitude,
+            to: 1.1 * amplitude,
+            ..ThresholdsRequest::default()
+        };
+        let thresholds = verbs(&study).thresholds(request).expect("thresholds").facts();
+        let values = thresholds["local"].as_array().expect("a list");
+        let nearest = values.iter().map(|row| (number(&row["value"]) / amplitude - 1.0).abs());
+        let nearest = nearest.fold(f64::INFINITY, f64::min);
+        assert!(nearest < 1e-6, "{at}: {amplitude} {thresholds}");
+        least.push(amplitude);
+    }
+    let ratio = least[1] / least[0];
+    assert!((80.0..120.0).contains(&ratio), "{least:?}");
+}
+
+/// A limit that does not bind changes nothing; one that does makes the design infeasible and is named, with the part of the box that
+/// is served.
+#[test]
+fn limits_that_bind_and_that_do_not() {
+    let with =
+        |limits: &str| facts(&format!("{BELT}{}", design(AMPLITUDE, "[0.05, 0.15]", limits)));
+    let free = with("");
+    let loose = with("[design.limits]\namplitude = 3.0\npower = 1.0\nminimum_normal_load = 0.5\n");
+    assert_eq!(free["critical"], loose["critical"]);
+    assert_eq!(loose["binding"], serde_json::json!([]));
+    let tight = with("[design.limits]\namplitude = 1.0\n");
+    assert_eq!(tight["feasible"], false);
+    assert!(tight["sentence"].as_str().expect("a text").contains("amplitude would be"), "{tight}");
+    let covered = tight["covered"]["contact.belt.belt_velocity"].as_array().expect("a range");
+    assert!(number(&covered[0]) == 0.05 && number(&covered[1]) < 0.15);
+}
+
+#[test]
+fn what_design_cannot_do_is_refused_by_name() {
+    let own = format!("{BELT}{}", design(AMPLITUDE, "[0.05, 0.15]", ""));
+    let with = |from: &str, to: &str| {
+        assert!(own.contains(from), "{from}");
+        complaint(&own.replace(from, to))
+    };
+    for (from, to, key) in [
+        ("\"contact.belt.belt_velocity\"", "\"contact.belt.belt_velcity\"", "design.over"),
+        ("\"contact.belt.belt_velocity\"", "\"dither.amplitude\"", "design.over"),
+        ("vary = [\"dither.amplitude\"]", "vary = [\"dither.frequency\"]", "design.vary"),
+        ("[0.05, 0.15]", "[0.15, 0.05]", "design.over"),
+        ("from = [0.01]", "start = \"squeal\"\nfrom = [0.01]", "design.start"),
+        ("from = [0.01]", "from = [-0.01]", "design.vary"),
+        ("minimise = \"amplitude\"", "minimise = \"noise\"", "design.minimise"),
+        ("[design.over]", "[design.limits]\nstroke_m = 0.1\n[design.over]", "stroke_m"),
+        ("[design.over]", "[design.limits]\nstroke = -0.1\n[design.over]", "design.limits.stroke"),
+        (
+            "normal_load = 1.0",
+            "normal_load = 1.0\ntangential_stiffness = 50.0",
+            "tangential_stiffness",
+        ),
+        (
+            "waveform = \"sine\"\namplitude = 1.0\nfrequency = 10.0",
+            "waveform = \"noise\"\namplitude = 1.0\nband = [8.0, 12.0]\nseed = 1",
+            "dither",
+        ),
+    ] {
+        let said = with(from, to);
+        assert!(said.contains(key), "{to}: {said}");
+    }
+    assert!(complaint(BELT).contains("design"));
+    let disc = complaint("[disc]\n[design]\nminimise = \"amplitude\"\n");
+    assert!(disc.contains("[design] is implemented for belts and systems"), "{disc}");
+}
+
+/// A structure of 20 modes: the answer is verified, and averaging is near it because the dither is fast.
+#[test]
+fn a_structure_of_twenty_modes() {
+    let modes: Vec<String> = (0..20)
+        .map(|k| {
+            let (frequency, share) = (1.0 + 0.2 * f64::from(k), 1.0 / f64::from(1 + k));
+            format!(
+                "[[system.mode]]\nfrequency = {frequency}\ndamping_ratio = 0.005\nshape = {{ tip = {share}, drive = {} }}\n",
+                0.8 * share
+            )
+        })
+        .collect();
+    let modes = modes.concat();
+    let text = format!(
+        "[system]\nunits = \"none\"\n{modes}[[contact]]\nname = \"belt\"\ntangent = {{ tip = 1.0 }}\nnormal_load = 1.0\n\
+         belt_velocity = 0.1\n[friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\n\
+         reference_velocity = 0.2\n[[dither]]\nat = {{ drive = 1.0 }}\nwaveform = \"sine\"\namplitude = 1.0\nfrequency = 40.0\n{}",
+        design("vary = [\"dither.amplitude\"]\nfrom = [0.01]\nto = [100.0]", "[0.05, 0.15]", "")
+    );
+    let found = facts(&text);
+    assert_eq!(found["feasible"], true, "{found}");
+    let [exact, averaged] =
+        ["critical", "averaged"].map(|name| number(&found[name]["dither.amplitude"]));
+    assert!((exact / averaged - 1.0).abs() < 0.01, "{exact} {averaged}");
+    assert!(number(&found["verified"]["multiplier"]) < 1.0);
+}
+
+/// In SI with m = 2 kg and k = 200 N/m, twins of limits and paths: D k in newtons.
+#[test]
+fn a_system_in_si_has_the_same_answer() {
+    let text = "[system]\nunits = \"SI\"\ncoordinates = [\"x\"]\nmass = [2.0]\ndamping = [0.2]\nstiffness = [200.0]\n[[contact]]\n\
+                name = \"belt\"\ntangent = { x = 1.0 }\nnormal_load_n = 200.0\nbelt_velocity_m_per_s = 1.0\n[friction]\n\
+                law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity_m_per_s = 2.0\n\
+                [[dither]]\nat = { x = 1.0 }\nwaveform = \"sine\"\namplitude_n = 200.0\nfrequency_hz = 15.915494309189533\n\
+                [design]\nminimise = \"stroke\"\nvary = [\"dither.amplitude_n\"]\nfrom = [2.0]\nto = [4000.0]\n\
+                [design.over]\n\"contact.belt.belt_velocity_m_per_s\" = [0.5, 1.5]\n\
+                [design.limits]\nstroke_m = 0.5\namplitude_n = 1000.0\n";
+    let found = facts(text);
+    let newtons = number(&found["critical"]["dither.amplitude_n"]);
+    assert!((newtons / (200.0 * 1.4863197137178406) - 1.0).abs() < 1e-6, "{newtons}");
+    // 2 D/(R² − 1) metres, with the damping's part of 10⁻⁶.
+    let stroke = number(&found["objective"]);
+    assert!((stroke / (2.0 * 1.4863197137178406 / 99.0) - 1.0).abs() < 1e-5, "{stroke}");
+}
