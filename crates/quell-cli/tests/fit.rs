@@ -63,6 +63,34 @@ fn laws_are_compared_and_the_best_is_first() {
 }
 
 #[test]
+fn advice_to_compare_laws_is_for_fits_that_have_not_compared_them() {
+    // No law oscillates over the slip velocity.
+    let mut csv = String::from("slip_velocity,coefficient\n");
+    for k in 1..=60 {
+        let v = 0.05 * f64::from(k);
+        writeln!(csv, "{v},{}", 0.3 + 0.05 * (4.0 * v).sin()).expect("writable");
+    }
+    let place = Place::with("fit-advice", &[("data.csv", &csv)]);
+    let advice = |options: &[&str]| -> String {
+        let command = [&["fit", "data.csv"], options].concat();
+        let done = place.good(&command);
+        let warnings = done["warnings"].as_array().expect("a list");
+        let of_runs =
+            warnings.iter().filter_map(Json::as_str).find(|text| text.contains("runs of"));
+        of_runs.expect("a warning about the residuals").to_owned()
+    };
+    for options in [&["--law", "coulomb"][..], &["--law", "coulomb", "--law", "lugre"]] {
+        let said = advice(options);
+        assert!(said.ends_with("Compare laws with --law all"), "{said}");
+    }
+    for options in [&[][..], &["--law", "all"]] {
+        let said = advice(options);
+        assert!(!said.contains("--law"), "{said}");
+        assert!(said.contains("Every law has been compared"), "{said}");
+    }
+}
+
+#[test]
 fn steady_sliding_leaves_bristles_undetermined() {
     let (place, _) = place("fit-lugre", 3);
     let done = place.good(&["fit", "data.csv", "--law", "lugre"]);

@@ -1,6 +1,8 @@
 //! `design` of a belt: units, complaints with their keys, and several waveforms.
 
 use quell::kind::verbs;
+use quell::run::protocol::Protocol;
+use quell::run::thresholds::ThresholdsRequest;
 use quell::{Failure, Study};
 use serde_json::Value as Json;
 
@@ -85,4 +87,28 @@ fn wrong_designs_are_refused_with_their_keys() {
     let said =
         keys_of_complaints(&format!("{without}{}", DESIGN.replace("\"sine\", \"triangle\", ", "")));
     assert!(said.contains("dither"), "{said}");
+}
+
+/// Runs from rest and from squeal: the least amplitude is that of `thresholds` from the same start, whose runs have the same judge.
+#[test]
+fn designs_for_runs_agree_with_the_thresholds_of_runs() {
+    for (start, protocol) in [("rest", Protocol::Rest), ("squeal", Protocol::Squeal)] {
+        let design = format!(
+            "[design]\nminimise = \"amplitude\"\nvary = [\"dither.amplitude\"]\nfrom = [0.01]\nto = [20.0]\nstart = \"{start}\"\n"
+        );
+        let found = facts(&format!("{BELT}{design}"));
+        let least = found["critical"]["dither.amplitude"].as_f64().expect("a number");
+        let request = ThresholdsRequest {
+            parameter: "dither.amplitude".to_owned(),
+            from: 0.01,
+            to: 20.0,
+            protocols: vec![protocol],
+            ramp: 0.0,
+        };
+        let study = Study::parse(BELT, &[]).expect("a study");
+        let json = verbs(&study).thresholds(request).expect("thresholds").json();
+        let changes = json[protocol.name()].as_array().expect("changes");
+        let last = changes.last().and_then(|change| change["value"].as_f64()).expect("a number");
+        assert!((least / last - 1.0).abs() < 2e-5, "{start}: {least} and {last}");
+    }
 }

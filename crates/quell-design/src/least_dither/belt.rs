@@ -1,6 +1,6 @@
 //! A belt under dither as a structure whose dither is designed.
 
-use quell_dynamics::attractor::{Reached, switches};
+use quell_dynamics::attractor::{Reached, SWITCH_CLOSENESS, switches};
 use quell_dynamics::orbit::threshold::local;
 use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
 use quell_dynamics::response::{Solver, respond};
@@ -21,8 +21,8 @@ const STEPS: u32 = 8;
 /// Steps by which the dither grows from zero to a verified base response.
 const GROWTH_STEPS: u32 = 8;
 
-/// Values tried between the ends of a range for runs from a start, and the relative closeness of their changes.
-const TRIED: (u32, f64) = (24, 1e-4);
+/// Values tried between the ends of a range for runs from a start.
+const TRIED: u32 = 24;
 
 /// Slow periods over which the mean friction of a periodic response is measured.
 const LOSS_PERIODS: u32 = 20;
@@ -78,12 +78,15 @@ impl BeltPlant {
     }
 
     fn by_runs(&self, belt: &Belt, (from, to): (f64, f64)) -> Result<QuietAmplitudes, String> {
-        let (steps, closeness) = TRIED;
-        let found =
-            switches(belt, &self.path(), (from, to), steps, closeness, |belt| self.initial(belt))
-                .map_err(|why| why.to_string())?;
+        let initial = |belt: &Belt| self.initial(belt);
+        let found = switches(belt, &self.path(), (from, to), TRIED, SWITCH_CLOSENESS, initial)
+            .map_err(|why| why.to_string())?;
         let quiet = |reached: Reached| matches!(reached, Reached::Base | Reached::Forced);
-        let changes = found.changes.iter().map(|change| (change.value, quiet(change.becomes)));
+        // The ends that have been seen to be quiet.
+        let changes = found.changes.iter().map(|change| {
+            let becomes = quiet(change.becomes);
+            (change.value + if becomes { change.error } else { -change.error }, becomes)
+        });
         Ok(QuietAmplitudes::of_changes((from, to), quiet(found.first), changes))
     }
 

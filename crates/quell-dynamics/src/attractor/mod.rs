@@ -43,4 +43,4 @@ pub use rotation::{Ratio, Rotation};
 pub use section::StroboscopicSection;
 pub use settings::AttractorSettings;
 pub use settle::{Patience, SettleOutcome, Settled, settle, settle_many};
-pub use switches::{Reached, Switch, Switches, ramped, reached, switches};
+pub use switches::{Reached, SWITCH_CLOSENESS, Switch, Switches, ramped, reached, switches};

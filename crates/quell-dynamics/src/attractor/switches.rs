@@ -17,8 +17,11 @@ use crate::orbit::threshold::NoThresholds;
 use crate::orbit::{NoOrbit, OrbitVerdict, common_period};
 use crate::simulation::{DEFAULT_TOLERANCE, Stalled, Start, simulate};
 
-/// Half the width of an interval, relative to its value, up to which it is reported as a single value: ten times the closeness
-/// that thresholds request of bisection (10⁻⁵). Wider intervals are those at which bisection stopped, and are reported with
+/// The relative closeness to which the changes of runs are bisected, in thresholds and designs alike.
+pub const SWITCH_CLOSENESS: f64 = 1e-5;
+
+/// Half the width of an interval, relative to its value, up to which it is reported as a single value: ten times
+/// [`SWITCH_CLOSENESS`]. Wider intervals are those at which bisection stopped, and are reported with
 /// their error. With a larger bound such an interval would be reported as a value; with a smaller one
 /// an ordinary threshold would be reported as an interval.
 const NARROW: f64 = 1e-4;

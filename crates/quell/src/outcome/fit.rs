@@ -248,8 +248,8 @@ fn in_words(done: &FrictionFit, finding: &FitFinding) -> String {
             let lines: Vec<usize> = places.iter().map(|place| done.lines[*place]).collect();
             let unit = if done.data.is_weighted() { " standard deviations" } else { "" };
             format!(
-                "{} deviate{} by more than four robust standard deviations of {}{unit}: check {}, which a least-squares fit \
-                 follows",
+                "{} deviate{} by more than four robust standard deviations of {}{unit}: check {}, for a least-squares fit is drawn \
+                 towards such points",
                 lines_of(&lines),
                 if lines.len() == 1 { "s" } else { "" },
                 quell_model::digits::digits(*deviation, 2),
@@ -258,8 +258,13 @@ fn in_words(done: &FrictionFit, finding: &FitFinding) -> String {
         }
         FitFinding::Pattern { runs, expected } => format!(
             "the residuals have {runs} run{} of equal sign over the slip speed where {expected:.1} are expected: the law does \
-             not have the shape of the data, and the standard errors are too small. Compare laws with --law all",
-            if *runs == 1 { "" } else { "s" }
+             not have the shape of the data, and the standard errors are too small. {}",
+            if *runs == 1 { "" } else { "s" },
+            if done.compares_all() {
+                "Every law has been compared: check whether friction in the data depends on more than the slip velocity"
+            } else {
+                "Compare laws with --law all"
+            }
         ),
         FitFinding::Directions { difference } => format!(
             "friction differs between the two directions of slip, by {} on average, but laws are equal in both: fit each \

@@ -56,11 +56,9 @@ impl FitRequest {
             }
         }
         if request.lenient {
-            // In steady sliding, LuGre friction is the exponential law.
-            let distinct = FitModel::LAWS.iter().filter(|kind| **kind != LawKind::Lugre);
-            for kind in distinct {
-                if !request.laws.contains(kind) {
-                    request.laws.push(*kind);
+            for kind in distinct_laws() {
+                if !request.laws.contains(&kind) {
+                    request.laws.push(kind);
                 }
             }
         }
@@ -120,6 +118,11 @@ impl FitRequest {
         }
         Ok(model)
     }
+}
+
+/// The laws whose steady curves differ. In steady sliding, LuGre friction is the exponential law.
+fn distinct_laws() -> impl Iterator<Item = LawKind> {
+    FitModel::LAWS.iter().copied().filter(|kind| *kind != LawKind::Lugre)
 }
 
 fn kind_has(kind: LawKind, key: &str) -> bool {
@@ -288,6 +291,14 @@ impl FrictionFit {
     /// The fit with the least AIC.
     pub fn best(&self) -> &LawFit {
         &self.fits[0]
+    }
+
+    /// Whether every law was fitted or left out with a reason, so that no other law is left to compare.
+    pub fn compares_all(&self) -> bool {
+        distinct_laws().all(|kind| {
+            self.fits.iter().any(|fit| fit.kind == kind)
+                || self.left_out.iter().any(|(other, _)| *other == kind)
+        })
     }
 
     /// Student's t of the confidence intervals.

@@ -2,7 +2,7 @@
 //! from given starts the values at which dither starts or stops quenching. `answer` puts them into sentences.
 
 use quell_dynamics::attractor::{
-    AttractorSettings, Reached, StroboscopicSection, Switches, ramped, switches,
+    AttractorSettings, Reached, SWITCH_CLOSENESS, StroboscopicSection, Switches, ramped, switches,
 };
 use quell_dynamics::orbit::NoOrbit;
 pub use quell_dynamics::orbit::family::Signature;
@@ -39,9 +39,6 @@ const STEPS: u32 = 40;
 
 /// Equal steps between the values tried for a start; two changes between neighbouring values that cancel are missed.
 pub const TRIED: u32 = 40;
-
-/// Relative tolerance of the threshold of a protocol.
-const CLOSENESS: f64 = 1e-5;
 
 /// Options of `thresholds`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -226,7 +223,7 @@ fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, F
                 ramped => ramped.map(Some),
             }
         };
-        let found = switches(belt, path, (from, to), TRIED, CLOSENESS, start)
+        let found = switches(belt, path, (from, to), TRIED, SWITCH_CLOSENESS, start)
             .map_err(|why| refused(study, why, path, "--from"))?;
         protocols.push((protocol, found));
     }
