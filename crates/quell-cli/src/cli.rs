@@ -13,8 +13,8 @@ use serde_json::Value as Json;
 
 use crate::verbs::{
     attractor, basins, bifurcation, check, cite, completions, design, fit, friction, map, modes,
-    new, orbit, report, reproduce, resonances, response, schema, simulate, sketch, stability,
-    thresholds, waveforms,
+    new, orbit, probability, report, reproduce, resonances, response, schema, simulate, sketch,
+    stability, thresholds, waveforms,
 };
 use crate::{answer, help};
 
@@ -48,6 +48,7 @@ enum Verb {
     Thresholds(thresholds::Arguments),
     Waveforms(waveforms::Arguments),
     Design(design::Arguments),
+    Probability(probability::Arguments),
     Bifurcation(bifurcation::Arguments),
     Basins(basins::Arguments),
     Map(map::Arguments),
@@ -91,6 +92,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Thresholds(arguments) => thresholds::run(arguments),
         Verb::Waveforms(arguments) => waveforms::run(arguments),
         Verb::Design(arguments) => design::run(arguments),
+        Verb::Probability(arguments) => probability::run(arguments),
         Verb::Bifurcation(arguments) => bifurcation::run(arguments),
         Verb::Basins(arguments) => basins::run(arguments),
         Verb::Map(arguments) => map::run(arguments),

@@ -68,6 +68,13 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 ],
             ),
             (
+                "probability",
+                &[
+                    "quell probability probability.toml",
+                    "quell probability probability.toml --start local --samples 200 --plot probability.svg",
+                ],
+            ),
+            (
                 "friction",
                 &[
                     "quell friction own-law.toml --at 0,0.05,0.1",

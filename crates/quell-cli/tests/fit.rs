@@ -45,6 +45,11 @@ fn the_answer_has_the_stored_numbers_and_a_table_for_a_study() {
     place.good(&["check", "study.toml"]);
     let uncertainty = done["study"]["uncertainty"].as_str().expect("text");
     assert!(uncertainty.contains("\"friction.reference_velocity_m_per_s\""), "{uncertainty}");
+    // So is the other, of uncertain parameters.
+    place.write("uncertain.toml", format!("{belt}{friction}{uncertainty}"));
+    let found = place.good(&["probability", "uncertain.toml", "--samples", "200"]);
+    assert_eq!(found["groups"][0]["of"].as_array().map(Vec::len), Some(3));
+    assert_eq!(found["probability"], 1.0);
 }
 
 #[test]

@@ -3,3 +3,4 @@
 
 pub mod fit;
 pub mod least_dither;
+pub mod probability;

@@ -8,6 +8,7 @@
 //!   special functions, spectra;
 //! * [`extrapolation`]: smooth ordinary differential equations to full accuracy;
 //! * [`symmetric`], [`least_squares`]: eigenvalues of symmetric pencils, fits of a few columns;
+//! * [`random`]: pseudorandom numbers with fixed bits;
 //! * [`interval`]: bounds of functions over intervals with outward rounding, for proofs;
 //! * [`normal_form`]: coefficients that decide whether a bifurcation is supercritical;
 //! * [`continuation`]: fixed points of period maps by shooting, their branches, thresholds and curves of thresholds.
@@ -29,6 +30,7 @@ pub mod normal_form;
 pub mod periodic_polynomial;
 pub mod polynomial;
 pub mod quadrature;
+pub mod random;
 pub mod roots;
 pub mod special;
 pub mod spectrum;

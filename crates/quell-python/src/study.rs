@@ -18,8 +18,8 @@ use crate::verbs::attractor::TimeTexts;
 use crate::verbs::map::Asked;
 use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
 use crate::verbs::{
-    attractor, basins, bifurcation, check, cite, design, friction, map, modes, orbit, report,
-    resonances, response, simulate, sketch, stability, thresholds, waveforms, window,
+    attractor, basins, bifurcation, check, cite, design, friction, map, modes, orbit, probability,
+    report, resonances, response, simulate, sketch, stability, thresholds, waveforms, window,
 };
 use crate::{call, convert, errors};
 
@@ -481,6 +481,19 @@ impl NativeStudy {
     fn design(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
         let study = self.study();
         call::run(py, move || design::run(&study))
+    }
+
+    #[pyo3(signature = (start, samples, seed, threads, progress))]
+    fn probability(
+        &self,
+        py: Python<'_>,
+        start: String,
+        samples: Option<usize>,
+        seed: u64,
+        threads: Option<usize>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<NativeAnswer> {
+        probability::run(py, self.study(), (start, samples, seed), threads, progress)
     }
 
     fn modes(&self, py: Python<'_>) -> PyResult<NativeAnswer> {

@@ -103,6 +103,12 @@ def design_in_si() -> quell.Study:
 
 
 @cache
+def probability_in_si() -> quell.Study:
+    """A belt of uncertain speed, in SI."""
+    return belt_in_si().replace(uncertainty={"belt.belt_velocity_m_per_s": {"lognormal": [0.5, 0.3]}})
+
+
+@cache
 def disc() -> quell.Disc:
     """The disc of the README."""
     return quell.Disc(
@@ -177,6 +183,8 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "design": lambda: quell.Study.from_toml(STUDIES / "design.toml").design(),
     "design in SI": lambda: design_in_si().design(),
     "design without an answer": lambda: design_in_si().set({"design.limits.amplitude_n": 100.0}).design(),
+    "probability": lambda: quell.Study.from_toml(STUDIES / "probability.toml").probability(samples=200),
+    "probability in SI": lambda: probability_in_si().probability(samples=100),
     "waveforms": lambda: belt().waveforms(),
     "waveforms of a system": lambda: study("drive in SI").waveforms(),
     "waveforms in SI": lambda: belt_in_si().waveforms(),

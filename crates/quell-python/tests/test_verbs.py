@@ -107,6 +107,7 @@ CASES: list[tuple[str, str, list[str], Any]] = [
     ("friction", BELT, ["--describing", "0.2"], lambda study: study.friction(describing=0.2)),
     ("waveforms", BELT, [], lambda study: study.waveforms()),
     ("design", str(STUDIES / "design.toml"), [], lambda study: study.design()),
+    ("probability", str(STUDIES / "probability.toml"), ["--samples", "100"], lambda study: study.probability(samples=100)),
     ("stability", BELT, [], lambda study: study.stability()),
     ("stability", SI, [], lambda study: study.stability()),
     ("stability", DISC, [], lambda study: study.stability()),

@@ -7,6 +7,7 @@
 mod course;
 mod list;
 mod system;
+mod uncertainty;
 mod waveform;
 
 use quell_model::LawKind;
@@ -65,6 +66,7 @@ pub fn schema() -> Json {
     disc(&mut definitions);
     system::define(&mut definitions);
     definitions.insert("sweep".to_owned(), sweep());
+    definitions.insert("uncertainty".to_owned(), uncertainty::uncertainty());
     json!({
         "$schema": DIALECT,
         "title": "Quell study file",
@@ -121,6 +123,7 @@ fn root(system: UnitSystem) -> Json {
             "solver": { "$ref": reference(Section::Solver, system) },
             "response": { "$ref": reference(Section::Response, system) },
             "design": { "$ref": reference(Section::Design, system) },
+            "uncertainty": { "$ref": "#/$defs/uncertainty" },
             "sweep": { "type": "array", "items": { "$ref": "#/$defs/sweep" } },
         },
         "required": ["belt", "friction"],
@@ -189,6 +192,7 @@ fn disc(definitions: &mut Map<String, Json>) {
                 ],
             },
             "dither": { "$ref": "#/$defs/disc_dither" },
+            "uncertainty": { "$ref": "#/$defs/uncertainty" },
             "sweep": { "type": "array", "items": { "$ref": "#/$defs/sweep" } },
         },
         "required": ["disc"],

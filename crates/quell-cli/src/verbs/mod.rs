@@ -14,6 +14,7 @@ pub(crate) mod modes;
 pub(crate) mod new;
 mod numbers;
 pub(crate) mod orbit;
+pub(crate) mod probability;
 pub(crate) mod report;
 pub(crate) mod reproduce;
 pub(crate) mod resonances;

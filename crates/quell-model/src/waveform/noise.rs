@@ -14,6 +14,8 @@
 
 use std::f64::consts::TAU;
 
+use quell_numerics::random::SplitMix;
+
 use super::WaveformError;
 
 /// Most lines: every line is a wave of its own in each step of a run, and more lines are no closer to a Gaussian process within
@@ -74,7 +76,7 @@ impl Noise {
         }
         let middle = Self::middle(band);
         let ends = [low / middle, high / middle];
-        let mut random = SplitMix { state: seed };
+        let mut random = SplitMix::new(seed);
         let cell = (ends[1] - ends[0]) / f64::from(lines);
         let lines = (0..lines).map(|place| {
             let position = f64::from(place) + random.share();
@@ -164,44 +166,9 @@ impl Noise {
     }
 }
 
-/// The generator SplitMix64.
-struct SplitMix {
-    state: u64,
-}
-
-impl SplitMix {
-    fn next(&mut self) -> u64 {
-        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = self.state;
-        let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// A number in [0, 1).
-    fn share(&mut self) -> f64 {
-        const STEPS: f64 = (1_u64 << 53) as f64;
-        (self.next() >> 11) as f64 / STEPS
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// The first numbers of SplitMix64 from state 1234567, as published with its reference implementation.
-    #[test]
-    fn the_generator_is_splitmix64() {
-        let mut random = SplitMix { state: 1_234_567 };
-        let known = [
-            6_457_827_717_110_365_317_u64,
-            3_203_168_211_198_807_973,
-            9_817_491_932_198_370_423,
-            4_593_380_528_125_082_431,
-            16_408_922_859_458_223_821,
-        ];
-        assert_eq!(known.map(|_| random.next()), known);
-    }
 
     #[test]
     fn every_cell_has_a_line() {
@@ -224,7 +191,7 @@ mod tests {
         // The bits of the first line of seed 1 are part of the format.
         let first = of(1).lines()[0];
         let (a, b) = {
-            let mut random = SplitMix { state: 1 };
+            let mut random = SplitMix::new(1);
             (random.share(), random.share())
         };
         assert_eq!(first.ratio.to_bits(), (0.8 + (1.2 - 0.8) / 16.0 * a).to_bits());

@@ -219,6 +219,8 @@ class Belt(Study):
     design :
         The table ``[design]`` of :meth:`Study.design`, such as ``{"minimise": "amplitude", "vary": ["dither.amplitude"], "from": [0.01],
         "to": [20], "over": {"belt.belt_velocity": [0.05, 0.2]}}``.
+    uncertainty :
+        The table ``[uncertainty]`` of :meth:`Study.probability`, such as ``{"belt.damping_ratio": {"lognormal": [0.05, 0.5]}}``.
     axes :
         Axes of a map: see :meth:`Study.map`.
     title :
@@ -279,10 +281,13 @@ class Belt(Study):
         drive: Profile | Mapping[str, Any] | None = None,
         load: Profile | Mapping[str, Any] | None = None,
         design: Mapping[str, Any] | None = None,
+        uncertainty: Mapping[str, Any] | None = None,
         **unknown: Unknown,
     ) -> None:
         belt = Table(
-            **given(locals(), "friction", "dither", "initial", "solver", "band", "band_hz", "design", "axes", "title")
+            **given(
+                locals(), "friction", "dither", "initial", "solver", "band", "band_hz", "design", "uncertainty", "axes", "title"
+            )
         )
         if initial is not None:
             si = any(name in belt.given for name in ("mass_kg", "stiffness_n_per_m", "natural_frequency_hz"))
@@ -297,6 +302,7 @@ class Belt(Study):
             solver=solver,
             response=levels(band, band_hz),
             design=None if design is None else dict(design),
+            uncertainty=None if uncertainty is None else dict(uncertainty),
             sweep=axes_tables(axes),
         )
 

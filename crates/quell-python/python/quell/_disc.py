@@ -213,6 +213,8 @@ class Disc(Study):
         Contributions that are left out of the equations.
     youngs_modulus_pa, density_kg_per_m3, thickness_m, outer_radius_m :
         Material and size, with which frequencies are also given in Hz.
+    uncertainty :
+        The table ``[uncertainty]`` of :meth:`Study.probability`, such as ``{"disc.load.friction": {"lognormal": [0.25, 0.1]}}``.
     axes :
         Axes of a map: see :meth:`Study.map`.
     title :
@@ -264,17 +266,25 @@ class Disc(Study):
         density_kg_per_m3: Number | None = None,
         thickness_m: Number | None = None,
         outer_radius_m: Number | None = None,
+        uncertainty: Mapping[str, Any] | None = None,
         axes: Axes | None = None,
         title: str | None = None,
         **unknown: Unknown,
     ) -> None:
-        keys = given(locals(), "mode", "load", "friction", "dither", "axes", "title")
+        keys = given(locals(), "mode", "load", "friction", "dither", "uncertainty", "axes", "title")
         disc = Table(**{**keys, "without": several(without)})
         modes = [mode] if isinstance(mode, Table) else several(mode)
         for name, inner in (("mode", modes), ("load", several(load))):
             if inner is not None:
                 disc.given[name] = inner
-        self._build(title=title, disc=disc, friction=friction, dither=several(dither), sweep=axes_tables(axes))
+        self._build(
+            title=title,
+            disc=disc,
+            friction=friction,
+            dither=several(dither),
+            uncertainty=None if uncertainty is None else dict(uncertainty),
+            sweep=axes_tables(axes),
+        )
 
     @property
     def loads(self) -> tuple[Load, ...]:

@@ -793,6 +793,47 @@ class Study(CheckedStudy):
         """
         return results.Design(self, self._native.design())
 
+    @keywords
+    def probability(
+        self,
+        *,
+        start: Literal["averaged", "local", "rest", "squeal"] = "averaged",
+        samples: int | None = None,
+        seed: int = 1,
+        threads: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
+    ) -> results.Probability:
+        """How probable it is that a study with uncertain numbers vibrates, from random samples of its table ``[uncertainty]``.
+
+        Parameters
+        ----------
+        start :
+            What decides whether a sample vibrates: averaging, "local" (the multipliers of the base response), or the end of the run
+            from "rest" or from the undithered limit cycle ("squeal").
+        samples :
+            Number of samples [default: 100000, of exact motions 1000].
+        seed :
+            Seed of the random numbers.
+        threads :
+            Number of threads [default: all cores].
+        progress :
+            Called from time to time with (finished samples, all samples).
+
+        Returns
+        -------
+        quell.results.Probability
+            The probability with its 95 % interval, quantiles of the growth rate and Sobol indices.
+        """
+        arguments = Arguments()
+        count = None if samples is None else arguments.whole("samples", samples, 1, 10**7)
+        chosen = arguments.whole("seed", seed, 0, 2**63 - 1)
+        workers = None if threads is None else arguments.whole("threads", threads, 1, 1024)
+        if not isinstance(start, str):
+            arguments.wrong.append(complaint("start", start, "one of averaged, local, rest, squeal"))
+        arguments.done()
+        native = self._native.probability(start, count, chosen, workers, progress)
+        return results.Probability(self, native)
+
     def modes(self) -> results.Modes:
         """Natural frequencies and shapes of a disc or of a system, and critical speeds of a disc."""
         return results.Modes(self, self._native.modes())

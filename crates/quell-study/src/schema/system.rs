@@ -29,6 +29,7 @@ pub(super) fn define(definitions: &mut Map<String, Json>) {
     let properties = &mut root["properties"];
     properties["schema"] = json!({ "const": SCHEMA_VERSION, "description": SCHEMA_ABOUT });
     properties["title"] = json!({ "type": "string", "description": "subject of the study" });
+    properties["uncertainty"] = json!({ "$ref": "#/$defs/uncertainty" });
     properties["sweep"] = json!({ "type": "array", "items": { "$ref": "#/$defs/sweep" } });
     definitions.insert("study_system".to_owned(), root);
 }

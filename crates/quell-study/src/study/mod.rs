@@ -34,6 +34,7 @@ mod study_kind;
 pub mod suggest;
 mod sweep;
 pub mod system;
+mod uncertainty;
 pub mod vocabulary;
 mod wave_file;
 mod waveform;
@@ -52,6 +53,8 @@ pub use system::{
     DescribedSystem, FrequencyResponse, ScaledTime, SystemAddress, SystemSetup, SystemStart,
     SystemStudy, SystemUnits,
 };
+pub(crate) use uncertainty::DISTRIBUTIONS;
+pub use uncertainty::Uncertainty;
 
 /// A checked study of the kind `K`: of any kind ([`Study`]), of a belt ([`BeltStudy`]), of a disc ([`DiscStudy`]),
 /// of a system ([`SystemStudy`]).
@@ -66,6 +69,7 @@ pub struct StudyOf<K> {
 struct StudySource {
     title: Option<String>,
     sweeps: Vec<Sweep>,
+    uncertainty: Option<Uncertainty>,
     document: Table,
     text: Arc<str>,
     /// The folder of the files that the study names.
@@ -154,7 +158,7 @@ impl<K: StudyKind> StudyOf<K> {
         self.check_again(document, changes)
     }
 
-    /// The study at one point of a map: its numbers set in order as by `--set`, without axes. It equals the study that the
+    /// The study at one point of a map or of a sample: its numbers set in order as by `--set`, without axes and distributions. It equals the study that the
     /// file would give with these changes.
     ///
     /// # Errors
@@ -165,6 +169,7 @@ impl<K: StudyKind> StudyOf<K> {
     ) -> Result<Self, Complaints> {
         let mut document = self.source.document.clone();
         document.remove("sweep");
+        document.remove("uncertainty");
         let mut changes = self.source.changes.clone();
         for (path, value) in numbers {
             let change = Change::number(path, value, Origin::Argument("[[sweep]]"));
@@ -197,17 +202,20 @@ impl<K: StudyKind> StudyOf<K> {
         let title = root::read(&mut reader, &document, K::tables(&document));
         let kind = K::read(&mut reader, &document, Given { folder: &from.folder, known });
         let sweeps = sweep::read(&mut reader, &document);
+        let uncertainty = uncertainty::read(&mut reader, &document);
         let complaints = reader.into_complaints();
-        let (Some(kind), Some(sweeps)) = (kind, sweeps) else {
+        let (Some(kind), Some(sweeps), Some(uncertainty)) = (kind, sweeps, uncertainty) else {
             return Err(some_of(complaints).into());
         };
         if !complaints.is_empty() {
             return Err(complaints.into());
         }
         let DocumentOrigin { text, folder, file, changes } = from;
-        let source = StudySource { title, sweeps, document, text, folder, file, changes };
+        let source =
+            StudySource { title, sweeps, uncertainty, document, text, folder, file, changes };
         let study = Self { kind, source: Arc::new(source) };
         study.ends_are_valid()?;
+        study.distributions_are_valid()?;
         Ok(study)
     }
 
@@ -238,14 +246,33 @@ impl<K: StudyKind> StudyOf<K> {
         if complaints.is_empty() { Ok(()) } else { Err(complaints.into()) }
     }
 
+    /// Whether the study is valid at the ends of every distribution, or where it hardly ever is beyond.
+    fn distributions_are_valid(&self) -> Result<(), Complaints> {
+        let mut complaints: Vec<Complaint> = Vec::new();
+        for (path, origin, extremes) in
+            self.uncertainty().into_iter().flat_map(Uncertainty::extremes)
+        {
+            for value in extremes {
+                let Err(wrong) = self.at([(path, value)]) else { continue };
+                let key = format!("uncertainty.\"{path}\"");
+                complaints.extend(wrong.into_iter().map(|complaint| {
+                    let allowed = uncertainty::beyond(&complaint.key, value, &complaint.allowed);
+                    Complaint { key: key.clone(), origin, value: path.into(), allowed, ..complaint }
+                }));
+            }
+        }
+        complaints.dedup_by(|a, b| a.key == b.key && a.fault == b.fault);
+        if complaints.is_empty() { Ok(()) } else { Err(complaints.into()) }
+    }
+
     /// Every value of the study after its changes as `path = value`, in the order of paths, and what the files that it names
-    /// contribute; neither title nor axes. The version of the file is among them even where the text leaves it out. Two
+    /// contribute; neither title nor axes nor distributions. The version of the file is among them even where the text leaves it out. Two
     /// studies with equal settings compute the same.
     pub fn settings(&self) -> Vec<(String, String)> {
         let document = &self.source.document;
         let mut settings = Vec::new();
-        for (name, node) in document.iter().filter(|(name, _)| !matches!(*name, "title" | "sweep"))
-        {
+        let apart = ["title", "sweep", "uncertainty"];
+        for (name, node) in document.iter().filter(|(name, _)| !apart.contains(name)) {
             node.leaves(name, &mut settings);
         }
         if !document.has("schema") {
@@ -282,6 +309,11 @@ impl<K> StudyOf<K> {
     /// The axes of a map, in order.
     pub fn sweeps(&self) -> &[Sweep] {
         &self.source.sweeps
+    }
+
+    /// The uncertain numbers, if the study has any.
+    pub fn uncertainty(&self) -> Option<&Uncertainty> {
+        self.source.uncertainty.as_ref()
     }
 
     /// Changes made to the text, as `path=value`.

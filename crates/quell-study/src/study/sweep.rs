@@ -72,15 +72,25 @@ impl AxisTarget {
     }
 
     /// The unit to which values with a unit are converted.
-    fn measured_in(&self) -> Option<&'static str> {
+    pub(super) fn measured_in(&self) -> Option<&'static str> {
         match self {
             Self::Key(address) => address.key.measured_in(),
             Self::System(address) => Some(address.unit),
         }
     }
 
+    /// Whether both name the same number; named constants share a key, and differ by their paths.
+    pub(super) fn is_as(&self, other: &Self, [path, other_path]: [&str; 2]) -> bool {
+        let constant =
+            |target: &Self| target.key().is_some_and(|address| address.key.role == Role::Constant);
+        self == other && (!constant(self) || path.trim() == other_path.trim())
+    }
+
     /// What a path names in a document.
-    fn resolve(document: &Table, path: &str) -> Result<Self, Option<String>> {
+    ///
+    /// # Errors
+    /// The nearest path that names a number.
+    pub(super) fn resolve(document: &Table, path: &str) -> Result<Self, Option<String>> {
         if keys::is_described(document) {
             return resolve_in(document, path).map(Self::System);
         }
@@ -171,13 +181,8 @@ impl Axis {
 }
 
 impl Sweep {
-    /// Whether both vary the same key; named constants share one, and differ by their paths.
     fn sets_the_same_as(&self, other: &Self) -> bool {
-        let constant = |target: &AxisTarget| {
-            target.key().is_some_and(|address| address.key.role == Role::Constant)
-        };
-        self.target == other.target
-            && (!constant(&self.target) || self.path.trim() == other.path.trim())
+        self.target.is_as(&other.target, [&self.path, &other.path])
     }
 }
 

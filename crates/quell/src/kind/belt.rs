@@ -7,7 +7,8 @@ use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::{
     basins, belt_system, bifurcation, curves, describing, design, found_attractor, friction,
-    noise_response, orbit, ramp, response, simulate, stability, thresholds, waveforms, window,
+    noise_response, orbit, probability, ramp, response, simulate, stability, thresholds, waveforms,
+    window,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -32,6 +33,7 @@ impl Verbs for BeltStudy {
             "thresholds",
             "waveforms",
             "design",
+            "probability",
             "bifurcation",
             "basins",
             "map",
@@ -114,6 +116,10 @@ impl Verbs for BeltStudy {
 
     fn design(&self) -> Reply {
         answer(self, design::run(self))
+    }
+
+    fn probability(&self, request: probability::ProbabilityRequest, running: Running<'_>) -> Reply {
+        answer(self, probability::run(self, request, running))
     }
 
     fn waveforms(&self) -> Reply {

@@ -5,9 +5,11 @@ use crate::cite::{self, Sources};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::disc::{modes, motion, resonances, stability};
+use crate::run::probability;
 use crate::run::simulate::Options;
 use crate::run::system::simulate::MotionRequest;
 use crate::study::{DiscSetup, DiscStudy};
+use crate::sweep::Running;
 
 impl Verbs for DiscStudy {
     fn kind(&self) -> &'static str {
@@ -23,6 +25,7 @@ impl Verbs for DiscStudy {
             "modes",
             "stability",
             "simulate",
+            "probability",
             "resonances",
             "map",
         ]
@@ -53,6 +56,10 @@ impl Verbs for DiscStudy {
 
     fn simulate_from(&self, request: &MotionRequest) -> Reply {
         answer(self, motion::run(self, request))
+    }
+
+    fn probability(&self, request: probability::ProbabilityRequest, running: Running<'_>) -> Reply {
+        answer(self, probability::run(self, request, running))
     }
 
     fn modes(&self) -> Reply {

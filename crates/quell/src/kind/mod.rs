@@ -11,6 +11,7 @@ use crate::outcome::{Answered, Outcome, Presented};
 use crate::run::disc::{motion, resonances};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
+use crate::run::probability::ProbabilityRequest;
 use crate::run::system::basins::PlaneRequest;
 use crate::run::system::found_attractor::MotionAttractorRequest;
 use crate::run::system::orbit::WantedMotion;
@@ -272,6 +273,15 @@ pub trait Verbs: Send + Sync {
     /// A kind without this verb; as [`crate::run::design::run`].
     fn design(&self) -> Reply {
         Err(self.lacks("design"))
+    }
+
+    /// How probable it is that a study with uncertain numbers vibrates.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::probability::run`].
+    fn probability(&self, request: ProbabilityRequest, running: Running<'_>) -> Reply {
+        let _ = (request, running);
+        Err(self.lacks("probability"))
     }
 
     /// Natural frequencies and shapes.

@@ -5,10 +5,12 @@ use super::{Reply, UnderNoise, Verbs};
 use crate::cite::Sources;
 use crate::complaint::Failure;
 use crate::outcome::Outcome;
+use crate::run::probability::{ProbabilityRequest, ProbabilityStart};
 use crate::run::simulate::Options;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
 use crate::study::{BeltSetup, not_periodic};
+use crate::sweep::Running;
 
 impl Verbs for UnderNoise {
     fn kind(&self) -> &'static str {
@@ -17,9 +19,17 @@ impl Verbs for UnderNoise {
 
     fn names(&self) -> &'static [&'static str] {
         match self.periodic.kind() {
-            BeltSetup::NAME => {
-                &["check", "sketch", "cite", "friction", "stability", "simulate", "response", "map"]
-            }
+            BeltSetup::NAME => &[
+                "check",
+                "sketch",
+                "cite",
+                "friction",
+                "stability",
+                "simulate",
+                "response",
+                "probability",
+                "map",
+            ],
             _ => &[
                 "check",
                 "sketch",
@@ -62,6 +72,13 @@ impl Verbs for UnderNoise {
 
     fn stability(&self) -> Reply {
         self.periodic.stability()
+    }
+
+    fn probability(&self, request: ProbabilityRequest, running: Running<'_>) -> Reply {
+        if self.kind() != BeltSetup::NAME || request.start != ProbabilityStart::Averaged {
+            return Err(self.lacks("probability"));
+        }
+        self.periodic.probability(request, running)
     }
 
     fn modes(&self) -> Reply {

@@ -26,7 +26,7 @@ use crate::run::system::{
     response, simulate, stability, thresholds, tracked, waveforms,
 };
 use crate::run::thresholds::ThresholdsRequest;
-use crate::run::window;
+use crate::run::{probability, window};
 use crate::study::{SystemSetup, SystemStudy};
 use crate::sweep::Running;
 
@@ -50,6 +50,7 @@ impl Verbs for SystemStudy {
             "thresholds",
             "waveforms",
             "design",
+            "probability",
             "bifurcation",
             "basins",
             "resonances",
@@ -97,6 +98,10 @@ impl Verbs for SystemStudy {
 
     fn design(&self) -> Reply {
         answer(self, design::run(self))
+    }
+
+    fn probability(&self, request: probability::ProbabilityRequest, running: Running<'_>) -> Reply {
+        answer(self, probability::run(self, request, running))
     }
 
     fn modes(&self) -> Reply {

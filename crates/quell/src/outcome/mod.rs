@@ -25,6 +25,7 @@ mod map;
 mod modes;
 mod noise_response;
 mod orbit;
+mod probability;
 mod ramp;
 mod resonances;
 mod response;
@@ -35,6 +36,8 @@ mod table;
 mod thresholds;
 mod waveforms;
 mod window;
+
+pub(crate) use probability::POINTS as DISTRIBUTION_POINTS;
 
 /// The answer of a verb.
 pub trait Outcome: Send + Sync {

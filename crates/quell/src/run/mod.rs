@@ -24,6 +24,7 @@ pub mod manoeuvre;
 pub mod map;
 pub mod noise_response;
 pub mod orbit;
+pub mod probability;
 pub mod protocol;
 pub mod ramp;
 pub mod response;

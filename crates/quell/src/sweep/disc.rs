@@ -136,6 +136,11 @@ fn evaluate(
     points.iter().map(|disc| disc.as_ref().map(&mut one)).collect()
 }
 
+/// Largest growth rate of one disc.
+pub(crate) fn growth_alone(disc: &Disc, parts: Contributions) -> Result<Growth, Status> {
+    growth(disc, parts, &mut None)
+}
+
 /// Largest growth rate of a disc. Uses `prepared` if it fits this disc except for the friction of its load.
 fn growth(
     disc: &Disc,

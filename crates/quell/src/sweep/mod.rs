@@ -30,6 +30,7 @@ mod system;
 
 pub use catalogue::QUANTITIES;
 pub use chunks::Chunks;
+pub(crate) use disc::growth_alone as growth_of_disc;
 pub use evaluate::{Computation, ResponseNumbers, Results};
 pub use grid::{Grid, GridAxis, MOST_POINTS};
 pub use plan::Plan;
@@ -39,3 +40,4 @@ pub use runner::{MOST_THREADS, Progress, Running};
 pub use shard::Shard;
 pub use sheet::{Content, Data, MISSING, MapArray, Sheet, VariableArrays};
 pub use status::Status;
+pub(crate) use system::growth as growth_of_system;

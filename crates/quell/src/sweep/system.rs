@@ -131,7 +131,8 @@ fn undithered(system: &System) -> Result<SystemPoint, Status> {
     Ok(SystemPoint { growth, slip_ratio: 0.0, opens: false, beyond_range })
 }
 
-fn growth(system: &System) -> Result<SystemPoint, Status> {
+/// The largest growth rate of a system, by averaging under dither.
+pub(crate) fn growth(system: &System) -> Result<SystemPoint, Status> {
     let average = DitheredSystem::new(system).and_then(|prepared| prepared.average());
     let average = average.map_err(|why| status(&why))?;
     let growth = average.growth().map_err(|_| Status::NotFinite)?;

@@ -209,6 +209,64 @@ class Design(_columns.DesignColumns, Result):
         return self.arrays["used"].values
 
 
+class Probability(_columns.ProbabilityColumns, Result):
+    """How probable it is that a study vibrates; arrays over shares of the samples (n,)."""
+
+    verb = "probability"
+    start: str
+    """What decides: "averaged", "local", "rest" or "squeal"."""
+    samples: int
+    """Number of samples."""
+    seed: int
+    """Seed of the random numbers."""
+    probability: float | None
+    """Share of the samples that vibrate."""
+    low: float | None
+    """Lower end of its 95 % interval."""
+    high: float | None
+    """Upper end of its 95 % interval."""
+    confidence: float
+    """Confidence of the interval."""
+    vibrating: int
+    """Samples that vibrate."""
+    quiet: int
+    """Samples that do not."""
+    unknown: int
+    """Samples whose verdict is unknown; the interval includes both verdicts."""
+    probability_sharper: float | None
+    """By finite-R averaging, of a dithered belt."""
+    low_sharper: float | None
+    """Lower end of its 95 % interval."""
+    high_sharper: float | None
+    """Upper end of its 95 % interval."""
+    vibrating_sharper: int
+    """Samples that vibrate by finite-R averaging."""
+    quiet_sharper: int
+    """Samples that do not."""
+    unknown_sharper: int
+    """Samples whose verdict is unknown."""
+    quantiles: dict[str, dict[str, float]]
+    """Quantiles 0.05, 0.5 and 0.95 of the growth rate, ``growth`` and of a dithered belt ``growth_sharper``."""
+    indices: dict[str, dict[str, float | None]]
+    """Sobol indices of the growth rate by path: ``first`` and ``total`` with their standard errors."""
+    indices_sharper: dict[str, dict[str, float | None]]
+    """The same of finite-R averaging, of a dithered belt."""
+    groups: list[dict[str, Any]]
+    """Indices of each group of correlated numbers, ``of``."""
+    invalid: int
+    """Samples that are no valid studies and are left out."""
+
+    @property
+    def share(self) -> npt.NDArray[np.float64]:
+        """Share of the samples (n,) up to each growth rate."""
+        return self.arrays["share"].values
+
+    @property
+    def growth(self) -> npt.NDArray[np.float64]:
+        """Growth rate (n,), ascending."""
+        return self.arrays["growth"].values
+
+
 class Waveforms(_columns.WaveformsColumns, Result):
     """The least dither of each waveform that quenches, and its cost; arrays over the waveforms (n,)."""
 

@@ -54,7 +54,18 @@ impl StudyKind for BeltSetup {
     }
 
     fn tables(_: &Table) -> &'static [&'static str] {
-        &["schema", "title", "belt", "friction", "dither", "solver", "response", "design", "sweep"]
+        &[
+            "schema",
+            "title",
+            "belt",
+            "friction",
+            "dither",
+            "solver",
+            "response",
+            "design",
+            "uncertainty",
+            "sweep",
+        ]
     }
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {

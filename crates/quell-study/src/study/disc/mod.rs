@@ -72,7 +72,7 @@ impl StudyKind for DiscSetup {
     }
 
     fn tables(_: &Table) -> &'static [&'static str] {
-        &["schema", "title", "disc", "friction", "dither", "sweep"]
+        &["schema", "title", "disc", "friction", "dither", "uncertainty", "sweep"]
     }
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {

@@ -34,6 +34,7 @@ pub(in crate::study) const TABLES: &[&str] = &[
     "dither",
     "parameters",
     "design",
+    "uncertainty",
     "sweep",
 ];
 

@@ -194,8 +194,9 @@ impl SystemStudy {
             return belt_at(belt, numbers);
         }
         let mut document = self.source.document.clone();
-        document.remove("sweep");
-        document.remove("design");
+        for apart in ["sweep", "design", "uncertainty"] {
+            document.remove(apart);
+        }
         for (path, value) in numbers {
             let node = Node { value: Value::Number(*value), origin: Origin::Whole };
             set(&mut document, path, &node)?;

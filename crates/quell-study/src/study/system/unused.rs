@@ -20,6 +20,7 @@ const WORDS: &[&str] = &[
     "normalisation",
     "sweep",
     "design",
+    "uncertainty",
 ];
 
 /// The warning about parameters that are used nowhere in a document, not even by another parameter.

@@ -1,0 +1,45 @@
+//! The schema of `[uncertainty]`, in studies of every kind.
+
+use serde_json::{Map, Value as Json, json};
+
+use crate::study::DISTRIBUTIONS;
+
+/// Distributions by paths, their covariance and their correlation.
+pub(super) fn uncertainty() -> Json {
+    let pair = |about: &str| json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2, "description": about });
+    let kinds: Map<String, Json> =
+        DISTRIBUTIONS.iter().map(|(name, about)| ((*name).to_owned(), pair(about))).collect();
+    let one = json!({
+        "type": "object",
+        "properties": kinds,
+        "minProperties": 1,
+        "maxProperties": 1,
+        "additionalProperties": false,
+    });
+    let of = json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 });
+    let row = json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 });
+    let matrix = json!({ "type": "array", "items": row, "minItems": 1 });
+    json!({
+        "type": "object",
+        "description": "distributions of numbers of the study by their paths",
+        "properties": {
+            "covariance": {
+                "type": "object",
+                "description": "numbers that are jointly normal",
+                "properties": { "of": of, "mean": row, "matrix": matrix },
+                "required": ["of", "mean", "matrix"],
+                "additionalProperties": false,
+            },
+            "correlation": {
+                "type": "object",
+                "description": "the correlation of numbers with distributions of their own",
+                "properties": { "of": of, "matrix": matrix },
+                "required": ["of", "matrix"],
+                "additionalProperties": false,
+            },
+        },
+        // A path without quotes is tables inside each other.
+        "additionalProperties": { "anyOf": [one, { "type": "object", "additionalProperties": { "type": "object" } }] },
+        "minProperties": 1,
+    })
+}

@@ -1,0 +1,279 @@
+//! The kinds of study whose numbers can be uncertain, and the judges of one sample.
+
+use quell_dynamics::attractor::reached;
+use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
+use quell_dynamics::start::{InitialState, NoSquealingStart};
+use quell_linear::averaging::{AveragedVerdict, AveragingOptions, criterion};
+use quell_linear::growth::{Growth, Verdict, of_criterion};
+use quell_model::disc::Disc;
+use quell_model::{Belt, Dither, System};
+
+use super::ProbabilityStart;
+use crate::complaint::{Complaint, Failure};
+use crate::contact_state::refused_of_belt;
+use crate::fields::Fields;
+use crate::range;
+use crate::run::system::attractor::{MotionKind, end_of_run, local_verdict};
+use crate::run::system::has_equations;
+use crate::run::system::protocol::SystemProtocol;
+use crate::study::{BeltStudy, DiscStudy, SystemStudy};
+use crate::sweep::{Status, growth_of_disc, growth_of_system};
+
+/// Steps by which the dither grows from zero to the base response of a belt.
+const GROWTH_STEPS: u32 = 8;
+
+/// A growth rate with its verdict.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JudgedGrowth {
+    /// The growth rate.
+    pub rate: f64,
+    /// Whether small motions grow, or why that is unknown.
+    pub vibrates: Result<bool, String>,
+}
+
+impl JudgedGrowth {
+    fn of(growth: Growth) -> Self {
+        let vibrates = match growth.verdict() {
+            Verdict::Unstable => Ok(true),
+            Verdict::Stable => Ok(false),
+            Verdict::Undecided => Err(Status::WithinError.about().to_owned()),
+        };
+        Self { rate: growth.rate, vibrates }
+    }
+}
+
+/// The growth of small motions of one sample, by averaging under dither.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AveragedGrowth {
+    /// Of a belt in the limit of high frequency; of another structure with its response to the dither.
+    pub limit: Result<JudgedGrowth, String>,
+    /// Of a dithered belt finite-R averaging.
+    pub sharper: Option<Result<JudgedGrowth, String>>,
+    /// Whether slip leaves the range of a friction law.
+    pub beyond_range: bool,
+    /// Whether the fast motion opens a contact.
+    pub opens: bool,
+}
+
+impl AveragedGrowth {
+    fn of(limit: Result<JudgedGrowth, String>) -> Self {
+        Self { limit, sharper: None, beyond_range: false, opens: false }
+    }
+}
+
+/// A study whose numbers can be uncertain.
+pub trait SampledKind {
+    /// What the study describes.
+    type Sampled: Sync;
+
+    /// Whether samples can be judged from this start.
+    ///
+    /// # Errors
+    /// A complaint.
+    fn can_be_sampled(&self, start: ProbabilityStart) -> Result<(), Failure>;
+
+    /// What the study describes with these numbers.
+    ///
+    /// # Errors
+    /// Why it is not valid.
+    fn sampled_at(&self, numbers: &[(&str, f64)]) -> Result<Self::Sampled, String>;
+
+    /// The growth of its small motions, by averaging under dither.
+    fn averaged_growth(&self, sampled: &Self::Sampled) -> AveragedGrowth;
+
+    /// Whether it vibrates, by its exact motion.
+    ///
+    /// # Errors
+    /// Why that is unknown.
+    fn vibrates(&self, sampled: &Self::Sampled, start: ProbabilityStart) -> Result<bool, String>;
+
+    /// An empty answer in the units of the study.
+    fn fields(&self) -> Fields;
+}
+
+impl SampledKind for BeltStudy {
+    type Sampled = Belt;
+
+    fn can_be_sampled(&self, start: ProbabilityStart) -> Result<(), Failure> {
+        if start == ProbabilityStart::Averaged {
+            // Averages are over the distribution of noise.
+            return match crate::contact_state::complaint_of_belt(self.belt(), "probability") {
+                Some(complaint) => Err(complaint.into()),
+                None => Ok(()),
+            };
+        }
+        refused_of_belt(self, "probability")
+    }
+
+    fn sampled_at(&self, numbers: &[(&str, f64)]) -> Result<Belt, String> {
+        let study = self.at(numbers.iter().copied()).map_err(|why| why.to_string())?;
+        Ok(study.belt().clone())
+    }
+
+    fn averaged_growth(&self, belt: &Belt) -> AveragedGrowth {
+        let amplitude = belt.dithers().first().map_or(0.0, |dither| dither.amplitude);
+        let slip = range::at_amplitude(belt, amplitude);
+        let beyond_range = belt.friction().range().is_some_and(|range| slip > range.upper);
+        let is_fast = |dither: &Dither| dither.lowest_ratio() > 1.0;
+        let sharper = (!belt.dithers().is_empty()).then(|| {
+            if belt.dithers().iter().all(is_fast) {
+                by_averaging(belt, AveragingOptions::FINITE_R)
+            } else {
+                Err(Status::NotFast.about().to_owned())
+            }
+        });
+        let limit = by_averaging(belt, AveragingOptions::default());
+        AveragedGrowth { limit, sharper, beyond_range, opens: false }
+    }
+
+    fn vibrates(&self, belt: &Belt, start: ProbabilityStart) -> Result<bool, String> {
+        let initial = match start {
+            ProbabilityStart::Averaged | ProbabilityStart::Local => return is_unstable(belt),
+            ProbabilityStart::Rest => InitialState::Rest,
+            ProbabilityStart::Squeal => InitialState::Squealing,
+        };
+        let start = match initial.resolve(belt) {
+            Ok(start) => start,
+            // Nothing to quench.
+            Err(NoSquealingStart::SettlesToSliding | NoSquealingStart::BeltAtRest) => {
+                return Ok(false);
+            }
+            Err(NoSquealingStart::Stalled(why)) => return Err(why.to_string()),
+        };
+        let reached = reached(belt, start).map_err(|why| why.to_string())?;
+        let quiet = reached.is_quiet().ok_or("the run has not settled")?;
+        Ok(!quiet)
+    }
+
+    fn fields(&self) -> Fields {
+        Fields::new(self.scales())
+    }
+}
+
+fn by_averaging(belt: &Belt, options: AveragingOptions) -> Result<JudgedGrowth, String> {
+    let found = criterion(belt, options).map_err(|why| why.to_string())?;
+    let vibrates = match found.verdict {
+        AveragedVerdict::Unstable => Ok(true),
+        AveragedVerdict::Stable => Ok(false),
+        AveragedVerdict::Undecided { .. } => Err(Status::WithinError.about().to_owned()),
+    };
+    Ok(JudgedGrowth { rate: of_criterion(found.value), vibrates })
+}
+
+/// Whether the base response of a belt is unstable; without dither steady sliding.
+fn is_unstable(belt: &Belt) -> Result<bool, String> {
+    if !belt.dithers().iter().any(|dither| dither.amplitude != 0.0) {
+        return by_averaging(belt, AveragingOptions::default())?.vibrates;
+    }
+    match from_sliding(belt, GROWTH_STEPS).map_err(|why| why.to_string())?.verdict() {
+        OrbitVerdict::Stable => Ok(false),
+        OrbitVerdict::Unstable => Ok(true),
+        OrbitVerdict::Undecided => Err("the verdict on the base response is undecided".to_owned()),
+    }
+}
+
+impl SampledKind for SystemStudy {
+    type Sampled = System;
+
+    fn can_be_sampled(&self, start: ProbabilityStart) -> Result<(), Failure> {
+        let verb = if start == ProbabilityStart::Averaged { "probability" } else { "orbit" };
+        has_equations(self, verb)
+    }
+
+    fn sampled_at(&self, numbers: &[(&str, f64)]) -> Result<System, String> {
+        self.system_at(numbers).map_err(|why| why.to_string())
+    }
+
+    fn averaged_growth(&self, system: &System) -> AveragedGrowth {
+        match growth_of_system(system) {
+            Ok(point) => AveragedGrowth {
+                limit: Ok(JudgedGrowth::of(point.growth)),
+                sharper: None,
+                beyond_range: point.beyond_range,
+                opens: point.opens,
+            },
+            Err(status) => AveragedGrowth::of(Err(status.about().to_owned())),
+        }
+    }
+
+    fn vibrates(&self, system: &System, start: ProbabilityStart) -> Result<bool, String> {
+        let protocol = match start {
+            ProbabilityStart::Averaged | ProbabilityStart::Local => {
+                return match local_verdict(system)? {
+                    "stable" => Ok(false),
+                    "unstable" => Ok(true),
+                    verdict => Err(format!("the base response is {verdict}")),
+                };
+            }
+            ProbabilityStart::Rest => SystemProtocol::Rest,
+            ProbabilityStart::Squeal => SystemProtocol::Squeal,
+        };
+        let state = match protocol.state(self, system) {
+            Ok(state) => state,
+            // Steady sliding is stable, and no run from the usual starts vibrates: nothing to quench.
+            Err(_) if start == ProbabilityStart::Squeal && is_quiet_without_dither(system) => {
+                return Ok(false);
+            }
+            Err(why) => return Err(in_words(&why)),
+        };
+        let end = end_of_run(system, &self.observe(), &state)?;
+        Ok(match end.attractor.kind {
+            MotionKind::Rest => false,
+            MotionKind::Periodic { periods, .. } => periods > 1,
+            MotionKind::NotPeriodic { .. } | MotionKind::Cycle { .. } => true,
+        })
+    }
+
+    fn fields(&self) -> Fields {
+        Fields::of_system(self.units())
+    }
+}
+
+/// Whether steady sliding without dither is stable.
+fn is_quiet_without_dither(system: &System) -> bool {
+    local_verdict(&system.undithered()).is_ok_and(|verdict| verdict == "stable")
+}
+
+/// Why a start does not exist.
+fn in_words(why: &Failure) -> String {
+    match why {
+        Failure::Wrong(complaints) => complaints
+            .iter()
+            .map(|complaint| complaint.allowed.clone())
+            .collect::<Vec<_>>()
+            .join("; "),
+        Failure::Failed { why, .. } => why.clone(),
+    }
+}
+
+impl SampledKind for DiscStudy {
+    type Sampled = Disc;
+
+    fn can_be_sampled(&self, start: ProbabilityStart) -> Result<(), Failure> {
+        match start {
+            ProbabilityStart::Averaged | ProbabilityStart::Local => Ok(()),
+            ProbabilityStart::Rest | ProbabilityStart::Squeal => {
+                let allowed = "averaged or local of a disc, both by its exact exponents: its motions are linear";
+                Err(Complaint::option("--start", start.name(), allowed).into())
+            }
+        }
+    }
+
+    fn sampled_at(&self, numbers: &[(&str, f64)]) -> Result<Disc, String> {
+        let study = self.at(numbers.iter().copied()).map_err(|why| why.to_string())?;
+        Ok(study.disc().clone())
+    }
+
+    fn averaged_growth(&self, disc: &Disc) -> AveragedGrowth {
+        let growth = growth_of_disc(disc, self.parts()).map(JudgedGrowth::of);
+        AveragedGrowth::of(growth.map_err(|status| status.about().to_owned()))
+    }
+
+    fn vibrates(&self, disc: &Disc, _: ProbabilityStart) -> Result<bool, String> {
+        self.averaged_growth(disc).limit?.vibrates
+    }
+
+    fn fields(&self) -> Fields {
+        Fields::new(None)
+    }
+}
