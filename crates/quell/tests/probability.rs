@@ -223,3 +223,24 @@ fn complaints_name_the_place() {
     );
     assert_eq!(unquoted["quantiles"], averaged(&format!("{BELT}{DAMPING}"), 50)["quantiles"]);
 }
+
+/// Values with units, and the deviation of a logarithm, which has none.
+#[test]
+fn distributions_have_the_units_of_their_keys() {
+    let belt = "[belt]\nmass_kg = 2.0\nstiffness_n_per_m = 200.0\ndamping_ratio = 0.05\nnormal_force_n = 200.0\n\
+                belt_velocity_m_per_s = 3.0\n[friction]\nlaw = \"decreasing\"\nstatic_coefficient = 0.4\n\
+                minimum_coefficient = 0.2857\nreference_velocity_m_per_s = 2.0\n[uncertainty]\n";
+    let of = |entries: &str| averaged(&format!("{belt}{entries}"), 100);
+    let plain = of(
+        "\"belt.belt_velocity_m_per_s\" = { lognormal = [3.0, 0.1] }\n\"belt.normal_force_n\" = { uniform = [100.0, 200.0] }\n",
+    );
+    let units = of(
+        "\"belt.belt_velocity_m_per_s\" = { lognormal = [\"3000 mm/s\", 0.1] }\n\"belt.normal_force_n\" = { uniform = [\"0.1kN\", \"200 N\"] }\n",
+    );
+    assert_eq!(plain["quantiles"], units["quantiles"]);
+    assert!(plain["sentence"].as_str().is_some_and(|said| said.contains(" 1/s ")));
+    let wrong = refused(&format!(
+        "{belt}\"belt.belt_velocity_m_per_s\" = {{ lognormal = [3.0, \"0.1 m/s\"] }}\n"
+    ));
+    assert!(wrong.contains("lognormal[1]"), "{wrong}");
+}

@@ -5,12 +5,14 @@
 use quell_model::units::measure;
 
 use super::document::{Node, Table, Value};
+use super::sweep::AxisTarget;
 use super::system::{keys, path};
 use super::vocabulary::{self, Section};
 
 /// Converts texts with units under numeric keys to numbers in the unit of the key; the ends and values of an axis
 /// are in the unit of the key that it varies.
 pub(super) fn resolve(root: &mut Table) {
+    resolve_distributions(root);
     if keys::is_described(root) {
         resolve_axes(root);
         return;
@@ -18,6 +20,38 @@ pub(super) fn resolve(root: &mut Table) {
     for section in Section::ALL {
         for table in tables(root, *section) {
             resolve_table(table, *section);
+        }
+    }
+}
+
+/// The numbers of distributions are in the unit of the key that they are of, except the deviation of a logarithm.
+fn resolve_distributions(root: &mut Table) {
+    if !root.has("uncertainty") {
+        return;
+    }
+    let paths = root.clone();
+    for table in tables_of(root, "uncertainty") {
+        resolve_inside(table, "", &paths);
+    }
+}
+
+/// The distributions in a table of paths, which may be tables inside each other.
+fn resolve_inside(table: &mut Table, prefix: &str, paths: &Table) {
+    for (name, node) in table.iter_mut() {
+        let path = vocabulary::join(prefix, name);
+        let Value::Table(inner) = &mut node.value else { continue };
+        let Ok(target) = AxisTarget::resolve(paths, &path) else {
+            resolve_inside(inner, &path, paths);
+            continue;
+        };
+        let Some(unit) = target.measured_in() else { continue };
+        for (kind, node) in inner.iter_mut() {
+            match &mut node.value {
+                Value::List(list) if kind == "lognormal" => {
+                    list.iter_mut().take(1).for_each(|node| resolve_node(node, unit));
+                }
+                _ => resolve_node(node, unit),
+            }
         }
     }
 }
@@ -78,8 +112,13 @@ fn resolve_node(node: &mut Node, unit: &'static str) {
 
 /// The tables of a section.
 fn tables(root: &mut Table, section: Section) -> Vec<&mut Table> {
+    tables_of(root, section.path())
+}
+
+/// The tables at a path.
+fn tables_of<'t>(root: &'t mut Table, path: &str) -> Vec<&'t mut Table> {
     let mut within = vec![root];
-    for name in section.path().split('.').filter(|name| !name.is_empty()) {
+    for name in path.split('.').filter(|name| !name.is_empty()) {
         let nodes = within.into_iter().filter_map(|table| table.get_mut(name));
         within = nodes.flat_map(listed).collect();
     }

@@ -27,8 +27,8 @@ where
         self.json(study)
     }
 
-    fn sentence(&self, _: &StudyOf<K>) -> Option<String> {
-        Some(self.sentence())
+    fn sentence(&self, study: &StudyOf<K>) -> Option<String> {
+        Some(self.sentence(study))
     }
 
     fn table(&self, _: &StudyOf<K>) -> String {
@@ -36,17 +36,23 @@ where
     }
 
     fn datasets(&self, study: &StudyOf<K>) -> Vec<(&'static str, Dataset)> {
-        let curve = self.growth.distribution(POINTS);
+        let (unit, factor) = study.unit_of_rates();
+        let curve = self.growth.distribution(POINTS, factor);
         let (rates, shares): (Vec<f64>, Vec<f64>) = curve.into_iter().unzip();
         let dataset = Dataset::of(&study.into(), "probability")
-            .fact(self.sentence())
+            .fact(self.sentence(study))
             .with_axis(Array::new("share", "1", shares))
-            .with(Array::new("growth", "given", rates));
+            .with(Array::new("growth", unit, rates));
         vec![("probability", dataset)]
     }
 
     fn figure(&self, study: &StudyOf<K>) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::probability(&study.into(), self)))
+        Some(Ok(picture::probability(
+            &study.into(),
+            self,
+            study.unit_of_rates(),
+            &self.sentence(study),
+        )))
     }
 }
 

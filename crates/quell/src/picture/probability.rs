@@ -6,16 +6,18 @@ use crate::plot::{
     Figure, LineStyle, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine, SharedLegend,
 };
 use crate::run::probability::{SampledGrowth, VibrationProbability};
-use crate::study::{Kind, Study, SystemUnits};
+use crate::study::Study;
 
-/// Share of the samples whose growth rate is below each value.
-pub fn probability(study: &Study, done: &VibrationProbability) -> Figure {
+/// Share of the samples whose growth rate is below each value, in this unit with this many of them in one of the equations.
+pub fn probability(
+    study: &Study,
+    done: &VibrationProbability,
+    (unit, factor): (&'static str, f64),
+    sentence: &str,
+) -> Figure {
     let axis = PlotAxis::new("growth rate").symbol("Re λ");
-    let axis = match unit(study) {
-        Some(unit) => axis.unit(unit),
-        None => axis,
-    };
-    let curve = |growth: &SampledGrowth| growth.distribution(DISTRIBUTION_POINTS);
+    let axis = if unit == "1" { axis } else { axis.unit(unit) };
+    let curve = |growth: &SampledGrowth| growth.distribution(DISTRIBUTION_POINTS, factor);
     let mut panel = Panel::new(axis, PlotAxis::new("share of the samples below").between(0.0, 1.0))
         .with(ReferenceLine::vertical(0.0).label("grows beyond"));
     let sharper = done.growth_sharper.as_ref();
@@ -34,16 +36,5 @@ pub fn probability(study: &Study, done: &VibrationProbability) -> Figure {
     Figure::single(panel)
         .legend(SharedLegend::Below)
         .title(study.title().unwrap_or_default())
-        .caption(format!("{} {}", caption_of(study), done.sentence()))
-}
-
-/// The unit of growth rates.
-fn unit(study: &Study) -> Option<&'static str> {
-    match study.kind() {
-        Kind::Belt(_) | Kind::Disc(_) => Some("ω₀"),
-        Kind::System(_) => {
-            let system = study.system().ok()?;
-            (system.units() != SystemUnits::None).then_some("1/s")
-        }
-    }
+        .caption(format!("{} {sentence}", caption_of(study)))
 }

@@ -17,7 +17,7 @@ pub(crate) const QUANTILES: [(&str, f64); 3] = [("0.05", 0.05), ("0.5", 0.5), ("
 
 impl VibrationProbability {
     /// The sentence of the answer.
-    pub fn sentence(&self) -> String {
+    pub fn sentence(&self, study: &impl SampledKind) -> String {
         let per_cent = |share: f64| format!("{} %", digits(100.0 * share));
         let of = |tally: &VerdictTally| {
             let (low, high) = tally.interval();
@@ -41,14 +41,17 @@ impl VibrationProbability {
             format!(
                 " {} causes {} of the variance of the growth rate, alone and together with others.",
                 paths.join(" with "),
-                per_cent(total.value)
+                // The estimate of a share may exceed 1 by its error.
+                per_cent(total.value.clamp(0.0, 1.0))
             )
         });
+        let (unit, factor) = study.unit_of_rates();
+        let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
         let growth = match self.growth.quantiles() {
             Some([low, _, high]) => format!(
-                " The growth rate is between {} and {} in 90 % of the samples.",
-                digits(low),
-                digits(high)
+                " The growth rate is between {}{unit} and {}{unit} in 90 % of the samples.",
+                digits(low * factor),
+                digits(high * factor)
             ),
             None => String::new(),
         };
@@ -80,7 +83,7 @@ impl VibrationProbability {
         let mut fields = study.fields();
         fields
             .plain("ok", true)
-            .plain("sentence", self.sentence())
+            .plain("sentence", self.sentence(study))
             .plain("start", self.start.name())
             .plain("samples", self.samples)
             .plain("seed", self.seed);

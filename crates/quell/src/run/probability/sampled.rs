@@ -16,7 +16,7 @@ use crate::range;
 use crate::run::system::attractor::{MotionKind, end_of_run, local_verdict};
 use crate::run::system::has_equations;
 use crate::run::system::protocol::SystemProtocol;
-use crate::study::{BeltStudy, DiscStudy, SystemStudy};
+use crate::study::{BeltStudy, DiscStudy, SystemStudy, SystemUnits};
 use crate::sweep::{Status, growth_of_disc, growth_of_system};
 
 /// Steps by which the dither grows from zero to the base response of a belt.
@@ -89,6 +89,9 @@ pub trait SampledKind {
 
     /// An empty answer in the units of the study.
     fn fields(&self) -> Fields;
+
+    /// The unit of growth rates in sentences, pictures and datasets, and how many of them one of the equations is.
+    fn unit_of_rates(&self) -> (&'static str, f64);
 }
 
 impl SampledKind for BeltStudy {
@@ -147,6 +150,10 @@ impl SampledKind for BeltStudy {
 
     fn fields(&self) -> Fields {
         Fields::new(self.scales())
+    }
+
+    fn unit_of_rates(&self) -> (&'static str, f64) {
+        self.scales().map_or(("ω₀", 1.0), |scales| ("1/s", scales.angular_frequency()))
     }
 }
 
@@ -227,6 +234,10 @@ impl SampledKind for SystemStudy {
     fn fields(&self) -> Fields {
         Fields::of_system(self.units())
     }
+
+    fn unit_of_rates(&self) -> (&'static str, f64) {
+        (if self.units() == SystemUnits::None { "1" } else { "1/s" }, 1.0)
+    }
 }
 
 /// Whether steady sliding without dither is stable.
@@ -275,5 +286,9 @@ impl SampledKind for DiscStudy {
 
     fn fields(&self) -> Fields {
         Fields::new(None)
+    }
+
+    fn unit_of_rates(&self) -> (&'static str, f64) {
+        ("ω_ref", 1.0)
     }
 }
