@@ -67,6 +67,7 @@ pub fn schema() -> Json {
     system::define(&mut definitions);
     definitions.insert("sweep".to_owned(), sweep());
     definitions.insert("uncertainty".to_owned(), uncertainty::uncertainty());
+    definitions.insert("uncertainty_at".to_owned(), uncertainty::uncertainty_at());
     json!({
         "$schema": DIALECT,
         "title": "Quell study file",

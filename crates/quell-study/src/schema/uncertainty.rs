@@ -6,16 +6,6 @@ use crate::study::DISTRIBUTIONS;
 
 /// Distributions by paths, their covariance and their correlation.
 pub(super) fn uncertainty() -> Json {
-    let pair = |about: &str| json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2, "description": about });
-    let kinds: Map<String, Json> =
-        DISTRIBUTIONS.iter().map(|(name, about)| ((*name).to_owned(), pair(about))).collect();
-    let one = json!({
-        "type": "object",
-        "properties": kinds,
-        "minProperties": 1,
-        "maxProperties": 1,
-        "additionalProperties": false,
-    });
     let of = json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 });
     let row = json!({ "type": "array", "items": { "type": "number" }, "minItems": 1 });
     let matrix = json!({ "type": "array", "items": row, "minItems": 1 });
@@ -38,8 +28,28 @@ pub(super) fn uncertainty() -> Json {
                 "additionalProperties": false,
             },
         },
-        // A path without quotes is tables inside each other.
-        "additionalProperties": { "anyOf": [one, { "type": "object", "additionalProperties": { "type": "object" } }] },
+        "additionalProperties": { "$ref": "#/$defs/uncertainty_at" },
         "minProperties": 1,
     })
+}
+
+/// A distribution, or, where a path is written without quotes, the table of what its first name leads to.
+pub(super) fn uncertainty_at() -> Json {
+    let pair = |about: &str| json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2, "description": about });
+    let kinds: Map<String, Json> =
+        DISTRIBUTIONS.iter().map(|(name, about)| ((*name).to_owned(), pair(about))).collect();
+    let one = json!({
+        "type": "object",
+        "properties": kinds,
+        "required": [],
+        "minProperties": 1,
+        "maxProperties": 1,
+        "additionalProperties": false,
+    });
+    let inside = json!({
+        "type": "object",
+        "additionalProperties": { "$ref": "#/$defs/uncertainty_at" },
+        "minProperties": 1,
+    });
+    json!({ "anyOf": [one, inside] })
 }
