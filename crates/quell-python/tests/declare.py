@@ -49,7 +49,7 @@ def documented(cls: type) -> set[str]:
 
 
 def of_the_study(result: results.Result) -> set[str]:
-    """Names of arrays that depend on the study: coordinates, contacts and parameters."""
+    """Names of arrays that depend on the study: coordinates, contacts and parameters, and uncertain numbers."""
     facts = result.facts
     names = {it for key in ("coordinates", "state_names", "plane") for it in facts.get(key, [])}
     names |= {it["parameter"] for it in facts.get("axes", [])} | {str(facts.get(key)) for key in ("parameter", "along")}
@@ -60,6 +60,7 @@ def of_the_study(result: results.Result) -> set[str]:
     starts = [f"{attributes([name])[name]}_" for name in contacts] + ["shape_", "slip_of_", "velocity_"]
     depending = {name for name in result.arrays if isinstance(study, quell.System) and name.startswith(tuple(starts))}
     depending -= {name for name in depending if name.startswith("shape_at")}
+    depending |= {name for name in result.arrays if name.startswith("indices_")}
     return found | depending | {name for name in result.arrays if re.search(r"_\d+$", name)}
 
 

@@ -86,6 +86,7 @@ def test_the_options_are_the_same(verb: str) -> None:
         "simulate": {"samples", "sound", "t_eval"},
         "bifurcation": {"progress"},
         "basins": {"progress"},
+        "probability": {"progress"},
         "reproduce": {"names"},
         "new": {"question", "save"},
         "fit": {"data"},

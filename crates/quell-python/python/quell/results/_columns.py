@@ -522,6 +522,21 @@ class OrbitColumns:
     velocity_value: float
 
 
+class ProbabilityColumns:
+    """Of :class:`quell.results.Probability`."""
+
+    group_first: npt.NDArray[np.float64]
+    group_first_error: npt.NDArray[np.float64]
+    group_total: npt.NDArray[np.float64]
+    group_total_error: npt.NDArray[np.float64]
+    quantiles_growth_0_05_per_s: float
+    quantiles_growth_0_5_per_s: float
+    quantiles_growth_0_95_per_s: float
+    quantiles_growth_sharper_0_05_per_s: float
+    quantiles_growth_sharper_0_5_per_s: float
+    quantiles_growth_sharper_0_95_per_s: float
+
+
 class RampColumns:
     """Of :class:`quell.results.Ramp`."""
 
