@@ -1,6 +1,7 @@
-//! Questions about many studies at once: the least dither of an actuator, friction laws fitted to measurements, and the probability
+//! Questions about many studies at once: the least dither, what actuators can give, friction laws fitted to measurements, and the probability
 //! that a structure vibrates.
 
+pub mod actuator;
 pub mod fit;
 pub mod least_dither;
 pub mod probability;

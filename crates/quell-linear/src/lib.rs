@@ -4,6 +4,7 @@
 //! * [`eigenvalues`], [`floquet`]: growth rates with bounds, without and with dither of the friction forces;
 //! * [`criticality`]: whether the vibration beyond a Hopf bifurcation of steady sliding grows from zero, or jumps;
 //! * [`growth`]: growth rate, its error and the verdict that they allow;
+//! * [`driven_point`]: the motion of the point on which a dither acts;
 //! * [`linear_cost`]: stroke, velocity and power of a dither on the structure of one mass without friction;
 //! * [`input_cost`]: the same of any sliding system at the driven point;
 //! * [`periodic_response`]: what any wave does to a linear structure, exactly;
@@ -12,6 +13,7 @@
 
 pub mod averaging;
 pub mod criticality;
+pub mod driven_point;
 pub mod eigenvalues;
 pub mod floquet;
 pub mod growth;

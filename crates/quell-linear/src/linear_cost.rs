@@ -2,12 +2,12 @@
 //!
 //! x″ + 2ζx′ + x = D g(Rτ). The mean power that the dither brings into the structure is ⟨D g x′⟩ = 2ζ⟨x′²⟩. A sine has the stroke
 //! 2D/√((R² − 1)² + 4ζ²R²), nearly 2D/|R² − 1|. A burst repeats at R over its cycles: one of its harmonics may be near the natural
-//! frequency. The response is exact for every waveform ([`crate::periodic_response`]).
+//! frequency. The motion is that of [`crate::driven_point`].
 
 use quell_model::{Direction, Dither};
-use quell_numerics::matrix::Matrix;
 
-use crate::periodic_response::{NoPeriodicResponse, ResponseToWave};
+use crate::driven_point::{DrivenPoint, PointOutput};
+use crate::periodic_response::NoPeriodicResponse;
 
 /// Steady response of the structure without friction to one tangential dither.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,18 +56,16 @@ pub fn linear_cost(dither: &Dither, damping_ratio: f64) -> Result<LinearCost, No
     if !dither.waveform.is_periodic() {
         return Err(NoLinearCost::Noise);
     }
-    let damping = 2.0 * damping_ratio;
-    let matrix = Matrix::from_fn(2, 2, |i, j| [[0.0, 1.0], [-1.0, -damping]][i][j]);
-    let source = [0.0, dither.amplitude];
-    let response = ResponseToWave::new(&matrix, &source, &dither.waveform, dither.frequency_ratio)
+    let point = DrivenPoint::of_belt(&dither.waveform, dither.frequency_ratio, damping_ratio)
         .map_err(NoLinearCost::NoResponse)?;
-    let outputs = response.outputs(&[(&[1.0, 0.0], 0.0), (&[0.0, 1.0], 0.0)]);
+    let outputs = point.outputs(&[PointOutput::DISPLACEMENT, PointOutput::VELOCITY]);
     let [displacement, velocity] = [&outputs[0], &outputs[1]];
     let [[least, largest], [slowest, fastest]] = [displacement.range(), velocity.range()];
+    let amplitude = dither.amplitude.abs();
     Ok(LinearCost {
-        stroke: largest - least,
-        velocity: fastest.max(-slowest),
-        power: damping * velocity.mean_of_product(velocity),
+        stroke: amplitude * (largest - least),
+        velocity: amplitude * fastest.max(-slowest),
+        power: amplitude * amplitude * (2.0 * damping_ratio * velocity.mean_of_product(velocity)),
     })
 }
 

@@ -3,6 +3,7 @@
 //! Constructors, the reader of study files, `--set`, sweeps and the published JSON Schema
 //! all use it.
 
+pub mod actuator;
 pub mod design;
 pub mod disc;
 pub mod system;

@@ -54,6 +54,20 @@ pub enum Quantity {
     Frequency,
     /// An angle, always in degrees.
     Degrees,
+    /// A mass over m; in SI kilograms.
+    Mass,
+    /// A force over k per ampere; in SI N/A.
+    ForcePerCurrent,
+    /// A capacitance times ω₀, ampere per volt; in SI farads.
+    Capacitance,
+    /// An inductance times ω₀, volt per ampere; in SI henries.
+    Inductance,
+    /// A voltage, always in volts.
+    Voltage,
+    /// A current, always in amperes.
+    Current,
+    /// A resistance, always in ohms.
+    Resistance,
 }
 
 impl Quantity {
@@ -81,6 +95,13 @@ impl Quantity {
             Self::Length => "m",
             Self::Frequency => "Hz",
             Self::Degrees => "degrees",
+            Self::Mass => "1 (mass/m)",
+            Self::ForcePerCurrent => "length/A (force per current/k)",
+            Self::Capacitance => "A/V (capacitance ω₀)",
+            Self::Inductance => "V/A (inductance ω₀)",
+            Self::Voltage => "V",
+            Self::Current => "A",
+            Self::Resistance => "Ω",
         }
     }
 
@@ -92,6 +113,9 @@ impl Quantity {
             Self::Length => "m",
             Self::Frequency => "Hz",
             Self::Degrees => "deg",
+            Self::Voltage => "V",
+            Self::Current => "A",
+            Self::Resistance => "Ω",
             _ => return None,
         })
     }
@@ -106,7 +130,13 @@ impl Quantity {
             | Self::Density
             | Self::Length
             | Self::Frequency
-            | Self::Degrees => return None,
+            | Self::Degrees
+            | Self::Voltage
+            | Self::Current
+            | Self::Resistance => return None,
+            Self::ForcePerCurrent => ("N/A", "n_per_a"),
+            Self::Capacitance => ("F", "f"),
+            Self::Inductance => ("H", "h"),
             Self::DampingRatio | Self::LoadDamping => ("N·s/m", "n_s_per_m"),
             Self::Force | Self::LoadFriction => ("N", "n"),
             Self::Velocity => ("m/s", "m_per_s"),
@@ -116,7 +146,7 @@ impl Quantity {
             Self::Power => ("W", "w"),
             Self::PerVelocity => ("s/m", "s_per_m"),
             Self::PerLength => ("1/m", "per_m"),
-            Self::LoadMass => ("kg", "kg"),
+            Self::Mass | Self::LoadMass => ("kg", "kg"),
             Self::Stiffness | Self::LoadStiffness => ("N/m", "n_per_m"),
         })
     }
@@ -193,18 +223,25 @@ impl Scales {
             | Quantity::Density
             | Quantity::Length
             | Quantity::Frequency
-            | Quantity::Degrees => 1.0,
+            | Quantity::Degrees
+            | Quantity::Voltage
+            | Quantity::Current
+            | Quantity::Resistance => 1.0,
             Quantity::DampingRatio => 2.0 * self.mass_kg * omega,
             // Stiffness and friction of a load: a force over a length of 1 m.
             Quantity::Force
             | Quantity::Stiffness
             | Quantity::LoadStiffness
-            | Quantity::LoadFriction => self.stiffness_n_per_m,
+            | Quantity::LoadFriction
+            | Quantity::ForcePerCurrent => self.stiffness_n_per_m,
             Quantity::Velocity => omega,
             Quantity::FrequencyRatio => omega / std::f64::consts::TAU,
-            Quantity::Time | Quantity::PerVelocity => 1.0 / omega,
+            Quantity::Time
+            | Quantity::PerVelocity
+            | Quantity::Capacitance
+            | Quantity::Inductance => 1.0 / omega,
             Quantity::Power => self.stiffness_n_per_m * omega,
-            Quantity::LoadMass => self.mass_kg,
+            Quantity::Mass | Quantity::LoadMass => self.mass_kg,
             Quantity::LoadDamping => self.mass_kg * omega,
         }
     }
@@ -256,10 +293,18 @@ impl DiscScales {
             | Quantity::Density
             | Quantity::Length
             | Quantity::Frequency
-            | Quantity::Degrees => Some(1.0),
-            Quantity::DampingRatio | Quantity::Force | Quantity::Stiffness | Quantity::Power => {
-                None
-            }
+            | Quantity::Degrees
+            | Quantity::Voltage
+            | Quantity::Current
+            | Quantity::Resistance => Some(1.0),
+            Quantity::DampingRatio
+            | Quantity::Force
+            | Quantity::Stiffness
+            | Quantity::Power
+            | Quantity::Mass
+            | Quantity::ForcePerCurrent
+            | Quantity::Capacitance
+            | Quantity::Inductance => None,
         }
     }
 }

@@ -148,6 +148,49 @@ impl PeriodicPolynomial {
         sum / self.period
     }
 
+    /// Root mean square over a period.
+    pub fn root_mean_square(&self) -> f64 {
+        self.mean_of_product(self).max(0.0).sqrt()
+    }
+
+    /// The slope as a function.
+    #[must_use]
+    pub fn derivative(&self) -> Self {
+        let slope = |place: usize| -> Vec<f64> {
+            let own = self.of(place).iter().enumerate().skip(1);
+            let mut slope: Vec<f64> = own.map(|(power, c)| power as f64 * c).collect();
+            if slope.is_empty() {
+                slope.push(0.0);
+            }
+            slope
+        };
+        let intervals: Vec<Vec<f64>> = (0..self.starts.len()).map(slope).collect();
+        Self::new(self.period, Arc::clone(&self.starts), &intervals)
+    }
+
+    /// `scale` times this function plus `factor` times another on the same intervals.
+    #[must_use]
+    pub fn combined(&self, scale: f64, factor: f64, other: &Self) -> Self {
+        let sum = |place: usize| -> Vec<f64> {
+            let (own, more) = (self.of(place), other.of(place));
+            let at = |list: &[f64], power: usize| list.get(power).copied().unwrap_or(0.0);
+            let powers = 0..own.len().max(more.len());
+            powers.map(|power| scale * at(own, power) + factor * at(more, power)).collect()
+        };
+        let intervals: Vec<Vec<f64>> = (0..self.starts.len()).map(sum).collect();
+        Self::new(self.period, Arc::clone(&self.starts), &intervals)
+    }
+
+    /// The largest jump between the end of an interval and the start of the next; of a continuous function a rounding error.
+    pub fn largest_jump(&self) -> f64 {
+        let count = self.starts.len();
+        let jump = |place: usize| {
+            let end = value_of(self.of(place), self.length(place));
+            (self.of((place + 1) % count)[0] - end).abs()
+        };
+        (0..count).map(jump).fold(0.0, f64::max)
+    }
+
     /// The parts on which the function is monotone, ascending.
     pub fn monotone_parts(&self) -> impl Iterator<Item = MonotonePart<'_>> {
         let mut turn = 0;
@@ -204,5 +247,26 @@ impl PeriodicPolynomial {
             }
         }
         (self.turns, self.range) = (turns, [least, largest]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slopes_sums_and_jumps() {
+        let starts: Arc<[f64]> = vec![0.0, 1.0].into();
+        let tooth =
+            PeriodicPolynomial::new(2.0, Arc::clone(&starts), &[vec![0.0, 1.0], vec![1.0, -1.0]]);
+        let slope = tooth.derivative();
+        assert_eq!((slope.range(), slope.root_mean_square()), ([-1.0, 1.0], 1.0));
+        assert_eq!((slope.largest_jump(), tooth.largest_jump()), (2.0, 0.0));
+        let square = PeriodicPolynomial::new(2.0, starts, &[vec![1.0], vec![-1.0]]);
+        assert_eq!(square.derivative().range(), [0.0, 0.0]);
+        // 2 x + 3 on the first half, 2 (1 − x) − 3 on the second.
+        let sum = tooth.combined(2.0, 3.0, &square);
+        assert_eq!((sum.range(), sum.value_and_slope(0.5)), ([-3.0, 5.0], (4.0, 2.0)));
+        assert!((tooth.root_mean_square() - (1.0_f64 / 3.0).sqrt()).abs() < 1e-15);
     }
 }

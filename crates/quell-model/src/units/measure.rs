@@ -7,8 +7,8 @@
 
 use std::fmt;
 
-/// Exponents of kilogram, metre, second and radian.
-type Dimension = [i8; 4];
+/// Exponents of kilogram, metre, second, radian and ampere.
+type Dimension = [i8; 5];
 
 /// Metric prefixes with their powers of ten.
 const PREFIXES: &[(&str, i32)] = &[
@@ -28,22 +28,28 @@ type Symbol = (&'static str, i32, [f64; 2], Dimension, bool);
 
 /// Symbols of units. A frequency counts cycles: 60 rpm are 1 Hz.
 const SYMBOLS: &[Symbol] = &[
-    ("1", 0, [1.0, 1.0], [0, 0, 0, 0], false),
-    ("%", -2, [1.0, 1.0], [0, 0, 0, 0], false),
-    ("g", -3, [1.0, 1.0], [1, 0, 0, 0], true),
-    ("m", 0, [1.0, 1.0], [0, 1, 0, 0], true),
-    ("s", 0, [1.0, 1.0], [0, 0, 1, 0], true),
-    ("min", 0, [60.0, 1.0], [0, 0, 1, 0], false),
-    ("h", 0, [3600.0, 1.0], [0, 0, 1, 0], false),
-    ("N", 0, [1.0, 1.0], [1, 1, -2, 0], true),
-    ("Ns", 0, [1.0, 1.0], [1, 1, -1, 0], true),
-    ("Pa", 0, [1.0, 1.0], [1, -1, -2, 0], true),
-    ("W", 0, [1.0, 1.0], [1, 2, -3, 0], true),
-    ("Hz", 0, [1.0, 1.0], [0, 0, -1, 0], true),
-    ("rpm", 0, [1.0, 60.0], [0, 0, -1, 0], false),
-    ("rad", 0, [1.0, 1.0], [0, 0, 0, 1], true),
-    ("deg", 0, [std::f64::consts::PI, 180.0], [0, 0, 0, 1], false),
-    ("°", 0, [std::f64::consts::PI, 180.0], [0, 0, 0, 1], false),
+    ("1", 0, [1.0, 1.0], [0, 0, 0, 0, 0], false),
+    ("%", -2, [1.0, 1.0], [0, 0, 0, 0, 0], false),
+    ("g", -3, [1.0, 1.0], [1, 0, 0, 0, 0], true),
+    ("m", 0, [1.0, 1.0], [0, 1, 0, 0, 0], true),
+    ("s", 0, [1.0, 1.0], [0, 0, 1, 0, 0], true),
+    ("min", 0, [60.0, 1.0], [0, 0, 1, 0, 0], false),
+    ("h", 0, [3600.0, 1.0], [0, 0, 1, 0, 0], false),
+    ("N", 0, [1.0, 1.0], [1, 1, -2, 0, 0], true),
+    ("Ns", 0, [1.0, 1.0], [1, 1, -1, 0, 0], true),
+    ("Pa", 0, [1.0, 1.0], [1, -1, -2, 0, 0], true),
+    ("W", 0, [1.0, 1.0], [1, 2, -3, 0, 0], true),
+    ("Hz", 0, [1.0, 1.0], [0, 0, -1, 0, 0], true),
+    ("rpm", 0, [1.0, 60.0], [0, 0, -1, 0, 0], false),
+    ("rad", 0, [1.0, 1.0], [0, 0, 0, 1, 0], true),
+    ("deg", 0, [std::f64::consts::PI, 180.0], [0, 0, 0, 1, 0], false),
+    ("°", 0, [std::f64::consts::PI, 180.0], [0, 0, 0, 1, 0], false),
+    ("A", 0, [1.0, 1.0], [0, 0, 0, 0, 1], true),
+    ("V", 0, [1.0, 1.0], [1, 2, -3, 0, -1], true),
+    ("Ω", 0, [1.0, 1.0], [1, 2, -3, 0, -2], true),
+    ("Ohm", 0, [1.0, 1.0], [1, 2, -3, 0, -2], true),
+    ("F", 0, [1.0, 1.0], [-1, -2, 4, 0, 2], true),
+    ("H", 0, [1.0, 1.0], [1, 2, -2, 0, -2], true),
 ];
 
 /// A unit: 10^ten · over/under times the SI units of its dimension.
@@ -158,7 +164,7 @@ fn shifted(number: &str, by: i32) -> Option<f64> {
 impl Unit {
     /// Reads a product of symbols; `None` if it is not one.
     fn parse(text: &str) -> Option<Self> {
-        let mut product = Self { ten: 0, over: 1.0, under: 1.0, dimension: [0; 4] };
+        let mut product = Self { ten: 0, over: 1.0, under: 1.0, dimension: [0; 5] };
         let mut divides = false;
         let mut rest = text.trim();
         while !rest.is_empty() {
@@ -249,6 +255,13 @@ mod tests {
             ("90°", "deg", 90.0),
             ("2%", "1", 0.02),
             ("2min", "s", 120.0),
+            ("3.1uF", "F", 3.1e-6),
+            ("20 mA", "A", 0.02),
+            ("1.2kV", "V", 1200.0),
+            ("12 W/A", "V", 12.0),
+            ("5 V·s/A", "mH", 5000.0),
+            ("8Ohm", "V/A", 8.0),
+            ("24 N/A", "N/A", 24.0),
             ("0.1", "N", 0.1),
             ("1e3", "Hz", 1e3),
             ("3 cm", "m", 0.03),

@@ -41,14 +41,20 @@ impl SystemUnits {
             Quantity::Displacement => ("m", "mm"),
             Quantity::Velocity => ("m/s", "mm/s"),
             Quantity::Force => ("N", "N"),
-            Quantity::LoadMass => ("kg", "Mg"),
-            Quantity::LoadStiffness => ("N/m", "N/mm"),
+            Quantity::Mass | Quantity::LoadMass => ("kg", "Mg"),
+            Quantity::Stiffness | Quantity::LoadStiffness => ("N/m", "N/mm"),
             Quantity::LoadDamping => ("N·s/m", "N·s/mm"),
             Quantity::FrequencyRatio => ("rad/s", "rad/s"),
             Quantity::Time => ("s", "s"),
             Quantity::Power => ("W", "mW"),
             Quantity::PerVelocity => ("s/m", "s/mm"),
             Quantity::PerLength => ("1/m", "1/mm"),
+            Quantity::ForcePerCurrent => ("N/A", "N/A"),
+            Quantity::Capacitance => ("F", "F"),
+            Quantity::Inductance => ("H", "H"),
+            Quantity::Voltage | Quantity::Current | Quantity::Resistance => {
+                return quantity.own_unit();
+            }
             _ => return None,
         };
         match self {
@@ -70,7 +76,9 @@ impl SystemUnits {
             Self::Si => Some(1.0),
             Self::MmTonneSecond => Some(match quantity {
                 Quantity::Displacement | Quantity::Velocity | Quantity::Power => 1e-3,
-                Quantity::LoadMass
+                Quantity::Mass
+                | Quantity::LoadMass
+                | Quantity::Stiffness
                 | Quantity::LoadStiffness
                 | Quantity::LoadDamping
                 | Quantity::PerVelocity
@@ -100,6 +108,11 @@ mod tests {
             Quantity::Power,
             Quantity::PerVelocity,
             Quantity::PerLength,
+            Quantity::Mass,
+            Quantity::Stiffness,
+            Quantity::ForcePerCurrent,
+            Quantity::Capacitance,
+            Quantity::Inductance,
         ] {
             for units in [SystemUnits::Si, SystemUnits::MmTonneSecond] {
                 let unit = units.unit(quantity).expect("a unit");

@@ -1,0 +1,177 @@
+//! What a dither demands of an actuator.
+
+use quell_numerics::periodic_polynomial::PeriodicPolynomial;
+
+/// The size of a periodic signal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SignalSize {
+    /// Largest magnitude.
+    pub peak: f64,
+    /// Root mean square.
+    pub root_mean_square: f64,
+    /// Largest value less the least.
+    pub peak_to_peak: f64,
+}
+
+impl SignalSize {
+    /// Of a signal over a period, times a factor.
+    pub(super) fn of(signal: &PeriodicPolynomial, factor: f64) -> Self {
+        let [least, largest] = signal.range();
+        let size = Self {
+            peak: largest.max(-least),
+            root_mean_square: signal.root_mean_square(),
+            peak_to_peak: largest - least,
+        };
+        size.times(factor.abs())
+    }
+
+    /// The signal times a positive factor.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        Self {
+            peak: factor * self.peak,
+            root_mean_square: factor * self.root_mean_square,
+            peak_to_peak: factor * self.peak_to_peak,
+        }
+    }
+}
+
+/// A limit of an actuator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ActuatorLimit {
+    /// The force of a piezo stack whose voltage is not given.
+    BlockedForce,
+    /// The travel of a coil.
+    FreeStroke,
+    /// The range of the voltage of a piezo stack, the peak of others.
+    MaximumVoltage,
+    /// The peak of the current.
+    MaximumCurrent,
+    /// The root mean square of the current.
+    RmsCurrent,
+    /// Two samples per period of the highest harmonic.
+    SampleRate,
+    /// A measured largest force.
+    MaximumForce,
+}
+
+impl ActuatorLimit {
+    /// The key that gives it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::BlockedForce => "blocked_force",
+            Self::FreeStroke => "free_stroke",
+            Self::MaximumVoltage => "maximum_voltage",
+            Self::MaximumCurrent => "maximum_current",
+            Self::RmsCurrent => "rms_current",
+            Self::SampleRate => "sample_rate",
+            Self::MaximumForce => "maximum_force",
+        }
+    }
+}
+
+/// How far a limit is used.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimitUse {
+    /// The limit.
+    pub limit: ActuatorLimit,
+    /// The share of the rated value: at most 1 where the limit is kept; or why it is unknown.
+    pub used: Result<f64, String>,
+}
+
+/// What an actuator must give for a dither.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ActuatorDemand {
+    /// The force that the actuator itself must make, that on its own mass and spring included.
+    pub force: SignalSize,
+    /// Displacement of the driven point.
+    pub displacement: SignalSize,
+    /// Voltage about its mean in volts, or why it is unknown.
+    pub voltage: Result<SignalSize, String>,
+    /// Current about its mean in amperes, or why it is unknown.
+    pub current: Result<SignalSize, String>,
+    /// Samples of the controller in a period of the dither.
+    pub samples_per_period: Option<f64>,
+    /// How far each limit is used.
+    pub limits: Vec<LimitUse>,
+}
+
+/// The largest amplitude that an actuator can give.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ActuatorReach {
+    /// The amplitude; 0 where the sample rate allows no dither of this frequency.
+    pub amplitude: f64,
+    /// The limit that binds.
+    pub limit: ActuatorLimit,
+}
+
+impl ActuatorDemand {
+    /// The demand of the same dither with an amplitude instead of 1.
+    #[must_use]
+    pub fn at(&self, amplitude: f64) -> Self {
+        let factor = amplitude.abs();
+        let sized = |size: &Result<SignalSize, String>| size.clone().map(|size| size.times(factor));
+        let limits = self.limits.iter().map(|known| LimitUse {
+            limit: known.limit,
+            used: known.used.clone().map(|used| match known.limit {
+                // The frequency decides, not the amplitude.
+                ActuatorLimit::SampleRate => used,
+                _ => factor * used,
+            }),
+        });
+        Self {
+            force: self.force.times(factor),
+            displacement: self.displacement.times(factor),
+            voltage: sized(&self.voltage),
+            current: sized(&self.current),
+            samples_per_period: self.samples_per_period,
+            limits: limits.collect(),
+        }
+    }
+
+    /// The limit that is used most, with its share.
+    ///
+    /// # Errors
+    /// Why the use of a limit is unknown.
+    pub fn tightest(&self) -> Result<(ActuatorLimit, f64), String> {
+        let mut most: Option<(ActuatorLimit, f64)> = None;
+        for LimitUse { limit, used } in &self.limits {
+            let used = used.clone().map_err(|why| format!("{}: {why}", limit.name()))?;
+            if most.is_none_or(|(_, known)| used > known) {
+                most = Some((*limit, used));
+            }
+        }
+        most.ok_or_else(|| "the actuator has no limit".to_owned())
+    }
+
+    /// The largest amplitude, where this is the demand of unit amplitude.
+    ///
+    /// # Errors
+    /// Why the use of a limit is unknown.
+    pub fn reach(&self) -> Result<ActuatorReach, String> {
+        let mut least: Option<ActuatorReach> = None;
+        for LimitUse { limit, used } in &self.limits {
+            let used = used.clone().map_err(|why| format!("{}: {why}", limit.name()))?;
+            let amplitude = match limit {
+                ActuatorLimit::SampleRate if used > 1.0 => 0.0,
+                ActuatorLimit::SampleRate => continue,
+                _ => used.recip(),
+            };
+            if least.is_none_or(|known| amplitude < known.amplitude) {
+                least = Some(ActuatorReach { amplitude, limit: *limit });
+            }
+        }
+        least.ok_or_else(|| "the actuator has no limit".to_owned())
+    }
+}
+
+/// The use of a limit by a size, if the actuator has the limit.
+pub(super) fn share(
+    limit: ActuatorLimit,
+    rated: Option<f64>,
+    size: &Result<SignalSize, String>,
+    of: fn(SignalSize) -> f64,
+) -> Option<LimitUse> {
+    let rated = rated?;
+    Some(LimitUse { limit, used: size.clone().map(|size| of(size) / rated) })
+}

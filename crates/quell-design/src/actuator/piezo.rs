@@ -1,0 +1,71 @@
+//! A piezo stack between the ground and the driven point.
+//!
+//! Its voltage U makes the force F_b U/U_max, against which stand its own spring k_a = F_b/Δu and mass. The ceramic must not be pulled,
+//! so that the voltage goes from 0 to U_max: a dither may have half of it on both sides of a bias. The current is C dU/dt.
+
+use quell_linear::driven_point::{DrivenPoint, PointOutput};
+
+use super::demand::{ActuatorDemand, ActuatorLimit, SignalSize, share};
+
+/// A jump of a voltage is larger than this share of its range.
+const JUMP: f64 = 1e-9;
+
+/// A piezo stack.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PiezoStack {
+    /// Force at the largest voltage without motion, F_b.
+    pub blocked_force: f64,
+    /// Stiffness k_a.
+    pub stiffness: f64,
+    /// Mass that moves with the driven point.
+    pub mass: f64,
+    /// Capacitance, in amperes per volt and unit of time of the equations.
+    pub capacitance: Option<f64>,
+    /// Largest voltage U_max, in volts.
+    pub maximum_voltage: Option<f64>,
+    /// Largest current, in amperes.
+    pub maximum_current: Option<f64>,
+}
+
+impl PiezoStack {
+    /// What it must give for a dither of unit amplitude.
+    pub fn demand(&self, point: &DrivenPoint<'_>) -> ActuatorDemand {
+        let own = PointOutput {
+            force: 1.0,
+            displacement: self.stiffness,
+            velocity: 0.0,
+            acceleration: self.mass,
+        };
+        let outputs = point.outputs(&[own, PointOutput::DISPLACEMENT]);
+        let force = SignalSize::of(&outputs[0], 1.0);
+        let volts = self.maximum_voltage.map(|most| most / self.blocked_force);
+        let voltage = volts
+            .map(|volts| force.times(volts))
+            .ok_or_else(|| "maximum_voltage is not given".to_owned());
+        let current = match (volts, self.capacitance) {
+            (Some(_), Some(_)) if outputs[0].largest_jump() > JUMP * force.peak_to_peak => {
+                Err("the voltage jumps, which needs an unlimited current".to_owned())
+            }
+            (Some(volts), Some(capacitance)) => {
+                let rate = capacitance * volts * point.frequency();
+                Ok(SignalSize::of(&outputs[0].derivative(), rate))
+            }
+            _ => Err("maximum_voltage and capacitance are needed for it".to_owned()),
+        };
+        let range = |size: SignalSize| size.peak_to_peak;
+        let by_force = self.maximum_voltage.is_none().then_some(self.blocked_force);
+        let limits = [
+            share(ActuatorLimit::BlockedForce, by_force, &Ok(force), range),
+            share(ActuatorLimit::MaximumVoltage, self.maximum_voltage, &voltage, range),
+            share(ActuatorLimit::MaximumCurrent, self.maximum_current, &current, |size| size.peak),
+        ];
+        ActuatorDemand {
+            force,
+            displacement: SignalSize::of(&outputs[1], 1.0),
+            voltage,
+            current,
+            samples_per_period: None,
+            limits: limits.into_iter().flatten().collect(),
+        }
+    }
+}
