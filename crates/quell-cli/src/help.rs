@@ -65,6 +65,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 &[
                     "quell design design.toml",
                     "quell design design.toml --set design.limits.stroke=0.05 --plot design.svg",
+                    "quell design actuator.toml",
                 ],
             ),
             (

@@ -16,6 +16,7 @@ fn place(name: &str) -> Place {
     let measured = include_str!("../../../studies/synthetic-friction.csv");
     files.push(("synthetic-friction.csv", measured));
     files.push(("design.toml", include_str!("../../../studies/design.toml")));
+    files.push(("actuator.toml", include_str!("../../../studies/actuator.toml")));
     files.push(("probability.toml", include_str!("../../../studies/probability.toml")));
     Place::with(name, &files)
 }

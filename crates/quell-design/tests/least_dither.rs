@@ -1,5 +1,6 @@
 //! Least dithers of belts against an independent program, and limits in closed form.
 
+use quell_design::actuator::{Actuator, ActuatorLimit, PiezoStack};
 use quell_design::least_dither::{
     BeltPlant, DesignObjective, DesignProblem, DesignStart, Designed, LimitedQuantity, NoDesign,
     OperatingPoint, Plant, design,
@@ -42,6 +43,7 @@ fn problem<'a>(
         others: &[],
         over,
         limits,
+        actuator: None,
         start: DesignStart::Local,
     }
 }
@@ -99,6 +101,54 @@ fn a_stroke_limit_binds_the_frequency() {
     assert!((found.critical.others[0] / 8.127289235523428 - 1.0).abs() < 1e-5, "{found:?}");
     assert!((found.critical.amplitude / 1.3010566063571558 - 1.0).abs() < 1e-5);
     assert!((found.critical.use_of_limits() - 1.0).abs() < 1e-6);
+}
+
+/// By averaging the least amplitude at the tip is A = v R |1 − 1/R²|, with stroke 2A/(R² − 1). A stack of blocked force F_b, free stroke
+/// Δu and no mass, biased by half its voltage, gives A = F_b/2 times the share |K|/|K + k_a|: the range of its force, A(1 + k_a/K) with
+/// K = 1 − R² + 2iζR, is F_b/2 on both sides.
+#[test]
+fn a_voltage_binds_the_frequency() {
+    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine, &[FREQUENCY]);
+    let stack = PiezoStack {
+        blocked_force: 3.0,
+        stiffness: 20.0,
+        mass: 0.0,
+        capacitance: None,
+        maximum_voltage: Some(120.0),
+        maximum_current: None,
+    };
+    let actuator = Actuator::Piezo(stack.clone());
+    let limit = LimitedQuantity::Actuator(ActuatorLimit::MaximumVoltage);
+    let limits = [(limit, 1.0)];
+    let others = [(6.0, 20.0)];
+    let over = [(0.05, 0.2)];
+    let whole = DesignProblem {
+        others: &others,
+        actuator: Some(&actuator),
+        ..problem(&plant, &over, &limits)
+    };
+    let found = design(whole).answer.expect("feasible");
+    let used = |frequency: f64, amplitude: f64| {
+        let (re, im) = (1.0 - frequency * frequency, 2.0 * 0.005 * frequency);
+        amplitude * libm::hypot(re + 20.0, im) / libm::hypot(re, im) / 1.5
+    };
+    let averaged = &found.averaged;
+    let share = averaged.used[0].1.as_ref().expect("known");
+    assert!((share / used(averaged.others[0], averaged.amplitude) - 1.0).abs() < 1e-10);
+    let (demand, point) = found.drive.as_ref().expect("known");
+    let exact = used(found.critical.others[0], found.verified_amplitude);
+    assert!((demand.tightest().expect("known").1 / exact - 1.0).abs() < 1e-10, "{point:?}");
+    let volts = demand.voltage.as_ref().expect("known").peak_to_peak;
+    assert!((volts / (120.0 * exact) - 1.0).abs() < 1e-10);
+    // A tenth of the stack gives no dither that is quiet everywhere.
+    let weak = Actuator::Piezo(PiezoStack { blocked_force: 0.3, ..stack });
+    let whole = DesignProblem { actuator: Some(&weak), ..whole };
+    let none = design(whole).answer.expect_err("too weak");
+    assert!(
+        matches!(none.why, NoDesign::Limit { quantity, used, .. } if quantity == limit && used > 1.0),
+        "{:?}",
+        none.why
+    );
 }
 
 #[test]

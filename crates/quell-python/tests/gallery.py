@@ -182,6 +182,7 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "describing function in SI": lambda: belt_in_si().friction(describing=3.0),
     "design": lambda: quell.Study.from_toml(STUDIES / "design.toml").design(),
     "design in SI": lambda: design_in_si().design(),
+    "design with an actuator": lambda: quell.Study.from_toml(STUDIES / "actuator.toml").design(),
     "design without an answer": lambda: design_in_si().set({"design.limits.amplitude_n": 100.0}).design(),
     "probability": lambda: quell.Study.from_toml(STUDIES / "probability.toml").probability(samples=200),
     "probability in SI": lambda: probability_in_si().probability(samples=100),

@@ -222,7 +222,7 @@ def keys(table: str) -> set[str]:
         (
             quell.Belt,
             "belt",
-            {"friction", "dither", "initial", "drive", "load", "solver", "design", "uncertainty", "axes", "title"} | keys("response"),
+            {"friction", "dither", "initial", "drive", "load", "solver", "design", "actuator", "uncertainty", "axes", "title"} | keys("response"),
         ),
         (quell.Initial, "belt.initial", set()),
         (quell.Dither, "dither", {"envelope"}),
@@ -230,7 +230,7 @@ def keys(table: str) -> set[str]:
         (quell.Disc, "disc", {"friction", "dither", "mode", "load", "drive", "uncertainty", "axes", "title"}),
         (quell.Mode, "disc.mode", set()),
         (quell.Load, "disc.load", {"envelope"}),
-        (quell.System, "system", {"contact", "friction", "dither", "parameters", "design", "uncertainty", "axes", "title"}),
+        (quell.System, "system", {"contact", "friction", "dither", "parameters", "design", "actuator", "uncertainty", "axes", "title"}),
         (quell.SystemMode, "system_mode", set()),
         (quell.Component, "system_component", set()),
         (quell.SystemInitial, "system_initial", set()),

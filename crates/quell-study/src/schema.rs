@@ -57,6 +57,7 @@ pub fn schema() -> Json {
             Section::Response,
             Section::Design,
             Section::DesignLimits,
+            Section::Actuator,
         ] {
             definitions.insert(name(section, system), table(section, system));
         }
@@ -124,6 +125,7 @@ fn root(system: UnitSystem) -> Json {
             "solver": { "$ref": reference(Section::Solver, system) },
             "response": { "$ref": reference(Section::Response, system) },
             "design": { "$ref": reference(Section::Design, system) },
+            "actuator": { "$ref": reference(Section::Actuator, system) },
             "uncertainty": { "$ref": "#/$defs/uncertainty" },
             "sweep": { "type": "array", "items": { "$ref": "#/$defs/sweep" } },
         },
@@ -245,7 +247,8 @@ fn table(section: Section, system: UnitSystem) -> Json {
                 one_of(DITHER_FREQUENCY_RATIO.path, key.name);
             }
             Role::Scale(scale) if scale != MASS => one_of("stiffness", key.name),
-            Role::Scale(_) | Role::Choice(Choice::Direction | Choice::Waveform) => {
+            Role::Scale(_)
+            | Role::Choice(Choice::Direction | Choice::Waveform | Choice::ActuatorKind) => {
                 required.push(key.name);
             }
             _ => {}
@@ -448,7 +451,14 @@ fn belongs(key: &Key, system: UnitSystem) -> bool {
 
 /// Whether a parameter has to be given.
 fn needed(parameter: Parameter) -> bool {
-    let optional = ["belt.initial", "belt.tangential_stiffness", "solver", "dither.phase"];
+    let optional = [
+        "belt.initial",
+        "belt.tangential_stiffness",
+        "solver",
+        "dither.phase",
+        "design.limits",
+        "actuator",
+    ];
     !optional.iter().any(|path| parameter.path.starts_with(path))
 }
 

@@ -201,8 +201,8 @@ const WRONG: &[(&str, &str, Said)] = &[
     ),
     (
         "[dither]",
-        "[actuator]\n[dither]",
-        (Fault::NotBuilt, "actuator", Some(12), "not implemented yet", None),
+        "[sample]\n[dither]",
+        (Fault::NotBuilt, "sample", Some(12), "not implemented yet", None),
     ),
     ("schema = 1", "schema = 1\nschema = 1", (Fault::Syntax, "study", Some(2), "duplicate", None)),
     ("schema = 1", "schema == 1", (Fault::Syntax, "study", Some(1), "", None)),

@@ -38,6 +38,18 @@ pub struct CoilActuator {
 }
 
 impl CoilActuator {
+    /// Its limits.
+    pub(super) fn limits(&self) -> Vec<ActuatorLimit> {
+        let limits = [
+            self.rms_current.map(|_| ActuatorLimit::RmsCurrent),
+            self.maximum_current.map(|_| ActuatorLimit::MaximumCurrent),
+            self.maximum_voltage.map(|_| ActuatorLimit::MaximumVoltage),
+            self.free_stroke.map(|_| ActuatorLimit::FreeStroke),
+            self.sample_rate.map(|_| ActuatorLimit::SampleRate),
+        ];
+        limits.into_iter().flatten().collect()
+    }
+
     /// What it must give for a dither of unit amplitude.
     pub fn demand(&self, point: &DrivenPoint<'_>) -> ActuatorDemand {
         let own = PointOutput {

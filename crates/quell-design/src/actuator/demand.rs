@@ -70,6 +70,21 @@ impl ActuatorLimit {
     }
 }
 
+impl ActuatorLimit {
+    /// The path of that key.
+    pub fn path(self) -> &'static str {
+        match self {
+            Self::BlockedForce => "actuator.blocked_force",
+            Self::FreeStroke => "actuator.free_stroke",
+            Self::MaximumVoltage => "actuator.maximum_voltage",
+            Self::MaximumCurrent => "actuator.maximum_current",
+            Self::RmsCurrent => "actuator.rms_current",
+            Self::SampleRate => "actuator.sample_rate",
+            Self::MaximumForce => "actuator.file",
+        }
+    }
+}
+
 /// How far a limit is used.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LimitUse {
@@ -106,6 +121,18 @@ pub struct ActuatorReach {
 }
 
 impl ActuatorDemand {
+    /// The share of a limit that is used.
+    ///
+    /// # Errors
+    /// Why it is unknown.
+    pub fn used(&self, limit: ActuatorLimit) -> Result<f64, String> {
+        let known = self.limits.iter().find(|known| known.limit == limit);
+        known.map_or_else(
+            || Err(format!("the actuator has no {}", limit.name())),
+            |known| known.used.clone(),
+        )
+    }
+
     /// The demand of the same dither with an amplitude instead of 1.
     #[must_use]
     pub fn at(&self, amplitude: f64) -> Self {

@@ -28,6 +28,17 @@ pub struct MeasuredActuator {
 }
 
 impl MeasuredActuator {
+    /// Its limits.
+    pub(super) fn limits(&self) -> Vec<ActuatorLimit> {
+        let limits = [
+            self.maximum_force.as_ref().map(|_| ActuatorLimit::MaximumForce),
+            self.maximum_voltage.map(|_| ActuatorLimit::MaximumVoltage),
+            self.maximum_current.map(|_| ActuatorLimit::MaximumCurrent),
+            self.rms_current.map(|_| ActuatorLimit::RmsCurrent),
+        ];
+        limits.into_iter().flatten().collect()
+    }
+
     /// What it must give for a dither of unit amplitude.
     pub fn demand(&self, point: &DrivenPoint<'_>) -> ActuatorDemand {
         let outputs = point.outputs(&[PointOutput::FORCE, PointOutput::DISPLACEMENT]);

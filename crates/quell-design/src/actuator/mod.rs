@@ -75,6 +75,15 @@ impl Actuator {
         }
     }
 
+    /// The limits that it has, in the order of [`ActuatorDemand::limits`].
+    pub fn limits(&self) -> Vec<ActuatorLimit> {
+        match self {
+            Self::Piezo(stack) => stack.limits(),
+            Self::VoiceCoil(coil) | Self::Motor(coil) => coil.limits(),
+            Self::Measured(measured) => measured.limits(),
+        }
+    }
+
     /// What it must give for a dither of unit amplitude at a driven point.
     pub fn demand(&self, point: &DrivenPoint<'_>) -> ActuatorDemand {
         match self {
@@ -126,6 +135,8 @@ mod tests {
             close(demand.voltage.as_ref().expect("known").peak_to_peak, 2.0 * voltage);
             let current = 0.01 * frequency * voltage;
             close(demand.current.as_ref().expect("known").peak, current);
+            let named: Vec<_> = demand.limits.iter().map(|used| used.limit).collect();
+            assert_eq!(named, Actuator::Piezo(stack()).limits());
             let reach = demand.reach().expect("known");
             close(reach.amplitude, (50.0 / voltage).min(2.0 / current));
             let by_current = current / 2.0 > voltage / 50.0;
@@ -210,6 +221,8 @@ mod tests {
             names,
             ["rms_current", "maximum_current", "maximum_voltage", "free_stroke", "sample_rate"]
         );
+        let limits = Actuator::Motor(coil.clone()).limits();
+        assert_eq!(names, limits.iter().map(|limit| limit.name()).collect::<Vec<_>>());
         let slow = CoilActuator { sample_rate: Some(9.0), ..coil };
         let demand = slow.demand(&point(&Waveform::Sine, frequency));
         let reach = demand.reach().expect("known");
@@ -228,6 +241,8 @@ mod tests {
             rms_current: None,
         };
         let demand = |frequency| measured.demand(&point(&Waveform::Sine, frequency));
+        let limits: Vec<_> = demand(3.0).limits.iter().map(|used| used.limit).collect();
+        assert_eq!(limits, measured.limits());
         let reach = demand(3.0).reach().expect("known");
         close(reach.amplitude, 2.0);
         assert_eq!(reach.limit, ActuatorLimit::MaximumVoltage);

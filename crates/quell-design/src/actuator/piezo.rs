@@ -28,6 +28,16 @@ pub struct PiezoStack {
 }
 
 impl PiezoStack {
+    /// Its limits: without a voltage the force itself is one.
+    pub(super) fn limits(&self) -> Vec<ActuatorLimit> {
+        let force = match self.maximum_voltage {
+            Some(_) => ActuatorLimit::MaximumVoltage,
+            None => ActuatorLimit::BlockedForce,
+        };
+        let current = self.maximum_current.map(|_| ActuatorLimit::MaximumCurrent);
+        [force].into_iter().chain(current).collect()
+    }
+
     /// What it must give for a dither of unit amplitude.
     pub fn demand(&self, point: &DrivenPoint<'_>) -> ActuatorDemand {
         let own = PointOutput {

@@ -9,11 +9,13 @@ use quell_dynamics::start::{InitialState, NoSquealingStart};
 use quell_linear::averaging::{
     AveragedVerdict, AveragingOptions, Becomes, criterion, critical_amplitudes,
 };
+use quell_linear::driven_point::DrivenPoint;
 use quell_linear::linear_cost::linear_cost;
 use quell_model::{Belt, Direction};
 
 use super::quiet::AveragedChange;
 use super::{DesignStart, DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
+use crate::actuator::{Actuator, ActuatorDemand};
 
 /// Steps of the continuation over a range of amplitudes.
 const STEPS: u32 = 8;
@@ -177,5 +179,22 @@ impl Plant for BeltPlant {
     fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
         let belt = self.dithered(at, amplitude)?;
         Ok(belt.normal_load() - belt.total_amplitude(Direction::Normal))
+    }
+
+    fn demand(
+        &self,
+        at: OperatingPoint<'_>,
+        actuator: &Actuator,
+    ) -> Result<ActuatorDemand, String> {
+        let belt = self.at(at)?;
+        let first = belt.dithers().first().ok_or("the study has no dither")?;
+        if first.direction == Direction::Normal {
+            let why = "a normal dither on a prescribed load has no stroke, which the demand on an actuator needs";
+            return Err(why.to_owned());
+        }
+        let point =
+            DrivenPoint::of_belt(&first.waveform, first.frequency_ratio, belt.damping_ratio())
+                .map_err(|why| why.to_string())?;
+        Ok(actuator.demand(&point))
     }
 }

@@ -88,6 +88,7 @@ impl DesignProblem<'_> {
                 LimitedQuantity::Velocity => price().map(|price| price.velocity),
                 LimitedQuantity::Power => price().map(|price| price.power),
                 LimitedQuantity::FrictionLoss => self.plant.averaged_loss(at, amplitude),
+                LimitedQuantity::Actuator(limit) => self.share_of_actuator(*limit, at, amplitude),
                 LimitedQuantity::MinimumNormalLoad => {
                     let load = self.plant.minimum_normal_load(at, amplitude);
                     return load.is_ok_and(|load| load >= *limit);

@@ -4,6 +4,7 @@ use super::covered::{CoveredBox, covered};
 use super::search::{AveragedSearch, DesignBasin, DesignPoint};
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
 use super::{DesignObjective, DesignProblem, DesignStart, LimitedQuantity, OperatingPoint};
+use crate::actuator::ActuatorDemand;
 
 /// Window of exact thresholds about the amplitude of averaging, as factors.
 const WINDOW: (f64, f64) = (0.85, 1.15);
@@ -51,6 +52,8 @@ pub struct FeasibleDesign {
     pub verified: Vec<VerifiedPoint>,
     /// The largest loss of mean friction on the exact responses, with its operating point, or why it is unknown.
     pub friction_loss: Result<(f64, Vec<f64>), String>,
+    /// What the verified dither demands of the actuator where a limit is used most, with the operating point, or why it is unknown.
+    pub drive: Result<(ActuatorDemand, Vec<f64>), String>,
 }
 
 /// Why there is no dither, and how far one reaches.
@@ -215,8 +218,16 @@ impl DesignProblem<'_> {
                 }
             }
         }
-        let averaged = averaged.clone();
-        Ok(FeasibleDesign { critical, averaged, verified_amplitude, verified, friction_loss })
+        let worst = critical.worst.as_ref();
+        let drive = self.largest_demand(&critical.others, verified_amplitude, worst);
+        Ok(FeasibleDesign {
+            critical,
+            averaged: averaged.clone(),
+            verified_amplitude,
+            verified,
+            friction_loss,
+            drive,
+        })
     }
 
     /// The exact least amplitude at a choice of the other design variables, near that of a neighbouring choice.

@@ -24,6 +24,8 @@ pub use search::{DesignBasin, DesignPoint};
 pub use system::{SystemAtPoint, SystemPlant};
 pub use worst_point::NoLeast;
 
+use crate::actuator::{Actuator, ActuatorDemand, ActuatorLimit};
+
 /// What is to be small.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DesignObjective {
@@ -71,10 +73,12 @@ pub enum LimitedQuantity {
     FrictionLoss,
     /// Smallest normal load of a contact under normal dither, at least.
     MinimumNormalLoad,
+    /// A limit of the actuator: its share that is used, at most 1.
+    Actuator(ActuatorLimit),
 }
 
 impl LimitedQuantity {
-    /// Every quantity.
+    /// Every quantity of `[design.limits]`.
     pub const ALL: [Self; 6] = [
         Self::Amplitude,
         Self::Stroke,
@@ -93,6 +97,7 @@ impl LimitedQuantity {
             Self::Power => "power",
             Self::FrictionLoss => "friction_loss",
             Self::MinimumNormalLoad => "minimum_normal_load",
+            Self::Actuator(limit) => limit.path(),
         }
     }
 }
@@ -198,6 +203,13 @@ pub trait Plant {
     /// # Errors
     /// Why it is unknown.
     fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String>;
+
+    /// What a dither of unit amplitude demands of an actuator.
+    ///
+    /// # Errors
+    /// Why it is unknown.
+    fn demand(&self, at: OperatingPoint<'_>, actuator: &Actuator)
+    -> Result<ActuatorDemand, String>;
 }
 
 /// A design question about one waveform, in numbers of the equations.
@@ -215,6 +227,8 @@ pub struct DesignProblem<'a> {
     pub over: &'a [(f64, f64)],
     /// Limits.
     pub limits: &'a [(LimitedQuantity, f64)],
+    /// The actuator, whose limits are among them.
+    pub actuator: Option<&'a Actuator>,
     /// The runs that must end quiet.
     pub start: DesignStart,
 }

@@ -4,6 +4,8 @@
 //! keep every limit; the best of them are refined by a pattern search that stays on the allowed side of the limits.
 
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
+use crate::actuator::{ActuatorDemand, ActuatorLimit};
+
 use super::{DesignObjective, DesignProblem, LimitedQuantity, OperatingPoint};
 
 /// Points of the grid along each design variable, by their number.
@@ -139,6 +141,9 @@ impl DesignProblem<'_> {
             LimitedQuantity::Velocity => price(|price| price.velocity)?,
             LimitedQuantity::Power => price(|price| price.power)?,
             LimitedQuantity::FrictionLoss => self.averaged_loss(others, amplitude, worst)?,
+            LimitedQuantity::Actuator(limit) => self.largest(worst, |point| {
+                self.share_of_actuator(limit, OperatingPoint { point, others }, amplitude)
+            })?,
             LimitedQuantity::MinimumNormalLoad => {
                 let left = -self.largest(worst, |point| {
                     self.plant
@@ -149,6 +154,48 @@ impl DesignProblem<'_> {
             }
         };
         Ok(value.max(0.0) / limit)
+    }
+
+    /// What a dither demands of the actuator.
+    pub(super) fn demand(
+        &self,
+        at: OperatingPoint<'_>,
+        amplitude: f64,
+    ) -> Result<ActuatorDemand, String> {
+        let actuator = self.actuator.ok_or("the study has no [actuator]")?;
+        Ok(self.plant.demand(at, actuator)?.at(amplitude))
+    }
+
+    /// The share of a limit of the actuator that a dither uses.
+    pub(super) fn share_of_actuator(
+        &self,
+        limit: ActuatorLimit,
+        at: OperatingPoint<'_>,
+        amplitude: f64,
+    ) -> Result<f64, String> {
+        self.demand(at, amplitude)?.used(limit)
+    }
+
+    /// What a dither demands of the actuator at the operating point where a limit is used most, among the corners of the box and the
+    /// point that decides.
+    pub(super) fn largest_demand(
+        &self,
+        others: &[f64],
+        amplitude: f64,
+        worst: Option<&Vec<f64>>,
+    ) -> Result<(ActuatorDemand, Vec<f64>), String> {
+        let corners = grid(self.over, [1, 2, 2, 2], false);
+        let mut largest: Option<(f64, ActuatorDemand, Vec<f64>)> = None;
+        for point in corners.iter().chain(worst) {
+            let demand = self.demand(OperatingPoint { point, others }, amplitude)?;
+            let (_, used) = demand.tightest()?;
+            if largest.as_ref().is_none_or(|(most, ..)| used > *most) {
+                largest = Some((used, demand, point.clone()));
+            }
+        }
+        largest
+            .map(|(_, demand, point)| (demand, point))
+            .ok_or_else(|| "the box has no points".to_owned())
     }
 
     /// The largest loss of mean friction in the box, by averaging.

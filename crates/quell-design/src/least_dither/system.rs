@@ -4,6 +4,7 @@ use quell_dynamics::motion::orbit::{MotionOrbit, base_motion, motion_thresholds}
 use quell_dynamics::motion::{ContactMeter, MOTION_TOLERANCE, Motion, MotionStart};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_linear::averaging::{Becomes, DitheredSystem};
+use quell_linear::driven_point::DrivenPoint;
 use quell_linear::growth::Verdict;
 use quell_linear::input_cost::input_cost;
 use quell_linear::linearised::Linearised;
@@ -12,6 +13,7 @@ use quell_model::profile::Wave;
 
 use super::quiet::AveragedChange;
 use super::{DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
+use crate::actuator::{Actuator, ActuatorDemand};
 
 /// Steps of the continuation over a range of amplitudes.
 const STEPS: u32 = 8;
@@ -138,5 +140,20 @@ impl Plant for SystemPlant<'_> {
         let average = prepared.average().map_err(in_words)?;
         let least = average.contacts.iter().map(|found| found.normal_load - found.load_amplitude);
         least.min_by(f64::total_cmp).ok_or_else(|| "the system has no contact".to_owned())
+    }
+
+    fn demand(
+        &self,
+        at: OperatingPoint<'_>,
+        actuator: &Actuator,
+    ) -> Result<ActuatorDemand, String> {
+        let system = (self.at)(at, 1.0)?;
+        let sliding = Linearised::new(&system).map_err(in_words)?;
+        let wave = self.wave(&system)?;
+        let target = &system.inputs[self.input].target;
+        let point =
+            DrivenPoint::of_input(&system, &sliding, target, &wave.waveform, wave.frequency)
+                .map_err(in_words)?;
+        Ok(actuator.demand(&point))
     }
 }

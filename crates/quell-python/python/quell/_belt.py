@@ -219,6 +219,9 @@ class Belt(Study):
     design :
         The table ``[design]`` of :meth:`Study.design`, such as ``{"minimise": "amplitude", "vary": ["dither.amplitude"], "from": [0.01],
         "to": [20], "over": {"belt.belt_velocity": [0.05, 0.2]}}``.
+    actuator :
+        The table ``[actuator]`` of :meth:`Study.design`, such as ``{"kind": "piezo", "blocked_force_n": 3000, "free_stroke_m": 20e-6,
+        "maximum_voltage": 150}``.
     uncertainty :
         The table ``[uncertainty]`` of :meth:`Study.probability`, such as ``{"belt.damping_ratio": {"lognormal": [0.05, 0.5]}}``.
     axes :
@@ -281,12 +284,13 @@ class Belt(Study):
         drive: Profile | Mapping[str, Any] | None = None,
         load: Profile | Mapping[str, Any] | None = None,
         design: Mapping[str, Any] | None = None,
+        actuator: Mapping[str, Any] | None = None,
         uncertainty: Mapping[str, Any] | None = None,
         **unknown: Unknown,
     ) -> None:
         belt = Table(
             **given(
-                locals(), "friction", "dither", "initial", "solver", "band", "band_hz", "design", "uncertainty", "axes", "title"
+                locals(), "friction", "dither", "initial", "solver", "band", "band_hz", "design", "actuator", "uncertainty", "axes", "title"
             )
         )
         if initial is not None:
@@ -302,6 +306,7 @@ class Belt(Study):
             solver=solver,
             response=levels(band, band_hz),
             design=None if design is None else dict(design),
+            actuator=None if actuator is None else dict(actuator),
             uncertainty=None if uncertainty is None else dict(uncertainty),
             sweep=axes_tables(axes),
         )

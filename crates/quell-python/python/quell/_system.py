@@ -26,7 +26,7 @@ Entries = Union["npt.ArrayLike", "Iterable[Iterable[Number]]"]
 """A matrix: a diagonal, or rows. An entry may be a formula of the study's parameters, as a text."""
 
 
-OTHER_TABLES = ("contact", "friction", "dither", "initial", "parameters", "design", "uncertainty", "axes", "title", "mode", "component")
+OTHER_TABLES = ("contact", "friction", "dither", "initial", "parameters", "design", "actuator", "uncertainty", "axes", "title", "mode", "component")
 """Arguments of a system that are tables of their own."""
 
 
@@ -366,6 +366,9 @@ class System(Study):
     design :
         The table ``[design]`` of :meth:`Study.design`, such as ``{"minimise": "amplitude", "vary": ["dither.amplitude"], "from": [0.01],
         "to": [20], "over": {"contact.pad.belt_velocity": [0.05, 0.2]}}``.
+    actuator :
+        The table ``[actuator]`` of :meth:`Study.design`, such as ``{"kind": "piezo", "blocked_force": 3000, "free_stroke": 20e-6,
+        "maximum_voltage": 150}``.
     uncertainty :
         The table ``[uncertainty]`` of :meth:`Study.probability`, such as ``{"contact.pad.friction.coefficient": {"lognormal": [0.5, 0.1]}}``.
     axes :
@@ -448,6 +451,7 @@ class System(Study):
         initial: Literal["rest", "sliding", "squealing", "base"] | SystemInitial | None = None,
         parameters: Mapping[str, Number] | None = None,
         design: Mapping[str, Any] | None = None,
+        actuator: Mapping[str, Any] | None = None,
         uncertainty: Mapping[str, Any] | None = None,
         axes: Axes | None = None,
         title: str | None = None,
@@ -467,6 +471,7 @@ class System(Study):
             friction=friction,
             dither=tables(dither),
             design=None if design is None else dict(design),
+            actuator=None if actuator is None else dict(actuator),
             uncertainty=None if uncertainty is None else dict(uncertainty),
             sweep=axes_tables(axes),
         )

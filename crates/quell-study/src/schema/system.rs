@@ -20,6 +20,7 @@ pub(super) fn define(definitions: &mut Map<String, Json>) {
         (SystemTable::Envelope, &[]),
         (SystemTable::Design, &["minimise", "vary", "from", "to"]),
         (SystemTable::DesignLimits, &[]),
+        (SystemTable::Actuator, &["kind"]),
     ] {
         definitions.insert(name(which).to_owned(), table(which, required));
     }
@@ -49,6 +50,7 @@ fn name(which: SystemTable) -> &'static str {
         SystemTable::Envelope => "system_envelope",
         SystemTable::Design => "system_design",
         SystemTable::DesignLimits => "system_limits",
+        SystemTable::Actuator => "system_actuator",
         SystemTable::Named => "parameters",
     }
 }
@@ -79,6 +81,7 @@ fn table(which: SystemTable, required: &[&str]) -> Json {
         SystemTable::Envelope => "share of the amplitude over time",
         SystemTable::Design => Section::Design.about(),
         SystemTable::DesignLimits => Section::DesignLimits.about(),
+        SystemTable::Actuator => Section::Actuator.about(),
         _ => "a friction contact",
     };
     let mut object = json!({

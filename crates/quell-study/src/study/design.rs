@@ -217,6 +217,11 @@ fn named(
     path: &str,
     context: DesignContext<'_>,
 ) -> Option<(String, &'static str)> {
+    if path.starts_with("actuator.") {
+        let allowed = "a path outside [actuator]: the actuator is not chosen, it limits the dither";
+        reader.complain(Complaint::new(Fault::Value, key, node.origin, path, allowed));
+        return None;
+    }
     let nearest = match context.unit_of(path) {
         Ok(unit) => return Some((path.to_owned(), unit)),
         Err(nearest) => nearest,

@@ -17,6 +17,8 @@ use crate::input::Inputs;
 use document::{Table, Value};
 use vocabulary::SCHEMA_VERSION;
 
+mod actuator;
+mod actuator_file;
 pub mod belt;
 mod change;
 mod course;

@@ -32,6 +32,12 @@ pub(super) fn read(reader: &mut Reader, document: &Table, tables: &[&str]) -> Op
             reader.complain(complaint);
             continue;
         }
+        if name == Section::Actuator.path() {
+            let allowed = "[actuator] is implemented for belts and systems: the dither of a disc modulates its friction";
+            let complaint = Complaint::new(Fault::NotBuilt, name, node.origin, Json::Null, allowed);
+            reader.complain(complaint);
+            continue;
+        }
         if keys::TABLES.contains(&name) && !known.contains(&name) {
             let allowed = format!("[{name}] belongs to a study of a system, with [system]");
             let complaint = Complaint::new(Fault::Conflict, name, node.origin, Json::Null, allowed);

@@ -192,6 +192,9 @@ class Design(_columns.DesignColumns, Result):
     """``protocol``, ``multiplier`` and ``point`` of the deciding operating point, and the number of ``operating_points``."""
     friction_loss: float | None
     """The largest share of the mean friction that is lost, on exact responses."""
+    drive: dict[str, Any] | None
+    """What the verified dither demands of the actuator: ``force``, ``displacement``, ``voltage`` and ``current``, each as ``peak``,
+    ``rms`` and ``peak_to_peak``; ``samples_per_period``; how far each limit is ``used`` (``rated``); the operating ``point``."""
     limits: list[dict[str, Any]]
     """How far each limit is ``used``."""
     frontier: list[dict[str, Any]]

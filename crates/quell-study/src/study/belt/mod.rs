@@ -10,6 +10,7 @@ use crate::study::wave_file::{WaveFile, WaveFiles};
 use std::path::Path;
 use std::sync::Arc;
 
+use quell_design::actuator::Actuator;
 use quell_dynamics::response::Solver;
 use quell_dynamics::start::InitialState;
 use quell_model::parameter::NORMAL_LOAD;
@@ -17,6 +18,7 @@ use quell_model::units::{Quantity, Scales};
 use quell_model::{Belt, Dither, Friction, LawKind};
 
 use super::StudyOf;
+use super::actuator::{self, ActuatorContext, GivenActuator};
 use super::design::{self, Design, DesignContext};
 use super::disc::DiscSetup;
 use super::document::Table;
@@ -46,6 +48,8 @@ pub struct BeltSetup {
     waves: Vec<WaveFile>,
     /// The design that is asked for.
     design: Option<Design>,
+    /// The actuator that gives the dither.
+    actuator: Option<GivenActuator>,
 }
 
 impl StudyKind for BeltSetup {
@@ -63,6 +67,7 @@ impl StudyKind for BeltSetup {
             "solver",
             "response",
             "design",
+            "actuator",
             "uncertainty",
             "sweep",
         ]
@@ -101,6 +106,9 @@ impl StudyKind for BeltSetup {
         let context =
             DesignContext { waveform: first.map(|dither| &dither.waveform), system: None };
         let design = design::read(reader, document, context);
+        let known = given.known.and_then(|setup| setup.actuator.as_ref());
+        let context = ActuatorContext { folder: given.folder, known, system: None };
+        let actuator = actuator::read(reader, document, context);
         let initial = belt.initial;
         table::slider_has_one_state(reader, document, friction.as_ref());
         let built = build(reader, belt, friction, dithers);
@@ -113,19 +121,23 @@ impl StudyKind for BeltSetup {
             courses: reader.take_files(),
             waves,
             design: design?,
+            actuator: actuator?,
         })
     }
 
     fn data_files(&self) -> Vec<&Path> {
         let samples = self.measured.iter().filter_map(|measured| measured.file.as_deref());
         let waves = self.waves.iter().map(WaveFile::path);
-        samples.chain(waves).chain(self.courses.iter().map(|file| file.path.as_path())).collect()
+        let actuator = self.actuator.iter().filter_map(GivenActuator::path);
+        let courses = self.courses.iter().map(|file| file.path.as_path());
+        samples.chain(waves).chain(courses).chain(actuator).collect()
     }
 
     fn file_settings(&self) -> Vec<(String, String)> {
         let samples = self.measured.iter().map(|measured| measured.settings());
         let waves = self.waves.iter().enumerate().map(|(index, wave)| wave.settings(index));
-        samples.chain(waves).chain(CourseFile::settings(&self.courses)).collect()
+        let actuator = self.actuator.iter().filter_map(GivenActuator::settings);
+        samples.chain(waves).chain(CourseFile::settings(&self.courses)).chain(actuator).collect()
     }
 }
 
@@ -173,6 +185,11 @@ impl BeltStudy {
     /// The design that the study asks for.
     pub fn design(&self) -> Option<&Design> {
         self.kind().design.as_ref()
+    }
+
+    /// The actuator that gives the dither.
+    pub fn actuator(&self) -> Option<&Actuator> {
+        self.kind().actuator.as_ref().map(GivenActuator::actuator)
     }
 
     /// The samples of a measured law.

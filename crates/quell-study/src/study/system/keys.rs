@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use quell_model::parameter::actuator::ACTUATOR;
 use quell_model::parameter::design::LIMITS;
 use quell_model::parameter::system::{
     CONTACT_BELT_VELOCITY, CONTACT_NORMAL_DAMPING, CONTACT_NORMAL_LOAD, CONTACT_NORMAL_STIFFNESS,
@@ -34,6 +35,7 @@ pub(in crate::study) const TABLES: &[&str] = &[
     "dither",
     "parameters",
     "design",
+    "actuator",
     "uncertainty",
     "sweep",
 ];
@@ -67,6 +69,8 @@ pub enum SystemTable {
     Design,
     /// `[design.limits]`.
     DesignLimits,
+    /// `[actuator]`.
+    Actuator,
     /// `[parameters]` or the constants of a formula: names that the study chooses.
     Named,
 }
@@ -166,6 +170,7 @@ pub fn system_keys(table: SystemTable) -> &'static [SystemKey] {
         SystemTable::Envelope => &ENVELOPE_KEYS,
         SystemTable::Design => &DESIGN_KEYS,
         SystemTable::DesignLimits => &LIMIT_KEYS,
+        SystemTable::Actuator => &ACTUATOR_KEYS,
         SystemTable::Friction | SystemTable::Named => &[],
     }
 }
@@ -205,6 +210,18 @@ static DESIGN_KEYS: LazyLock<Vec<SystemKey>> = LazyLock::new(design);
 static LIMIT_KEYS: LazyLock<Vec<SystemKey>> =
     LazyLock::new(|| LIMITS.iter().map(|limit| number(*limit, limit.key())).collect());
 
+/// The keys of an actuator, as those of a belt.
+fn actuator() -> Vec<SystemKey> {
+    let words = vocabulary::keys_of(Section::Actuator).filter_map(|known| match known.role {
+        Role::Choice(choice) => Some(key(known.name, SystemRole::Choice(choice), known.about)),
+        Role::Text => Some(key(known.name, SystemRole::Text, known.about)),
+        _ => None,
+    });
+    words.chain(ACTUATOR.iter().map(|known| number(*known, known.key()))).collect()
+}
+
+static ACTUATOR_KEYS: LazyLock<Vec<SystemKey>> = LazyLock::new(actuator);
+
 const ROOT: &[SystemKey] = &[
     key("system", SystemRole::Table(SystemTable::System), "the linear structure"),
     key("contact", SystemRole::Tables(SystemTable::Contact), "a friction contact"),
@@ -220,6 +237,7 @@ const ROOT: &[SystemKey] = &[
         SystemRole::Table(SystemTable::Design),
         "the least dither over a box of operating points",
     ),
+    key("actuator", SystemRole::Table(SystemTable::Actuator), "the actuator that gives the dither"),
 ];
 
 const SYSTEM: &[SystemKey] = &[

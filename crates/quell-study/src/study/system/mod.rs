@@ -33,10 +33,12 @@ use crate::study::wave_file::WaveFile;
 use std::path::Path;
 use std::sync::Arc;
 
+use quell_design::actuator::Actuator;
 use quell_model::{Belt, Invalid, Parametrisation, System};
 use serde_json::Value as Json;
 
 use super::StudyOf;
+use super::actuator::GivenActuator;
 use super::design::Design;
 use super::document::{Node, Table, Value};
 use super::reader::{CourseFile, Reader};
@@ -78,7 +80,8 @@ impl StudyKind for SystemSetup {
         let response = self.response.iter().map(|response| response.file());
         let waves = self.waves.iter().map(WaveFile::path);
         let courses = self.courses.iter().map(|file| file.path.as_path());
-        samples.chain(modes).chain(response).chain(waves).chain(courses).collect()
+        let actuator = self.actuator.iter().filter_map(GivenActuator::path);
+        samples.chain(modes).chain(response).chain(waves).chain(courses).chain(actuator).collect()
     }
 
     fn file_settings(&self) -> Vec<(String, String)> {
@@ -100,7 +103,8 @@ impl StudyKind for SystemSetup {
         let response = self.response.iter().flat_map(|response| response.settings());
         let waves = self.waves.iter().enumerate().map(|(index, wave)| wave.settings(index));
         let courses = CourseFile::settings(&self.courses);
-        samples.chain(modes).chain(response).chain(waves).chain(courses).collect()
+        let actuator = self.actuator.iter().filter_map(GivenActuator::settings);
+        samples.chain(modes).chain(response).chain(waves).chain(courses).chain(actuator).collect()
     }
 }
 
@@ -156,6 +160,11 @@ impl SystemStudy {
     /// The design that the study requests.
     pub fn design(&self) -> Option<&Design> {
         self.kind().design.as_ref()
+    }
+
+    /// The actuator that gives the dither.
+    pub fn actuator(&self) -> Option<&Actuator> {
+        self.kind().actuator.as_ref().map(GivenActuator::actuator)
     }
 
     /// The dither, counted from 0, whose amplitude a path names; `None` for any other number.

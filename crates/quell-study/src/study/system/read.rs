@@ -20,6 +20,7 @@ use super::structure::{self, ReadStructure};
 use super::units::SystemUnits;
 use super::{initial, parameters, plausible, unused};
 use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::actuator::{self, ActuatorContext};
 use crate::study::design::{self, DesignContext};
 use crate::study::document::{Table, Value};
 use crate::study::reader::Reader;
@@ -82,6 +83,10 @@ pub(super) fn study(
         system: Some((document, CourseNumbers(&numbers))),
     };
     let design = design::read(reader, document, context);
+    let known = given.known.and_then(|setup| setup.actuator.as_ref());
+    let context =
+        ActuatorContext { folder: given.folder, known, system: Some(CourseNumbers(&numbers)) };
+    let actuator = actuator::read(reader, document, context);
     let observe = initial::observe(reader, table, &numbers, &basis);
     let initial = initial::read(reader, table, &numbers, &basis, first_order);
     let (structure, contacts, inputs) = (structure?, contacts?, inputs?);
@@ -105,6 +110,7 @@ pub(super) fn study(
         response,
         courses: reader.take_files(),
         design: design?,
+        actuator: actuator?,
         time: None,
         belt: None,
     })

@@ -9,6 +9,7 @@ use super::initial::SystemStart;
 use super::modes_file::ModeList;
 use super::numbers::Numbers;
 use super::units::SystemUnits;
+use crate::study::actuator::GivenActuator;
 use crate::study::belt::friction::Measured;
 use crate::study::design::Design;
 use crate::study::reader::CourseFile;
@@ -33,6 +34,8 @@ pub struct SystemSetup {
     pub(super) courses: Arc<[CourseFile]>,
     /// The design that is requested.
     pub(super) design: Option<Design>,
+    /// The actuator that gives a dither.
+    pub(super) actuator: Option<GivenActuator>,
     /// Time of numbers without units in seconds; `None` where the study does not determine it.
     pub(super) time: Option<ScaledTime>,
     /// The belt whose numbers are the parameters, where the system is that of a belt.
@@ -80,6 +83,7 @@ impl From<DescribedSystem> for SystemSetup {
             response: None,
             courses: Arc::default(),
             design: None,
+            actuator: None,
             time,
             belt: belt.map(Arc::new),
         }

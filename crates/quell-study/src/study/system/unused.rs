@@ -15,6 +15,7 @@ const WORDS: &[&str] = &[
     "direction",
     "contact",
     "file",
+    "kind",
     "modes",
     "frequency_response",
     "normalisation",

@@ -49,6 +49,8 @@ pub enum Section {
     Design,
     /// `[design.limits]`.
     DesignLimits,
+    /// `[actuator]`.
+    Actuator,
     /// `[[sweep]]`.
     Sweep,
 }
@@ -74,6 +76,7 @@ impl Section {
         Self::Response,
         Self::Design,
         Self::DesignLimits,
+        Self::Actuator,
         Self::Sweep,
     ];
 
@@ -98,6 +101,7 @@ impl Section {
             Self::Response => "response",
             Self::Design => "design",
             Self::DesignLimits => "design.limits",
+            Self::Actuator => "actuator",
             Self::Sweep => "sweep",
         }
     }
@@ -129,6 +133,7 @@ impl Section {
             }
             Self::Design => "the least dither over a box of operating points",
             Self::DesignLimits => "limits of the dither that is designed",
+            Self::Actuator => "the actuator that gives the dither",
             Self::Sweep => "one axis of a map; several in order",
         }
     }

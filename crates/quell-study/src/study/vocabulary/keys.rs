@@ -33,6 +33,7 @@ fn all() -> Vec<Key> {
     keys.extend(band());
     keys.extend(axis());
     keys.extend(design());
+    keys.extend(actuator());
     keys.sort_by_key(|key| Section::ALL.iter().position(|section| *section == key.section));
     keys
 }
@@ -90,9 +91,9 @@ fn numbers() -> Vec<Key> {
     // Kinds may share keys (the dither of a disc has those of a belt): the first kind defines them.
     let mut parameters: Vec<Parameter> = Vec::new();
     // A study of a system has keys of its own (`study::system`), which only it knows.
-    for parameter in
-        parameter::BELT.iter().chain(parameter::disc::DISC).chain(parameter::design::LIMITS)
-    {
+    let of_kinds = parameter::BELT.iter().chain(parameter::disc::DISC);
+    let of_questions = parameter::design::LIMITS.iter().chain(parameter::actuator::ACTUATOR);
+    for parameter in of_kinds.chain(of_questions) {
         if !parameters.iter().any(|known| known.path == parameter.path) {
             parameters.push(*parameter);
         }
@@ -222,6 +223,20 @@ fn design() -> Vec<Key> {
             "over",
             Role::Ranges,
             "ranges of the numbers over which the dither must be quiet, by their paths",
+        ),
+    ]
+}
+
+/// Keys of an actuator that are not numbers of the registry.
+fn actuator() -> Vec<Key> {
+    let key = |name, role, about| Key { section: Section::Actuator, name, role, about };
+    vec![
+        key("kind", Role::Choice(Choice::ActuatorKind), "kind of actuator"),
+        key(
+            "file",
+            Role::Text,
+            "kind \"frf\": CSV file of the force per volt or ampere, or the largest force, over frequency, relative to the study \
+             file",
         ),
     ]
 }

@@ -18,7 +18,7 @@ pub use words::Choice;
 pub const SCHEMA_VERSION: u32 = 1;
 
 /// Tables of the design that are not implemented yet.
-pub const NOT_BUILT: &[&str] = &["input", "actuator", "sample"];
+pub const NOT_BUILT: &[&str] = &["input", "sample"];
 
 /// Maximum number of points of an axis of a map.
 pub const MOST_POINTS: u32 = 10_000_000;

@@ -1,5 +1,6 @@
 //! Lists of words that keys take.
 
+use quell_design::actuator::ActuatorKind;
 use quell_design::least_dither::{DesignObjective, DesignStart};
 use quell_model::disc::Contribution;
 use quell_model::profile::KnotShape;
@@ -39,6 +40,8 @@ pub enum Choice {
     Objective,
     /// The runs that a design keeps quiet.
     DesignStart,
+    /// Kinds of actuator.
+    ActuatorKind,
 }
 
 impl Choice {
@@ -62,6 +65,7 @@ impl Choice {
                 DesignObjective::ALL.iter().map(|objective| objective.name()).collect()
             }
             Self::DesignStart => DesignStart::ALL.iter().map(|start| start.name()).collect(),
+            Self::ActuatorKind => ActuatorKind::ALL.iter().map(|kind| kind.name()).collect(),
         }
     }
 }

@@ -67,7 +67,7 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         others: others.iter().map(|range| number(range)).collect(),
         over: asked.over.iter().map(number).collect(),
     };
-    Ok(least_dither(asked, numbers, &plants))
+    Ok(least_dither(study, asked, numbers, &plants))
 }
 
 /// The system with another waveform of one dither.

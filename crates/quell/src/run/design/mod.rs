@@ -1,0 +1,289 @@
+//! `design`: the least dither that is quiet over a box of operating points, under limits.
+
+mod answer;
+mod drive;
+
+use quell_design::actuator::Actuator;
+use quell_design::least_dither::{
+    BeltPlant, DesignProblem, Designed, LimitedQuantity, OperatingPoint, Plant, design,
+};
+use quell_dynamics::simulation::within;
+use quell_model::units::Quantity;
+use quell_model::{Belt, Dither, Waveform};
+use rayon::prelude::*;
+use serde_json::Value as Json;
+
+use super::varied::Named;
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::contact_state::refused_of_belt;
+use crate::effort::STEPS_OF_MANY_SEARCHES;
+use crate::fields::Fields;
+use crate::run::system::in_units;
+use crate::study::{BeltStudy, Design, DesignRange, SystemStudy};
+use crate::words::in_words;
+
+/// Points of the schedule over a box of one coordinate.
+const SCHEDULE: usize = 97;
+
+/// A number of the study that a design chooses or ranges over.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignNumber {
+    /// Path as it was written.
+    pub path: String,
+    /// Value of the named key that corresponds to 1 in the equations.
+    pub per_unit: f64,
+    /// Smallest and largest value, in numbers of the equations.
+    pub range: (f64, f64),
+}
+
+/// The least dither of a study.
+#[derive(Clone, Debug)]
+pub struct LeastDitherFound {
+    /// The amplitude.
+    pub amplitude: DesignNumber,
+    /// The other numbers that are chosen.
+    pub others: Vec<DesignNumber>,
+    /// The box of operating points.
+    pub over: Vec<DesignNumber>,
+    /// The answer of each waveform, in the order of the study.
+    pub waveforms: Vec<(Waveform, Designed)>,
+    /// The waveform of the answer: the best feasible one, or the first.
+    pub best: usize,
+    /// The least amplitude at single operating points of a box of one coordinate, by averaging: a schedule in place of one dither.
+    pub schedule: Vec<(f64, Option<f64>)>,
+}
+
+/// A study with a design: its units and what it requests.
+pub trait StudyWithDesign {
+    /// The table `[design]`.
+    fn asked(&self) -> Option<&Design>;
+
+    /// The table `[actuator]`.
+    fn actuator(&self) -> Option<&Actuator>;
+
+    /// An empty answer in the units of the study.
+    fn fields(&self) -> Fields;
+
+    /// A quantity of the equations with its unit.
+    fn in_words(&self, quantity: Quantity, value: f64) -> String;
+}
+
+impl StudyWithDesign for BeltStudy {
+    fn actuator(&self) -> Option<&Actuator> {
+        self.actuator()
+    }
+
+    fn asked(&self) -> Option<&Design> {
+        self.design()
+    }
+
+    fn fields(&self) -> Fields {
+        Fields::new(self.scales())
+    }
+
+    fn in_words(&self, quantity: Quantity, value: f64) -> String {
+        in_words(self, quantity, value)
+    }
+}
+
+impl StudyWithDesign for SystemStudy {
+    fn actuator(&self) -> Option<&Actuator> {
+        self.actuator()
+    }
+
+    fn asked(&self) -> Option<&Design> {
+        self.design()
+    }
+
+    fn fields(&self) -> Fields {
+        Fields::of_system(self.units())
+    }
+
+    fn in_words(&self, quantity: Quantity, value: f64) -> String {
+        in_units(self.units(), quantity, value)
+    }
+}
+
+/// The numbers that a design chooses and over which it ranges.
+#[derive(Clone, Debug)]
+pub(crate) struct DesignNumbers {
+    pub(crate) amplitude: DesignNumber,
+    pub(crate) others: Vec<DesignNumber>,
+    pub(crate) over: Vec<DesignNumber>,
+}
+
+/// The table `[design]` of a study with a dither.
+///
+/// # Errors
+/// A complaint about what is missing.
+pub(crate) fn asked(study: &dyn StudyWithDesign, has_dither: bool) -> Result<&Design, Failure> {
+    let (key, allowed) = match study.asked() {
+        Some(design) if has_dither => return Ok(design),
+        Some(_) => {
+            ("dither", "given: its direction, frequency and waveform are where the design begins")
+        }
+        None => (
+            "design",
+            "a table [design] with minimise, vary, from and to: what is to be small, and over which numbers",
+        ),
+    };
+    Err(Complaint::new(Fault::Missing, key, Origin::Whole, Json::Null, allowed).into())
+}
+
+/// The complaint about `vary` without the amplitude of one dither.
+pub(crate) fn without_amplitude(asked: &Design, allowed: String) -> Failure {
+    let given: Vec<&str> = asked.vary.iter().map(|range| range.path.as_str()).collect();
+    Complaint::new(Fault::Value, "design.vary", Origin::Whole, given, allowed).into()
+}
+
+/// The least dither of a belt.
+///
+/// # Errors
+/// A complaint about a study without `[design]` or a number in it; a contact with a state.
+pub fn run(study: &BeltStudy) -> Result<LeastDitherFound, Failure> {
+    refused_of_belt(study, "design")?;
+    let belt = study.belt();
+    let asked = asked(study, !belt.dithers().is_empty())?;
+    let (vary, over) = (numbers(study, "vary", &asked.vary)?, numbers(study, "over", &asked.over)?);
+    let own = belt.dither_path(0, "amplitude");
+    let is_own = |path: &str| path == own || path == "dither.amplitude";
+    let (amplitude, others): (Vec<_>, Vec<_>) =
+        vary.into_iter().partition(|(path, _)| is_own(path));
+    let [(_, amplitude)] = amplitude.as_slice() else {
+        let allowed = format!(
+            "a list with {own}, the amplitude of the first dither, once: the least one is sought"
+        );
+        return Err(without_amplitude(asked, allowed));
+    };
+    let paths = |numbers: &[(String, DesignNumber)]| -> Vec<String> {
+        numbers.iter().map(|(path, _)| path.clone()).collect()
+    };
+    let (over_paths, other_paths) = (paths(&over), paths(&others));
+    let plant = |waveform: &Waveform| -> Result<BeltPlant, Failure> {
+        let belt = with_waveform(belt, waveform).map_err(|why| failed(why.to_string()))?;
+        let (over, others) = (over_paths.clone(), other_paths.clone());
+        Ok(BeltPlant { belt, over, others, start: asked.start })
+    };
+    let plants: Vec<(Waveform, BeltPlant)> = asked
+        .waveforms
+        .iter()
+        .map(|waveform| Ok((waveform.clone(), plant(waveform)?)))
+        .collect::<Result<_, Failure>>()?;
+    let only = |numbers: Vec<(String, DesignNumber)>| -> Vec<DesignNumber> {
+        numbers.into_iter().map(|(_, number)| number).collect()
+    };
+    let numbers =
+        DesignNumbers { amplitude: amplitude.clone(), others: only(others), over: only(over) };
+    Ok(least_dither(study, asked, numbers, &plants))
+}
+
+/// The least dither of the waveforms of a study, each with its structure.
+pub(crate) fn least_dither<P: Plant + Sync>(
+    study: &dyn StudyWithDesign,
+    asked: &Design,
+    numbers: DesignNumbers,
+    plants: &[(Waveform, P)],
+) -> LeastDitherFound {
+    let DesignNumbers { amplitude, others, over } = numbers;
+    let ranges = |numbers: &[DesignNumber]| -> Vec<(f64, f64)> {
+        numbers.iter().map(|number| number.range).collect()
+    };
+    let (box_ranges, other_ranges) = (ranges(&over), ranges(&others));
+    let actuator = study.actuator();
+    let of_actuator = actuator.map(Actuator::limits).into_iter().flatten();
+    let of_actuator = of_actuator.map(|limit| (LimitedQuantity::Actuator(limit), 1.0));
+    let limits: Vec<_> = asked.limits.iter().copied().chain(of_actuator).collect();
+    let designed = |(waveform, plant): &(Waveform, P)| {
+        let problem = DesignProblem {
+            plant,
+            objective: asked.minimise,
+            amplitude: amplitude.range,
+            others: &other_ranges,
+            over: &box_ranges,
+            limits: &limits,
+            actuator,
+            start: asked.start,
+        };
+        (waveform.clone(), within(STEPS_OF_MANY_SEARCHES, || design(problem)))
+    };
+    let waveforms: Vec<(Waveform, Designed)> = plants.par_iter().map(designed).collect();
+    let value = |designed: &Designed| match &designed.answer {
+        Ok(found) => found.critical.objective.clone().unwrap_or(f64::INFINITY),
+        Err(_) => f64::INFINITY,
+    };
+    let best = (0..waveforms.len())
+        .min_by(|a, b| value(&waveforms[*a].1).total_cmp(&value(&waveforms[*b].1)))
+        .unwrap_or(0);
+    let schedule = match (&plants.get(best), box_ranges.as_slice(), &waveforms[best].1.answer) {
+        (Some((_, plant)), [range], Ok(found)) => {
+            schedule(plant, *range, &found.critical.others, amplitude.range)
+        }
+        _ => Vec::new(),
+    };
+    LeastDitherFound { amplitude, others, over, waveforms, best, schedule }
+}
+
+/// The least amplitude at single operating points, by averaging.
+fn schedule(
+    plant: &dyn Plant,
+    (low, high): (f64, f64),
+    others: &[f64],
+    range: (f64, f64),
+) -> Vec<(f64, Option<f64>)> {
+    let at = |point: f64| {
+        let place = OperatingPoint { point: &[point], others };
+        let quiet = plant.averaged(place, range).ok()?;
+        // The quiet amplitudes that reach up to the largest one: smaller quiet amplitudes may be followed by loud ones.
+        quiet.intervals().last().map(|(least, _)| *least)
+    };
+    super::evenly((low, high), SCHEDULE).into_iter().map(|point| (point, at(point))).collect()
+}
+
+/// The belt with another waveform of its first dither.
+fn with_waveform(belt: &Belt, waveform: &Waveform) -> Result<Belt, quell_model::InvalidValues> {
+    let mut dithers: Vec<Dither> = belt.dithers().to_vec();
+    dithers[0].waveform = waveform.clone();
+    let (damping, load, velocity) =
+        (belt.damping_ratio(), belt.normal_load(), belt.belt_velocity());
+    Ok(Belt::new(damping, load, velocity, belt.friction().clone(), dithers)?.in_si(belt.scales()))
+}
+
+/// Numbers of `[design]` with their paths in the equations. Both ends of every range must give valid studies.
+fn numbers(
+    study: &BeltStudy,
+    key: &str,
+    ranges: &[DesignRange],
+) -> Result<Vec<(String, DesignNumber)>, Failure> {
+    let mut found = Vec::new();
+    let mut wrong: Vec<Complaint> = Vec::new();
+    let placed = |complaint: Complaint, path: &str| Complaint {
+        key: format!("design.{key}"),
+        origin: Origin::Whole,
+        allowed: format!("{path}: {}", complaint.allowed),
+        ..complaint
+    };
+    for range in ranges {
+        let named = match Named::new(study, "[design]", &range.path) {
+            Ok(named) => named,
+            Err(complaint) => {
+                wrong.push(placed(*complaint, &range.path));
+                continue;
+            }
+        };
+        for value in [range.from, range.to] {
+            let refused = named.unable(study, ("[design]", value));
+            wrong.extend(refused.map(|complaint| placed(complaint, &range.path)));
+        }
+        let number = DesignNumber {
+            path: range.path.clone(),
+            per_unit: 1.0 / named.of(1.0),
+            range: (named.of(range.from), named.of(range.to)),
+        };
+        found.push((named.path.clone(), number));
+    }
+    if wrong.is_empty() { Ok(found) } else { Err(wrong.into()) }
+}
+
+fn failed(why: String) -> Failure {
+    Failure::Failed { key: "design".to_owned(), why }
+}
