@@ -139,6 +139,9 @@ fn a_piezo_stack_gives_the_force_of_its_own_spring_and_mass_too() {
         close(number(&rated[0], "used"), 2.0 * volts / 150.0, study);
         close(number(&rated[1], "used"), current / 5.0, study);
         assert_eq!(drive["samples_per_period"], Json::Null);
+        // 350 N/µm at a pad of 2 N/µm.
+        let warnings = done["warnings"].to_string();
+        assert!(warnings.contains("is 175 times that of the structure"), "{warnings}");
     }
 }
 
@@ -167,6 +170,18 @@ fn a_coil_has_an_induced_voltage_and_a_controller_few_samples() {
         let warnings = done["warnings"].to_string();
         assert!(warnings.contains("6.66667 samples"), "{warnings}");
     }
+}
+
+/// A voltage makes a stack press with F_b U/U_max on the structure that contains its spring and mass.
+#[test]
+fn a_stack_in_the_structure_makes_the_force_of_its_voltage() {
+    let stack = "[actuator]\nkind = \"piezo\"\nblocked_force_n = 7000\nmaximum_voltage = 150\n";
+    let place = Place::with("actuator-within", &[("belt.toml", &format!("{BELT}{stack}"))]);
+    let done = place.good(&["design", "belt.toml"]);
+    let (_, amplitude, _) = verified(&done);
+    close(number(&done["drive"], "voltage.peak"), 150.0 * amplitude / 7000.0, "voltage");
+    let warnings = done["warnings"].to_string();
+    assert!(warnings.contains("must be part of the structure"), "{warnings}");
 }
 
 #[test]

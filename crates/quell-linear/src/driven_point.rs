@@ -80,6 +80,8 @@ pub struct DrivenPoint<'w> {
     acceleration: (Vec<f64>, f64),
     /// The fast part of the slip velocity of every contact, rows over the state.
     slips: Vec<Vec<f64>>,
+    /// Static displacement under a unit force; `None` where the structure is free to move.
+    compliance: Option<f64>,
 }
 
 impl<'w> DrivenPoint<'w> {
@@ -104,6 +106,7 @@ impl<'w> DrivenPoint<'w> {
             acceleration: (lowest.to_vec(), 1.0),
             // v₀ − x′ falls where the mass moves with the belt.
             slips: vec![vec![0.0, -1.0]],
+            compliance: Some(1.0),
         })
     }
 
@@ -132,9 +135,23 @@ impl<'w> DrivenPoint<'w> {
         let acceleration = ((0..states).map(along).collect(), direct);
         let contacts = sliding.contacts().iter();
         let slips = contacts.map(|contact| equations.slip_row(contact)).collect();
+        let column = Matrix::from_fn(states, 1, |i, _| -source[i]);
+        let rest = matrix.solve(&column).filter(Matrix::is_finite);
+        let moved =
+            |rest: Matrix| (0..states).map(|i| displacement[i] * rest[(i, 0)]).sum::<f64>().abs();
+        let compliance = rest.map(moved);
         let response = ResponseToWave::new(matrix, source, waveform, frequency)
             .map_err(NoDrivenPoint::NoResponse)?;
-        Ok(Self { response, waveform, frequency, displacement, velocity, acceleration, slips })
+        Ok(Self {
+            response,
+            waveform,
+            frequency,
+            displacement,
+            velocity,
+            acceleration,
+            slips,
+            compliance,
+        })
     }
 
     /// The waveform of the dither.
@@ -167,6 +184,17 @@ impl<'w> DrivenPoint<'w> {
         self.response.outputs(&rows)
     }
 
+    /// How much a spring to the ground and a mass at the point change the structure: the larger of the ratios to its own stiffness under
+    /// a constant force and its own mass under a sudden one. Infinite for a spring on a structure that is free to move.
+    pub fn change_by(&self, stiffness: f64, mass: f64) -> f64 {
+        let spring = match self.compliance {
+            _ if stiffness == 0.0 => 0.0,
+            Some(compliance) => stiffness * compliance,
+            None => f64::INFINITY,
+        };
+        spring.max(mass * self.acceleration.1.abs())
+    }
+
     /// The largest fast slip velocity of every contact.
     pub fn slip_amplitudes(&self) -> Vec<f64> {
         let rows: Vec<(&[f64], f64)> = self.slips.iter().map(|row| (row.as_slice(), 0.0)).collect();
@@ -196,6 +224,8 @@ mod tests {
             };
             let [least, largest] = point.outputs(&[balance])[0].range();
             assert!(least > -1e-13 && largest < 1e-13, "{waveform:?} {least} {largest}");
+            assert_eq!(point.change_by(0.2, 0.1), 0.2);
+            assert_eq!(point.change_by(0.2, 0.3), 0.3);
             let [slip] = point.slip_amplitudes()[..] else { panic!("one contact") };
             let [slowest, fastest] = point.outputs(&[PointOutput::VELOCITY])[0].range();
             assert_eq!(slip, fastest.max(-slowest));

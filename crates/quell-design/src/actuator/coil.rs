@@ -101,6 +101,7 @@ impl CoilActuator {
         ActuatorDemand {
             force,
             displacement,
+            change_of_structure: point.change_by(self.stiffness, self.mass),
             voltage,
             current,
             samples_per_period,

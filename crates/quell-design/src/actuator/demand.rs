@@ -105,6 +105,8 @@ pub struct ActuatorDemand {
     pub voltage: Result<SignalSize, String>,
     /// Current about its mean in amperes, or why it is unknown.
     pub current: Result<SignalSize, String>,
+    /// Ratio of its own spring or mass to those of the structure at the driven point, which is judged without them.
+    pub change_of_structure: f64,
     /// Samples of the controller in a period of the dither.
     pub samples_per_period: Option<f64>,
     /// How far each limit is used.
@@ -151,6 +153,7 @@ impl ActuatorDemand {
             displacement: self.displacement.times(factor),
             voltage: sized(&self.voltage),
             current: sized(&self.current),
+            change_of_structure: self.change_of_structure,
             samples_per_period: self.samples_per_period,
             limits: limits.collect(),
         }

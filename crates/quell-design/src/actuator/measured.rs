@@ -68,6 +68,8 @@ impl MeasuredActuator {
         ActuatorDemand {
             force,
             displacement: SignalSize::of(&outputs[1], 1.0),
+            // It was measured on the structure.
+            change_of_structure: 0.0,
             voltage,
             current,
             samples_per_period: None,

@@ -15,7 +15,7 @@ const JUMP: f64 = 1e-9;
 pub struct PiezoStack {
     /// Force at the largest voltage without motion, F_b.
     pub blocked_force: f64,
-    /// Stiffness k_a.
+    /// Stiffness k_a; 0 where the structure contains it.
     pub stiffness: f64,
     /// Mass that moves with the driven point.
     pub mass: f64,
@@ -72,6 +72,7 @@ impl PiezoStack {
         ActuatorDemand {
             force,
             displacement: SignalSize::of(&outputs[1], 1.0),
+            change_of_structure: point.change_by(self.stiffness, self.mass),
             voltage,
             current,
             samples_per_period: None,

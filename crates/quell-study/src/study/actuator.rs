@@ -190,12 +190,6 @@ impl GivenNumbers<'_, '_> {
     fn piezo(&mut self) -> Option<PiezoStack> {
         let blocked = self.needed(BLOCKED_FORCE, "it limits the dither");
         let (stroke, stiffness) = (self.number(FREE_STROKE), self.number(ACTUATOR_STIFFNESS));
-        if self.node(FREE_STROKE).is_none() && self.node(ACTUATOR_STIFFNESS).is_none() {
-            self.missing(
-                FREE_STROKE.key(),
-                "given, or stiffness: what the stack does against the structure follows from one of them",
-            );
-        }
         let (mass, capacitance) = (self.number(ACTUATOR_MASS), self.number(CAPACITANCE));
         let (voltage, current) = (self.number(MAXIMUM_VOLTAGE), self.number(MAXIMUM_CURRENT));
         if self.node(MAXIMUM_CURRENT).is_some() {
@@ -222,7 +216,7 @@ impl GivenNumbers<'_, '_> {
         }
         Some(PiezoStack {
             blocked_force: blocked,
-            stiffness: stiffness.or(stroke.map(|stroke| blocked / stroke))?,
+            stiffness: stiffness.or(stroke.map(|stroke| blocked / stroke)).unwrap_or(0.0),
             mass: mass.unwrap_or(0.0),
             capacitance,
             maximum_voltage: voltage,

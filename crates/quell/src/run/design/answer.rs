@@ -200,7 +200,7 @@ impl LeastDitherFound {
                 digits(100.0 * (exact / averaged - 1.0).abs())
             ));
         }
-        warnings.extend(self.warnings_about_drive());
+        warnings.extend(self.warnings_about_drive(study));
         warnings
     }
 

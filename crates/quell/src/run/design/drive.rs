@@ -1,6 +1,6 @@
 //! What the verified dither of a design demands of the actuator.
 
-use quell_design::actuator::{ActuatorDemand, SignalSize};
+use quell_design::actuator::{Actuator, ActuatorDemand, SignalSize};
 use quell_model::units::Quantity;
 
 use super::{LeastDitherFound, StudyWithDesign};
@@ -9,6 +9,12 @@ use crate::words::digits;
 
 /// Samples in a period below which the steps of a controller change the dither.
 const FEW_SAMPLES: f64 = 10.0;
+
+/// Ratio of the actuator's spring or mass to that of the structure from which it is warned of.
+const CHANGES: f64 = 0.1;
+
+/// Ratio above which the number itself says nothing.
+const VERY_LARGE: f64 = 1000.0;
 
 /// A demand with its operating point, or why it is unknown.
 type Drive<'a> = Result<&'a (ActuatorDemand, Vec<f64>), &'a String>;
@@ -28,17 +34,36 @@ impl LeastDitherFound {
         )
     }
 
-    /// A warning about a controller with few samples in a period.
-    pub(super) fn warnings_about_drive(&self) -> Option<String> {
-        let found = self.answer().answer.as_ref().ok()?;
-        let samples = found.drive.as_ref().ok()?.0.samples_per_period?;
-        (samples < FEW_SAMPLES).then(|| {
+    /// Warnings about a controller with few samples in a period, and about an actuator that changes the structure.
+    pub(super) fn warnings_about_drive(&self, study: &dyn StudyWithDesign) -> Vec<String> {
+        let Some(actuator) = study.actuator() else { return Vec::new() };
+        let Ok(found) = &self.answer().answer else { return Vec::new() };
+        let Ok((demand, _)) = &found.drive else { return Vec::new() };
+        let few = demand.samples_per_period.filter(|samples| *samples < FEW_SAMPLES);
+        let few = few.map(|samples| {
             format!(
                 "the controller has {} samples in a period of the dither, so that the force is a staircase: waveform \"samples\" with \
                  hold = \"zero\" describes it",
                 digits(samples)
             )
-        })
+        });
+        let change = demand.change_of_structure;
+        let times = match change {
+            _ if change < CHANGES => None,
+            _ if change > VERY_LARGE => Some(format!("more than {} times", digits(VERY_LARGE))),
+            _ => Some(format!("{} times", digits(change))),
+        };
+        let changed = times.map(|times| {
+            format!(
+                "the spring or the mass of the actuator is {times} that of the structure there, and the verdicts are about the structure \
+                 without it: where no controller holds the force, add both to the structure and omit them in [actuator]"
+            )
+        });
+        let free = matches!(actuator, Actuator::Piezo(stack) if stack.stiffness == 0.0);
+        let free = free.then(|| {
+            "[actuator] has neither free_stroke nor stiffness: the spring of the stack must be part of the structure".to_owned()
+        });
+        [few, changed, free].into_iter().flatten().collect()
     }
 
     /// Adds `drive`.
