@@ -48,8 +48,8 @@ def test_every_number_of_a_study_has_a_slider_that_reaches_its_value(name: str) 
     numbers = {
         path
         for path, value in study.settings.items()
-        if isinstance(value, (int, float)) and not isinstance(value, bool) and path != "schema" and not path.startswith("design.")
-    }  # [design] asks a question about the study.
+        if isinstance(value, (int, float)) and not isinstance(value, bool) and path != "schema" and not path.startswith(("design.", "actuator."))
+    }  # [design] and [actuator] ask a question about the study.
     assert numbers <= paths, numbers - paths
     for one in found:
         grid = one.grid()

@@ -300,25 +300,54 @@ class DesignColumns:
     amplitude: npt.NDArray[np.float64]
     averaged_dither_amplitude: float
     averaged_dither_amplitude_n: float
+    averaged_dither_frequency_hz: float
     averaged_dither_frequency_ratio: float
     basin_objective: npt.NDArray[np.float64]
+    basin_objective_m: npt.NDArray[np.float64]
     basin_objective_w: npt.NDArray[np.float64]
     binding_value: npt.NDArray[np.str_]
     critical_dither_amplitude: float
     critical_dither_amplitude_n: float
+    critical_dither_frequency_hz: float
     critical_dither_frequency_ratio: float
+    dither_frequency_hz: npt.NDArray[np.float64]
     dither_frequency_ratio: npt.NDArray[np.float64]
+    drive_current_peak: float
+    drive_current_peak_to_peak: float
+    drive_current_rms: float
+    drive_displacement_peak: float
+    drive_displacement_peak_m: float
+    drive_displacement_peak_to_peak: float
+    drive_displacement_peak_to_peak_m: float
+    drive_displacement_rms: float
+    drive_displacement_rms_m: float
+    drive_force_peak: float
+    drive_force_peak_n: float
+    drive_force_peak_to_peak: float
+    drive_force_peak_to_peak_n: float
+    drive_force_rms: float
+    drive_force_rms_n: float
+    drive_point_belt_belt_velocity_m_per_s: float
+    drive_rated_limit: npt.NDArray[np.str_]
+    drive_rated_used: npt.NDArray[np.float64]
+    drive_samples_per_period: float
+    drive_voltage_peak: float
+    drive_voltage_peak_to_peak: float
+    drive_voltage_rms: float
     frontier_limit: npt.NDArray[np.str_]
     frontier_objective: npt.NDArray[np.float64]
+    frontier_objective_m: npt.NDArray[np.float64]
     frontier_objective_w: npt.NDArray[np.float64]
     frontier_value: npt.NDArray[np.float64]
     frontier_value_m: npt.NDArray[np.float64]
     limit_limit: npt.NDArray[np.str_]
     limit_used: npt.NDArray[np.float64]
     number: npt.NDArray[np.float64]
+    objective_m: float
     objective_w: float
     parameters_dither_amplitude: float
     parameters_dither_amplitude_n: float
+    parameters_dither_frequency_hz: float
     parameters_dither_frequency_ratio: float
     verified_multiplier: float
     verified_operating_points: Any
@@ -326,6 +355,7 @@ class DesignColumns:
     verified_point_belt_belt_velocity_m_per_s: float
     waveform_feasible: npt.NDArray[Any]
     waveform_objective: npt.NDArray[np.float64]
+    waveform_objective_m: npt.NDArray[np.float64]
     waveform_objective_w: npt.NDArray[np.float64]
     waveform_waveform: npt.NDArray[np.str_]
     worst_belt_belt_velocity: float
