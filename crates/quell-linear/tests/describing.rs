@@ -14,8 +14,8 @@ use quell_zoo::belt::{belt, undithered_belt};
 use quell_zoo::dither::{normal, tangential};
 use quell_zoo::law;
 
-fn of(belt: &Belt) -> DescribingFunction<'_> {
-    DescribingFunction::new(belt, AveragingOptions::default()).expect("an average")
+fn of(belt: &Belt) -> DescribingFunction {
+    DescribingFunction::of_belt(belt, AveragingOptions::default()).expect("an average")
 }
 
 /// The cubic law without dither: N₁ = a₁ + 3a₃v₀² + ¾a₃a², and 4μ_s√(1 − (v₀/a)²)/(πa) for the sign where a > v₀.
@@ -59,7 +59,10 @@ fn limit_cycle_of_the_cubic_law() {
         let rest = 1.0 - kappa - (v0 / vm) * (v0 / vm) - square * (ratio / vm) * (ratio / vm);
         let exact = 2.0 * vm * rest.sqrt();
         assert!(exact + ratio < v0, "pure slip");
-        let found = of(&belt).cycles(0.9 * v0).expect("cycles");
+        let balance = |gain: f64| -> Result<f64, AveragingError> {
+            Ok(belt.damping_rate(gain, belt.normal_load()))
+        };
+        let found = of(&belt).cycles(0.9 * v0, balance).expect("cycles");
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(
             found[0].stable && (found[0].amplitude / exact - 1.0).abs() < 1e-8,
@@ -96,7 +99,7 @@ fn small_amplitudes() {
         let found = of(&belt);
         let criterion = criterion(&belt, AveragingOptions::default()).expect("a criterion");
         let small = found.small().expect("a slope").expect("no corner");
-        assert_eq!(found.balance(small), criterion.value);
+        assert_eq!(belt.damping_rate(small, belt.normal_load()), criterion.value);
         let point = found.at(1e-4).expect("a gain");
         // The gain differs from the slope by μ̄‴a²/8: below 10⁻⁴ of the slopes here.
         let scale = 1e-3 * (1.0 + small.abs());
@@ -194,6 +197,6 @@ fn undefined_and_refused() {
         envelope: None,
     });
     let three = belt(0.005, 0.1, law::stribeck(), three.to_vec());
-    let refused = DescribingFunction::new(&three, AveragingOptions::default());
+    let refused = DescribingFunction::of_belt(&three, AveragingOptions::default());
     assert!(matches!(refused, Err(AveragingError::TooManyGroups { groups: 3, largest: 2 })));
 }

@@ -5,7 +5,7 @@ use crate::parameter::{
     DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE, indexed, split_index,
 };
 use crate::profile::{Knots, Wave};
-use crate::waveform::{LARGEST_SEED, WaveSine, Waveform};
+use crate::waveform::{WaveSine, Waveform};
 
 /// Direction of a dither force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -100,14 +100,7 @@ impl Dither {
     /// The same dither in which the seed of noise is greater by a number; beyond the largest seed it continues from 0.
     #[must_use]
     pub fn reseeded(&self, by: u64) -> Self {
-        let reseeded = self.waveform.noise().and_then(|noise| {
-            let seed = noise.seed().wrapping_add(by) % (LARGEST_SEED + 1);
-            noise.reseeded(seed).ok()
-        });
-        match reseeded {
-            Some(noise) => Self { waveform: Waveform::Noise(noise.into()), ..self.clone() },
-            None => self.clone(),
-        }
+        Self { waveform: self.waveform.reseeded(by), ..self.clone() }
     }
 
     /// Errors of this dither as entry `index` of a list of `count`.

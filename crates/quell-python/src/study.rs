@@ -275,11 +275,19 @@ impl NativeStudy {
         self.folder.clone()
     }
 
-    /// `seeds`: number of runs under noise.
-    #[pyo3(signature = (seeds))]
-    fn response_of_seeds(&self, py: Python<'_>, seeds: Option<usize>) -> PyResult<NativeAnswer> {
+    /// `seeds`: number of runs under noise; `settle` and `record`: times of the response of a system.
+    #[pyo3(signature = (seeds, settle, record))]
+    fn response_of_seeds(
+        &self,
+        py: Python<'_>,
+        seeds: Option<usize>,
+        settle: Option<String>,
+        record: Option<String>,
+    ) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::run(py, move || response::of_seeds(&study, seeds))
+        let times =
+            move || response::of_seeds(&study, seeds, (settle.as_deref(), record.as_deref()));
+        call::run(py, times)
     }
 
     /// Whether a dither is noise.

@@ -156,6 +156,19 @@ def belt_under_noise() -> quell.Belt:
     return belt().replace(dither=noise, solver=quell.Solver(settle=100.0, record_periods=8))
 
 
+def drive_that_slows_down() -> quell.Study:
+    """The drive in SI, whose guide slows down."""
+    slower = "[contact.drive]\ntime = [0.0, 100.0]\nvelocity = [0.3, 0.05]\n[contact.friction]"
+    text = DRIVE.replace("belt_velocity = 0.05\n", "").replace("[contact.friction]", slower)
+    return quell.Study.from_text(text.replace("[system]", '[system]\nunits = "SI"'))
+
+
+def drive_under_noise() -> quell.Study:
+    """The drive in SI under noise in a band."""
+    text = DRIVE.replace('"sine"', '"noise"').replace("frequency = 10.0", "band_hz = [1.5, 2.0]\nlines = 16")
+    return quell.Study.from_text(text.replace("[system]", '[system]\nunits = "SI"'))
+
+
 def belt_with_two_responses() -> quell.Belt:
     """A belt with a decreasing law, on which squeal and a quiet response exist together."""
     return quell.Belt(
@@ -194,6 +207,8 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "stability without dither": lambda: study("does-it-squeal").stability(),
     "stability of a disc": lambda: disc().stability(),
     "stability of a disc in SI": lambda: disc_in_si().stability(),
+    "friction of a system": lambda: study("drive in SI").friction(),
+    "gains of a system": lambda: study("drive in SI").friction(describing=0.3),
     "stability of a system": lambda: study("hoffmann").stability(),
     "stability of a dithered system": lambda: study("drive in SI").stability(),
     "exact stability": lambda: study("drive").stability(exact=True),
@@ -208,6 +223,8 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "response": lambda: belt().response(),
     "a manoeuvre": lambda: belt_that_stops().simulate(60.0, events=True, samples=True),
     "a ramp": lambda: belt_that_slows_down().bifurcation(ramp=True),
+    "a ramp of a system": lambda: drive_that_slows_down().bifurcation(ramp=True),
+    "response of a system under noise": lambda: drive_under_noise().response(seeds=2, settle=50, record=50),
     "response under noise": lambda: belt_under_noise().response(seeds=2),
     "a window": lambda: belt_that_stops().response(window=(10.0, 40.0)),
     "a window of a system": lambda: study("drive in SI").response(window=(1, 2)),

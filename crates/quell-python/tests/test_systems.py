@@ -299,8 +299,8 @@ def test_arguments_are_checked(hoffmann: quell.System, belt: quell.Belt) -> None
         belt.stability("dither.amplitude", 0.1, 0.2)
     with pytest.raises(quell.StudyError, match=r"stability\(exact=True\) is not available for a belt study"):
         belt.stability(exact=True)
-    with pytest.raises(quell.StudyError, match="not available for a system study"):
-        hoffmann.friction()
+    with pytest.raises(quell.StudyError, match="mean friction of every contact"):
+        hoffmann.friction(measured=True)
 
 
 def test_every_result_plots_pickles_and_equals_the_command_line(drive: quell.System, hoffmann: quell.System, cli: Any, tmp_path: Any) -> None:

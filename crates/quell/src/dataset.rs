@@ -12,7 +12,7 @@ use std::path::Path;
 use quell_model::units::{Quantity, Scales};
 
 use crate::fields::PER_VELOCITY;
-use crate::study::{BeltStudy, Study};
+use crate::study::{BeltStudy, Kind, Study, SystemUnits};
 
 /// One array with its name and unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,6 +74,8 @@ pub struct Provenance {
 pub struct Dataset {
     provenance: Provenance,
     scales: Option<Scales>,
+    /// The units of a study of a system.
+    units: Option<SystemUnits>,
     axes: Vec<Array>,
     arrays: Vec<Array>,
 }
@@ -95,6 +97,10 @@ impl Dataset {
                 facts: Vec::new(),
             },
             scales: study.scales(),
+            units: match study.kind() {
+                Kind::System(setup) => Some(setup.units()),
+                Kind::Belt(_) | Kind::Disc(_) => None,
+            },
             axes: Vec::new(),
             arrays: Vec::new(),
         }
@@ -109,7 +115,7 @@ impl Dataset {
             changes: Vec::new(),
             facts: vec![format!("data: {}", path.display())],
         };
-        Self { provenance, scales: None, axes: Vec::new(), arrays: Vec::new() }
+        Self { provenance, scales: None, units: None, axes: Vec::new(), arrays: Vec::new() }
     }
 
     /// Adds a fact to the provenance.
@@ -147,6 +153,9 @@ impl Dataset {
     pub fn per_velocity(mut self, name: &str, mut values: Vec<f64>) -> Self {
         let (unit, si_unit, suffix) = PER_VELOCITY;
         let Some(scales) = self.scales else {
+            let of_system =
+                self.units.map(|units| units.unit(Quantity::PerVelocity).unwrap_or("1"));
+            let unit = of_system.unwrap_or(unit);
             self.arrays.push(Array::new(name, unit, values));
             return self;
         };
@@ -199,6 +208,9 @@ impl Dataset {
         quantity: Quantity,
         mut values: Vec<f64>,
     ) -> (Array, Option<&'static str>) {
+        if let Some(units) = self.units {
+            return (Array::new(name, units.unit(quantity).unwrap_or("1"), values), None);
+        }
         let Some((scales, (unit, suffix))) = self.scales.zip(quantity.si_unit()) else {
             return (Array::new(name, quantity.scaled_unit(), values), None);
         };

@@ -114,6 +114,9 @@ impl Fields {
 
     /// Adds an array of slopes per unit velocity, in SI per m/s.
     pub fn per_velocity(&mut self, name: &str, values: &[f64]) -> &mut Self {
+        if matches!(self.si, Some(SiValues::System(_))) {
+            return self.numbers(name, Quantity::PerVelocity, values);
+        }
         self.object.insert(name.to_owned(), values.into());
         self.units.insert(name.to_owned(), PER_VELOCITY.0.into());
         if let Some(scales) = self.scales() {

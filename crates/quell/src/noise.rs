@@ -1,8 +1,8 @@
 //! Noise in the answers of a study: its band in words and in JSON, and the warning about few lines.
 
-use quell_model::Belt;
 use quell_model::units::Quantity;
 use quell_model::waveform::{FEWEST_GAUSSIAN_LINES, Noise};
+use quell_model::{Belt, Direction, System};
 use serde_json::{Value as Json, json};
 
 use crate::words::plural;
@@ -34,7 +34,15 @@ pub(crate) fn json(noise: &Noise, middle: f64) -> Json {
 
 /// The warning about averages over noise of so few lines that their distribution is not Gaussian.
 pub(crate) fn few_lines(belt: &Belt) -> Option<String> {
-    let noises = belt.dithers().iter().filter_map(|dither| dither.waveform.noise());
+    few(belt.dithers().iter().filter_map(|dither| dither.waveform.noise()))
+}
+
+/// The same of a system.
+pub(crate) fn few_lines_of_system(system: &System) -> Option<String> {
+    few(system.waves().filter_map(|wave| wave.waveform.noise()))
+}
+
+fn few<'a>(noises: impl Iterator<Item = &'a Noise>) -> Option<String> {
     let few =
         noises.filter(|noise| !noise.is_gaussian()).min_by_key(|noise| noise.lines().len())?;
     let count = few.lines().len();
@@ -43,4 +51,14 @@ pub(crate) fn few_lines(belt: &Belt) -> Option<String> {
          friction over the lines differs from that by more than 1 % of the static level",
         plural(count)
     ))
+}
+
+/// The warning about finite-R averaging under normal noise, of which the second order is left out.
+pub(crate) fn normal_noise(belt: &Belt) -> Option<String> {
+    let mut normal = belt.dithers_along(Direction::Normal);
+    normal.any(|dither| !dither.waveform.is_periodic()).then(|| {
+        "finite-R averaging under normal noise has the oscillator's own response to each line and the first order of the motion alone: the \
+         second order has slow differences of the lines' frequencies, and no Gaussian distribution"
+            .to_owned()
+    })
 }

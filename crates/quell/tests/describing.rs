@@ -25,7 +25,7 @@ fn the_limit_cycle_is_that_of_the_exact_response() {
         ] {
             study = study.with(path, value).expect("a value");
         }
-        let predicted = describing::run(&study, 0.4).expect("a function");
+        let predicted = describing::of_belt(&study, 0.4).expect("a function");
         let cycle = predicted.stable_cycle(&study).expect("a cycle");
         let exact = response::run(&study).expect("a response");
         let measured = exact.json(&study)["amplitude"].as_f64().expect("an amplitude");
@@ -37,21 +37,25 @@ fn the_limit_cycle_is_that_of_the_exact_response() {
 #[test]
 fn answers_for_every_reader() {
     let study = study(STUDY);
-    let found = describing::run(&study, 0.4).expect("a function");
+    let found = describing::of_belt(&study, 0.4).expect("a function");
     let json = found.json(&study);
     assert!((json["limit_cycle_velocity"].as_f64().expect("a cycle") - 0.02132568).abs() < 1e-8);
     assert_eq!(json["limit_cycles"].as_array().map(Vec::len), Some(1));
     let csv = found.dataset(&study).csv();
     assert!(csv.lines().filter(|line| !line.starts_with('#')).count() > 100);
     // The cycle is larger than the largest amplitude.
-    let small = describing::run(&study, 0.01).expect("a function").json(&study);
+    let small = describing::of_belt(&study, 0.01).expect("a function").json(&study);
     assert!(small["limit_cycle_velocity"].is_null());
     assert!(small["why"]["limit_cycle_velocity"].as_str().expect("why").contains("grow"));
     for wrong in [0.0, -1.0, f64::INFINITY] {
-        assert!(describing::run(&study, wrong).is_err());
+        assert!(describing::of_belt(&study, wrong).is_err());
     }
-    let refused =
+    // The load of mode coupling follows the motion: the contacts have gains, and no slow vibration follows.
+    let coupled =
         quell::Study::parse(include_str!("../../../studies/mode-coupling-dither.toml"), &[])
             .expect("a study");
-    assert!(verbs(&refused).describing(0.1).is_err());
+    let found = verbs(&coupled).describing(0.1).expect("gains").json();
+    assert!(found["limit_cycle_velocity"].is_null() && found["limit_cycles"].is_null());
+    assert!(found["why"]["limit_cycles"].as_str().expect("why").contains("follows the motion"));
+    assert!(found["contacts"][0]["gain"].as_array().is_some_and(|gains| gains.len() >= 100));
 }

@@ -204,24 +204,24 @@ fn averages_have_answers() {
 }
 
 fn response(text: &str, seeds: usize) -> NoiseResponse {
-    noise_response::run(&study(text), Some(seeds)).expect("runs")
+    noise_response::of_belt(&study(text), Some(seeds)).expect("runs")
 }
 
 /// Strong noise quenches from every seed, weak noise from none; a run is that of the study with its seed.
 #[test]
 fn the_share_of_seeds_that_quench() {
     let strong = response(&with_noise(3.0, BAND), 6);
-    let share = strong.quiet.expect("a share");
+    let share = strong.quiet().expect("a share");
     assert_eq!((share.starts, share.fraction, share.high), (6, 1.0, 1.0));
     // Wilson: n/(n + z²).
     assert!((share.low - 6.0 / (6.0 + 1.959_963_984_540_054_f64.powi(2))).abs() < 1e-12);
     let weak = response(&with_noise(0.05, BAND), 3);
-    assert_eq!(weak.quiet.expect("a share").starts, 0);
+    assert_eq!(weak.quiet().expect("a share").starts, 0);
     let third = response(&with_noise(3.0, &format!("{BAND}\nseed = 3")), 1);
     let [all, one] = [&strong, &third].map(|found| found.efficiencies().expect("E"));
     assert_eq!(all[2].to_bits(), one[0].to_bits());
     // The cost is the sum over the lines.
-    let cost = strong.cost.expect("a cost");
+    let cost = strong.costs[0].clone().expect("a cost");
     assert!((cost.force - 3.0 / 2f64.sqrt()).abs() < 1e-12);
     assert!(cost.power > 0.0 && cost.velocity > 9.0 * cost.displacement);
 }

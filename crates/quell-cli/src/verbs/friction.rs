@@ -2,10 +2,9 @@
 
 use clap::Args;
 use quell::kind::verbs;
-use quell::{Complaint, Failure, Study, quantity};
-use quell_model::units::Quantity;
+use quell::{Failure, Study};
 
-use super::numbers::scales;
+use super::numbers::velocity;
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
@@ -17,11 +16,11 @@ pub(crate) struct Arguments {
     /// Slip velocities, separated by commas; in a study in SI in m/s, or with a unit such as 20mm/s
     #[arg(long, value_name = "V,…", value_delimiter = ',', allow_hyphen_values = true)]
     at: Vec<String>,
-    /// Also measures the friction on steady responses, stick included, instead of averaging
+    /// Belt: also measures the friction on steady responses, stick included, instead of averaging
     #[arg(long)]
     measured: bool,
-    /// Gives the describing function of averaged friction at the belt velocity instead, for slow sinusoids up to this velocity
-    /// amplitude, and the limit cycles that it predicts
+    /// Gives the describing function of averaged friction at the velocity of the belt, or of every surface, for slow sinusoids up to
+    /// this velocity amplitude, and the limit cycles that it predicts
     #[arg(long, value_name = "AMPLITUDE", conflicts_with_all = ["at", "measured"])]
     describing: Option<String>,
     #[command(flatten)]
@@ -36,10 +35,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
     let at = velocities(&arguments.at, study.as_ref(), &mut complaints);
-    let scales = scales(study.as_ref());
-    let largest = arguments.describing.as_deref().and_then(|text| {
-        complaints.take(quantity::parse(text, Quantity::Velocity, scales, "--describing"))
-    });
+    let largest = arguments
+        .describing
+        .as_deref()
+        .and_then(|text| complaints.take(velocity("--describing", text, study.as_ref())));
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     let (study, (outputs, plot)) = complaints.finish(study.zip(outputs.zip(plot)))?;
@@ -53,13 +52,5 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
 }
 
 fn velocities(texts: &[String], study: Option<&Study>, complaints: &mut Gathered) -> Vec<f64> {
-    let scales = scales(study);
-    texts
-        .iter()
-        .filter_map(|text| {
-            let read: Result<f64, Box<Complaint>> =
-                quantity::parse(text, Quantity::Velocity, scales, "--at");
-            complaints.take(read)
-        })
-        .collect()
+    texts.iter().filter_map(|text| complaints.take(velocity("--at", text, study))).collect()
 }

@@ -48,6 +48,20 @@ pub(super) fn duration(
     quantity::duration(text, scales(study), option)
 }
 
+/// A velocity in the unit of the study, or with a unit of its own.
+pub(crate) fn velocity(
+    option: &'static str,
+    text: &str,
+    study: Option<&Study>,
+) -> Result<f64, Box<Complaint>> {
+    match study.map(Study::system) {
+        Some(Ok(system)) => {
+            quantity::of_system(text, Some(Quantity::Velocity), system.units(), option)
+        }
+        _ => quantity::parse(text, Quantity::Velocity, scales(study), option),
+    }
+}
+
 /// A finite number in the unit of the varied key, or with a unit of its own.
 pub(crate) fn number(
     option: &'static str,

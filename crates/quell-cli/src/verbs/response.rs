@@ -26,8 +26,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "A:B", allow_hyphen_values = true, value_hint = ValueHint::Other,
         conflicts_with_all = ["settle", "record"])]
     window: Option<String>,
-    /// Belt under noise: number of runs, each with another seed, of which the share that ends quiet is counted [default: 16]
-    #[arg(long, value_name = "N", value_hint = ValueHint::Other, conflicts_with_all = ["settle", "record", "window"])]
+    /// Under noise: number of runs, each with another seed, of which the share that ends quiet is counted [default: 16]
+    #[arg(long, value_name = "N", value_hint = ValueHint::Other, conflicts_with = "window")]
     seeds: Option<usize>,
     #[command(flatten)]
     plot: PlotArguments,
@@ -100,7 +100,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         return answer(arguments.study.json, done.as_ref(), outputs, plot);
     }
     if let Some(seeds) = arguments.seeds {
-        let done = verbs(&study).response_of_seeds(Some(seeds))?;
+        let done = verbs(&study).response_of_seeds(Some(seeds), request.unwrap_or_default())?;
         return answer(arguments.study.json, done.as_ref(), outputs, plot);
     }
     let done = match request {

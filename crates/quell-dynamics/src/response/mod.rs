@@ -20,6 +20,7 @@ mod isocline;
 mod measure;
 mod record;
 mod record_lines;
+mod record_tones;
 mod solver;
 mod spectral_meter;
 mod steady_response;
@@ -44,5 +45,5 @@ pub use spectral_meter::samples_per_slow_period;
 pub use steady_response::{PEAK_FLOOR, SteadyResponse, respond, respond_with_state};
 pub use system_ending::SystemEnding;
 pub use system_response::{
-    ResponsePlan, ResponseRefused, SystemRecord, SystemResponse, respond_system,
+    ResponsePlan, ResponseRefused, SystemRecord, SystemResponse, UnditheredResponse, respond_system,
 };

@@ -47,8 +47,8 @@ impl SystemEnding {
                 Ok(_) | Err(_) => Self::Record,
             };
         }
-        // The phase of the dither of an orbit's state is that at t = 0.
-        if start.time != 0.0 {
+        // Noise has no period, and the phase of the dither of an orbit's state is that at t = 0.
+        if start.time != 0.0 || system.has_noise() {
             return Self::Record;
         }
         match settled(system, &start.state) {

@@ -17,13 +17,13 @@ use std::fmt;
 use quell_linear::steady::SteadySliding;
 use quell_model::System;
 use quell_model::profile::Wave;
-use quell_numerics::matrix::Matrix;
 use quell_numerics::spectrum::Spectrum;
 use quell_numerics::spectrum::low_band::LargestLines;
 
 use super::effect::{Effect, Uncertain, Vibrations};
 use super::measure::Undefined;
 use super::record_lines::RecordLines;
+use super::record_tones::{lines_of, spectrum_of};
 use super::system_ending::{SystemEnding, cannot_settle};
 use crate::motion::{
     ContactMeans, ContactMeter, Immobile, InputCost, InputMeter, MOTION_TOLERANCE, Motion,
@@ -149,6 +149,18 @@ struct RecordGrid {
     count: usize,
 }
 
+/// The settled record without dither, with which responses are compared: those under noise of any seed share it.
+#[derive(Clone, Debug)]
+pub struct UnditheredResponse<'a> {
+    start: &'a MotionStart,
+    plan: &'a ResponsePlan,
+    /// The system without its dither.
+    still: System,
+    grid: RecordGrid,
+    record: SystemRecord,
+    band_end: f64,
+}
+
 /// Integrates a system from a start with and without its dither, and measures both.
 ///
 /// # Errors
@@ -158,65 +170,103 @@ pub fn respond_system(
     start: &MotionStart,
     plan: &ResponsePlan,
 ) -> Result<SystemResponse, ResponseRefused> {
-    let still = system.undithered();
-    let motion = Motion::new(system).map_err(ResponseRefused::Immobile)?;
-    let without = Motion::new(&still).map_err(ResponseRefused::Immobile)?;
-    let grid = RecordGrid::of(&motion, plan)?;
-    let mut undithered = record(&without, start, plan, grid).map_err(ResponseRefused::Stopped)?;
-    let band_end = grid.band_end(system, plan, &undithered)?;
-    undithered.measure_lines(&without, band_end);
-    let has_dither = system.is_dithered();
-    let dithered = if has_dither {
-        let mut dithered = record(&motion, start, plan, grid).map_err(ResponseRefused::Stopped)?;
-        dithered.measure_lines(&motion, band_end);
-        dithered
-    } else {
-        undithered.clone()
-    };
-    let scale = dithered.largest.max(undithered.largest);
-    let [with, without] =
-        [&dithered, &undithered].map(|record| RecordLines { lines: record.lines, scale });
-    let vibrates = if undithered.ending.period().is_some() {
-        Ok(())
-    } else if undithered.ending == SystemEnding::UnstableSliding {
-        Err(Undefined::UnditheredUnstable)
-    } else if undithered.ending == SystemEnding::Drift {
-        Err(Undefined::UnditheredDrifts)
-    } else if undithered.ending == SystemEnding::Rest
-        || without.is_negligible()
-        || without.whole() == 0.0
-    {
-        Err(Undefined::UnditheredSettles)
-    } else if without.is_steady() || cannot_settle(&still) {
-        Ok(())
-    } else {
-        Err(Undefined::UnditheredUnknown)
-    };
-    let vibrations = Vibrations {
-        dithered: with,
-        undithered: without,
-        quiet_without: vibrates == Err(Undefined::UnditheredSettles),
-        quiet_with: with.decays(),
-    };
-    let effect = match vibrates {
-        _ if !has_dither => Effect::Unknown(Uncertain::NoDither),
-        Err(why) if why.is_unknown() => Effect::Unknown(Uncertain::Undithered(why)),
-        _ if dithered.ending == SystemEnding::Drift => Effect::Unknown(Uncertain::Drifts),
-        Ok(()) if dithered.ending.is_faster_than(band_end) => Effect::Quenches,
-        Err(_) if dithered.ending.is_faster_than(band_end) => Effect::Quiet,
-        _ => vibrations.effect(),
-    };
-    let steady = SteadySliding::new(&still).ok();
-    Ok(SystemResponse {
-        efficiency: vibrates.map(|()| with.whole() / without.whole()),
-        band_end,
-        steady_friction: steady
-            .map(|steady| steady.contacts.iter().map(|contact| contact.friction).collect()),
-        dithered,
-        undithered,
-        vibrations,
-        effect,
-    })
+    UnditheredResponse::new(system, start, plan)?.with_dither(system)
+}
+
+impl<'a> UnditheredResponse<'a> {
+    /// Integrates a system from a start without its dither; the record and its band fit the dither.
+    ///
+    /// # Errors
+    /// [`ResponseRefused`].
+    pub fn new(
+        system: &System,
+        start: &'a MotionStart,
+        plan: &'a ResponsePlan,
+    ) -> Result<Self, ResponseRefused> {
+        let still = system.undithered();
+        let motion = Motion::new(system).map_err(ResponseRefused::Immobile)?;
+        let without = Motion::new(&still).map_err(ResponseRefused::Immobile)?;
+        let grid = RecordGrid::of(&motion, plan)?;
+        let mut record = record(&without, start, plan, grid).map_err(ResponseRefused::Stopped)?;
+        let band_end = grid.band_end(system, plan, &record)?;
+        record.measure_lines(&without, band_end);
+        Ok(Self { start, plan, still, grid, record, band_end })
+    }
+
+    /// Its record.
+    pub fn record(&self) -> &SystemRecord {
+        &self.record
+    }
+
+    /// Upper end of the band of slow vibration, an angular frequency.
+    pub fn band_end(&self) -> f64 {
+        self.band_end
+    }
+
+    /// Integrates the system with its dither, and compares.
+    ///
+    /// # Errors
+    /// [`ResponseRefused`].
+    pub fn with_dither(&self, system: &System) -> Result<SystemResponse, ResponseRefused> {
+        let (undithered, band_end) = (self.record.clone(), self.band_end);
+        let has_dither = system.is_dithered();
+        let dithered = if has_dither {
+            let motion = Motion::new(system).map_err(ResponseRefused::Immobile)?;
+            let mut dithered = record(&motion, self.start, self.plan, self.grid)
+                .map_err(ResponseRefused::Stopped)?;
+            dithered.measure_lines(&motion, band_end);
+            dithered
+        } else {
+            undithered.clone()
+        };
+        let scale = dithered.largest.max(undithered.largest);
+        let [with, without] =
+            [&dithered, &undithered].map(|record| RecordLines { lines: record.lines, scale });
+        let vibrates = self.vibrates(without);
+        let vibrations = Vibrations {
+            dithered: with,
+            undithered: without,
+            quiet_without: vibrates == Err(Undefined::UnditheredSettles),
+            quiet_with: with.decays(),
+        };
+        let effect = match vibrates {
+            _ if !has_dither => Effect::Unknown(Uncertain::NoDither),
+            Err(why) if why.is_unknown() => Effect::Unknown(Uncertain::Undithered(why)),
+            _ if dithered.ending == SystemEnding::Drift => Effect::Unknown(Uncertain::Drifts),
+            Ok(()) if dithered.ending.is_faster_than(band_end) => Effect::Quenches,
+            Err(_) if dithered.ending.is_faster_than(band_end) => Effect::Quiet,
+            _ => vibrations.effect(),
+        };
+        let steady = SteadySliding::new(&self.still).ok();
+        Ok(SystemResponse {
+            efficiency: vibrates.map(|()| with.whole() / without.whole()),
+            band_end,
+            steady_friction: steady
+                .map(|steady| steady.contacts.iter().map(|contact| contact.friction).collect()),
+            dithered,
+            undithered,
+            vibrations,
+            effect,
+        })
+    }
+
+    /// Whether the run keeps vibrating; its lines are compared with the largest motion of both runs.
+    fn vibrates(&self, lines: RecordLines) -> Result<(), Undefined> {
+        let ending = &self.record.ending;
+        if ending.period().is_some() {
+            Ok(())
+        } else if *ending == SystemEnding::UnstableSliding {
+            Err(Undefined::UnditheredUnstable)
+        } else if *ending == SystemEnding::Drift {
+            Err(Undefined::UnditheredDrifts)
+        } else if *ending == SystemEnding::Rest || lines.is_negligible() || lines.whole() == 0.0 {
+            Err(Undefined::UnditheredSettles)
+        } else if lines.is_steady() || cannot_settle(&self.still) {
+            Ok(())
+        } else {
+            Err(Undefined::UnditheredUnknown)
+        }
+    }
 }
 
 impl RecordGrid {
@@ -248,7 +298,11 @@ impl RecordGrid {
         undithered: &SystemRecord,
     ) -> Result<f64, ResponseRefused> {
         let reach = WINDOW_REACH * TAU / plan.length;
-        let slowest = system.acting_frequencies().fold(f64::INFINITY, f64::min);
+        let lowest = || {
+            let acting = system.waves().filter(|wave| wave.amplitude != 0.0);
+            acting.map(Wave::lowest)
+        };
+        let slowest = lowest().fold(f64::INFINITY, f64::min);
         // Above the Nyquist frequency there are no lines.
         let nyquist = 0.5 * TAU / self.step;
         let below_dither = (slowest - reach).min(nyquist);
@@ -256,7 +310,7 @@ impl RecordGrid {
         let end = match vibration.filter(|frequency| *frequency > below_dither) {
             None => below_dither,
             Some(vibration) => {
-                let above = system.acting_frequencies().filter(|f| f - reach > vibration);
+                let above = lowest().filter(|f| f - reach > vibration);
                 above.map(|f| f - reach).fold((OF_VIBRATION * vibration).min(nyquist), f64::min)
             }
         };
@@ -361,51 +415,4 @@ impl MotionObserver for RunMeters<'_> {
         self.inputs.segment(segment);
         self.row.segment(segment);
     }
-}
-
-/// M of a record and of its halves, without the tones of the dithers.
-fn lines_of(samples: &[f64], system: &System, step: f64, band_end: f64) -> LargestLines {
-    let mut rest = samples.to_vec();
-    for frequency in system.acting_frequencies() {
-        subtract_tone(&mut rest, frequency * step);
-    }
-    let largest = |samples: &[f64]| {
-        let spectrum = spectrum_of(samples, step);
-        let lines = spectrum.frequencies().zip(spectrum.amplitudes());
-        let low = lines.skip(1).take_while(|(frequency, _)| *frequency <= band_end);
-        low.fold(0.0_f64, |most, (_, amplitude)| most.max(*amplitude))
-    };
-    let (first, second) = rest.split_at(rest.len() / 2);
-    LargestLines { whole: largest(&rest), halves: [largest(first), largest(second)] }
-}
-
-/// Subtracts the tone of an angular frequency per sample that fits best under the Hann window, and leaves the mean.
-fn subtract_tone(samples: &mut [f64], rate: f64) {
-    let count = samples.len() as f64;
-    let parts = |number: usize| {
-        let sine = libm::sin(std::f64::consts::PI * number as f64 / count);
-        let phase = rate * number as f64;
-        (sine * sine, [1.0, libm::cos(phase), libm::sin(phase)])
-    };
-    let mut matrix = Matrix::zeros(3, 3);
-    let mut right = Matrix::zeros(3, 1);
-    for (number, sample) in samples.iter().enumerate() {
-        let (weight, basis) = parts(number);
-        for (i, a) in basis.iter().enumerate() {
-            right[(i, 0)] += weight * a * sample;
-            for (j, b) in basis.iter().enumerate() {
-                matrix[(i, j)] += weight * a * b;
-            }
-        }
-    }
-    let Some(fit) = matrix.solve(&right) else { return };
-    for (number, sample) in samples.iter_mut().enumerate() {
-        let (_, [_, cosine, sine]) = parts(number);
-        *sample -= fit[(1, 0)] * cosine + fit[(2, 0)] * sine;
-    }
-}
-
-fn spectrum_of(samples: &[f64], step: f64) -> Spectrum {
-    // UNWRAP: a record has at least four samples, the step is positive, and a run whose state is not finite stops before.
-    Spectrum::of(samples, step).expect("a record of finite samples")
 }

@@ -10,7 +10,8 @@
 //! parts gives N₁(a) = 2⟨μ̄′(v₀ + a sin φ) cos² φ⟩ where μ̄ is continuous.
 //!
 //! A slow motion of velocity amplitude a keeps its energy where 2ζ + FN₁(a) = 0 (first harmonic of the averaged equation; error of
-//! the order of the change per slow period). The cycle is stable where that sum increases with a.
+//! the order of the change per slow period). The cycle is stable where that sum increases with a. Of a system it is the growth rate of
+//! the slow motion that vanishes ([`super::SlowVibration`]).
 //!
 //! The fast motion s is frozen at the belt velocity, as in the criterion. Under tangential dither it does not depend on the slip
 //! velocity anyway.
@@ -22,11 +23,10 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use quell_model::Belt;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
+use super::averaged_law::AveragedLaw;
 use super::dithers::AveragingOptions;
-use super::effective::{Effective, SlopeSide};
+use super::effective::SlopeSide;
 use super::error::{AveragingError, settled};
-use super::fast_motion::FastMotion;
-use super::mean_friction::effective;
 use super::sign_changes::sign_changes;
 
 /// Largest number of incommensurate groups whose mean is taken at every slow phase.
@@ -62,37 +62,35 @@ pub struct DescribedCycle {
     pub stable: bool,
 }
 
-/// The describing function of a belt's averaged friction at its belt velocity.
+/// The describing function of an averaged law at a slow slip velocity.
 #[derive(Clone, Debug)]
-pub struct DescribingFunction<'a> {
-    belt: &'a Belt,
-    motion: FastMotion,
+pub struct DescribingFunction {
+    law: AveragedLaw,
+    velocity: f64,
     corners: Vec<f64>,
 }
 
-impl<'a> DescribingFunction<'a> {
-    /// Prepares the describing function of a belt under its dithers.
+impl DescribingFunction {
+    /// Prepares the describing function of a law at the mean v₀ of the slip velocity.
     ///
     /// # Errors
-    /// [`AveragingError`] where the fast motion has no value, and for more than two groups of incommensurate frequencies.
-    pub fn new(belt: &'a Belt, options: AveragingOptions) -> Result<Self, AveragingError> {
-        let motion = FastMotion::of(belt, belt.belt_velocity(), options)?;
-        let groups = motion.groups().len() + usize::from(motion.noise() > 0.0);
+    /// [`AveragingError`] for more than two groups of incommensurate frequencies.
+    pub fn new(law: AveragedLaw, velocity: f64) -> Result<Self, AveragingError> {
+        let groups = law.groups();
         if groups > MOST_GROUPS {
             return Err(AveragingError::TooManyGroups { groups, largest: MOST_GROUPS });
         }
-        let corners = motion.corners()?;
-        Ok(Self { belt, motion, corners })
+        let corners = law.corners()?;
+        Ok(Self { law, velocity, corners })
     }
 
-    /// μ̄ with its slope at a slip velocity. At rest without dither, the middle of the friction that is possible.
-    fn mean(&self, v: f64) -> Result<Effective, AveragingError> {
-        match effective(self.belt.friction(), &self.motion, v) {
-            Err(AveragingError::SetValued { .. }) => {
-                Ok(Effective::closed([0.0; 2], [0.0; 2], 0.0, SlopeSide::Both))
-            }
-            found => found,
-        }
+    /// That of a belt under its dithers, at its belt velocity.
+    ///
+    /// # Errors
+    /// As [`DescribingFunction::new`], and where the fast motion has no value.
+    pub fn of_belt(belt: &Belt, options: AveragingOptions) -> Result<Self, AveragingError> {
+        let velocity = belt.belt_velocity();
+        Self::new(AveragedLaw::of_belt(belt, velocity, options)?, velocity)
     }
 
     /// Mean and equivalent gain at an amplitude a > 0 of the slow slip velocity.
@@ -100,14 +98,14 @@ impl<'a> DescribingFunction<'a> {
     /// # Errors
     /// [`AveragingError`]: a mean over the dither, or a quadrature over the slow phase, that has no value.
     pub fn at(&self, amplitude: f64) -> Result<EquivalentGain, AveragingError> {
-        let v0 = self.belt.belt_velocity();
+        let v0 = self.velocity;
         let sines = self.corners.iter().map(|corner| ((corner - v0) / amplitude).abs());
         let cuts: Vec<f64> = sines.filter(|sine| *sine < 1.0).map(libm::asin).collect();
         let mut failure = None;
         let mut inner = 0.0_f64;
         let mut of = |phase: f64, odd: bool| {
             let moved = amplitude * libm::sin(phase);
-            match (self.mean(v0 + moved), self.mean(v0 - moved)) {
+            match (self.law.at_or_middle(v0 + moved), self.law.at_or_middle(v0 - moved)) {
                 (Ok(above), Ok(below)) => {
                     inner = inner.max(above.coefficient_error + below.coefficient_error);
                     if odd {
@@ -122,7 +120,7 @@ impl<'a> DescribingFunction<'a> {
                 }
             }
         };
-        let scale = self.belt.friction().static_coefficient();
+        let scale = self.law.law().static_coefficient();
         let options = QuadratureOptions {
             relative: CLOSENESS,
             absolute: CLOSENESS * scale,
@@ -148,20 +146,14 @@ impl<'a> DescribingFunction<'a> {
     /// # Errors
     /// [`AveragingError`], in particular [`AveragingError::SetValued`] for a belt at rest without dither.
     pub fn small(&self) -> Result<Option<f64>, AveragingError> {
-        let v0 = self.belt.belt_velocity();
-        let found = effective(self.belt.friction(), &self.motion, v0)?;
+        let v0 = self.velocity;
+        let found = self.law.at(v0)?;
         Ok((found.side == SlopeSide::Both).then_some(found.slope))
-    }
-
-    /// 2ζ + FN₁, the balance of energy: positive where a slow motion loses energy.
-    #[must_use]
-    pub fn balance(&self, gain: f64) -> f64 {
-        self.belt.normal_load().mul_add(gain, 2.0 * self.belt.damping_ratio())
     }
 
     /// Amplitudes at which a corner of averaged friction enters the slow motion.
     pub fn corner_amplitudes(&self) -> Vec<f64> {
-        let v0 = self.belt.belt_velocity();
+        let v0 = self.velocity;
         let mut found: Vec<f64> = self.corners.iter().map(|corner| (corner - v0).abs()).collect();
         found.retain(|amplitude| *amplitude > 0.0);
         found.sort_unstable_by(f64::total_cmp);
@@ -169,11 +161,16 @@ impl<'a> DescribingFunction<'a> {
         found
     }
 
-    /// Every cycle up to a velocity amplitude, in ascending order.
+    /// Every cycle up to a velocity amplitude, in ascending order. `balance` is positive where a slow motion with this equivalent
+    /// gain loses energy.
     ///
     /// # Errors
-    /// As [`DescribingFunction::at`].
-    pub fn cycles(&self, largest: f64) -> Result<Vec<DescribedCycle>, AveragingError> {
+    /// As [`DescribingFunction::at`], and the first error of `balance`.
+    pub fn cycles<E: From<AveragingError>>(
+        &self,
+        largest: f64,
+        mut balance: impl FnMut(f64) -> Result<f64, E>,
+    ) -> Result<Vec<DescribedCycle>, E> {
         let corners = self.corner_amplitudes();
         let mut ends: Vec<f64> = corners.iter().copied().filter(|end| *end < largest).collect();
         ends.push(largest);
@@ -193,9 +190,7 @@ impl<'a> DescribingFunction<'a> {
         points.retain(|point| *point > 0.0 && *point <= largest);
         points.sort_unstable_by(f64::total_cmp);
         points.dedup();
-        let balance = |amplitude: f64| -> Result<f64, AveragingError> {
-            Ok(self.balance(self.at(amplitude)?.gain))
-        };
+        let balance = |amplitude: f64| -> Result<f64, E> { balance(self.at(amplitude)?.gain) };
         let changes = sign_changes(balance, &points, &[])?;
         Ok(changes
             .into_iter()

@@ -14,7 +14,8 @@
 //! first order in α_N when α_T ≪ v.
 //!
 //! Noise is a Gaussian velocity, independent of the groups, whose variance is the sum over its lines: ½ Σ (αᵢ)², with the
-//! oscillator's gain at finite R. Its load is uncorrelated with its slip, line by line.
+//! oscillator's gain at finite R. Its load is uncorrelated with its slip, line by line. Normal noise keeps the first term at any
+//! [`NormalOrder`]: the second has lines at the differences of the frequencies, which are not fast, and no Gaussian distribution.
 //!
 //! Limitations: leading order in 1/R (with [`FastResponse::Oscillator`] all orders of the forced part). The differences of the
 //! dither frequencies must be fast too: a slow beat is not averaged out.
@@ -98,25 +99,37 @@ fn noise_variance(
 ) -> Result<f64, AveragingError> {
     let mut variance = 0.0;
     for dither in dithers {
-        let Some(noise) = dither.waveform.noise() else { continue };
-        let normal = dither.direction == Direction::Normal;
-        if normal && options.normal_order == NormalOrder::Second {
-            return Err(AveragingError::SecondOrderNoise);
+        if dither.waveform.noise().is_none() {
+            continue;
         }
-        let middle = dither.frequency_ratio;
-        let mean_square = match options.response {
-            FastResponse::Limit => noise.mean_square(|ratio| 1.0 / ratio),
-            FastResponse::Oscillator if dither.lowest_ratio() > 1.0 => {
-                noise.mean_square(|ratio| sine_gain(ratio * middle) / ratio)
-            }
-            FastResponse::Oscillator => {
-                return Err(AveragingError::NotFast { frequency_ratio: dither.lowest_ratio() });
-            }
-        };
-        let own = dither.amplitude_ratio() * if normal { level } else { 1.0 };
-        variance += own * own * mean_square;
+        let level = if dither.direction == Direction::Normal { level } else { 1.0 };
+        let own = dither.amplitude_ratio() * level * unit_noise(dither, options)?;
+        variance += own * own;
     }
     Ok(variance)
+}
+
+/// Standard deviation of the fast velocity under a dither of noise for D/R = 1; 0 of another waveform. At finite R each line has the
+/// gain of the oscillator at its own frequency.
+///
+/// # Errors
+/// [`AveragingError::NotFast`] where the oscillator's response is requested for a line at or below the natural frequency.
+pub(super) fn unit_noise(
+    dither: &Dither,
+    options: AveragingOptions,
+) -> Result<f64, AveragingError> {
+    let Some(noise) = dither.waveform.noise() else { return Ok(0.0) };
+    let middle = dither.frequency_ratio;
+    let mean_square = match options.response {
+        FastResponse::Limit => noise.mean_square(|ratio| 1.0 / ratio),
+        FastResponse::Oscillator if dither.lowest_ratio() > 1.0 => {
+            noise.mean_square(|ratio| sine_gain(ratio * middle) / ratio)
+        }
+        FastResponse::Oscillator => {
+            return Err(AveragingError::NotFast { frequency_ratio: dither.lowest_ratio() });
+        }
+    };
+    Ok(mean_square.sqrt())
 }
 
 /// Shape of the fast slip velocity of a dither.

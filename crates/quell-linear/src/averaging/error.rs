@@ -27,8 +27,6 @@ pub enum AveragingError {
     },
     /// The oscillator's response was requested for a wave to which it has no periodic response.
     NoResponse(NoPeriodicResponse),
-    /// The second order of the motion under normal noise, which is not Gaussian.
-    SecondOrderNoise,
     /// A quadrature did not reach its tolerance.
     Quadrature(QuadratureError),
 }
@@ -59,9 +57,6 @@ impl core::fmt::Display for AveragingError {
             Self::NoResponse(why) => {
                 write!(f, "the oscillator's own response to the dither has no value: {why}")
             }
-            Self::SecondOrderNoise => f.write_str(
-                "the motion under normal noise is known to first order: to second order its distribution is not Gaussian",
-            ),
             Self::Quadrature(error) => write!(f, "averaging: {error}"),
         }
     }

@@ -13,6 +13,7 @@ use quell_model::system::{Contact, InputTarget};
 use quell_model::{System, Waveform};
 use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 
+use super::averaged_law::{AveragedLaw, curvature};
 use super::dithers::commensurate_groups;
 use super::error::AveragingError;
 use super::fast_motion::{FastMotion, REACH};
@@ -199,6 +200,14 @@ impl FastInputs {
             .collect()
     }
 
+    /// The averaged friction law of a contact under a mean normal load.
+    pub fn law(&self, system: &System, contact: usize, normal_load: f64) -> AveragedLaw {
+        let ContactMotion { whole, slip, covariance, .. } =
+            self.motion_under(system, contact, normal_load, None);
+        let covariance = covariance / normal_load;
+        AveragedLaw::new(&system.contacts[contact].friction, [whole, slip], covariance)
+    }
+
     /// How far the fast slip exceeds the velocity of the surface, against it; negative while the contact slips in one direction.
     fn reversal_excess(
         &self,
@@ -262,11 +271,22 @@ impl FastInputs {
         points
     }
 
-    /// Fast motion at a contact.
+    /// Fast motion at a contact, its load over the steady one without friction.
     fn motion(
         &self,
         system: &System,
         contact: usize,
+        changed: Option<(usize, f64)>,
+    ) -> ContactMotion {
+        self.motion_under(system, contact, system.contacts[contact].normal_load, changed)
+    }
+
+    /// Fast motion at a contact, its load over a given one.
+    fn motion_under(
+        &self,
+        system: &System,
+        contact: usize,
+        normal_load: f64,
         changed: Option<(usize, f64)>,
     ) -> ContactMotion {
         let amplitude = |response: &WaveResponse| match changed {
@@ -277,7 +297,6 @@ impl FastInputs {
             }
             _ => response.wave.amplitude,
         };
-        let normal_load = system.contacts[contact].normal_load;
         let mut noise = NoiseMoments::default();
         for response in &self.waves {
             if let (WaveShape::Lines(lines), Some(of)) =
@@ -429,20 +448,9 @@ impl ContactMotion {
         if self.covariance != 0.0 {
             // Of two Gaussian variables ⟨μ(γ + a)Ñ⟩ = ⟨aÑ⟩⟨μ′(γ + a)⟩ (Stein's identity).
             line.constant += self.covariance * mean.slope;
-            line.slope_constant += self.covariance * self.curvature(contact, velocity)?;
+            line.slope_constant +=
+                self.covariance * curvature(&contact.friction, &self.slip, velocity)?;
         }
         Ok(line)
-    }
-
-    /// μ̄″ under noise, from the slope at four places: the average is smooth on the scale of the standard deviation, so that the
-    /// error is h⁴/30 of the fifth derivative of the slope, 10⁻⁹ relative.
-    fn curvature(&self, contact: &Contact, velocity: f64) -> Result<f64, NoAverage> {
-        const STEP: f64 = 0.01;
-        let h = STEP * self.slip.noise();
-        let slope = |k: f64| -> Result<f64, NoAverage> {
-            Ok(effective(&contact.friction, &self.slip, velocity + k * h)?.slope)
-        };
-        let [near, far] = [slope(1.0)? - slope(-1.0)?, slope(2.0)? - slope(-2.0)?];
-        Ok((8.0 * near - far) / (12.0 * h))
     }
 }

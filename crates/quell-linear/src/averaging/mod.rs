@@ -36,12 +36,15 @@
 //! | `pieces` | any law under one wave by samples, piece by piece |
 //! | `gaussian` | any law under noise, whose fast velocity is Gaussian |
 //! | `mean_friction` | the method for each fast motion |
+//! | `averaged_law` | the mean of one contact over its slow slip velocity |
 //! | `describing` | averaged friction under a slow sinusoid: equivalent gain and limit cycles |
+//! | `slow_vibration` | the slow vibration of a system by harmonic balance with that gain |
 //! | `criterion` | 2ζ + Fμ̄′(v₀) and its verdict |
-//! | `critical_amplitudes`, `edges`, `everywhere_stable` | points at which the verdict changes: along α, along v₀, and α^L |
+//! | `critical_amplitudes`, `edges`, `everywhere_stable`, `everywhere_stable_noise` | points at which the verdict changes: along α, along v₀, and α^L |
 //! | `sliding`, `sliding_critical` | averaged sliding of systems of any number of contacts, and its critical amplitudes |
 //! | `sign_changes` | every change of sign of a function on a grid |
 
+mod averaged_law;
 mod criterion;
 mod critical_amplitudes;
 mod decreasing;
@@ -51,6 +54,7 @@ mod edges;
 mod effective;
 mod error;
 mod everywhere_stable;
+mod everywhere_stable_noise;
 mod fast_inputs;
 mod fast_motion;
 mod finite_r;
@@ -65,9 +69,11 @@ mod sign_changes;
 mod single_wave;
 mod sliding;
 mod sliding_critical;
+mod slow_vibration;
 mod stribeck;
 mod wave;
 
+pub use averaged_law::AveragedLaw;
 pub use criterion::{AveragedVerdict, Criterion, UndecidedBecause, criterion};
 pub use critical_amplitudes::{Becomes, CriticalAmplitude, critical_amplitudes};
 pub use describing::{DescribedCycle, DescribingFunction, EquivalentGain};
@@ -80,6 +86,7 @@ pub use edges::{
 pub use effective::{Effective, SlopeSide};
 pub use error::AveragingError;
 pub use everywhere_stable::{EverywhereStable, NeverStable, everywhere_stable_amplitude};
+pub use everywhere_stable_noise::everywhere_stable_under_noise;
 pub use fast_inputs::{DitheredContact, FastInputs};
 pub use fast_motion::FastMotion;
 pub use gaussian::effective_under_noise_by_quadrature;
@@ -92,4 +99,5 @@ pub(crate) use sign_changes::{SignChange, sign_changes};
 pub use single_wave::effective_by_quadrature;
 pub use sliding::{AveragedSliding, DitheredSystem};
 pub use sliding_critical::CriticalInput;
+pub use slow_vibration::{DescribedVibration, NoSlowVibration, SlowVibration};
 pub use wave::FastWave;

@@ -103,6 +103,13 @@ impl Profile {
         Self { waves: self.waves.iter().map(scaled).collect(), ..self.clone() }
     }
 
+    /// The same profile in which the seed of noise is greater by a number.
+    #[must_use]
+    pub fn reseeded(&self, by: u64) -> Self {
+        let other = |wave: &Wave| Wave { waveform: wave.waveform.reseeded(by), ..wave.clone() };
+        Self { waves: self.waves.iter().map(other).collect(), ..self.clone() }
+    }
+
     /// The value at the time t.
     pub fn value(&self, time: f64) -> f64 {
         let course = self.knots.as_ref().map_or(0.0, |knots| knots.value(time));

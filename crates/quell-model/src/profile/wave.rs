@@ -29,6 +29,12 @@ impl Wave {
         self.frequency * self.waveform.highest_multiple()
     }
 
+    /// The lowest angular frequency of the wave: that at which it repeats itself, of noise the lower end of its band.
+    pub fn lowest(&self) -> f64 {
+        let band = self.waveform.noise().map(|noise| noise.band(self.frequency));
+        band.map_or_else(|| self.repetition(), |[low, _]| low)
+    }
+
     /// Largest magnitude of the wave.
     pub fn peak(&self) -> f64 {
         let share = self.envelope.as_ref().map_or(1.0, |knots| {

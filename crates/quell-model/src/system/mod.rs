@@ -51,6 +51,21 @@ impl System {
         self.acting_frequencies().next().is_some()
     }
 
+    /// Whether some wave is noise, which has no period.
+    pub fn has_noise(&self) -> bool {
+        self.waves().any(|wave| !wave.waveform.is_periodic())
+    }
+
+    /// The same system in which the seeds of all noise are greater by a number; beyond the largest seed they continue from 0.
+    #[must_use]
+    pub fn reseeded(&self, by: u64) -> Self {
+        let mut system = self.clone();
+        for input in &mut system.inputs {
+            input.profile = input.profile.reseeded(by);
+        }
+        system
+    }
+
     /// Angular frequencies of the waves that act, in the order of the inputs.
     pub fn acting_frequencies(&self) -> impl Iterator<Item = f64> {
         self.waves().filter(|wave| wave.amplitude != 0.0).map(Wave::repetition)

@@ -176,6 +176,16 @@ impl Waveform {
         }
     }
 
+    /// The same waveform in which the seed of noise is greater by a number; beyond the largest seed it continues from 0.
+    #[must_use]
+    pub fn reseeded(&self, by: u64) -> Self {
+        let reseeded = self.noise().and_then(|noise| {
+            let seed = noise.seed().wrapping_add(by) % (LARGEST_SEED + 1);
+            noise.reseeded(seed).ok()
+        });
+        reseeded.map_or_else(|| self.clone(), |noise| Self::Noise(noise.into()))
+    }
+
     /// Whether G is even and antiperiodic, as for the waveforms of the dissertation: it is known from a quarter of its period.
     pub fn is_symmetric(&self) -> bool {
         self.shape().is_some()

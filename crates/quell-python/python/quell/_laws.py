@@ -443,25 +443,25 @@ class StudyFriction(Friction):
     @overload
     def __call__(
         self, at: npt.ArrayLike | str | Sequence[str] | None = None, measured: bool = False
-    ) -> results.FrictionCurve: ...
+    ) -> results.FrictionCurve | results.ContactFriction: ...
     @overload
-    def __call__(self, *, describing: Number) -> results.DescribingFunction: ...
+    def __call__(self, *, describing: Number) -> results.DescribingFunction | results.ContactGains: ...
     @keywords
     def __call__(
         self,
         at: npt.ArrayLike | str | Sequence[str] | None = None,
         measured: bool = False,
         describing: Number | None = None,
-    ) -> results.FrictionCurve | results.DescribingFunction:
+    ) -> results.FrictionCurve | results.ContactFriction | results.DescribingFunction | results.ContactGains:
         """The friction law and the effective friction under the dither, equations (2.21), (3.19)–(3.27), (4.27).
 
         Parameters
         ----------
         at :
-            Slip velocities of any shape, which is flattened; in m/s in a study in SI, or texts with units such as
-            ``"20mm/s"`` [default: a grid that shows the law].
+            Slip velocities of any shape, which is flattened; in m/s in a study in SI, of a system in its units, or texts with
+            units such as ``"20mm/s"`` [default: a grid that shows the law].
         measured :
-            Whether friction is also measured on steady responses, equations (4.30) and (4.31), stick included, instead of
+            Belt: whether friction is also measured on steady responses, equations (4.30) and (4.31), stick included, instead of
             averaged [default: False].
         describing :
             Largest velocity amplitude a of a slow sinusoid: the describing function of averaged friction under the slip velocity
@@ -471,11 +471,17 @@ class StudyFriction(Friction):
         -------
         quell.results.FrictionCurve or quell.results.DescribingFunction
             μ, μ̄ and μ̄′ over ``slip_velocity`` (n,), and the measured ⟨f/N⟩ if requested; with ``describing`` mean coefficient
-            and gain over ``velocity_amplitude`` (n,).
+            and gain over ``velocity_amplitude`` (n,). Of a system :class:`quell.results.ContactFriction` and
+            :class:`quell.results.ContactGains`, which have every contact.
         """
         from . import results
 
         study, native = self._study, self._study._native
+        curve, gains = (
+            (results.ContactFriction, results.ContactGains)
+            if native.kind == "system"
+            else (results.FrictionCurve, results.DescribingFunction)
+        )
         if describing is not None:
             arguments = Arguments()
             allowed = "a velocity amplitude above 0"
@@ -483,16 +489,16 @@ class StudyFriction(Friction):
             if at is not None or measured:
                 arguments.wrong.append(complaint("describing", None, "given without at and measured", "conflict"))
             arguments.done()
-            return results.DescribingFunction(study, native.describing(largest))
+            return gains(study, native.describing(largest))
         where: npt.NDArray[np.float64] | None = None
         at = plain(at)
         if isinstance(at, str):
             at = [at]
         if isinstance(at, Sequence) and at and all(isinstance(it, str) for it in at):
-            return results.FrictionCurve(study, native.friction(None, [str(it) for it in at], bool(measured)))
+            return curve(study, native.friction(None, [str(it) for it in at], bool(measured)))
         if at is not None:
             try:
                 where = np.atleast_1d(np.asarray(at, dtype=np.float64)).ravel()
             except (TypeError, ValueError, OverflowError):
                 raise StudyError([complaint("at", at, "slip velocities: finite numbers")]) from None
-        return results.FrictionCurve(study, native.friction(where, [], bool(measured)))
+        return curve(study, native.friction(where, [], bool(measured)))

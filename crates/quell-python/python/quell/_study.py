@@ -286,7 +286,9 @@ class Study(CheckedStudy):
     def response(self, *, window: tuple[Number, Number]) -> results.Window: ...
 
     @overload
-    def response(self, *, seeds: int) -> results.NoiseResponse: ...
+    def response(
+        self, *, seeds: int, settle: Number | None = None, record: Number | None = None
+    ) -> results.NoiseResponse: ...
 
     @keywords
     def response(
@@ -310,20 +312,19 @@ class Study(CheckedStudy):
             Beginning and end of a part of the run from its start, which is measured instead of a steady response: also where drive,
             load or dither varies in time.
         seeds :
-            Belt under noise: number of runs, each with another seed, of which the share that ends quiet is counted
+            Under noise: number of runs, each with another seed, of which the share that ends quiet is counted
             [default: 16].
         """
         arguments = Arguments()
-        noisy = seeds is not None or (settle is None and record is None and window is None and self._native.is_noise())
-        if noisy:
-            for name, given in (("settle", settle), ("record", record), ("window", window)):
-                if given is not None:
-                    allowed = "left out: the solver of the study has the times of the runs"
-                    arguments.wrong.append(complaint(name, given, allowed, "conflict"))
-            count = None if seeds is None else arguments.whole("seeds", seeds, 1, 10_000)
-            arguments.done()
-            return results.NoiseResponse(self, self._native.response_of_seeds(count))
         allowed = 'a finite number, or a time with its unit such as "0.5s"'
+        if seeds is not None or (window is None and self._native.is_noise()):
+            if window is not None:
+                arguments.wrong.append(complaint("window", window, "left out: every run is measured after settle", "conflict"))
+            count = None if seeds is None else arguments.whole("seeds", seeds, 1, 10_000)
+            before = None if settle is None else arguments.quantity("settle", settle, allowed)
+            length = None if record is None else arguments.quantity("record", record, allowed)
+            arguments.done()
+            return results.NoiseResponse(self, self._native.response_of_seeds(count, before, length))
         if window is not None:
             for name, given in (("settle", settle), ("record", record)):
                 if given is not None:

@@ -9,8 +9,16 @@ use crate::answer::NativeAnswer;
 
 /// The describing function for amplitudes up to one, as a number or a text with a unit.
 pub(crate) fn describing(study: &Study, largest: &str) -> Result<NativeAnswer, Failure> {
-    let largest = quantity::parse(largest, Quantity::Velocity, study.scales(), "--describing")?;
+    let largest = velocity(study, largest, "--describing")?;
     Ok(NativeAnswer::new(verbs(study).describing(largest)?))
+}
+
+fn velocity(study: &Study, text: &str, option: &'static str) -> Result<f64, Failure> {
+    let read = match study.system() {
+        Ok(system) => quantity::of_system(text, Some(Quantity::Velocity), system.units(), option),
+        Err(_) => quantity::parse(text, Quantity::Velocity, study.scales(), option),
+    };
+    Ok(read?)
 }
 
 /// Runs the verb.
@@ -26,7 +34,7 @@ pub(crate) fn run(
         return Err(refused("at", wrong.to_string(), "finite slip velocities"));
     }
     let scaled = |v: f64| scales.map_or(v, |scales| scales.from_si(Quantity::Velocity, v));
-    let read = |text: &String| quantity::parse(text, Quantity::Velocity, scales, "--at");
+    let read = |text: &String| velocity(study, text, "--at");
     let at = match (at, texts) {
         (Some(at), _) => Some(at.into_iter().map(scaled).collect()),
         (None, []) => None,

@@ -6,9 +6,14 @@ use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
 
 use crate::answer::NativeAnswer;
 
-/// Runs the verb for runs under noise with different seeds.
-pub(crate) fn of_seeds(study: &Study, seeds: Option<usize>) -> Result<NativeAnswer, Failure> {
-    Ok(NativeAnswer::new(verbs(study).response_of_seeds(seeds)?))
+/// Runs the verb for runs under noise with different seeds; `times` as in [`run`].
+pub(crate) fn of_seeds(
+    study: &Study,
+    seeds: Option<usize>,
+    times: (Option<&str>, Option<&str>),
+) -> Result<NativeAnswer, Failure> {
+    let times = request(study, times)?.unwrap_or_default();
+    Ok(NativeAnswer::new(verbs(study).response_of_seeds(seeds, times)?))
 }
 
 /// Runs the verb; `times`: the settling time and the length of the record of a system.
@@ -16,6 +21,17 @@ pub(crate) fn run(
     study: &Study,
     times: (Option<&str>, Option<&str>),
 ) -> Result<NativeAnswer, Failure> {
+    match request(study, times)? {
+        Some(times) => Ok(NativeAnswer::new(verbs(study).response_after(times)?)),
+        None => Ok(NativeAnswer::new(verbs(study).response()?)),
+    }
+}
+
+/// The settling time and the length of the record of a system; `None` of other kinds, whose solver has them.
+fn request(
+    study: &Study,
+    times: (Option<&str>, Option<&str>),
+) -> Result<Option<ResponseRequest>, Failure> {
     let Ok(system) = study.system() else {
         for (option, text) in [("--settle", times.0), ("--record", times.1)] {
             if let Some(text) = text {
@@ -24,13 +40,12 @@ pub(crate) fn run(
                 return Err(Complaint::new(Fault::Conflict, option, origin, text, allowed).into());
             }
         }
-        return Ok(NativeAnswer::new(verbs(study).response()?));
+        return Ok(None);
     };
     let read = |option, text: Option<&str>| {
         let read = |text| quantity::duration_of_system(text, system.units(), option);
         text.map(read).transpose()
     };
-    let request =
-        ResponseRequest { settle: read("--settle", times.0)?, record: read("--record", times.1)? };
-    Ok(NativeAnswer::new(verbs(study).response_after(request)?))
+    let [settle, record] = [read("--settle", times.0)?, read("--record", times.1)?];
+    Ok(Some(ResponseRequest { settle, record }))
 }

@@ -253,7 +253,7 @@ fn each(
 pub fn not_periodic(verb: &str, key: impl Into<String>) -> Complaint {
     let allowed = format!(
         "a periodic waveform for {verb}, which is about a response that repeats, and under noise none does: simulate computes runs, \
-         response of a belt the share of seeds that quench, response --window the record of one run, and friction, stability and \
+         response the share of seeds that quench, response --window the record of one run, and friction, stability and \
          maps of averaged quantities the mean over the distribution of the noise"
     );
     Complaint::new(Fault::Conflict, key, Origin::Whole, NOISE, allowed)

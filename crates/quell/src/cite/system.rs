@@ -4,8 +4,9 @@ use quell_model::{LawKind, System};
 
 use super::citation::{Citation, Task};
 use super::references::{
-    ARMSTRONG_HELOUVRY_1994, CANUDAS_DE_WIT_1995, CHAN_1994, HAIRER_NORSETT_WANNER_1993,
-    HOFFMANN_2002, MICHAUX_2005, Source, THOMSEN_1999,
+    ARMSTRONG_HELOUVRY_1994, CANUDAS_DE_WIT_1995, CHAN_1994, GELB_VANDER_VELDE_1968,
+    HAIRER_NORSETT_WANNER_1993, HOFFMANN_2002, MICHAUX_2005, STEELE_2014, Source, THOMSEN_1999,
+    WILSON_1927,
 };
 use crate::study::SystemStudy;
 
@@ -26,6 +27,23 @@ pub(super) fn citations(study: &SystemStudy) -> Vec<Citation> {
         cite(task, MICHAUX_2005, "effective friction (2.21), here of each contact");
         let used = "periodic motion in pure slip and its multipliers by extrapolation (--exact)";
         cite(task, HAIRER_NORSETT_WANNER_1993, used);
+    }
+    friction(system, |source, used| cite(Task::Friction, source, used));
+    let used = "describing function of averaged friction (--describing), with the structure in harmonic balance";
+    cite(Task::Friction, GELB_VANDER_VELDE_1968, used);
+    if system.is_dithered() {
+        cite(Task::Friction, MICHAUX_2005, "effective friction (2.21), here of each contact");
+    }
+    if system.has_noise() {
+        for task in [Task::Friction, Task::Stability] {
+            cite(
+                task,
+                GELB_VANDER_VELDE_1968,
+                "statistical linearisation: friction under a Gaussian velocity",
+            );
+        }
+        cite(Task::Response, STEELE_2014, "the random numbers of noise (SplitMix64)");
+        cite(Task::Response, WILSON_1927, "confidence interval of the share of quiet runs");
     }
     if !system.inputs.is_empty() {
         friction(system, |source, used| cite(Task::Resonances, source, used));
@@ -83,5 +101,6 @@ mod tests {
         assert_eq!(keys("", dither, Task::Stability), averaged);
         assert_eq!(keys(tilted, dither, Task::Resonances), ["chan1994"]);
         assert!(keys(spring, dither, Task::Modes).is_empty());
+        assert_eq!(keys("", dither, Task::Friction), ["gelb1968", "michaux2005"]);
     }
 }

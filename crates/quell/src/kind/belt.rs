@@ -5,6 +5,7 @@ use crate::cite::{self, Sources};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
+use crate::run::system::response::ResponseRequest;
 use crate::run::{
     basins, belt_system, bifurcation, curves, describing, design, found_attractor, friction,
     noise_response, orbit, probability, ramp, response, simulate, stability, thresholds, waveforms,
@@ -59,7 +60,7 @@ impl Verbs for BeltStudy {
     }
 
     fn describing(&self, largest: f64) -> Reply {
-        answer(self, describing::run(self, largest))
+        answer(self, describing::of_belt(self, largest))
     }
 
     fn stability(&self) -> Reply {
@@ -74,8 +75,8 @@ impl Verbs for BeltStudy {
         answer(self, response::run(self))
     }
 
-    fn response_of_seeds(&self, seeds: Option<usize>) -> Reply {
-        answer(self, noise_response::run(self, seeds))
+    fn response_of_seeds(&self, seeds: Option<usize>, _: ResponseRequest) -> Reply {
+        answer(self, noise_response::of_belt(self, seeds))
     }
 
     fn response_within(&self, window: (f64, f64)) -> Reply {
@@ -83,7 +84,7 @@ impl Verbs for BeltStudy {
     }
 
     fn ramp(&self) -> Reply {
-        answer(self, ramp::run(self))
+        answer(self, ramp::of_belt(self))
     }
 
     fn attractor(&self, request: &AttractorRequest) -> Reply {

@@ -21,7 +21,7 @@ use crate::run::system::thresholds::MotionThresholdsRequest;
 use crate::run::system::tracked::TrackRequest;
 use crate::run::{basins, bifurcation, curves, simulate, thresholds};
 use crate::study::{
-    BeltSetup, Kind, Study, StudyKind, StudyOf, SystemStudy, not_available, varies_in_time,
+    DiscSetup, Kind, Study, StudyKind, StudyOf, SystemStudy, not_available, varies_in_time,
 };
 use crate::sweep::Running;
 
@@ -68,7 +68,7 @@ pub trait Verbs: Send + Sync {
     /// Averaged friction under a slow sinusoid of the slip velocity, for velocity amplitudes up to one.
     ///
     /// # Errors
-    /// A kind without this verb; as [`crate::run::describing::run`].
+    /// A kind without this verb; as [`crate::run::describing::of_belt`].
     fn describing(&self, largest: f64) -> Reply {
         let _ = largest;
         Err(self.lacks("friction --describing"))
@@ -134,12 +134,12 @@ pub trait Verbs: Send + Sync {
         Err(self.lacks("response"))
     }
 
-    /// The response under noise: runs with different seeds, and the share of them that ends quiet.
+    /// The response under noise: runs with different seeds, and the share of them that ends quiet; `times` of a system.
     ///
     /// # Errors
-    /// A kind without this verb; as [`crate::run::noise_response::run`].
-    fn response_of_seeds(&self, seeds: Option<usize>) -> Reply {
-        let _ = seeds;
+    /// A kind without this verb; as [`crate::run::noise_response::of_system`].
+    fn response_of_seeds(&self, seeds: Option<usize>, times: ResponseRequest) -> Reply {
+        let _ = (seeds, times);
         Err(self.lacks("response --seeds"))
     }
 
@@ -155,7 +155,7 @@ pub trait Verbs: Send + Sync {
     /// One run in which a drive, a load or an amplitude changes slowly, compared with the exact thresholds.
     ///
     /// # Errors
-    /// A kind without this verb; as [`crate::run::ramp::run`].
+    /// A kind without this verb; as [`crate::run::ramp::of_belt`].
     fn ramp(&self) -> Reply {
         Err(self.lacks("bifurcation --ramp"))
     }
@@ -350,10 +350,10 @@ impl Verbs for OverTime {
     }
 
     fn names(&self) -> &'static [&'static str] {
-        if self.kind() == BeltSetup::NAME {
-            &["check", "sketch", "cite", "simulate", "response --window", "bifurcation --ramp"]
-        } else {
+        if self.kind() == DiscSetup::NAME {
             &["check", "sketch", "cite", "simulate", "response --window"]
+        } else {
+            &["check", "sketch", "cite", "simulate", "response --window", "bifurcation --ramp"]
         }
     }
 

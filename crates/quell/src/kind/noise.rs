@@ -35,10 +35,12 @@ impl Verbs for UnderNoise {
                 "sketch",
                 "cite",
                 "modes",
+                "friction",
                 "stability",
                 "resonances",
                 "simulate",
-                "response --window",
+                "response",
+                "map",
             ],
         }
     }
@@ -98,18 +100,15 @@ impl Verbs for UnderNoise {
     }
 
     fn response(&self) -> Reply {
-        self.response_of_seeds(None)
+        self.response_of_seeds(None, ResponseRequest::default())
     }
 
-    fn response_of_seeds(&self, seeds: Option<usize>) -> Reply {
-        if self.kind() != BeltSetup::NAME {
-            return Err(self.lacks("response"));
-        }
-        self.periodic.response_of_seeds(seeds)
+    fn response_of_seeds(&self, seeds: Option<usize>, times: ResponseRequest) -> Reply {
+        self.periodic.response_of_seeds(seeds, times)
     }
 
-    fn response_after(&self, _: ResponseRequest) -> Reply {
-        Err(self.lacks("response"))
+    fn response_after(&self, times: ResponseRequest) -> Reply {
+        self.response_of_seeds(None, times)
     }
 
     fn response_within(&self, window: (f64, f64)) -> Reply {

@@ -1,8 +1,10 @@
 //! The verbs of a system.
 
+use serde_json::Value as Json;
+
 use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
-use crate::complaint::{Complaint, Failure};
+use crate::complaint::{Complaint, Fault, Origin};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::basins::BasinsRequest;
@@ -22,11 +24,11 @@ use crate::run::system::thresholds::{
 };
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
-    basins, bifurcation, curves, design, exact, found_attractor, measured, modes, orbit, reach,
-    response, simulate, stability, thresholds, tracked, waveforms,
+    basins, bifurcation, curves, design, exact, found_attractor, friction, measured, modes, orbit,
+    reach, response, simulate, stability, thresholds, tracked, waveforms,
 };
 use crate::run::thresholds::ThresholdsRequest;
-use crate::run::{probability, window};
+use crate::run::{describing, noise_response, probability, ramp, window};
 use crate::study::{SystemSetup, SystemStudy};
 use crate::sweep::Running;
 
@@ -42,6 +44,7 @@ impl Verbs for SystemStudy {
             "report",
             "cite",
             "modes",
+            "friction",
             "stability",
             "simulate",
             "response",
@@ -78,18 +81,19 @@ impl Verbs for SystemStudy {
         Box::new(Answered::new(self, self.sources()))
     }
 
-    fn friction(&self, _: Option<Vec<f64>>, _: bool) -> Reply {
-        let instead = "; `stability` gives the friction of every contact, under dither its average";
-        match self.lacks("friction") {
-            Failure::Wrong(complaints) => {
-                let explained = complaints.iter().map(|complaint| Complaint {
-                    allowed: format!("{}{instead}", complaint.allowed),
-                    ..complaint.clone()
-                });
-                Err(Failure::Wrong(explained.collect::<Vec<Complaint>>().into()))
-            }
-            failed @ Failure::Failed { .. } => Err(failed),
+    fn friction(&self, at: Option<Vec<f64>>, measured: bool) -> Reply {
+        if measured {
+            let allowed = "left out: `response` of a system gives the mean friction of every contact in the steady response";
+            let origin = Origin::Argument("--measured");
+            let complaint =
+                Complaint::new(Fault::Conflict, "--measured", origin, Json::Null, allowed);
+            return Err(complaint.into());
         }
+        answer(self, friction::run(self, at.as_deref()))
+    }
+
+    fn describing(&self, largest: f64) -> Reply {
+        answer(self, describing::of_system(self, largest))
     }
 
     fn waveforms(&self) -> Reply {
@@ -142,6 +146,10 @@ impl Verbs for SystemStudy {
         self.response_after(ResponseRequest::default())
     }
 
+    fn response_of_seeds(&self, seeds: Option<usize>, times: ResponseRequest) -> Reply {
+        answer(self, noise_response::of_system(self, seeds, times))
+    }
+
     fn response_within(&self, window: (f64, f64)) -> Reply {
         answer(self, window::of_system(self, window))
     }
@@ -184,6 +192,10 @@ impl Verbs for SystemStudy {
 
     fn bifurcation(&self, request: &SweepRequest, running: Running<'_>) -> Reply {
         answer(self, bifurcation::run(self, request, running))
+    }
+
+    fn ramp(&self) -> Reply {
+        answer(self, ramp::of_system(self))
     }
 
     fn basins(&self, request: &BasinsRequest, running: Running<'_>) -> Reply {

@@ -1,4 +1,4 @@
-//! `friction --describing`: averaged friction under a slow sinusoid.
+//! `friction --describing` of belts and systems: averaged friction under a slow sinusoid.
 
 use std::fmt::Write as _;
 
@@ -12,8 +12,9 @@ use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
 use crate::quantity;
-use crate::run::describing::DescribedFriction;
-use crate::study::{BeltSetup, BeltStudy};
+use crate::run::describing::{DescribedContacts, DescribedFriction};
+use crate::run::system::in_units;
+use crate::study::{BeltSetup, BeltStudy, SystemSetup, SystemStudy};
 
 impl Presented<BeltSetup> for DescribedFriction {
     fn json(&self, study: &BeltStudy) -> Json {
@@ -33,13 +34,13 @@ impl Presented<BeltSetup> for DescribedFriction {
     }
 
     fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::describing(study, self)))
+        Some(Ok(picture::describing::of_belt(study, self)))
     }
 }
 
 fn table(study: &BeltStudy, done: &DescribedFriction) -> String {
     let mut head = TextTable::new(study.scales());
-    head.known("gain for small amplitudes", Quantity::PerVelocity, done.small.clone());
+    head.known("gain for small amplitudes", Quantity::PerVelocity, done.curve.small.clone());
     for cycle in &done.cycles {
         let label = if cycle.stable { "stable limit cycle" } else { "unstable limit cycle" };
         head.number(label, Quantity::Velocity, cycle.amplitude);
@@ -56,17 +57,13 @@ fn table(study: &BeltStudy, done: &DescribedFriction) -> String {
         "a", "mean", "N₁", "undithered", "2ζ + FN₁"
     );
     let balances = done.balances(study);
-    // The full grid goes to files and programs; the table shows ten equal steps.
-    let tenths = |amplitude: f64| 10.0 * amplitude / done.largest;
-    let shown = |amplitude: f64| (tenths(amplitude) - tenths(amplitude).round()).abs() < 1e-9;
-    let rows = done.points.iter().zip(&done.undithered).zip(balances);
-    for ((point, bare), balance) in rows.filter(|((point, _), _)| shown(point.amplitude)) {
+    for (index, point, bare) in done.curve.tenths() {
         let cells = [
             point.amplitude * per_unit,
             point.coefficient,
             point.gain / per_unit,
             bare.gain / per_unit,
-            balance,
+            balances[index],
         ];
         for cell in cells {
             let _ = write!(text, "  {:>14}", figure(cell));
@@ -74,4 +71,55 @@ fn table(study: &BeltStudy, done: &DescribedFriction) -> String {
         text.push('\n');
     }
     text
+}
+
+impl Presented<SystemSetup> for DescribedContacts {
+    fn json(&self, study: &SystemStudy) -> Json {
+        self.json(study)
+    }
+
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
+        Some(self.sentence(study))
+    }
+
+    fn table(&self, study: &SystemStudy) -> String {
+        table_of_system(study, self)
+    }
+
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
+        vec![("friction", self.dataset(study))]
+    }
+
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::describing::of_system(study, self)))
+    }
+}
+
+fn table_of_system(study: &SystemStudy, done: &DescribedContacts) -> String {
+    let unit =
+        study.units().unit(Quantity::Velocity).map_or(String::new(), |unit| format!(" in {unit}"));
+    let mut text = String::new();
+    for (index, contact) in done.contacts.iter().enumerate() {
+        let growth = done.balance.as_ref().ok().filter(|balance| balance.contact == index);
+        let (velocity, load) = (
+            in_units(study.units(), Quantity::Velocity, contact.velocity),
+            in_units(study.units(), Quantity::Force, contact.normal_load),
+        );
+        let name = growth.map_or("", |_| "growth rate");
+        let _ = write!(
+            text,
+            "Contact {}, slip velocity {velocity} + a sin φ, a{unit}, load {load}: mean coefficient, gain N₁ of the sinusoid, N₁ \
+             without dither\n  {:>14}  {:>14}  {:>14}  {:>14}  {name:>14}\n",
+            contact.name, "a", "mean", "N₁", "undithered"
+        );
+        for (row, point, bare) in contact.curve.tenths() {
+            let rate = growth.map(|balance| balance.growth[row]);
+            let cells = [point.amplitude, point.coefficient, point.gain, bare.gain];
+            for cell in cells.into_iter().chain(rate) {
+                let _ = write!(text, "  {:>14}", figure(cell));
+            }
+            text.push('\n');
+        }
+    }
+    text.lines().map(|line| format!("{}\n", line.trim_end())).collect()
 }

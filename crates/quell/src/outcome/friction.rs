@@ -31,7 +31,7 @@ impl Presented<BeltSetup> for FrictionCurve {
     }
 
     fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::friction(study, self)))
+        Some(Ok(picture::friction::of_belt(study, self)))
     }
 }
 

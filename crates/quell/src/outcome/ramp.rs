@@ -1,4 +1,4 @@
-//! `bifurcation --ramp`.
+//! `bifurcation --ramp` of belts and systems.
 
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -7,42 +7,86 @@ use super::Presented;
 use super::table::TextTable;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
+use crate::fields::Fields;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::ramp::Ramp;
-use crate::run::thresholds::side;
-use crate::study::{BeltSetup, BeltStudy};
+use crate::run::system::in_units;
+use crate::study::{BeltSetup, BeltStudy, SystemSetup, SystemStudy};
+use crate::words::in_words;
 
 impl Presented<BeltSetup> for Ramp {
     const TITLED: bool = true;
 
     fn json(&self, study: &BeltStudy) -> Json {
-        self.json(study)
+        let sentence = Presented::sentence(self, study).unwrap_or_default();
+        Self::json(self, sentence, || Fields::new(study.scales()))
     }
 
     fn sentence(&self, study: &BeltStudy) -> Option<String> {
-        Some(self.sentence(study))
+        Some(Self::sentence(self, |quantity, value| in_words(study, quantity, value)))
     }
 
     fn table(&self, study: &BeltStudy) -> String {
         let mut table = TextTable::new(study.scales());
         for switch in &self.switches {
-            let name = if switch.to_quiet { "vibration ends at" } else { "vibration begins at" };
-            table.number(name, self.ramped.quantity, switch.value);
+            table.number(event(switch.to_quiet), self.ramped.quantity, switch.value);
             table.number("  at the time", Quantity::Time, switch.time);
         }
         for threshold in self.thresholds.iter().flatten() {
-            let name = format!("exact: {} above", side(threshold.becomes));
+            let name = format!("exact: {} above", threshold.becomes);
             table.number(&name, self.ramped.quantity, threshold.value);
         }
         table.text()
     }
 
     fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
-        vec![("ramp", self.dataset(study))]
+        let sentence = Presented::sentence(self, study).unwrap_or_default();
+        vec![("ramp", self.columns(Dataset::new(study, "bifurcation: ramp"), sentence))]
     }
 
     fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::ramp(study, self)))
+        Some(Ok(picture::ramp::of_belt(study, self)))
     }
+}
+
+impl Presented<SystemSetup> for Ramp {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
+        let sentence = Presented::sentence(self, study).unwrap_or_default();
+        Self::json(self, sentence, || Fields::of_system(study.units()))
+    }
+
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
+        Some(Self::sentence(self, |quantity, value| in_units(study.units(), quantity, value)))
+    }
+
+    fn table(&self, study: &SystemStudy) -> String {
+        let with = |quantity, value| in_units(study.units(), quantity, value);
+        let mut table = TextTable::new(None);
+        for switch in &self.switches {
+            table.word(event(switch.to_quiet), &with(self.ramped.quantity, switch.value));
+            table.word("  at the time", &with(Quantity::Time, switch.time));
+        }
+        for threshold in self.thresholds.iter().flatten() {
+            let name = format!("exact: {} above", threshold.becomes);
+            table.word(&name, &with(self.ramped.quantity, threshold.value));
+        }
+        table.text()
+    }
+
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
+        let sentence = Presented::sentence(self, study).unwrap_or_default();
+        let dataset = Dataset::of(&study.into(), "bifurcation: ramp");
+        vec![("ramp", self.columns(dataset, sentence))]
+    }
+
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::ramp::of_system(study, self)))
+    }
+}
+
+fn event(to_quiet: bool) -> &'static str {
+    if to_quiet { "vibration ends at" } else { "vibration begins at" }
 }

@@ -1,49 +1,109 @@
 //! The balance of energy of slow motions over their amplitude, by the describing function of averaged friction.
 
+use quell_linear::averaging::DescribedCycle;
 use quell_model::units::Quantity;
 
-use super::caption::caption;
+use super::caption::{caption, caption_of_system};
 use super::ruler::Ruler;
 use crate::plot::{
     Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
 };
-use crate::run::describing::{DescribedFriction, balance};
-use crate::study::BeltStudy;
+use crate::run::describing::{DescribedContact, DescribedContacts, DescribedFriction, balance};
+use crate::study::{BeltStudy, SystemStudy, SystemUnits};
 
-/// The picture of 2ζ + FN₁ over the velocity amplitude, with the limit cycles.
-pub fn describing(study: &BeltStudy, done: &DescribedFriction) -> Figure {
-    let amplitudes = done.amplitudes();
-    let ruler = Ruler::new(study, Quantity::Velocity, done.largest);
-    let line = |role, values: Vec<f64>| {
-        let places = amplitudes.iter().map(|amplitude| ruler.place(*amplitude));
-        Polyline::new(role, places.zip(values).collect::<Vec<_>>())
-    };
-    let mut panel = Panel::new(
-        ruler.axis("slow velocity amplitude", "a").between(0.0, ruler.place(done.largest)),
-        PlotAxis::new("balance").symbol("2ζ + FN_1"),
-    )
-    .with(Region::across_y(PlotRole::Unstable, f64::NEG_INFINITY, 0.0).label("motions grow"))
-    .with(ReferenceLine::horizontal(0.0));
+/// 2ζ + FN₁ over the velocity amplitude, with the limit cycles.
+pub(crate) fn of_belt(study: &BeltStudy, done: &DescribedFriction) -> Figure {
+    let ruler = Ruler::new(study, Quantity::Velocity, done.curve.largest);
+    let mut panel =
+        Panel::new(axis(&ruler, done.curve.largest), PlotAxis::new("balance").symbol("2ζ + FN_1"))
+            .with(
+                Region::across_y(PlotRole::Unstable, f64::NEG_INFINITY, 0.0).label("motions grow"),
+            )
+            .with(ReferenceLine::horizontal(0.0));
+    let line = |role, values: Vec<f64>| line(&ruler, role, &done.curve.amplitudes(), values);
     if !study.belt().dithers().is_empty() {
-        let gains = done.undithered_gains();
+        let gains = done.curve.undithered_gains();
         let bare = gains.into_iter().map(|gain| balance(study.belt(), gain)).collect();
         panel = panel.with(line(PlotRole::Undithered, bare).label("without dither"));
     }
     panel = panel.with(line(PlotRole::Averaged, done.balances(study)).label("averaged"));
-    for (stable, label) in [(true, "stable cycle"), (false, "unstable cycle")] {
-        let places: Vec<(f64, f64)> = done
-            .cycles
-            .iter()
-            .filter(|cycle| cycle.stable == stable)
-            .map(|cycle| (ruler.place(cycle.amplitude), 0.0))
-            .collect();
-        if !places.is_empty() {
-            let marker = if stable { Marker::Disc } else { Marker::Circle };
-            let points = Points::new(PlotRole::Exact, places).marker(marker).size(7.0);
-            panel = panel.with(points.label(label));
-        }
-    }
+    panel = panel.with_all(marks(&ruler, done.cycles.iter()));
     Figure::single(panel)
         .title(study.title().unwrap_or_default())
         .caption(format!("{}; by the describing function of averaged friction.", caption(study)))
+}
+
+/// The gain of every contact over the velocity amplitude, and below it the growth rate of slow motions with the limit cycles, where
+/// harmonic balance holds.
+pub(crate) fn of_system(study: &SystemStudy, done: &DescribedContacts) -> Figure {
+    let ruler = Ruler::of_system(study, Quantity::Velocity, [done.largest]);
+    let per_velocity = study.units().unit(Quantity::PerVelocity).unwrap_or_default();
+    let vertical = PlotAxis::new("gain").symbol("N_1");
+    let vertical = match study.units() {
+        SystemUnits::None => vertical,
+        SystemUnits::Si | SystemUnits::MmTonneSecond => vertical.unit(per_velocity),
+    };
+    let mut gains = Panel::new(axis(&ruler, done.largest), vertical);
+    gains = gains.with(ReferenceLine::horizontal(0.0));
+    let curve = |role, contact: &DescribedContact, values| {
+        line(&ruler, role, &contact.curve.amplitudes(), values)
+    };
+    let single = done.contacts.len() == 1;
+    for (index, contact) in done.contacts.iter().enumerate() {
+        if single && study.system().is_dithered() {
+            let bare = curve(PlotRole::Undithered, contact, contact.curve.undithered_gains());
+            gains = gains.with(bare.label("without dither"));
+        }
+        let role = if single { PlotRole::Averaged } else { PlotRole::Series(index) };
+        let label =
+            if single { "averaged".to_owned() } else { format!("contact {}", contact.name) };
+        gains = gains.with(curve(role, contact, contact.curve.gains()).label(label));
+    }
+    let mut panels = vec![gains];
+    if let Ok(balance) = &done.balance {
+        let rate = PlotAxis::new("growth rate");
+        let rate = match study.units() {
+            SystemUnits::None => rate,
+            SystemUnits::Si | SystemUnits::MmTonneSecond => rate.unit("1/s"),
+        };
+        let contact = &done.contacts[balance.contact];
+        let growth = Panel::new(axis(&ruler, done.largest), rate)
+            .with(Region::across_y(PlotRole::Unstable, 0.0, f64::INFINITY).label("motions grow"))
+            .with(ReferenceLine::horizontal(0.0))
+            .with(curve(PlotRole::Averaged, contact, balance.growth.clone()));
+        panels
+            .push(growth.with_all(marks(&ruler, balance.cycles.iter().map(|found| &found.cycle))));
+    }
+    Figure::grid(1, panels).title(study.title().unwrap_or_default()).caption(format!(
+        "{} {}",
+        caption_of_system(study),
+        done.sentence(study)
+    ))
+}
+
+fn axis(ruler: &Ruler, largest: f64) -> PlotAxis {
+    ruler.axis("slow velocity amplitude", "a").between(0.0, ruler.place(largest))
+}
+
+fn line(ruler: &Ruler, role: PlotRole, amplitudes: &[f64], values: Vec<f64>) -> Polyline {
+    let places = amplitudes.iter().map(|amplitude| ruler.place(*amplitude));
+    Polyline::new(role, places.zip(values).collect::<Vec<_>>())
+}
+
+/// Marks of the limit cycles on the line of no growth.
+fn marks<'a>(
+    ruler: &Ruler,
+    cycles: impl Iterator<Item = &'a DescribedCycle> + Clone,
+) -> Vec<Points> {
+    let kinds = [(true, "stable cycle", Marker::Disc), (false, "unstable cycle", Marker::Circle)];
+    let of = |(stable, label, marker): (bool, &'static str, Marker)| {
+        let places: Vec<(f64, f64)> = cycles
+            .clone()
+            .filter(|cycle| cycle.stable == stable)
+            .map(|cycle| (ruler.place(cycle.amplitude), 0.0))
+            .collect();
+        let points = || Points::new(PlotRole::Exact, places.clone()).marker(marker).size(7.0);
+        (!places.is_empty()).then(|| points().label(label))
+    };
+    kinds.into_iter().filter_map(of).collect()
 }

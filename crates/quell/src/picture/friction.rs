@@ -2,21 +2,52 @@
 
 use quell_model::units::Quantity;
 
-use super::caption::caption;
+use super::caption::{caption, caption_of_system};
 use super::ruler::{Ruler, words};
 use crate::plot::{
     Figure, Layer, LineStyle, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
 };
 use crate::run::friction::FrictionCurve;
-use crate::study::BeltStudy;
+use crate::run::system::friction::SystemFriction;
+use crate::study::{BeltStudy, SystemStudy};
 
 /// Number of slip velocities up to which every value has a mark.
 const FEW: usize = 40;
 
-/// The picture of friction over the slip velocity.
-pub fn friction(study: &BeltStudy, curve: &FrictionCurve) -> Figure {
+/// Of a belt.
+pub(crate) fn of_belt(study: &BeltStudy, curve: &FrictionCurve) -> Figure {
+    let ruler = Ruler::of(study, Quantity::Velocity, curve.slip_velocities());
+    let symbol = if study.scales().is_some() { "V_0" } else { "v_0" };
+    let belt_velocity = study.belt().belt_velocity();
+    let label = format!("${symbol}$ = {}", words(study, Quantity::Velocity, belt_velocity));
+    let dithered = !study.belt().dithers().is_empty();
+    Figure::single(panel(curve, &ruler, (belt_velocity, label), dithered))
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{}.", caption(study)))
+}
+
+/// Of a system, one panel for each contact.
+pub(crate) fn of_system(study: &SystemStudy, done: &SystemFriction) -> Figure {
+    let dithered = study.system().is_dithered();
+    let panels = done.contacts.iter().map(|contact| {
+        let ruler = Ruler::of_system(study, Quantity::Velocity, contact.curve.slip_velocities());
+        let label = format!("surface: {}", ruler.words(contact.velocity));
+        panel(&contact.curve, &ruler, (contact.velocity, label), dithered)
+            .title(format!("contact {}", contact.name))
+    });
+    Figure::grid(1, panels.collect::<Vec<_>>())
+        .title(study.title().unwrap_or_default())
+        .caption(caption_of_system(study))
+}
+
+/// Friction of one contact over the slip velocity.
+fn panel(
+    curve: &FrictionCurve,
+    ruler: &Ruler,
+    (velocity, label): (f64, String),
+    dithered: bool,
+) -> Panel {
     let slip = curve.slip_velocities();
-    let ruler = Ruler::of(study, Quantity::Velocity, slip.iter().copied());
     let line = |role, values: Vec<f64>| {
         let mut points: Vec<(f64, f64)> =
             slip.iter().zip(values).map(|(&v, value)| (ruler.place(v), value)).collect();
@@ -31,16 +62,13 @@ pub fn friction(study: &BeltStudy, curve: &FrictionCurve) -> Figure {
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         Polyline::new(role, points)
     };
-    let symbol = if study.scales().is_some() { "V_0" } else { "v_0" };
-    let belt_velocity = study.belt().belt_velocity();
-    let label = format!("${symbol}$ = {}", words(study, Quantity::Velocity, belt_velocity));
     let mut panel = Panel::new(
         ruler.axis("slip velocity", "v_r"),
         PlotAxis::new("friction coefficient").symbol("μ"),
     )
-    .with(ReferenceLine::vertical(ruler.place(belt_velocity)).label(label))
+    .with(ReferenceLine::vertical(ruler.place(velocity)).label(label))
     .with(line(PlotRole::Undithered, curve.coefficients()).label("without dither: $μ$"));
-    if !study.belt().dithers().is_empty() {
+    if dithered {
         panel = panel.with(
             whole(PlotRole::Averaged, curve.effective_coefficients())
                 .label("effective: $\\bar{μ}$"),
@@ -74,7 +102,5 @@ pub fn friction(study: &BeltStudy, curve: &FrictionCurve) -> Figure {
             .collect();
         panel = panel.with_all(marks);
     }
-    Figure::single(panel)
-        .title(study.title().unwrap_or_default())
-        .caption(format!("{}.", caption(study)))
+    panel
 }

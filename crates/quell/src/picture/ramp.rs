@@ -2,30 +2,50 @@
 
 use quell_model::units::Quantity;
 
-use super::caption::caption_of_run;
+use super::caption::{caption_of_run, caption_of_system};
 use super::ruler::Ruler;
+use crate::outcome::Presented;
 use crate::plot::{
     Figure, LineStyle, Panel, PlotRole, Polyline, ReferenceLine, SharedLegend, Sharing, Size,
 };
-use crate::run::manoeuvre::{SampledMotion, vibration_levels};
 use crate::run::ramp::Ramp;
-use crate::run::simulate::{NATURAL_PERIOD, slowest_repetition};
-use crate::study::BeltStudy;
+use crate::study::{BeltStudy, SystemStudy};
+
+/// Of a belt.
+pub(crate) fn of_belt(study: &BeltStudy, done: &Ramp) -> Figure {
+    let ruler = |quantity, values: Vec<f64>| Ruler::of(study, quantity, values);
+    let sentence = Presented::sentence(done, study).unwrap_or_default();
+    figure(done, ruler, "displacement", "x")
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{} {sentence}", caption_of_run(study)))
+}
+
+/// Of a system.
+pub(crate) fn of_system(study: &SystemStudy, done: &Ramp) -> Figure {
+    let ruler = |quantity, values: Vec<f64>| Ruler::of_system(study, quantity, values);
+    let sentence = Presented::sentence(done, study).unwrap_or_default();
+    figure(done, ruler, "observed displacement", "")
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{} {sentence}", caption_of_system(study)))
+}
 
 /// Displacement, and vibration within one natural period, over the value of the ramp; rising and falling values apart.
-pub fn ramp(study: &BeltStudy, done: &Ramp) -> Figure {
-    let samples = done.samples();
+fn figure(
+    done: &Ramp,
+    ruler: impl Fn(Quantity, Vec<f64>) -> Ruler,
+    name: &str,
+    symbol: &str,
+) -> Figure {
     let (least, largest) = done.ramped.range();
-    let across = Ruler::of(study, done.ramped.quantity, [least, largest]);
-    let place =
-        Ruler::of(study, Quantity::Displacement, samples.iter().map(|sample| sample.displacement));
+    let across = ruler(done.ramped.quantity, vec![least, largest]);
+    let place = ruler(Quantity::Displacement, done.motion.displacement.clone());
     let axis = || {
-        let axis = across.axis(done.ramped.words, "");
+        let axis = across.axis(&done.ramped.words, "");
         axis.between(across.place(least), across.place(largest))
     };
-    let displacement = samples.iter().map(|sample| (sample.time, sample.displacement));
+    let displacement = done.motion.times.iter().copied().zip(done.motion.displacement.clone());
     let mut motion = with_ways(
-        Panel::new(axis(), place.axis("displacement", "x")),
+        Panel::new(axis(), place.axis(name, symbol)),
         done,
         |pieces| {
             let points =
@@ -34,16 +54,8 @@ pub fn ramp(study: &BeltStudy, done: &Ramp) -> Figure {
         },
         displacement.collect(),
     );
-    let levels = match samples {
-        [first, second, ..] => {
-            let displacement: Vec<f64> = samples.iter().map(|sample| sample.displacement).collect();
-            let step = second.time - first.time;
-            let sampled = SampledMotion { start: first.time, step, displacement: &displacement };
-            vibration_levels(sampled, NATURAL_PERIOD, slowest_repetition(study))
-        }
-        _ => Vec::new(),
-    };
-    let size = Ruler::of(study, Quantity::Displacement, levels.iter().map(|level| level.1));
+    let levels = done.motion.levels();
+    let size = ruler(Quantity::Displacement, levels.iter().map(|level| level.1).collect());
     let mut vibration = with_ways(
         Panel::new(axis(), size.axis("slow vibration", "").from(0.0)),
         done,
@@ -65,8 +77,6 @@ pub fn ramp(study: &BeltStudy, done: &Ramp) -> Figure {
         .sharing_x(Sharing::All)
         .legend(SharedLegend::Above)
         .size(Size::Frame(560.0, 190.0))
-        .title(study.title().unwrap_or_default())
-        .caption(format!("{} {}", caption_of_run(study), done.sentence(study)))
 }
 
 /// Adds values over time as one curve for each interval in which the ramp rises or falls; `to_points` places them.
@@ -77,7 +87,7 @@ fn with_ways(
     values: Vec<(f64, f64)>,
 ) -> Panel {
     let rises = |time: f64| {
-        let (times, knots) = (done.ramped.course.times(), done.ramped.course.values());
+        let (times, knots) = (done.ramped.knots.times(), done.ramped.knots.values());
         let next = times.partition_point(|knot| *knot <= time).clamp(1, times.len() - 1);
         knots[next] >= knots[next - 1]
     };

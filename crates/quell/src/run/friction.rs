@@ -5,7 +5,7 @@ use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::{SteadyFriction, steady_effective_friction};
 use quell_linear::averaging::{AveragingOptions, Effective, FastMotion, SlopeSide, effective};
 use quell_model::units::Quantity;
-use quell_model::{Belt, Direction};
+use quell_model::{Belt, Direction, Friction};
 use rayon::prelude::*;
 use serde_json::Value as Json;
 
@@ -42,6 +42,9 @@ pub struct FrictionPoint {
 pub struct FrictionCurve {
     /// Points in the requested order.
     pub points: Vec<FrictionPoint>,
+    /// μ̄ and its slope by finite-R averaging, with the oscillator's own response to the dither; `None` without dither, of a system,
+    /// whose averages all have the response of the structure, and of a contact with a state of its own.
+    pub sharper: Option<Vec<Result<Effective, String>>>,
     /// ⟨f/N⟩ of the steady response at each point, or why it has no value; `None` if it was not requested.
     pub measured: Option<Vec<Result<SteadyFriction, String>>>,
 }
@@ -49,9 +52,12 @@ pub struct FrictionCurve {
 /// Slip velocities of a picture: beyond the velocities of the law, the belt and the fast motion, up to where slip
 /// including dither leaves the law's range.
 pub fn grid(belt: &Belt) -> Vec<f64> {
-    let law = belt.friction();
-    let fast = belt.fast_velocity();
-    let reached = 1.5 * belt.belt_velocity().max(fast);
+    grid_of(belt.friction(), belt.belt_velocity(), belt.fast_velocity())
+}
+
+/// The same of a law at a surface velocity under a fast slip velocity.
+pub(crate) fn grid_of(law: &Friction, velocity: f64, fast: f64) -> Vec<f64> {
+    let reached = 1.5 * velocity.abs().max(fast);
     let scale = law.velocity_scale();
     let own = if law.has_velocity() || reached == 0.0 { 2.0 * scale } else { 0.0 };
     // The average at a slip velocity reaches that velocity plus the fast velocity.
@@ -76,6 +82,15 @@ pub fn grid(belt: &Belt) -> Vec<f64> {
     left.chain([0.0]).chain(side.iter().copied()).collect()
 }
 
+/// The friction coefficient of a law, with the sign of the slip velocity; or why it has no single value.
+pub(crate) fn coefficient_at(law: &Friction, v: f64) -> Result<f64, String> {
+    if v == 0.0 {
+        let level = law.static_coefficient();
+        return Err(format!("at rest friction takes any value up to ±{level}"));
+    }
+    Ok(v.signum() * law.coefficient(v.abs()))
+}
+
 /// The law and its average under the study's dither at slip velocities `at`.
 pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
     let belt = study.belt();
@@ -83,12 +98,7 @@ pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
     let has_noise = belt.dithers().iter().any(|dither| !dither.waveform.is_periodic());
     let points = at.par_iter().map(|&v| FrictionPoint {
         slip_velocity: v,
-        coefficient: if v == 0.0 {
-            let level = law.static_coefficient();
-            Err(format!("at rest friction takes any value up to ±{level}"))
-        } else {
-            Ok(v.signum() * law.coefficient(v.abs()))
-        },
+        coefficient: coefficient_at(law, v),
         effective: if belt.has_contact_state() && has_noise {
             Err("the mean of a contact with a state of its own is that of its periodic state, and under noise it has none".to_owned())
         } else if belt.has_contact_state() {
@@ -99,7 +109,14 @@ pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
                 .map_err(|why| why.to_string())
         },
     });
-    FrictionCurve { points: points.collect(), measured: None }
+    let by_finite_r = |v: &f64| {
+        FastMotion::of(belt, *v, AveragingOptions::FINITE_R)
+            .and_then(|motion| effective(law, &motion, *v))
+            .map_err(|why| why.to_string())
+    };
+    let has_sharper = !belt.dithers().is_empty() && !belt.has_contact_state();
+    let sharper = has_sharper.then(|| at.par_iter().map(by_finite_r).collect());
+    FrictionCurve { points: points.collect(), sharper, measured: None }
 }
 
 /// The same with friction measured on steady responses (4.30), (4.31), in parallel on all cores.
@@ -157,6 +174,12 @@ impl FrictionCurve {
         })
     }
 
+    /// μ̄ or its slope by finite-R averaging, NaN where it is undefined; `None` where it is not given.
+    fn sharper_column(&self, value: fn(&Effective) -> f64) -> Option<Vec<f64>> {
+        let sharper = self.sharper.as_ref()?;
+        Some(sharper.iter().map(|found| found.as_ref().map_or(f64::NAN, value)).collect())
+    }
+
     fn measured_column(&self, value: fn(&SteadyFriction) -> f64) -> Option<Vec<f64>> {
         let measured = self.measured.as_ref()?;
         Some(measured.iter().map(|found| found.as_ref().map_or(f64::NAN, value)).collect())
@@ -173,9 +196,15 @@ impl FrictionCurve {
     /// As JSON.
     pub fn json(&self, study: &BeltStudy) -> Json {
         let mut fields = Fields::new(study.scales());
+        fields.plain("ok", true).nested("law", super::law::fields(study));
+        self.put(&mut fields);
+        fields.plain("warnings", self.warnings(study));
+        fields.finish()
+    }
+
+    /// The columns, and why values are missing.
+    pub(crate) fn put(&self, fields: &mut Fields) {
         fields
-            .plain("ok", true)
-            .nested("law", super::law::fields(study))
             .numbers("slip_velocity", Quantity::Velocity, &self.slip_velocities())
             .numbers("coefficient", Quantity::Ratio, &self.coefficients())
             .numbers("effective_coefficient", Quantity::Ratio, &self.effective_coefficients())
@@ -190,7 +219,8 @@ impl FrictionCurve {
             point.effective.as_ref().is_ok_and(|found| found.side == SlopeSide::Outer)
         });
         fields.plain("effective_slope_one_sided", one_sided.collect::<Vec<bool>>());
-        self.measured_json(&mut fields);
+        self.sharper_json(fields);
+        self.measured_json(fields);
         for (index, point) in self.points.iter().enumerate() {
             if let Err(why) = &point.coefficient {
                 fields.why(&format!("coefficient[{index}]"), why);
@@ -200,8 +230,25 @@ impl FrictionCurve {
                 fields.why(&format!("effective_slope[{index}]"), why);
             }
         }
-        fields.plain("warnings", self.warnings(study));
-        fields.finish()
+    }
+
+    /// The columns of finite-R averaging, if they are given.
+    fn sharper_json(&self, fields: &mut Fields) {
+        let Some(sharper) = &self.sharper else { return };
+        let column = |value: fn(&Effective) -> f64| self.sharper_column(value).unwrap_or_default();
+        fields
+            .numbers(
+                "sharper_effective_coefficient",
+                Quantity::Ratio,
+                &column(|found| found.coefficient),
+            )
+            .per_velocity("sharper_effective_slope", &column(|found| found.slope));
+        for (index, found) in sharper.iter().enumerate() {
+            if let Err(why) = found {
+                fields.why(&format!("sharper_effective_coefficient[{index}]"), why);
+                fields.why(&format!("sharper_effective_slope[{index}]"), why);
+            }
+        }
     }
 
     /// The columns of the measured friction, if it was requested.
@@ -322,7 +369,11 @@ impl FrictionCurve {
             .array("coefficient", Quantity::Ratio, self.coefficients())
             .array("effective_coefficient", Quantity::Ratio, self.effective_coefficients())
             .per_velocity("effective_slope", self.effective_slopes());
+        if let Some(slopes) = self.sharper_column(|found| found.slope) {
+            dataset = dataset.per_velocity("sharper_effective_slope", slopes);
+        }
         for (name, values) in [
+            ("sharper_effective_coefficient", self.sharper_column(|found| found.coefficient)),
             ("measured_coefficient", self.measured_coefficients()),
             ("measured_stick_fraction", self.measured_stick_fractions()),
             ("measured_stable", self.measured_stability()),

@@ -8,7 +8,8 @@ pub use quell_linear::averaging::SlopeSide;
 use quell_linear::averaging::{
     AveragedVerdict, AveragingError, AveragingOptions, Becomes, Criterion, CriticalAmplitude,
     CrossingKind, EverywhereStable, NeverStable, UndecidedBecause, UnstableBand, criterion,
-    critical_amplitudes, everywhere_stable_amplitude, fast_wave, unstable_bands,
+    critical_amplitudes, everywhere_stable_amplitude, everywhere_stable_under_noise, fast_wave,
+    unstable_bands,
 };
 use quell_linear::growth::of_criterion;
 use quell_model::units::Quantity;
@@ -17,7 +18,7 @@ use serde_json::Value as Json;
 
 use crate::contact_state;
 use crate::fields::Fields;
-use crate::noise::few_lines;
+use crate::noise::{few_lines, normal_noise};
 use crate::range;
 use crate::study::BeltStudy;
 use crate::words::in_words;
@@ -91,24 +92,21 @@ fn everywhere_stable(belt: &Belt, options: AveragingOptions) -> Result<f64, Stri
             _ => "it is defined for a single dither, and this study has several".to_owned(),
         });
     };
-    if !dither.waveform.is_periodic() {
-        return Err(
-            "it is known for sine, triangle and square; under noise see the unstable belt velocities at a given amplitude".to_owned()
-        );
-    }
-    if !dither.waveform.is_symmetric() {
+    let is_noise = !dither.waveform.is_periodic();
+    if !is_noise && !dither.waveform.is_symmetric() {
         let name = dither.waveform.name();
         return Err(format!(
-            "it is known for sine, triangle and square; \"{name}\" has corners at every maximum of its fast velocity"
+            "it is known for sine, triangle, square and noise; \"{name}\" has corners at every maximum of its fast velocity"
         ));
     }
-    let found = everywhere_stable_amplitude(
-        belt.friction(),
-        belt.damping_ratio(),
-        belt.normal_load(),
-        fast_wave(dither, options.response).map_err(|why| why.to_string())?,
-        dither.direction,
-    );
+    let found = if is_noise {
+        everywhere_stable_under_noise(belt, dither, options)
+    } else {
+        fast_wave(dither, options.response).and_then(|wave| {
+            let (damping, load) = (belt.damping_ratio(), belt.normal_load());
+            everywhere_stable_amplitude(belt.friction(), damping, load, wave, dither.direction)
+        })
+    };
     match found.map_err(|why| why.to_string())? {
         EverywhereStable::Always if is_neutral(belt) => {
             Err("without damping and with a flat friction law nothing grows or decays".to_owned())
@@ -352,7 +350,13 @@ impl BeltStability {
         let rigid = contact_state::rigid_average(belt, belt.belt_velocity());
         let bristles = belt.friction().bristles().map(|_| contact_state::small_motions(""));
         let state = contact_state::passivity(belt).into_iter().chain(rigid).chain(bristles);
-        hardly.chain(apart).chain(range).chain(state).chain(few_lines(belt)).collect()
+        hardly
+            .chain(apart)
+            .chain(range)
+            .chain(state)
+            .chain(few_lines(belt))
+            .chain(normal_noise(belt))
+            .collect()
     }
 
     /// Warnings about critical amplitudes and bands outside the range of the friction law.

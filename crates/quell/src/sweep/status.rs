@@ -252,9 +252,7 @@ impl From<&AveragingError> for Status {
             AveragingError::SetValued { .. } => Self::SetValued,
             AveragingError::TooManyGroups { .. } => Self::TooManyGroups,
             AveragingError::NotFast { .. } => Self::NotFast,
-            AveragingError::NoResponse(_) | AveragingError::SecondOrderNoise => {
-                Self::NoAverageOfWaveform
-            }
+            AveragingError::NoResponse(_) => Self::NoAverageOfWaveform,
             AveragingError::Quadrature(_) => Self::NotConverged,
         }
     }

@@ -16,7 +16,7 @@ from __future__ import annotations
 from .._dataset import Arrays, Variable
 from .._result import Result
 from ._motion import Attractor, NoiseResponse, Orbit, Response, Simulation, Window
-from ._steady import Check, Citations, DescribingFunction, Design, ExactStability, FrictionCurve, Modes, Probability, Resonances, Stability, TrackedStability, Waveforms
+from ._steady import Check, Citations, ContactFriction, ContactGains, DescribingFunction, Design, ExactStability, FrictionCurve, Modes, Probability, Resonances, Stability, TrackedStability, Waveforms
 from ._sweeps import Basins, Bifurcation, Map, Ramp, Shard, ThresholdCurves, Thresholds
 
 __all__ = [
@@ -26,6 +26,8 @@ __all__ = [
     "Bifurcation",
     "Check",
     "Citations",
+    "ContactFriction",
+    "ContactGains",
     "DescribingFunction",
     "Design",
     "ExactStability",

@@ -111,7 +111,7 @@ class Window(_columns.WindowColumns, Result):
 
 
 class NoiseResponse(_columns.NoiseResponseColumns, Result):
-    """The response of a belt under noise: runs with different seeds."""
+    """The response under noise: runs with different seeds."""
 
     verb = "response"
     runs: int
@@ -128,6 +128,8 @@ class NoiseResponse(_columns.NoiseResponseColumns, Result):
     """Upper end of its interval."""
     interval: str
     """The interval: "Wilson, 95 %"."""
+    averaged_growth_rate: float | None
+    """Largest growth rate of small slow motions, averaged over the Gaussian distribution of the noise."""
     seeds: list[int]
     """Seed of the first noise in each run."""
     efficiency: list[float]
@@ -139,17 +141,24 @@ class NoiseResponse(_columns.NoiseResponseColumns, Result):
     efficiency_largest: float | None
     """Largest E."""
     amplitude: list[float]
-    """Largest spectral amplitude of each run with 0 < ω ≤ 1.9 ω₀: a length."""
+    """Largest spectral amplitude of each run in the band of slow vibration: of a belt with 0 < ω ≤ 1.9 ω₀, of a system below the
+    noise."""
     undithered_amplitude: float
     """The same without dither."""
-    stick_fraction: list[float]
-    """Fraction of the time during which the mass sticks, of each run."""
-    mean_friction: float
-    """Mean friction force over k, averaged over the runs: a length."""
-    mean_friction_undithered: float
-    """The same without dither."""
-    cost: dict[str, Any]
-    """Linear response without friction: ``force_rms``, ``displacement_rms``, ``velocity_rms`` and ``power``; peaks have no value."""
+    stick_fraction: list[float] | None
+    """Belt: fraction of the time during which the mass sticks, of each run."""
+    mean_friction: float | None
+    """Belt: mean friction force over k, averaged over the runs: a length."""
+    mean_friction_undithered: float | None
+    """Belt: the same without dither."""
+    contacts: list[dict[str, Any]] | None
+    """System: ``stick_fraction`` (one of each run), ``mean_friction`` and ``mean_friction_undithered`` of every contact."""
+    dithers: list[dict[str, Any]] | None
+    """System: ``force_rms``, ``displacement_rms``, ``velocity_rms`` and ``power`` of every dither at its point."""
+    band_end: float | None
+    """System: upper end of the band."""
+    cost: dict[str, Any] | None
+    """Belt: linear response without friction: ``force_rms``, ``displacement_rms``, ``velocity_rms`` and ``power``; peaks have no value."""
     settle: float
     """Time before the record."""
     record_length: float

@@ -102,6 +102,18 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
         return self.arrays["effective_slope"].values
 
     @property
+    def sharper_effective_coefficient(self) -> npt.NDArray[np.float64] | None:
+        """μ̄ (n,) by finite-R averaging, with the oscillator's own response to the dither; ``None`` without dither."""
+        found = self.arrays.get("sharper_effective_coefficient")
+        return None if found is None else found.values
+
+    @property
+    def sharper_effective_slope(self) -> npt.NDArray[np.float64] | None:
+        """Its slope (n,); ``None`` without dither."""
+        found = self.arrays.get("sharper_effective_slope")
+        return None if found is None else found.values
+
+    @property
     def measured_coefficient(self) -> npt.NDArray[np.float64] | None:
         """⟨f/N⟩ (n,) over a period of the steady response; NaN where it has no value, ``None`` without ``measured=True``."""
         found = self.arrays.get("measured_coefficient")
@@ -133,6 +145,8 @@ class DescribingFunction(_columns.DescribingFunctionColumns, Result):
     """Its displacement amplitude."""
     limit_cycles: list[dict[str, Any]]
     """Every limit cycle: ``velocity_amplitude``, ``amplitude``, ``velocity_amplitude_error``, ``stable``."""
+    sharper: dict[str, Any] | None
+    """The same by finite-R averaging: ``small_gain``, ``limit_cycle_velocity``, ``limit_cycle_amplitude``, ``limit_cycles``."""
     gain_error: list[float | None]
     """Bound on the numerical error of N₁ (n,)."""
     belt_velocity: float
@@ -162,6 +176,40 @@ class DescribingFunction(_columns.DescribingFunctionColumns, Result):
     def balance(self) -> npt.NDArray[np.float64]:
         """2ζ + FN₁ (n,): slow motions of this amplitude decay where it is positive."""
         return self.arrays["balance"].values
+
+
+class ContactFriction(_columns.ContactFrictionColumns, Result):
+    """The friction law of every contact of a system and its average under the dither; arrays have one row for each contact and slip
+    velocity."""
+
+    verb = "friction"
+    contacts: list[dict[str, Any]]
+    """``name``, ``surface_velocity``, the largest ``fast_velocity``, and over ``slip_velocity``: ``coefficient``,
+    ``effective_coefficient`` and ``effective_slope`` with their errors."""
+
+
+class ContactGains(_columns.ContactGainsColumns, Result):
+    """Averaged friction of every contact of a system under a slow sinusoid of its slip velocity; arrays have one row for each contact
+    and velocity amplitude."""
+
+    verb = "friction"
+    contact: str | None
+    """The contact whose amplitude the slow vibration has; ``None`` where harmonic balance does not hold."""
+    limit_cycle_velocity: float | None
+    """Velocity amplitude at this contact of the smallest stable limit cycle."""
+    limit_cycle_amplitude: float | None
+    """Its amplitude of the observed displacement."""
+    limit_cycle_frequency: float | None
+    """Its frequency."""
+    limit_cycles: list[dict[str, Any]] | None
+    """Every limit cycle: ``velocity_amplitude``, ``velocity_amplitude_error``, ``amplitude``, ``frequency``, ``stable``."""
+    small_growth_rate: float | None
+    """Growth rate of small slow motions."""
+    growth_rate: list[float] | None
+    """Growth rate of slow motions at the amplitudes of this contact."""
+    contacts: list[dict[str, Any]]
+    """``name``, ``slip_velocity``, ``normal_load``, ``small_gain``, and over ``velocity_amplitude``: ``mean_coefficient``, ``gain``
+    with ``gain_error``, and ``undithered_gain``."""
 
 
 class Design(_columns.DesignColumns, Result):

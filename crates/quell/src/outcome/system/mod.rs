@@ -4,6 +4,7 @@ mod attractor;
 mod basins;
 mod bifurcation;
 mod exact;
+mod friction;
 mod measured;
 mod modes;
 mod orbit;

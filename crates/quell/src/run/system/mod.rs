@@ -12,6 +12,7 @@ pub mod cycle_samples;
 pub mod design;
 pub mod exact;
 pub mod found_attractor;
+pub mod friction;
 pub mod history;
 pub mod measured;
 pub mod modes;
@@ -67,7 +68,7 @@ pub(crate) fn has_equations(study: &SystemStudy, verb: &str) -> Result<(), Failu
 }
 
 /// A frequency after the noun: in hertz where the study has units.
-fn oscillating(units: SystemUnits, frequency: f64) -> String {
+pub(crate) fn oscillating(units: SystemUnits, frequency: f64) -> String {
     match units {
         _ if frequency == 0.0 => "without oscillation".to_owned(),
         SystemUnits::None => format!("of angular frequency {}", digits(frequency)),

@@ -42,32 +42,48 @@ pub struct SettledSystem {
     pub response: SystemResponse,
 }
 
+/// How the response of a study is measured.
+///
+/// # Errors
+/// A complaint where nothing oscillates and a time is not given.
+pub(crate) fn plan_of(
+    study: &SystemStudy,
+    request: ResponseRequest,
+) -> Result<ResponsePlan, Failure> {
+    let period = || slowest_period(study, "--settle");
+    Ok(ResponsePlan {
+        row: study.observe(),
+        settle: request.settle.map_or_else(|| Ok(SETTLE_PERIODS * period()?), Ok::<_, Failure>)?,
+        length: request.record.map_or_else(|| Ok(RECORD_PERIODS * period()?), Ok::<_, Failure>)?,
+    })
+}
+
+/// Why a response could not be measured.
+pub(crate) fn refused(study: &SystemStudy, plan: &ResponsePlan, why: ResponseRefused) -> Failure {
+    let record = |allowed: String| Complaint::option("--record", plan.length, allowed).into();
+    match why {
+        ResponseRefused::Immobile(why) => failed("response", why),
+        ResponseRefused::Stopped(stopped) => failed_run("response", study.system(), &stopped),
+        ResponseRefused::TooLong { most } => record(format!(
+            "at most {}, a record with all the samples that are kept",
+            in_units(study.units(), Quantity::Time, most)
+        )),
+        ResponseRefused::TooShort { least } => record(format!(
+            "more than {}, so that the band of slow vibration ends below the dither",
+            in_units(study.units(), Quantity::Time, least)
+        )),
+    }
+}
+
 /// Measures the steady response of a study.
 ///
 /// # Errors
 /// A complaint about the start or the times; [`Failure::Failed`] where the motion cannot be computed or the engine stops.
 pub fn run(study: &SystemStudy, request: ResponseRequest) -> Result<SettledSystem, Failure> {
     has_equations(study, "response")?;
-    let start = start_of(study)?;
-    let period = || slowest_period(study, "--settle");
-    let plan = ResponsePlan {
-        row: study.observe(),
-        settle: request.settle.map_or_else(|| Ok(SETTLE_PERIODS * period()?), Ok::<_, Failure>)?,
-        length: request.record.map_or_else(|| Ok(RECORD_PERIODS * period()?), Ok::<_, Failure>)?,
-    };
-    let refused = |allowed: String| Complaint::option("--record", plan.length, allowed).into();
-    let response = respond_system(study.system(), &start, &plan).map_err(|why| match why {
-        ResponseRefused::Immobile(why) => failed("response", why),
-        ResponseRefused::Stopped(stopped) => failed_run("response", study.system(), &stopped),
-        ResponseRefused::TooLong { most } => refused(format!(
-            "at most {}, a record with all the samples that are kept",
-            in_units(study.units(), Quantity::Time, most)
-        )),
-        ResponseRefused::TooShort { least } => refused(format!(
-            "more than {}, so that the band of slow vibration ends below the dither",
-            in_units(study.units(), Quantity::Time, least)
-        )),
-    })?;
+    let (start, plan) = (start_of(study)?, plan_of(study, request)?);
+    let response = respond_system(study.system(), &start, &plan);
+    let response = response.map_err(|why| refused(study, &plan, why))?;
     Ok(SettledSystem { plan, response })
 }
 
@@ -75,7 +91,7 @@ pub fn run(study: &SystemStudy, request: ResponseRequest) -> Result<SettledSyste
 const UNCHANGED: f64 = 1e-9;
 
 /// Why E is undefined.
-fn undefined(why: Undefined) -> String {
+pub(crate) fn undefined(why: Undefined) -> String {
     match why {
         Undefined::UnditheredUnknown => {
             "the vibration without dither still changes within the record, so there is no steady vibration to compare with: \

@@ -15,6 +15,7 @@ use super::{failed, force, has_equations, not_averaged, oscillating, put_motion,
 use crate::complaint::Failure;
 use crate::contact_state;
 use crate::fields::Fields;
+use crate::noise::few_lines_of_system;
 use crate::range::outside_of_laws;
 use crate::run::stability::{becomes, kind};
 use crate::study::{SystemStudy, SystemUnits};
@@ -98,6 +99,7 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
     warnings.extend(outside_of_laws(system, Some(&average.contacts)));
     warnings.extend(opened(study.units(), system, &average.contacts));
     warnings.extend(not_slow(study, &undithered));
+    warnings.extend(few_lines_of_system(system));
     let lowest = system.acting_frequencies().fold(f64::INFINITY, f64::min);
     let fast: Vec<f64> = average.contacts.iter().map(|contact| contact.slip_amplitude).collect();
     warnings.extend(contact_state::rigid_laws(study, Some((&fast, lowest))));

@@ -61,15 +61,17 @@ pub fn start_of(study: &SystemStudy) -> Result<MotionStart, Failure> {
     let refused = |name: &str, allowed: String| -> Failure {
         Complaint::new(Fault::Value, "system.initial.state", Origin::Whole, name, allowed).into()
     };
+    // Steady sliding and squeal at the beginning are those of the drives, loads and amplitudes there.
+    let first = if system.is_steady() { system.clone() } else { system.steady_at(0.0) };
     let mut state = match study.initial() {
         SystemStart::Rest => vec![0.0; size],
         SystemStart::Values(state) | SystemStart::Described { state, .. } => state.clone(),
-        SystemStart::Sliding => sliding_state(system)
+        SystemStart::Sliding => sliding_state(&first)
             .map_err(|why| refused("sliding", format!("another state: {why}")))?,
         SystemStart::Squealing => {
-            squealing_state(system).map_err(|why| refused("squealing", why))?
+            squealing_state(&first).map_err(|why| refused("squealing", why))?
         }
-        SystemStart::Base => base_state(system).map_err(|why| refused("base", why))?,
+        SystemStart::Base => base_state(&first).map_err(|why| refused("base", why))?,
     };
     // The contacts' own numbers begin at zero.
     state.resize(size, 0.0);

@@ -1,0 +1,313 @@
+//! `bifurcation --ramp`: one run in which a drive, a load or the amplitude of a dither changes slowly, compared with the exact
+//! thresholds of the steady study.
+//!
+//! A run follows the response of the moment with a delay: vibration begins beyond the threshold, by more the faster the ramp, and
+//! where responses coexist it ends at another value than it begins at. The thresholds are those of the base response at constant
+//! values, of a system without dither those of steady sliding, over the values that the ramp passes. Other numbers are those of the
+//! moment of the largest value.
+//!
+//! Belts and systems run in their own engines ([`of_belt`], [`of_system`]); what follows from a run is the same.
+
+mod belt;
+mod system;
+
+use std::fmt::Write as _;
+
+use quell_model::profile::Knots;
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::manoeuvre::{Manoeuvre, SampledMotion, VibrationInterval, vibration_levels};
+use crate::complaint::{Complaint, Fault, Origin};
+use crate::dataset::Dataset;
+use crate::fields::Fields;
+
+pub use belt::of_belt;
+pub use system::of_system;
+
+/// Minimum number of continuation steps over the values of the ramp.
+const STEPS: u32 = 40;
+
+/// Thresholds are searched from this share of the largest value on: there is no sliding at rest.
+const LEAST: f64 = 1e-3;
+
+/// A vibration from the start on counts if it lasts longer than this many natural periods.
+const TRANSIENT: f64 = 2.0;
+
+/// Why no threshold is known on a branch that ends.
+const NOT_COVERED: &str = "the base response does not exist over the whole ramp";
+
+/// What a ramp changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RampCourse {
+    /// Path of the number in the steady study.
+    pub path: String,
+    /// In words.
+    pub words: String,
+    /// Its quantity.
+    pub quantity: Quantity,
+    /// Its course.
+    pub knots: Knots,
+    /// What the values of the course are multiplied by.
+    factor: f64,
+}
+
+impl RampCourse {
+    /// The only thing in a study that varies by knots.
+    ///
+    /// # Errors
+    /// A complaint if nothing varies, several things do, or an oscillation takes part.
+    fn only(mut found: Vec<Self>, oscillates: bool) -> Result<Self, Box<Complaint>> {
+        let count = found.len();
+        match found.pop() {
+            Some(only) if count == 1 && !oscillates && !only.knots.is_constant() => Ok(only),
+            _ => {
+                let allowed = "given for a study in which one drive, load or envelope changes by knots and nothing else varies";
+                let origin = Origin::Argument("--ramp");
+                Err(Box::new(Complaint::new(
+                    Fault::Conflict,
+                    "--ramp",
+                    origin,
+                    Json::Null,
+                    allowed,
+                )))
+            }
+        }
+    }
+
+    /// The value at a time.
+    pub fn value(&self, time: f64) -> f64 {
+        self.factor * self.knots.value(time)
+    }
+
+    /// Least and largest value.
+    pub fn range(&self) -> (f64, f64) {
+        let (least, largest) = self.knots.range();
+        (self.factor * least, self.factor * largest)
+    }
+
+    /// The time of the last knot.
+    fn until(&self) -> f64 {
+        self.knots.times().last().copied().unwrap_or_default()
+    }
+
+    /// The time of the knot with the largest value.
+    fn time_of_largest(&self) -> f64 {
+        let knots = self.knots.times().iter().zip(self.knots.values());
+        knots.max_by(|a, b| a.1.total_cmp(b.1)).map_or(0.0, |(time, _)| *time)
+    }
+
+    /// The values over which thresholds are searched.
+    fn searched(&self) -> Result<(f64, f64), String> {
+        let (least, largest) = self.range();
+        let from = least.max(LEAST * largest);
+        if from >= largest {
+            return Err("the ramp has no positive values".to_owned());
+        }
+        Ok((from, largest))
+    }
+}
+
+/// A moment at which the run begins or ceases to vibrate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RampSwitch {
+    /// Time, found to within half a natural period.
+    pub time: f64,
+    /// The value of the ramp then.
+    pub value: f64,
+    /// Whether vibration ends.
+    pub to_quiet: bool,
+}
+
+/// A value at which the stability of the steady study changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RampThreshold {
+    /// The value of the ramp.
+    pub value: f64,
+    /// Name of the bifurcation.
+    pub kind: &'static str,
+    /// What the response is beyond it.
+    pub becomes: &'static str,
+}
+
+/// The observed motion along a ramp.
+#[derive(Clone, Debug)]
+pub struct RampedMotion {
+    /// Times of equal steps.
+    pub times: Vec<f64>,
+    /// The displacement: of a belt x, of a system its observed row.
+    pub displacement: Vec<f64>,
+    /// The velocity, of a belt.
+    pub velocity: Option<Vec<f64>>,
+    /// The natural period.
+    pub period: f64,
+    /// The period of the slowest dither, whose motion is no vibration.
+    pub fast: Option<f64>,
+}
+
+impl RampedMotion {
+    /// The slow vibration over time.
+    pub(crate) fn levels(&self) -> Vec<(f64, f64)> {
+        let [first, second, ..] = self.times[..] else { return Vec::new() };
+        let displacement = &self.displacement;
+        let sampled = SampledMotion { start: first, step: second - first, displacement };
+        vibration_levels(sampled, self.period, self.fast)
+    }
+}
+
+/// A ramp and the thresholds that it passes.
+#[derive(Clone, Debug)]
+pub struct Ramp {
+    /// What vibrates, in words.
+    pub what: &'static str,
+    /// What changes.
+    pub ramped: RampCourse,
+    /// When the run vibrates.
+    pub manoeuvre: Option<Manoeuvre>,
+    /// Time at the end of the run.
+    pub until: f64,
+    /// The motion.
+    pub motion: RampedMotion,
+    /// When it begins and ceases to vibrate.
+    pub switches: Vec<RampSwitch>,
+    /// Exact thresholds at constant values, ascending, or why they are unknown.
+    pub thresholds: Result<Vec<RampThreshold>, String>,
+    /// Warnings about the run.
+    pub warnings: Vec<String>,
+}
+
+impl Ramp {
+    fn new(
+        what: &'static str,
+        ramped: RampCourse,
+        (manoeuvre, until): (Option<Manoeuvre>, f64),
+        motion: RampedMotion,
+        thresholds: Result<Vec<RampThreshold>, String>,
+        warnings: Vec<String>,
+    ) -> Self {
+        let transient = TRANSIENT * motion.period;
+        let found = manoeuvre.as_ref();
+        let switches = found.map(|found| switches(found, &ramped, transient)).unwrap_or_default();
+        Self { what, ramped, manoeuvre, until, motion, switches, thresholds, warnings }
+    }
+
+    /// The threshold next to a value.
+    pub fn nearest(&self, value: f64) -> Option<&RampThreshold> {
+        let known = self.thresholds.as_ref().ok()?.iter();
+        known.min_by(|a, b| (a.value - value).abs().total_cmp(&(b.value - value).abs()))
+    }
+
+    /// What happens along the ramp, in a few sentences; `in_words` writes a quantity with its unit.
+    pub fn sentence(&self, in_words: impl Fn(Quantity, f64) -> String) -> String {
+        let RampCourse { words, quantity, .. } = &self.ramped;
+        let in_its_unit = |value: f64| in_words(*quantity, value);
+        let (least, largest) = self.ramped.range();
+        let mut text = format!(
+            "While the {words} moves between {} and {} until {}, ",
+            in_its_unit(least),
+            in_its_unit(largest),
+            in_words(Quantity::Time, self.ramped.until())
+        );
+        let transient = TRANSIENT * self.motion.period;
+        let vibrates = self.manoeuvre.as_ref().is_some_and(|found| {
+            found.vibration.iter().any(|interval| interval.to > found.whole.0 + transient)
+        });
+        let each = self.switches.iter().map(|switch| {
+            let becomes = if switch.to_quiet { "ceases" } else { "begins" };
+            let mut text = format!("{becomes} to vibrate at {}", in_its_unit(switch.value));
+            if let Some(threshold) = self.nearest(switch.value) {
+                let _ =
+                    write!(text, " (exact threshold next to it: {})", in_its_unit(threshold.value));
+            }
+            text
+        });
+        let each: Vec<String> = each.collect();
+        let what = self.what;
+        let _ = match (each.as_slice(), vibrates) {
+            ([], true) => write!(text, "{what} vibrates all the time."),
+            ([], false) => write!(text, "{what} does not vibrate."),
+            (some, _) => write!(text, "{what} {}.", some.join(", ")),
+        };
+        if let Err(why) = &self.thresholds {
+            let _ = write!(text, " The exact thresholds are unknown: {why}.");
+        }
+        text
+    }
+
+    /// As JSON; `empty` makes fields in the units of the study.
+    pub fn json(&self, sentence: String, empty: impl Fn() -> Fields) -> Json {
+        let quantity = self.ramped.quantity;
+        let mut fields = empty();
+        let (least, largest) = self.ramped.range();
+        fields
+            .plain("ok", true)
+            .plain("sentence", sentence)
+            .plain("parameter", self.ramped.path.as_str())
+            .number("least", quantity, least)
+            .number("largest", quantity, largest)
+            .number("until", Quantity::Time, self.until);
+        let switches = self.switches.iter().map(|switch| {
+            let mut inner = empty();
+            inner
+                .number("time", Quantity::Time, switch.time)
+                .number("value", quantity, switch.value)
+                .plain("becomes", if switch.to_quiet { "quiet" } else { "vibrating" });
+            let nearest = self.nearest(switch.value).map(|threshold| threshold.value);
+            let why = "no exact threshold is known over the ramp".to_owned();
+            inner.known("threshold", quantity, nearest.ok_or(why));
+            inner
+        });
+        fields.list("switches", switches.collect::<Vec<_>>());
+        match &self.thresholds {
+            Ok(known) => {
+                let each = known.iter().map(|threshold| {
+                    let mut inner = empty();
+                    inner
+                        .number("value", quantity, threshold.value)
+                        .plain("kind", threshold.kind)
+                        .plain("becomes", threshold.becomes);
+                    inner
+                });
+                fields.list("thresholds", each.collect::<Vec<_>>());
+            }
+            Err(why) => {
+                fields.unknown("thresholds", why.as_str());
+            }
+        }
+        if let Some(found) = &self.manoeuvre {
+            fields.nested("manoeuvre", found.fields(&empty));
+        }
+        fields.plain("warnings", self.warnings.clone());
+        fields.finish()
+    }
+
+    /// Adds the value of the ramp and the motion over time to a dataset.
+    pub fn columns(&self, dataset: Dataset, sentence: String) -> Dataset {
+        let RampedMotion { times, displacement, velocity, .. } = &self.motion;
+        let values = times.iter().map(|time| self.ramped.value(*time)).collect();
+        let dataset = dataset
+            .fact(sentence)
+            .axis("time", Quantity::Time, times.clone())
+            .array("value", self.ramped.quantity, values)
+            .array("displacement", Quantity::Displacement, displacement.clone());
+        match velocity {
+            Some(velocity) => dataset.array("velocity", Quantity::Velocity, velocity.clone()),
+            None => dataset,
+        }
+    }
+}
+
+/// When a run begins and ceases to vibrate. A vibration that the start itself excites, and that has decayed within a time
+/// `transient`, is no part of the ramp.
+fn switches(found: &Manoeuvre, ramped: &RampCourse, transient: f64) -> Vec<RampSwitch> {
+    let (begin, end) = found.whole;
+    let is_transient =
+        |interval: &&VibrationInterval| interval.from <= begin && interval.to <= begin + transient;
+    let switch = |time: f64, to_quiet| RampSwitch { time, value: ramped.value(time), to_quiet };
+    let of = |interval: &VibrationInterval| {
+        let begins = (interval.from > begin).then(|| switch(interval.from, false));
+        let ends = (interval.to < end).then(|| switch(interval.to, true));
+        [begins, ends].into_iter().flatten().collect::<Vec<_>>()
+    };
+    found.vibration.iter().filter(|interval| !is_transient(interval)).flat_map(of).collect()
+}
