@@ -132,6 +132,10 @@ fn seeds_are_those_of_noise() {
     assert_eq!(errors[0]["key"], "--seeds");
     let errors = place.refused(&["response", "noise.toml", "--seeds", "0"]);
     assert_eq!(errors[0]["key"], "--seeds");
-    let errors = place.refused(&["response", "system.toml", "--seeds", "3"]);
-    assert_eq!(errors[0]["key"], "dither.waveform");
+    let errors = place.refused(&["response", "noise.toml", "--seeds", "2", "--settle", "50"]);
+    assert_eq!(errors[0]["key"], "--settle");
+    let times = ["--settle", "50", "--record", "60"];
+    let found = place.good(&[&["response", "system.toml", "--seeds", "2"], &times[..]].concat());
+    assert_eq!((found["runs"].as_u64(), found["record_length"].as_f64()), (Some(2), Some(60.0)));
+    assert_eq!(found["contacts"][0]["stick_fraction"].as_array().map(Vec::len), Some(2));
 }

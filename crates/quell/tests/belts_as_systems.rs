@@ -136,7 +136,9 @@ fn the_slow_vibration_of_two_masses() {
     let times = ResponseRequest { settle: Some(1500.0), record: Some(600.0) };
     let exact = answer(&study, |verbs| verbs.response_after(times));
     close(number(&found["limit_cycle_amplitude"]), number(&exact["amplitude"]), 0.05, "amplitude");
-    let line = &exact["peaks"].as_array().expect("peaks")[0];
+    let size = |line: &Json| number(&line["amplitude"]);
+    let peaks = exact["peaks"].as_array().expect("peaks").iter();
+    let line = peaks.max_by(|a, b| size(a).total_cmp(&size(b))).expect("a line");
     close(number(&found["limit_cycle_frequency"]), number(&line["frequency"]), 0.01, "frequency");
     // Friction at the second mass too: an amplitude of its own there.
     let two = text.replace(
@@ -259,7 +261,7 @@ fn a_ramp() {
 fn ramps_of_loads_and_amplitudes() {
     let base = |contact: &str, dither: &str| {
         format!(
-            "[system]\ncoordinates = [\"x\"]\nmass = [1.0]\ndamping = [0.03]\nstiffness = [1.0]\n[system.initial]\nvalues = [0.05, 0.0]\n\
+            "[system]\ncoordinates = [\"x\"]\nmass = [1.0]\ndamping = [0.03]\nstiffness = [1.0]\n\
              [[contact]]\nname = \"pad\"\ntangent = {{ x = 1.0 }}\nbelt_velocity = 0.1\n{contact}[contact.friction]\n{LAW}{dither}"
         )
     };
