@@ -272,6 +272,35 @@ class CitationsColumns:
     source_reference: npt.NDArray[np.str_]
 
 
+class ContactFrictionColumns:
+    """Of :class:`quell.results.ContactFriction`."""
+
+    coefficient: npt.NDArray[np.float64]
+    contact: npt.NDArray[np.float64]
+    contact_fast_velocity: npt.NDArray[np.float64]
+    contact_fast_velocity_m_per_s: npt.NDArray[np.float64]
+    contact_name: npt.NDArray[np.str_]
+    contact_surface_velocity: npt.NDArray[np.float64]
+    contact_surface_velocity_m_per_s: npt.NDArray[np.float64]
+    effective_coefficient: npt.NDArray[np.float64]
+    effective_slope: npt.NDArray[np.float64]
+    row: npt.NDArray[np.float64]
+    slip_velocity: npt.NDArray[np.float64]
+
+
+class ContactGainsColumns:
+    """Of :class:`quell.results.ContactGains`."""
+
+    gain: npt.NDArray[np.float64]
+    limit_cycle_amplitude_m: float | None
+    limit_cycle_frequency_hz: float | None
+    limit_cycle_velocity_m_per_s: float | None
+    mean_coefficient: npt.NDArray[np.float64]
+    row: npt.NDArray[np.float64]
+    undithered_gain: npt.NDArray[np.float64]
+    velocity_amplitude: npt.NDArray[np.float64]
+
+
 class DescribingFunctionColumns:
     """Of :class:`quell.results.DescribingFunction`."""
 
