@@ -416,13 +416,26 @@ impl Belt {
                 }
             }
         }
-        let (drive, load) = (next.drive, next.load);
+        next.valid()
+    }
+
+    /// The same belt with other dithers.
+    ///
+    /// # Errors
+    /// As [`Belt::new`].
+    pub fn dithered_by(&self, dithers: Vec<Dither>) -> Result<Self, InvalidValues> {
+        Self { dithers, ..self.clone() }.valid()
+    }
+
+    /// The belt of these numbers, if they form one.
+    fn valid(self) -> Result<Self, InvalidValues> {
+        let (drive, load, stiffness) = (self.drive, self.load, self.tangential_stiffness);
         let belt = Self::new(
-            next.damping_ratio,
-            next.normal_load,
-            next.belt_velocity,
-            next.friction,
-            next.dithers,
+            self.damping_ratio,
+            self.normal_load,
+            self.belt_velocity,
+            self.friction,
+            self.dithers,
         )?;
         let belt = match drive {
             Some(drive) => belt.driven(drive)?,
@@ -432,8 +445,7 @@ impl Belt {
             Some(load) => belt.loaded(load)?,
             None => belt,
         };
-        let belt = belt.with_tangential_stiffness(next.tangential_stiffness)?;
-        Ok(belt.in_si(self.scales))
+        Ok(belt.with_tangential_stiffness(stiffness)?.in_si(self.scales))
     }
 
     /// Path of a parameter of dither `index`, as the study file names it.

@@ -517,3 +517,129 @@ def test_the_command_prints_its_address_and_refuses_what_is_no_study(tmp_path: P
     assert "http://127.0.0.1:" in running.stdout.readline()
     running.send_signal(2)
     assert running.wait(30) == 0
+
+
+# What varies in time, waveforms and contacts with a state.
+
+PROFILES = {
+    "belt": """[belt]
+damping_ratio = 0.01
+[belt.drive]
+time = [0.0, 40.0, 90.0]
+velocity = [0.3, 0.3, 0.02]
+[belt.load]
+time = [0.0, 50.0]
+load = [1.0, 1.5]
+shape = "smooth"
+[friction]
+law = "stribeck"
+static_coefficient = 0.4
+minimum_coefficient = 0.2857
+reference_velocity = 0.2
+[dither]
+direction = "tangential"
+waveform = "sine"
+amplitude = 0.8
+frequency_ratio = 10.0
+[dither.envelope]
+time = [0.0, 60.0]
+share = [0.0, 1.0]
+""",
+    "system": """[system]
+coordinates = ["x"]
+mass = [1.0]
+damping = [[0.02]]
+stiffness = [[1.0]]
+[[contact]]
+name = "pad"
+tangent = { x = 1.0 }
+normal_load = 1.0
+[contact.drive]
+time = [0.0, 40.0]
+velocity = [0.3, 0.1]
+[contact.friction]
+law = "coulomb"
+coefficient = 0.3
+[[dither]]
+at = { x = 1.0 }
+waveform = "sine"
+amplitude = 0.8
+frequency = 10.0
+""",
+}
+
+
+@pytest.mark.parametrize("kind", list(PROFILES))
+def test_knots_have_sliders_between_their_neighbours(kind: str) -> None:
+    state = _state.State(quell.Study.from_text(PROFILES[kind]), _state.Source("text"))
+    found = {it.path: it for it in _numbers.knobs(state.study)}
+    drive = "belt.drive" if kind == "belt" else "contact[0].drive"
+    time_, velocity = found[f"{drive}.time[1]"], found[f"{drive}.velocity[1]"]
+    assert time_.group == velocity.group and time_.group.endswith("drive") and velocity.label.startswith("velocity 2")
+    assert time_.start == 0.0 and time_.stop > 40.0 and velocity.start == 0.0 and velocity.stop == pytest.approx(0.45)
+    if kind == "belt":
+        assert time_.stop == 90.0 and found["dither.envelope.share[1]"].stop == 1.0
+        assert found["belt.load.load[1]"].start > 0.0 and found["belt.load.load[1]"].group == "belt load"
+    before = _answers.trajectory(state.study, None)
+    assert before["time"][-1] >= (90.0 if kind == "belt" else 40.0)
+    assert state.set({f"{drive}.velocity[1]": 0.2}), state.complaints
+    after = _answers.trajectory(state.study, None)
+    assert not np.array_equal(before["x"], after["x"])
+    assert not state.set({f"{drive}.time[1]": -5.0}) and "time does not go back" in state.complaints[0]
+
+
+@pytest.mark.parametrize("kind", list(PROFILES))
+def test_questions_about_a_steady_study_are_answered_for_a_moment(kind: str) -> None:
+    study = quell.Study.from_text(PROFILES[kind])
+    averaged = _answers.averaged(study)
+    assert averaged["sentence"].startswith("At time ") and averaged["verdict"] in ("stable", "unstable")
+    at = 60.0 if kind == "belt" else 0.0
+    assert averaged["growth"] == study.at_time(at).stability().facts["growth_rate"]
+    assert _answers.response(study)["sentence"].startswith("At time ")
+
+
+STATES = {
+    "slider": ('tangential_stiffness = 30.0\n', 'law = "coulomb"\ncoefficient = 0.3\n'),
+    "lugre": (
+        "",
+        'law = "lugre"\ncoefficient = 0.25\nstatic_coefficient = 0.4\nreference_velocity = 0.2\nbristle_stiffness = 60.0\nbristle_damping = 0.1\n',
+    ),
+}
+
+
+def with_state(kind: str, name: str) -> quell.Study:
+    contact, law = STATES[name]
+    if kind == "belt":
+        return quell.Study.from_text(
+            f"[belt]\ndamping_ratio = 0.01\nnormal_load = 1.0\nbelt_velocity = 0.1\n{contact}[friction]\n{law}"
+            '[dither]\ndirection = "tangential"\nwaveform = "sine"\namplitude = 0.8\nfrequency_ratio = 10.0\n[solver]\nsettle = 60\nrecord_periods = 8\n'
+        )
+    steady = PROFILES["system"].replace("[contact.drive]\ntime = [0.0, 40.0]\nvelocity = [0.3, 0.1]\n", f"belt_velocity = 0.1\n{contact}")
+    return quell.Study.from_text(steady.replace('law = "coulomb"\ncoefficient = 0.3\n', law))
+
+
+@pytest.mark.parametrize("name", list(STATES))
+@pytest.mark.parametrize("kind", ["belt", "system"])
+def test_contacts_with_a_state_open_change_and_draw(kind: str, name: str) -> None:
+    state = _state.State(with_state(kind, name), _state.Source("text"))
+    found = {it.path: it for it in _numbers.knobs(state.study)}
+    path = next(it for it in found if it.endswith("tangential_stiffness" if name == "slider" else "bristle_stiffness"))
+    averaged = _answers.averaged(state.study)
+    assert averaged["laws"] and averaged["laws"][0]["velocity"].size > 10 and averaged["warnings"]
+    before = _answers.trajectory(state.study, None)
+    assert state.set({path: found[path].grid()[-1]}), state.complaints
+    after = _answers.trajectory(state.study, None)
+    assert not np.array_equal(before["x"], after["x"])
+    assert _answers.response(state.study)["sentence"]
+    amplitude, velocity = ("dither.amplitude", "belt.belt_velocity") if kind == "belt" else ("dither[0].amplitude", "contact[0].belt_velocity")
+    plane = _maps.plane(state.study, (velocity, 0.05, 0.2, False), (amplitude, 0.1, 2.0, False))
+    assert np.isfinite(plane["growth"]).any()
+    assert ("tangential-spring" if name == "slider" else "bristles") in state.study.sketch()
+
+
+@pytest.mark.parametrize("waveform", ["fourier", "samples", "burst", "noise"])
+def test_every_waveform_is_drawn(waveform: str) -> None:
+    state = _state.State(of("stribeck-belt.toml"), _state.Source("text"))
+    assert state.set({"dither.waveform": waveform}), state.complaints
+    assert _answers.averaged(state.study)["laws"][0]["velocity"].size > 10
+    assert np.ptp(_answers.trajectory(state.study, None)["x"]) > 0.0

@@ -61,13 +61,21 @@ impl BeltExt for Belt {
     fn scaled(&self, factor: f64) -> Self {
         let longer =
             |dither: &Dither| Dither { amplitude: factor * dither.amplitude, ..dither.clone() };
-        valid(Self::new(
+        let mut belt = valid(Self::new(
             self.damping_ratio(),
             factor * self.normal_load(),
             factor * self.belt_velocity(),
             law::scaled(self.friction(), factor),
             self.dithers().iter().map(longer).collect(),
-        ))
+        ));
+        if let Some(drive) = self.drive() {
+            belt = valid(belt.driven(drive.scaled(factor)));
+        }
+        if let Some(load) = self.load() {
+            belt = valid(belt.loaded(load.scaled(factor)));
+        }
+        // k_t/k is a ratio.
+        valid(belt.with_tangential_stiffness(self.tangential_stiffness()))
     }
 }
 

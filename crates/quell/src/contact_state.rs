@@ -1,6 +1,7 @@
 //! Contacts with a state of their own and noise, in every verb: refusals, and warnings where the law without its state is not a good
 //! model.
 
+use quell_linear::averaging::DitheredContact;
 use quell_model::{Belt, Contact, Direction, Friction, System};
 use serde_json::Value as Json;
 
@@ -12,23 +13,12 @@ use crate::words::digits;
 /// its error is about the reciprocal.
 const LARGE: f64 = 30.0;
 
-/// Verbs of systems that do not know the state of a contact.
-const WITHOUT_STATES: &[&str] = &["map", "design"];
-
 /// Verbs of belts that know the state of a contact; `simulate` and `friction` ask nothing here.
-const OF_BELTS_WITH_STATES: &[&str] = &["response"];
+const OF_BELTS_WITH_STATES: &[&str] = &["response", "waveforms", "design", "map"];
 
 /// Verbs of systems about motions that repeat.
 const OF_PERIODIC_DITHER: &[&str] =
     &["orbit", "attractor", "thresholds", "bifurcation", "basins", "design", "stability --exact"];
-
-/// The path and the name of what gives a contact its state.
-fn cause(contact: &Contact, prefix: &str) -> (String, String) {
-    match contact.friction.bristles() {
-        Some(_) => (format!("{prefix}.friction.law"), contact.friction.kind().name().to_owned()),
-        None => (format!("{prefix}.tangential_stiffness"), "an elastic slider".to_owned()),
-    }
-}
 
 /// Rejects a verb on a belt whose contact has a state of its own, or, except for averages, whose dither is noise.
 ///
@@ -57,35 +47,22 @@ pub(crate) fn complaint_of_belt(belt: &Belt, verb: &str) -> Option<Complaint> {
     };
     let allowed = format!(
         "a rigid contact with a law of the slip velocity alone for `{verb}`; `simulate`, `response`, `friction`, `orbit`, \
-         `attractor`, `thresholds`, `bifurcation` and `basins` know contacts with a state of their own"
+         `attractor`, `thresholds`, `bifurcation`, `basins`, `waveforms`, `design` and `map` know contacts with a state of their own"
     );
     Some(Complaint::new(Fault::Conflict, key, Origin::Whole, value, allowed))
 }
 
-/// Rejects a verb on a system with a contact whose state it does not know.
+/// Rejects a verb about motions that repeat on a system under noise.
 ///
 /// # Errors
-/// A complaint about the key that gives the contact its state.
+/// A complaint about the key of the waveform.
 pub(crate) fn refused_of_system(study: &SystemStudy, verb: &str) -> Result<(), Failure> {
     if OF_PERIODIC_DITHER.contains(&verb)
         && let Some(key) = Study::from(study).noise()
     {
         return Err(not_periodic(verb, key).into());
     }
-    complaint_of_system(study.system(), verb).map_or(Ok(()), |complaint| Err(complaint.into()))
-}
-
-/// The complaint of a verb about a contact whose state it does not know; `None` where it knows all.
-pub(crate) fn complaint_of_system(system: &System, verb: &str) -> Option<Complaint> {
-    let contacts = &system.contacts;
-    let is_unknown = |contact: &Contact| WITHOUT_STATES.contains(&verb) && contact.has_state();
-    let index = contacts.iter().position(is_unknown)?;
-    let (key, value) = cause(&contacts[index], &format!("contact.{}", contacts[index].name));
-    let allowed = format!(
-        "a rigid contact with a law of the slip velocity alone for `{verb}`; `simulate`, `response`, `orbit`, `attractor`, `thresholds`, \
-         `bifurcation` and `basins` know contacts with a state of their own"
-    );
-    Some(Complaint::new(Fault::Conflict, key, Origin::Whole, value, allowed))
+    Ok(())
 }
 
 /// A warning where the bristles of a law supply energy.
@@ -166,9 +143,9 @@ fn slider_follows(ratio: f64, of: &str) -> String {
 
 /// Warnings where the averages and the small motions of the contacts of a system differ from those of the laws without their states.
 /// `fast` has the amplitude of the fast slip velocity of each contact, and the lowest frequency of the dither.
-pub(crate) fn rigid_laws(study: &SystemStudy, fast: Option<(&[f64], f64)>) -> Vec<String> {
-    let mut warnings = passivity_of_system(study);
-    for (index, contact) in study.system().contacts.iter().enumerate() {
+pub(crate) fn without_states(system: &System, fast: Option<(&[f64], f64)>) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (index, contact) in system.contacts.iter().enumerate() {
         let of = format!(" of contact {}", contact.name);
         let displacement = fast.map_or(0.0, |(slip, frequency)| {
             slip.get(index).map_or(0.0, |amplitude| amplitude / frequency)
@@ -179,7 +156,7 @@ pub(crate) fn rigid_laws(study: &SystemStudy, fast: Option<(&[f64], f64)>) -> Ve
             if displacement > 0.0 && ratio < LARGE {
                 warnings.push(bristles_follow(ratio, &of));
             }
-            if !study.system().inputs.is_empty() {
+            if !system.inputs.is_empty() {
                 warnings.push(small_motions(&of));
             }
         } else if let Some(stiffness) = contact.tangential_stiffness {
@@ -190,6 +167,32 @@ pub(crate) fn rigid_laws(study: &SystemStudy, fast: Option<(&[f64], f64)>) -> Ve
         }
     }
     warnings
+}
+
+/// The warnings of [`without_states`] about averages of a system under its dither.
+pub(crate) fn averaged_without_states(
+    system: &System,
+    contacts: &[DitheredContact],
+) -> Vec<String> {
+    if !system.contacts.iter().any(Contact::has_state) {
+        return Vec::new();
+    }
+    let lowest = system.acting_frequencies().fold(f64::INFINITY, f64::min);
+    let fast: Vec<f64> = contacts.iter().map(|contact| contact.slip_amplitude).collect();
+    without_states(system, Some((&fast, lowest)))
+}
+
+/// Whether an average of the law of a belt without its state differs from that of its contact, or the small motions about it do.
+pub(crate) fn differs_from_rigid(belt: &Belt) -> bool {
+    belt.friction().bristles().is_some() || rigid_average(belt, belt.belt_velocity()).is_some()
+}
+
+/// The warning that averages are a start alone, where the exact answers next to them know the state of the contact.
+pub(crate) fn averages_are_a_start(because: &str) -> String {
+    format!(
+        "averaged amplitudes are those of the law without the state of its contact, from which the exact ones, which know it, are \
+         sought: {because}"
+    )
 }
 
 /// The warning about small motions of bristles.

@@ -163,6 +163,7 @@ pub mod outcome;
 pub mod output;
 pub mod picture;
 mod range;
+mod removed_mean;
 pub mod report;
 pub mod run;
 pub mod sound;

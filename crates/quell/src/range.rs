@@ -93,6 +93,11 @@ impl SlipMet {
         self.add(belt, slip.speed);
     }
 
+    /// The largest slip speed of the runs that leave the range of the law, if any.
+    pub(crate) fn largest_beyond(&self) -> Option<f64> {
+        self.worst.map(|(speed, _)| speed)
+    }
+
     /// The warning, if a run leaves the range.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let Some((speed, range)) = self.worst else { return Vec::new() };

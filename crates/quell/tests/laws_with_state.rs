@@ -85,6 +85,33 @@ fn a_load_that_oscillates_lowers_friction_by_popovs_function() {
     }
 }
 
+/// The mean force of bristles under v = V + a cos θ at V/a = 0.1 with μ_c = μ_s = 1, for Π = σ₀a/(F_c ω). For Π → ∞ it is that of the
+/// rigid law, (2/π) asin(V/a); for Π → 0 the bristles keep their deflection, V/⟨|v|⟩.
+#[test]
+fn bristles_between_their_limits() {
+    let reference = reference();
+    let of = |pi: f64| {
+        let study = text(&rows(&reference, "lugre")[2]["study"]);
+        let study = study.replace("bristle_damping = 0.5", "bristle_damping = 0.0");
+        let study = belt(&study.replace(
+            "bristle_stiffness = 100.0",
+            &format!("bristle_stiffness = {:?}", 100.0 * pi),
+        ));
+        let found = friction::run(&study, &[0.01]);
+        found.points[0].effective.as_ref().expect("a mean").coefficient
+    };
+    // The errors of the limits are of the order of 1/Π² and Π²; the others are half a unit of the last digit that is known.
+    for (pi, mean, error) in [
+        (300.0, 0.063_768_6, 2e-4),
+        (10.0, 0.066_115_0, 5e-8),
+        (1.0, 0.122_328, 5e-7),
+        (0.01, 0.156_297, 1e-5),
+    ] {
+        let found = of(pi);
+        assert!((found - mean).abs() < error, "Π = {pi}: {found} {mean}");
+    }
+}
+
 #[test]
 fn belts_move_as_independent_integrators_find() {
     let reference = reference();
@@ -169,6 +196,10 @@ fn a_box_pulled_by_a_spring_has_the_published_stick_slip_period() {
     let after = |first: &f64| times.iter().any(|time| (time - first - period).abs() < 1e-6);
     assert!(times.iter().any(after), "{times:?} and the period {period}");
     assert!(warnings(&json).contains("not passive"), "{}", warnings(&json));
+    // The largest spring force, 2x.
+    let end = verbs(&Study::from(&study)).attractor(&AttractorRequest::default());
+    let highest = number(&end.expect("an end").json()["attractor"]["highest"]);
+    assert!((2.0 * highest - 1.507_987_833_6).abs() < 1e-8, "{highest}");
 }
 
 #[test]
@@ -187,10 +218,10 @@ fn averaged_verbs_warn_where_the_rigid_law_does_not_hold() {
 }
 
 #[test]
-fn verbs_of_averages_refuse_a_contact_with_a_state_by_name() {
+fn verbs_that_do_not_know_the_state_refuse_it_by_name() {
     let reference = reference();
     let study = belt(text(&rows(&reference, "elastic_slider")[0]["study"]));
-    let refused = verbs(&study.into()).waveforms().err().expect("no waveforms");
+    let refused = verbs(&study.into()).describing(1.0).err().expect("no describing function");
     let refused = refused.json().to_string();
     assert!(refused.contains("belt.tangential_stiffness"), "{refused}");
     let both = text(&rows(&reference, "lugre")[0]["study"])

@@ -288,3 +288,59 @@ fn names_of_a_study_are_escaped() {
         svg.contains("contact &lt;script&gt;&amp;") && svg.contains("<title>&lt;b&gt;</title>")
     );
 }
+
+/// Keys of a contact with a state, and the class of the part that shows it.
+const STATES: [(&str, &str, &str); 2] = [
+    (
+        "tangential_stiffness = 30.0\n",
+        "law = \"coulomb\"\ncoefficient = 0.3\n",
+        "tangential-spring",
+    ),
+    (
+        "",
+        "law = \"lugre\"\ncoefficient = 0.3\nstatic_coefficient = 0.4\nreference_velocity = 0.1\nbristle_stiffness = 100.0\n",
+        "bristles",
+    ),
+];
+
+#[test]
+fn contacts_with_a_state_show_their_spring_or_their_bristles() {
+    for (contact, law, class) in STATES {
+        let belt = format!(
+            "[belt]\ndamping_ratio = 0.01\nnormal_load = 1\nbelt_velocity = 0.1\n{contact}[friction]\n{law}\
+             [[dither]]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = 1\nfrequency_ratio = 9\n\
+             [[dither]]\ndirection = \"normal\"\nwaveform = \"sine\"\namplitude = 0.5\nfrequency_ratio = 9\n"
+        );
+        let pad = |name: &str, row: &str| {
+            format!(
+                "[[contact]]\nname = \"{name}\"\ntangent = {{ {row} = 1 }}\nnormal_load = 1\nbelt_velocity = 0.1\n{contact}\
+                 [contact.friction]\n{law}"
+            )
+        };
+        let system = format!(
+            "[system]\ncoordinates = [\"x\", \"y\"]\nmass = [1, 1]\ndamping = [0.1, 0.1]\nstiffness = [[2, -1], [-1, 2]]\n\
+             {}{}[[dither]]\ncontact = \"left\"\ndirection = \"normal\"\nwaveform = \"sine\"\namplitude = 0.5\nfrequency = 9\n\
+             [dither.envelope]\ntime = [0, 9]\nshare = [0, 1]\n",
+            pad("left", "x"),
+            pad("right", "y")
+        );
+        for (text, count) in [(belt, 1), (system, 2)] {
+            for width in [80.0, 85.0, 120.0, 180.0] {
+                let sketch = drawn(&parse(&text), width);
+                assert_eq!(names(&sketch, class).len(), count, "{text}");
+                assert_eq!(
+                    sketch.collisions(),
+                    Vec::<String>::new(),
+                    "{class} at {width} mm: {text}"
+                );
+            }
+            let key = format!("{:?}", drawn(&parse(&text), 85.0).key);
+            let symbol = if contact.is_empty() { "σ₀" } else { "k_" };
+            assert!(key.contains(symbol) && (count == 1 || key.contains("envelope")), "{key}");
+            let rigid = text.replace(contact, "");
+            if !contact.is_empty() {
+                assert!(names(&drawn(&parse(&rigid), 85.0), class).is_empty());
+            }
+        }
+    }
+}

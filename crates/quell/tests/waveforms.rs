@@ -5,8 +5,11 @@
 use quell::Study;
 use quell::kind::verbs;
 use quell::run::orbit::Wanted;
+use quell::run::thresholds::ThresholdsRequest;
 use quell::run::{friction, simulate, waveforms};
 use quell::study::BeltStudy;
+use quell::sweep::{MapQuantity, Plan};
+use quell_dynamics::orbit::threshold::local;
 use quell_linear::averaging::{
     AveragingOptions, Becomes, CrossingKind, FastResponse, critical_amplitudes,
 };
@@ -111,6 +114,73 @@ fn a_burst_without_pause_is_its_carrier() {
     }
 }
 
+/// Without a pause a burst gives the answers of its carrier bit for bit: of belts, systems and discs.
+#[test]
+fn a_burst_without_pause_has_the_answers_of_its_carrier() {
+    const DISC: &str = "[disc]\ninner_radius_ratio = 0.5\nmodal_damping = 0.001\n[disc.load]\nradius_ratio = 0.75\nmass = 0.1\n\
+         friction = 0.2\nspeed = 0.4\n[dither]\ndirection = \"normal\"\namplitude = 0.6\nfrequency_ratio = 2.7\n";
+    for carrier in ["sine", "triangle", "square"] {
+        let burst = format!("waveform = \"burst\"\ncarrier = \"{carrier}\"\non = 3\noff = 0\n");
+        let named = format!("waveform = \"{carrier}\"\n");
+        let sweep = "[[sweep]]\nparameter = \"dither.amplitude\"\nvalues = [0.3, 0.5]\n";
+        let belts =
+            [&burst, &named].map(|keys| Study::from(&study(&(with("tangential", keys) + sweep))));
+        let systems = [&burst, &named]
+            .map(|keys| Study::parse(&format!("{SYSTEM}{keys}"), &[]).expect("a system"));
+        let discs = [&burst, &named]
+            .map(|keys| Study::parse(&format!("{DISC}{keys}"), &[]).expect("a disc"));
+        let runs = belts.each_ref().map(|study| {
+            let study = study.belt().expect("a belt");
+            simulate::run(
+                &study,
+                60.0,
+                simulate::Options { events: true, ..simulate::Options::default() },
+            )
+            .expect("a run")
+            .json(&study)
+        });
+        assert_eq!(runs[0], runs[1], "{carrier}");
+        let answers = |of: &Study| {
+            let verbs = verbs(of);
+            let replies = [
+                verbs.response(),
+                verbs.stability(),
+                verbs.orbit(Wanted::OfSliding { periods: 1 }),
+            ];
+            replies.map(|reply| {
+                reply.map_or_else(|why| why.to_string(), |found| found.json().to_string())
+            })
+        };
+        for pair in [&belts, &systems, &discs] {
+            assert_eq!(answers(&pair[0]), answers(&pair[1]), "{carrier}");
+        }
+        let request = ThresholdsRequest {
+            parameter: "dither.amplitude".to_owned(),
+            from: 0.2,
+            to: 1.4,
+            protocols: Vec::new(),
+            ramp: 0.0,
+        };
+        let thresholds = belts
+            .each_ref()
+            .map(|study| verbs(study).thresholds(request.clone()).expect("thresholds").json());
+        assert_eq!(thresholds[0], thresholds[1], "{carrier}");
+        let maps = belts.each_ref().map(|study| {
+            let asked = MapQuantity::named("efficiency", "--quantity").expect("a quantity");
+            let plan = Plan::new(study, &[asked]).expect("a plan");
+            let points = plan.compute_points(0..plan.grid().len());
+            points.iter().map(|array| format!("{array:?}")).collect::<Vec<_>>()
+        });
+        assert_eq!(maps[0], maps[1], "{carrier}");
+    }
+}
+
+/// A system of one mass.
+const SYSTEM: &str = "[system]\ncoordinates = [\"x\"]\nmass = [1]\ndamping = [[0.02]]\nstiffness = [[1]]\n[[contact]]\nname = \"pad\"\n\
+     tangent = { x = 1 }\nnormal_load = 1\nbelt_velocity = 0.1\n[contact.friction]\nlaw = \"stribeck\"\n\
+     static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n\
+     [[dither]]\nat = { x = 1 }\namplitude = 0.5\nfrequency = 10\n";
+
 /// A sum of one harmonic is a sine of another amplitude and frequency, under both kinds of averaging.
 #[test]
 fn one_harmonic_is_a_sine() {
@@ -156,6 +226,27 @@ fn held_samples_of_a_sine_are_nearly_a_sine() {
     assert_eq!(held.len(), sine.len());
     for (held, sine) in held.iter().zip(&sine) {
         assert!((held.amplitude_ratio / sine.amplitude_ratio - 1.0).abs() < 1e-5, "{held:?}");
+    }
+}
+
+/// 1000 samples of a sine that are held have the exact threshold of the base response under the sine: the first harmonic of the steps is
+/// smaller by sinc(π/1000), 1.6·10⁻⁶.
+#[test]
+fn held_samples_of_a_sine_have_its_exact_threshold() {
+    let values: Vec<String> = (0..1000)
+        .map(|k| format!("{:?}", (std::f64::consts::TAU * (f64::from(k) + 0.5) / 1000.0).sin()))
+        .collect();
+    let keys = format!("waveform = \"samples\"\nhold = \"zero\"\nvalues = [{}]", values.join(", "));
+    let [held, sine] = [keys.as_str(), "waveform = \"sine\""].map(|keys| {
+        let belt = study(&with("tangential", keys));
+        let found = local(belt.belt(), "dither.amplitude", 0.9, 1.3, 8).expect("a branch");
+        found.thresholds.iter().map(|threshold| threshold.value).collect::<Vec<f64>>()
+    });
+    assert!(!sine.is_empty());
+    assert_eq!(held.len(), sine.len(), "{held:?} {sine:?}");
+    for (held, sine) in held.iter().zip(&sine) {
+        assert!((held / sine - 1.0).abs() < 1e-5, "{held} {sine}");
+        assert!(held != sine);
     }
 }
 

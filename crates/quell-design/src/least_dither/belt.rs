@@ -11,7 +11,7 @@ use quell_linear::averaging::{
 };
 use quell_linear::driven_point::DrivenPoint;
 use quell_linear::linear_cost::linear_cost;
-use quell_model::{Belt, Direction};
+use quell_model::{Belt, Direction, Parametrisation, System};
 
 use super::quiet::AveragedChange;
 use super::{DesignStart, DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
@@ -61,6 +61,14 @@ impl BeltPlant {
 
     fn dithered(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<Belt, String> {
         self.at(at)?.with(&self.path(), amplitude).map_err(|why| why.to_string())
+    }
+
+    /// The belt as a system at a point with an amplitude.
+    ///
+    /// # Errors
+    /// Why it is no valid belt.
+    pub fn system(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<System, String> {
+        self.dithered(at, amplitude).map(|belt| belt.system())
     }
 
     /// The initial state of the runs that must end quiet; `None` where there is nothing to quench.

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use quell_model::disc::DiscDither;
+use quell_model::parameter::{Parameter, TANGENTIAL_STIFFNESS};
 use quell_model::units::Quantity;
 use quell_model::{Direction, Waveform};
 
@@ -35,6 +36,10 @@ pub(super) fn caption(study: &BeltStudy) -> String {
     });
     for (parameter, value) in law.parameters().iter().zip(belt.friction().values()) {
         parts.push(format!("${}$ = {}", parameter.symbol, words(study, parameter.quantity, value)));
+    }
+    if let Some(stiffness) = belt.tangential_stiffness() {
+        let Parameter { symbol, quantity, .. } = TANGENTIAL_STIFFNESS;
+        parts.push(format!("${symbol}$ = {}", words(study, quantity, stiffness)));
     }
     for dither in belt.dithers() {
         let letter = match dither.direction {

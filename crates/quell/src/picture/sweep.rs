@@ -133,7 +133,10 @@ fn doubtful(done: &FinishedMap, states: &[Status]) -> Vec<Layer> {
             Layer::from(crosses.label(status.about()))
         })
     };
-    [Status::BeyondRange, Status::Opens].into_iter().filter_map(marks).collect()
+    [Status::BeyondRange, Status::Opens, Status::WithoutState]
+        .into_iter()
+        .filter_map(marks)
+        .collect()
 }
 
 /// The stability boundaries by averaging as lines, in the plane as it is drawn: the first axis to the right.

@@ -9,6 +9,7 @@ use crate::contact_state::passivity;
 use crate::fields::Fields;
 use crate::noise;
 use crate::range;
+use crate::removed_mean;
 use crate::study::BeltStudy;
 
 /// The answer for a valid study.
@@ -85,7 +86,9 @@ impl Check<'_> {
         });
         fields.list("sweeps", axes.collect::<Vec<_>>());
         let warnings = range::averaged(study).into_iter().chain(passivity(study.belt()));
+        let waveforms = belt.dithers().iter().map(|dither| &dither.waveform);
         let warnings = warnings.chain(noise::few_lines(study.belt()));
+        let warnings = warnings.chain(removed_mean::warnings(waveforms));
         fields.plain("warnings", warnings.collect::<Vec<String>>());
         fields.finish()
     }

@@ -142,6 +142,12 @@ impl MeasuredResponse {
         }
     }
 
+    /// Whether both runs have settled, as far as E requires: a run that decays to zero need not settle.
+    pub fn settled(&self) -> bool {
+        let response = &self.response;
+        response.settled && (response.undithered_settled || response.efficiency.is_err())
+    }
+
     /// Relative loss of friction, 1 − ⟨f⟩/(μ(v₀)F), compared with undithered steady sliding; negative for a gain.
     ///
     /// # Errors

@@ -11,9 +11,11 @@ use quell_linear::averaging::{
     critical_amplitudes, everywhere_stable_amplitude, everywhere_stable_under_noise, fast_wave,
     unstable_bands,
 };
-use quell_linear::growth::of_criterion;
+use quell_linear::growth::{Growth, of_criterion};
+use quell_linear::linearised::Linearised;
+use quell_linear::spectrum;
 use quell_model::units::Quantity;
-use quell_model::{Belt, Dither};
+use quell_model::{Belt, Dither, Parametrisation};
 use serde_json::Value as Json;
 
 use crate::contact_state;
@@ -21,7 +23,7 @@ use crate::fields::Fields;
 use crate::noise::{few_lines, normal_noise};
 use crate::range;
 use crate::study::BeltStudy;
-use crate::words::in_words;
+use crate::words::{digits, in_words};
 
 /// Below this frequency ratio a dither is hardly fast.
 const FAST: f64 = 5.0;
@@ -48,6 +50,9 @@ pub struct BeltStability {
     pub limit: AveragedStability,
     /// Finite-R averaging, with the oscillator's own response; or why it is unavailable.
     pub sharper: Result<AveragedStability, String>,
+    /// The exact small motion about steady sliding without dither that grows fastest, with the state of bristles; `None` of a law
+    /// without bristles, whose criterion is exact there.
+    pub bristles: Option<Result<Growth, String>>,
 }
 
 /// Averaged stability of a study.
@@ -66,7 +71,15 @@ pub fn run(study: &BeltStudy) -> BeltStability {
             Some(why) => Err(why.to_string()),
             None => Ok(averaged(belt, AveragingOptions::FINITE_R)),
         },
+        bristles: belt.friction().bristles().map(|_| small_motions_of_bristles(belt)),
     }
+}
+
+/// The small motion about steady sliding without dither that grows fastest, with the state of the bristles.
+fn small_motions_of_bristles(belt: &Belt) -> Result<Growth, String> {
+    let system = belt.undithered().system();
+    let linear = Linearised::new(&system).map_err(|why| why.to_string())?;
+    spectrum::growth(&linear, &linear.friction()).map_err(|why| why.to_string())
 }
 
 fn averaged(belt: &Belt, options: AveragingOptions) -> AveragedStability {
@@ -348,7 +361,7 @@ impl BeltStability {
         let range = range::averaged(study).into_iter().chain(self.beyond(study));
         let belt = study.belt();
         let rigid = contact_state::rigid_average(belt, belt.belt_velocity());
-        let bristles = belt.friction().bristles().map(|_| contact_state::small_motions(""));
+        let bristles = self.of_bristles(belt);
         let state = contact_state::passivity(belt).into_iter().chain(rigid).chain(bristles);
         hardly
             .chain(apart)
@@ -357,6 +370,43 @@ impl BeltStability {
             .chain(few_lines(belt))
             .chain(normal_noise(belt))
             .collect()
+    }
+
+    /// The warning about the state of bristles: without dither the exact verdict is known.
+    fn of_bristles(&self, belt: &Belt) -> Option<String> {
+        let acts = belt.dithers().iter().any(|dither| dither.amplitude > 0.0);
+        match self.bristles.as_ref()? {
+            Ok(growth) if !acts => Some(format!(
+                "the criterion takes the bristles to follow the slip at once; with their own state steady sliding is {} \
+                 (small_motions), and the growth rate per unit τ is {}",
+                growth.verdict().name(),
+                digits(growth.rate)
+            )),
+            _ => Some(contact_state::small_motions("")),
+        }
+    }
+
+    /// The exact small motions with the state of bristles.
+    fn put_bristles(&self, study: &BeltStudy, fields: &mut Fields) {
+        let Some(found) = &self.bristles else { return };
+        let mut inner = Fields::new(study.scales());
+        inner.plain(
+            "method",
+            "eigenvalues of small motions about steady sliding without dither, with the state of the bristles",
+        );
+        match found {
+            Ok(growth) => {
+                inner
+                    .plain("verdict", growth.verdict().name())
+                    .rate("growth_rate", Ok(growth.rate))
+                    .rate("growth_rate_error", Ok(growth.error))
+                    .number("frequency", Quantity::FrequencyRatio, growth.frequency);
+            }
+            Err(why) => {
+                inner.plain("verdict", "undecided").unknown("growth_rate", why.clone());
+            }
+        }
+        fields.nested("small_motions", inner);
     }
 
     /// Warnings about critical amplitudes and bands outside the range of the friction law.
@@ -430,6 +480,7 @@ impl BeltStability {
                 fields.unknown("sharper", why);
             }
         }
+        self.put_bristles(study, &mut fields);
         fields.plain("warnings", self.warnings(study));
         fields.finish()
     }

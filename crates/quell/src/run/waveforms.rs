@@ -7,6 +7,8 @@
 
 use std::fmt::Write as _;
 
+use quell_dynamics::motion::orbit::family::SystemAt;
+use quell_dynamics::motion::orbit::motion_thresholds;
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::orbit::threshold::{BranchEnding, NoThresholds, local};
 use quell_dynamics::simulation::within;
@@ -16,12 +18,14 @@ use quell_linear::averaging::{
 use quell_linear::linear_cost::linear_cost;
 use quell_model::units::Quantity;
 use quell_model::waveform::Burst;
-use quell_model::{Belt, Dither, Waveform};
+use quell_model::{Belt, Dither, Parametrisation, System, Waveform};
 use rayon::prelude::*;
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::contact_state::refused_of_belt;
+use crate::contact_state::{
+    averages_are_a_start, passivity, refused_of_belt, rigid_average, small_motions,
+};
 use crate::dataset::{Array, Dataset};
 use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
@@ -69,6 +73,8 @@ pub struct ComparedWaveform {
     pub averaged: Result<LeastDither, String>,
     /// The exact least amplitude at the study's frequency ratio, or why it is unknown.
     pub exact: Result<f64, String>,
+    /// Why the average, which does not know the state of the contact, differs from that with it at the least amplitude.
+    pub without_state: Option<String>,
 }
 
 /// The waveforms of a study.
@@ -197,13 +203,7 @@ fn compared(belt: &Belt, first: &Dither, waveform: Waveform) -> ComparedWaveform
     let dither = Dither { waveform: waveform.clone(), ..first.clone() };
     let mut dithers = belt.dithers().to_vec();
     dithers[0] = Dither { amplitude: 0.0, ..dither.clone() };
-    let with = Belt::new(
-        belt.damping_ratio(),
-        belt.normal_load(),
-        belt.belt_velocity(),
-        belt.friction().clone(),
-        dithers,
-    );
+    let with = belt.dithered_by(dithers);
     let averaged = with.map_err(|why| why.to_string()).and_then(|belt| {
         let least = least(&belt, &dither)?;
         Ok((belt, least))
@@ -212,7 +212,13 @@ fn compared(belt: &Belt, first: &Dither, waveform: Waveform) -> ComparedWaveform
         Ok((belt, least)) => exact(belt, least.amplitude),
         Err(why) => Err(why.clone()),
     };
+    let without_state = averaged.as_ref().ok().and_then(|(belt, least)| {
+        let acting = belt.with(&belt.dither_path(0, "amplitude"), least.amplitude).ok()?;
+        let bristles = || acting.friction().bristles().map(|_| small_motions(""));
+        rigid_average(&acting, acting.belt_velocity()).or_else(bristles)
+    });
     ComparedWaveform {
+        without_state,
         duty_cycle: duty_cycle(&waveform),
         own: waveform == first.waveform,
         waveform,
@@ -259,13 +265,15 @@ fn least(belt: &Belt, dither: &Dither) -> Result<LeastDither, String> {
 /// The least amplitude from which the base response is stable, near the averaged one.
 fn exact(belt: &Belt, averaged: f64) -> Result<f64, String> {
     let path = belt.dither_path(0, "amplitude");
-    let from = SEARCHED.0 * averaged;
-    // Normal dither cannot exceed the load.
-    let most = [SEARCHED.1, 2.0, 1.5, 1.2].map(|factor| factor * averaged);
-    let Some(to) = most.into_iter().find(|to| belt.with(&path, *to).is_ok()) else {
-        return Err("the contact would open near the averaged amplitude".to_owned());
-    };
-    let found = within(STEPS_OF_MANY_SEARCHES, || local(belt, &path, from, to, STEPS));
+    let range = searched(averaged, |amplitude| belt.with(&path, amplitude).is_ok())?;
+    if belt.has_contact_state() {
+        let at = |values: &[f64]| -> Result<System, String> {
+            let belt = belt.with(&path, values[0]).map_err(|why| why.to_string())?;
+            Ok(belt.system())
+        };
+        return exact_of_system(&at, averaged, range);
+    }
+    let found = within(STEPS_OF_MANY_SEARCHES, || local(belt, &path, range.0, range.1, STEPS));
     let found = found.map_err(|why| match why {
         NoThresholds::Invalid { .. } => "the contact would open".to_owned(),
         NoThresholds::Start(why) => {
@@ -273,18 +281,59 @@ fn exact(belt: &Belt, averaged: f64) -> Result<f64, String> {
         }
         NoThresholds::Lost { .. } => "the continuation lost the base response".to_owned(),
     })?;
+    let changes = found.thresholds.iter().map(|threshold| (threshold.value, threshold.becomes));
+    least_stable(changes, found.ending, range.1 / averaged)
+}
+
+/// The amplitudes near the averaged one in which the exact one is sought.
+///
+/// # Errors
+/// No larger amplitude is allowed.
+pub(crate) fn searched(
+    averaged: f64,
+    is_allowed: impl Fn(f64) -> bool,
+) -> Result<(f64, f64), String> {
+    // Normal dither cannot exceed the load.
+    let most = [SEARCHED.1, 2.0, 1.5, 1.2].map(|factor| factor * averaged);
+    let to = most.into_iter().find(|to| is_allowed(*to));
+    let to = to.ok_or("the contact would open near the averaged amplitude")?;
+    Ok((SEARCHED.0 * averaged, to))
+}
+
+/// The least amplitude in a range from which the base response of a system is stable.
+///
+/// # Errors
+/// Why none is known.
+pub(crate) fn exact_of_system(
+    at: &SystemAt<'_>,
+    averaged: f64,
+    range: (f64, f64),
+) -> Result<f64, String> {
+    let found = within(STEPS_OF_MANY_SEARCHES, || motion_thresholds(at, range, STEPS, None));
+    let found =
+        found.map_err(|why| format!("no base response at the beginning of the search: {why}"))?;
+    let changes = found.thresholds.iter().map(|threshold| (threshold.value, threshold.becomes));
+    least_stable(changes, found.ending, range.1 / averaged)
+}
+
+/// The least value from which a branch is stable, by the values at which its verdict changes; `to` is the end of the search.
+fn least_stable(
+    changes: impl Iterator<Item = (f64, Option<OrbitVerdict>)>,
+    ending: BranchEnding,
+    to: f64,
+) -> Result<f64, String> {
     let stable = Some(OrbitVerdict::Stable);
-    let becomes = found.thresholds.iter().filter(|threshold| threshold.becomes == stable);
-    let least = becomes.map(|threshold| threshold.value).fold(f64::INFINITY, f64::min);
+    let becomes = changes.filter(|(_, becomes)| *becomes == stable);
+    let least = becomes.map(|(value, _)| value).fold(f64::INFINITY, f64::min);
     if least.is_finite() {
         return Ok(least);
     }
-    Err(match found.ending {
+    Err(match ending {
         BranchEnding::Covered => {
             format!(
                 "the base response does not become stable between {} and {} times the averaged amplitude",
                 SEARCHED.0,
-                digits(to / averaged)
+                digits(to)
             )
         }
         _ => "the base response ends before it becomes stable".to_owned(),
@@ -383,6 +432,9 @@ impl WaveformComparison {
                 slowest.label()
             ));
         }
+        warnings.extend(passivity(study.belt()));
+        let because = self.rows.iter().find_map(|row| row.without_state.as_deref());
+        warnings.extend(because.map(averages_are_a_start));
         warnings
     }
 

@@ -53,6 +53,9 @@ impl Mapped for BeltPoints {
 /// Statuses of a response other than known.
 const OF_RESPONSE: &[Status] = &[Status::Stalled, Status::NoSquealingStart];
 
+/// Statuses of the share of sticking other than known.
+const OF_STICK: &[Status] = &[Status::Stalled, Status::NoSquealingStart, Status::NeverSticks];
+
 /// Statuses of E other than known.
 const OF_EFFICIENCY: &[Status] = &[
     Status::Stalled,
@@ -136,7 +139,7 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
         variable(("undithered_amplitude", "M_0"), "spectral amplitude without dither", LENGTH, OF_RESPONSE, |r| Ok(steady(r)?.undithered_amplitude)),
     ]),
     belt("stick-fraction", "fraction of the time spent sticking", Computation::Response, &[
-        variable(("stick_fraction", ""), "fraction of the time spent sticking", RATIO, OF_RESPONSE, |r| Ok(steady(r)?.stick_fraction)),
+        variable(("stick_fraction", ""), "fraction of the time spent sticking", RATIO, OF_STICK, |r| steady(r)?.stick_fraction),
     ]),
     belt(SETTLED_NAME, "whether the amplitudes of the two halves of the record agree", Computation::Response, &[
         variable(("settled", ""), "whether the response has settled", SETTLED, OF_RESPONSE, |r| Ok(f64::from(u8::from(steady(r)?.settled)))),

@@ -17,6 +17,9 @@ const SLOW_PERIOD: f64 = 3e-6;
 /// Cost of a response including the end of its run, relative to the response alone.
 const SETTLING: f64 = 2.0;
 
+/// Cost of a run of a belt whose contact has a state, by the engine for systems and one at a time, relative to that of a rigid one.
+const WITH_STATE: f64 = 10.0;
+
 /// Seconds of one sample of a record that is observed but not stored.
 const SAMPLE: f64 = 5e-8;
 
@@ -90,7 +93,8 @@ fn response(study: &BeltStudy) -> f64 {
     let record = f64::from(solver.record_periods);
     let periods = solver.settle / std::f64::consts::TAU + record;
     let samples = record * (16.0 * fastest).max(128.0);
-    periods * (fastest * PERIOD + 2.0 * SLOW_PERIOD) + 2.0 * samples * SAMPLE
+    let engine = if study.belt().has_contact_state() { WITH_STATE } else { 1.0 };
+    engine * periods * (fastest * PERIOD + 2.0 * SLOW_PERIOD) + 2.0 * samples * SAMPLE
 }
 
 fn criterion(study: &BeltStudy, sharper: bool) -> f64 {

@@ -8,6 +8,7 @@ use quell_dynamics::response::{
     Compared, Effect, Observables, ResponseCase, RunEnding, Undefined, compare_many, effect,
 };
 use quell_dynamics::simulation::{Start, within};
+use quell_dynamics::start::InitialState;
 use quell_linear::averaging::{
     AveragingError, AveragingOptions, Criterion, CriticalAmplitude, CriticalInput, criterion,
     critical_amplitudes,
@@ -16,8 +17,11 @@ use quell_linear::growth::Growth;
 use quell_model::{Belt, Dither};
 
 use super::status::Status;
+use crate::complaint::Failure;
+use crate::contact_state::differs_from_rigid;
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::range;
+use crate::run::response;
 use crate::study::BeltStudy;
 
 /// A computation that several quantities share.
@@ -75,6 +79,11 @@ impl Computation {
         )
     }
 
+    /// Whether it averages a friction law without the state of its contact.
+    pub fn is_without_state(self) -> bool {
+        self.is_average() && self != Self::SystemGrowthUndithered
+    }
+
     /// Whether it integrates responses.
     pub fn is_response(self) -> bool {
         matches!(self, Self::Response | Self::ResponseWithCost | Self::ResponseWithEffect)
@@ -90,8 +99,8 @@ pub struct ResponseNumbers {
     pub amplitude: f64,
     /// M of the undithered run: a length.
     pub undithered_amplitude: f64,
-    /// Fraction of the record spent sticking.
-    pub stick_fraction: f64,
+    /// Fraction of the record spent sticking; bristles never stick.
+    pub stick_fraction: Result<f64, Status>,
     /// Whether both runs settled, as far as E requires.
     pub settled: bool,
     /// Mean friction force over k: a length.
@@ -114,7 +123,7 @@ impl From<&Compared> for ResponseNumbers {
             efficiency,
             amplitude: dithered.lines.whole,
             undithered_amplitude: compared.undithered.lines.whole,
-            stick_fraction: dithered.stick_fraction,
+            stick_fraction: Ok(dithered.stick_fraction),
             settled: compared.settled() && (compared.undithered_settled() || efficiency.is_err()),
             mean_friction: dithered.mean_friction,
             dither_power: dithered.dither_power,
@@ -136,6 +145,8 @@ pub struct SystemPoint {
     pub opens: bool,
     /// Whether slip leaves the range of a friction law.
     pub beyond_range: bool,
+    /// Whether the average is that of a law without the state of its contact, which differs.
+    pub without_state: bool,
 }
 
 impl SystemPoint {
@@ -144,6 +155,8 @@ impl SystemPoint {
             Status::Opens
         } else if self.beyond_range {
             Status::BeyondRange
+        } else if self.without_state {
+            Status::WithoutState
         } else {
             Status::Known
         }
@@ -166,8 +179,8 @@ pub struct SystemEndPoint {
     pub kind: u8,
     /// Peak-to-peak of the observed displacement.
     pub peak_to_peak: f64,
-    /// Largest share of the time that a contact sticks.
-    pub stick_fraction: f64,
+    /// Largest share of the time that a contact sticks; bristles never stick.
+    pub stick_fraction: Result<f64, Status>,
 }
 
 /// What a map shows of the steady response of one system.
@@ -206,8 +219,8 @@ pub struct Results {
     pub system: Option<Result<SystemPoint, Status>>,
     /// The largest growth rate of a system without dither.
     pub system_undithered: Option<Result<SystemPoint, Status>>,
-    /// Every critical amplitude of the first dither of a system, in order.
-    pub system_critical: Option<Result<Vec<CriticalInput>, Status>>,
+    /// Every critical amplitude of the first dither of a system, in order, and whether the state of a contact matters there.
+    pub system_critical: Option<Result<Vec<(CriticalInput, bool)>, Status>>,
     /// The base response of a dithered system.
     pub system_orbit: Option<Result<SystemOrbitPoint, Status>>,
     /// The motion on which the run of a system ends.
@@ -216,6 +229,8 @@ pub struct Results {
     pub system_response: Option<Result<SystemResponsePoint, Status>>,
     /// The range of the friction law and the slip that averages reach, if the law has a range.
     pub reach: Option<Reach>,
+    /// A belt whose contact has a state, which averages do not know.
+    pub with_state: Option<Box<Belt>>,
 }
 
 /// The upper end of the range of a law, and the slip that averages reach.
@@ -269,18 +284,35 @@ impl Results {
             }
             Computation::SystemCritical => {
                 let found = self.system_critical.iter().flatten().flatten();
-                let mut found = found.filter(|critical| critical.amplitude == value);
-                found.next().map_or(Status::Known, |critical| {
+                let mut found = found.filter(|(critical, _)| critical.amplitude == value);
+                found.next().map_or(Status::Known, |(critical, without_state)| {
                     let (opens, beyond) = (!critical.contacts_stay_closed, !critical.within_laws);
-                    match (opens, beyond) {
-                        (true, _) => Status::Opens,
-                        (_, true) => Status::BeyondRange,
+                    match (opens, beyond, without_state) {
+                        (true, ..) => Status::Opens,
+                        (_, true, _) => Status::BeyondRange,
+                        (.., true) => Status::WithoutState,
                         _ => Status::Known,
                     }
                 })
             }
             _ if self.leaves_range(computation, value) => Status::BeyondRange,
+            _ if self.is_without_state(computation, value) => Status::WithoutState,
             _ => Status::Known,
+        }
+    }
+
+    /// Whether `value` averages the law of a belt without the state of its contact, and differs from the average with it.
+    fn is_without_state(&self, computation: Computation, value: f64) -> bool {
+        let Some(belt) = &self.with_state else { return false };
+        match computation {
+            Computation::Criterion | Computation::CriterionSharper => differs_from_rigid(belt),
+            // An amplitude ratio of the first dither.
+            Computation::CriticalAmplitudes => belt.dithers().first().is_some_and(|dither| {
+                let path = belt.dither_path(0, "amplitude");
+                let acting = belt.with(&path, value * dither.frequency_ratio);
+                differs_from_rigid(acting.as_ref().unwrap_or(belt))
+            }),
+            _ => false,
         }
     }
 
@@ -315,7 +347,13 @@ pub(super) fn evaluate(points: &[BeltStudy], wanted: &[Computation]) -> Vec<Resu
     let dither_cost = wanted.contains(&Computation::ResponseWithCost);
     if wanted.iter().any(|computation| computation.is_response()) {
         let with_effect = wanted.contains(&Computation::ResponseWithEffect);
-        let found = responses(points, Observables { dither_cost }, with_effect);
+        let has_state = |study: &BeltStudy| study.belt().has_contact_state();
+        let found = if points.iter().any(has_state) {
+            // A grid changes numbers alone: either every point has a state or none.
+            points.iter().map(|study| with_state(study, dither_cost)).collect()
+        } else {
+            responses(points, Observables { dither_cost }, with_effect)
+        };
         for (result, outcome) in results.iter_mut().zip(found) {
             result.steady = Some(outcome.map(|(steady, _)| steady));
             result.effect = Some(outcome.and_then(|(_, effect)| effect.ok_or(Status::Missing)));
@@ -326,6 +364,32 @@ pub(super) fn evaluate(points: &[BeltStudy], wanted: &[Computation]) -> Vec<Resu
 
 /// A steady response, and the effect of the dither if requested.
 type Responded = (ResponseNumbers, Option<Effect>);
+
+/// The steady response of a belt whose contact has a state, as `response` measures it.
+fn with_state(study: &BeltStudy, dither_cost: bool) -> Result<Responded, Status> {
+    let squeals = study.initial() == InitialState::Squealing;
+    let found = response::run(study).map_err(|why| match why {
+        Failure::Wrong(_) if squeals => Status::NoSquealingStart,
+        Failure::Wrong(_) => Status::InvalidStudy,
+        Failure::Failed { .. } => Status::Stalled,
+    })?;
+    let settled = found.settled();
+    let response = &found.response;
+    let cost = |cost: Option<f64>| cost.filter(|_| dither_cost);
+    let numbers = ResponseNumbers {
+        efficiency: response.efficiency,
+        amplitude: response.amplitude,
+        undithered_amplitude: response.undithered_amplitude,
+        stick_fraction: found.stick_fraction(study).map_err(|_| Status::NeverSticks),
+        settled,
+        mean_friction: response.mean_friction,
+        dither_power: cost(response.dither_power),
+        dither_stroke: cost(response.dither_stroke),
+        minimum_normal_load: response.minimum_normal_load,
+        largest_slip: found.slip.largest_beyond().unwrap_or_default(),
+    };
+    Ok((numbers, Some(response.effect)))
+}
 
 /// The steady responses, in one batch if the points share their solver settings.
 fn responses(
@@ -373,7 +437,8 @@ fn responses(
 /// The results of averaging at a point.
 fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
     let belt = study.belt();
-    let mut results = Results { reach: Reach::of(belt), ..Results::default() };
+    let with_state = belt.has_contact_state().then(|| Box::new(belt.clone()));
+    let mut results = Results { reach: Reach::of(belt), with_state, ..Results::default() };
     let status = |why: AveragingError| Status::from(&why);
     for computation in wanted {
         match computation {

@@ -9,8 +9,7 @@ use super::kind;
 use super::quantity::MapQuantity;
 use super::sheet::{Data, Sheet};
 use crate::complaint::Complaint;
-use crate::contact_state::{complaint_of_belt, complaint_of_system};
-use crate::study::{Kind, Study, not_periodic, varies_in_time};
+use crate::study::{Study, not_periodic, varies_in_time};
 
 /// A map to be computed.
 #[derive(Clone, Debug)]
@@ -33,14 +32,6 @@ impl Plan {
         asked: &[&'static MapQuantity],
     ) -> Result<Self, Box<Complaint>> {
         let study = study.into();
-        let refused = match study.kind() {
-            Kind::Belt(setup) => complaint_of_belt(setup.belt(), "map"),
-            Kind::System(setup) => complaint_of_system(setup.system(), "map"),
-            Kind::Disc(_) => None,
-        };
-        if let Some(complaint) = refused {
-            return Err(Box::new(complaint));
-        }
         if let Some(table) = study.varies_by() {
             return Err(Box::new(varies_in_time("map", table)));
         }

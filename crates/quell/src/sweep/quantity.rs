@@ -59,8 +59,9 @@ impl Variable {
     pub fn all_statuses(&self, computation: Computation) -> Vec<Status> {
         let common = [Status::Known, Status::InvalidStudy, Status::NotFinite, Status::Missing];
         let friction = computation.meets_friction().then_some(Status::BeyondRange);
-        let mut all: Vec<Status> =
-            common.into_iter().chain(friction).chain(self.statuses.iter().copied()).collect();
+        let state = computation.is_without_state().then_some(Status::WithoutState);
+        let mut all: Vec<Status> = common.into_iter().chain(friction).chain(state).collect();
+        all.extend_from_slice(self.statuses);
         all.sort_unstable();
         all.dedup();
         all

@@ -64,6 +64,10 @@ pub enum Status {
     NoBaseResponse = 34,
     /// The structure has no periodic response to the waveform.
     NoAverageOfWaveform = 35,
+    /// The number is known, but it is that of the law without the state of its contact, which differs here.
+    WithoutState = 36,
+    /// The law is that of bristles, which never stick.
+    NeverSticks = 37,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -98,6 +102,8 @@ impl Status {
         Self::Opens,
         Self::NoBaseResponse,
         Self::NoAverageOfWaveform,
+        Self::WithoutState,
+        Self::NeverSticks,
         Self::Missing,
     ];
 
@@ -108,7 +114,7 @@ impl Status {
 
     /// Whether the number is known.
     pub const fn has_number(self) -> bool {
-        matches!(self, Self::Known | Self::BeyondRange | Self::Opens)
+        matches!(self, Self::Known | Self::BeyondRange | Self::Opens | Self::WithoutState)
     }
 
     /// The status with a code.
@@ -146,6 +152,8 @@ impl Status {
             Self::Opens => "opens",
             Self::NoBaseResponse => "no_base_response",
             Self::NoAverageOfWaveform => "no_average_of_waveform",
+            Self::WithoutState => "without_state",
+            Self::NeverSticks => "never_sticks",
             Self::Missing => "missing",
         }
     }
@@ -207,6 +215,10 @@ impl Status {
             Self::NoAverageOfWaveform => {
                 "the structure has no periodic response to the waveform that averaging could use"
             }
+            Self::WithoutState => {
+                "the value is known, but it averages the friction law without the state of its contact, which follows the dither here"
+            }
+            Self::NeverSticks => "bristles slip at any load, however slowly, and never stick",
             Self::Missing => "not computed yet",
         }
     }

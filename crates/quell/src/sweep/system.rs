@@ -8,8 +8,8 @@ use quell_dynamics::response::Effect;
 use quell_linear::averaging::{Becomes, CriticalInput, DitheredContact, DitheredSystem, NoAverage};
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
-use quell_model::System;
 use quell_model::units;
+use quell_model::{Contact, System};
 
 use super::evaluate::{
     Computation, Results, SystemEndPoint, SystemOrbitPoint, SystemPoint, SystemResponsePoint,
@@ -19,6 +19,7 @@ use super::mapped::{Mapped, PointResults};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, decided, variable};
 use super::status::Status;
 use crate::complaint::Failure;
+use crate::contact_state::averaged_without_states;
 use crate::range::outside_of_laws;
 use crate::run::system::attractor::end_of_run;
 use crate::run::system::cycle::BASE_STEPS;
@@ -128,7 +129,7 @@ fn undithered(system: &System) -> Result<SystemPoint, Status> {
     let linear = Linearised::new(system).map_err(|_| Status::NoSteadySliding)?;
     let growth = spectrum::growth(&linear, &linear.friction()).map_err(|_| Status::NotFinite)?;
     let beyond_range = !outside_of_laws(system, None).is_empty();
-    Ok(SystemPoint { growth, slip_ratio: 0.0, opens: false, beyond_range })
+    Ok(SystemPoint { growth, slip_ratio: 0.0, opens: false, beyond_range, without_state: false })
 }
 
 /// The largest growth rate of a system, by averaging under dither.
@@ -144,15 +145,21 @@ pub(crate) fn growth(system: &System) -> Result<SystemPoint, Status> {
         slip_ratio: ratios.fold(0.0, f64::max),
         opens: average.contacts.iter().any(DitheredContact::opens),
         beyond_range: !outside_of_laws(system, Some(&average.contacts)).is_empty(),
+        without_state: !averaged_without_states(system, &average.contacts).is_empty(),
     })
 }
 
-fn critical(system: &System) -> Result<Vec<CriticalInput>, Status> {
+fn critical(system: &System) -> Result<Vec<(CriticalInput, bool)>, Status> {
     if system.inputs.is_empty() {
         return Err(Status::NoDither);
     }
-    let found = DitheredSystem::new(system).and_then(|prepared| prepared.critical_amplitudes(0));
-    found.map_err(|why| status(&why))
+    let prepared = DitheredSystem::new(system).map_err(|why| status(&why))?;
+    let found = prepared.critical_amplitudes(0).map_err(|why| status(&why))?;
+    let differs = |critical: &CriticalInput| {
+        let average = prepared.average_with(Some((0, critical.amplitude)));
+        average.is_ok_and(|at| !averaged_without_states(system, &at.contacts).is_empty())
+    };
+    Ok(found.into_iter().map(|critical| (critical, differs(&critical))).collect())
 }
 
 fn base_response(system: &System) -> Result<SystemOrbitPoint, Status> {
@@ -170,10 +177,16 @@ fn end(study: &SystemStudy, system: &System) -> Result<SystemEndPoint, Status> {
     let start = SystemProtocol::Study.state(study, system).map_err(|_| Status::NoSquealingStart)?;
     let end = end_of_run(system, &study.observe(), &start);
     let attractor = end.map_err(|_| Status::Stalled)?.attractor;
+    let sticks = |contact: &Contact| contact.friction.bristles().is_none();
+    let shares = system.contacts.iter().zip(&attractor.stick);
+    let most = shares
+        .filter(|(contact, _)| sticks(contact))
+        .map(|(_, share)| *share)
+        .max_by(f64::total_cmp);
     Ok(SystemEndPoint {
         kind: attractor.kind_code(),
         peak_to_peak: attractor.size(),
-        stick_fraction: attractor.stick.iter().copied().fold(0.0, f64::max),
+        stick_fraction: most.ok_or(Status::NeverSticks),
     })
 }
 
@@ -273,6 +286,10 @@ const OF_ORBIT_VERDICT: &[Status] = &[
 /// Statuses of the motions on which runs end, other than known.
 const OF_END: &[Status] = &[Status::Stalled, Status::NoSquealingStart, Status::OnlyMeasured];
 
+/// Statuses of the share of sticking other than known.
+const OF_STICK: &[Status] =
+    &[Status::Stalled, Status::NoSquealingStart, Status::OnlyMeasured, Status::NeverSticks];
+
 /// Statuses of steady responses other than known.
 const OF_RESPONSE: &[Status] = &[Status::Stalled, Status::OnlyMeasured];
 
@@ -348,7 +365,7 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
         variable(("peak_to_peak", ""), "peak-to-peak of the observed displacement", LENGTH, OF_END, |r| Ok(ended(r)?.peak_to_peak)),
     ]),
     system("stick-fraction", "largest fraction of the time that a contact sticks, on the motion on which the run ends", Computation::SystemEnd, &[
-        variable(("stick_fraction", ""), "largest fraction of the time that a contact sticks", RATIO, OF_END, |r| Ok(ended(r)?.stick_fraction)),
+        variable(("stick_fraction", ""), "largest fraction of the time that a contact sticks", RATIO, OF_STICK, |r| ended(r)?.stick_fraction),
     ]),
     system("effect", "effect of the dither on the vibration: quenches, reduces, increases, causes, or quiet with and without it", Computation::SystemResponse, &[
         variable(("effect", ""), "effect of the dither", EFFECTS, OF_EFFECT, effect),
@@ -409,6 +426,6 @@ fn judged(results: &Results) -> Result<f64, Status> {
 fn first(results: &Results, becomes: Becomes) -> Result<f64, Status> {
     let found = results.system_critical.as_ref().ok_or(Status::Missing)?;
     let found = found.as_ref().map_err(|status| *status)?;
-    let first = found.iter().find(|critical| critical.becomes == becomes);
-    first.map(|critical| critical.amplitude).ok_or(Status::NeverChanges)
+    let first = found.iter().find(|(critical, _)| critical.becomes == becomes);
+    first.map(|(critical, _)| critical.amplitude).ok_or(Status::NeverChanges)
 }

@@ -12,6 +12,7 @@ from .._study import Study
 from .._system import System
 from ..results import Simulation
 from ._friction import contacts_of, friction_of_belt
+from ._moment import knot_times, of_a_moment, steady, varies
 from ._reading import Answer, Array, array_name, number_of, unit, values
 
 SLOW_PERIODS = 20
@@ -38,6 +39,7 @@ FLOOR_DB = -120.0
 """Least level that a spectrum shows."""
 
 
+@of_a_moment
 def averaged(study: Study) -> Answer:
     """The averaged stability, and the friction laws with their averages under the dither."""
     found = study.stability()
@@ -64,7 +66,7 @@ def times(study: Study) -> tuple[float, float]:
         ratios = [it["frequency_ratio"] for it in facts["dithers"] if it["amplitude"]]
         slow = 2.0 * math.pi / rate
         return slow, slow / max(ratios) if ratios else 0.0
-    facts = study.stability().facts
+    facts = steady(study)[0].stability().facts
     if kind == "disc":
         slow = 2.0 * math.pi / max(facts.get("frequency") or 1.0, 1e-3)
         return slow, 0.0
@@ -102,6 +104,9 @@ def moments(study: Study) -> Array:
     end = SLOW_PERIODS * slow
     if fast:
         end = max(min(end, FAST_PERIODS * fast), 3.0 * slow)
+    if varies(study):
+        # The whole course, and a little of what follows it.
+        end = max(end, 1.1 * knot_times(study)[-1])
     wanted = PER_PERIOD * (end / fast if fast else end / slow * 4.0)
     return np.linspace(0.0, end, int(np.clip(wanted, 1500, MOST_SAMPLES)))
 
@@ -159,6 +164,7 @@ def binned(frequency: Array, levels: Sequence[Array]) -> tuple[Array, list[Array
     )
 
 
+@of_a_moment
 def response(study: Study) -> Answer:
     """The steady response with and without dither, and its spectrum in dB re the largest line without dither."""
     if study._native.kind == "disc":

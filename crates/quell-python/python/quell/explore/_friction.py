@@ -51,6 +51,11 @@ def contacts_of(study: Study, facts: Mapping[str, Any]) -> list[Answer]:
 def curve_of(table: Mapping[str, Any], slip: float | None, speed: object) -> Answer | None:
     """A friction law and its average over a sinusoidal slip velocity; ``None`` if it has formulas of parameters."""
     scaled = {}
+    if table.get("law") == "lugre":
+        # Bristles in steady sliding.
+        bristles = ("bristle_stiffness", "bristle_damping")
+        shown = {key: value for key, value in table.items() if not key.startswith(bristles)}
+        table = {**shown, "law": "stribeck-exponential", "exponent": 2.0}
     for key, value in table.items():
         short = key.removesuffix("_m_per_s").removesuffix("_s_per_m")
         if short not in VELOCITIES and key not in SHARED_KEYS:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from .._study import Study
+from ._moment import of_a_moment
 from ._reading import Answer, Array, array_name, unit, values
 
 Progress = Callable[[int, int], object]
@@ -25,6 +26,7 @@ def spaced(start: float, stop: float, count: int, logarithmic: bool) -> Array:
     return np.linspace(start, stop, count)
 
 
+@of_a_moment
 def plane(study: Study, across: Axis, up: Axis) -> Answer:
     """The averaged growth rate over two parameters."""
     first, second = (spaced(it[1], it[2], count, it[3]) for it, count in zip((across, up), GRID, strict=True))
@@ -54,6 +56,7 @@ def tongues(study: Study, across: Axis) -> list[Answer]:
     ]
 
 
+@of_a_moment
 def curves(study: Study, across: Axis, up: Axis) -> Answer:
     """The exact thresholds in two parameters as curves."""
     found: Any = study.thresholds(up[0], up[1], up[2], along=across[0], between=(across[1], across[2]))
@@ -66,6 +69,7 @@ def twin(facts: Mapping[str, Any], name: str) -> Any:
     return next((value for key, value in facts.items() if key.startswith(f"{name}_")), facts[name])
 
 
+@of_a_moment
 def basins(study: Study, grid: tuple[int, int], progress: Progress | None = None) -> Answer:
     """The motions on which starts end."""
     found: Any = study.basins(grid=grid, threads=1, progress=progress)
@@ -88,6 +92,7 @@ def basins(study: Study, grid: tuple[int, int], progress: Progress | None = None
     }
 
 
+@of_a_moment
 def eigenvalues(study: Study, parameter: str, start: float, stop: float) -> Answer:
     """Growth rates and frequencies of a system over a parameter."""
     found: Any = study.stability(parameter, start, stop)

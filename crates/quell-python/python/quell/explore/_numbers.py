@@ -17,6 +17,7 @@ from .._checked import leaves
 from .._errors import StudyError
 from .._study import Study
 from .._tables import Number
+from ._moment import PROFILES, TIMES
 
 STEPS = 200
 """Number of steps of a slider."""
@@ -289,6 +290,8 @@ def knob(study: Study, path: str, value: Any) -> Knob | None:
     axis = None if suffix else swept(study, path)
     if axis is not None and axis[0] <= number <= axis[1]:
         start, stop, logarithmic = axis[0], axis[1], axis[2] and axis[0] > 0.0
+    if is_knot(parts) and not suffix:
+        start, stop, logarithmic = span_of_knot(study, parts, number)
     label, group = label_of(study, parts, str(node.get("description", "")))
     return Knob(
         path=path,
@@ -307,6 +310,33 @@ def knob(study: Study, path: str, value: Any) -> Knob | None:
     )
 
 
+def is_knot(parts: list[Token]) -> bool:
+    """Whether a path is that of a time or a value of a profile, such as belt.drive.velocity[1]."""
+    return len(parts) > 2 and isinstance(parts[-1], int) and parts[-3] in PROFILES
+
+
+def span_of_knot(study: Study, parts: list[Token], value: float) -> tuple[float, float, bool]:
+    """The ends of the slider of a knot: a time lies between its neighbours, a value about those of all knots."""
+    document: Any = study._native.document()
+    for token in parts[:-1]:
+        document = document[token] if not isinstance(token, int) or isinstance(document, list) else document
+    listed = [float(it) for it in document if isinstance(it, (int, float))]
+    place = int(parts[-1])
+    if len(listed) != len(document):
+        return span(value, None, None, False, False)
+    if parts[-2] in TIMES:
+        last = len(listed) == place + 1
+        start = listed[place - 1] if place else min(0.0, value)
+        return start, (value + max(value - listed[0], 1.0) if last else listed[place + 1]), False
+    least, most = min(listed), max(listed)
+    if parts[-3] == "envelope":
+        return min(0.0, least), max(1.0, most), False
+    if parts[-3] == "load":
+        return 0.1 * least, 2.0 * most, False
+    size = max(abs(least), abs(most)) or 1.0
+    return (-1.5 * size if least < 0.0 else 0.0), 1.5 * size, False
+
+
 def label_of(study: Study, parts: list[Token], about: str) -> tuple[str, str]:
     """The name of a number for its slider, and the group to which it belongs."""
     document: Any = study._native.document()
@@ -320,6 +350,8 @@ def label_of(study: Study, parts: list[Token], about: str) -> tuple[str, str]:
         else:
             group.append(token.replace("_", " "))
     last = parts[-1]
+    if is_knot(parts):
+        return f"{stripped(str(parts[-2]))} {int(last) + 1}", " ".join(group[:-1])
     if isinstance(last, int):
         # An element of a matrix or of a row.
         place = [str(token + 1) for token in parts if isinstance(token, int)]

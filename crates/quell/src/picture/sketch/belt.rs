@@ -1,8 +1,10 @@
 //! The sketch of a mass on a moving belt.
 
+use quell_model::parameter::{Parameter, TANGENTIAL_STIFFNESS};
 use quell_model::units::Quantity;
 use quell_model::{Direction, Profile};
 
+use super::contact_state::StateMark;
 use super::symbols::{glyph, index, indexed, item, number};
 use crate::noise::{band_in_words, lines_in_words};
 use crate::picture::ruler::words;
@@ -37,7 +39,7 @@ pub(super) fn draw(sheet: Sketch, study: &BeltStudy) -> Sketch {
     let tangential = study.belt().dithers_along(Direction::Tangential).count();
     let height = HEIGHT + ROW * tangential.saturating_sub(1) as f64;
     let sheet = structure(sheet, study, height);
-    let sheet = contact(sheet, &letters, height);
+    let sheet = contact(sheet, study, &letters, height);
     let sheet = dithers(sheet, study, &letters);
     key(sheet, study, &letters)
 }
@@ -72,18 +74,24 @@ fn structure(sheet: Sketch, study: &BeltStudy, height: f64) -> Sketch {
         )
 }
 
-fn contact(sheet: Sketch, letters: &Letters, height: f64) -> Sketch {
-    let belt =
-        SketchShape::Belt { ends: (MASS - 46.0, MASS + WIDTH + 66.0), top: height, radius: 11.0 };
+fn contact(sheet: Sketch, study: &BeltStudy, letters: &Letters, height: f64) -> Sketch {
+    let mark = StateMark::of(study.belt().friction(), study.belt().tangential_stiffness());
+    let top = height + mark.map_or(0.0, StateMark::height);
+    let belt = SketchShape::Belt { ends: (MASS - 46.0, MASS + WIDTH + 66.0), top, radius: 11.0 };
     let velocity = SketchShape::Arrow {
-        from: (MASS + WIDTH + 16.0, height - 6.0),
-        to: (MASS + WIDTH + 46.0, height - 6.0),
+        from: (MASS + WIDTH + 16.0, top - 6.0),
+        to: (MASS + WIDTH + 46.0, top - 6.0),
     };
     let load =
         SketchShape::Arrow { from: (MASS + 0.25 * WIDTH, -34.0), to: (MASS + 0.25 * WIDTH, -1.0) };
     let friction =
         SketchShape::Arrow { from: (MASS - 24.0, height - 6.0), to: (MASS - 1.0, height - 6.0) };
     let ink = SketchInk::Contact;
+    let within = (MASS + 8.0, MASS + WIDTH - 10.0);
+    let sheet = match mark {
+        Some(mark) => mark.draw(sheet, within, height, (" of the contact", "$k_t$")),
+        None => sheet,
+    };
     sheet
         .with(SketchPart::new("surface", "moving belt", belt))
         .with(
@@ -174,6 +182,8 @@ fn key(sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
     friction.extend(
         numbers.map(|(parameter, value)| equal(parameter.symbol, parameter.quantity, value)),
     );
+    let Parameter { symbol, quantity, .. } = TANGENTIAL_STIFFNESS;
+    friction.extend(belt.tangential_stiffness().map(|value| equal(symbol, quantity, value)));
     let mut sheet =
         sheet.with_key(SketchKey::new("Mass", mass)).with_key(SketchKey::new("Contact", friction));
     let dithers = belt.dithers();

@@ -1,6 +1,7 @@
 //! Sketches of the mechanism that a study describes: its masses, springs, contacts and dithers, with a key of their values.
 
 mod belt;
+mod contact_state;
 mod disc;
 mod disc_load;
 mod symbols;

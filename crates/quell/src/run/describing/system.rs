@@ -117,10 +117,8 @@ fn warnings(study: &SystemStudy, average: &AveragedSliding, largest: f64) -> Vec
     warnings.extend(contacts.filter_map(|(contact, found): (&Contact, _)| {
         range::at_contact(contact, found.largest_slip(contact) + largest)
     }));
-    let fast: Vec<f64> = average.contacts.iter().map(|contact| contact.slip_amplitude).collect();
-    let lowest = system.acting_frequencies().fold(f64::INFINITY, f64::min);
-    let fast = lowest.is_finite().then_some((&fast[..], lowest));
-    warnings.extend(contact_state::rigid_laws(study, fast));
+    warnings.extend(contact_state::passivity_of_system(study));
+    warnings.extend(contact_state::averaged_without_states(system, &average.contacts));
     warnings.extend(few_lines_of_system(system));
     warnings
 }

@@ -13,6 +13,7 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::{LeastDitherFound, StudyWithDesign};
+use crate::contact_state::averages_are_a_start;
 use crate::fields::Fields;
 use crate::run::waveforms::label;
 use crate::words::digits;
@@ -200,6 +201,7 @@ impl LeastDitherFound {
                 digits(100.0 * (exact / averaged - 1.0).abs())
             ));
         }
+        warnings.extend(self.without_state.first().map(|because| averages_are_a_start(because)));
         warnings.extend(self.warnings_about_drive(study));
         warnings
     }

@@ -5,9 +5,11 @@ mod drive;
 
 use quell_design::actuator::Actuator;
 use quell_design::least_dither::{
-    BeltPlant, DesignProblem, Designed, LimitedQuantity, OperatingPoint, Plant, design,
+    BeltPlant, DesignProblem, DesignStart, Designed, LimitedQuantity, OperatingPoint, Plant,
+    SystemAtPoint, SystemPlant, design,
 };
 use quell_dynamics::simulation::within;
+use quell_linear::averaging::DitheredSystem;
 use quell_model::units::Quantity;
 use quell_model::{Belt, Dither, Waveform};
 use rayon::prelude::*;
@@ -15,7 +17,7 @@ use serde_json::Value as Json;
 
 use super::varied::Named;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::contact_state::refused_of_belt;
+use crate::contact_state::{averaged_without_states, refused_of_belt};
 use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
 use crate::run::system::in_units;
@@ -51,6 +53,8 @@ pub struct LeastDitherFound {
     pub best: usize,
     /// The least amplitude at single operating points of a box of one coordinate, by averaging: a schedule in place of one dither.
     pub schedule: Vec<(f64, Option<f64>)>,
+    /// Why the averages, which do not know the states of contacts, differ from those with them at the least dither.
+    pub without_state: Vec<String>,
 }
 
 /// A study with a design: its units and what it requests.
@@ -139,7 +143,7 @@ pub(crate) fn without_amplitude(asked: &Design, allowed: String) -> Failure {
 /// The least dither of a belt.
 ///
 /// # Errors
-/// A complaint about a study without `[design]` or a number in it; a contact with a state.
+/// A complaint about a study without `[design]` or a number in it; runs from afar of a contact with a state.
 pub fn run(study: &BeltStudy) -> Result<LeastDitherFound, Failure> {
     refused_of_belt(study, "design")?;
     let belt = study.belt();
@@ -174,7 +178,63 @@ pub fn run(study: &BeltStudy) -> Result<LeastDitherFound, Failure> {
     };
     let numbers =
         DesignNumbers { amplitude: amplitude.clone(), others: only(others), over: only(over) };
-    Ok(least_dither(study, asked, numbers, &plants))
+    if !belt.has_contact_state() {
+        return Ok(least_dither(study, asked, numbers, &plants));
+    }
+    is_local(asked, "a contact with a state of its own")?;
+    let systems: Vec<(Waveform, Box<SystemAtPoint<'_>>)> = plants
+        .iter()
+        .map(|(waveform, plant)| {
+            let at = move |point: OperatingPoint<'_>, value: f64| plant.system(point, value);
+            (waveform.clone(), Box::new(at) as Box<SystemAtPoint<'_>>)
+        })
+        .collect();
+    Ok(least_dither_of_systems(study, asked, numbers, &systems, 0))
+}
+
+/// Rejects runs from afar, which the designs of systems do not judge.
+///
+/// # Errors
+/// A complaint about the start.
+pub(crate) fn is_local(asked: &Design, of: &str) -> Result<(), Failure> {
+    if asked.start == DesignStart::Local {
+        return Ok(());
+    }
+    let allowed = format!(
+        "\"local\": for {of} the base response and its multipliers decide; `thresholds --from-rest` and `--from-squeal` judge runs \
+         from afar"
+    );
+    let name = asked.start.name();
+    Err(Complaint::new(Fault::Conflict, "design.start", Origin::Whole, name, allowed).into())
+}
+
+/// The least dither of the waveforms of a study, each with its system; `input` is that of the dither.
+pub(crate) fn least_dither_of_systems(
+    study: &dyn StudyWithDesign,
+    asked: &Design,
+    numbers: DesignNumbers,
+    systems: &[(Waveform, Box<SystemAtPoint<'_>>)],
+    input: usize,
+) -> LeastDitherFound {
+    let plants: Vec<(Waveform, SystemPlant<'_>)> = systems
+        .iter()
+        .map(|(waveform, at)| (waveform.clone(), SystemPlant { at: at.as_ref(), input }))
+        .collect();
+    let found = least_dither(study, asked, numbers, &plants);
+    let without_state = without_state(&found, systems[found.best].1.as_ref());
+    LeastDitherFound { without_state, ..found }
+}
+
+/// Why the averages of a design, which do not know the states of contacts, differ from those with them at its least dither.
+fn without_state(found: &LeastDitherFound, at: &SystemAtPoint<'_>) -> Vec<String> {
+    let Ok(feasible) = &found.answer().answer else { return Vec::new() };
+    let critical = &feasible.critical;
+    let middle = || found.over.iter().map(|over| 0.5 * (over.range.0 + over.range.1)).collect();
+    let point: Vec<f64> = critical.worst.clone().unwrap_or_else(middle);
+    let place = OperatingPoint { point: &point, others: &critical.others };
+    let Ok(system) = at(place, critical.amplitude) else { return Vec::new() };
+    let average = DitheredSystem::new(&system).and_then(|prepared| prepared.average());
+    average.map(|average| averaged_without_states(&system, &average.contacts)).unwrap_or_default()
 }
 
 /// The least dither of the waveforms of a study, each with its structure.
@@ -220,7 +280,8 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         }
         _ => Vec::new(),
     };
-    LeastDitherFound { amplitude, others, over, waveforms, best, schedule }
+    let without_state = Vec::new();
+    LeastDitherFound { amplitude, others, over, waveforms, best, schedule, without_state }
 }
 
 /// The least amplitude at single operating points, by averaging.
@@ -243,9 +304,7 @@ fn schedule(
 fn with_waveform(belt: &Belt, waveform: &Waveform) -> Result<Belt, quell_model::InvalidValues> {
     let mut dithers: Vec<Dither> = belt.dithers().to_vec();
     dithers[0].waveform = waveform.clone();
-    let (damping, load, velocity) =
-        (belt.damping_ratio(), belt.normal_load(), belt.belt_velocity());
-    Ok(Belt::new(damping, load, velocity, belt.friction().clone(), dithers)?.in_si(belt.scales()))
+    belt.dithered_by(dithers)
 }
 
 /// Numbers of `[design]` with their paths in the equations. Both ends of every range must give valid studies.

@@ -12,6 +12,7 @@ use quell_model::units::{DiscScales, measure};
 use quell_model::{Direction, Disc, Waveform};
 use serde_json::{Value as Json, json};
 
+use crate::removed_mean;
 use crate::study::DiscStudy;
 use crate::study::disc::ModeSource;
 
@@ -74,6 +75,8 @@ pub fn json(study: &DiscStudy) -> Json {
             })
         })
         .collect();
+    let mut warnings = study.warnings().to_vec();
+    warnings.extend(removed_mean::warnings(std::iter::once(disc.waveform())));
     let mut object = json!({
         "ok": true,
         "title": study.title(),
@@ -86,7 +89,7 @@ pub fn json(study: &DiscStudy) -> Json {
         },
         "dither": dither(disc),
         "sweeps": sweeps,
-        "warnings": study.warnings(),
+        "warnings": warnings,
     });
     if let Some(law) = disc.law() {
         let kind = law.kind();

@@ -143,6 +143,7 @@ impl FinishedMap {
         }
         warnings.extend(self.beyond_range());
         warnings.extend(self.of_systems());
+        warnings.extend(self.points_with(Status::WithoutState));
         if self.damaged > 0 {
             warnings.push(recomputed(self.damaged));
         }
@@ -176,21 +177,23 @@ impl FinishedMap {
         if self.plan.grid().study().system().is_err() {
             return Vec::new();
         }
-        let entries = self.plan.sheet().entries();
-        let of = |status: Status| {
-            let at =
-                |point: &usize| entries.iter().any(|entry| self.status(entry, *point) == status);
-            let (all, count) =
-                (self.plan.grid().len(), (0..self.plan.grid().len()).filter(at).count());
-            (count > 0).then(|| {
-                format!(
-                    "{count} of {all} points: {}; the status there is {}",
-                    status.about(),
-                    status.name()
-                )
-            })
-        };
+        let of = |status| self.points_with(status);
         [Status::Opens, Status::BeyondRange].into_iter().filter_map(of).collect()
+    }
+
+    /// A warning about the points at which some value has a status.
+    fn points_with(&self, status: Status) -> Option<String> {
+        let entries = self.plan.sheet().entries();
+        let all = self.plan.grid().len();
+        let at = |point: &usize| entries.iter().any(|entry| self.status(entry, *point) == status);
+        let count = (0..all).filter(at).count();
+        (count > 0).then(|| {
+            format!(
+                "{count} of {all} points: {}; the status there is {}",
+                status.about(),
+                status.name()
+            )
+        })
     }
 
     /// As JSON: arrays nested like the axes.

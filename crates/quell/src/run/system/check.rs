@@ -5,7 +5,9 @@ use quell_model::system::{InputTarget, Structure};
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
+use crate::contact_state::passivity_of_system;
 use crate::noise;
+use crate::removed_mean;
 use crate::study::{SystemStart, SystemStudy, SystemUnits};
 
 /// The study as JSON.
@@ -44,7 +46,7 @@ pub fn json(study: &SystemStudy) -> Json {
         "observe": study.observe(),
         "initial": initial(study.initial()),
         "sweeps": sweeps,
-        "warnings": study.warnings(),
+        "warnings": warnings(study),
     })
 }
 
@@ -101,6 +103,15 @@ fn dithers(study: &SystemStudy) -> Vec<Json> {
         }
     }
     dithers
+}
+
+/// Warnings of the study, about friction that is not passive, and about the means of samples.
+fn warnings(study: &SystemStudy) -> Vec<String> {
+    let mut warnings = study.warnings().to_vec();
+    warnings.extend(passivity_of_system(study));
+    let waves = study.system().inputs.iter().flat_map(|input| input.profile.waves());
+    warnings.extend(removed_mean::warnings(waves.map(|wave| &wave.waveform)));
+    warnings
 }
 
 fn initial(start: &SystemStart) -> Json {

@@ -1,32 +1,25 @@
 //! `design` of a system: the least amplitude of one of its dithers that is quiet over a box of operating points, under limits.
 
-use quell_design::least_dither::{DesignStart, OperatingPoint, SystemAtPoint, SystemPlant};
+use quell_design::least_dither::{OperatingPoint, SystemAtPoint};
 use quell_model::profile::{Profile, Wave};
 use quell_model::{System, Waveform};
 
 use super::has_equations;
-use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::complaint::{Complaint, Failure, Origin};
 use crate::run::design::{
-    DesignNumber, DesignNumbers, LeastDitherFound, asked, least_dither, without_amplitude,
+    DesignNumber, DesignNumbers, LeastDitherFound, asked, is_local, least_dither_of_systems,
+    without_amplitude,
 };
 use crate::study::{DesignRange, SystemStudy};
 
 /// The least dither of a system.
 ///
 /// # Errors
-/// A complaint about a study without `[design]` or without equations, about a number in it, a start other than `local`, and a
-/// contact with a state.
+/// A complaint about a study without `[design]` or without equations, about a number in it, and a start other than `local`.
 pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
     has_equations(study, "design")?;
     let asked = asked(study, !study.system().inputs.is_empty())?;
-    if asked.start != DesignStart::Local {
-        let allowed = "\"local\": for a system the base response and its multipliers decide; `thresholds --from-rest` and \
-                       `--from-squeal` judge runs from afar";
-        let name = asked.start.name();
-        return Err(
-            Complaint::new(Fault::Conflict, "design.start", Origin::Whole, name, allowed).into()
-        );
-    }
+    is_local(asked, "a system")?;
     let is_amplitude = |range: &&DesignRange| study.dither_of(&range.path).is_some();
     let (amplitude, others): (Vec<_>, Vec<_>) = asked.vary.iter().partition(is_amplitude);
     let [amplitude] = amplitude.as_slice() else {
@@ -44,17 +37,13 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         let system = study.system_at(&numbers).map_err(|why| why.to_string())?;
         Ok(with_waveform(system, input, waveform))
     };
-    let systems: Vec<(&Waveform, Box<SystemAtPoint<'_>>)> = asked
+    let systems: Vec<(Waveform, Box<SystemAtPoint<'_>>)> = asked
         .waveforms
         .iter()
         .map(|waveform| {
             let system = move |point: OperatingPoint<'_>, value: f64| at(waveform, point, value);
-            (waveform, Box::new(system) as Box<SystemAtPoint<'_>>)
+            (waveform.clone(), Box::new(system) as Box<SystemAtPoint<'_>>)
         })
-        .collect();
-    let plants: Vec<(Waveform, SystemPlant<'_>)> = systems
-        .iter()
-        .map(|(waveform, at)| ((*waveform).clone(), SystemPlant { at: at.as_ref(), input }))
         .collect();
     // The values of a path are those of the study: the equations are in its units.
     let number = |range: &DesignRange| DesignNumber {
@@ -67,7 +56,7 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         others: others.iter().map(|range| number(range)).collect(),
         over: asked.over.iter().map(number).collect(),
     };
-    Ok(least_dither(study, asked, numbers, &plants))
+    Ok(least_dither_of_systems(study, asked, numbers, &systems, input))
 }
 
 /// The system with another waveform of one dither.

@@ -70,7 +70,7 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
     let mut warnings = study.warnings().to_vec();
     warnings.extend(outside_of_laws(system, None));
     if !system.is_dithered() {
-        warnings.extend(contact_state::rigid_laws(study, None));
+        warnings.extend(contact_state::passivity_of_system(study));
     }
     if !system.is_dithered() {
         let contacts = linear.contacts().iter().zip(linear.friction());
@@ -100,9 +100,8 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
     warnings.extend(opened(study.units(), system, &average.contacts));
     warnings.extend(not_slow(study, &undithered));
     warnings.extend(few_lines_of_system(system));
-    let lowest = system.acting_frequencies().fold(f64::INFINITY, f64::min);
-    let fast: Vec<f64> = average.contacts.iter().map(|contact| contact.slip_amplitude).collect();
-    warnings.extend(contact_state::rigid_laws(study, Some((&fast, lowest))));
+    warnings.extend(contact_state::passivity_of_system(study));
+    warnings.extend(contact_state::averaged_without_states(system, &average.contacts));
     let dither = Some(UnderDither { undithered, critical });
     Ok(SystemStability { spectrum, contacts, dither, warnings })
 }

@@ -10,7 +10,7 @@ use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::spectrum;
 use quell_model::profile::{Profile, Wave};
 use quell_model::units::Quantity;
-use quell_model::{System, Waveform};
+use quell_model::{Contact, System, Waveform};
 use rayon::prelude::*;
 use serde_json::Value as Json;
 
@@ -18,9 +18,10 @@ use super::modes::natural;
 use super::stability::FAR;
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::contact_state::{averaged_without_states, averages_are_a_start, passivity_of_system};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::run::waveforms::{Candidates, duty_cycle, label};
+use crate::run::waveforms::{Candidates, duty_cycle, exact_of_system, label, searched};
 use crate::study::SystemStudy;
 use crate::words::digits;
 
@@ -39,6 +40,8 @@ pub struct LeastInput {
     pub velocity: Result<f64, String>,
     /// Mean power into the sliding structure.
     pub power: Result<f64, String>,
+    /// Why the average, which does not know the state of the contacts, differs from that with it.
+    pub without_state: Vec<String>,
 }
 
 /// One waveform of a system's comparison.
@@ -55,6 +58,8 @@ pub struct SystemWaveform {
     pub slow: bool,
     /// The least dither by averaging, or why no amplitude is known.
     pub averaged: Result<LeastInput, String>,
+    /// The exact least amplitude of a system with the state of a contact, which averaging does not know; or why it is unknown.
+    pub exact: Result<f64, String>,
 }
 
 /// The waveforms of a system.
@@ -98,28 +103,49 @@ pub fn run(study: &SystemStudy) -> Result<SystemWaveforms, Failure> {
     let motions =
         spectrum(&sliding, &sliding.friction()).map_err(|why| failed("waveforms", why))?;
     let highest = motions.motions.iter().map(natural).fold(0.0, f64::max);
-    let rows = waveforms.into_par_iter().map(|waveform| SystemWaveform {
-        own: waveform == first.waveform,
-        duty_cycle: duty_cycle(&waveform),
-        slow: first.frequency / f64::from(waveform.cycles()) < FAR * highest,
-        averaged: least(system, &sliding, first, &waveform),
-        waveform,
+    let rows = waveforms.into_par_iter().map(|waveform| {
+        let acting = |amplitude: f64| {
+            acting(system, &Wave { waveform: waveform.clone(), amplitude, ..first.clone() })
+        };
+        let averaged = least(&sliding, &acting(first.amplitude));
+        SystemWaveform {
+            own: waveform == first.waveform,
+            duty_cycle: duty_cycle(&waveform),
+            slow: first.frequency / f64::from(waveform.cycles()) < FAR * highest,
+            exact: exact(&averaged, &acting),
+            averaged,
+            waveform,
+        }
     });
     Ok(SystemWaveforms { rows: rows.collect(), carrier })
 }
 
-/// The least dither of a waveform.
-fn least(
-    system: &System,
-    sliding: &Linearised,
-    first: &Wave,
-    waveform: &Waveform,
-) -> Result<LeastInput, String> {
+/// The system with this wave as its first dither.
+fn acting(system: &System, wave: &Wave) -> System {
     let mut changed = system.clone();
     let input = &mut changed.inputs[0];
-    let wave = Wave { waveform: waveform.clone(), ..first.clone() };
     input.profile = Profile::constant(input.profile.mean()).with(wave.clone());
-    let prepared = DitheredSystem::new(&changed).map_err(|why| why.to_string())?;
+    changed
+}
+
+/// The exact least amplitude of a system with the state of a contact.
+fn exact(
+    averaged: &Result<LeastInput, String>,
+    acting: &(dyn Fn(f64) -> System + Sync),
+) -> Result<f64, String> {
+    let averaged = averaged.as_ref().map_err(Clone::clone)?.amplitude;
+    if !acting(averaged).contacts.iter().any(Contact::has_state) {
+        return Err("thresholds computes exact amplitudes of a system".to_owned());
+    }
+    let range = searched(averaged, |_| true)?;
+    let at = |values: &[f64]| -> Result<System, String> { Ok(acting(values[0])) };
+    exact_of_system(&at, averaged, range)
+}
+
+/// The least first dither of a system by averaging.
+fn least(sliding: &Linearised, changed: &System) -> Result<LeastInput, String> {
+    let wave = changed.inputs[0].profile.waves().first().ok_or("there is no dither")?;
+    let prepared = DitheredSystem::new(changed).map_err(|why| why.to_string())?;
     let without = prepared.average_with(Some((0, 0.0))).map_err(|why| why.to_string())?;
     let growth = without.growth().map_err(|why| why.to_string())?;
     if growth.verdict() == Verdict::Stable {
@@ -134,8 +160,8 @@ fn least(
     if !critical.contacts_stay_closed {
         return Err("a contact would open at the least amplitude".to_owned());
     }
-    let acting = Wave { amplitude: critical.amplitude, ..wave };
-    let cost = input_cost(&changed, sliding, &changed.inputs[0].target, &acting);
+    let acting = Wave { amplitude: critical.amplitude, ..wave.clone() };
+    let cost = input_cost(changed, sliding, &changed.inputs[0].target, &acting);
     let cost = cost.map_err(|why| why.to_string());
     Ok(LeastInput {
         amplitude: critical.amplitude,
@@ -143,10 +169,14 @@ fn least(
             .iter()
             .find(|critical| critical.becomes == Becomes::Unstable)
             .map(|critical| critical.amplitude),
-        root_mean_square: critical.amplitude * waveform.root_mean_square(),
+        root_mean_square: critical.amplitude * wave.waveform.root_mean_square(),
         stroke: cost.clone().map(|cost| cost.stroke),
         velocity: cost.clone().map(|cost| cost.velocity),
         power: cost.map(|cost| cost.power),
+        without_state: prepared
+            .average_with(Some((0, critical.amplitude)))
+            .map(|average| averaged_without_states(changed, &average.contacts))
+            .unwrap_or_default(),
     })
 }
 
@@ -216,7 +246,7 @@ impl SystemWaveforms {
             inner.known("until", Quantity::Force, until).known(
                 "exact_amplitude",
                 Quantity::Force,
-                Err("thresholds computes exact amplitudes of a system".to_owned()),
+                row.exact.clone(),
             );
             inner
         });
@@ -244,6 +274,10 @@ impl SystemWaveforms {
     /// The warnings of the study, and one about waveforms whose repetition is not fast.
     pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let mut warnings = study.warnings().to_vec();
+        warnings.extend(passivity_of_system(study));
+        let known = self.rows.iter().filter_map(|row| row.averaged.as_ref().ok());
+        let because = known.filter_map(|least| least.without_state.first()).next();
+        warnings.extend(because.map(|because| averages_are_a_start(because)));
         let slow: Vec<String> =
             self.rows.iter().filter(|row| row.slow).map(SystemWaveform::label).collect();
         if !slow.is_empty() {

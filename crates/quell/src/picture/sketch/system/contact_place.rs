@@ -3,6 +3,7 @@
 use quell_model::Contact;
 
 use super::body::SketchBody;
+use crate::picture::sketch::contact_state::StateMark;
 use crate::study::SystemStudy;
 
 /// Length of the rod or the spring of a contact.
@@ -34,6 +35,16 @@ pub(super) fn is_compliant(contact: &Contact) -> bool {
     contact.normal.is_some() && contact.normal_stiffness != 0.0
 }
 
+/// The spring or the bristles of a contact with a state.
+pub(super) fn mark(contact: &Contact) -> Option<StateMark> {
+    StateMark::of(&contact.friction, contact.tangential_stiffness)
+}
+
+/// Their height.
+pub(super) fn state_height(contact: &Contact) -> f64 {
+    mark(contact).map_or(0.0, StateMark::height)
+}
+
 /// Height of the contacts below a row of bodies.
 pub(super) fn depth(
     study: &SystemStudy,
@@ -60,5 +71,6 @@ pub(super) fn depth(
         return if study.system().contacts.iter().any(acts) { NOTE } else { 0.0 };
     }
     let rod = if here.iter().any(|contact| is_compliant(contact)) { SPRING } else { ROD };
-    rod + PAD + BELOW
+    let state = here.iter().map(|contact| state_height(contact)).fold(0.0, f64::max);
+    rod + PAD + state + BELOW
 }

@@ -3,7 +3,7 @@
 use quell_model::Contact;
 
 use super::body::{BodyKind, SketchBody, counted};
-use super::contact_place::{PAD, ROD, SPRING, home, is_compliant};
+use super::contact_place::{PAD, ROD, SPRING, home, is_compliant, mark, state_height};
 use super::drawing::SystemDrawing;
 use super::grid::BodySeat;
 use crate::picture::sketch::symbols::{index, indexed};
@@ -124,7 +124,12 @@ fn one(
         let (seat, far) = (drawing.grid.seat(body), drawing.grid.seat(other));
         seat.row == far.row && far.column + 1 == seat.column
     });
-    loads(sheet, (across, pad + PAD), contact, (index, from_left))
+    if let Some(mark) = mark(contact) {
+        let within = (across - 22.0, across + 22.0);
+        let of = format!(" of contact {}", contact.name);
+        sheet = mark.draw(sheet, within, pad + PAD, (&of, &tangential_symbol(index)));
+    }
+    loads(sheet, (across, pad + PAD + state_height(contact)), contact, (index, from_left))
 }
 
 /// The spring and damper of a compliant contact, from `top` to `bottom`.
@@ -160,6 +165,11 @@ fn stiffness(
 /// Symbol of the normal stiffness of a contact: $k$ alone would be that of a spring.
 pub(super) fn stiffness_symbol(index: &str) -> String {
     indexed("k", &format!("n{index}"))
+}
+
+/// Symbol of the tangential stiffness of a contact.
+pub(super) fn tangential_symbol(index: &str) -> String {
+    indexed("k", &format!("t{index}"))
 }
 
 /// Whether a line from the pad of a contact below one body reaches another one: its neighbour, high enough for a spring.
@@ -299,9 +309,10 @@ pub(super) fn spot(drawing: &SystemDrawing<'_>, contact: usize) -> Option<Contac
         let spots = places(drawing, body, group.len());
         let across = spots.get(place).or(spots.first()).copied()?;
         let pad = pad_level(drawing, body, is_compliant(group[place].1));
+        let level = pad + PAD + state_height(group[place].1);
         return Some(ContactSpot {
-            load: (across - 12.0, pad + PAD + 26.0),
-            friction: (across - 30.0, pad + PAD - 4.0),
+            load: (across - 12.0, level + 26.0),
+            friction: (across - 30.0, level - 4.0),
         });
     }
     None

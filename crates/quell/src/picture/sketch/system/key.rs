@@ -7,7 +7,7 @@ use quell_model::units::Quantity;
 use quell_model::{Contact, Input, Profile};
 
 use super::body::{BodyKind, counted};
-use super::contacts::stiffness_symbol;
+use super::contacts::{stiffness_symbol, tangential_symbol};
 use super::drawing::SystemDrawing;
 use super::key_rows::{KeyRow, add_rows};
 use crate::noise::lines_in_words;
@@ -158,6 +158,10 @@ fn contact_row(drawing: &SystemDrawing<'_>, contact: &Contact, index: String) ->
     if contact.normal_damping != 0.0 {
         items.push(with("d", Quantity::LoadDamping, contact.normal_damping));
     }
+    if let Some(stiffness) = contact.tangential_stiffness {
+        let unit = units.unit(Quantity::Stiffness);
+        items.push(item(&tangential_symbol(&index), stiffness, unit));
+    }
     let law = contact.friction.kind();
     items.push(format!("{} by the law “{}”", indexed("T", &index), law.name()));
     for (known, value) in law.parameters().iter().zip(contact.friction.values()) {
@@ -227,6 +231,9 @@ fn input_row(drawing: &SystemDrawing<'_>, input: &Input, symbol: &str) -> (Strin
             _ => format!("{range} Hz"),
         });
         items.extend(noise.map(lines_in_words));
+        if wave.envelope.is_some() {
+            items.push("times its envelope".to_owned());
+        }
         if wave.phase != 0.0 {
             items.push(format!("$φ$ = {} rad", number(wave.phase)));
         }

@@ -1,0 +1,297 @@
+//! Maps, comparisons of waveforms and designs of contacts with a state of their own: the answers are those of the single verbs, and
+//! averages, which do not know the state, say so.
+
+use std::sync::atomic::AtomicBool;
+
+use quell::Study;
+use quell::kind::verbs;
+use quell::run::found_attractor::AttractorRequest;
+use quell::run::system::orbit::WantedMotion;
+use quell::run::system::protocol::SystemProtocol;
+use quell::run::system::thresholds::MotionThresholdsRequest;
+use quell::sweep::{MapQuantity, Plan, Running};
+use serde_json::Value as Json;
+
+fn study(text: &str) -> Study {
+    Study::parse(text, &[]).unwrap_or_else(|errors| panic!("{text}\n{errors}"))
+}
+
+fn number(value: &Json) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+fn warnings(found: &Json) -> String {
+    found["warnings"].to_string()
+}
+
+fn map(text: &str, kind: &str, quantities: &[&str]) -> Json {
+    let asked: Vec<_> = quantities
+        .iter()
+        .map(|name| MapQuantity::named_for(kind, name, "--quantity").expect("a quantity"))
+        .collect();
+    let plan = Plan::new(&study(text), &asked).expect("a plan");
+    let never = AtomicBool::new(false);
+    let running = Running { threads: Some(1), stop: &never, progress: &() };
+    quell::run::map::run(plan, None, running).expect("a map").json()
+}
+
+/// The laws with a state, as the keys of a contact and its table of friction: an elastic slider and bristles.
+const LAWS: [(&str, &str); 2] = [
+    (
+        "tangential_stiffness = 30.0\n",
+        "law = \"stribeck-exponential\"\ncoefficient = 0.25\nstatic_coefficient = 0.4\nreference_velocity = 0.2\n",
+    ),
+    (
+        "",
+        "law = \"lugre\"\ncoefficient = 0.25\nstatic_coefficient = 0.4\nreference_velocity = 0.2\nbristle_stiffness = 60.0\n\
+         bristle_damping = 0.1\n",
+    ),
+];
+
+/// Amplitudes of the dither on the axis of the maps.
+const AMPLITUDES: [f64; 2] = [0.6, 2.4];
+
+fn axis(path: &str) -> String {
+    format!("[[sweep]]\nparameter = \"{path}\"\nvalues = {AMPLITUDES:?}\n")
+}
+
+fn belt((contact, law): (&str, &str), amplitude: f64) -> String {
+    format!(
+        "schema = 1\n[belt]\ndamping_ratio = 0.01\nnormal_load = 1.0\nbelt_velocity = 0.1\n{contact}[friction]\n{law}\
+         [dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = {amplitude}\nfrequency_ratio = 10.0\n\
+         [solver]\nsettle = 150\nrecord_periods = 12\n"
+    )
+}
+
+fn system((contact, law): (&str, &str), amplitude: f64) -> String {
+    format!(
+        "schema = 1\n[system]\ncoordinates = [\"x\"]\nmass = [1.0]\ndamping = [[0.02]]\nstiffness = [[1.0]]\n\
+         [[contact]]\nname = \"pad\"\ntangent = {{ x = 1.0 }}\nnormal_load = 1.0\nbelt_velocity = 0.1\n{contact}\
+         [contact.friction]\n{law}[[dither]]\nat = {{ x = 1.0 }}\nwaveform = \"sine\"\namplitude = {amplitude}\nfrequency = 10.0\n"
+    )
+}
+
+/// Compares a variable of a map at a point with the fact of a single verb, to the last bit.
+fn assert_same(map: &Json, variable: &str, point: usize, fact: &Json) {
+    let value = &map[variable][point];
+    let status = &map[format!("{variable}_status").as_str()][point];
+    if fact.is_null() || fact == "unknown" || fact == "undecided" {
+        let unknown = status != "known" && status != "without_state";
+        assert!(unknown, "{variable}[{point}]: {value} {status}, but the verb has {fact}");
+    } else {
+        assert_eq!(value, fact, "{variable}[{point}]: {status}");
+    }
+}
+
+#[test]
+fn points_of_systems_are_the_answers_of_the_verbs() {
+    let quantities = [
+        "growth",
+        "verdict",
+        "growth-undithered",
+        "critical-amplitude",
+        "orbit-verdict",
+        "orbit-radius",
+        "ends-on",
+        "peak-to-peak",
+        "stick-fraction",
+        "effect",
+        "efficiency",
+        "amplitude",
+        "undithered-amplitude",
+    ];
+    for law in LAWS {
+        let found = map(&(system(law, 1.0) + &axis("dither.amplitude")), "system", &quantities);
+        for (point, amplitude) in AMPLITUDES.into_iter().enumerate() {
+            let one = verbs(&study(&system(law, amplitude)));
+            let stability = one.stability().expect("averages").json();
+            assert_same(&found, "growth", point, &stability["growth_rate"]);
+            assert_same(&found, "verdict", point, &stability["verdict"]);
+            let still = verbs(&study(
+                &system(law, amplitude).split("[[dither]]").next().expect("a part").to_owned(),
+            ));
+            let still = still.stability().expect("small motions").json();
+            assert_same(&found, "growth_undithered", point, &still["growth_rate"]);
+            assert_eq!(found["growth_undithered_status"][point], "known");
+            // The bristles always move with the dither, and the displacement of the dither is that of about one breakaway.
+            assert_eq!(found["growth_status"][point], "without_state", "{found}");
+            match one.orbit_of_system(&WantedMotion::Base { periods: 1 }) {
+                Ok(orbit) => {
+                    assert_same(&found, "orbit_verdict", point, &orbit.json()["verdict"]);
+                    assert_same(&found, "orbit_radius", point, &orbit.json()["radius"]);
+                }
+                Err(_) => assert_eq!(found["orbit_radius_status"][point], "no_base_response"),
+            }
+            let end = one.attractor(&AttractorRequest::default()).expect("an end").json();
+            let end = &end["attractor"];
+            assert_same(&found, "ends_on", point, &end["kind"]);
+            assert_same(&found, "peak_to_peak", point, &end["peak_to_peak"]);
+            if law.0.is_empty() {
+                assert_eq!(found["stick_fraction_status"][point], "never_sticks");
+            } else {
+                assert_same(&found, "stick_fraction", point, &end["contacts"][0]["stick_fraction"]);
+            }
+            let response = one.response().expect("a response").json();
+            for fact in ["effect", "efficiency", "amplitude", "undithered_amplitude"] {
+                assert_same(&found, fact, point, &response[fact]);
+            }
+        }
+        assert!(warnings(&found).contains("without_state"), "{}", warnings(&found));
+        // The effects differ, so that the points are no copies of each other.
+        assert_ne!(found["amplitude"][0], found["amplitude"][1]);
+    }
+}
+
+#[test]
+fn points_of_belts_are_the_answers_of_the_verbs() {
+    let of_response = [
+        "effect",
+        "efficiency",
+        "amplitude",
+        "undithered_amplitude",
+        "stick_fraction",
+        "mean_friction",
+        "dither_power",
+        "dither_stroke",
+        "minimum_normal_load",
+    ];
+    let averaged = [
+        "verdict",
+        "criterion",
+        "growth",
+        "verdict-sharper",
+        "criterion-sharper",
+        "growth-sharper",
+        "critical-amplitude",
+    ];
+    let names: Vec<String> = of_response.iter().map(|name| name.replace('_', "-")).collect();
+    let quantities: Vec<&str> = names.iter().map(String::as_str).chain(averaged).collect();
+    for law in LAWS {
+        let found = map(&(belt(law, 1.0) + &axis("dither.amplitude")), "belt", &quantities);
+        for (point, amplitude) in AMPLITUDES.into_iter().enumerate() {
+            let one = verbs(&study(&belt(law, amplitude)));
+            let response = one.response().expect("a response").json();
+            for fact in of_response {
+                assert_same(&found, fact, point, &response[fact]);
+            }
+            let stability = one.stability().expect("averages").json();
+            let sharper = &stability["sharper"];
+            for (variable, fact) in [
+                ("verdict", &stability["verdict"]),
+                ("criterion", &stability["criterion"]),
+                ("growth", &stability["growth_rate"]),
+                ("verdict_sharper", &sharper["verdict"]),
+                ("criterion_sharper", &sharper["criterion"]),
+                ("growth_sharper", &sharper["growth_rate"]),
+                ("critical_amplitude", &stability["critical_amplitudes"][0]["amplitude_ratio"]),
+            ] {
+                assert_same(&found, variable, point, fact);
+                let status = &found[format!("{variable}_status").as_str()][point];
+                assert_eq!(status, "without_state", "{variable}: {found}");
+            }
+        }
+        assert_eq!(found["stick_fraction_status"][0] == "never_sticks", law.0.is_empty());
+        assert!(warnings(&found).contains("without_state"), "{}", warnings(&found));
+    }
+}
+
+/// A stiff slider adheres for so short a part of the dither that the average of the rigid law holds, and no point is marked.
+#[test]
+fn stiff_sliders_are_not_marked() {
+    let stiff = ("tangential_stiffness = 3e4\n", LAWS[0].1);
+    let found = map(&(belt(stiff, 1.0) + &axis("dither.amplitude")), "belt", &["growth"]);
+    assert_eq!(found["growth_status"], serde_json::json!(["known", "known"]), "{found}");
+    let found = map(&(system(stiff, 1.0) + &axis("dither.amplitude")), "system", &["growth"]);
+    assert_eq!(found["growth_status"], serde_json::json!(["known", "known"]), "{found}");
+}
+
+fn row<'a>(found: &'a Json, label: &str) -> &'a Json {
+    let rows = found["waveforms"].as_array().expect("rows");
+    rows.iter().find(|row| row["label"] == label).unwrap_or_else(|| panic!("no {label}: {found}"))
+}
+
+/// The averaged amplitudes are those of the rigid law; the exact ones are thresholds of the contact with its state, as a belt and as the
+/// same mass as a system.
+#[test]
+fn waveforms_know_the_state_in_their_exact_amplitudes() {
+    let (contact, law) = ("tangential_stiffness = 100.0\n", LAWS[0].1);
+    let of = |contact: &str| {
+        verbs(&study(&belt((contact, law), 1.0))).waveforms().expect("waveforms").json()
+    };
+    let (rigid, found) = (of(""), of(contact));
+    let (own, bare) = (row(&found, "sine"), row(&rigid, "sine"));
+    assert_eq!(own["amplitude"], bare["amplitude"]);
+    assert_ne!(own["exact_amplitude"], bare["exact_amplitude"]);
+    assert!(warnings(&found).contains("without the state of its contact"), "{found}");
+    assert!(!warnings(&rigid).contains("without the state"), "{rigid}");
+    let exact = number(&own["exact_amplitude"]);
+    let request = MotionThresholdsRequest {
+        parameter: "dither.amplitude".to_owned(),
+        window: (0.9 * exact, 1.1 * exact),
+        near: None,
+        protocols: Vec::<SystemProtocol>::new(),
+        ramp: 0.0,
+    };
+    let one = verbs(&study(&system((contact, law), 1.0)));
+    let thresholds = one.thresholds_of_system(&request).expect("thresholds").json();
+    let list = thresholds["local"].as_array().or(thresholds["thresholds"].as_array());
+    let list = list.unwrap_or_else(|| panic!("{thresholds}"));
+    let off = |one: &Json| (number(&one["value"]) / exact - 1.0).abs();
+    let near = list.iter().map(off).fold(f64::INFINITY, f64::min);
+    assert!(near < 1e-8, "{exact}: {thresholds}");
+}
+
+const DESIGN: &str = "[design]\nminimise = \"amplitude\"\nvary = [\"dither.amplitude\"]\nfrom = [0.01]\nto = [20.0]\nwaveforms = [\"sine\"]\n";
+
+/// The least dither of a belt with a slider is the threshold of its base response, verified with the state.
+#[test]
+fn designs_know_the_state() {
+    let law = ("tangential_stiffness = 100.0\n", LAWS[0].1);
+    let text = belt(law, 1.0) + DESIGN;
+    let found = verbs(&study(&text)).design().expect("a design").json();
+    assert_eq!(found["feasible"], true, "{found}");
+    assert!(number(&found["verified"]["multiplier"]) < 1.0, "{found}");
+    assert!(warnings(&found).contains("without the state of its contact"), "{found}");
+    let critical = number(&found["critical"]["dither.amplitude"]);
+    let compared = verbs(&study(&belt(law, 1.0))).waveforms().expect("waveforms").json();
+    let exact = number(&row(&compared, "sine")["exact_amplitude"]);
+    assert!((critical / exact - 1.0).abs() < 1e-6, "{critical} {exact}: {found}");
+    let far = text.replace("minimise", "start = \"rest\"\nminimise");
+    let refused = verbs(&study(&far)).design().map(|_| ()).expect_err("runs from afar");
+    assert!(refused.to_string().contains("design.start"), "{refused}");
+}
+
+/// Without dither the verdict on bristles with their own state is that of their system, next to the criterion of the steady law.
+#[test]
+fn stability_of_a_belt_has_the_small_motions_of_bristles() {
+    let without = |text: String| {
+        let end = text.find("[[dither]]").or_else(|| text.find("[dither]")).expect("a dither");
+        text[..end].to_owned()
+    };
+    let text = without(belt(LAWS[1], 1.0));
+    let found = verbs(&study(&text)).stability().expect("averages").json();
+    let exact =
+        verbs(&study(&without(system(LAWS[1], 1.0)))).stability().expect("small motions").json();
+    assert_eq!(found["small_motions"]["growth_rate"], exact["growth_rate"]);
+    assert_eq!(found["small_motions"]["verdict"], exact["verdict"]);
+    assert_ne!(found["growth_rate"], exact["growth_rate"]);
+    assert!(warnings(&found).contains("small_motions"), "{found}");
+    let rigid = verbs(&study(&without(belt(LAWS[0], 1.0)))).stability().expect("averages").json();
+    assert!(rigid.get("small_motions").is_none(), "{rigid}");
+}
+
+/// `check` warns of friction that is not passive, and reports the mean that is taken out of samples.
+#[test]
+fn check_reports_passivity_and_the_mean_of_samples() {
+    let samples = "waveform = \"samples\"\nvalues = [1, 2, 3]\n";
+    let active =
+        LAWS[1].1.replace("bristle_damping = 0.1", "bristle_damping = 20.0\nviscous = 0.01");
+    for text in [belt(("", &active), 1.0), system(("", &active), 1.0)] {
+        let text = text.replace("waveform = \"sine\"\n", samples);
+        let found = verbs(&study(&text)).check().json();
+        assert!(warnings(&found).contains("not passive"), "{found}");
+        assert!(warnings(&found).contains("have the mean 2, which is taken out"), "{found}");
+    }
+    let plain = verbs(&study(&belt(LAWS[0], 1.0))).check().json();
+    assert_eq!(warnings(&plain), "[]");
+}
