@@ -12,6 +12,7 @@ use quell::plot::Figure;
 use quell::quantity;
 use quell::run::system::start::duration as duration_of_motion;
 use quell::study::document::Node;
+use quell::table_file::TableFormat;
 use quell::{Change, Complaint, Failure, Fault, Origin, Study};
 use serde_json::Value as Json;
 
@@ -183,8 +184,8 @@ fn no_picture() -> Failure {
 /// The option for the table of numbers.
 #[derive(Debug, Args)]
 pub(crate) struct OutputArguments {
-    /// Saves the computed numbers as a table
-    #[arg(long, value_name = "FILE.csv")]
+    /// Saves the computed numbers as a table: FILE.csv, FILE.mat (MATLAB) or FILE.nc (NetCDF)
+    #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
 }
 
@@ -206,23 +207,27 @@ impl OutputArguments {
     /// Checks that every output can be written and does not replace one of the inputs; `parts` name further files in the folder
     /// of the first.
     pub(crate) fn prepare(&self, parts: &[&str], inputs: &Inputs) -> Result<Outputs, Failure> {
-        Outputs::prepare(self.save.as_deref(), &["csv"], parts, inputs)
+        Outputs::prepare(self.save.as_deref(), &[], parts, inputs)
     }
 }
 
 impl Outputs {
-    /// [`OutputArguments::prepare`] for a path with one of these extensions.
+    /// [`OutputArguments::prepare`] for a path with the extension of a table, or one of these extensions.
     pub(crate) fn prepare(
         path: Option<&Path>,
-        extensions: &[&str],
+        further: &[&str],
         parts: &[&str],
         inputs: &Inputs,
     ) -> Result<Self, Failure> {
         let mut save = Vec::new();
         if let Some(path) = path {
-            let first = Output::prepare(path, "--save", extensions, inputs)?;
-            for part in parts {
-                save.push(first.sibling(part, "--save", inputs)?);
+            let extensions = [TableFormat::EXTENSIONS, further].concat();
+            let first = Output::prepare(path, "--save", &extensions, inputs)?;
+            let format = TableFormat::of_extension(&first.extension());
+            if format == Some(TableFormat::Csv) {
+                for part in parts {
+                    save.push(first.sibling(part, "--save", inputs)?);
+                }
             }
             save.insert(0, first);
         }
@@ -234,15 +239,17 @@ impl Outputs {
         Self { save: Vec::new() }
     }
 
-    /// Writes the sound of an outcome, or its datasets, one per file, and adds the paths to the object.
+    /// Writes the sound of an outcome, its file for another program, or its datasets, and adds the paths to the object.
     fn write(self, outcome: &dyn Outcome, object: &mut Json) -> Result<(), Failure> {
         let Some(first) = self.save.first() else { return Ok(()) };
-        let sound = if first.extension() == WAV { outcome.sound() } else { None };
-        let contents = if let Some(sound) = sound {
-            vec![sound?]
-        } else {
-            let datasets = outcome.datasets().into_iter();
-            datasets.map(|(_, dataset)| dataset.csv().into_bytes()).collect()
+        let extension = first.extension();
+        let single = if extension == WAV { outcome.sound() } else { outcome.exported(&extension) };
+        let contents = match single {
+            Some(bytes) => vec![bytes?],
+            None => match TableFormat::of_extension(&extension) {
+                Some(format) => format.files(&outcome.datasets(), "--save")?,
+                None => Vec::new(),
+            },
         };
         if contents.is_empty() {
             let allowed =

@@ -80,6 +80,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 &[
                     "quell friction own-law.toml --at 0,0.05,0.1",
                     "quell friction quench.toml --describing 0.1",
+                    "quell friction quench.toml --save friction.inp",
                     "quell friction quench.toml --measured --at 0.02,0.05,0.1",
                 ],
             ),

@@ -6,6 +6,7 @@
 //! |---|---|
 //! | `toml` | saved under the name in its first line, `# NAME.toml`, and checked |
 //! | `csv` | saved under the name in its first line, `# NAME.csv` |
+//! | `mtx` | saved under the name in its second line, `% NAME.mtx` |
 //! | `toml` that begins with `[friction]` | replaces `[friction]` in the last belt; checked unless it names a data file |
 //! | `sh` | every line that begins with `quell` is run and must succeed |
 //! | `text` after `sh` | must equal the output of the last command |
@@ -150,6 +151,11 @@ fn page_in(path: &Path, folder: &tempfile::TempDir) -> String {
             "csv" => {
                 let name = block.lines.first().and_then(|line| line.strip_prefix("# "));
                 let name = name.expect("the name of the file in its first line");
+                fs::write(folder.path().join(name), block.lines.join("\n")).expect("written");
+            }
+            "mtx" => {
+                let name = block.lines.get(1).and_then(|line| line.strip_prefix("% "));
+                let name = name.expect("the name of the file in its second line");
                 fs::write(folder.path().join(name), block.lines.join("\n")).expect("written");
             }
             "sh" => {

@@ -1,7 +1,8 @@
-//! Questions about many studies at once: the least dither, what actuators can give, friction laws fitted to measurements, and the probability
-//! that a structure vibrates.
+//! Questions about many studies at once: the least dither, what actuators can give, friction laws fitted to measurements, the
+//! probability that a structure vibrates, and friction models of other programs in place of a law.
 
 pub mod actuator;
 pub mod fit;
 pub mod least_dither;
 pub mod probability;
+pub mod substitute;

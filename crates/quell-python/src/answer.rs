@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use pyo3::prelude::*;
 use quell::dataset::Dataset;
-use quell::outcome::Outcome;
+use quell::outcome::{Outcome, friction_export};
 use quell::output::Output;
 use quell::picture::{self, EXTENSIONS, PicturePage, PictureWidth};
 use quell::plot::Figure;
+use quell::table_file::TableFormat;
 use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
@@ -32,6 +33,9 @@ impl NativeAnswer {
         })
     }
 }
+
+/// The complaint about a file of another program that the result does not have.
+const NO_EXPORT: &str = "only averaged friction is saved as .inp or .m";
 
 /// The datasets of an outcome. The events of a run are a field of its facts in Python, not a dataset.
 fn tables(outcome: &dyn Outcome) -> Vec<(&'static str, Dataset)> {
@@ -108,30 +112,37 @@ impl NativeAnswer {
         })
     }
 
-    /// Writes the datasets as CSV; those after the first go to further files in the same folder.
-    fn csv(&self, py: Python<'_>, path: PathBuf) -> PyResult<Vec<String>> {
+    /// Writes the datasets as a table, or the file of another program. Datasets after the first go to further files in the same
+    /// folder if the format holds only one.
+    fn table(&self, py: Python<'_>, path: PathBuf) -> PyResult<Vec<String>> {
         let inner = Arc::clone(&self.inner);
         call::run(py, move || {
-            let mut saved = Vec::new();
             let inputs = inner.inputs();
-            let first = Output::prepare(&path, "path", &["csv"], &inputs)?;
-            let datasets = tables(inner.as_ref());
-            if datasets.is_empty() {
-                let allowed = "this result has no table";
-                let origin = Origin::Whole;
-                return Err(
-                    Complaint::new(Fault::Usage, "save", origin, Json::Null, allowed).into()
-                );
+            let extensions = [TableFormat::EXTENSIONS, friction_export::EXTENSIONS].concat();
+            let first = Output::prepare(&path, "path", &extensions, &inputs)?;
+            let extension = first.extension();
+            let format = TableFormat::of_extension(&extension);
+            if let Some(bytes) = inner.exported(&extension) {
+                return Ok(vec![first.write(&bytes?)?.display().to_string()]);
             }
+            let datasets = match format {
+                Some(TableFormat::Csv) => tables(inner.as_ref()),
+                _ => inner.datasets(),
+            };
+            let Some(format) = format.filter(|_| !datasets.is_empty()) else {
+                let allowed =
+                    if datasets.is_empty() { "this result has no table" } else { NO_EXPORT };
+                let (fault, origin) = (Fault::Usage, Origin::Whole);
+                return Err(Complaint::new(fault, "save", origin, Json::Null, allowed).into());
+            };
             let mut outputs = Vec::new();
-            for (name, _) in datasets.iter().skip(1) {
+            for (name, _) in datasets.iter().skip(1).filter(|_| !format.holds_all()) {
                 outputs.push(first.sibling(name, "path", &inputs)?);
             }
             outputs.insert(0, first);
-            for (output, (_, dataset)) in outputs.into_iter().zip(datasets) {
-                saved.push(output.write(dataset.csv().as_bytes())?.display().to_string());
-            }
-            Ok(saved)
+            let files = format.files(&datasets, "path")?;
+            let written = outputs.into_iter().zip(files);
+            written.map(|(output, file)| Ok(output.write(&file)?.display().to_string())).collect()
         })
     }
 }

@@ -12,6 +12,8 @@ import numpy as np
 import pandas
 import pint
 import pytest
+import scipy.io
+import scipy.sparse
 import xarray
 from conftest import BELT
 
@@ -195,16 +197,114 @@ def test_every_result_is_a_netcdf_file(call: str, tmp_path: Any) -> None:
                 assert stored.values.tolist() == one.values.tolist(), name
 
 
+def datasets(result: quell.results.Result) -> list[tuple[str, Any]]:
+    """The native datasets that tables are made of."""
+    return result._alive().datasets()  # type: ignore[no-any-return]
+
+
+@pytest.mark.parametrize("call", gallery.CALLS)
+def test_every_table_is_a_matlab_and_a_netcdf_file(call: str, tmp_path: Any) -> None:
+    """Files of ``--save`` have the values, units, words and dimensions of the arrays."""
+    result = gallery.result(call)
+    tables = datasets(result)
+    if not tables:
+        for name in ("x.mat", "x.nc"):
+            with pytest.raises(quell.StudyError, match="no table"):
+                result.save(tmp_path / name)
+        return
+    assert result.save(tmp_path / "x.mat") == [str(tmp_path / "x.mat")]
+    assert result.save(tmp_path / "x.nc") == [str(tmp_path / "x.nc")]
+    stored = scipy.io.loadmat(tmp_path / "x.mat", simplify_cells=True, verify_compressed_data_integrity=True)
+    file = xarray.open_dataset(tmp_path / "x.nc", engine="scipy", decode_times=False)
+    for place, (name, (provenance, axes, arrays)) in enumerate(tables):
+        table = stored[name]
+        shape = tuple(len(axis[2]) for axis in axes)
+        about = table["about"]
+        assert about["study"] == provenance["study"].rstrip("\n") or about["study"].strip() == provenance["study"].strip()
+        assert len(np.atleast_1d(about["axes"])) == len(axes)
+        prefix = "" if place == 0 else f"{name}_"
+        for kind, several in (("axis", axes), ("array", arrays)):
+            for array in several:
+                label = array[0].replace(".", "_").replace("[", "_").replace("]", "").replace(" ", "_")
+                values = np.asarray(array[2], dtype=float)
+                values = values if kind == "axis" else values.reshape(shape)
+                assert np.array_equal(np.asarray(table[label], dtype=float).reshape(values.shape), values, equal_nan=True), label
+                assert about["units"][label] == array[1][0]
+                if array[3] is not None:
+                    meanings = np.atleast_1d(about["words"][label]["meanings"]).tolist()
+                    assert meanings == [word for _, word in array[3]]
+                if 0 in shape:
+                    continue
+                variable = next(file[it] for it in (prefix + label, label, f"{name}_{label}", f"{prefix}{label}_value") if it in file)
+                assert np.array_equal(variable.values.astype(float).reshape(values.shape), values, equal_nan=True), label
+                if array[3] is None:
+                    assert variable.attrs["units"] == array[1][0]
+                else:
+                    assert variable.attrs["flag_meanings"].split(" ") == [word.replace(" ", "_") for _, word in array[3]]
+    assert file.attrs["program"].startswith("quell ") and file.attrs.get("study", "") == tables[0][1][0]["study"]
+    file.close()
+
+
+@pytest.mark.parametrize("call", gallery.CALLS)
+def test_every_result_is_a_matlab_file(call: str, tmp_path: Any) -> None:
+    """``to_mat`` has the facts too."""
+    result = gallery.result(call)
+    result.to_mat(tmp_path / "whole.mat")
+    stored = scipy.io.loadmat(tmp_path / "whole.mat", simplify_cells=True)
+    (table,) = (value for name, value in stored.items() if not name.startswith("__"))
+    assert table["about"]["verb"] == result.verb
+    for name, one in result.arrays.items():
+        if one.values.dtype.kind == "f":
+            assert np.array_equal(np.asarray(table[name], dtype=float).reshape(one.values.shape), one.values, equal_nan=True), name
+        elif one.values.dtype.kind == "U" and one.dims and one.values.size:
+            assert np.atleast_1d(table[name]).tolist() == one.values.tolist(), name
+        if "units" in one.attrs:
+            assert table["about"]["units"][name] == one.attrs["units"]
+
+
+def test_averaged_friction_is_a_file_of_abaqus_and_simscape(tmp_path: Any) -> None:
+    friction = gallery.belt_in_si().friction()
+    assert friction.save(tmp_path / "friction.inp") == [str(tmp_path / "friction.inp")]
+    text = (tmp_path / "friction.inp").read_text(encoding="utf-8")
+    rows = [line.split(",") for line in text.split("\n*FRICTION\n")[1].splitlines() if not line.startswith("*")]
+    coefficients, rates = np.array(rows, dtype=float).T
+    known = np.interp(rates, friction.slip_velocity, np.nan_to_num(friction.effective_coefficient))
+    assert rates[0] == 0.0 and np.all(np.diff(rates) > 0) and np.allclose(coefficients, known, atol=2e-3)
+    friction.save(tmp_path / "friction.m")
+    assert "friction.breakaway_friction_velocity" in (tmp_path / "friction.m").read_text(encoding="utf-8")
+    with pytest.raises(quell.StudyError, match="only averaged friction"):
+        gallery.result("response").save(tmp_path / "response.inp")
+    assert not (tmp_path / "response.inp").exists()
+
+
+def test_matrices_are_files_of_matrix_market(tmp_path: Any) -> None:
+    """What SciPy writes, sparse and dense, symmetric and general, is the same study as the matrices."""
+    random = np.random.default_rng(5)
+    spring = random.normal(size=(4, 4))
+    stiffness, damping = spring @ spring.T + np.eye(4), 0.1 * random.normal(size=(4, 4))
+    names = ["a", "b", "c", "d"]
+    contact = quell.Contact(tangent={"a": 1}, normal_load=1, belt_velocity=1, friction=quell.Coulomb(0.3))
+    how: dict[str, Any] = {"coordinates": names, "contact": contact}
+    known = quell.System(mass=np.ones(4), stiffness=stiffness.tolist(), damping=damping.tolist(), **how).stability()
+    for form in (lambda matrix: matrix, scipy.sparse.coo_array):
+        for name, matrix in (("M", np.eye(4)), ("K", stiffness), ("C", damping)):
+            scipy.io.mmwrite(tmp_path / f"{name}.mtx", form(matrix), precision=17, symmetry="AUTO")
+        files = {name: {"file": str(tmp_path / f"{letter}.mtx")} for name, letter in (("mass", "M"), ("stiffness", "K"), ("damping", "C"))}
+        found = quell.System(**files, **how)
+        assert found.stability().facts == known.facts and found.mass == files["mass"]
+
+
 def test_missing_packages_are_named() -> None:
     program = """
 import sys
-for name in ("pandas", "xarray", "pint", "pyarrow"):
+for name in ("pandas", "xarray", "pint", "pyarrow", "scipy.io", "pyuff"):
     sys.modules[name] = None
 import quell
 belt = quell.Belt(damping_ratio=0.005, normal_load=1, belt_velocity=0.05,
     friction=quell.Stribeck(static_coefficient=0.4, minimum_coefficient=0.2857, reference_velocity=0.2))
 run = belt.simulate(5)
-for call in (run.events_frame, run.to_dataframe, lambda: run.to_netcdf("x.nc"), lambda: run.to_parquet("x.parquet"), lambda: run.quantity("steps")):
+for call in (run.events_frame, run.to_dataframe, lambda: run.to_netcdf("x.nc"), lambda: run.to_parquet("x.parquet"), lambda: run.quantity("steps"),
+             lambda: run.to_mat("x.mat"), lambda: quell.from_universal_file(__import__("os").devnull, units="SI")):
     try:
         call()
     except ImportError as why:
@@ -217,4 +317,6 @@ for call in (run.events_frame, run.to_dataframe, lambda: run.to_netcdf("x.nc"), 
         "to_netcdf() needs xarray, which is not installed: pip install xarray",
         "to_dataframe() needs pandas, which is not installed: pip install pandas",
         "quantity() needs pint, which is not installed: pip install pint",
+        "to_mat() needs scipy, which is not installed: pip install scipy",
+        "from_universal_file() needs pyuff, which is not installed: pip install pyuff",
     ], done.stderr

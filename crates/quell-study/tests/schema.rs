@@ -118,6 +118,13 @@ fn schema_and_reader_agree_on_systems() {
         assert!(SYSTEM.contains(from), "{from}");
         assert_eq!(judged(&SYSTEM.replacen(from, to, 1)), (false, false), "{to}");
     }
+    // The schema does not read files.
+    for (value, is_right) in
+        [("{ file = 'K.mtx' }", true), ("{ file = 3 }", false), ("{ path = 'K.mtx' }", false)]
+    {
+        let text = SYSTEM.replace("[[1, 0], [0, '2kN/m']]", value);
+        assert_eq!(judged(&text), (is_right, false), "{value}");
+    }
     let noise = SYSTEM.replace("'sine'", "'noise'").replace("amplitude = 0.1", "amplitude = 0.01");
     for (keys, is_right) in [
         ("band = [8, '2*m']", false),

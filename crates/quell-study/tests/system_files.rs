@@ -137,3 +137,64 @@ fn a_measured_response_stands_for_matrices() {
     let wrong = read(folder.path(), text).expect_err("no response of the pad to x");
     assert!(wrong[0].allowed.contains("response of pad.tangent to a force at x"), "{wrong}");
 }
+
+/// A body with a contact, its matrices in files.
+const MATRICES: &str = "[system]\nunits = 'mm-t-s'\ncoordinates = ['x', 'y']\nmass = { file = 'M.mtx' }\n\
+    stiffness_n_per_m = { file = 'K.mtx' }\n[contact]\ntangent = {x = 1}\nnormal_load = 2\nbelt_velocity = 1\n[friction]\n\
+    law = 'coulomb'\ncoefficient = 0.3\n";
+
+const MASS: &str =
+    "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 1 0.5\n2 2 1\n";
+
+const STIFFNESS: &str = "%%MatrixMarket matrix array real general\n2 2\n3000\n1000\n2000\n4000\n";
+
+#[test]
+fn matrices_of_files_are_in_the_unit_of_their_key() {
+    let folder = folder_with(&[("M.mtx", MASS), ("K.mtx", STIFFNESS)]);
+    let study = read(folder.path(), MATRICES).expect("valid");
+    let mechanical = study.system().structure.mechanical().expect("mechanical");
+    assert_eq!(mechanical.mass().matrix().as_slice(), [2.0, 0.5, 0.5, 1.0]);
+    // Columns one after the other, and N/m in N/mm.
+    assert_eq!(mechanical.stiffness().as_slice(), [3.0, 2.0, 1.0, 4.0]);
+    let files = study.inputs();
+    for name in ["M.mtx", "K.mtx"] {
+        assert!(files.at(&folder.path().join(name)).is_some(), "{name} is an input");
+    }
+    let before = study.settings();
+    // The files are not read again; another study with other entries has other settings.
+    fs::write(folder.path().join("K.mtx"), STIFFNESS.replace("4000", "4001")).expect("written");
+    let changed = study.system_at(&[("contact[0].normal_load", 3.0)]).expect("valid");
+    assert_eq!(changed.structure.mechanical().expect("mechanical").stiffness()[(1, 1)], 4.0);
+    let other = read(folder.path(), MATRICES).expect("valid");
+    assert_ne!(other.settings(), before);
+    assert!(study.with("system.stiffness_n_per_m[0][0]", 2.0).is_err());
+}
+
+#[test]
+fn wrong_matrix_files_are_complained_about_at_their_key() {
+    let indefinite = MASS.replace("0.5", "2.5");
+    let files = [
+        ("M.mtx", MASS),
+        ("K.mtx", STIFFNESS),
+        ("indefinite.mtx", &indefinite),
+        ("abaqus.mtx", "1,1, 1,1, 2.0\n"),
+    ];
+    let folder = folder_with(&files);
+    for (from, to, key, part) in [
+        ("'M.mtx'", "'none.mtx'", "system.mass.file", "cannot be read"),
+        ("'M.mtx'", "'indefinite.mtx'", "system.mass", "positive definite"),
+        ("'M.mtx'", "'abaqus.mtx'", "system.mass.file", "%%MatrixMarket"),
+        ("'M.mtx'", "3", "system.mass.file", "a text"),
+        ("{ file = 'M.mtx' }", "{ file = 'M.mtx', also = 1 }", "system.mass", "file alone"),
+        ("{ file = 'M.mtx' }", "{}", "system.mass", "file alone"),
+        ("{ file = 'M.mtx' }", "'M.mtx'", "system.mass", "{ file ="),
+        ("['x', 'y']", "['x', 'y', 'z']", "system.mass.file", "3 rows and 3 columns"),
+    ] {
+        assert!(MATRICES.contains(from), "{from}");
+        let wrong = read(folder.path(), &MATRICES.replacen(from, to, 1)).expect_err(to);
+        let found = wrong.iter().find(|complaint| complaint.key == key);
+        let found = found.unwrap_or_else(|| panic!("{to}: {wrong}"));
+        assert!(found.to_string().contains(part), "{to}: {found}");
+        assert!(found.origin.line().is_some(), "{to}: {found}");
+    }
+}

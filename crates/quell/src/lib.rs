@@ -147,6 +147,7 @@
 //! | [`sweep`], [`store`] | maps: points, quantities, threads; stores that survive interruptions |
 //! | [`picture`], [`plot`] | pictures of outcomes; figures as data (`quell-plot`) |
 //! | [`dataset`], [`fields`], [`output`] | labelled arrays, JSON objects, files that are complete or absent |
+//! | [`table_file`] | datasets as CSV, MATLAB and NetCDF files |
 //! | [`report`], [`html`] | one page about a study; pages in HTML |
 //! | [`sound`] | the velocity of a motion as a sound file |
 //! | [`cite`], [`template`] | sources of a study's computations; commented studies to start from |
@@ -169,6 +170,7 @@ pub mod run;
 pub mod sound;
 pub mod store;
 pub mod sweep;
+pub mod table_file;
 pub mod template;
 pub mod words;
 

@@ -1,12 +1,16 @@
 //! `quell friction`: the friction law and the effective friction under the dither.
 
+use std::path::PathBuf;
+
 use clap::Args;
 use quell::kind::verbs;
-use quell::{Failure, Study};
+use quell::outcome::friction_export::EXTENSIONS;
+use quell::{Complaint, Failure, Fault, Origin, Study};
+use serde_json::Value as Json;
 
 use super::numbers::velocity;
 use crate::answer::Answer;
-use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
+use crate::arguments::{Gathered, Outputs, PlotArguments, StudyArguments, answer, inputs};
 
 /// Computes the friction law and the effective friction under the dither
 #[derive(Debug, Args)]
@@ -25,8 +29,30 @@ pub(crate) struct Arguments {
     describing: Option<String>,
     #[command(flatten)]
     plot: PlotArguments,
-    #[command(flatten)]
-    output: OutputArguments,
+    /// Saves the numbers as a table (.csv, .mat for MATLAB, .nc for NetCDF), or the averaged friction for Abaqus (.inp) or as a
+    /// script of MATLAB with parameters of Simscape (.m), for slip speeds from 0 to the largest of --at
+    #[arg(long, value_name = "FILE.csv|.mat|.nc|.inp|.m")]
+    save: Option<PathBuf>,
+}
+
+impl Arguments {
+    /// Rejects a file for another program where the friction is not only averaged.
+    fn averages(&self) -> Result<(), Box<Complaint>> {
+        let extension = self.save.as_deref().and_then(|path| path.extension()?.to_str());
+        let Some(extension) = extension.map(str::to_ascii_lowercase) else { return Ok(()) };
+        let other = [("--measured", self.measured), ("--describing", self.describing.is_some())];
+        match other
+            .into_iter()
+            .find(|(_, given)| *given && EXTENSIONS.contains(&extension.as_str()))
+        {
+            Some((option, _)) => {
+                let allowed = format!("left out: a file .{extension} has the averaged friction");
+                let origin = Origin::Argument(option);
+                Err(Box::new(Complaint::new(Fault::Conflict, option, origin, Json::Null, allowed)))
+            }
+            None => Ok(()),
+        }
+    }
 }
 
 /// Runs the verb.
@@ -39,7 +65,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         .describing
         .as_deref()
         .and_then(|text| complaints.take(velocity("--describing", text, study.as_ref())));
-    let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
+    complaints.take(arguments.averages());
+    let save = arguments.save.as_deref();
+    let outputs = complaints.take(Outputs::prepare(save, EXTENSIONS, &[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     let (study, (outputs, plot)) = complaints.finish(study.zip(outputs.zip(plot)))?;
 

@@ -11,6 +11,7 @@ use quell::picture;
 use quell::run::map::run as map;
 use quell::store::Store;
 use quell::sweep::{Grid, MOST_THREADS, MapQuantity, Plan, QUANTITIES, Running};
+use quell::table_file::TableFormat;
 use quell::{Complaint, Failure, Fault, Origin};
 
 use crate::answer::Answer;
@@ -29,7 +30,7 @@ pub(crate) struct Arguments {
     #[arg(long = "quantity", value_name = "NAME", required = true, value_delimiter = ',')]
     quantities: Vec<String>,
     /// Saves the map as a Zarr store, written during the computation, or as a table at the end
-    #[arg(long, value_name = "FILE.zarr|.csv")]
+    #[arg(long, value_name = "FILE.zarr|.csv|.mat|.nc")]
     save: Option<PathBuf>,
     /// Continues the store of --save if it exists
     #[arg(long)]
@@ -61,7 +62,7 @@ fn quantities() -> String {
 /// Where the map is saved.
 enum Keep {
     Nowhere,
-    Csv(Output),
+    Table(Output),
     Zarr(PathBuf),
 }
 
@@ -96,16 +97,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     }
     let store = match &keep {
         Keep::Zarr(path) => Some(Store::open(path, &plan, arguments.resume)?),
-        Keep::Csv(_) | Keep::Nowhere => None,
+        Keep::Table(_) | Keep::Nowhere => None,
     };
     let bar = Bar::new();
     let running = Running { threads, stop: interrupt::flag(), progress: &bar };
     let done = map(plan, store.as_ref(), running)?;
     let mut object = done.json();
     match keep {
-        Keep::Csv(output) => {
-            let path = output.write(done.dataset().csv().as_bytes())?;
-            object["saved"] = vec![path.display().to_string()].into();
+        Keep::Table(output) => {
+            let format = TableFormat::of_extension(&output.extension());
+            let files = format.unwrap_or(TableFormat::Csv).files(&done.datasets(), "--save")?;
+            let written = output.write(&files.concat())?;
+            object["saved"] = vec![written.display().to_string()].into();
         }
         Keep::Zarr(path) => object["saved"] = vec![path.display().to_string()].into(),
         Keep::Nowhere => {}
@@ -139,7 +142,10 @@ fn keep(arguments: &Arguments, inputs: &Inputs) -> Result<Keep, Box<Complaint>> 
             };
             Err(Box::new(Complaint::new(Fault::Usage, option, Origin::Whole, option, allowed)))
         }
-        Some(path) => Output::prepare(path, "--save", &["csv", "zarr"], inputs).map(Keep::Csv),
+        Some(path) => {
+            let extensions = [TableFormat::EXTENSIONS, &["zarr"]].concat();
+            Output::prepare(path, "--save", &extensions, inputs).map(Keep::Table)
+        }
         None => Ok(Keep::Nowhere),
     }
 }

@@ -36,8 +36,8 @@ pub(crate) struct Arguments {
     events: bool,
     #[command(flatten)]
     plot: PlotArguments,
-    /// Saves the trajectory as a table, or its velocity as sound (44.1 kHz, 16 bits, mono)
-    #[arg(long, value_name = "FILE.csv|.wav")]
+    /// Saves the trajectory as a table (.csv, .mat for MATLAB, .nc for NetCDF), or its velocity as sound (44.1 kHz, 16 bits, mono)
+    #[arg(long, value_name = "FILE.csv|.mat|.nc|.wav")]
     save: Option<PathBuf>,
     #[command(flatten)]
     sound: SoundArguments,
@@ -131,7 +131,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let is_sound = extension.is_some_and(|extension| extension.eq_ignore_ascii_case(WAV));
     let sound = complaints.take(arguments.sound.read(is_sound, study.as_ref()));
     let parts: &[&str] = if arguments.events && !is_sound { &["events"] } else { &[] };
-    let outputs = complaints.take(Outputs::prepare(save, &["csv", WAV], parts, &inputs));
+    let outputs = complaints.take(Outputs::prepare(save, &[WAV], parts, &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
     if let Some((study, system)) =
         study.as_ref().and_then(|study| Some((study, moving_system(study)?)))

@@ -13,7 +13,8 @@
     print(response.sentence, response.efficiency)
     response.plot()
 
-Studies are made by :class:`Belt`, :class:`Disc`, :class:`System` or :meth:`Study.from_toml`. Their methods are the verbs of
+Studies are made by :class:`Belt`, :class:`Disc`, :class:`System` or :meth:`Study.from_toml`, and from files of other programs by
+:func:`from_universal_file`, :func:`from_nastran` and :func:`from_abaqus`. Their methods are the verbs of
 the command line. Results (:mod:`quell.results`) have the numbers that ``--json`` prints as attributes, and everything with units
 and provenance as an xarray Dataset. :class:`StudyError` reports all errors in the input at once.
 """
@@ -46,6 +47,7 @@ from ._quell import __version__
 from ._study import Study
 from ._profile import Profile
 from ._system import Component, Contact, Contacts, System, SystemDither, SystemInitial, SystemMode
+from .fe import from_abaqus, from_nastran, from_universal_file
 
 if TYPE_CHECKING:
     from .explore import explore
@@ -85,6 +87,9 @@ __all__ = [
     "SystemMode",
     "__version__",
     "explore",
+    "from_abaqus",
+    "from_nastran",
+    "from_universal_file",
     "new",
     "quantities",
     "fit",

@@ -1,4 +1,4 @@
-"""Results as tables and files of other packages: pandas, NetCDF, Parquet, pint. They are imported only here, when needed."""
+"""Results as tables and files of other packages: pandas, NetCDF, Parquet, MATLAB, pint. They are imported only here, when needed."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
     from ._result import Result
     from .results import Simulation
 
-__all__ = ["events_frame", "frame", "netcdf", "parquet", "quantity"]
+__all__ = ["events_frame", "frame", "mat", "needed", "netcdf", "parquet", "quantity"]
 
-INSTALL = {"pandas": "pandas", "xarray": "xarray", "pint": "pint"}
-"""Packages, by the names under which pip installs them."""
+INSTALL = {"scipy.io": "scipy"}
+"""Packages whose modules have other names than those under which pip installs them."""
 
 
 def needed(module: str, what: str) -> Any:
@@ -34,7 +34,8 @@ def needed(module: str, what: str) -> Any:
     try:
         return import_module(module)
     except ImportError as why:
-        raise ImportError(f"{what} needs {module}, which is not installed: pip install {INSTALL.get(module, module)}") from why
+        package = INSTALL.get(module, module)
+        raise ImportError(f"{what} needs {package}, which is not installed: pip install {package}") from why
 
 
 def frame(result: Result) -> pandas.DataFrame:
@@ -115,6 +116,40 @@ def parquet(result: Result, path: str | os.PathLike[str]) -> None:
     if not any(_is_there(module) for module in ("pyarrow", "fastparquet")):
         raise ImportError("to_parquet() needs pyarrow, which is not installed: pip install pyarrow")
     table.to_parquet(path)
+
+
+LONGEST_NAME = 63
+"""The longest name of a field in MATLAB."""
+
+
+def mat(result: Result, path: str | os.PathLike[str]) -> None:
+    """Writes everything as a MAT-file: a structure with the name of the verb."""
+    scipy = needed("scipy.io", "to_mat()")
+    arrays = result.arrays
+    fields: dict[str, Any] = {}
+    units: dict[str, str] = {}
+    meanings: dict[str, Any] = {}
+    for name, one in arrays.items():
+        field = _field(name)
+        if "flag_meanings" in one.attrs:
+            meanings[field] = np.array(one.attrs["flag_meanings"].split(" "), dtype=object)
+        if "units" in one.attrs:
+            units[field] = str(one.attrs["units"])
+        fields[field] = np.array(one.values.tolist(), dtype=object) if one.values.dtype.kind == "U" and one.dims else _in_mat(one.values)
+    about = {_field(name): value for name, value in arrays.attrs.items()}
+    fields["about"] = {**about, "units": units, "meanings": meanings}
+    scipy.savemat(path, {_field(result.verb): fields}, long_field_names=True, oned_as="column", appendmat=False)
+
+
+def _in_mat(values: Any) -> Any:
+    """Numbers as MATLAB has them; a text without dimension."""
+    return str(values) if values.dtype.kind == "U" else values
+
+
+def _field(name: str) -> str:
+    """A name as that of a field."""
+    plain = "".join(it if it.isascii() and it.isalnum() else "_" for it in name)
+    return (plain if plain[:1].isalpha() else f"x{plain}")[:LONGEST_NAME]
 
 
 def quantity(result: Result, name: str, registry: Any = None) -> Any:

@@ -139,6 +139,17 @@ class Result:
 
         parquet(self, path)
 
+    def to_mat(self, path: str | os.PathLike[str]) -> None:
+        """Writes everything as a MAT-file of MATLAB, which Octave reads too; it needs scipy.
+
+        The file has a structure with the name of the verb: a field for each variable of :attr:`dataset`, and ``about`` with the
+        provenance, the units by field, and the meanings of codes, which are counted from 0. Without scipy, ``save("result.mat")``
+        writes the arrays.
+        """
+        from ._export import mat
+
+        mat(self, path)
+
     def quantity(self, name: str, registry: Any = None) -> Any:
         """A fact or array with its unit, as a quantity of pint, in the unit of the study.
 
@@ -199,9 +210,10 @@ class Result:
     def save(
         self, path: str | os.PathLike[str], *, width: str | None = None, caption: bool = False
     ) -> list[str]:
-        """Writes the arrays as .csv, with units and the study in the header, the picture as .svg, .pdf or .png, or a run as .wav.
+        """Writes the arrays as .csv, .mat (MATLAB) or .nc (NetCDF), the picture as .svg, .pdf or .png, or a run as .wav.
 
-        The files are those of ``--save`` and ``--plot`` on the command line.
+        The files are those of ``--save`` and ``--plot`` on the command line. Tables have units and the study in them. Averaged friction
+        is also written for Abaqus (.inp) and as a script of MATLAB with parameters of Simscape (.m).
 
         Parameters
         ----------
@@ -237,7 +249,7 @@ class Result:
             raise StudyError([complaint(name, value, "left out: only pictures have a width and a caption", "conflict")])
         if str(place).lower().endswith(".wav"):
             return [self._native.sound(str(place))]
-        return self._native.csv(str(place))
+        return self._native.table(str(place))
 
     def _alive(self) -> NativeAnswer:
         if self._native is None:

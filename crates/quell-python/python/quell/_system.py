@@ -22,8 +22,8 @@ __all__ = ["Component", "Contact", "System", "SystemDither", "SystemInitial", "S
 Row = Union["Mapping[str, Number]", "npt.ArrayLike"]
 """One number for each coordinate: an array, or a dict of names in which missing names are 0."""
 
-Entries = Union["npt.ArrayLike", "Iterable[Iterable[Number]]"]
-"""A matrix: a diagonal, or rows. An entry may be a formula of the study's parameters, as a text."""
+Entries = Union["npt.ArrayLike", "Iterable[Iterable[Number]]", "Mapping[str, str]"]
+"""A matrix: a diagonal, rows, or a Matrix Market file ``{"file": "M.mtx"}``. An entry may be a formula of the study's parameters, as a text."""
 
 
 OTHER_TABLES = ("contact", "friction", "dither", "initial", "parameters", "design", "actuator", "uncertainty", "axes", "title", "mode", "component")
@@ -336,9 +336,10 @@ class System(Study):
     coordinates :
         Names of the coordinates.
     mass, damping, stiffness :
-        Matrices: a diagonal or rows. The springs and dampers of contacts are not part of them.
+        Matrices: a diagonal, rows, or a Matrix Market file ``{"file": "M.mtx"}``. The springs and dampers of contacts are not part of
+        them.
     states, matrix :
-        Names of the states of first-order equations, and rows of their matrix.
+        Names of the states of first-order equations, and their matrix: rows, or a file.
     mode, modes, normalisation :
         One :class:`SystemMode` or several, or a CSV file of modes, and the size of their shapes.
     component :
@@ -409,19 +410,19 @@ class System(Study):
     _own = "system"
 
     coordinates: list[str] | None
-    mass: list[Any] | None
-    damping: list[Any] | None
-    stiffness: list[Any] | None
+    mass: list[Any] | dict[str, str] | None
+    damping: list[Any] | dict[str, str] | None
+    stiffness: list[Any] | dict[str, str] | None
     states: list[str] | None
-    matrix: list[Any] | None
+    matrix: list[Any] | dict[str, str] | None
     force: list[Any] | dict[str, Any] | None
     normalisation: str | None
     frequency_response: str | None
     units: str | None
     observe: list[Any] | dict[str, Any] | None
-    mass_kg: list[Any] | None
-    damping_n_s_per_m: list[Any] | None
-    stiffness_n_per_m: list[Any] | None
+    mass_kg: list[Any] | dict[str, str] | None
+    damping_n_s_per_m: list[Any] | dict[str, str] | None
+    stiffness_n_per_m: list[Any] | dict[str, str] | None
     force_n: list[Any] | dict[str, Any] | None
 
     def __init__(

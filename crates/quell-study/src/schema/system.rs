@@ -109,7 +109,16 @@ fn property(key: &SystemKey) -> Json {
     match key.role {
         SystemRole::Number(parameter) => number(Some(parameter)),
         SystemRole::Matrix(_) => {
-            json!({ "type": "array", "items": { "anyOf": [entry, list] }, "minItems": 1 })
+            let rows =
+                json!({ "type": "array", "items": { "anyOf": [entry, list] }, "minItems": 1 });
+            let name = json!({ "type": "string", "description": "Matrix Market file, relative to the study file" });
+            let file = json!({
+                "type": "object",
+                "properties": { "file": name },
+                "required": ["file"],
+                "additionalProperties": false,
+            });
+            json!({ "anyOf": [rows, file] })
         }
         SystemRole::Row(_) => json!({ "anyOf": [list, entries()] }),
         SystemRole::Names => {

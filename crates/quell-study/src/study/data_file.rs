@@ -9,8 +9,8 @@ use std::path::Path;
 
 use crate::input::read_regular;
 
-/// The largest file that is read.
-const LARGEST: u64 = 16 << 20;
+/// The largest file that is read, in MiB.
+const LARGEST: u64 = 16;
 
 /// Maximum number of characters of a cell that are shown.
 const SHOWN: usize = 24;
@@ -20,9 +20,25 @@ const SHOWN: usize = 24;
 /// # Errors
 /// Why it cannot be read.
 pub(crate) fn text(path: &Path, what: &str) -> Result<String, String> {
-    let bytes = read_regular(path, LARGEST)
-        .map_err(|error| format!("{what} of at most 16 MiB; it cannot be read: {error}"))?;
+    text_up_to(path, what, LARGEST)
+}
+
+/// As [`text`], up to a size in MiB.
+///
+/// # Errors
+/// Why it cannot be read.
+pub(crate) fn text_up_to(path: &Path, what: &str, most: u64) -> Result<String, String> {
+    let bytes = read_regular(path, most << 20)
+        .map_err(|error| format!("{what} of at most {most} MiB; it cannot be read: {error}"))?;
     String::from_utf8(bytes).map_err(|_| format!("{what}; this file is not text"))
+}
+
+/// A checksum of numbers: the 64-bit FNV-1a of their bits.
+pub(crate) fn checksum(values: &[f64]) -> u64 {
+    let bytes = values.iter().flat_map(|value| value.to_bits().to_le_bytes());
+    bytes.fold(0xcbf2_9ce4_8422_2325, |sum: u64, byte| {
+        (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }
 
 /// A CSV file whose columns are known.

@@ -27,12 +27,9 @@ impl WaveFile {
         &self.path
     }
 
-    /// What identifies its samples: their number and a checksum (64-bit FNV-1a of their bits).
+    /// What identifies its samples: their number and a checksum.
     pub(super) fn settings(&self, index: usize) -> (String, String) {
-        let bytes = self.values.iter().flat_map(|value| value.to_bits().to_le_bytes());
-        let sum = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |sum, byte| {
-            (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-        });
+        let sum = data_file::checksum(&self.values);
         (format!("dither.file[{index}]"), format!("{} samples, {sum:016x}", self.values.len()))
     }
 }

@@ -6,9 +6,9 @@ use quell_dynamics::response::SteadyFriction;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::Presented;
 use super::table::figure;
-use crate::complaint::Failure;
+use super::{Presented, friction_export};
+use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
@@ -28,6 +28,21 @@ impl Presented<BeltSetup> for FrictionCurve {
 
     fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
         vec![("friction", self.dataset(study))]
+    }
+
+    fn exported(&self, study: &BeltStudy, extension: &str) -> Option<Result<Vec<u8>, Failure>> {
+        if !friction_export::EXTENSIONS.contains(&extension) {
+            return None;
+        }
+        if self.measured.is_some() {
+            let allowed = "left out: the files of other programs have the averaged friction";
+            let (fault, origin) = (Fault::Conflict, Origin::Argument("measured"));
+            return Some(Err(Complaint::new(fault, "measured", origin, true, allowed).into()));
+        }
+        let fastest = self.points.iter().map(|point| point.slip_velocity.abs()).fold(0.0, f64::max);
+        let text = crate::run::friction_export::run(study, fastest)
+            .map(|export| friction_export::text(study, &export, extension));
+        text.map(|text| text.map(String::into_bytes)).transpose()
     }
 
     fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {

@@ -21,6 +21,7 @@ mod design;
 mod disc_motion;
 mod fit;
 mod friction;
+pub mod friction_export;
 mod map;
 mod modes;
 mod noise_response;
@@ -91,6 +92,12 @@ pub trait Outcome: Send + Sync {
         None
     }
 
+    /// The bytes of a file of another program with this extension, if the verb has one.
+    fn exported(&self, extension: &str) -> Option<Result<Vec<u8>, Failure>> {
+        let _ = extension;
+        None
+    }
+
     /// The picture, if the verb has one.
     fn figure(&self) -> Option<Result<Figure, Failure>> {
         None
@@ -125,6 +132,12 @@ pub trait Presented<K>: Send + Sync {
     /// [`Outcome::sound`].
     fn sound(&self, study: &StudyOf<K>) -> Option<Result<Vec<u8>, Failure>> {
         let _ = study;
+        None
+    }
+
+    /// [`Outcome::exported`].
+    fn exported(&self, study: &StudyOf<K>, extension: &str) -> Option<Result<Vec<u8>, Failure>> {
+        let _ = (study, extension);
         None
     }
 
@@ -178,6 +191,10 @@ impl<K: StudyKind + Send + Sync, D: Presented<K>> Outcome for Answered<K, D> {
 
     fn sound(&self) -> Option<Result<Vec<u8>, Failure>> {
         self.done.sound(&self.study)
+    }
+
+    fn exported(&self, extension: &str) -> Option<Result<Vec<u8>, Failure>> {
+        self.done.exported(&self.study, extension)
     }
 
     fn figure(&self) -> Option<Result<Figure, Failure>> {

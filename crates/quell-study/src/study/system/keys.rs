@@ -242,19 +242,27 @@ const ROOT: &[SystemKey] = &[
 
 const SYSTEM: &[SystemKey] = &[
     key("coordinates", SystemRole::Names, "names of the coordinates"),
-    key("mass", SystemRole::Matrix(Some(Quantity::LoadMass)), "mass matrix: a diagonal, or rows"),
+    key(
+        "mass",
+        SystemRole::Matrix(Some(Quantity::LoadMass)),
+        "mass matrix: a diagonal, rows, or a Matrix Market file",
+    ),
     key(
         "damping",
         SystemRole::Matrix(Some(Quantity::LoadDamping)),
-        "damping and gyroscopic matrix: a diagonal, or rows [default: 0]",
+        "damping and gyroscopic matrix: a diagonal, rows, or a Matrix Market file [default: 0]",
     ),
     key(
         "stiffness",
         SystemRole::Matrix(Some(Quantity::LoadStiffness)),
-        "stiffness matrix without the contacts: a diagonal, or rows",
+        "stiffness matrix without the contacts: a diagonal, rows, or a Matrix Market file",
     ),
     key("states", SystemRole::Names, "names of the states of first-order equations"),
-    key("matrix", SystemRole::Matrix(None), "matrix of first-order equations: rows"),
+    key(
+        "matrix",
+        SystemRole::Matrix(None),
+        "matrix of first-order equations: rows, or a Matrix Market file",
+    ),
     key("force", SystemRole::Row(Some(Quantity::Force)), "constant forces [default: 0]"),
     key("mode", SystemRole::Tables(SystemTable::Mode), "modes of the structure"),
     key("modes", SystemRole::Text, "CSV file of modes, relative to the study file"),

@@ -2,8 +2,10 @@
 
 use quell_model::system::MassMatrix;
 use quell_numerics::matrix::Matrix;
+use serde_json::Value as Json;
 
 use super::matrices::matrix;
+use super::matrix_file::MatrixFiles;
 use super::names::PREFIX;
 use super::numbers::{Numbers, missing};
 
@@ -22,9 +24,10 @@ pub(super) fn read(
     table: &Table,
     header: Origin,
     names: &[String],
+    files: &mut MatrixFiles<'_>,
 ) -> Option<MassMatrix> {
     let n = names.len();
-    let Some(matrix) = matrix(reader, numbers, table, "mass", n).ok()? else {
+    let Some(matrix) = matrix(reader, numbers, table, "mass", n, files).ok()? else {
         let allowed = format!("a diagonal of {n} numbers, or {n} rows of {n} numbers");
         missing(reader, join(PREFIX, "mass"), header, allowed);
         return None;
@@ -52,7 +55,12 @@ struct WrongMass {
 /// Reports a wrong mass matrix at its entry.
 fn report(reader: &mut Reader, key: &str, whole: &Node, wrong: &WrongMass) {
     let (i, j) = wrong.at;
-    let Value::List(list) = &whole.value else { return };
+    let Value::List(list) = &whole.value else {
+        // In a file entries count from 1.
+        let allowed = format!("{}; at entry ({}, {}) of the file", wrong.allowed, i + 1, j + 1);
+        reader.complain(Complaint::new(Fault::Value, key, whole.origin, Json::Null, allowed));
+        return;
+    };
     let Some(row) = list.get(i) else { return };
     let (at, node) = match &row.value {
         Value::List(entries) => (format!("{key}[{i}][{j}]"), entries.get(j).unwrap_or(row)),

@@ -1,21 +1,24 @@
-//! Square matrices: a diagonal, or rows.
+//! Square matrices: a diagonal, rows, or a file.
 
 use quell_model::units::Quantity;
 use quell_numerics::matrix::Matrix;
 
+use super::matrix_file::MatrixFiles;
 use super::names::PREFIX;
 use super::numbers::{Keyed, Numbers, Reported, WantedNumber};
 use crate::complaint::{Complaint, Fault};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
+use crate::study::vocabulary::join;
 
-/// A square matrix of size `n`, if it is given: a diagonal or rows.
+/// A square matrix of size `n`, if it is given: a diagonal, rows or a file.
 pub(super) fn matrix(
     reader: &mut Reader,
     numbers: &Numbers,
     table: &Table,
     name: &'static str,
     n: usize,
+    files: &mut MatrixFiles<'_>,
 ) -> Result<Option<Matrix>, Reported> {
     let quantity = match name {
         "mass" => Some(Quantity::LoadMass),
@@ -29,8 +32,50 @@ pub(super) fn matrix(
         return if reader.complaints_so_far() == before { Ok(None) } else { Err(Reported) };
     };
     let wanted = WantedNumber { twin, ..WantedNumber::finite(quantity) };
+    if let Value::Table(given) = &node.value {
+        let found = in_file(reader, &key, node, given, n, files);
+        return found
+            .map(|matrix| Some(scaled(matrix, numbers.file_units(wanted))))
+            .ok_or(Reported);
+    }
     let diagonal_allowed = name != "matrix" || n == 1;
     entries(reader, numbers, &key, node, wanted, n, diagonal_allowed).map(Some).ok_or(Reported)
+}
+
+/// The matrix of a table with the name of a file.
+fn in_file(
+    reader: &mut Reader,
+    key: &str,
+    node: &Node,
+    given: &Table,
+    n: usize,
+    files: &mut MatrixFiles<'_>,
+) -> Option<Matrix> {
+    const FILE: &str = "file";
+    let Some(name) = given.get(FILE).filter(|_| given.iter().count() == 1) else {
+        let allowed = "a table with the key file alone, such as { file = \"matrix.mtx\" }";
+        reader.wrong(key, node, allowed);
+        return None;
+    };
+    let key = join(key, FILE);
+    let text = reader.text(&key, name)?;
+    match files.matrix(&text, n) {
+        Ok(matrix) => Some(matrix),
+        Err(why) => {
+            reader.complain(Complaint::new(Fault::Path, key, name.origin, text, why));
+            None
+        }
+    }
+}
+
+/// A matrix in another unit.
+fn scaled(mut matrix: Matrix, factor: f64) -> Matrix {
+    if factor != 1.0 {
+        for entry in matrix.as_mut_slice() {
+            *entry *= factor;
+        }
+    }
+    matrix
 }
 
 fn entries(
@@ -46,7 +91,8 @@ fn entries(
         if diagonal_allowed { format!("a diagonal of {n} numbers, or ") } else { String::new() };
     let shape = format!("{diagonal}{n} rows of {n} numbers");
     let Value::List(list) = &node.value else {
-        reader.wrong(key, node, format!("{shape}; got {}", node.kind()));
+        let file = "{ file = \"matrix.mtx\" }";
+        reader.wrong(key, node, format!("{shape}, or {file}; got {}", node.kind()));
         return None;
     };
     let rows = list.iter().filter(|node| matches!(node.value, Value::List(_))).count();

@@ -13,6 +13,8 @@ mod initial;
 pub mod keys;
 mod mass;
 mod matrices;
+mod matrix_file;
+mod matrix_market;
 mod modes;
 mod modes_file;
 mod names;
@@ -77,6 +79,7 @@ impl StudyKind for SystemSetup {
         let samples = self.measured.iter().flatten();
         let samples = samples.filter_map(|measured| measured.file.as_deref());
         let modes = self.modes.iter().filter_map(|list| list.file.as_deref());
+        let modes = modes.chain(self.matrices.iter().map(|file| file.path()));
         let response = self.response.iter().map(|response| response.file());
         let waves = self.waves.iter().map(WaveFile::path);
         let courses = self.courses.iter().map(|file| file.path.as_path());
@@ -100,6 +103,8 @@ impl StudyKind for SystemSetup {
             });
             modes.chain([(format!("system.modes[{file}].points"), points)])
         });
+        let matrices = self.matrices.iter().enumerate();
+        let modes = modes.chain(matrices.map(|(index, file)| file.settings(index)));
         let response = self.response.iter().flat_map(|response| response.settings());
         let waves = self.waves.iter().enumerate().map(|(index, wave)| wave.settings(index));
         let courses = CourseFile::settings(&self.courses);

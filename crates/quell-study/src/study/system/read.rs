@@ -11,6 +11,7 @@ use super::contact::{self, ContactContext};
 use super::dither::{self, DitherContext};
 use super::frequency_response::{self, FrequencyResponse};
 use super::keys::{OTHER_KINDS, SystemTable};
+use super::matrix_file::{MatrixFile, MatrixFiles};
 use super::modes::{self, ModesContext};
 use super::modes_file::ModeList;
 use super::numbers::{CourseNumbers, Numbers, missing, unknown_keys};
@@ -45,7 +46,7 @@ pub(super) fn study(
     let table = reader.table("system", node)?;
     unknown_keys(reader, table, "system", SystemTable::System);
     let read = body(reader, &numbers, table, header, given);
-    let Read { body: ReadStructure { basis, structure }, modes, response } = read;
+    let Read { body: ReadStructure { basis, structure }, matrices, modes, response } = read;
     // Without names no row can be read.
     let basis = basis?;
     let first_order = table.has("states");
@@ -106,6 +107,7 @@ pub(super) fn study(
         warnings,
         measured: measured.into(),
         modes: modes.into(),
+        matrices: matrices.into(),
         waves: files.into_found().into(),
         response,
         courses: reader.take_files(),
@@ -184,6 +186,7 @@ const FORMS: &[(&[&str], &[&str])] = &[
 #[derive(Default)]
 struct Read {
     body: ReadStructure,
+    matrices: Vec<Arc<MatrixFile>>,
     modes: Vec<Arc<ModeList>>,
     response: Option<Arc<FrequencyResponse>>,
 }
@@ -205,13 +208,13 @@ fn body(
     };
     other_forms(reader, table, form);
     match first[0] {
-        "coordinates" => {
-            let body = structure::mechanical(reader, numbers, table, header);
-            Read { body, ..Read::default() }
-        }
-        "states" => {
-            let body = structure::first_order(reader, numbers, table, header);
-            Read { body, ..Read::default() }
+        "coordinates" | "states" => {
+            let known = given.known.map_or(&[][..], |setup| &setup.matrices);
+            let mut files = MatrixFiles::new(given.folder, known);
+            let read =
+                if first[0] == "states" { structure::first_order } else { structure::mechanical };
+            let body = read(reader, numbers, table, header, &mut files);
+            Read { body, matrices: files.into_found(), ..Read::default() }
         }
         "frequency_response" => {
             let known = given.known.and_then(|setup| setup.response.as_ref());
@@ -228,7 +231,7 @@ fn body(
             let known = given.known.map_or(&[][..], |setup| &setup.modes);
             let context = ModesContext { numbers, folder: given.folder, known };
             let (body, modes) = modes::read(reader, table, header, context);
-            Read { body, modes, response: None }
+            Read { body, modes, ..Read::default() }
         }
     }
 }

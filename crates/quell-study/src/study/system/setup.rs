@@ -6,6 +6,7 @@ use quell_model::{Belt, System};
 
 use super::frequency_response::FrequencyResponse;
 use super::initial::SystemStart;
+use super::matrix_file::MatrixFile;
 use super::modes_file::ModeList;
 use super::numbers::Numbers;
 use super::units::SystemUnits;
@@ -27,6 +28,8 @@ pub struct SystemSetup {
     pub(super) measured: Arc<[Option<Measured>]>,
     /// Files of modes.
     pub(super) modes: Arc<[Arc<ModeList>]>,
+    /// Files of matrices.
+    pub(super) matrices: Arc<[Arc<MatrixFile>]>,
     /// Files of sampled waveforms.
     pub(super) waves: Arc<[WaveFile]>,
     pub(super) response: Option<Arc<FrequencyResponse>>,
@@ -80,6 +83,7 @@ impl From<DescribedSystem> for SystemSetup {
             measured: Arc::default(),
             waves: Arc::default(),
             modes: Arc::default(),
+            matrices: Arc::default(),
             response: None,
             courses: Arc::default(),
             design: None,

@@ -16,8 +16,10 @@ impl<'d> Walk<'d> {
         segment: &PathSegment<'_>,
         rest: &[PathSegment<'_>],
     ) -> Result<FoundPath, LostPath> {
-        let Some(Value::List(list)) = node.map(|node| &node.value) else {
-            return Err(LostPath::default());
+        let list = match node.map(|node| &node.value) {
+            Some(Value::List(list)) => list,
+            Some(Value::Table(_)) => return self.matrix_file(key, twin, segment, rest),
+            _ => return Err(LostPath::default()),
         };
         let diagonal = !matches!(list.first().map(|node| &node.value), Some(Value::List(_)));
         let name = &self.written;
@@ -43,6 +45,28 @@ impl<'d> Walk<'d> {
         }
         self.steps.extend(indices.into_iter().map(PathStep::Index));
         Ok(FoundPath { is_number: true, replaces: Vec::new(), ..self.found(key, twin) })
+    }
+
+    /// The file of a matrix; its entries cannot be set.
+    fn matrix_file(
+        &mut self,
+        key: &SystemKey,
+        twin: bool,
+        segment: &PathSegment<'_>,
+        rest: &[PathSegment<'_>],
+    ) -> Result<FoundPath, LostPath> {
+        match (segment.indices.as_slice(), rest) {
+            ([], [PathSegment { name: "file", indices }]) if indices.is_empty() => {
+                self.steps.push(PathStep::Key("file".to_owned()));
+                Ok(FoundPath { replaces: Vec::new(), ..self.found(key, twin) })
+            }
+            _ => {
+                let name = &self.written;
+                Err(LostPath::because(format!(
+                    "{name} is in a file: its entries are changed there, and the file by {name}.file"
+                )))
+            }
+        }
     }
 
     /// An entry of a row, by name or index, in the form in which the row is written.

@@ -1,0 +1,69 @@
+//! A surface interaction of Abaqus: `*FRICTION` with the coefficient over the slip rate.
+//!
+//! A data line has the coefficient, the slip rate, and then pressure, temperature and fields, which are left out: the coefficient
+//! does not depend on them. Abaqus interpolates linearly and keeps the last value beyond the table. Lines that begin with `**` are
+//! comments. Source: Abaqus Keywords Reference, `*FRICTION`.
+
+use std::fmt::Write as _;
+
+use super::{ExportUnits, comment, provenance};
+use crate::run::friction_export::FrictionExport;
+use crate::study::BeltStudy;
+use crate::words::digits;
+
+/// Marks a comment.
+const MARK: &str = "**";
+
+/// The name of the interaction.
+const NAME: &str = "QUELL_AVERAGED";
+
+/// Millimetres per second in metres per second.
+const MILLIMETRES: f64 = 1000.0;
+
+/// The file.
+pub(super) fn text(study: &BeltStudy, export: &FrictionExport, units: &ExportUnits) -> String {
+    let mut text = String::new();
+    comment(&mut text, MARK, &provenance(study, export, units));
+    let unit = units.named(&units.speed);
+    let columns = format!("columns: friction coefficient, slip rate in {unit}");
+    comment(&mut text, MARK, &[columns]);
+    let _ = writeln!(text, "*SURFACE INTERACTION, NAME={NAME}\n1.,");
+    let factor = units.speed.1;
+    table(&mut text, "", export, factor);
+    decay(&mut text, export, factor, &unit);
+    if units.is_si {
+        let about = "the same table for a model in mm, t, s: slip rate in mm/s".to_owned();
+        comment(&mut text, MARK, &[about]);
+        table(&mut text, "** ", export, MILLIMETRES * factor);
+    }
+    text
+}
+
+/// The table, with the slip rate in a unit of which the number of the equations is a multiple.
+fn table(text: &mut String, mark: &str, export: &FrictionExport, factor: f64) {
+    let _ = writeln!(text, "{mark}*FRICTION");
+    for (speed, coefficient) in &export.table.points {
+        // Ten digits: Abaqus reads fields of up to 20 characters.
+        let _ = writeln!(text, "{mark}{coefficient:.9E}, {:.9E}", speed * factor);
+    }
+}
+
+/// The model with a decay, as a comment with its error.
+fn decay(text: &mut String, export: &FrictionExport, factor: f64, unit: &str) {
+    let fit = &export.decay;
+    let (least, table) = (digits(fit.largest_error), digits(export.table.largest_error));
+    let lines = [
+        format!(
+            "an exponential decay instead has the largest error {least}; the table has {table}"
+        ),
+        format!("(static and kinetic coefficient; decay over the slip rate in {unit})"),
+        "*FRICTION, EXPONENTIAL DECAY".to_owned(),
+        format!(
+            "{:.9E}, {:.9E}, {:.9E}",
+            fit.static_coefficient,
+            fit.kinetic_coefficient,
+            fit.decay / factor
+        ),
+    ];
+    comment(text, MARK, &lines);
+}
