@@ -13,14 +13,22 @@ use crate::words::digits;
 const LARGE: f64 = 30.0;
 
 /// Verbs of systems that do not know the state of a contact.
-const WITHOUT_STATES: &[&str] = &["map", "design"];
+const WITHOUT_STATES: &[&str] = &["map", "design", "actuator"];
 
 /// Verbs of belts that know the state of a contact; `simulate` and `friction` ask nothing here.
 const OF_BELTS_WITH_STATES: &[&str] = &["response"];
 
 /// Verbs of systems about motions that repeat.
-const OF_PERIODIC_DITHER: &[&str] =
-    &["orbit", "attractor", "thresholds", "bifurcation", "basins", "design", "stability --exact"];
+const OF_PERIODIC_DITHER: &[&str] = &[
+    "orbit",
+    "attractor",
+    "thresholds",
+    "bifurcation",
+    "basins",
+    "design",
+    "actuator",
+    "stability --exact",
+];
 
 /// The path and the name of what gives a contact its state.
 fn cause(contact: &Contact, prefix: &str) -> (String, String) {
