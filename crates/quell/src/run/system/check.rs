@@ -41,6 +41,7 @@ pub fn json(study: &SystemStudy) -> Json {
         "contacts": contacts,
         "contact_laws": laws(study),
         "dithers": dithers(study),
+        "given_amplitudes": sizes(study),
         "observe": study.observe(),
         "initial": initial(study.initial()),
         "sweeps": sweeps,
@@ -101,6 +102,29 @@ fn dithers(study: &SystemStudy) -> Vec<Json> {
         }
     }
     dithers
+}
+
+/// Amplitudes that are given by another size than a peak force.
+fn sizes(study: &SystemStudy) -> Vec<Json> {
+    let units = study.units();
+    let given = study.given_sizes().iter();
+    given
+        .map(|given| {
+            let unit = if given.key.unit.is_empty() {
+                units.unit(Quantity::Force)
+            } else {
+                Some(given.key.unit)
+            };
+            json!({
+                "key": given.path,
+                "value": given.value,
+                "unit": unit,
+                "amplitude": given.amplitude,
+                "amplitude_unit": units.unit(Quantity::Force),
+                "by_actuator": given.key.needs_actuator(),
+            })
+        })
+        .collect()
 }
 
 fn initial(start: &SystemStart) -> Json {
