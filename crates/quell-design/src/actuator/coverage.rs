@@ -30,7 +30,7 @@ pub struct ActuatorAtFrequency {
     pub demand: Result<ActuatorDemand, String>,
     /// The largest fast slip velocity of every contact for unit amplitude, or why it is unknown.
     pub slips: Result<Vec<f64>, String>,
-    /// The least amplitude that is quiet by averaging, or why there is none.
+    /// The least amplitude that is quiet by averaging, or why no amplitude is.
     pub needed: Result<f64, String>,
 }
 
@@ -49,6 +49,16 @@ impl ActuatorAtFrequency {
     /// Why one of them is unknown.
     pub fn margin(&self) -> Result<f64, String> {
         Ok(self.reach()?.amplitude / self.needed.clone()?)
+    }
+
+    /// The largest slip velocity at a contact under the largest amplitude that the actuator can give.
+    ///
+    /// # Errors
+    /// Why it is unknown.
+    pub fn reached_slip(&self, contact: usize) -> Result<f64, String> {
+        let slips = self.slips.as_ref().map_err(Clone::clone)?;
+        let slip = slips.get(contact).ok_or("the contact has no slip velocity")?;
+        Ok(slip * self.reach()?.amplitude)
     }
 
     /// Whether the actuator can quench.

@@ -218,6 +218,10 @@ impl Plant for BeltPlant {
         self.about_point(at, |point| actuator.demand(point))
     }
 
+    #[expect(
+        clippy::redundant_closure_for_method_calls,
+        reason = "the method itself is of a point of one lifetime"
+    )]
     fn slip_amplitudes(&self, at: OperatingPoint<'_>) -> Result<Vec<f64>, String> {
         self.about_point(at, |point| point.slip_amplitudes())
     }

@@ -148,7 +148,7 @@ fn columns(
         ),
     ];
     for (place, (name, _)) in found.contacts.iter().enumerate() {
-        let values = column(&|point| found.slip_of(place, point));
+        let values = column(&|point| point.reached_slip(place));
         columns.push((slip_of(name), Quantity::Velocity, values));
     }
     columns

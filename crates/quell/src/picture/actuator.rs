@@ -76,7 +76,7 @@ fn forces(done: &ActuatorFound) -> impl Iterator<Item = f64> {
 fn velocities(done: &ActuatorFound) -> impl Iterator<Item = f64> {
     let contacts = 0..done.contacts.len();
     contacts.flat_map(move |contact| {
-        done.coverage.points.iter().filter_map(move |point| done.slip_of(contact, point).ok())
+        done.coverage.points.iter().filter_map(move |point| point.reached_slip(contact).ok())
     })
 }
 
@@ -146,7 +146,7 @@ fn slips(done: &ActuatorFound, rulers: &ActuatorRulers) -> Panel {
     let several = done.contacts.len() > 1;
     for (contact, (name, speed)) in done.contacts.iter().enumerate() {
         let points = done.coverage.points.iter().map(|point| {
-            let slip = done.slip_of(contact, point).ok().filter(|slip| *slip > 0.0);
+            let slip = point.reached_slip(contact).ok().filter(|slip| *slip > 0.0);
             (scale.of(point.frequency), slip.map_or(f64::NAN, |slip| velocity.place(slip)))
         });
         let label = if several {

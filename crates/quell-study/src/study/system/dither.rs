@@ -41,13 +41,16 @@ pub(super) struct DitherContext<'a> {
     pub(super) has_actuator: bool,
 }
 
+/// The inputs, and the table of each with the size that gives its amplitude.
+pub(super) type ReadDithers = (Vec<Input>, Vec<(String, SizedAmplitude)>);
+
 /// Reads every dither, with the size that gives its amplitude; `None` if one is wrong.
 pub(super) fn read(
     reader: &mut Reader,
     document: &Table,
     context: DitherContext<'_>,
     files: &mut WaveFiles<'_>,
-) -> Option<(Vec<Input>, Vec<(String, SizedAmplitude)>)> {
+) -> Option<ReadDithers> {
     let tables = listed(reader, document, "", "dither");
     let (inputs, sizes): (Vec<Option<Input>>, Vec<_>) = tables
         .iter()

@@ -25,19 +25,13 @@ fn path_of(limit: Option<ActuatorLimit>) -> &'static str {
     limit.map_or("unknown", ActuatorLimit::path)
 }
 
-/// The largest slip velocity of every contact under an amplitude.
-fn slips(at: &ActuatorAtFrequency, amplitude: f64) -> Result<Vec<f64>, String> {
-    let slips = at.slips.as_ref().map_err(Clone::clone)?;
-    Ok(slips.iter().map(|slip| slip * amplitude).collect())
+/// A range of frequencies with its unit.
+fn range_in_words(study: &dyn StudyWithDesign, (from, to): (f64, f64)) -> String {
+    let scale = study.frequency_scale();
+    format!("{} to {}{}", digits(scale.of(from)), digits(scale.of(to)), scale.unit)
 }
 
 impl ActuatorFound {
-    /// The largest slip velocity at a contact that the actuator reaches at a frequency.
-    pub(crate) fn slip_of(&self, contact: usize, at: &ActuatorAtFrequency) -> Result<f64, String> {
-        let all = slips(at, at.reach()?.amplitude)?;
-        all.get(contact).copied().ok_or_else(|| "the contact has no slip velocity".to_owned())
-    }
-
     /// The result in a few sentences.
     pub fn sentence(&self, study: &dyn StudyWithDesign) -> String {
         let kind = study.actuator().map_or("actuator", |actuator| actuator.kind().in_words());
@@ -51,7 +45,7 @@ impl ActuatorFound {
             ([], Some(best)) => format!(
                 "The {kind} cannot quench with a {waveform} from {}: at best, at {}, it gives {} of the least amplitude that quenches by \
                  averaging; it can give",
-                self.range_in_words(study, self.range),
+                range_in_words(study, self.range),
                 study.frequency_scale().with_noun(best.frequency),
                 percent(best.margin())
             ),
@@ -59,13 +53,13 @@ impl ActuatorFound {
                 let why = self.coverage.points.iter().find_map(|point| point.needed.as_ref().err());
                 format!(
                     "With a {waveform} from {} nothing can be quenched: {}. The {kind} can give",
-                    self.range_in_words(study, self.range),
+                    range_in_words(study, self.range),
                     why.map_or("nothing is known", String::as_str)
                 )
             }
             (bands, best) => {
                 let ranges: Vec<String> =
-                    bands.iter().map(|band| self.range_in_words(study, band.ends)).collect();
+                    bands.iter().map(|band| range_in_words(study, band.ends)).collect();
                 let best = best.as_ref().map_or(String::new(), |best| {
                     format!(
                         " The margin is largest at {}, {} times the least amplitude that quenches by averaging; it can give",
@@ -97,11 +91,6 @@ impl ActuatorFound {
     /// What holds at the largest margin, or at the study's frequency.
     fn best_or_own(&self) -> &ActuatorAtFrequency {
         self.coverage.best.as_ref().unwrap_or(&self.own)
-    }
-
-    fn range_in_words(&self, study: &dyn StudyWithDesign, (from, to): (f64, f64)) -> String {
-        let scale = study.frequency_scale();
-        format!("{} to {}{}", digits(scale.of(from)), digits(scale.of(to)), scale.unit)
     }
 
     /// The changes of the limit that binds.
@@ -172,26 +161,20 @@ impl ActuatorFound {
         let sufficient: Vec<Fields> =
             sufficient.map(|band| self.band_fields(study, band)).collect();
         fields.list("sufficient", sufficient);
-        match &self.coverage.best {
-            Some(best) => fields.nested("best", self.fields_at(study, best, false)),
-            None => {
-                let why = self.coverage.points.iter().find_map(|point| point.margin().err());
-                let why = why.unwrap_or_else(|| NOTHING_TO_QUENCH.to_owned());
-                fields.unknown("best", why)
-            }
-        };
+        if let Some(best) = &self.coverage.best {
+            fields.nested("best", self.fields_at(study, best, false));
+        } else {
+            let why = self.coverage.points.iter().find_map(|point| point.margin().err());
+            fields.unknown("best", why.unwrap_or_else(|| NOTHING_TO_QUENCH.to_owned()));
+        }
         let mut own = self.fields_at(study, &self.own, false);
         own.number("given", Quantity::Force, self.own_amplitude);
         let used = self.own.reach().map(|reach| self.own_amplitude / reach.amplitude);
         own.known("used", Quantity::Ratio, used);
         match &self.own.demand {
-            Ok(demand) => {
-                own.nested("drive", demand_fields(study, &demand.at(self.own_amplitude)));
-            }
-            Err(why) => {
-                own.unknown("drive", why.as_str());
-            }
-        }
+            Ok(demand) => own.nested("drive", demand_fields(study, &demand.at(self.own_amplitude))),
+            Err(why) => own.unknown("drive", why.as_str()),
+        };
         fields.nested("own", own);
         let binding = self.coverage.binding.iter().map(|band| {
             let mut inner = study.fields();
@@ -281,7 +264,7 @@ impl ActuatorFound {
                 let mut of_contact = study.fields();
                 of_contact.plain("contact", name.as_str());
                 of_contact
-                    .known("slip_velocity", Quantity::Velocity, self.slip_of(place, at))
+                    .known("slip_velocity", Quantity::Velocity, at.reached_slip(place))
                     .number("surface_velocity", Quantity::Velocity, *speed);
                 of_contact
             });
