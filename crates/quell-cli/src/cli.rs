@@ -12,9 +12,9 @@ use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
 use crate::verbs::{
-    attractor, basins, bifurcation, check, cite, completions, design, fit, friction, map, modes,
-    new, orbit, probability, report, reproduce, resonances, response, schema, simulate, sketch,
-    stability, thresholds, waveforms,
+    actuator, attractor, basins, bifurcation, check, cite, completions, design, fit, friction, map,
+    modes, new, orbit, probability, report, reproduce, resonances, response, schema, simulate,
+    sketch, stability, thresholds, waveforms,
 };
 use crate::{answer, help};
 
@@ -48,6 +48,7 @@ enum Verb {
     Thresholds(thresholds::Arguments),
     Waveforms(waveforms::Arguments),
     Design(design::Arguments),
+    Actuator(actuator::Arguments),
     Probability(probability::Arguments),
     Bifurcation(bifurcation::Arguments),
     Basins(basins::Arguments),
@@ -92,6 +93,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Thresholds(arguments) => thresholds::run(arguments),
         Verb::Waveforms(arguments) => waveforms::run(arguments),
         Verb::Design(arguments) => design::run(arguments),
+        Verb::Actuator(arguments) => actuator::run(arguments),
         Verb::Probability(arguments) => probability::run(arguments),
         Verb::Bifurcation(arguments) => bifurcation::run(arguments),
         Verb::Basins(arguments) => basins::run(arguments),

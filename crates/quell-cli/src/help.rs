@@ -69,6 +69,13 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 ],
             ),
             (
+                "actuator",
+                &[
+                    "quell actuator actuator.toml",
+                    "quell actuator actuator.toml --frequency 5kHz:60kHz --plot actuator.svg",
+                ],
+            ),
+            (
                 "probability",
                 &[
                     "quell probability probability.toml",

@@ -18,8 +18,9 @@ use crate::verbs::attractor::TimeTexts;
 use crate::verbs::map::Asked;
 use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
 use crate::verbs::{
-    attractor, basins, bifurcation, check, cite, design, friction, map, modes, orbit, probability,
-    report, resonances, response, simulate, sketch, stability, thresholds, waveforms, window,
+    actuator, attractor, basins, bifurcation, check, cite, design, friction, map, modes, orbit,
+    probability, report, resonances, response, simulate, sketch, stability, thresholds, waveforms,
+    window,
 };
 use crate::{call, convert, errors};
 
@@ -489,6 +490,12 @@ impl NativeStudy {
     fn design(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
         let study = self.study();
         call::run(py, move || design::run(&study))
+    }
+
+    #[pyo3(signature = (frequency))]
+    fn actuator(&self, py: Python<'_>, frequency: Option<Pair>) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || actuator::run(&study, frequency.as_ref()))
     }
 
     #[pyo3(signature = (start, samples, seed, threads, progress))]

@@ -60,6 +60,15 @@ frequency = 10.0
 """
 """A drive with dither at its motor."""
 
+MOTOR = """
+[actuator]
+kind = "motor"
+force_per_ampere = 2.0
+rms_current = 5.0
+sample_rate = 400.0
+"""
+"""What gives that dither."""
+
 FRICTION = "contact.pad.friction.coefficient"
 
 
@@ -72,7 +81,8 @@ def belt() -> quell.Belt:
 @cache
 def study(name: str) -> Any:
     """A study of the project, or one of the texts above."""
-    texts = {"hoffmann": HOFFMANN, "drive": DRIVE, "drive in SI": DRIVE.replace("[system]", '[system]\nunits = "SI"')}
+    in_si = DRIVE.replace("[system]", '[system]\nunits = "SI"')
+    texts = {"hoffmann": HOFFMANN, "drive": DRIVE, "drive in SI": in_si, "drive with a motor": in_si + MOTOR}
     if name in texts:
         return quell.Study.from_text(texts[name])
     short = {"solver.settle": 60, "solver.record_periods": 8}
@@ -197,6 +207,8 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "design in SI": lambda: design_in_si().design(),
     "design with an actuator": lambda: quell.Study.from_toml(STUDIES / "actuator.toml").design(),
     "design without an answer": lambda: design_in_si().set({"design.limits.amplitude_n": 100.0}).design(),
+    "actuator": lambda: quell.Study.from_toml(STUDIES / "actuator.toml").actuator(),
+    "actuator of a system": lambda: study("drive with a motor").actuator(),
     "probability": lambda: quell.Study.from_toml(STUDIES / "probability.toml").probability(samples=200),
     "probability in SI": lambda: probability_in_si().probability(samples=100),
     "waveforms": lambda: belt().waveforms(),

@@ -22,7 +22,7 @@ import pytest
 from conftest import STUDIES, command
 
 import quell
-from quell.explore import _answers, _maps, _numbers, _other_law, _reading, _share, _sound, _state, _zoo
+from quell.explore import _answers, _maps, _numbers, _other_law, _questions, _reading, _share, _sound, _state, _zoo
 from quell.explore._lanes import Event, Here, Lane, Process
 
 BELT = STUDIES / "stribeck-belt.toml"
@@ -252,6 +252,14 @@ def test_answers_are_those_of_the_verbs(name: str) -> None:
     np.testing.assert_array_equal(run["x"], np.asarray(direct.arrays[_reading.array_name(run["names"][0])].values))
     assert np.all(np.diff(run["time"]) > 0.0)
     assert pickle.loads(pickle.dumps(run))["sentence"] == run["sentence"]
+
+
+def test_questions_of_a_study_are_those_of_its_tables() -> None:
+    study = of("actuator.toml")
+    assert _questions.asked(study) == ["design", "actuator"]
+    assert _questions.asked(of("probability.toml"))[-1] == "probability" and _questions.asked(of("stribeck-belt.toml")) == []
+    found = _questions.actuator(study)
+    assert found["sentence"] == study.actuator().facts["sentence"] and found["picture"].lstrip().startswith(("<svg", "<?xml"))
 
 
 def test_the_spectrum_is_in_db_of_the_largest_line_without_dither() -> None:

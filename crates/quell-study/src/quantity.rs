@@ -129,6 +129,29 @@ pub fn frequency(
     }
 }
 
+/// Reads a frequency of the dither of a study of any kind into the numbers of its equations: R of a belt, ω of a system.
+///
+/// # Errors
+/// A complaint about `option`.
+pub fn dither_frequency(
+    text: &str,
+    study: Option<&Study>,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    match study.map(Study::kind) {
+        Some(Kind::System(setup)) => system_frequency(text, setup.units(), option),
+        Some(Kind::Disc(_)) => {
+            let disc = study.and_then(|study| study.disc().ok());
+            frequency(text, disc.as_ref(), option)
+        }
+        Some(Kind::Belt(_)) | None => {
+            // Whether a study that could not be read is in SI is unknown: units are accepted then.
+            let scales = study.map_or_else(|| Scales::new(1.0, 1.0).ok(), Study::scales);
+            parse(text, Quantity::FrequencyRatio, scales, option)
+        }
+    }
+}
+
 /// Reads a value of the number that a path of this study names, in the unit of its key.
 ///
 /// # Errors

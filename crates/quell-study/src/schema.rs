@@ -239,7 +239,9 @@ fn table(section: Section, system: UnitSystem) -> Json {
         match key.role {
             // Friction in newtons may stand for it.
             Role::Twin(parameter, _) if parameter.path == NORMAL_LOAD.path => {}
-            Role::Number(parameter) | Role::Twin(parameter, _) if needed(parameter) => {
+            Role::Number(parameter) | Role::Twin(parameter, _) | Role::Size(parameter, _)
+                if needed(parameter) =>
+            {
                 one_of(parameter.path, key.name);
             }
             // Noise has a band in place of a frequency.
@@ -442,6 +444,7 @@ fn belongs(key: &Key, system: UnitSystem) -> bool {
             system == UnitSystem::Scaled || parameter.si.is_empty() || parameter.is_pure()
         }
         Role::Twin(..) | Role::Scale(_) | Role::FrictionForce(..) => system == UnitSystem::Si,
+        Role::Size(_, size) => size.belongs(system == UnitSystem::Si),
         Role::Speeds { si } => si == (system == UnitSystem::Si),
         Role::Band { hertz } => !hertz || system == UnitSystem::Si,
         Role::Course(course) => course.si().is_none_or(|si| si == (system == UnitSystem::Si)),
@@ -474,6 +477,7 @@ fn property(key: &Key) -> Json {
             _ => bounded(Bounds::FINITE, Quantity::Ratio),
         },
         Role::Scale(scale) => bounded(scale.bounds, Quantity::Ratio),
+        Role::Size(parameter, _) => bounded(parameter.bounds, Quantity::Ratio),
         Role::Choice(choice) => json!({ "enum": choice.names() }),
         Role::Wave(wave) => waveform::property(wave),
         Role::Course(course) => course::property(course, key.section.course()),
@@ -536,7 +540,7 @@ fn about(key: &Key) -> String {
             let symbol = key.symbol().unwrap_or_default();
             format!("{symbol}: {}, as root mean square, in N", key.about)
         }
-        Role::Number(_) | Role::Twin(..) => {
+        Role::Number(_) | Role::Twin(..) | Role::Size(..) => {
             let symbol = key.symbol().unwrap_or_default();
             format!("{symbol}: {}, in {}", key.about, key.unit_in_words())
         }

@@ -17,8 +17,16 @@ const LARGE: f64 = 30.0;
 const OF_BELTS_WITH_STATES: &[&str] = &["response", "waveforms", "design", "map"];
 
 /// Verbs of systems about motions that repeat.
-const OF_PERIODIC_DITHER: &[&str] =
-    &["orbit", "attractor", "thresholds", "bifurcation", "basins", "design", "stability --exact"];
+const OF_PERIODIC_DITHER: &[&str] = &[
+    "orbit",
+    "attractor",
+    "thresholds",
+    "bifurcation",
+    "basins",
+    "design",
+    "actuator",
+    "stability --exact",
+];
 
 /// Rejects a verb on a belt whose contact has a state of its own, or, except for averages, whose dither is noise.
 ///

@@ -223,3 +223,28 @@ fn equal_studies_have_equal_reports() {
     let study = study("does-it-squeal");
     assert_eq!(report(&study).html(), report(&study).html());
 }
+
+/// The tables that ask a question have sections with the answers of their verbs.
+#[test]
+fn questions_of_a_study_have_sections() {
+    let actuated = study("actuator");
+    let without = ["response", "orbit", "thresholds", "friction", "stability"].map(str::to_owned);
+    let request = ReportRequest { without: without.to_vec() };
+    let object = run(&actuated, &request).expect("a report").json();
+    let own = verbs(&actuated);
+    for (verb, done) in [("design", own.design()), ("actuator", own.actuator(None))] {
+        let done = done.unwrap_or_else(|why| panic!("{verb}: {why}"));
+        assert_eq!(sentence(&object, verb).map(str::to_owned), done.sentence());
+        assert_eq!(facts(&object, verb), Some(&done.facts()));
+    }
+    assert_eq!(facts(&object, "probability"), None);
+    let uncertain = study("probability");
+    let without = ["response", "orbit", "thresholds", "friction", "stability"].map(str::to_owned);
+    let known: Vec<String> = without
+        .into_iter()
+        .filter(|verb| verb != "thresholds" || !thresholds_of(&uncertain).is_empty())
+        .collect();
+    let object = run(&uncertain, &ReportRequest { without: known }).expect("a report").json();
+    assert!(sentence(&object, "probability").is_some());
+    assert_eq!(facts(&object, "design"), None);
+}

@@ -174,20 +174,30 @@ impl ActuatorDemand {
         most.ok_or_else(|| "the actuator has no limit".to_owned())
     }
 
+    /// The largest amplitude that keeps a limit, where this is the demand of unit amplitude; of a sample rate 0 or infinity, as the
+    /// frequency decides.
+    ///
+    /// # Errors
+    /// Why the use of the limit is unknown.
+    pub fn allowed(&self, limit: ActuatorLimit) -> Result<f64, String> {
+        let used = self.used(limit).map_err(|why| format!("{}: {why}", limit.name()))?;
+        Ok(match limit {
+            ActuatorLimit::SampleRate if used > 1.0 => 0.0,
+            ActuatorLimit::SampleRate => f64::INFINITY,
+            _ => used.recip(),
+        })
+    }
+
     /// The largest amplitude, where this is the demand of unit amplitude.
     ///
     /// # Errors
     /// Why the use of a limit is unknown.
     pub fn reach(&self) -> Result<ActuatorReach, String> {
         let mut least: Option<ActuatorReach> = None;
-        for LimitUse { limit, used } in &self.limits {
-            let used = used.clone().map_err(|why| format!("{}: {why}", limit.name()))?;
-            let amplitude = match limit {
-                ActuatorLimit::SampleRate if used > 1.0 => 0.0,
-                ActuatorLimit::SampleRate => continue,
-                _ => used.recip(),
-            };
-            if least.is_none_or(|known| amplitude < known.amplitude) {
+        for LimitUse { limit, .. } in &self.limits {
+            let amplitude = self.allowed(*limit)?;
+            let allows_any = *limit == ActuatorLimit::SampleRate && amplitude > 0.0;
+            if !allows_any && least.is_none_or(|known| amplitude < known.amplitude) {
                 least = Some(ActuatorReach { amplitude, limit: *limit });
             }
         }

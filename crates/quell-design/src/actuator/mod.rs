@@ -12,6 +12,7 @@
 //! that keeps it; the least of them is the reach of the actuator.
 
 mod coil;
+mod coverage;
 mod demand;
 mod measured;
 mod piezo;
@@ -19,6 +20,10 @@ mod piezo;
 use quell_linear::driven_point::DrivenPoint;
 
 pub use coil::CoilActuator;
+pub use coverage::{
+    ActuatorAtFrequency, ActuatorCoverage, AtFrequency, BindingBand, DitherResonance,
+    SufficientBand, coverage,
+};
 pub use demand::{ActuatorDemand, ActuatorLimit, ActuatorReach, LimitUse, SignalSize};
 pub use measured::MeasuredActuator;
 pub use piezo::PiezoStack;
@@ -47,6 +52,16 @@ impl ActuatorKind {
             Self::VoiceCoil => "voice-coil",
             Self::Motor => "motor",
             Self::FrequencyResponse => "frf",
+        }
+    }
+
+    /// What it is called in a sentence.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Piezo => "piezo stack",
+            Self::VoiceCoil => "voice coil",
+            Self::Motor => "motor",
+            Self::FrequencyResponse => "measured actuator",
         }
     }
 }
@@ -81,6 +96,14 @@ impl Actuator {
             Self::Piezo(stack) => stack.limits(),
             Self::VoiceCoil(coil) | Self::Motor(coil) => coil.limits(),
             Self::Measured(measured) => measured.limits(),
+        }
+    }
+
+    /// The frequencies at which it was measured.
+    pub fn measured_frequencies(&self) -> &[f64] {
+        match self {
+            Self::Measured(measured) => &measured.frequencies,
+            Self::Piezo(_) | Self::VoiceCoil(_) | Self::Motor(_) => &[],
         }
     }
 

@@ -71,6 +71,41 @@ impl BeltPlant {
         self.dithered(at, amplitude).map(|belt| belt.system())
     }
 
+    /// Whether steady sliding is quiet without the dither, and the amplitudes at which averaging changes the verdict.
+    fn averaged_changes(
+        &self,
+        at: OperatingPoint<'_>,
+    ) -> Result<(bool, Vec<AveragedChange>), String> {
+        let belt = self.at(at)?;
+        let options = AveragingOptions::FINITE_R;
+        let without = criterion(&belt, options).map_err(|why| why.to_string())?;
+        let found = critical_amplitudes(&belt, options).map_err(|why| why.to_string())?;
+        let changes = found.iter().map(|critical| AveragedChange {
+            amplitude: critical.amplitude,
+            becomes_quiet: critical.becomes == Becomes::Stable,
+            holds: critical.contact_stays_closed,
+        });
+        Ok((without.verdict == AveragedVerdict::Stable, changes.collect()))
+    }
+
+    /// An answer about the point on which the dither acts.
+    fn about_point<T>(
+        &self,
+        at: OperatingPoint<'_>,
+        answer: impl Fn(&DrivenPoint<'_>) -> T,
+    ) -> Result<T, String> {
+        let belt = self.at(at)?;
+        let first = belt.dithers().first().ok_or("the study has no dither")?;
+        if first.direction == Direction::Normal {
+            let why = "a normal dither on a prescribed load has no stroke, which the demand on an actuator needs";
+            return Err(why.to_owned());
+        }
+        let point =
+            DrivenPoint::of_belt(&first.waveform, first.frequency_ratio, belt.damping_ratio())
+                .map_err(|why| why.to_string())?;
+        Ok(answer(&point))
+    }
+
     /// The initial state of the runs that must end quiet; `None` where there is nothing to quench.
     fn initial(&self, belt: &Belt) -> Result<Option<Start>, quell_dynamics::orbit::NoOrbit> {
         let state = match self.start {
@@ -122,20 +157,14 @@ impl Plant for BeltPlant {
         at: OperatingPoint<'_>,
         range: (f64, f64),
     ) -> Result<QuietAmplitudes, String> {
-        let belt = self.at(at)?;
-        let options = AveragingOptions::FINITE_R;
-        let without = criterion(&belt, options).map_err(|why| why.to_string())?;
-        let found = critical_amplitudes(&belt, options).map_err(|why| why.to_string())?;
-        let changes: Vec<_> = found
-            .iter()
-            .map(|critical| AveragedChange {
-                amplitude: critical.amplitude,
-                becomes_quiet: critical.becomes == Becomes::Stable,
-                holds: critical.contact_stays_closed,
-            })
-            .collect();
-        let quiet_without = without.verdict == AveragedVerdict::Stable;
+        let (quiet_without, changes) = self.averaged_changes(at)?;
         Ok(QuietAmplitudes::by_averaging(range, quiet_without, &changes))
+    }
+
+    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<Option<f64>, String> {
+        let (quiet_without, changes) = self.averaged_changes(at)?;
+        let every = (0.0, f64::INFINITY);
+        Ok(QuietAmplitudes::by_averaging(every, quiet_without, &changes).least_from(0.0))
     }
 
     fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {
@@ -194,15 +223,14 @@ impl Plant for BeltPlant {
         at: OperatingPoint<'_>,
         actuator: &Actuator,
     ) -> Result<ActuatorDemand, String> {
-        let belt = self.at(at)?;
-        let first = belt.dithers().first().ok_or("the study has no dither")?;
-        if first.direction == Direction::Normal {
-            let why = "a normal dither on a prescribed load has no stroke, which the demand on an actuator needs";
-            return Err(why.to_owned());
-        }
-        let point =
-            DrivenPoint::of_belt(&first.waveform, first.frequency_ratio, belt.damping_ratio())
-                .map_err(|why| why.to_string())?;
-        Ok(actuator.demand(&point))
+        self.about_point(at, |point| actuator.demand(point))
+    }
+
+    #[expect(
+        clippy::redundant_closure_for_method_calls,
+        reason = "the method itself is of a point of one lifetime"
+    )]
+    fn slip_amplitudes(&self, at: OperatingPoint<'_>) -> Result<Vec<f64>, String> {
+        self.about_point(at, |point| point.slip_amplitudes())
     }
 }

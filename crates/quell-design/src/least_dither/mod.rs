@@ -168,6 +168,12 @@ pub trait Plant {
         range: (f64, f64),
     ) -> Result<QuietAmplitudes, String>;
 
+    /// The least amplitude that is quiet by averaging at a finite frequency ratio; `None` where no amplitude is.
+    ///
+    /// # Errors
+    /// Why there is no answer.
+    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<Option<f64>, String>;
+
     /// The amplitudes in a range that are quiet by exact thresholds.
     ///
     /// # Errors
@@ -210,6 +216,12 @@ pub trait Plant {
     /// Why it is unknown.
     fn demand(&self, at: OperatingPoint<'_>, actuator: &Actuator)
     -> Result<ActuatorDemand, String>;
+
+    /// The largest fast slip velocity of every contact under a dither of unit amplitude.
+    ///
+    /// # Errors
+    /// Why it is unknown.
+    fn slip_amplitudes(&self, at: OperatingPoint<'_>) -> Result<Vec<f64>, String>;
 }
 
 /// A design question about one waveform, in numbers of the equations.

@@ -44,6 +44,42 @@ impl SystemPlant<'_> {
         wave.cloned().ok_or_else(|| "the dither that is designed does not act".to_owned())
     }
 
+    /// Whether steady sliding is quiet without the dither, and the amplitudes at which averaging changes the verdict. The amplitude is one
+    /// with which the system is valid.
+    fn averaged_changes(
+        &self,
+        at: OperatingPoint<'_>,
+        amplitude: f64,
+    ) -> Result<(bool, Vec<AveragedChange>), String> {
+        let system = (self.at)(at, amplitude)?;
+        let prepared = DitheredSystem::new(&system).map_err(in_words)?;
+        let without = prepared.average_with(Some((self.input, 0.0))).map_err(in_words)?;
+        let without = without.growth().map_err(in_words)?.verdict();
+        let found = prepared.critical_amplitudes(self.input).map_err(in_words)?;
+        let changes = found.iter().map(|critical| AveragedChange {
+            amplitude: critical.amplitude,
+            becomes_quiet: critical.becomes == Becomes::Stable,
+            holds: critical.contacts_stay_closed && critical.within_laws,
+        });
+        Ok((without == Verdict::Stable, changes.collect()))
+    }
+
+    /// An answer about the point on which the dither acts.
+    fn about_point<T>(
+        &self,
+        at: OperatingPoint<'_>,
+        answer: impl Fn(&DrivenPoint<'_>) -> T,
+    ) -> Result<T, String> {
+        let system = (self.at)(at, 1.0)?;
+        let sliding = Linearised::new(&system).map_err(in_words)?;
+        let wave = self.wave(&system)?;
+        let target = &system.inputs[self.input].target;
+        let point =
+            DrivenPoint::of_input(&system, &sliding, target, &wave.waveform, wave.frequency)
+                .map_err(in_words)?;
+        Ok(answer(&point))
+    }
+
     /// The base response under an amplitude.
     fn base(system: &System) -> Result<MotionOrbit, String> {
         base_motion(system, GROWTH_STEPS).map_err(in_words)
@@ -69,20 +105,14 @@ impl Plant for SystemPlant<'_> {
         at: OperatingPoint<'_>,
         range: (f64, f64),
     ) -> Result<QuietAmplitudes, String> {
-        let system = (self.at)(at, range.1)?;
-        let prepared = DitheredSystem::new(&system).map_err(in_words)?;
-        let without = prepared.average_with(Some((self.input, 0.0))).map_err(in_words)?;
-        let without = without.growth().map_err(in_words)?.verdict();
-        let found = prepared.critical_amplitudes(self.input).map_err(in_words)?;
-        let changes: Vec<_> = found
-            .iter()
-            .map(|critical| AveragedChange {
-                amplitude: critical.amplitude,
-                becomes_quiet: critical.becomes == Becomes::Stable,
-                holds: critical.contacts_stay_closed && critical.within_laws,
-            })
-            .collect();
-        Ok(QuietAmplitudes::by_averaging(range, without == Verdict::Stable, &changes))
+        let (quiet_without, changes) = self.averaged_changes(at, range.1)?;
+        Ok(QuietAmplitudes::by_averaging(range, quiet_without, &changes))
+    }
+
+    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<Option<f64>, String> {
+        let (quiet_without, changes) = self.averaged_changes(at, 1.0)?;
+        let every = (0.0, f64::INFINITY);
+        Ok(QuietAmplitudes::by_averaging(every, quiet_without, &changes).least_from(0.0))
     }
 
     fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {
@@ -147,13 +177,14 @@ impl Plant for SystemPlant<'_> {
         at: OperatingPoint<'_>,
         actuator: &Actuator,
     ) -> Result<ActuatorDemand, String> {
-        let system = (self.at)(at, 1.0)?;
-        let sliding = Linearised::new(&system).map_err(in_words)?;
-        let wave = self.wave(&system)?;
-        let target = &system.inputs[self.input].target;
-        let point =
-            DrivenPoint::of_input(&system, &sliding, target, &wave.waveform, wave.frequency)
-                .map_err(in_words)?;
-        Ok(actuator.demand(&point))
+        self.about_point(at, |point| actuator.demand(point))
+    }
+
+    #[expect(
+        clippy::redundant_closure_for_method_calls,
+        reason = "the method itself is of a point of one lifetime"
+    )]
+    fn slip_amplitudes(&self, at: OperatingPoint<'_>) -> Result<Vec<f64>, String> {
+        self.about_point(at, |point| point.slip_amplitudes())
     }
 }

@@ -41,6 +41,12 @@ class Dither(Table):
         Phase at τ = 0, in radians.
     amplitude_n, amplitude_n_rms, frequency_hz :
         The same in N (peak, or root mean square) and Hz, in a study in SI.
+    amplitude_rms, amplitude_peak_to_peak, amplitude_n_peak_to_peak :
+        The amplitude as root mean square or peak to peak, in the unit of the study or in N.
+    amplitude_v, amplitude_v_rms, amplitude_v_peak_to_peak, amplitude_a, amplitude_a_rms, amplitude_a_peak_to_peak :
+        The voltage or the current of the actuator about its mean, from which its equations give the force; needs ``actuator``.
+    amplitude_percent :
+        Per cent of the largest amplitude that the actuator can give at the frequency of the dither; needs ``actuator``.
     harmonics :
         "fourier": a list of ``{"order": n, "sine": s, "cosine": c}``.
     values, file, hold :
@@ -64,6 +70,16 @@ class Dither(Table):
     phase: float | str | None
     amplitude_n: float | str | None
     amplitude_n_rms: float | str | None
+    amplitude_rms: float | str | None
+    amplitude_peak_to_peak: float | str | None
+    amplitude_n_peak_to_peak: float | str | None
+    amplitude_v: float | str | None
+    amplitude_v_rms: float | str | None
+    amplitude_v_peak_to_peak: float | str | None
+    amplitude_a: float | str | None
+    amplitude_a_rms: float | str | None
+    amplitude_a_peak_to_peak: float | str | None
+    amplitude_percent: float | str | None
     frequency_hz: float | str | None
     harmonics: Any
     values: Any
@@ -90,6 +106,16 @@ class Dither(Table):
         phase: Number | None = None,
         amplitude_n: Number | None = None,
         amplitude_n_rms: Number | None = None,
+        amplitude_rms: Number | None = None,
+        amplitude_peak_to_peak: Number | None = None,
+        amplitude_n_peak_to_peak: Number | None = None,
+        amplitude_v: Number | None = None,
+        amplitude_v_rms: Number | None = None,
+        amplitude_v_peak_to_peak: Number | None = None,
+        amplitude_a: Number | None = None,
+        amplitude_a_rms: Number | None = None,
+        amplitude_a_peak_to_peak: Number | None = None,
+        amplitude_percent: Number | None = None,
         frequency_hz: Number | None = None,
         harmonics: Iterable[Mapping[str, Number]] | None = None,
         values: Iterable[float] | None = None,

@@ -795,6 +795,28 @@ class Study(CheckedStudy):
         return results.Design(self, self._native.design())
 
     @keywords
+    def actuator(self, *, frequency: State | None = None) -> results.Actuator:
+        """Where over frequency the actuator of the study can give the dither that quenches; of a belt or a system.
+
+        Parameters
+        ----------
+        frequency :
+            Range of dither frequencies: of a belt R, of a system angular frequencies; in a study in SI Hz (belt) or rad/s (system), or as
+            texts with units such as ``("5kHz", "40kHz")`` [default: that of a measured actuator, or from a tenth, but
+            above the vibration, to 10 times the frequency of the dither].
+
+        Returns
+        -------
+        quell.results.Actuator
+            The largest amplitude that the actuator can give and the least that quenches, over the frequency (n,).
+        """
+        arguments = Arguments()
+        two = "two frequencies, the first below the second"
+        given = None if frequency is None else arguments.quantities("frequency", frequency, two)
+        arguments.done()
+        return results.Actuator(self, self._native.actuator(given))
+
+    @keywords
     def probability(
         self,
         *,

@@ -1,6 +1,6 @@
 //! The schema of a study of a system, made from its keys.
 
-use quell_model::parameter::{Bounds, Parameter};
+use quell_model::parameter::{Bounds, DITHER_AMPLITUDE, Parameter};
 use serde_json::{Map, Value as Json, json};
 
 use crate::study::system::keys::{SystemKey, SystemRole, SystemTable, system_keys};
@@ -108,6 +108,7 @@ fn property(key: &SystemKey) -> Json {
     let list = json!({ "type": "array", "items": entry, "minItems": 1 });
     match key.role {
         SystemRole::Number(parameter) => number(Some(parameter)),
+        SystemRole::Size(_) => number(Some(DITHER_AMPLITUDE)),
         SystemRole::Matrix(_) => {
             let rows =
                 json!({ "type": "array", "items": { "anyOf": [entry, list] }, "minItems": 1 });

@@ -246,6 +246,12 @@ fn replaces(key: &Key, sibling: &Key, of_a_disc: bool) -> bool {
     }
     match (key.section, key.role, sibling.role) {
         (_, Role::Twin(parameter, _), Role::Twin(other, _)) => parameter.path == other.path,
+        (_, Role::Size(parameter, _), _) => {
+            sibling.parameter().is_some_and(|other| other.path == parameter.path)
+        }
+        (_, _, Role::Size(other, _)) => {
+            key.parameter().is_some_and(|parameter| other.path == parameter.path)
+        }
         (_, Role::Number(parameter), Role::Twin(other, _))
         | (_, Role::Twin(parameter, _), Role::Number(other)) => {
             parameter.path == other.path && (of_a_disc || parameter.is_pure())

@@ -7,9 +7,9 @@ use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::system::response::ResponseRequest;
 use crate::run::{
-    basins, belt_system, bifurcation, curves, describing, design, found_attractor, friction,
-    noise_response, orbit, probability, ramp, response, simulate, stability, thresholds, waveforms,
-    window,
+    actuator, basins, belt_system, bifurcation, curves, describing, design, found_attractor,
+    friction, noise_response, orbit, probability, ramp, response, simulate, stability, thresholds,
+    waveforms, window,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -34,6 +34,7 @@ impl Verbs for BeltStudy {
             "thresholds",
             "waveforms",
             "design",
+            "actuator",
             "probability",
             "bifurcation",
             "basins",
@@ -117,6 +118,10 @@ impl Verbs for BeltStudy {
 
     fn design(&self) -> Reply {
         answer(self, design::run(self))
+    }
+
+    fn actuator(&self, frequencies: Option<(f64, f64)>) -> Reply {
+        answer(self, actuator::run(self, frequencies))
     }
 
     fn probability(&self, request: probability::ProbabilityRequest, running: Running<'_>) -> Reply {

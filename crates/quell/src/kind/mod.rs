@@ -275,6 +275,15 @@ pub trait Verbs: Send + Sync {
         Err(self.lacks("design"))
     }
 
+    /// Where over a range of frequencies of the dither, in numbers of the equations, the actuator can give what quenches.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::actuator::run`].
+    fn actuator(&self, frequencies: Option<(f64, f64)>) -> Reply {
+        let _ = frequencies;
+        Err(self.lacks("actuator"))
+    }
+
     /// How probable it is that a study with uncertain numbers vibrates.
     ///
     /// # Errors

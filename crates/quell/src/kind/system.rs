@@ -24,8 +24,8 @@ use crate::run::system::thresholds::{
 };
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
-    basins, bifurcation, curves, design, exact, found_attractor, friction, measured, modes, orbit,
-    reach, response, simulate, stability, thresholds, tracked, waveforms,
+    actuator, basins, bifurcation, curves, design, exact, found_attractor, friction, measured,
+    modes, orbit, reach, response, simulate, stability, thresholds, tracked, waveforms,
 };
 use crate::run::thresholds::ThresholdsRequest;
 use crate::run::{describing, noise_response, probability, ramp, window};
@@ -53,6 +53,7 @@ impl Verbs for SystemStudy {
             "thresholds",
             "waveforms",
             "design",
+            "actuator",
             "probability",
             "bifurcation",
             "basins",
@@ -102,6 +103,10 @@ impl Verbs for SystemStudy {
 
     fn design(&self) -> Reply {
         answer(self, design::run(self))
+    }
+
+    fn actuator(&self, frequencies: Option<(f64, f64)>) -> Reply {
+        answer(self, actuator::run(self, frequencies))
     }
 
     fn probability(&self, request: probability::ProbabilityRequest, running: Running<'_>) -> Reply {

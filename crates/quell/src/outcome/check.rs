@@ -13,7 +13,8 @@ use crate::run::disc;
 use crate::run::law;
 use crate::run::system;
 use crate::study::{
-    BeltSetup, BeltStudy, DiscSetup, DiscStudy, StudyOf, SystemSetup, SystemStudy, SystemUnits,
+    BeltSetup, BeltStudy, DiscSetup, DiscStudy, GivenSize, StudyOf, SystemSetup, SystemStudy,
+    SystemUnits,
 };
 
 /// Marks a valid study; the answer of `check` follows from the study alone.
@@ -88,9 +89,12 @@ fn table_of_belt(study: &BeltStudy) -> String {
     for (label, words) in law::words(study) {
         table.word(&label, &words);
     }
-    for dither in belt.dithers() {
+    for (place, dither) in belt.dithers().iter().enumerate() {
         table.word("dither", &format!("{} {}", dither.direction.name(), dither.waveform.name()));
         table.number("  amplitude D", Quantity::Force, dither.amplitude);
+        for given in study.given_sizes().iter().filter(|given| given.dither == place) {
+            table.word("    given as", &size_in_words(given, ""));
+        }
         if let Some(noise) = dither.waveform.noise() {
             let [low, high] = noise.band(dither.frequency_ratio);
             table.number("  band of R: from", Quantity::FrequencyRatio, low);
@@ -111,6 +115,14 @@ fn table_of_belt(study: &BeltStudy) -> String {
     }
     axes(&mut table, study);
     table.text()
+}
+
+/// A size with its key, and what makes it a force.
+fn size_in_words(given: &GivenSize, force: &str) -> String {
+    let unit = if given.key.unit.is_empty() { force } else { given.key.unit };
+    let space = if unit.is_empty() { "" } else { " " };
+    let by = if given.key.needs_actuator() { ", by [actuator]" } else { "" };
+    format!("{} = {}{space}{unit}{by}", given.path, figure(given.value))
 }
 
 fn axes<K>(table: &mut TextTable, study: &StudyOf<K>) {
@@ -159,6 +171,12 @@ fn table_of_system(study: &SystemStudy) -> String {
             frequency_of(study.units(), wave)
         );
         table.word("dither", &words);
+    }
+    for given in study.given_sizes() {
+        let force = study.units().unit(Quantity::Force).unwrap_or_default();
+        let words = size_in_words(given, force);
+        table
+            .word("amplitude", &format!("{} from {words}", with(Quantity::Force, given.amplitude)));
     }
     axes(&mut table, study);
     table.text()

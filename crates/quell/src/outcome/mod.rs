@@ -11,6 +11,7 @@ use crate::input::Inputs;
 use crate::plot::Figure;
 use crate::study::{StudyKind, StudyOf};
 
+mod actuator;
 mod attractor;
 mod basins;
 mod bifurcation;

@@ -3,6 +3,7 @@
 //! A study in SI is drawn in SI with a suitable metric prefix; any other study is drawn in the dimensionless numbers of the
 //! equations. The caption states the law, the belt, the dither and the start.
 
+mod actuator;
 mod basins;
 mod bifurcation;
 mod caption;
@@ -36,6 +37,7 @@ mod thresholds;
 mod waveforms;
 pub(crate) mod window;
 
+pub use actuator::{actuator, actuator_of_system};
 pub use basins::basins;
 pub use bifurcation::bifurcation;
 pub use design::{design, design_of_system};

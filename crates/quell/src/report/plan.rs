@@ -1,13 +1,17 @@
 //! The verbs of a report with their requests.
 
+use std::sync::atomic::AtomicBool;
+
 use quell_model::Direction;
 use quell_model::units::Quantity;
 
 use crate::kind::{Reply, Verbs};
 use crate::run::disc::resonances::ResonancesRequest;
 use crate::run::orbit::Wanted;
+use crate::run::probability::ProbabilityRequest;
 use crate::run::thresholds::{ThresholdsRequest, path_in_words};
 use crate::study::{BeltStudy, Kind, Study, SystemStart, SystemStudy};
+use crate::sweep::Running;
 use crate::words::{digits, start_in_words};
 
 /// The window of thresholds, in amplitudes of the study.
@@ -22,6 +26,9 @@ pub(super) enum ReportedVerb {
     Friction,
     Resonances,
     Thresholds(ThresholdsRequest),
+    Design,
+    Actuator,
+    Probability,
 }
 
 /// A verb of the report.
@@ -95,6 +102,12 @@ fn of_belt(study: &BeltStudy) -> Vec<ReportStep> {
         let unit = study.scales().map_or(1.0, |scales| scales.si_per_unit(Quantity::Force));
         steps.extend(thresholds(&path, unit * dither.amplitude, unit * room));
     }
+    let dithered = !belt.dithers().is_empty();
+    steps.extend(questions(Questions {
+        design: dithered && study.design().is_some(),
+        actuator: dithered && study.actuator().is_some(),
+        probability: study.uncertainty().is_some(),
+    }));
     steps.push(ReportStep::new("friction", "Friction law", NO_START, ReportedVerb::Friction));
     steps
 }
@@ -122,7 +135,41 @@ fn of_system(study: &SystemStudy) -> Vec<ReportStep> {
         let amplitude = input.profile.waves().first().map_or(0.0, |wave| wave.amplitude);
         steps.extend(thresholds(&path, amplitude, f64::INFINITY));
     }
+    steps.extend(questions(Questions {
+        design: !inputs.is_empty() && study.design().is_some(),
+        actuator: !inputs.is_empty() && study.actuator().is_some(),
+        probability: study.uncertainty().is_some(),
+    }));
     steps
+}
+
+/// The tables of a study that ask a question.
+#[derive(Clone, Copy)]
+struct Questions {
+    design: bool,
+    actuator: bool,
+    probability: bool,
+}
+
+/// The verbs that answer them.
+fn questions(asked: Questions) -> impl Iterator<Item = ReportStep> {
+    let design = ReportStep::new(
+        "design",
+        "The least dither over the operating points",
+        BRANCH,
+        ReportedVerb::Design,
+    );
+    let actuator =
+        ReportStep::new("actuator", "What the actuator can give", SMALL, ReportedVerb::Actuator);
+    let probability = ReportStep::new(
+        "probability",
+        "How probable the vibration is",
+        SMALL,
+        ReportedVerb::Probability,
+    );
+    let all =
+        [(asked.design, design), (asked.actuator, actuator), (asked.probability, probability)];
+    all.into_iter().filter_map(|(wanted, step)| wanted.then_some(step))
 }
 
 /// Thresholds of an amplitude between a tenth and twice its value, or up to the largest that the contact allows; none of an
@@ -153,5 +200,11 @@ pub(super) fn ask(verbs: &dyn Verbs, asked: ReportedVerb) -> Reply {
         ReportedVerb::Friction => verbs.friction(None, false),
         ReportedVerb::Resonances => verbs.resonances(ResonancesRequest::default()),
         ReportedVerb::Thresholds(request) => verbs.thresholds(request),
+        ReportedVerb::Design => verbs.design(),
+        ReportedVerb::Actuator => verbs.actuator(None),
+        ReportedVerb::Probability => {
+            let (stop, request) = (AtomicBool::new(false), ProbabilityRequest::default());
+            verbs.probability(request, Running { threads: None, stop: &stop, progress: &() })
+        }
     }
 }

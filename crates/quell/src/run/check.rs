@@ -10,7 +10,7 @@ use crate::fields::Fields;
 use crate::noise;
 use crate::range;
 use crate::removed_mean;
-use crate::study::BeltStudy;
+use crate::study::{BeltStudy, GivenSize};
 
 /// The answer for a valid study.
 #[derive(Clone, Debug)]
@@ -74,6 +74,8 @@ impl Check<'_> {
             inner
         });
         fields.list("dithers", dithers.collect::<Vec<_>>());
+        let sizes = study.given_sizes().iter().map(|given| given_size(given, Fields::new(scales)));
+        fields.list("given_amplitudes", sizes.collect::<Vec<_>>());
         let axes = study.sweeps().iter().map(|sweep| {
             let mut inner = Fields::new(None);
             inner
@@ -92,4 +94,19 @@ impl Check<'_> {
         fields.plain("warnings", warnings.collect::<Vec<String>>());
         fields.finish()
     }
+}
+
+/// An amplitude that is given by another size than a peak force.
+pub(crate) fn given_size(given: &GivenSize, mut fields: Fields) -> Fields {
+    fields
+        .plain("key", given.path.as_str())
+        .measured("value", unit_of_size(given), given.value)
+        .number("amplitude", Quantity::Force, given.amplitude)
+        .plain("by_actuator", given.key.needs_actuator());
+    fields
+}
+
+/// The unit of the number that a size gives.
+pub(crate) fn unit_of_size(given: &GivenSize) -> &'static str {
+    if given.key.unit.is_empty() { Quantity::Force.scaled_unit() } else { given.key.unit }
 }

@@ -3,6 +3,7 @@
 //! One file per verb. Numbers are reported in the units of the equations and, for a study in SI, also in
 //! SI ([`crate::fields`]).
 
+pub mod actuator;
 pub mod attractor;
 pub mod basins;
 mod belt_start;

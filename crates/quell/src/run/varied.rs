@@ -5,6 +5,7 @@ use quell_model::parameter::{BELT_VELOCITY, DITHER_AMPLITUDE};
 use super::evenly;
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
 use crate::study::document::given_number;
+use crate::study::vocabulary::size::{SignalMeasure, measure_of};
 use crate::study::vocabulary::{Address, Role, in_system, join, resolve};
 use crate::study::{BeltStudy, suggest};
 
@@ -173,10 +174,10 @@ impl Named {
                 );
                 Err(Box::new(Complaint::option(option, path, allowed)))
             }
-            (Some(number), _) if is_root_mean_square(path) => {
+            (Some(number), _) if not_a_peak(path).is_some() => {
+                let why = not_a_peak(path).unwrap_or_default();
                 let peak = key_of(study, &number);
-                let allowed =
-                    format!("{peak}, a peak value: a root mean square depends on the waveform");
+                let allowed = format!("{peak}, a peak value: {why}");
                 Err(Box::new(Complaint::option(option, path, allowed).suggesting(Some(peak))))
             }
             (meant, _) => {
@@ -211,8 +212,24 @@ impl Named {
     }
 }
 
-fn is_root_mean_square(path: &str) -> bool {
-    matches!(resolve(path).map(|address| address.key.role), Ok(Role::Twin(_, twin)) if twin.rms)
+/// Why a key that gives an amplitude by another size than its peak cannot be varied here.
+fn not_a_peak(path: &str) -> Option<&'static str> {
+    let role = resolve(path).ok()?.key.role;
+    let measure = match role {
+        Role::Twin(_, twin) => measure_of(twin),
+        Role::Size(_, size) if size.needs_actuator() => {
+            return Some(
+                "the force of a voltage or current depends on the frequency and the waveform",
+            );
+        }
+        Role::Size(_, size) => size.measure,
+        _ => return None,
+    };
+    match measure {
+        SignalMeasure::Peak => None,
+        SignalMeasure::RootMeanSquare => Some("a root mean square depends on the waveform"),
+        SignalMeasure::PeakToPeak => Some("a peak-to-peak value depends on the waveform"),
+    }
 }
 
 /// Whether a key changes several numbers of the equations at once: mass, stiffness, friction in newtons.

@@ -11,12 +11,12 @@ import panel as pn
 from .._errors import QuellError
 from .._study import Study
 from .._tables import Number
-from . import _zoo
+from . import _questions, _zoo
 from ._controls import Controls
 from ._files import Downloads
 from ._lanes import Event, Here, Lane, Process
 from ._numbers import Knob, kept, knobs, within
-from ._panes import EigenPane, LawPane, MotionPane, SoundPane, SpectrumPane, Verdict, headed, words
+from ._panes import EigenPane, LawPane, MotionPane, QuestionPane, SoundPane, SpectrumPane, Verdict, headed, words
 from ._plane_panes import ACROSS, BasinsPane, PlanePane, preferred
 from ._share import commands, python, toml
 from ._state import State
@@ -57,6 +57,11 @@ class Page:
         self.plane = PlanePane(self._jump, self.request_plane)
         self.basins = BasinsPane(self.start_at, self.request_basins, lambda: self.maps.cancel("basins"))
         self.eigen = EigenPane()
+        self.questions = {
+            "design": QuestionPane("Least dither", "design", "exact"),
+            "actuator": QuestionPane("What the actuator can give", "actuator", "averaged"),
+            "probability": QuestionPane("How probable the vibration is", "probability", "averaged"),
+        }
         self.controls = Controls(state.study, self.change, self.choose_law)
         self.downloads = Downloads(lambda: self.state.study)
         self.shared = {name: pn.pane.HTML("", sizing_mode="stretch_width") for name in ("TOML", "command line", "Python")}
@@ -78,6 +83,8 @@ class Page:
         self.motion.picture.plane.on_event("tap", self._tapped)
         self.eigen.parameter.param.watch(lambda event: self.request_eigenvalues(), "value")
         self.sound.button.on_click(lambda event: self.request_sound())
+        for name, pane in self.questions.items():
+            pane.button.on_click(lambda event, name=name: self.request_question(name))
         self.undo = pn.widgets.Button(label="undo", width=90, css_classes=["quell-undo"])
         self.redo = pn.widgets.Button(label="redo", width=90, css_classes=["quell-redo"])
         self.undo.on_click(lambda event: self._went(self.state.undo()))
@@ -137,6 +144,7 @@ class Page:
                 value=None if chosen is None else self._offered[chosen].path,
             )
             panes.append(self.eigen.view)
+        panes += [self.questions[name].view for name in _questions.asked(study)]
         if self._draw is not None:
             panes.append(self._sketch())
         self.right[:] = [*panes, self.sound.view]
@@ -209,7 +217,7 @@ class Page:
 
     def dim(self) -> None:
         """Dims every answer: the numbers that the sliders show are not valid."""
-        for pane in (self.motion, self.spectrum, self.law, self.plane, self.basins, self.eigen, self.sound):
+        for pane in (self.motion, self.spectrum, self.law, self.plane, self.basins, self.eigen, self.sound, *self.questions.values()):
             pane.dim(True)
         self.verdict.dim()
 
@@ -243,6 +251,8 @@ class Page:
                 self.request_eigenvalues()
             self._draw_sketch(study)
             self.sound.dim(True)
+            for pane in self.questions.values():
+                pane.dim(True)
             self._share()
 
     def request_exact(self) -> None:
@@ -287,6 +297,10 @@ class Page:
         """Asks for the sound."""
         self.exact.submit("sound", self.state.study)
 
+    def request_question(self, name: str) -> None:
+        """Asks what a table of the study asks."""
+        self.maps.submit(name, self.state.study)
+
     def _draw_sketch(self, study: Study) -> None:
         """Draws the mechanism, where this version of Quell can."""
         if self._draw is None:
@@ -330,6 +344,7 @@ class Page:
             "basins": self.basins,
             "eigenvalues": self.eigen,
             "sound": self.sound,
+            **self.questions,
         }[name]
         pane.state(event)
         if name == "averaged" and event.kind in ("done", "failed"):

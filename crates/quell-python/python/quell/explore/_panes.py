@@ -190,6 +190,23 @@ class SoundPane(Pane):
         self.players.object = "".join(rows) + words(difference(answer["levels"], answer["slow"]), TEXT, weight=600)
 
 
+class QuestionPane(Pane):
+    """The answer to a question that a table of the study asks, on request."""
+
+    def __init__(self, title: str, name: str, kind: str) -> None:
+        self.button = pn.widgets.Button(label="compute", width=170, margin=MARGIN, css_classes=[f"quell-ask-{name}"])
+        fitting = "svg { max-width: 100%; height: auto; }"
+        self.picture = pn.pane.HTML("", width=WIDTH, margin=MARGIN, stylesheets=[fitting], css_classes=[f"quell-{name}-picture"])
+        self.sentence = paragraph(WIDTH, f"quell-{name}-words")
+        super().__init__(title, f"quell-{name}", self.picture, self.sentence, self.button, kind=kind)
+        self._bodies = [self.picture, self.sentence]
+
+    def show(self, answer: dict[str, Any]) -> None:
+        """Shows the picture, the sentence and the warnings."""
+        self.picture.object = answer["picture"]
+        self.sentence.object = words("\n".join([answer["sentence"], *answer["warnings"]]), TEXT - 1)
+
+
 def difference(levels: dict[str, float], slow: dict[str, float]) -> str:
     """The difference of two sounds in words: of their whole levels, and of those below 1.9 ω₀."""
     if "without dither" not in levels:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from ._answers import averaged, response, trajectory
 from ._maps import basins, curves, eigenvalues, plane
+from ._questions import actuator, design, probability
 from ._reading import Answer
 from ._sound import sound
 
@@ -18,8 +19,11 @@ TASKS: dict[str, Callable[..., Answer]] = {
     "basins": basins,
     "eigenvalues": eigenvalues,
     "sound": sound,
+    "design": design,
+    "actuator": actuator,
+    "probability": probability,
 }
 """Every answer by name."""
 
-REPORTING = ("basins",)
+REPORTING = ("basins", "probability")
 """Answers that report progress."""

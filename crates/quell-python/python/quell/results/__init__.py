@@ -16,10 +16,11 @@ from __future__ import annotations
 from .._dataset import Arrays, Variable
 from .._result import Result
 from ._motion import Attractor, NoiseResponse, Orbit, Response, Simulation, Window
-from ._steady import Check, Citations, ContactFriction, ContactGains, DescribingFunction, Design, ExactStability, FrictionCurve, Modes, Probability, Resonances, Stability, TrackedStability, Waveforms
+from ._steady import Actuator, Check, Citations, ContactFriction, ContactGains, DescribingFunction, Design, ExactStability, FrictionCurve, Modes, Probability, Resonances, Stability, TrackedStability, Waveforms
 from ._sweeps import Basins, Bifurcation, Map, Ramp, Shard, ThresholdCurves, Thresholds
 
 __all__ = [
+    "Actuator",
     "Arrays",
     "Attractor",
     "Basins",

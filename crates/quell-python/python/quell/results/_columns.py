@@ -323,6 +323,10 @@ class DescribingFunctionColumns:
     velocity_amplitude_m_per_s: list[float | None]
 
 
+class ActuatorColumns:
+    """Of :class:`quell.results.Actuator`."""
+
+
 class DesignColumns:
     """Of :class:`quell.results.Design`."""
 

@@ -260,6 +260,82 @@ class Design(_columns.DesignColumns, Result):
         return self.arrays["used"].values
 
 
+class Actuator(_columns.ActuatorColumns, Result):
+    """What the actuator can give over the frequency of the dither, and what quenching needs; arrays over the frequency (n,)."""
+
+    verb = "actuator"
+    kind: str
+    """Kind of actuator."""
+    dither: str
+    """Table of the dither, such as "dither"."""
+    waveform: str
+    """Its waveform."""
+    can_quench: bool
+    """Whether the actuator suffices anywhere in the range."""
+    quiet_without: bool
+    """Whether steady sliding is stable without this dither."""
+    sufficient: list[dict[str, Any]]
+    """Where the actuator suffices: ``from``, ``to``, and the ``best`` frequency with its ``margin``, ``amplitude``, ``needed``, ``limit``
+    and ``contacts``."""
+    best: dict[str, Any] | None
+    """The largest margin of the range: ``frequency``, ``amplitude``, ``limit``, ``needed``, ``margin``, ``contacts``."""
+    own: dict[str, Any]
+    """The same at the frequency of the study, with its ``given`` amplitude, the share of the largest one that is ``used``, and its
+    ``drive``."""
+    binding: list[dict[str, Any]]
+    """Which ``limit`` binds ``from`` one frequency ``to`` another."""
+    changes: list[dict[str, Any]]
+    """Each ``frequency`` at which the limit changes: the one ``below`` and the one ``above``."""
+    resonances: list[dict[str, Any]]
+    """Frequencies at which little dither suffices, and whether each ``helps``."""
+
+    @property
+    def frequency(self) -> npt.NDArray[np.float64]:
+        """Frequency of the dither (n,), in the unit of the study: R, in SI Hz; of a system the angular frequency."""
+        return self.arrays["frequency"].values
+
+    @property
+    def amplitude(self) -> npt.NDArray[np.float64]:
+        """Largest amplitude that the actuator can give (n,); NaN where it is unknown."""
+        return self.arrays["amplitude"].values
+
+    @property
+    def needed(self) -> npt.NDArray[np.float64]:
+        """Least amplitude that quenches by averaging (n,); NaN where none does."""
+        return self.arrays["needed"].values
+
+    @property
+    def margin(self) -> npt.NDArray[np.float64]:
+        """The largest amplitude over the least one (n,)."""
+        return self.arrays["margin"].values
+
+    @property
+    def voltage(self) -> npt.NDArray[np.float64]:
+        """Peak of the voltage about its mean at the largest amplitude (n,), in V."""
+        return self.arrays["voltage"].values
+
+    @property
+    def current(self) -> npt.NDArray[np.float64]:
+        """Peak of the current about its mean at the largest amplitude (n,), in A."""
+        return self.arrays["current"].values
+
+    @property
+    def stroke(self) -> npt.NDArray[np.float64]:
+        """Peak-to-peak displacement of the driven point at the largest amplitude (n,)."""
+        return self.arrays["stroke"].values
+
+    @property
+    def slip_velocity(self) -> npt.NDArray[np.float64] | None:
+        """Belt: largest slip velocity of the dither at the contact, at the largest amplitude (n,); of a system in ``arrays``."""
+        found = self.arrays.get("slip_velocity")
+        return None if found is None else found.values
+
+    @property
+    def limit(self) -> npt.NDArray[np.str_]:
+        """Name of the limit that binds (n,)."""
+        return self.arrays["limit"].words
+
+
 class Probability(_columns.ProbabilityColumns, Result):
     """How probable it is that a study vibrates; arrays over shares of the samples (n,)."""
 

@@ -1,13 +1,18 @@
 //! `[dither]` or `[[dither]]`.
 
+use quell_design::actuator::Actuator;
+use quell_linear::driven_point::DrivenPoint;
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE};
-use quell_model::{Direction, Dither};
+use quell_model::{Direction, Dither, Waveform};
 
 use super::band;
+use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::course::{Course, CoursePlace, CourseUnits};
+use crate::study::dither_size::{self, GivenSize, SizedAmplitude};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
-use crate::study::vocabulary::{Choice, ENVELOPE, Section};
+use crate::study::vocabulary::size::SizedSignal;
+use crate::study::vocabulary::{Choice, ENVELOPE, Section, join};
 use crate::study::wave_file::WaveFiles;
 use crate::study::waveform;
 
@@ -16,20 +21,23 @@ pub(super) fn read(
     reader: &mut Reader,
     root: &Table,
     files: &mut WaveFiles<'_>,
-) -> Option<Vec<Dither>> {
+) -> Option<Vec<(Dither, String, SizedAmplitude)>> {
     let Some(node) = root.get("dither") else {
         return Some(Vec::new());
     };
+    let has_actuator = root.has("actuator");
     match &node.value {
-        Value::Table(_) => one(reader, node, "dither", files).map(|dither| vec![dither]),
+        Value::Table(_) => {
+            one(reader, node, ("dither", has_actuator), files).map(|dither| vec![dither])
+        }
         Value::List(list) => {
             let single = list.len() == 1;
-            let dithers: Vec<Option<Dither>> = list
+            let dithers: Vec<Option<_>> = list
                 .iter()
                 .enumerate()
                 .map(|(index, node)| {
                     let prefix = if single { "dither".into() } else { format!("dither[{index}]") };
-                    one(reader, node, &prefix, files)
+                    one(reader, node, (&prefix, has_actuator), files)
                 })
                 .collect();
             dithers.into_iter().collect()
@@ -48,9 +56,9 @@ pub(super) fn read(
 fn one(
     reader: &mut Reader,
     node: &Node,
-    prefix: &str,
+    (prefix, has_actuator): (&str, bool),
     files: &mut WaveFiles<'_>,
-) -> Option<Dither> {
+) -> Option<(Dither, String, SizedAmplitude)> {
     let Some(table) = node.table() else {
         reader.wrong(prefix, node, format!("a table; got {}", node.kind()));
         return None;
@@ -64,11 +72,8 @@ fn one(
         band::given(reader, table, prefix)
     });
     let (waveform, middle) = wave.unzip();
-    let amplitude = match reader.optional(table, prefix, DITHER_AMPLITUDE, waveform.as_ref()) {
-        Found::Value(value) => Some(value),
-        Found::Wrong => None,
-        Found::Absent => reader.number(table, prefix, node.origin, DITHER_AMPLITUDE),
-    };
+    let wave = (waveform.as_ref(), has_actuator);
+    let amplitude = amplitude(reader, table, (prefix, node.origin), wave);
     let (frequency_ratio, phase) = if is_noise {
         (middle.flatten(), Some(0.0))
     } else {
@@ -77,12 +82,101 @@ fn one(
     };
     let place = CoursePlace { what: ENVELOPE, units: CourseUnits::Belt, folder: files.folder() };
     let envelope = place.optional(reader, table, prefix, "envelope").map(Course::knots);
-    Some(Dither {
+    let amplitude = amplitude?;
+    let dither = Dither {
         direction: direction?,
         waveform: waveform?,
-        amplitude: amplitude?,
+        amplitude: amplitude.so_far(),
         frequency_ratio: frequency_ratio?,
         phase: phase?,
         envelope: envelope.ok()?,
-    })
+    };
+    Some((dither, prefix.to_owned(), amplitude))
+}
+
+/// The amplitude; the waveform converts a root mean square and a peak-to-peak value, an actuator what it takes.
+fn amplitude(
+    reader: &mut Reader,
+    table: &Table,
+    (prefix, header): (&str, Origin),
+    (waveform, has_actuator): (Option<&Waveform>, bool),
+) -> Option<SizedAmplitude> {
+    let Some((key, given)) = dither_size::key_in(reader, table, prefix).ok()? else {
+        let found = match reader.optional(table, prefix, DITHER_AMPLITUDE, waveform) {
+            Found::Value(value) => Some(value),
+            Found::Wrong => None,
+            Found::Absent => reader.number(table, prefix, header, DITHER_AMPLITUDE),
+        };
+        return Some(SizedAmplitude::Known(found?, None));
+    };
+    let path = join(prefix, key.key);
+    if !key.belongs(reader.is_si()) {
+        let right = reader.in_system(&path);
+        let (is, but) =
+            if reader.is_si() { ("in SI", "dimensionless") } else { ("dimensionless", "in SI") };
+        let allowed = format!("the study is {is}, but {path} is {but}: use {right}");
+        let complaint = Complaint::new(Fault::Mixed, path, given.origin, given.given(), allowed);
+        reader.complain(complaint.suggesting(Some(right)));
+        return None;
+    }
+    let value = reader.within(&path, given, DITHER_AMPLITUDE.bounds, key.unit, false)?;
+    let newtons = match key.signal {
+        SizedSignal::Newtons => reader.si_per_unit(DITHER_AMPLITUDE.quantity)?,
+        _ => 1.0,
+    };
+    match dither_size::sized(reader, prefix, (key, given), value, (waveform, has_actuator))? {
+        SizedAmplitude::Known(amplitude, by) => {
+            Some(SizedAmplitude::Known(amplitude / newtons, by))
+        }
+        driven @ SizedAmplitude::Driven(_) => Some(driven),
+    }
+}
+
+/// The dithers with the amplitudes that an actuator determines, and every amplitude that is given by another size than a peak force;
+/// `None` if one is wrong.
+pub(super) fn sized(
+    reader: &mut Reader,
+    read: Vec<(Dither, String, SizedAmplitude)>,
+    actuator: Option<&Actuator>,
+    damping_ratio: Option<f64>,
+) -> Option<(Vec<Dither>, Vec<GivenSize>)> {
+    let (mut dithers, mut sizes) = (Vec::new(), Vec::new());
+    let mut whole = true;
+    for (place, (dither, prefix, size)) in read.into_iter().enumerate() {
+        let mut dither = dither;
+        match size {
+            SizedAmplitude::Known(_, None) => {}
+            SizedAmplitude::Known(amplitude, Some((key, value))) => {
+                let path = join(&prefix, key.key);
+                sizes.push(GivenSize { dither: place, path, key, value, amplitude });
+            }
+            SizedAmplitude::Driven(driven) => {
+                let waveform = dither.waveform.clone();
+                let point = point(&waveform, &dither, damping_ratio?);
+                match driven.resolved(reader, actuator, point) {
+                    Some(amplitude) => {
+                        dither.amplitude = amplitude;
+                        sizes.push(driven.into_given(place, amplitude));
+                    }
+                    None => whole = false,
+                }
+            }
+        }
+        dithers.push(dither);
+    }
+    whole.then_some((dithers, sizes))
+}
+
+/// The mass under a dither.
+fn point<'w>(
+    waveform: &'w Waveform,
+    dither: &Dither,
+    damping_ratio: f64,
+) -> Result<DrivenPoint<'w>, String> {
+    if dither.direction == Direction::Normal {
+        let why = "a normal dither on a prescribed load has no stroke, which the demand on an actuator needs";
+        return Err(why.to_owned());
+    }
+    DrivenPoint::of_belt(waveform, dither.frequency_ratio, damping_ratio)
+        .map_err(|why| why.to_string())
 }

@@ -21,6 +21,7 @@ use super::StudyOf;
 use super::actuator::{self, ActuatorContext, GivenActuator};
 use super::design::{self, Design, DesignContext};
 use super::disc::DiscSetup;
+use super::dither_size::GivenSize;
 use super::document::Table;
 use super::reader::{CourseFile, Reader};
 use super::study_kind::{Given, StudyKind, wrong_kind};
@@ -50,6 +51,8 @@ pub struct BeltSetup {
     design: Option<Design>,
     /// The actuator that gives the dither.
     actuator: Option<GivenActuator>,
+    /// Amplitudes that are given by another size than a peak force.
+    sizes: Arc<[GivenSize]>,
 }
 
 impl StudyKind for BeltSetup {
@@ -92,8 +95,11 @@ impl StudyKind for BeltSetup {
         let friction = friction::read(reader, document, context);
         let known = given.known.map_or(&[][..], |setup| &setup.waves);
         let mut files = WaveFiles::new(given.folder, known);
-        let dithers = dither::read(reader, document, &mut files);
+        let read_dithers = dither::read(reader, document, &mut files);
         let waves = files.into_found();
+        let dithers: Option<Vec<Dither>> = read_dithers
+            .as_ref()
+            .map(|read| read.iter().map(|(dither, ..)| dither.clone()).collect());
         if let Some(load) = friction.as_ref().and_then(|read| read.own_load) {
             belt.normal_load = Some(load);
             friction::needs_no_normal_force(reader, document, dithers.as_deref());
@@ -109,6 +115,10 @@ impl StudyKind for BeltSetup {
         let known = given.known.and_then(|setup| setup.actuator.as_ref());
         let context = ActuatorContext { folder: given.folder, known, system: None };
         let actuator = actuator::read(reader, document, context);
+        let known = actuator.as_ref().and_then(Option::as_ref).map(GivenActuator::actuator);
+        let sized =
+            read_dithers.and_then(|read| dither::sized(reader, read, known, belt.damping_ratio));
+        let (dithers, sizes) = sized.unzip();
         let initial = belt.initial;
         table::slider_has_one_state(reader, document, friction.as_ref());
         let built = build(reader, belt, friction, dithers);
@@ -122,6 +132,7 @@ impl StudyKind for BeltSetup {
             waves,
             design: design?,
             actuator: actuator?,
+            sizes: sizes?.into(),
         })
     }
 
@@ -190,6 +201,11 @@ impl BeltStudy {
     /// The actuator that gives the dither.
     pub fn actuator(&self) -> Option<&Actuator> {
         self.kind().actuator.as_ref().map(GivenActuator::actuator)
+    }
+
+    /// The amplitudes that the study gives by another size than a peak force.
+    pub fn given_sizes(&self) -> &[GivenSize] {
+        &self.kind().sizes
     }
 
     /// The samples of a measured law.

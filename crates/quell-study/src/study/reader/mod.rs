@@ -230,6 +230,7 @@ impl Reader {
             _ if disc => true,
             Role::Number(parameter) => !si || parameter.si.is_empty() || parameter.is_pure(),
             Role::Twin(..) | Role::Scale(_) | Role::FrictionForce(..) => si,
+            Role::Size(_, size) => size.belongs(si),
             Role::Speeds { si: in_si } => in_si == si,
             Role::Band { hertz } => !hertz || si,
             Role::Course(course) => course.si().is_none_or(|in_si| in_si == si),
@@ -297,6 +298,8 @@ pub(super) fn is_si(root: &Table) -> bool {
                         twins = true;
                     }
                     Some(Role::Speeds { si: false }) => plain = true,
+                    Some(Role::Size(_, size)) if !size.belongs(true) => plain = true,
+                    Some(Role::Size(_, size)) if !size.belongs(false) => twins = true,
                     Some(Role::Number(parameter))
                         if !parameter.si.is_empty() && !parameter.is_pure() =>
                     {

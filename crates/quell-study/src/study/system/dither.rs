@@ -6,17 +6,22 @@ use quell_model::parameter::system::SYSTEM_DITHER_FREQUENCY;
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE};
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Input, InputTarget};
+use quell_model::units::Quantity;
+use quell_model::units::measure;
 use quell_model::{Contact, Waveform};
 
 use super::contact::listed;
 use super::keys::SystemTable;
 use super::numbers::{CourseNumbers, Numbers, WantedNumber, missing, unknown_keys};
 use super::rows::RowBasis;
+use super::units::SystemUnits;
 use crate::complaint::{Complaint, Fault};
 use crate::study::course::{Course, CoursePlace, CourseUnits};
+use crate::study::dither_size::{self, SizedAmplitude};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::suggest;
+use crate::study::vocabulary::size::{DITHER_SIZES, SizeKey, SizedSignal, measure_of};
 use crate::study::vocabulary::{Choice, ENVELOPE, join};
 use crate::study::wave_file::WaveFiles;
 use crate::study::waveform;
@@ -32,25 +37,34 @@ pub(super) struct DitherContext<'a> {
     pub(super) contacts: Option<&'a [Contact]>,
     /// The folder of the files that the study names.
     pub(super) folder: &'a Path,
+    /// Whether the study has a table `[actuator]`.
+    pub(super) has_actuator: bool,
 }
 
-/// Reads every dither; `None` if one is wrong.
+/// The inputs, and the table of each with the size that gives its amplitude.
+pub(super) type ReadDithers = (Vec<Input>, Vec<(String, SizedAmplitude)>);
+
+/// Reads every dither, with the size that gives its amplitude; `None` if one is wrong.
 pub(super) fn read(
     reader: &mut Reader,
     document: &Table,
     context: DitherContext<'_>,
     files: &mut WaveFiles<'_>,
-) -> Option<Vec<Input>> {
+) -> Option<ReadDithers> {
     let tables = listed(reader, document, "", "dither");
-    let inputs: Vec<Option<Input>> = tables
+    let (inputs, sizes): (Vec<Option<Input>>, Vec<_>) = tables
         .iter()
-        .map(|(prefix, node, table)| one(reader, (prefix, *node, *table), context, files))
-        .collect();
+        .map(|(prefix, node, table)| {
+            let read = one(reader, (prefix, *node, *table), context, files);
+            let (input, size) = read.unzip();
+            (input, size.map(|size| (prefix.clone(), size)))
+        })
+        .unzip();
     let whole: Option<Vec<Input>> = inputs.iter().cloned().collect();
     if let Some(contacts) = context.contacts {
         stays_pressed(reader, &tables, &inputs, contacts);
     }
-    whole
+    whole.zip(sizes.into_iter().collect())
 }
 
 fn one(
@@ -58,7 +72,7 @@ fn one(
     (prefix, node, table): (&str, &Node, &Table),
     context: DitherContext<'_>,
     files: &mut WaveFiles<'_>,
-) -> Option<Input> {
+) -> Option<(Input, SizedAmplitude)> {
     unknown_keys_of_dither(reader, table, prefix);
     let target = target(reader, prefix, node, table, context);
     let numbers = context.numbers;
@@ -67,7 +81,8 @@ fn one(
         band(reader, prefix, table, numbers)
     });
     let (waveform, middle) = read.unzip();
-    let amplitude = amplitude(reader, prefix, node, table, waveform.as_ref(), numbers);
+    let wave = (waveform.as_ref(), context.has_actuator);
+    let amplitude = amplitude(reader, (prefix, node, table), wave, numbers);
     let (frequency, phase) = if is_noise {
         (middle.flatten(), Ok(None))
     } else {
@@ -80,12 +95,12 @@ fn one(
     let envelope = place.optional(reader, table, prefix, "envelope").map(Course::knots);
     let wave = Wave {
         waveform: waveform?,
-        amplitude: amplitude?,
+        amplitude: amplitude.as_ref()?.so_far(),
         frequency: frequency?,
         phase: phase.ok()?.unwrap_or(0.0),
         envelope: envelope.ok()?,
     };
-    Some(Input { target: target?, profile: Profile::constant(0.0).with(wave) })
+    Some((Input { target: target?, profile: Profile::constant(0.0).with(wave) }, amplitude?))
 }
 
 /// The band of noise, in the unit of `frequency`; `Some(None)` without one, `None` if it is wrong.
@@ -115,30 +130,67 @@ fn band(
     Some(Some([low?, high?]))
 }
 
-/// The key that gives the amplitude as a root mean square.
-const RMS: &str = "amplitude_n_rms";
-
 fn unknown_keys_of_dither(reader: &mut Reader, table: &Table, prefix: &str) {
     unknown_keys(reader, table, prefix, SystemTable::Dither);
 }
 
-/// Peak amplitude; the waveform converts a root mean square.
+/// The amplitude; the waveform converts a root mean square and a peak-to-peak value, an actuator what it takes.
 fn amplitude(
     reader: &mut Reader,
-    prefix: &str,
-    node: &Node,
-    table: &Table,
-    waveform: Option<&Waveform>,
+    (prefix, node, table): (&str, &Node, &Table),
+    (waveform, has_actuator): (Option<&Waveform>, bool),
     numbers: &Numbers,
-) -> Option<f64> {
-    if !table.has(RMS) {
-        return numbers.needed(reader, table, prefix, node.origin, DITHER_AMPLITUDE);
+) -> Option<SizedAmplitude> {
+    if let Some((key, given)) = dither_size::key_in(reader, table, prefix).ok()? {
+        let value = size(reader, prefix, (key, given), numbers)?;
+        return dither_size::sized(reader, prefix, (key, given), value, (waveform, has_actuator));
     }
-    let first = if table.has("amplitude_n") { "amplitude_n" } else { DITHER_AMPLITUDE.key() };
-    let found = numbers.keyed(reader, table, prefix, first, Some(RMS))?;
+    let twins = DITHER_AMPLITUDE.si;
+    let Some(twin) = twins.iter().find(|twin| twin.rms && table.has(twin.key)) else {
+        let amplitude = numbers.needed(reader, table, prefix, node.origin, DITHER_AMPLITUDE)?;
+        return Some(SizedAmplitude::Known(amplitude, None));
+    };
+    let peak = twins.iter().map(|twin| twin.key).find(|key| table.has(key) && *key != twin.key);
+    let first = peak.unwrap_or(DITHER_AMPLITUDE.key());
+    let found = numbers.keyed(reader, table, prefix, first, Some(twin.key))?;
     let wanted = WantedNumber { twin: found.twin, ..WantedNumber::of(DITHER_AMPLITUDE) };
     let value = numbers.number(reader, || found.key.clone(), found.node, wanted)?;
-    Some(if found.twin { value / waveform?.root_mean_square() } else { value })
+    let of_unit = if found.twin { measure_of(*twin).of_unit(waveform?)? } else { 1.0 };
+    Some(SizedAmplitude::Known(value / of_unit, None))
+}
+
+/// The number of another size: in the units of the file, in volts, in amperes or in per cent.
+fn size(
+    reader: &mut Reader,
+    prefix: &str,
+    (key, node): (SizeKey, &Node),
+    numbers: &Numbers,
+) -> Option<f64> {
+    let path = || join(prefix, key.key);
+    if key.signal == SizedSignal::Newtons && numbers.units == SystemUnits::None {
+        let allowed = "omitted: the study has no units, but the key is in SI; add system.units = \"SI\" or \"mm-t-s\"";
+        let complaint = Complaint::new(Fault::Mixed, path(), node.origin, node.given(), allowed);
+        reader.complain(complaint);
+        return None;
+    }
+    let mut wanted = WantedNumber {
+        quantity: None,
+        bounds: DITHER_AMPLITUDE.bounds,
+        twin: key.signal == SizedSignal::Newtons,
+    };
+    wanted.quantity = match key.signal {
+        SizedSignal::Force | SizedSignal::Newtons => Some(DITHER_AMPLITUDE.quantity),
+        SizedSignal::Voltage => Some(Quantity::Voltage),
+        SizedSignal::Current => Some(Quantity::Current),
+        SizedSignal::Rated => match &node.value {
+            Value::Text(text) if measure::has_unit(text) => Some(Quantity::Ratio),
+            _ => None,
+        },
+    };
+    let value = numbers.number(reader, path, node, wanted)?;
+    // A text such as "80 %" is a share.
+    let of_share = key.signal == SizedSignal::Rated && wanted.quantity.is_some();
+    Some(if of_share { 100.0 * value } else { value })
 }
 
 /// Where a dither enters: `at`, or `contact`.
@@ -256,8 +308,12 @@ fn stays_pressed(
         let Some((prefix, _, table)) = last.filter(|_| peaks >= contact.load().bounds().0) else {
             continue;
         };
-        let written = ["amplitude", "amplitude_n", RMS]
+        let twins = DITHER_AMPLITUDE.si.iter().map(|twin| twin.key);
+        let sizes = DITHER_SIZES.iter().map(|size| size.key);
+        let written = [DITHER_AMPLITUDE.key()]
             .into_iter()
+            .chain(twins)
+            .chain(sizes)
             .find_map(|name| Some((join(prefix, name), table.get(name)?)));
         if let Some((key, node)) = written {
             let allowed = format!(

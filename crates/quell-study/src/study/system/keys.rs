@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use crate::study::vocabulary::size::{DITHER_SIZES, SizeKey, SizedSignal};
 use quell_model::parameter::actuator::ACTUATOR;
 use quell_model::parameter::design::LIMITS;
 use quell_model::parameter::system::{
@@ -12,6 +13,7 @@ use quell_model::parameter::system::{
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE, Parameter};
 use quell_model::units::Quantity;
 
+use crate::study::dither_size::parameter_of;
 use crate::study::document::Table;
 use crate::study::vocabulary::{
     self, Choice, CourseKey, CourseTable, DRIVE, ENVELOPE, LOAD, Role, Section, WAVE_KEYS, WaveKey,
@@ -80,6 +82,8 @@ pub enum SystemTable {
 pub enum SystemRole {
     /// A number of the registry, or its twin in SI.
     Number(Parameter),
+    /// Another size of a dither than its peak force.
+    Size(SizeKey),
     /// A diagonal or rows of numbers of a quantity.
     Matrix(Option<Quantity>),
     /// A number for each coordinate, as a table of names or an array.
@@ -124,6 +128,12 @@ impl SystemKey {
     pub fn quantity(&self) -> Option<Quantity> {
         match self.role {
             SystemRole::Number(parameter) => Some(parameter.quantity),
+            SystemRole::Size(size) => match size.signal {
+                SizedSignal::Force | SizedSignal::Newtons => Some(DITHER_AMPLITUDE.quantity),
+                SizedSignal::Voltage => Some(Quantity::Voltage),
+                SizedSignal::Current => Some(Quantity::Current),
+                SizedSignal::Rated => None,
+            },
             SystemRole::Matrix(quantity) | SystemRole::Row(quantity) => quantity,
             SystemRole::Wave(WaveKey::Band) => Some(Quantity::FrequencyRatio),
             _ => None,
@@ -136,8 +146,32 @@ impl SystemKey {
             SystemRole::Number(parameter) => {
                 parameter.si.iter().map(|twin| twin.key.to_owned()).collect()
             }
+            // Those of the amplitude are these sizes in SI.
+            SystemRole::Size(_) => Vec::new(),
             _ => twin(self.name, self.quantity()).into_iter().collect(),
         }
+    }
+}
+
+impl SystemKey {
+    /// The number of the registry that it gives.
+    pub fn parameter(&self) -> Option<Parameter> {
+        match self.role {
+            SystemRole::Number(parameter) => Some(parameter),
+            SystemRole::Size(size) => Some(parameter_of(size)),
+            _ => None,
+        }
+    }
+
+    /// All keys that give the same number, itself included.
+    pub(super) fn alternatives(&self) -> Vec<String> {
+        let of_amplitude = self.parameter().filter(|known| known.path == DITHER_AMPLITUDE.path);
+        let Some(amplitude) = of_amplitude else {
+            return [self.name.to_owned()].into_iter().chain(self.twins()).collect();
+        };
+        let twins = DITHER_AMPLITUDE.si.iter().map(|twin| twin.key);
+        let sizes = DITHER_SIZES.iter().map(|size| size.key);
+        [amplitude.key()].into_iter().chain(twins).chain(sizes).map(str::to_owned).collect()
     }
 }
 
@@ -341,6 +375,12 @@ const fn wave(place: usize) -> SystemKey {
     key(name, SystemRole::Wave(wave), wave.about())
 }
 
+/// Another size of a dither.
+const fn size(place: usize) -> SystemKey {
+    let size = DITHER_SIZES[place];
+    key(size.key, SystemRole::Size(size), size.about)
+}
+
 const DITHER: &[SystemKey] = &[
     key("at", SystemRole::Row(None), "row of the force over the coordinates"),
     key("contact", SystemRole::Text, "name of the contact whose load is modulated, instead of at"),
@@ -366,6 +406,16 @@ const DITHER: &[SystemKey] = &[
     wave(8),
     wave(9),
     number(DITHER_AMPLITUDE, "amplitude"),
+    size(0),
+    size(1),
+    size(2),
+    size(3),
+    size(4),
+    size(5),
+    size(6),
+    size(7),
+    size(8),
+    size(9),
     number(SYSTEM_DITHER_FREQUENCY, "frequency"),
     number(DITHER_PHASE, "phase"),
     key("envelope", SystemRole::Table(SystemTable::Envelope), "share of the amplitude over time"),

@@ -25,6 +25,7 @@ mod plausible;
 mod read;
 mod rows;
 mod setup;
+mod sized;
 mod structure;
 mod units;
 mod unused;
@@ -35,13 +36,18 @@ use crate::study::wave_file::WaveFile;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::study::vocabulary::size::{
+    DITHER_SIZES, SignalMeasure, SizeKey, SizedSignal, measure_of,
+};
 use quell_design::actuator::Actuator;
+use quell_model::parameter::DITHER_AMPLITUDE;
 use quell_model::{Belt, Invalid, Parametrisation, System};
 use serde_json::Value as Json;
 
 use super::StudyOf;
 use super::actuator::GivenActuator;
 use super::design::Design;
+use super::dither_size::GivenSize;
 use super::document::{Node, Table, Value};
 use super::reader::{CourseFile, Reader};
 use super::study_kind::{Given, StudyKind};
@@ -188,7 +194,29 @@ impl SystemStudy {
         if let Some(belt) = self.belt() {
             return belt.get(path);
         }
-        path::number(&self.source.document, &self.kind().numbers, path)
+        self.amplitude_at(path)
+            .or_else(|| path::number(&self.source.document, &self.kind().numbers, path))
+    }
+
+    /// The amplitude of a dither by a key that need not be the one in the file; `None` for other numbers, and for what an actuator takes.
+    fn amplitude_at(&self, path: &str) -> Option<f64> {
+        let (dither, key) = path::amplitude_key(&self.source.document, path)?;
+        let wave = self.system().inputs.get(dither)?.profile.waves().first()?;
+        let size = DITHER_SIZES.iter().find(|size| size.key == key);
+        if size.is_some_and(SizeKey::needs_actuator) {
+            return None;
+        }
+        let twin = DITHER_AMPLITUDE.si.iter().find(|twin| twin.key == key);
+        let measure = size.map(|size| size.measure).or(twin.map(|twin| measure_of(*twin)));
+        let of_unit = measure.unwrap_or(SignalMeasure::Peak).of_unit(&wave.waveform)?;
+        let in_si = twin.is_some() || size.is_some_and(|size| size.signal == SizedSignal::Newtons);
+        let factor = if in_si { self.units().si_per_unit(DITHER_AMPLITUDE.quantity)? } else { 1.0 };
+        Some(wave.amplitude * of_unit * factor)
+    }
+
+    /// The amplitudes that the study gives by another size than a peak force.
+    pub fn given_sizes(&self) -> &[GivenSize] {
+        &self.kind().sizes
     }
 
     /// The unit of the number at a path, `1` for a ratio; `None` without a unit and where the study has no such number.

@@ -63,16 +63,25 @@ pub fn resolve_in(document: &Table, path: &str) -> Result<SystemAddress, Option<
     })
 }
 
-/// The dither, counted from 0, whose amplitude a path names; `None` for any other number.
+/// The dither, counted from 0, whose amplitude a path names as a peak force; `None` for any other number.
 pub(in crate::study) fn amplitude_of(document: &Table, path: &str) -> Option<usize> {
+    let (dither, key) = amplitude_key(document, path)?;
+    let peak = DITHER_AMPLITUDE.si.iter().filter(|twin| !twin.rms).map(|twin| twin.key);
+    [DITHER_AMPLITUDE.key()].into_iter().chain(peak).any(|known| known == key).then_some(dither)
+}
+
+/// The dither, counted from 0, whose amplitude a path names by any key, and the key.
+pub(super) fn amplitude_key(document: &Table, path: &str) -> Option<(usize, String)> {
     let found = follow(document, path).ok()?;
     let (PathStep::Key(last), steps) = found.steps.split_last()? else { return None };
     if found.parameter.map(|parameter| parameter.path) != Some(DITHER_AMPLITUDE.path) {
         return None;
     }
-    match (last.starts_with(DITHER_AMPLITUDE.key()), steps) {
-        (true, [PathStep::Key(table)]) if table == "dither" => Some(0),
-        (true, [PathStep::Key(table), PathStep::Index(index)]) if table == "dither" => Some(*index),
+    match steps {
+        [PathStep::Key(table)] if table == "dither" => Some((0, last.clone())),
+        [PathStep::Key(table), PathStep::Index(index)] if table == "dither" => {
+            Some((*index, last.clone()))
+        }
         _ => None,
     }
 }

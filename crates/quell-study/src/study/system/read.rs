@@ -19,9 +19,9 @@ use super::path::amplitude_of;
 use super::setup::SystemSetup;
 use super::structure::{self, ReadStructure};
 use super::units::SystemUnits;
-use super::{initial, parameters, plausible, unused};
+use super::{initial, parameters, plausible, sized, unused};
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::actuator::{self, ActuatorContext};
+use crate::study::actuator::{self, ActuatorContext, GivenActuator};
 use crate::study::design::{self, DesignContext};
 use crate::study::document::{Table, Value};
 use crate::study::reader::Reader;
@@ -75,10 +75,12 @@ pub(super) fn study(
         names: &names,
         contacts: contacts.as_deref(),
         folder: given.folder,
+        has_actuator: document.has("actuator"),
     };
     let known = given.known.map_or(&[][..], |setup| &setup.waves);
     let mut files = WaveFiles::new(given.folder, known);
-    let inputs = dither::read(reader, document, context, &mut files);
+    let dithers = dither::read(reader, document, context, &mut files);
+    let (inputs, sizes) = dithers.unzip();
     let context = DesignContext {
         waveform: inputs.as_deref().and_then(|inputs| designed_wave(document, inputs)),
         system: Some((document, CourseNumbers(&numbers))),
@@ -92,7 +94,10 @@ pub(super) fn study(
     let initial = initial::read(reader, table, &numbers, &basis, first_order);
     let (structure, contacts, inputs) = (structure?, contacts?, inputs?);
     let observe = observe.ok()?.unwrap_or_else(|| initial::default_row(&contacts, &structure));
-    let system = Arc::new(System { structure, contacts, inputs });
+    let mut system = System { structure, contacts, inputs };
+    let known = actuator.as_ref().and_then(Option::as_ref).map(GivenActuator::actuator);
+    let sizes = sized::amplitudes(reader, &mut system, known, sizes?)?;
+    let system = Arc::new(system);
     if let (Some(response), Some(node)) = (&response, table.get("frequency_response")) {
         let System { contacts, inputs, .. } = &*system;
         frequency_response::check_pairs(reader, node, response, contacts, inputs);
@@ -113,6 +118,7 @@ pub(super) fn study(
         courses: reader.take_files(),
         design: design?,
         actuator: actuator?,
+        sizes: sizes.into(),
         time: None,
         belt: None,
     })

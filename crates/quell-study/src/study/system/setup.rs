@@ -13,6 +13,7 @@ use super::units::SystemUnits;
 use crate::study::actuator::GivenActuator;
 use crate::study::belt::friction::Measured;
 use crate::study::design::Design;
+use crate::study::dither_size::GivenSize;
 use crate::study::reader::CourseFile;
 use crate::study::wave_file::WaveFile;
 
@@ -39,6 +40,8 @@ pub struct SystemSetup {
     pub(super) design: Option<Design>,
     /// The actuator that gives a dither.
     pub(super) actuator: Option<GivenActuator>,
+    /// Amplitudes that are given by another size than a peak force.
+    pub(super) sizes: Arc<[GivenSize]>,
     /// Time of numbers without units in seconds; `None` where the study does not determine it.
     pub(super) time: Option<ScaledTime>,
     /// The belt whose numbers are the parameters, where the system is that of a belt.
@@ -88,6 +91,7 @@ impl From<DescribedSystem> for SystemSetup {
             courses: Arc::default(),
             design: None,
             actuator: None,
+            sizes: Arc::default(),
             time,
             belt: belt.map(Arc::new),
         }

@@ -58,18 +58,14 @@ impl<'d> Walk<'d> {
     }
 
     pub(super) fn found(&self, key: &SystemKey, twin: bool) -> FoundPath {
-        let replaces = std::iter::once(key.name.to_owned()).chain(key.twins()).collect();
         FoundPath {
             steps: self.steps.clone(),
             about: key.about,
-            parameter: match key.role {
-                SystemRole::Number(parameter) => Some(parameter),
-                _ => None,
-            },
+            parameter: key.parameter(),
             quantity: key.quantity(),
             twin,
-            is_number: matches!(key.role, SystemRole::Number(_)),
-            replaces,
+            is_number: matches!(key.role, SystemRole::Number(_) | SystemRole::Size(_)),
+            replaces: key.alternatives(),
         }
     }
 

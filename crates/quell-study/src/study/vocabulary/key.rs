@@ -5,6 +5,7 @@ use quell_model::parameter::{COEFFICIENT, Parameter, ScaleKey, SiTwin};
 use quell_model::units::Quantity;
 
 use super::course::{CourseKey, CourseTable, DISC_DRIVE, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
+use super::size::SizeKey;
 use super::words::Choice;
 
 /// What the key `schema` of a study is.
@@ -238,6 +239,8 @@ pub enum Role {
     Number(Parameter),
     /// A parameter in SI.
     Twin(Parameter, SiTwin),
+    /// Another size of a signal than its peak, which gives this parameter.
+    Size(Parameter, SizeKey),
     /// A number that defines the scales of a study in SI.
     Scale(ScaleKey),
     /// A word from a list.
@@ -306,7 +309,9 @@ impl Key {
     /// The parameter it gives, in SI or not.
     pub fn parameter(&self) -> Option<Parameter> {
         match self.role {
-            Role::Number(parameter) | Role::Twin(parameter, _) => Some(parameter),
+            Role::Number(parameter) | Role::Twin(parameter, _) | Role::Size(parameter, _) => {
+                Some(parameter)
+            }
             Role::Coefficient => Some(COEFFICIENT),
             _ => None,
         }
@@ -315,7 +320,8 @@ impl Key {
     /// Symbol of its number in the equations, in SI or not.
     pub fn symbol(&self) -> Option<&'static str> {
         match self.role {
-            Role::Twin(_, SiTwin { own: Some((symbol, _)), .. }) => Some(symbol),
+            Role::Twin(_, SiTwin { own: Some((symbol, _)), .. })
+            | Role::Size(_, SizeKey { symbol, .. }) => Some(symbol),
             _ => self.parameter().map(|parameter| parameter.symbol),
         }
     }
@@ -331,6 +337,8 @@ impl Key {
         match self.role {
             Role::Number(parameter) => parameter.quantity.scaled_unit(),
             Role::Twin(_, twin) => twin.unit,
+            Role::Size(parameter, size) if size.unit.is_empty() => parameter.quantity.scaled_unit(),
+            Role::Size(_, size) => size.unit,
             Role::Scale(scale) => scale.unit,
             Role::FrictionForce(_, unit) => unit,
             Role::Speeds { si: true } => "m/s",
@@ -356,6 +364,7 @@ impl Key {
                 quantity => quantity.own_unit(),
             },
             Role::Twin(_, twin) => Some(twin.unit.trim_end_matches(" (rms)")),
+            Role::Size(_, size) => Some(size.unit).filter(|unit| !unit.is_empty()),
             Role::Scale(scale) => Some(scale.unit),
             Role::Speeds { si: true } => Some("m/s"),
             Role::Band { hertz: true } => Some("Hz"),

@@ -3,10 +3,13 @@
 use std::sync::LazyLock;
 
 use quell_model::LawKind;
-use quell_model::parameter::{self, COEFFICIENT, Parameter, STATIC_COEFFICIENT, VISCOUS};
+use quell_model::parameter::{
+    self, COEFFICIENT, DITHER_AMPLITUDE, Parameter, STATIC_COEFFICIENT, VISCOUS,
+};
 
 use super::course::{CourseKey, CourseTable};
 use super::key::{Key, Role, SCHEMA_ABOUT, Section, WAVE_KEYS, WaveKey};
+use super::size::DITHER_SIZES;
 use super::words::Choice;
 
 /// Every key, table by table.
@@ -117,6 +120,14 @@ fn numbers() -> Vec<Key> {
             role: Role::Twin(parameter, twin),
             about: twin.own.map_or(about, |(_, own)| own),
         }));
+        if parameter.path == DITHER_AMPLITUDE.path {
+            keys.extend(DITHER_SIZES.iter().map(|&size| Key {
+                section,
+                name: size.key,
+                role: Role::Size(parameter, size),
+                about: size.about,
+            }));
+        }
     }
     keys
 }

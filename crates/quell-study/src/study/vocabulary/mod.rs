@@ -6,6 +6,7 @@ mod course;
 mod key;
 mod keys;
 mod resolve;
+pub mod size;
 mod words;
 
 pub use course::{CourseKey, CourseTable, DISC_DRIVE, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};

@@ -1,9 +1,11 @@
 //! Finds the key that a path names.
 
 use quell_model::friction::expression;
+use quell_model::parameter::DITHER_AMPLITUDE;
 
 use super::key::{Key, Role, Section, join};
 use super::keys::key;
+use super::size::{DITHER_SIZES, SignalMeasure, SizedSignal, measure_of};
 use crate::study::suggest;
 
 /// The key of any named number of a formula.
@@ -61,6 +63,13 @@ pub fn in_system(path: &str, si: bool) -> String {
         (Role::Number(parameter), true) if !parameter.is_pure() => {
             parameter.si.iter().find(|twin| !twin.rms).map(|twin| twin.key)
         }
+        (Role::Size(_, size), true) if size.signal == SizedSignal::Force => {
+            Some(in_newtons(size.measure))
+        }
+        (Role::Size(_, size), false) if size.signal == SizedSignal::Newtons => {
+            Some(without_units(size.measure))
+        }
+        (Role::Twin(_, twin), false) if twin.rms => Some(without_units(measure_of(twin))),
         (Role::Twin(parameter, _), false) => Some(parameter.key()),
         _ => None,
     };
@@ -68,4 +77,22 @@ pub fn in_system(path: &str, si: bool) -> String {
         (Some(key), Some((table, _))) => join(table, key),
         _ => path.to_owned(),
     }
+}
+
+/// The key of the amplitude of a dither in newtons.
+fn in_newtons(measure: SignalMeasure) -> &'static str {
+    let twin = DITHER_AMPLITUDE.si.iter().find(|twin| measure_of(**twin) == measure);
+    let size = DITHER_SIZES
+        .iter()
+        .find(|size| size.signal == SizedSignal::Newtons && size.measure == measure);
+    let key = twin.map(|twin| twin.key).or(size.map(|size| size.key));
+    key.unwrap_or(DITHER_AMPLITUDE.path)
+}
+
+/// The key of the amplitude of a dither in a study without units.
+fn without_units(measure: SignalMeasure) -> &'static str {
+    let size = DITHER_SIZES
+        .iter()
+        .find(|size| size.signal == SizedSignal::Force && size.measure == measure);
+    size.map_or("amplitude", |size| size.key)
 }

@@ -4,6 +4,7 @@ use quell_model::parameter::{Parameter, TANGENTIAL_STIFFNESS};
 use quell_model::units::Quantity;
 use quell_model::{Direction, Profile};
 
+use super::actuator;
 use super::contact_state::StateMark;
 use super::symbols::{glyph, index, indexed, item, number};
 use crate::noise::{band_in_words, lines_in_words};
@@ -135,9 +136,15 @@ fn dithers(mut sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
                 (arrow, (across, -32.0))
             }
         };
+        let given =
+            study.actuator().filter(|_| place == 0 && dither.direction == Direction::Tangential);
+        if let Some(actuator) = given {
+            sheet = sheet.with(actuator::drawn((wave.0 + 13.0, wave.1), actuator));
+        }
+        let sides = if given.is_some() { [Above, Below] } else { [Right, Above] };
         let wave = SketchShape::Wave { at: wave, glyph: glyph(&dither.waveform) };
         let label = SketchPart::new("dither", name, wave).and(shape).ink(SketchInk::Input);
-        sheet = sheet.with(label.label(symbol, &[Right, Above]));
+        sheet = sheet.with(label.label(symbol, &sides));
     }
     sheet
 }
@@ -212,6 +219,10 @@ fn key(sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
         }
         let head = format!("{} {} dither", dither.direction.name(), dither.waveform.name());
         sheet = sheet.with_key(SketchKey::new(crate::words::capital(&head), items));
+    }
+    if let Some(given) = study.actuator() {
+        sheet =
+            sheet.with_key(actuator::key(given, &|quantity, value| words(study, quantity, value)));
     }
     sheet
 }

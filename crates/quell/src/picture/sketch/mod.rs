@@ -1,5 +1,6 @@
 //! Sketches of the mechanism that a study describes: its masses, springs, contacts and dithers, with a key of their values.
 
+mod actuator;
 mod belt;
 mod contact_state;
 mod disc;

@@ -3,6 +3,8 @@
 mod answer;
 mod drive;
 
+use std::f64::consts::TAU;
+
 use quell_design::actuator::Actuator;
 use quell_design::least_dither::{
     BeltPlant, DesignProblem, DesignStart, Designed, LimitedQuantity, OperatingPoint, Plant,
@@ -21,8 +23,8 @@ use crate::contact_state::{averaged_without_states, refused_of_belt};
 use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
 use crate::run::system::in_units;
-use crate::study::{BeltStudy, Design, DesignRange, SystemStudy};
-use crate::words::in_words;
+use crate::study::{BeltStudy, Design, DesignRange, SystemStudy, SystemUnits};
+use crate::words::{digits, in_words};
 
 /// Points of the schedule over a box of one coordinate.
 const SCHEDULE: usize = 97;
@@ -70,6 +72,49 @@ pub trait StudyWithDesign {
 
     /// A quantity of the equations with its unit.
     fn in_words(&self, quantity: Quantity, value: f64) -> String;
+
+    /// How frequencies are written.
+    fn frequency_scale(&self) -> FrequencyScale;
+}
+
+/// How frequencies of a study are written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrequencyScale {
+    /// Of one in the equations.
+    pub factor: f64,
+    /// The unit after a number, with a space; empty for a pure number.
+    pub unit: &'static str,
+    /// What the number is called.
+    pub noun: &'static str,
+}
+
+impl FrequencyScale {
+    /// In hertz, where a frequency of the equations has a value in hertz.
+    fn new(hertz: Option<f64>, noun: &'static str) -> Self {
+        match hertz {
+            Some(factor) => Self { factor, unit: " Hz", noun: "frequency" },
+            None => Self { factor: 1.0, unit: "", noun },
+        }
+    }
+
+    /// A frequency of the equations.
+    pub(crate) fn of(self, frequency: f64) -> f64 {
+        self.factor * frequency
+    }
+
+    /// With its unit.
+    pub(crate) fn with_unit(self, frequency: f64) -> String {
+        format!("{}{}", digits(self.of(frequency)), self.unit)
+    }
+
+    /// With its unit, or with a noun where it has none.
+    pub(crate) fn with_noun(self, frequency: f64) -> String {
+        if self.unit.is_empty() {
+            format!("the {} {}", self.noun, self.with_unit(frequency))
+        } else {
+            self.with_unit(frequency)
+        }
+    }
 }
 
 impl StudyWithDesign for BeltStudy {
@@ -88,6 +133,11 @@ impl StudyWithDesign for BeltStudy {
     fn in_words(&self, quantity: Quantity, value: f64) -> String {
         in_words(self, quantity, value)
     }
+
+    fn frequency_scale(&self) -> FrequencyScale {
+        let hertz = self.scales().map(|scales| scales.si_per_unit(Quantity::FrequencyRatio));
+        FrequencyScale::new(hertz, "frequency ratio")
+    }
 }
 
 impl StudyWithDesign for SystemStudy {
@@ -105,6 +155,11 @@ impl StudyWithDesign for SystemStudy {
 
     fn in_words(&self, quantity: Quantity, value: f64) -> String {
         in_units(self.units(), quantity, value)
+    }
+
+    fn frequency_scale(&self) -> FrequencyScale {
+        let hertz = (self.units() != SystemUnits::None).then_some(1.0 / TAU);
+        FrequencyScale::new(hertz, "angular frequency")
     }
 }
 

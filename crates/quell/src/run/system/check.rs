@@ -43,6 +43,7 @@ pub fn json(study: &SystemStudy) -> Json {
         "contacts": contacts,
         "contact_laws": laws(study),
         "dithers": dithers(study),
+        "given_amplitudes": sizes(study),
         "observe": study.observe(),
         "initial": initial(study.initial()),
         "sweeps": sweeps,
@@ -112,6 +113,29 @@ fn warnings(study: &SystemStudy) -> Vec<String> {
     let waves = study.system().inputs.iter().flat_map(|input| input.profile.waves());
     warnings.extend(removed_mean::warnings(waves.map(|wave| &wave.waveform)));
     warnings
+}
+
+/// Amplitudes that are given by another size than a peak force.
+fn sizes(study: &SystemStudy) -> Vec<Json> {
+    let units = study.units();
+    let given = study.given_sizes().iter();
+    given
+        .map(|given| {
+            let unit = if given.key.unit.is_empty() {
+                units.unit(Quantity::Force)
+            } else {
+                Some(given.key.unit)
+            };
+            json!({
+                "key": given.path,
+                "value": given.value,
+                "unit": unit,
+                "amplitude": given.amplitude,
+                "amplitude_unit": units.unit(Quantity::Force),
+                "by_actuator": given.key.needs_actuator(),
+            })
+        })
+        .collect()
 }
 
 fn initial(start: &SystemStart) -> Json {

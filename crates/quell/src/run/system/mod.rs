@@ -1,5 +1,6 @@
 //! Runs of a study of a system: one file per verb.
 
+pub mod actuator;
 pub mod attractor;
 pub mod basins;
 pub mod basins_answer;

@@ -22,7 +22,7 @@ use crate::study::{SystemStudy, SystemUnits};
 use crate::words::digits;
 
 /// An eigenfrequency above the dither frequency divided by this is not far below it.
-pub(super) const FAR: f64 = 3.0;
+pub(crate) const FAR: f64 = 3.0;
 
 /// A contact in steady or averaged sliding.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,8 +11,10 @@ use super::contacts::{stiffness_symbol, tangential_symbol};
 use super::drawing::SystemDrawing;
 use super::key_rows::{KeyRow, add_rows};
 use crate::noise::lines_in_words;
+use crate::picture::sketch::actuator;
 use crate::picture::sketch::symbols::{combination, index, indexed, item, number};
 use crate::plot::{Sketch, SketchKey};
+use crate::run::system::in_units;
 use crate::study::SystemUnits;
 
 /// The most links between coordinates, contacts or inputs with a row each.
@@ -24,6 +26,11 @@ pub(super) fn add(sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
     let sheet = links(sheet, drawing);
     let sheet = contacts(sheet, drawing);
     let mut sheet = inputs(sheet, drawing);
+    if let Some(given) = drawing.study.actuator() {
+        let units = drawing.study.units();
+        let words = |quantity: Quantity, value: f64| in_units(units, quantity, value);
+        sheet = sheet.with_key(actuator::key(given, &words));
+    }
     if drawing.study.units() != SystemUnits::None {
         let words = format!("Numbers without a unit: units {}", drawing.study.units().name());
         sheet = sheet.with_key(SketchKey::new(words, Vec::<String>::new()));

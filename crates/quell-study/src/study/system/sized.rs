@@ -1,0 +1,50 @@
+//! Amplitudes of a system that its actuator determines, once the structure is known.
+
+use quell_design::actuator::Actuator;
+use quell_linear::driven_point::DrivenPoint;
+use quell_linear::linearised::Linearised;
+use quell_model::System;
+use quell_model::profile::{Profile, Wave};
+
+use crate::study::dither_size::{GivenSize, SizedAmplitude};
+use crate::study::reader::Reader;
+use crate::study::vocabulary::join;
+
+/// Sets the amplitudes that the actuator determines. Returns every amplitude that is given by another size than a peak force; `None`
+/// if one is wrong.
+pub(super) fn amplitudes(
+    reader: &mut Reader,
+    system: &mut System,
+    actuator: Option<&Actuator>,
+    sizes: Vec<(String, SizedAmplitude)>,
+) -> Option<Vec<GivenSize>> {
+    let mut given = Vec::new();
+    let mut whole = true;
+    for (dither, (prefix, size)) in sizes.into_iter().enumerate() {
+        let driven = match size {
+            SizedAmplitude::Known(_, None) => continue,
+            SizedAmplitude::Known(amplitude, Some((key, value))) => {
+                let path = join(&prefix, key.key);
+                given.push(GivenSize { dither, path, key, value, amplitude });
+                continue;
+            }
+            SizedAmplitude::Driven(driven) => driven,
+        };
+        let wave = system.inputs[dither].profile.waves().first().cloned()?;
+        let sliding = Linearised::new(system).map_err(|why| why.to_string());
+        let point = sliding.as_ref().map_err(Clone::clone).and_then(|sliding| {
+            let target = &system.inputs[dither].target;
+            DrivenPoint::of_input(system, sliding, target, &wave.waveform, wave.frequency)
+                .map_err(|why| why.to_string())
+        });
+        let Some(amplitude) = driven.resolved(reader, actuator, point) else {
+            whole = false;
+            continue;
+        };
+        let input = &mut system.inputs[dither];
+        let wave = Wave { amplitude, ..wave };
+        input.profile = Profile::constant(input.profile.mean()).with(wave);
+        given.push(driven.into_given(dither, amplitude));
+    }
+    whole.then_some(given)
+}

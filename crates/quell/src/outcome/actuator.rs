@@ -1,0 +1,175 @@
+//! `actuator`: where over frequency the actuator can give the dither that quenches.
+
+use std::fmt::Write as _;
+
+use quell_design::actuator::ActuatorAtFrequency;
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::Presented;
+use super::table::figure;
+use crate::complaint::Failure;
+use crate::dataset::{Array, Dataset};
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::actuator::ActuatorFound;
+use crate::run::design::StudyWithDesign;
+use crate::study::{BeltSetup, BeltStudy, SystemSetup, SystemStudy};
+
+impl Presented<BeltSetup> for ActuatorFound {
+    fn json(&self, study: &BeltStudy) -> Json {
+        self.json(study, &[])
+    }
+
+    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+        Some(self.sentence(study))
+    }
+
+    fn table(&self, study: &BeltStudy) -> String {
+        let newtons = study.scales().map(|scales| (scales.si_per_unit(Quantity::Force), "/N"));
+        table(self, study, newtons.unwrap_or((1.0, "")))
+    }
+
+    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
+        let frequencies = self.coverage.points.iter().map(|point| point.frequency).collect();
+        let dataset = Dataset::new(study, "actuator").fact(self.sentence(study));
+        let dataset = dataset.axis("frequency", Quantity::FrequencyRatio, frequencies);
+        let columns = columns(self, |_| "slip_velocity".to_owned()).into_iter();
+        let dataset = columns.fold(dataset, |dataset, (name, quantity, values)| {
+            dataset.array(&name, quantity, values)
+        });
+        vec![("actuator", with_limits(dataset, self))]
+    }
+
+    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::actuator(study, self)))
+    }
+}
+
+impl Presented<SystemSetup> for ActuatorFound {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
+        self.json(study, study.warnings())
+    }
+
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
+        Some(self.sentence(study))
+    }
+
+    fn table(&self, study: &SystemStudy) -> String {
+        let unit = study.units().unit(Quantity::Force);
+        table(self, study, (1.0, if unit.is_some() { "/N" } else { "" }))
+    }
+
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
+        let frequencies = self.coverage.points.iter().map(|point| point.frequency).collect();
+        let unit = |quantity| study.units().unit(quantity).unwrap_or("1");
+        let axis = Array::new("frequency", unit(Quantity::FrequencyRatio), frequencies);
+        let dataset = Dataset::of(&study.into(), "actuator").fact(self.sentence(study));
+        let slip_of = |contact: &str| {
+            format!("slip_of_{}", contact.replace(|letter: char| !letter.is_alphanumeric(), "_"))
+        };
+        let columns = columns(self, slip_of).into_iter();
+        let dataset = columns.fold(dataset.with_axis(axis), |dataset, (name, quantity, values)| {
+            dataset.with(Array::new(name, unit(quantity), values))
+        });
+        vec![("actuator", with_limits(dataset, self))]
+    }
+
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::actuator_of_system(study, self)))
+    }
+}
+
+/// Ends, changes, resonances and the largest margin.
+fn table(
+    found: &ActuatorFound,
+    study: &dyn StudyWithDesign,
+    (newtons, unit): (f64, &str),
+) -> String {
+    let scale = study.frequency_scale();
+    let mut text = String::new();
+    let frequency =
+        if scale.unit.is_empty() { scale.noun.to_owned() } else { "frequency/Hz".to_owned() };
+    let _ = writeln!(
+        text,
+        "  {frequency:>17}  {:>14}  {:>14}  {:>10}  {:<15}  at",
+        format!("largest{unit}"),
+        format!("needed{unit}"),
+        "margin",
+        "limit"
+    );
+    let number = |value: Result<f64, String>| value.map_or_else(|_| "unknown".to_owned(), figure);
+    for (what, at) in &found.notable {
+        let reach = at.reach();
+        let margin = match at.margin() {
+            Ok(margin) if margin.is_infinite() => "-".to_owned(),
+            margin => number(margin),
+        };
+        let _ = writeln!(
+            text,
+            "  {:>17}  {:>14}  {:>14}  {margin:>10}  {:<15}  {what}",
+            figure(scale.of(at.frequency)),
+            number(reach.clone().map(|reach| newtons * reach.amplitude)),
+            number(at.needed.clone().map(|needed| newtons * needed)),
+            reach.map_or("unknown", |reach| reach.limit.name())
+        );
+    }
+    text
+}
+
+/// The arrays over frequency: amplitudes, margin, slip velocities, and what the largest amplitude takes.
+fn columns(
+    found: &ActuatorFound,
+    slip_of: impl Fn(&str) -> String,
+) -> Vec<(String, Quantity, Vec<f64>)> {
+    let column = |value: &dyn Fn(&ActuatorAtFrequency) -> Result<f64, String>| -> Vec<f64> {
+        let points = found.coverage.points.iter();
+        points
+            .map(|point| value(point).ok().filter(|v| v.is_finite()).unwrap_or(f64::NAN))
+            .collect()
+    };
+    let largest = |point: &ActuatorAtFrequency| Ok(point.reach()?.amplitude);
+    let at_largest = |point: &ActuatorAtFrequency| {
+        Ok::<_, String>(point.demand.as_ref().map_err(Clone::clone)?.at(largest(point)?))
+    };
+    let named = |name: &str, quantity, values| (name.to_owned(), quantity, values);
+    let mut columns = vec![
+        named("amplitude", Quantity::Force, column(&largest)),
+        named("needed", Quantity::Force, column(&|point| point.needed.clone())),
+        named("margin", Quantity::Ratio, column(&ActuatorAtFrequency::margin)),
+        named("voltage", Quantity::Voltage, column(&|point| Ok(at_largest(point)?.voltage?.peak))),
+        named("current", Quantity::Current, column(&|point| Ok(at_largest(point)?.current?.peak))),
+        named(
+            "stroke",
+            Quantity::Displacement,
+            column(&|point| Ok(at_largest(point)?.displacement.peak_to_peak)),
+        ),
+    ];
+    for (place, (name, _)) in found.contacts.iter().enumerate() {
+        let values = column(&|point| point.reached_slip(place));
+        columns.push((slip_of(name), Quantity::Velocity, values));
+    }
+    columns
+}
+
+/// Adds the limit that binds.
+fn with_limits(dataset: Dataset, found: &ActuatorFound) -> Dataset {
+    let mut names: Vec<(u8, &'static str)> = vec![(0, "unknown")];
+    let codes: Vec<u8> = found
+        .coverage
+        .points
+        .iter()
+        .map(|point| {
+            let name = point.reach().map_or("unknown", |reach| reach.limit.name());
+            if let Some((code, _)) = names.iter().find(|(_, known)| *known == name) {
+                return *code;
+            }
+            let code = u8::try_from(names.len()).unwrap_or(0);
+            names.push((code, name));
+            code
+        })
+        .collect();
+    dataset.with(Array::of_words("limit", names, &codes))
+}

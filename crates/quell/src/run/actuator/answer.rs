@@ -1,0 +1,279 @@
+//! The answer of `actuator`: sentence, warnings and JSON.
+
+use std::fmt::Write as _;
+
+use quell_design::actuator::{ActuatorAtFrequency, ActuatorLimit, SufficientBand};
+use quell_model::units::Quantity;
+use serde_json::Value as Json;
+
+use super::ActuatorFound;
+use super::demand::{FEW_SAMPLES, demand_fields, warnings_about_actuator};
+use crate::fields::Fields;
+use crate::run::design::StudyWithDesign;
+use crate::run::system::stability::FAR;
+use crate::run::waveforms::label;
+use crate::words::{digits, listed};
+
+/// Why a margin has no value where nothing needs to be quenched.
+const NOTHING_TO_QUENCH: &str = "steady sliding is stable without this dither";
+
+/// Why the margin has no value at an undamped resonance.
+const UNBOUNDED_MARGIN: &str = "unbounded (undamped resonance)";
+
+/// The key of a limit that is known.
+fn path_of(limit: Option<ActuatorLimit>) -> &'static str {
+    limit.map_or("unknown", ActuatorLimit::path)
+}
+
+/// A range of frequencies with its unit.
+fn range_in_words(study: &dyn StudyWithDesign, (from, to): (f64, f64)) -> String {
+    let scale = study.frequency_scale();
+    format!("{} to {}{}", digits(scale.of(from)), digits(scale.of(to)), scale.unit)
+}
+
+impl ActuatorFound {
+    /// The result in a few sentences.
+    pub fn sentence(&self, study: &dyn StudyWithDesign) -> String {
+        let kind = study.actuator().map_or("actuator", |actuator| actuator.kind().in_words());
+        let waveform = label(&self.waveform);
+        let mut text = match (&self.coverage.sufficient[..], &self.coverage.best) {
+            _ if self.is_quiet_without() => {
+                format!(
+                    "Steady sliding is stable without this dither: there is nothing to quench. The {kind} can give"
+                )
+            }
+            ([], Some(best)) => format!(
+                "The {kind} cannot quench with a {waveform} from {}: at best, at {}, it gives {} of the least amplitude that quenches by \
+                 averaging; it can give",
+                range_in_words(study, self.range),
+                study.frequency_scale().with_noun(best.frequency),
+                percent(best.margin())
+            ),
+            ([], None) => {
+                let why = self.coverage.points.iter().find_map(|point| point.needed.as_ref().err());
+                format!(
+                    "With a {waveform} from {} nothing can be quenched: {}. The {kind} can give",
+                    range_in_words(study, self.range),
+                    why.map_or("nothing is known", String::as_str)
+                )
+            }
+            (bands, best) => {
+                let ranges: Vec<String> =
+                    bands.iter().map(|band| range_in_words(study, band.ends)).collect();
+                let best = best.as_ref().map_or(String::new(), |best| {
+                    format!(
+                        " The margin is largest at {}, {} times the least amplitude that quenches by averaging; it can give",
+                        study.frequency_scale().with_noun(best.frequency),
+                        best.margin().map_or_else(|why| why, digits)
+                    )
+                });
+                format!("The {kind} can quench with a {waveform} from {}.{best}", listed(&ranges))
+            }
+        };
+        let most = self.best_or_own();
+        match most.reach() {
+            Ok(reach) => {
+                let _ = write!(
+                    text,
+                    " {} there, limited by {}.",
+                    study.in_words(Quantity::Force, reach.amplitude),
+                    reach.limit.path()
+                );
+            }
+            Err(why) => {
+                let _ = write!(text, " no known amplitude there: {why}.");
+            }
+        }
+        text += &self.changes_in_words(study);
+        text
+    }
+
+    /// What holds at the largest margin, or at the study's frequency.
+    fn best_or_own(&self) -> &ActuatorAtFrequency {
+        self.coverage.best.as_ref().unwrap_or(&self.own)
+    }
+
+    /// The changes of the limit that binds.
+    fn changes_in_words(&self, study: &dyn StudyWithDesign) -> String {
+        let scale = study.frequency_scale();
+        let changes: Vec<String> = self
+            .coverage
+            .changes()
+            .map(|(at, [below, above])| {
+                format!("from {} to {} at {}", path_of(below), path_of(above), scale.with_unit(at))
+            })
+            .collect();
+        if changes.is_empty() {
+            return String::new();
+        }
+        format!(" What binds changes {}.", listed(&changes))
+    }
+
+    /// Warnings: few samples where the actuator suffices, an actuator that changes the structure, and a range that averaging does not
+    /// describe.
+    pub fn warnings(&self, study: &dyn StudyWithDesign) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let scale = study.frequency_scale();
+        let known = self.coverage.points.iter().find_map(|point| point.demand.as_ref().ok());
+        if let (Some(actuator), Some(demand)) = (study.actuator(), known) {
+            warnings.extend(warnings_about_actuator(actuator, demand));
+        }
+        // Samples per period times frequency is the sample rate.
+        let rate = self.coverage.points.iter().find_map(|point| {
+            Some(point.frequency * point.demand.as_ref().ok()?.samples_per_period?)
+        });
+        let few_from = rate.map(|rate| rate / FEW_SAMPLES);
+        if let Some(few_from) = few_from.filter(|few| *few < self.range.1) {
+            warnings.push(format!(
+                "from {} on the controller has fewer than {} samples in a period of the dither, so that the force is a staircase: \
+                 waveform \"samples\" with hold = \"zero\" describes it",
+                scale.with_noun(f64::max(few_from, self.range.0)),
+                digits(FEW_SAMPLES)
+            ));
+        }
+        let cycles = f64::from(self.waveform.cycles());
+        if let Some(slow) = self.slow.filter(|slow| self.range.0 < FAR * slow * cycles) {
+            warnings.push(format!(
+                "below {} the dither repeats at less than {} times the frequency of the vibration: averaging assumes that it is much \
+                 faster, and near the vibration itself the least amplitude is that of a resonance, which excites and does not quench",
+                scale.with_noun(FAR * slow * cycles),
+                digits(FAR)
+            ));
+        }
+        warnings
+    }
+
+    /// As JSON.
+    pub fn json(&self, study: &dyn StudyWithDesign, own_warnings: &[String]) -> Json {
+        let mut fields = study.fields();
+        fields.plain("ok", true).plain("sentence", self.sentence(study));
+        if let Some(actuator) = study.actuator() {
+            fields.plain("kind", actuator.kind().name());
+        }
+        fields
+            .plain("dither", self.dither.as_str())
+            .plain("waveform", self.waveform.name())
+            .plain("can_quench", !self.coverage.sufficient.is_empty())
+            .plain("quiet_without", self.is_quiet_without())
+            .number("from", Quantity::FrequencyRatio, self.range.0)
+            .number("to", Quantity::FrequencyRatio, self.range.1);
+        let sufficient = self.coverage.sufficient.iter();
+        let sufficient: Vec<Fields> =
+            sufficient.map(|band| self.band_fields(study, band)).collect();
+        fields.list("sufficient", sufficient);
+        if let Some(best) = &self.coverage.best {
+            fields.nested("best", self.fields_at(study, best, false));
+        } else {
+            let why = self.coverage.points.iter().find_map(|point| point.margin().err());
+            fields.unknown("best", why.unwrap_or_else(|| NOTHING_TO_QUENCH.to_owned()));
+        }
+        let mut own = self.fields_at(study, &self.own, false);
+        own.number("given", Quantity::Force, self.own_amplitude);
+        let used = self.own.reach().map(|reach| self.own_amplitude / reach.amplitude);
+        own.known("used", Quantity::Ratio, used);
+        match &self.own.demand {
+            Ok(demand) => own.nested("drive", demand_fields(study, &demand.at(self.own_amplitude))),
+            Err(why) => own.unknown("drive", why.as_str()),
+        };
+        fields.nested("own", own);
+        let binding = self.coverage.binding.iter().map(|band| {
+            let mut inner = study.fields();
+            inner.number("from", Quantity::FrequencyRatio, band.ends.0).number(
+                "to",
+                Quantity::FrequencyRatio,
+                band.ends.1,
+            );
+            match band.limit {
+                Some(limit) => inner.plain("limit", limit.path()),
+                None => inner.unknown("limit", self.why_unknown(band.ends)),
+            };
+            inner
+        });
+        fields.list("binding", binding.collect::<Vec<_>>());
+        let changes = self.coverage.changes().map(|(at, limits)| {
+            let mut inner = study.fields();
+            inner.number("frequency", Quantity::FrequencyRatio, at);
+            for (name, limit) in ["below", "above"].into_iter().zip(limits) {
+                match limit {
+                    Some(limit) => inner.plain(name, limit.path()),
+                    None => inner.unknown(name, "the largest amplitude is unknown there"),
+                };
+            }
+            inner
+        });
+        fields.list("changes", changes.collect::<Vec<_>>());
+        let resonances = self.coverage.resonances.iter().map(|resonance| {
+            let mut inner = self.fields_at(study, &resonance.at, resonance.unbounded);
+            inner.plain("helps", resonance.helps);
+            inner
+        });
+        fields.list("resonances", resonances.collect::<Vec<_>>());
+        let warnings: Vec<String> =
+            own_warnings.iter().cloned().chain(self.warnings(study)).collect();
+        fields.plain("warnings", warnings);
+        fields.finish()
+    }
+
+    /// Why the largest amplitude is unknown between two frequencies.
+    fn why_unknown(&self, (from, to): (f64, f64)) -> String {
+        let inside =
+            |point: &&ActuatorAtFrequency| from <= point.frequency && point.frequency <= to;
+        let why = self.coverage.points.iter().filter(inside).find_map(|point| point.reach().err());
+        why.unwrap_or_else(|| "the largest amplitude is unknown there".to_owned())
+    }
+
+    fn band_fields(&self, study: &dyn StudyWithDesign, band: &SufficientBand) -> Fields {
+        let mut inner = study.fields();
+        inner
+            .number("from", Quantity::FrequencyRatio, band.ends.0)
+            .number("to", Quantity::FrequencyRatio, band.ends.1)
+            .nested("best", self.fields_at(study, &band.best, false));
+        inner
+    }
+
+    /// What is known at one frequency.
+    fn fields_at(
+        &self,
+        study: &dyn StudyWithDesign,
+        at: &ActuatorAtFrequency,
+        unbounded: bool,
+    ) -> Fields {
+        let mut inner = study.fields();
+        let reach = at.reach();
+        inner.number("frequency", Quantity::FrequencyRatio, at.frequency).known(
+            "amplitude",
+            Quantity::Force,
+            reach.clone().map(|reach| reach.amplitude),
+        );
+        match &reach {
+            Ok(reach) => inner.plain("limit", reach.limit.path()),
+            Err(why) => inner.unknown("limit", why.as_str()),
+        };
+        let bounded = if unbounded { Err(UNBOUNDED_MARGIN.to_owned()) } else { Ok(()) };
+        let margin = bounded.and_then(|()| match at.margin() {
+            Ok(margin) if margin.is_infinite() => Err(NOTHING_TO_QUENCH.to_owned()),
+            margin => margin,
+        });
+        inner.known("needed", Quantity::Force, at.needed.clone()).known(
+            "margin",
+            Quantity::Ratio,
+            margin,
+        );
+        let contacts =
+            self.contacts.iter().enumerate().map(|(place, (name, speed))| {
+                let mut of_contact = study.fields();
+                of_contact.plain("contact", name.as_str());
+                of_contact
+                    .known("slip_velocity", Quantity::Velocity, at.reached_slip(place))
+                    .number("surface_velocity", Quantity::Velocity, *speed);
+                of_contact
+            });
+        inner.list("contacts", contacts.collect::<Vec<_>>());
+        inner
+    }
+}
+
+/// A share in per cent.
+fn percent(share: Result<f64, String>) -> String {
+    share.map_or_else(|why| why, |share| format!("{} %", digits(100.0 * share)))
+}
