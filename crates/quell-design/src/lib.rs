@@ -5,3 +5,4 @@ pub mod actuator;
 pub mod fit;
 pub mod least_dither;
 pub mod probability;
+pub mod quench;

@@ -15,6 +15,7 @@ use quell_linear::averaging::{
 use quell_linear::growth::Growth;
 use quell_model::{Belt, Dither};
 
+use super::quench::{QuenchNumbers, quench_numbers_of_belt};
 use super::status::Status;
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::range;
@@ -35,6 +36,8 @@ pub enum Computation {
     CriterionSharper,
     /// Every critical amplitude of the first dither.
     CriticalAmplitudes,
+    /// The exact quench amplitude of the first dither.
+    Quench,
     /// The largest growth rate of a disc.
     DiscGrowth,
     /// The largest growth rate of a disc without dither.
@@ -45,6 +48,8 @@ pub enum Computation {
     SystemGrowthUndithered,
     /// Every critical amplitude of the first dither of a system.
     SystemCritical,
+    /// The exact quench amplitude of the first dither of a system.
+    SystemQuench,
     /// The base response of a dithered system and its multipliers.
     SystemOrbit,
     /// The motion on which the run of a system ends.
@@ -58,7 +63,11 @@ impl Computation {
     pub fn meets_friction(self) -> bool {
         !matches!(
             self,
-            Self::DiscGrowth | Self::DiscGrowthUndithered | Self::SystemOrbit | Self::SystemEnd
+            Self::DiscGrowth
+                | Self::DiscGrowthUndithered
+                | Self::SystemQuench
+                | Self::SystemOrbit
+                | Self::SystemEnd
         )
     }
 
@@ -198,6 +207,8 @@ pub struct Results {
     pub criterion_sharper: Option<Result<Criterion, Status>>,
     /// Every critical amplitude of the first dither, in order.
     pub critical_amplitudes: Option<Result<Vec<CriticalAmplitude>, Status>>,
+    /// The exact quench amplitude of the first dither of a belt or a system.
+    pub quench: Option<Result<QuenchNumbers, Status>>,
     /// The largest growth rate of a disc.
     pub disc: Option<Result<Growth, Status>>,
     /// The largest growth rate of a disc without dither.
@@ -229,6 +240,8 @@ pub struct Reach {
     per_ratio: f64,
     /// α of the first dither.
     ratio: f64,
+    /// Frequency ratio R of the first dither.
+    frequency_ratio: f64,
 }
 
 impl Reach {
@@ -242,6 +255,7 @@ impl Reach {
             without_first: range::at_amplitude(belt, 0.0),
             per_ratio: first.map_or(0.0, |dither| belt.fast_velocity_of(&unit(dither))),
             ratio,
+            frequency_ratio: first.map_or(1.0, |dither| dither.frequency_ratio),
         })
     }
 
@@ -297,11 +311,16 @@ impl Results {
             Computation::Criterion | Computation::CriterionSharper => reach.is_left_at(reach.ratio),
             // An amplitude ratio of the first dither.
             Computation::CriticalAmplitudes => reach.is_left_at(value),
+            Computation::Quench => {
+                let least = self.quench.and_then(|found| found.ok()?.least.ok());
+                least.is_some_and(|least| reach.is_left_at(least / reach.frequency_ratio))
+            }
             Computation::DiscGrowth
             | Computation::DiscGrowthUndithered
             | Computation::SystemGrowth
             | Computation::SystemGrowthUndithered
             | Computation::SystemCritical
+            | Computation::SystemQuench
             | Computation::SystemOrbit
             | Computation::SystemEnd
             | Computation::SystemResponse => false,
@@ -385,6 +404,7 @@ fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
             | Computation::SystemGrowth
             | Computation::SystemGrowthUndithered
             | Computation::SystemCritical
+            | Computation::SystemQuench
             | Computation::SystemOrbit
             | Computation::SystemEnd
             | Computation::SystemResponse => {}
@@ -406,6 +426,7 @@ fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
                     _ => critical_amplitudes(belt, AveragingOptions::default()).map_err(status),
                 });
             }
+            Computation::Quench => results.quench = Some(quench_numbers_of_belt(belt)),
         }
     }
     results

@@ -64,6 +64,16 @@ pub enum Status {
     NoBaseResponse = 34,
     /// The structure has no periodic response to the waveform.
     NoAverageOfWaveform = 35,
+    /// Sliding is stable without the first dither: there is nothing to quench.
+    QuietWithoutDither = 36,
+    /// No amplitude of the first dither up to the limit of the search makes the base response stable.
+    NeverQuiet = 37,
+    /// The base response stays stable up to the limit of the search.
+    StaysQuiet = 38,
+    /// The base response is not stable at the limit of the search.
+    LoudAtLimit = 39,
+    /// The first dither moves no contact.
+    NoReach = 40,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -98,6 +108,11 @@ impl Status {
         Self::Opens,
         Self::NoBaseResponse,
         Self::NoAverageOfWaveform,
+        Self::QuietWithoutDither,
+        Self::NeverQuiet,
+        Self::StaysQuiet,
+        Self::LoudAtLimit,
+        Self::NoReach,
         Self::Missing,
     ];
 
@@ -146,6 +161,11 @@ impl Status {
             Self::Opens => "opens",
             Self::NoBaseResponse => "no_base_response",
             Self::NoAverageOfWaveform => "no_average_of_waveform",
+            Self::QuietWithoutDither => "quiet_without_dither",
+            Self::NeverQuiet => "never_quiet",
+            Self::StaysQuiet => "stays_quiet",
+            Self::LoudAtLimit => "loud_at_limit",
+            Self::NoReach => "no_reach",
             Self::Missing => "missing",
         }
     }
@@ -207,6 +227,17 @@ impl Status {
             Self::NoAverageOfWaveform => {
                 "the structure has no periodic response to the waveform that averaging could use"
             }
+            Self::QuietWithoutDither => "sliding is stable without dither",
+            Self::NeverQuiet => {
+                "no amplitude up to twice that at which the contact begins to reverse makes the base response stable"
+            }
+            Self::StaysQuiet => {
+                "the base response stays stable up to twice the amplitude at which the contact begins to reverse"
+            }
+            Self::LoudAtLimit => {
+                "the base response is not stable at twice the amplitude at which the contact begins to reverse"
+            }
+            Self::NoReach => "the dither moves no contact",
             Self::Missing => "not computed yet",
         }
     }
