@@ -5,4 +5,5 @@ pub mod actuator;
 pub mod fit;
 pub mod least_dither;
 pub mod probability;
+pub mod quench;
 pub mod substitute;

@@ -249,3 +249,54 @@ fn invalid_requests_are_rejected_at_once() {
     let printed = place.printed(&["map", "study.toml", "--quantity", "efficiency"]);
     assert!(printed.errors.contains("    parameter = \"dither.amplitude\""), "{}", printed.errors);
 }
+
+/// Exact quench amplitudes over two numbers are those that `thresholds` finds for each point, for any amplitude of the study.
+#[test]
+fn quench_amplitudes_are_those_of_thresholds() {
+    let axes = "[[sweep]]\nparameter = \"dither.frequency_ratio\"\nvalues = [5.0, 10.0]\n[[sweep]]\n\
+                parameter = \"belt.belt_velocity\"\nvalues = [0.05, 0.17, 0.5]\n";
+    let (study, plane) = (STUDY.to_owned(), format!("{STUDY}{axes}"));
+    let place =
+        Place::with("map/quench", &[("study.toml", study.as_str()), ("plane.toml", &plane)]);
+    let quench = ["map", "plane.toml", "--quantity", "quench-amplitude", "--plot", "plane.svg"];
+    let map = place.good(&quench);
+    for (i, ratio) in [5.0, 10.0].into_iter().enumerate() {
+        for (j, velocity) in [0.05, 0.17, 0.5].into_iter().enumerate() {
+            if j == 2 {
+                assert_eq!(map["quench_amplitude_status"][i][j], "quiet_without_dither");
+                assert_eq!(map["quench_last"][i][j], 0.0);
+                continue;
+            }
+            let found = map["quench_amplitude"][i][j].as_f64().expect("an amplitude");
+            let set = [
+                format!("dither.frequency_ratio={ratio}"),
+                format!("belt.belt_velocity={velocity}"),
+            ];
+            let (from, to) = (format!("{}", 0.7 * found), format!("{}", 1.4 * found));
+            let thresholds = place.good(&[
+                "thresholds",
+                "study.toml",
+                "--parameter",
+                "dither.amplitude",
+                "--from",
+                &from,
+                "--to",
+                &to,
+                "--set",
+                &set[0],
+                "--set",
+                &set[1],
+            ]);
+            let exact = &thresholds["local"][0];
+            let value = exact["value"].as_f64().expect("a threshold");
+            assert!((found / value - 1.0).abs() < 1e-9, "{set:?} {found} {exact}");
+            assert_eq!(exact["kind"], map["quench_kind"][i][j]);
+            assert_eq!(map["quench_lost_status"][i][j], "stays_quiet");
+            let averaged = map["quench_amplitude_averaged"][i][j].as_f64().expect("averaging");
+            assert!((averaged / found - 1.0).abs() < 0.05, "{averaged} {found}");
+        }
+    }
+    let other = ["--set", "dither.amplitude=7", "--set", "dither.phase=1"];
+    let again = place.good(&[&quench[..4], &other[..]].concat());
+    assert_eq!(again["quench_kind"], map["quench_kind"]);
+}

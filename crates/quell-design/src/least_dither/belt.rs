@@ -1,18 +1,19 @@
 //! A belt under dither as a structure whose dither is designed.
 
 use quell_dynamics::attractor::{Reached, SWITCH_CLOSENESS, switches};
-use quell_dynamics::orbit::threshold::local;
+use quell_dynamics::orbit::threshold::{NoThresholds, local};
 use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
 use quell_dynamics::response::{Solver, respond};
 use quell_dynamics::simulation::Start;
 use quell_dynamics::start::{InitialState, NoSquealingStart};
 use quell_linear::averaging::{
-    AveragedVerdict, AveragingOptions, Becomes, criterion, critical_amplitudes,
+    AveragedVerdict, AveragingError, AveragingOptions, Becomes, criterion, critical_amplitudes,
 };
 use quell_linear::driven_point::DrivenPoint;
 use quell_linear::linear_cost::linear_cost;
 use quell_model::{Belt, Direction, Parametrisation, System};
 
+use super::branch::AmplitudeBranch;
 use super::quiet::AveragedChange;
 use super::{DesignStart, DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
 use crate::actuator::{Actuator, ActuatorDemand};
@@ -71,23 +72,6 @@ impl BeltPlant {
         self.dithered(at, amplitude).map(|belt| belt.system())
     }
 
-    /// Whether steady sliding is quiet without the dither, and the amplitudes at which averaging changes the verdict.
-    fn averaged_changes(
-        &self,
-        at: OperatingPoint<'_>,
-    ) -> Result<(bool, Vec<AveragedChange>), String> {
-        let belt = self.at(at)?;
-        let options = AveragingOptions::FINITE_R;
-        let without = criterion(&belt, options).map_err(|why| why.to_string())?;
-        let found = critical_amplitudes(&belt, options).map_err(|why| why.to_string())?;
-        let changes = found.iter().map(|critical| AveragedChange {
-            amplitude: critical.amplitude,
-            becomes_quiet: critical.becomes == Becomes::Stable,
-            holds: critical.contact_stays_closed,
-        });
-        Ok((without.verdict == AveragedVerdict::Stable, changes.collect()))
-    }
-
     /// An answer about the point on which the dither acts.
     fn about_point<T>(
         &self,
@@ -140,15 +124,46 @@ impl BeltPlant {
         belt: &Belt,
         (from, to): (f64, f64),
     ) -> Result<QuietAmplitudes, String> {
-        let found = local(belt, &self.path(), from, to, STEPS).map_err(|why| why.to_string())?;
-        let thresholds: Vec<_> = found
-            .thresholds
-            .iter()
-            .map(|threshold| (threshold.value, [threshold.was, threshold.becomes]))
-            .collect();
-        let radius = found.branch.first().map(|response| response.radius);
-        Ok(QuietAmplitudes::of_branch((from, to), radius, &thresholds, found.ending))
+        let found = amplitude_branch_of_belt(belt, (from, to), STEPS);
+        Ok(found.map_err(|why| why.to_string())?.quiet())
     }
+}
+
+/// The base response of a belt over the amplitude of its first dither, followed in at least `steps` steps: the judge of `thresholds`.
+///
+/// # Errors
+/// [`NoThresholds`] if there is no base response at the least amplitude.
+pub fn amplitude_branch_of_belt(
+    belt: &Belt,
+    (from, to): (f64, f64),
+    steps: u32,
+) -> Result<AmplitudeBranch, NoThresholds> {
+    let found = local(belt, &belt.dither_path(0, "amplitude"), from, to, steps)?;
+    Ok(AmplitudeBranch::of_belt((from, to), &found))
+}
+
+/// The amplitudes of the first dither of a belt that are quiet by finite-R averaging, in a range.
+///
+/// # Errors
+/// [`AveragingError`].
+pub fn averaged_quiet_of_belt(
+    belt: &Belt,
+    range: (f64, f64),
+) -> Result<QuietAmplitudes, AveragingError> {
+    let options = AveragingOptions::FINITE_R;
+    // A belt without dither has no amplitude to set.
+    let without = belt.with(&belt.dither_path(0, "amplitude"), 0.0);
+    let without = criterion(without.as_ref().unwrap_or(belt), options)?;
+    let changes: Vec<_> = critical_amplitudes(belt, options)?
+        .iter()
+        .map(|critical| AveragedChange {
+            amplitude: critical.amplitude,
+            becomes_quiet: critical.becomes == Becomes::Stable,
+            holds: critical.contact_stays_closed,
+        })
+        .collect();
+    let quiet_without = without.verdict == AveragedVerdict::Stable;
+    Ok(QuietAmplitudes::by_averaging(range, quiet_without, &changes))
 }
 
 impl Plant for BeltPlant {
@@ -157,14 +172,12 @@ impl Plant for BeltPlant {
         at: OperatingPoint<'_>,
         range: (f64, f64),
     ) -> Result<QuietAmplitudes, String> {
-        let (quiet_without, changes) = self.averaged_changes(at)?;
-        Ok(QuietAmplitudes::by_averaging(range, quiet_without, &changes))
+        averaged_quiet_of_belt(&self.at(at)?, range).map_err(|why| why.to_string())
     }
 
     fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<Option<f64>, String> {
-        let (quiet_without, changes) = self.averaged_changes(at)?;
-        let every = (0.0, f64::INFINITY);
-        Ok(QuietAmplitudes::by_averaging(every, quiet_without, &changes).least_from(0.0))
+        let every = averaged_quiet_of_belt(&self.at(at)?, (0.0, f64::INFINITY));
+        Ok(every.map_err(|why| why.to_string())?.least_from(0.0))
     }
 
     fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {

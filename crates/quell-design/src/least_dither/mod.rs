@@ -7,6 +7,7 @@
 //! verified by exact periodic responses at points of the box (`verified`). What the structure is stays behind [`Plant`].
 
 mod belt;
+mod branch;
 mod covered;
 mod exact;
 mod quiet;
@@ -14,14 +15,17 @@ mod search;
 mod system;
 mod worst_point;
 
-pub use belt::BeltPlant;
+pub use belt::{BeltPlant, amplitude_branch_of_belt, averaged_quiet_of_belt};
+pub use branch::{AmplitudeBranch, QuietChange};
 pub use covered::CoveredBox;
 pub use exact::{
     Designed, FeasibleDesign, InfeasibleDesign, MARGIN, NoDesign, VerifiedPoint, design,
 };
 pub use quiet::QuietAmplitudes;
 pub use search::{DesignBasin, DesignPoint};
-pub use system::{SystemAtPoint, SystemPlant};
+pub use system::{
+    SystemAtPoint, SystemPlant, amplitude_branch_of_system, averaged_quiet_of_system,
+};
 pub use worst_point::NoLeast;
 
 use crate::actuator::{Actuator, ActuatorDemand, ActuatorLimit};

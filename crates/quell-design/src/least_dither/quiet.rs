@@ -1,8 +1,5 @@
 //! Amplitudes of a dither at which a structure is quiet.
 
-use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::orbit::threshold::BranchEnding;
-
 /// An amplitude at which averaged sliding changes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AveragedChange {
@@ -63,31 +60,6 @@ impl QuietAmplitudes {
             whole.intervals().iter().flat_map(|(low, high)| [(*low, true), (*high, false)]);
         let inside = inside.filter(|(at, quiet)| *quiet || *at < to);
         Self::of_changes((from, to), false, inside)
-    }
-
-    /// The amplitudes that are quiet on a branch of base responses, from its thresholds (value, verdicts below and above it), the
-    /// largest multiplier of its first response, and its ending: beyond the end there is no base response that could be quiet.
-    pub(super) fn of_branch(
-        range: (f64, f64),
-        first_radius: Option<f64>,
-        thresholds: &[(f64, [Option<OrbitVerdict>; 2])],
-        ending: BranchEnding,
-    ) -> Self {
-        let stable = Some(OrbitVerdict::Stable);
-        let first = match (thresholds.first(), first_radius) {
-            (Some((_, [was, _])), _) => *was == stable,
-            (None, Some(radius)) => radius < 1.0,
-            (None, None) => false,
-        };
-        let changes = thresholds.iter().map(|(value, [_, becomes])| (*value, *becomes == stable));
-        let end = match ending {
-            BranchEnding::Covered => None,
-            BranchEnding::TurnedBack { at }
-            | BranchEnding::Touch { at }
-            | BranchEnding::Lost { at } => Some(at),
-            BranchEnding::LostTurning { furthest, .. } => Some(furthest),
-        };
-        Self::of_changes(range, first, changes.chain(end.map(|at| (at, false))))
     }
 
     /// The intervals.

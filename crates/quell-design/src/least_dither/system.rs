@@ -1,9 +1,9 @@
 //! Any linear structure with friction contacts as one whose dither is designed.
 
-use quell_dynamics::motion::orbit::{MotionOrbit, base_motion, motion_thresholds};
+use quell_dynamics::motion::orbit::{MotionOrbit, NoMotionOrbit, base_motion, motion_thresholds};
 use quell_dynamics::motion::{ContactMeter, MOTION_TOLERANCE, Motion, MotionStart};
 use quell_dynamics::orbit::OrbitVerdict;
-use quell_linear::averaging::{Becomes, DitheredSystem};
+use quell_linear::averaging::{Becomes, DitheredSystem, NoAverage};
 use quell_linear::driven_point::DrivenPoint;
 use quell_linear::growth::Verdict;
 use quell_linear::input_cost::input_cost;
@@ -11,6 +11,7 @@ use quell_linear::linearised::Linearised;
 use quell_model::System;
 use quell_model::profile::Wave;
 
+use super::branch::AmplitudeBranch;
 use super::quiet::AveragedChange;
 use super::{DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
 use crate::actuator::{Actuator, ActuatorDemand};
@@ -42,26 +43,6 @@ impl SystemPlant<'_> {
         let input = system.inputs.get(self.input);
         let wave = input.and_then(|input| input.profile.waves().first());
         wave.cloned().ok_or_else(|| "the dither that is designed does not act".to_owned())
-    }
-
-    /// Whether steady sliding is quiet without the dither, and the amplitudes at which averaging changes the verdict. The amplitude is one
-    /// with which the system is valid.
-    fn averaged_changes(
-        &self,
-        at: OperatingPoint<'_>,
-        amplitude: f64,
-    ) -> Result<(bool, Vec<AveragedChange>), String> {
-        let system = (self.at)(at, amplitude)?;
-        let prepared = DitheredSystem::new(&system).map_err(in_words)?;
-        let without = prepared.average_with(Some((self.input, 0.0))).map_err(in_words)?;
-        let without = without.growth().map_err(in_words)?.verdict();
-        let found = prepared.critical_amplitudes(self.input).map_err(in_words)?;
-        let changes = found.iter().map(|critical| AveragedChange {
-            amplitude: critical.amplitude,
-            becomes_quiet: critical.becomes == Becomes::Stable,
-            holds: critical.contacts_stay_closed && critical.within_laws,
-        });
-        Ok((without == Verdict::Stable, changes.collect()))
     }
 
     /// An answer about the point on which the dither acts.
@@ -99,32 +80,63 @@ impl SystemPlant<'_> {
     }
 }
 
+/// The base response of a system over the amplitude of one of its dithers, followed in at least `steps` steps: the judge of
+/// `thresholds`.
+///
+/// # Errors
+/// [`NoMotionOrbit`] if there is no base response at the least amplitude.
+pub fn amplitude_branch_of_system(
+    at: &dyn Fn(f64) -> Result<System, String>,
+    range: (f64, f64),
+    steps: u32,
+) -> Result<AmplitudeBranch, NoMotionOrbit> {
+    let found = motion_thresholds(&|values: &[f64]| at(values[0]), range, steps, None)?;
+    Ok(AmplitudeBranch::of_motion(range, &found))
+}
+
+/// The amplitudes of a dither of a system that are quiet by averaging, in a range.
+///
+/// # Errors
+/// [`NoAverage`].
+pub fn averaged_quiet_of_system(
+    system: &System,
+    input: usize,
+    range: (f64, f64),
+) -> Result<QuietAmplitudes, NoAverage> {
+    let prepared = DitheredSystem::new(system)?;
+    let without = prepared.average_with(Some((input, 0.0)))?;
+    let without = without.growth().map_err(NoAverage::Eigenvalues)?.verdict();
+    let changes: Vec<_> = prepared
+        .critical_amplitudes(input)?
+        .iter()
+        .map(|critical| AveragedChange {
+            amplitude: critical.amplitude,
+            becomes_quiet: critical.becomes == Becomes::Stable,
+            holds: critical.contacts_stay_closed && critical.within_laws,
+        })
+        .collect();
+    Ok(QuietAmplitudes::by_averaging(range, without == Verdict::Stable, &changes))
+}
+
 impl Plant for SystemPlant<'_> {
     fn averaged(
         &self,
         at: OperatingPoint<'_>,
         range: (f64, f64),
     ) -> Result<QuietAmplitudes, String> {
-        let (quiet_without, changes) = self.averaged_changes(at, range.1)?;
-        Ok(QuietAmplitudes::by_averaging(range, quiet_without, &changes))
+        let system = (self.at)(at, range.1)?;
+        averaged_quiet_of_system(&system, self.input, range).map_err(in_words)
     }
 
     fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<Option<f64>, String> {
-        let (quiet_without, changes) = self.averaged_changes(at, 1.0)?;
-        let every = (0.0, f64::INFINITY);
-        Ok(QuietAmplitudes::by_averaging(every, quiet_without, &changes).least_from(0.0))
+        let system = (self.at)(at, 1.0)?;
+        let every = averaged_quiet_of_system(&system, self.input, (0.0, f64::INFINITY));
+        Ok(every.map_err(in_words)?.least_from(0.0))
     }
 
     fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {
-        let system = |values: &[f64]| (self.at)(at, values[0]);
-        let found = motion_thresholds(&system, range, STEPS, None).map_err(in_words)?;
-        let thresholds: Vec<_> = found
-            .thresholds
-            .iter()
-            .map(|threshold| (threshold.value, [threshold.was, threshold.becomes]))
-            .collect();
-        let radius = found.branch.first().map(|response| response.radius);
-        Ok(QuietAmplitudes::of_branch(range, radius, &thresholds, found.ending))
+        let found = amplitude_branch_of_system(&|value| (self.at)(at, value), range, STEPS);
+        Ok(found.map_err(in_words)?.quiet())
     }
 
     fn verdict(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<ExactVerdict, String> {

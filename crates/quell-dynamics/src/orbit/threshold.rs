@@ -63,7 +63,7 @@ impl ThresholdKind {
     ];
 
     /// The word in outputs.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::NeimarkSacker => "neimark-sacker",
             Self::Hopf => "hopf",

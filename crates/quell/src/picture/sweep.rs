@@ -14,13 +14,23 @@ use crate::plot::{
     Figure, Layer, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotError, PlotRole, Points,
     Polyline, Size, Spread,
 };
+use crate::run::curves::{self, CurvesRequest};
 use crate::run::map::{FinishedMap, amplitude_and_other, boundaries_at};
 use crate::study::DiscStudy;
 use crate::sweep::{Grid, GridAxis, Status, VariableArrays, VariableKind};
 
 /// Whether a variable is drawn only if no other quantity was requested.
 fn is_secondary(name: &str) -> bool {
-    ["settled", "growth_error", "growth_verdict", "growth_undithered_error"].contains(&name)
+    [
+        "settled",
+        "growth_error",
+        "growth_verdict",
+        "growth_undithered_error",
+        "quench_amplitude_averaged",
+        "quench_lost",
+        "quench_last",
+    ]
+    .contains(&name)
 }
 
 /// The picture of a computed map.
@@ -37,16 +47,20 @@ pub fn sweep(done: &FinishedMap) -> Result<Figure, Failure> {
         shown = entries.iter().collect();
     }
     let columns = shown.len().min(2);
+    // The same curves are over every panel.
+    let over = if axes == 1 { Vec::new() } else { over(done) };
     let figure = match axes {
         1 => Ok(Figure::grid(columns, shown.iter().map(|entry| panel(done, entry)))),
         2 => {
             let panels: Result<Vec<Panel>, PlotError> = shown
                 .iter()
-                .map(|entry| Ok(map::map_panel(&picture(done, entry), true)?.legend(Legend::Above)))
+                .map(|entry| {
+                    Ok(map::map_panel(&picture(done, entry, &over), true)?.legend(Legend::Above))
+                })
                 .collect();
             panels.map(|panels| Figure::grid(columns, panels).size(Size::Frame(400.0, 310.0)))
         }
-        _ => map::map(&picture(done, shown[0])),
+        _ => map::map(&picture(done, shown[0], &over)),
     };
     let figure = figure.map_err(undrawable)?;
     let title = plan.grid().study().title().unwrap_or_default();
@@ -61,7 +75,7 @@ fn range(axis: &GridAxis) -> Option<VariedNumber<'_>> {
 }
 
 /// A variable of a computed map as plain data.
-fn picture(done: &FinishedMap, entry: &VariableArrays) -> MappedQuantity {
+fn picture(done: &FinishedMap, entry: &VariableArrays, over: &[Layer]) -> MappedQuantity {
     let plan = done.plan();
     let grid = plan.grid();
     let states: Vec<Status> = (0..grid.len()).map(|point| done.status(entry, point)).collect();
@@ -114,7 +128,7 @@ fn picture(done: &FinishedMap, entry: &VariableArrays) -> MappedQuantity {
         values: (0..grid.len()).map(value).collect(),
         reasons: unknown.iter().map(|status| status.about().to_owned()).collect(),
         zero: None,
-        over: over(done).into_iter().chain(doubtful(done, &states)).collect(),
+        over: over.iter().cloned().chain(doubtful(done, &states)).collect(),
     }
 }
 
@@ -139,13 +153,70 @@ fn doubtful(done: &FinishedMap, states: &[Status]) -> Vec<Layer> {
         .collect()
 }
 
+/// The exact curves of the quench amplitude, if it is mapped over a plane: over the amplitude itself the mapped values, over two other
+/// numbers the thresholds of the study's own amplitude, followed as `thresholds --along` does.
+fn exact_curves(done: &FinishedMap) -> Vec<Layer> {
+    let grid = done.plan().grid();
+    let entries = done.plan().sheet().entries();
+    let (Some(entry), [first, second]) =
+        (entries.iter().find(|entry| entry.variable.name == "quench_amplitude"), grid.axes())
+    else {
+        return Vec::new();
+    };
+    let (pieces, label) = if let Some((amplitude, other)) = amplitude_and_other(grid) {
+        let upwards = second == amplitude;
+        let height = second.values.len();
+        let place = |index: usize| if upwards { index * height } else { index };
+        let value = |index: usize| number(done, entry, place(index));
+        let points = other.values.iter().enumerate().map(|(index, at)| {
+            let value = value(index).unwrap_or(f64::NAN);
+            if upwards { (*at, value) } else { (value, *at) }
+        });
+        (vec![points.collect::<Vec<_>>()], "exact quench amplitude")
+    } else {
+        let ends = |axis: &GridAxis| {
+            let values = axis.values.iter().copied();
+            let least = values.clone().fold(f64::INFINITY, f64::min);
+            (least, values.fold(f64::NEG_INFINITY, f64::max))
+        };
+        let request = CurvesRequest {
+            parameter: second.path.clone(),
+            window: ends(second),
+            along: first.path.clone(),
+            between: ends(first),
+        };
+        (threshold_curves(grid, &request), "exact threshold at the study's amplitude")
+    };
+    if pieces.iter().all(|piece| piece.len() < 2) {
+        return Vec::new();
+    }
+    vec![Polyline::pieces(PlotRole::Exact, pieces).width(1.8).label(label).into()]
+}
+
+/// Curves of thresholds in the plane of a map, in the units of its axes; none where the study has none.
+fn threshold_curves(grid: &Grid, request: &CurvesRequest) -> Vec<Vec<(f64, f64)>> {
+    let Ok(study) = grid.study().belt() else { return Vec::new() };
+    let Ok(found) = curves::run(&study, request) else { return Vec::new() };
+    // The request has the ends of the axes in their units, the answer those of the equations.
+    let unit = |shown: (f64, f64), own: (f64, f64)| {
+        if own.1 == own.0 { 1.0 } else { (shown.1 - shown.0) / (own.1 - own.0) }
+    };
+    let across = unit(request.between, found.question.between);
+    let up = unit(request.window, found.question.window);
+    let curve = |curve: &curves::ThresholdCurve| -> Vec<(f64, f64)> {
+        let points = curve.points.iter();
+        points.map(|point| (across * point.along, up * point.value)).collect()
+    };
+    found.curves.iter().map(curve).collect()
+}
+
 /// The stability boundaries by averaging as lines, in the plane as it is drawn: the first axis to the right.
 fn over(done: &FinishedMap) -> Vec<Layer> {
     let grid = done.plan().grid();
     if let Ok(study) = grid.study().disc() {
         return over_disc(grid, &study);
     }
-    let Some((amplitude, other)) = amplitude_and_other(grid) else { return Vec::new() };
+    let Some((amplitude, other)) = amplitude_and_other(grid) else { return exact_curves(done) };
     let upwards = grid.axes().last() == Some(amplitude);
     let furthest = amplitude.values.iter().copied().fold(0.0, f64::max);
     let found = boundaries_at(grid, &to_the_frame(other));
@@ -165,15 +236,13 @@ fn over(done: &FinishedMap) -> Vec<Layer> {
         let any = points.iter().any(|piece: &Vec<_>| piece.len() > 1);
         any.then(|| Layer::from(Polyline::pieces(role, points).style(style).label(label)))
     };
-    [
+    let averaged = [
         line(FastResponse::Limit, Becomes::Stable, "quenches, by averaging"),
         line(FastResponse::Oscillator, Becomes::Stable, "quenches, by finite-$R$ averaging"),
         line(FastResponse::Limit, Becomes::Unstable, "destabilises, by averaging"),
         line(FastResponse::Oscillator, Becomes::Unstable, "destabilises, by finite-$R$ averaging"),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    ];
+    exact_curves(done).into_iter().chain(averaged.into_iter().flatten()).collect()
 }
 
 /// The values of an axis in ascending order, and the borders of the outermost cells, at which the frame of a map ends.

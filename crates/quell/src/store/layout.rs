@@ -163,11 +163,13 @@ fn references(plan: &Plan) -> String {
             Computation::Criterion
             | Computation::CriterionSharper
             | Computation::CriticalAmplitudes
+            | Computation::Quench
             | Computation::DiscGrowth
             | Computation::DiscGrowthUndithered
             | Computation::SystemGrowth
             | Computation::SystemGrowthUndithered
             | Computation::SystemCritical
+            | Computation::SystemQuench
             | Computation::SystemOrbit
             | Computation::SystemEnd => task == Task::Stability,
         })

@@ -10,6 +10,7 @@ use super::evaluate::{Computation, ResponseNumbers, Results, evaluate};
 use super::grid::Grid;
 use super::mapped::{Mapped, PointResults};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, variable};
+use super::quench_variables as quench;
 use super::status::Status;
 use crate::study::{BeltSetup, BeltStudy};
 
@@ -123,6 +124,9 @@ const LENGTH: VariableKind = VariableKind::Number(units::Quantity::Displacement)
 const FORCE: VariableKind = VariableKind::Number(units::Quantity::Force);
 const VELOCITY: VariableKind = VariableKind::Number(units::Quantity::Velocity);
 
+/// The variables of the exact quench amplitude.
+const QUENCH: [Variable; quench::VARIABLES] = quench::variables(FORCE);
+
 /// The quantities of a map of belts.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[MapQuantity] = &[
@@ -178,6 +182,7 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
         variable(("critical_amplitude", "α_c"), "smallest critical amplitude ratio of the first dither", VELOCITY, OF_CRITICAL, |r| critical(r, false)),
         variable(("critical_amplitude_upper", "α_c"), "largest critical amplitude ratio of the first dither, where there are several", VELOCITY, OF_CRITICAL, |r| critical(r, true)),
     ]),
+    belt(quench::NAME, quench::ABOUT, Computation::Quench, &QUENCH),
 ];
 
 fn steady(results: &Results) -> Result<ResponseNumbers, Status> {

@@ -32,6 +32,9 @@ const QUADRATURE: f64 = 4e-4;
 /// Evaluations of the criterion in a search for critical amplitudes.
 const SEARCH: f64 = 100.0;
 
+/// Seconds in which the base response of a belt is followed over the amplitude of a dither.
+const QUENCH: f64 = 1e-2;
+
 /// Minimum seconds to set up and store a point.
 const POINT: f64 = 2e-5;
 
@@ -59,11 +62,13 @@ pub(super) fn of_belt(study: &BeltStudy, wanted: &[Computation]) -> f64 {
         Computation::Criterion => criterion(study, false),
         Computation::CriterionSharper => criterion(study, true),
         Computation::CriticalAmplitudes => SEARCH * criterion(study, false),
+        Computation::Quench => QUENCH + SEARCH * criterion(study, true),
         Computation::DiscGrowth
         | Computation::DiscGrowthUndithered
         | Computation::SystemGrowth
         | Computation::SystemGrowthUndithered
         | Computation::SystemCritical
+        | Computation::SystemQuench
         | Computation::SystemOrbit
         | Computation::SystemEnd
         | Computation::SystemResponse => 0.0,

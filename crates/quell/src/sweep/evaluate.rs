@@ -16,6 +16,7 @@ use quell_linear::averaging::{
 use quell_linear::growth::Growth;
 use quell_model::{Belt, Dither};
 
+use super::quench::{QuenchNumbers, quench_numbers_of_belt};
 use super::status::Status;
 use crate::complaint::Failure;
 use crate::contact_state::differs_from_rigid;
@@ -39,6 +40,8 @@ pub enum Computation {
     CriterionSharper,
     /// Every critical amplitude of the first dither.
     CriticalAmplitudes,
+    /// The exact quench amplitude of the first dither.
+    Quench,
     /// The largest growth rate of a disc.
     DiscGrowth,
     /// The largest growth rate of a disc without dither.
@@ -49,6 +52,8 @@ pub enum Computation {
     SystemGrowthUndithered,
     /// Every critical amplitude of the first dither of a system.
     SystemCritical,
+    /// The exact quench amplitude of the first dither of a system.
+    SystemQuench,
     /// The base response of a dithered system and its multipliers.
     SystemOrbit,
     /// The motion on which the run of a system ends.
@@ -62,7 +67,11 @@ impl Computation {
     pub fn meets_friction(self) -> bool {
         !matches!(
             self,
-            Self::DiscGrowth | Self::DiscGrowthUndithered | Self::SystemOrbit | Self::SystemEnd
+            Self::DiscGrowth
+                | Self::DiscGrowthUndithered
+                | Self::SystemQuench
+                | Self::SystemOrbit
+                | Self::SystemEnd
         )
     }
 
@@ -211,6 +220,8 @@ pub struct Results {
     pub criterion_sharper: Option<Result<Criterion, Status>>,
     /// Every critical amplitude of the first dither, in order.
     pub critical_amplitudes: Option<Result<Vec<CriticalAmplitude>, Status>>,
+    /// The exact quench amplitude of the first dither of a belt or a system.
+    pub quench: Option<Result<QuenchNumbers, Status>>,
     /// The largest growth rate of a disc.
     pub disc: Option<Result<Growth, Status>>,
     /// The largest growth rate of a disc without dither.
@@ -244,6 +255,8 @@ pub struct Reach {
     per_ratio: f64,
     /// α of the first dither.
     ratio: f64,
+    /// Frequency ratio R of the first dither.
+    frequency_ratio: f64,
 }
 
 impl Reach {
@@ -257,6 +270,7 @@ impl Reach {
             without_first: range::at_amplitude(belt, 0.0),
             per_ratio: first.map_or(0.0, |dither| belt.fast_velocity_of(&unit(dither))),
             ratio,
+            frequency_ratio: first.map_or(1.0, |dither| dither.frequency_ratio),
         })
     }
 
@@ -329,11 +343,16 @@ impl Results {
             Computation::Criterion | Computation::CriterionSharper => reach.is_left_at(reach.ratio),
             // An amplitude ratio of the first dither.
             Computation::CriticalAmplitudes => reach.is_left_at(value),
+            Computation::Quench => {
+                let least = self.quench.and_then(|found| found.ok()?.least.ok());
+                least.is_some_and(|least| reach.is_left_at(least / reach.frequency_ratio))
+            }
             Computation::DiscGrowth
             | Computation::DiscGrowthUndithered
             | Computation::SystemGrowth
             | Computation::SystemGrowthUndithered
             | Computation::SystemCritical
+            | Computation::SystemQuench
             | Computation::SystemOrbit
             | Computation::SystemEnd
             | Computation::SystemResponse => false,
@@ -450,6 +469,7 @@ fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
             | Computation::SystemGrowth
             | Computation::SystemGrowthUndithered
             | Computation::SystemCritical
+            | Computation::SystemQuench
             | Computation::SystemOrbit
             | Computation::SystemEnd
             | Computation::SystemResponse => {}
@@ -471,6 +491,7 @@ fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
                     _ => critical_amplitudes(belt, AveragingOptions::default()).map_err(status),
                 });
             }
+            Computation::Quench => results.quench = Some(quench_numbers_of_belt(belt)),
         }
     }
     results

@@ -68,6 +68,16 @@ pub enum Status {
     WithoutState = 36,
     /// The law is that of bristles, which never stick.
     NeverSticks = 37,
+    /// Sliding is stable without the first dither: there is nothing to quench.
+    QuietWithoutDither = 38,
+    /// No amplitude of the first dither up to the limit of the search makes the base response stable.
+    NeverQuiet = 39,
+    /// The base response stays stable up to the limit of the search.
+    StaysQuiet = 40,
+    /// The base response is not stable at the limit of the search.
+    LoudAtLimit = 41,
+    /// The first dither moves no contact.
+    NoReach = 42,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -104,6 +114,11 @@ impl Status {
         Self::NoAverageOfWaveform,
         Self::WithoutState,
         Self::NeverSticks,
+        Self::QuietWithoutDither,
+        Self::NeverQuiet,
+        Self::StaysQuiet,
+        Self::LoudAtLimit,
+        Self::NoReach,
         Self::Missing,
     ];
 
@@ -154,6 +169,11 @@ impl Status {
             Self::NoAverageOfWaveform => "no_average_of_waveform",
             Self::WithoutState => "without_state",
             Self::NeverSticks => "never_sticks",
+            Self::QuietWithoutDither => "quiet_without_dither",
+            Self::NeverQuiet => "never_quiet",
+            Self::StaysQuiet => "stays_quiet",
+            Self::LoudAtLimit => "loud_at_limit",
+            Self::NoReach => "no_reach",
             Self::Missing => "missing",
         }
     }
@@ -219,6 +239,17 @@ impl Status {
                 "the value is known, but it averages the friction law without the state of its contact, which follows the dither here"
             }
             Self::NeverSticks => "bristles slip at any load, however slowly, and never stick",
+            Self::QuietWithoutDither => "sliding is stable without dither",
+            Self::NeverQuiet => {
+                "no amplitude up to twice that at which the contact begins to reverse makes the base response stable"
+            }
+            Self::StaysQuiet => {
+                "the base response stays stable up to twice the amplitude at which the contact begins to reverse"
+            }
+            Self::LoudAtLimit => {
+                "the base response is not stable at twice the amplitude at which the contact begins to reverse"
+            }
+            Self::NoReach => "the dither moves no contact",
             Self::Missing => "not computed yet",
         }
     }

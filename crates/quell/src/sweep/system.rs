@@ -17,6 +17,8 @@ use super::evaluate::{
 use super::grid::Grid;
 use super::mapped::{Mapped, PointResults};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, decided, variable};
+use super::quench::quench_numbers_of_system;
+use super::quench_variables as quench;
 use super::status::Status;
 use crate::complaint::Failure;
 use crate::contact_state::averaged_without_states;
@@ -34,6 +36,9 @@ const SEARCH: f64 = 300.0;
 
 /// Seconds in which the base response of four states is followed.
 const ORBIT: f64 = 3e-2;
+
+/// Seconds in which it is followed over the amplitude of a dither.
+const QUENCH_COST: f64 = 1e-1;
 
 /// Seconds of a run of four states to the motion on which it ends, and of a steady response with and without dither.
 const END: f64 = 2e-2;
@@ -58,6 +63,9 @@ impl Mapped for SystemPoints {
         let growth = GROWTH * (states / 10.0).powi(2).max(0.1);
         let each = wanted.iter().map(|computation| match computation {
             Computation::SystemCritical => SEARCH * growth,
+            Computation::SystemQuench => {
+                SEARCH * growth + QUENCH_COST * (states / 4.0).powi(2).max(0.1)
+            }
             Computation::SystemOrbit => ORBIT * (states / 4.0).powi(2).max(0.1),
             Computation::SystemEnd => END * (states / 4.0).powi(2).max(0.1),
             Computation::SystemResponse => RESPONSE * (states / 4.0).powi(2).max(0.1),
@@ -102,6 +110,7 @@ fn unmeasured() -> Results {
         system: Some(Err(Status::OnlyMeasured)),
         system_undithered: Some(Err(Status::OnlyMeasured)),
         system_critical: Some(Err(Status::OnlyMeasured)),
+        quench: Some(Err(Status::OnlyMeasured)),
         system_orbit: Some(Err(Status::OnlyMeasured)),
         system_end: Some(Err(Status::OnlyMeasured)),
         system_response: Some(Err(Status::OnlyMeasured)),
@@ -118,6 +127,9 @@ fn evaluate(system: &System, wanted: &[Computation]) -> Results {
                 results.system_undithered = Some(undithered(system));
             }
             Computation::SystemCritical => results.system_critical = Some(critical(system)),
+            Computation::SystemQuench => {
+                results.quench = Some(quench_numbers_of_system(system, status));
+            }
             Computation::SystemOrbit => results.system_orbit = Some(base_response(system)),
             _ => {}
         }
@@ -325,6 +337,9 @@ const MOTIONS: VariableKind = VariableKind::Word {
     unknown: "unknown",
 };
 
+/// The variables of the exact quench amplitude.
+const QUENCH: [Variable; quench::VARIABLES] = quench::variables(FORCE);
+
 /// The quantities of a map of systems.
 #[rustfmt::skip]
 pub(super) const QUANTITIES: &[MapQuantity] = &[
@@ -352,6 +367,7 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
     system("destabilising-amplitude", "smallest amplitude of the first dither that makes sliding unstable, by averaging", Computation::SystemCritical, &[
         variable(("destabilising_amplitude", "A°"), "smallest amplitude that makes sliding unstable", FORCE, OF_CRITICAL, |r| first(r, Becomes::Unstable)),
     ]),
+    system(quench::NAME, quench::ABOUT, Computation::SystemQuench, &QUENCH),
     system("orbit-verdict", "verdict on the base response by its multipliers", Computation::SystemOrbit, &[
         variable(("orbit_verdict", ""), "verdict on the base response by its multipliers", VERDICTS, OF_ORBIT_VERDICT, judged),
     ]),

@@ -478,6 +478,8 @@ class MapColumns:
     orbit_verdict_status: npt.NDArray[np.uint8]
     peak_to_peak: npt.NDArray[Any]
     peak_to_peak_status: npt.NDArray[np.uint8]
+    quench_amplitude: npt.NDArray[Any]
+    quench_amplitude_status: npt.NDArray[np.uint8]
     settled: npt.NDArray[np.uint8]
     settled_status: npt.NDArray[np.uint8]
     slip_ratio: npt.NDArray[np.float64]

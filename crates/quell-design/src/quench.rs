@@ -1,0 +1,222 @@
+//! The exact quench amplitude: the least amplitude of a dither from which the base response is stable.
+//!
+//! The base response is followed from steady sliding without this dither up to a limit, by the continuation of `thresholds` and
+//! `design`. So a change below the least amplitude cannot be missed, and every further change above it is known too. The limit is
+//! twice the larger of two amplitudes: that at which the linear response to the dither alone is as fast as the surface (beyond it the contact
+//! reverses within every cycle, and the verdict hardly changes), and the last change by averaging. A normal dither may at most lift
+//! the load.
+
+use quell_dynamics::motion::orbit::NoMotionOrbit;
+use quell_dynamics::orbit::NoOrbit;
+use quell_dynamics::orbit::threshold::{NoThresholds, ThresholdKind};
+use quell_linear::averaging::{
+    AveragingError, AveragingOptions, DitheredSystem, NoAverage, critical_amplitudes,
+};
+use quell_linear::linear_cost::linear_cost;
+use quell_model::profile::{Profile, Wave};
+use quell_model::{Belt, Direction, Dither, System};
+
+use crate::least_dither::{
+    AmplitudeBranch, QuietAmplitudes, QuietChange, amplitude_branch_of_belt,
+    amplitude_branch_of_system, averaged_quiet_of_belt, averaged_quiet_of_system,
+};
+
+/// Least number of steps of the continuation up to the limit.
+const STEPS: u32 = 16;
+
+/// The limit, relative to the larger of the two amplitudes that it is made of.
+const BEYOND: f64 = 2.0;
+
+/// Share of the load that a normal dither may take: at the whole load the contact opens.
+const SHARE_OF_LOAD: f64 = 1.0 - 1e-9;
+
+/// The verdict on the base response over the amplitude of a dither, from zero to a limit.
+#[derive(Clone, Debug)]
+pub struct Quench<E> {
+    /// The base response.
+    pub branch: AmplitudeBranch,
+    /// The amplitudes that are quiet by finite-R averaging, or why averaging has no value.
+    pub averaged: Result<QuietAmplitudes, E>,
+}
+
+/// Why there is no quench amplitude.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotQuenched {
+    /// Sliding is stable without this dither.
+    QuietWithout,
+    /// No amplitude up to the limit is quiet.
+    NeverQuiet,
+    /// The base response ends, or was lost, before a quiet amplitude.
+    Ends,
+}
+
+/// Why the base response could not be followed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoQuench<E> {
+    /// There is no dither.
+    NoDither,
+    /// The dither moves no contact.
+    NoReach,
+    /// There is no steady sliding to begin from.
+    NoSteadySliding,
+    /// There is no base response at zero amplitude: the dithers have no common period, say.
+    NoBaseResponse,
+    /// The engine stopped.
+    Stalled,
+    /// The limit has no value, because averaging has none.
+    Averaging(E),
+}
+
+impl<E> Quench<E> {
+    /// The least amplitude from which the base response is stable.
+    ///
+    /// # Errors
+    /// [`NotQuenched`].
+    pub fn least(&self) -> Result<&QuietChange, NotQuenched> {
+        match self.branch.changes.first() {
+            _ if self.branch.quiet_at_first => Err(NotQuenched::QuietWithout),
+            Some(first) => Ok(first),
+            None if self.branch.end.is_some() => Err(NotQuenched::Ends),
+            None => Err(NotQuenched::NeverQuiet),
+        }
+    }
+
+    /// The amplitude at which the first quiet interval ends: the next change, or the end of the base response. `None` where it reaches
+    /// the limit, and where no amplitude is quiet.
+    pub fn lost(&self) -> Option<f64> {
+        let loud = self.branch.changes.iter().find(|change| !change.becomes_quiet);
+        let (_, high) = *self.branch.quiet().intervals().first()?;
+        loud.map(|change| change.amplitude).or(self.branch.end.filter(|end| *end <= high))
+    }
+
+    /// The amplitude from which everything up to the limit is quiet: the quench amplitude where the quiet amplitudes are one interval.
+    /// `None` where the limit itself is not quiet; 0 where every amplitude is.
+    pub fn last(&self) -> Option<f64> {
+        let intervals = self.branch.quiet();
+        let (low, high) = *intervals.intervals().last()?;
+        (high == self.branch.range.1).then_some(low)
+    }
+
+    /// The least quiet amplitude by finite-R averaging.
+    ///
+    /// # Errors
+    /// [`NotQuenched`], or why averaging has no value.
+    pub fn averaged(&self) -> Result<Result<f64, NotQuenched>, &E> {
+        let quiet = self.averaged.as_ref()?;
+        Ok(match quiet.intervals().first() {
+            Some((0.0, _)) => Err(NotQuenched::QuietWithout),
+            Some((low, _)) => Ok(*low),
+            None => Err(NotQuenched::NeverQuiet),
+        })
+    }
+}
+
+/// The kinds of bifurcation that may end a loud range, in the order of their codes in maps.
+pub const QUENCH_KINDS: [&str; 8] = {
+    let mut names = [""; 8];
+    let mut index = 0;
+    while index < ThresholdKind::ALL.len() {
+        names[index] = ThresholdKind::ALL[index].name();
+        index += 1;
+    }
+    names
+};
+
+/// The place of a kind in [`QUENCH_KINDS`].
+pub fn quench_kind(kind: ThresholdKind) -> usize {
+    ThresholdKind::ALL.iter().position(|other| *other == kind).unwrap_or(0)
+}
+
+/// The quench amplitude of the first dither of a belt, whose own amplitude does not matter.
+///
+/// # Errors
+/// [`NoQuench`].
+pub fn quench_of_belt(belt: &Belt) -> Result<Quench<AveragingError>, NoQuench<AveragingError>> {
+    let first = belt.dithers().first().ok_or(NoQuench::NoDither)?;
+    if belt.belt_velocity() == 0.0 {
+        return Err(NoQuench::NoSteadySliding);
+    }
+    let path = belt.dither_path(0, "amplitude");
+    // The amplitude of the study must not make a belt invalid.
+    let belt = &belt.with(&path, 0.0).map_err(|_| NoQuench::NoBaseResponse)?;
+    let limit = limit_of_belt(belt, first)?;
+    let branch = amplitude_branch_of_belt(belt, (0.0, limit), STEPS).map_err(|why| match why {
+        NoThresholds::Start(NoOrbit::Stalled(_)) => NoQuench::Stalled,
+        _ => NoQuench::NoBaseResponse,
+    })?;
+    let fast = belt.dithers().iter().all(|dither| dither.lowest_ratio() > 1.0);
+    let averaged = if fast {
+        averaged_quiet_of_belt(belt, (0.0, limit))
+    } else {
+        Err(AveragingError::NotFast { frequency_ratio: first.lowest_ratio() })
+    };
+    Ok(Quench { branch, averaged })
+}
+
+/// The largest amplitude of a belt's first dither that is followed.
+fn limit_of_belt(belt: &Belt, first: &Dither) -> Result<f64, NoQuench<AveragingError>> {
+    if first.direction == Direction::Normal {
+        let free = belt.normal_load() - belt.total_amplitude(Direction::Normal);
+        let lift = -first.waveform.range().0;
+        return if lift > 0.0 { Ok(SHARE_OF_LOAD * free / lift) } else { Err(NoQuench::NoReach) };
+    }
+    let unit = Dither { amplitude: 1.0, ..first.clone() };
+    let response =
+        linear_cost(&unit, belt.damping_ratio()).map_err(|_| NoQuench::NoBaseResponse)?;
+    let corner = belt.belt_velocity().abs() / response.velocity;
+    let averaged = critical_amplitudes(belt, AveragingOptions::FINITE_R).unwrap_or_default();
+    let last = averaged.iter().map(|critical| critical.amplitude).fold(0.0, f64::max);
+    let limit = BEYOND * corner.max(last);
+    if limit.is_finite() { Ok(limit) } else { Err(NoQuench::NoReach) }
+}
+
+/// The quench amplitude of a dither of a system, whose own amplitude does not matter.
+///
+/// # Errors
+/// [`NoQuench`].
+pub fn quench_of_system(
+    system: &System,
+    input: usize,
+) -> Result<Quench<NoAverage>, NoQuench<NoAverage>> {
+    if !system.inputs.get(input).is_some_and(|input| !input.profile.waves().is_empty()) {
+        return Err(NoQuench::NoDither);
+    }
+    let limit = limit_of_system(system, input)?;
+    let at = |amplitude: f64| Ok(with_amplitude(system, input, amplitude));
+    let branch = amplitude_branch_of_system(&at, (0.0, limit), STEPS);
+    let branch = branch.map_err(|why| match why {
+        NoMotionOrbit::NoSliding(_) => NoQuench::NoSteadySliding,
+        NoMotionOrbit::Immobile(_) => NoQuench::Stalled,
+        _ => NoQuench::NoBaseResponse,
+    })?;
+    let averaged = averaged_quiet_of_system(system, input, (0.0, limit));
+    Ok(Quench { branch, averaged })
+}
+
+fn limit_of_system(system: &System, input: usize) -> Result<f64, NoQuench<NoAverage>> {
+    let no_average = |why: NoAverage| match why {
+        NoAverage::NoSteadySliding(_) => NoQuench::NoSteadySliding,
+        why => NoQuench::Averaging(why),
+    };
+    let prepared = DitheredSystem::new(system).map_err(no_average)?;
+    let corners = prepared.fast().corners(system, input).map_err(no_average)?;
+    let corner = *corners.first().ok_or(NoQuench::NoReach)?;
+    let averaged = prepared.critical_amplitudes(input).map_err(no_average)?;
+    let last = averaged.iter().map(|critical| critical.amplitude).fold(0.0, f64::max);
+    Ok(BEYOND * corner.max(last))
+}
+
+/// The system with another amplitude of one dither; the waves of a dither keep their shares.
+fn with_amplitude(system: &System, input: usize, amplitude: f64) -> System {
+    let mut system = system.clone();
+    let Some(dither) = system.inputs.get_mut(input) else { return system };
+    let waves = dither.profile.waves().to_vec();
+    let first = waves.first().map_or(0.0, |wave| wave.amplitude);
+    let scaled = |wave: &Wave| {
+        let share = if first == 0.0 { 1.0 } else { wave.amplitude / first };
+        Wave { amplitude: share * amplitude, ..wave.clone() }
+    };
+    let still = dither.profile.without_waves();
+    dither.profile = waves.iter().map(scaled).fold(still, Profile::with);
+    system
+}
