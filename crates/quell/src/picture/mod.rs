@@ -39,7 +39,7 @@ pub(crate) mod window;
 pub use basins::basins;
 pub use bifurcation::bifurcation;
 pub use describing::describing;
-pub use design::{design, design_of_system};
+pub use design::{design, design_of_disc, design_of_system};
 pub use fit::fit;
 pub use friction::friction;
 pub use map::{MOST_PANELS, MapAxis, MapKind, MappedQuantity, map, map_panel};

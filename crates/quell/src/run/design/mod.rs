@@ -8,6 +8,7 @@ use quell_design::least_dither::{
     BeltPlant, DesignProblem, Designed, LimitedQuantity, OperatingPoint, Plant, design,
 };
 use quell_dynamics::simulation::within;
+use quell_model::disc::DiscDither;
 use quell_model::units::Quantity;
 use quell_model::{Belt, Dither, Waveform};
 use rayon::prelude::*;
@@ -19,8 +20,8 @@ use crate::contact_state::refused_of_belt;
 use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
 use crate::run::system::in_units;
-use crate::study::{BeltStudy, Design, DesignRange, SystemStudy};
-use crate::words::in_words;
+use crate::study::{BeltStudy, Design, DesignRange, DiscStudy, SystemStudy};
+use crate::words::{digits, in_words};
 
 /// Points of the schedule over a box of one coordinate.
 const SCHEDULE: usize = 97;
@@ -51,6 +52,9 @@ pub struct LeastDitherFound {
     pub best: usize,
     /// The least amplitude at single operating points of a box of one coordinate, by averaging: a schedule in place of one dither.
     pub schedule: Vec<(f64, Option<f64>)>,
+    /// For a disc whose box is a range of speeds, the exact thresholds in amplitude at speeds of the range, with the dither of the
+    /// answer.
+    pub tongues: Vec<(f64, Vec<f64>)>,
 }
 
 /// A study with a design: its units and what it requests.
@@ -66,6 +70,16 @@ pub trait StudyWithDesign {
 
     /// A quantity of the equations with its unit.
     fn in_words(&self, quantity: Quantity, value: f64) -> String;
+
+    /// The quantity of the amplitude that is chosen.
+    fn quantity_of_amplitude(&self) -> Quantity {
+        Quantity::Force
+    }
+
+    /// What a reader of the answer must know about the dither of the study.
+    fn warnings_about_design(&self) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 impl StudyWithDesign for BeltStudy {
@@ -101,6 +115,41 @@ impl StudyWithDesign for SystemStudy {
 
     fn in_words(&self, quantity: Quantity, value: f64) -> String {
         in_units(self.units(), quantity, value)
+    }
+}
+
+impl StudyWithDesign for DiscStudy {
+    /// The dither of a disc varies its friction; no actuator of it is described.
+    fn actuator(&self) -> Option<&Actuator> {
+        None
+    }
+
+    fn asked(&self) -> Option<&Design> {
+        self.design()
+    }
+
+    /// The amplitude is relative to the friction, and has no SI value.
+    fn fields(&self) -> Fields {
+        Fields::new(None)
+    }
+
+    fn in_words(&self, _: Quantity, value: f64) -> String {
+        digits(value)
+    }
+
+    fn quantity_of_amplitude(&self) -> Quantity {
+        Quantity::Ratio
+    }
+
+    fn warnings_about_design(&self) -> Vec<String> {
+        match self.disc().dither() {
+            DiscDither::None | DiscDither::Normal { .. } => Vec::new(),
+            DiscDither::Tangential { .. } => vec![
+                "tangential dither removes the mean friction at every amplitude: dither.amplitude is that of the force that remains, \
+                 not of an actuator, and its least value is the quietest; disc.load.slip_ratio gives the force that an actuator needs"
+                    .to_owned(),
+            ],
+        }
     }
 }
 
@@ -220,7 +269,8 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         }
         _ => Vec::new(),
     };
-    LeastDitherFound { amplitude, others, over, waveforms, best, schedule }
+    let tongues = Vec::new();
+    LeastDitherFound { amplitude, others, over, waveforms, best, schedule, tongues }
 }
 
 /// The least amplitude at single operating points, by averaging.
