@@ -5,6 +5,7 @@
 //! * [`equations`]: the equations of motion, assembled from contributions that can be switched off;
 //! * [`undithered`], [`boundaries`]: eigenvalues, Campbell diagram, exact boundaries f(Ω) at ξ = 0;
 //! * [`dithered`], [`partition`]: Floquet exponents with error bounds, boundary curves by D-partition;
+//! * [`marginal`]: marginal values of any parameter under any waveform, by exact exponents along a line;
 //! * [`instability`]: which part of the loads causes an unstable motion;
 //! * [`static_load`]: deflection under a static load, critical speeds;
 //! * [`tangential`]: the follower force under tangential dither at a finite speed ratio, and the force of the dither;
@@ -16,6 +17,7 @@ pub mod boundaries;
 pub mod dithered;
 pub mod equations;
 pub mod instability;
+pub mod marginal;
 pub mod partition;
 pub mod plate;
 pub mod resonance;

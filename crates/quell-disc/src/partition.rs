@@ -18,7 +18,7 @@
 //! ω = R/2 eigenvalues are real or in pairs by symmetry, and real ones count as boundaries (divergence, and doubling of the
 //! dither period). The eigenvalues are computed by QL on the tridiagonal matrix at every point, which finds all of them. A
 //! crossing is refined by a secant in ω along its own eigenvalue, tracked by Newton's method, with bisection as a fallback.
-//! Limitations: two crossings within one step of ω are missed (`POINTS_PER_WAVE`). Near poles of T, at ξ = 0 close to a
+//! Limitations: two crossings within one step of ω are missed (`POINTS_PER_WAVE`; `marginal` finds them). Near poles of T, at ξ = 0 close to a
 //! coincidence, they can be that close.
 
 use std::fmt;

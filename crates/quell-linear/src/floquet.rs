@@ -218,6 +218,29 @@ impl FollowerDither {
         Ok(found.into_iter().map(growth_of).collect())
     }
 
+    /// All exponents with every contact's friction times `factor`, one of each conjugate pair, the fastest first.
+    ///
+    /// # Errors
+    /// As [`FollowerDither::growth`].
+    pub fn exponents(&self, factor: f64, effort: Effort) -> Result<Vec<Exponent>, EigenError> {
+        match &self.engine {
+            FollowerWave::Smooth(engine) => {
+                engine.exponents(&|phase, to| self.kick(factor, phase, to), effort)
+            }
+            FollowerWave::Constant { .. } | FollowerWave::Varying { .. } => self.of_period(factor),
+        }
+    }
+
+    /// The period after which the dither repeats itself.
+    pub fn period(&self) -> f64 {
+        match &self.engine {
+            FollowerWave::Smooth(engine) => engine.period(),
+            FollowerWave::Constant { pieces, .. } | FollowerWave::Varying { pieces, .. } => {
+                pieces.period
+            }
+        }
+    }
+
     fn kick(&self, factor: f64, phase: Phase, to: &mut Matrix) {
         for (c, (friction, dither)) in self.friction.iter().zip(&self.factors).enumerate() {
             let wave = phase.cosine * dither.cosine - phase.sine * dither.sine;

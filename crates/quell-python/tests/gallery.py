@@ -206,6 +206,7 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "design": lambda: quell.Study.from_toml(STUDIES / "design.toml").design(),
     "design in SI": lambda: design_in_si().design(),
     "design with an actuator": lambda: quell.Study.from_toml(STUDIES / "actuator.toml").design(),
+    "design of a disc": lambda: quell.Study.from_toml(STUDIES / "which-dither-frequency.toml").design(),
     "design without an answer": lambda: design_in_si().set({"design.limits.amplitude_n": 100.0}).design(),
     "actuator": lambda: quell.Study.from_toml(STUDIES / "actuator.toml").actuator(),
     "actuator of a system": lambda: study("drive with a motor").actuator(),

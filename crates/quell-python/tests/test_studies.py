@@ -227,7 +227,7 @@ def keys(table: str) -> set[str]:
         (quell.Initial, "belt.initial", set()),
         (quell.Dither, "dither", {"envelope"}),
         (quell.Solver, "solver", set()),
-        (quell.Disc, "disc", {"friction", "dither", "mode", "load", "drive", "uncertainty", "axes", "title"}),
+        (quell.Disc, "disc", {"friction", "dither", "mode", "load", "drive", "design", "uncertainty", "axes", "title"}),
         (quell.Mode, "disc.mode", set()),
         (quell.Load, "disc.load", {"envelope"}),
         (quell.System, "system", {"contact", "friction", "dither", "parameters", "design", "actuator", "uncertainty", "axes", "title"}),

@@ -195,6 +195,7 @@ fn disc(definitions: &mut Map<String, Json>) {
                 ],
             },
             "dither": { "$ref": "#/$defs/disc_dither" },
+            "design": { "$ref": reference(Section::Design, UnitSystem::Scaled) },
             "uncertainty": { "$ref": "#/$defs/uncertainty" },
             "sweep": { "type": "array", "items": { "$ref": "#/$defs/sweep" } },
         },

@@ -178,8 +178,6 @@ fn what_design_cannot_do_is_refused_by_name() {
         assert!(said.contains(key), "{to}: {said}");
     }
     assert!(complaint(BELT).contains("design"));
-    let disc = complaint("[disc]\n[design]\nminimise = \"amplitude\"\n");
-    assert!(disc.contains("[design] is implemented for belts and systems"), "{disc}");
 }
 
 /// A structure of 20 modes: the answer is verified, and averaging is near it because the dither is fast.

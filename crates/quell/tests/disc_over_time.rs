@@ -274,7 +274,7 @@ fn tables_in_si_are_those_without_units() {
     }
 }
 
-/// The answers of `stability` and `resonances` know every waveform; boundaries by D-partition are those of sines.
+/// The answers of `stability` and `resonances` know every waveform, the marginal frictions of `stability` too.
 #[test]
 fn stability_knows_every_waveform() {
     for wave in WAVES {
@@ -283,7 +283,15 @@ fn stability_knows_every_waveform() {
         let disc = read(&text);
         let found = stability::run(&disc).expect("finite");
         assert!(found.growth.error < 1e-11 && found.growth.rate.is_finite());
-        assert!(found.changes.is_err_and(|why| why.contains("sinusoidal")));
+        let changes = found.changes.expect("by exponents");
+        let up_to = found.changes_up_to.expect("a limit");
+        assert!(!changes.is_empty() && changes.iter().all(|change| change.friction <= up_to));
+        for change in changes {
+            let marginal = disc.disc().with("disc.load.friction", change.friction).expect("valid");
+            let all = quell_disc::marginal::exponents(&marginal).expect("finite");
+            let least = all.iter().map(|exponent| exponent.rate.abs()).fold(f64::MAX, f64::min);
+            assert!(least < 1e-11, "{wave} {change:?}: {least}");
+        }
         let done = verbs(&study(&text));
         let json = done.resonances(ResonancesRequest::default()).expect("resonances").json();
         let dithered = json["dithered"].as_array().expect("a list");

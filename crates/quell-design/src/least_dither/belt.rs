@@ -199,7 +199,7 @@ impl Plant for BeltPlant {
                 stable && self.by_runs(&self.at(at)?, width)?.contains(amplitude)
             }
         };
-        Ok(ExactVerdict { quiet, multiplier: orbit.radius() })
+        Ok(ExactVerdict { quiet, multiplier: orbit.radius(), growth_rate: None })
     }
 
     fn price(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<DitherPrice, String> {

@@ -130,6 +130,11 @@ impl DesignProblem<'_> {
         amplitude: f64,
         others: Vec<f64>,
     ) -> Result<CoveredBox, String> {
+        // Points between those of the grid at which the dither is loud.
+        let loud = self.plant.loud_points(self.over, &others, amplitude)?;
+        let mut points: Vec<f64> =
+            points.iter().copied().chain(loud.into_iter().flatten()).collect();
+        points.sort_by(f64::total_cmp);
         let served: Vec<bool> =
             points.iter().map(|point| self.serves(*point, &others, amplitude)).collect();
         let (first, last) = longest_run(points.len(), |place| served[place])

@@ -2,8 +2,9 @@
 
 use super::covered::{CoveredBox, covered};
 use super::search::{AveragedSearch, DesignBasin, DesignPoint};
+use super::verified::VerifiedPoint;
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
-use super::{DesignObjective, DesignProblem, DesignStart, LimitedQuantity, OperatingPoint};
+use super::{DesignProblem, DesignStart, LimitedQuantity, OperatingPoint};
 use crate::actuator::ActuatorDemand;
 
 /// Window of exact thresholds about the amplitude of averaging, as factors.
@@ -24,20 +25,8 @@ const BINDS: f64 = 1.0 - 1e-6;
 /// Steps of the secant method along a limit, and the closeness to it.
 const SECANT: (usize, f64) = (12, 1e-7);
 
-/// Rounds in which points that fail the verification are added to those that decide.
-const ROUNDS: usize = 4;
-
 /// Share of the least amplitude by which the verified dither exceeds it.
 pub const MARGIN: f64 = 1e-3;
-
-/// An operating point at which the answer was verified.
-#[derive(Clone, Debug, PartialEq)]
-pub struct VerifiedPoint {
-    /// The point of the box.
-    pub point: Vec<f64>,
-    /// Modulus of the deciding multiplier of the exact base response.
-    pub multiplier: f64,
-}
 
 /// A least dither.
 #[derive(Clone, Debug, PartialEq)]
@@ -259,7 +248,7 @@ impl DesignProblem<'_> {
     }
 
     /// The same, with amplitudes from `lowest` on.
-    fn exact_point_from(
+    pub(super) fn exact_point_from(
         &self,
         others: &[f64],
         near: &DesignPoint,
@@ -361,65 +350,5 @@ impl DesignProblem<'_> {
             }
         }
         best
-    }
-
-    /// Verifies the dither by exact responses at the points of the box; points that fail are added to those that decide.
-    fn verified(
-        &self,
-        mut critical: DesignPoint,
-    ) -> Result<(DesignPoint, Vec<VerifiedPoint>), NoDesign> {
-        for _ in 0..ROUNDS {
-            let amplitude = critical.amplitude * (1.0 + MARGIN);
-            let mut points: Vec<Vec<f64>> = critical.worst.iter().cloned().collect();
-            points.extend(self.points());
-            let mut verified = Vec::new();
-            let mut failing = Vec::new();
-            for point in points {
-                let at = OperatingPoint { point: &point, others: &critical.others };
-                match self.plant.verdict(at, amplitude) {
-                    Ok(verdict) if verdict.quiet => {
-                        verified.push(VerifiedPoint { point, multiplier: verdict.multiplier });
-                    }
-                    Ok(_) => failing.push(point),
-                    Err(why) => return Err(NoDesign::Failed { point, why }),
-                }
-            }
-            if failing.is_empty() {
-                return Ok((critical, verified));
-            }
-            critical.decisive.extend(failing);
-            let others = critical.others.clone();
-            let lowest = critical.amplitude;
-            critical = self.exact_point_from(&others, &critical, lowest)?;
-        }
-        let point = critical.decisive.last().cloned().unwrap_or_default();
-        Err(NoDesign::NeverQuiet { point })
-    }
-
-    /// The largest loss of mean friction in the box on the exact responses.
-    fn exact_loss(
-        &self,
-        critical: &DesignPoint,
-        amplitude: f64,
-    ) -> Result<(f64, Vec<f64>), String> {
-        let wanted = self.objective == DesignObjective::FrictionLoss
-            || self.limits.iter().any(|(quantity, _)| *quantity == LimitedQuantity::FrictionLoss);
-        // The loss is asked for at every point only where it matters.
-        let points = if wanted {
-            self.points()
-        } else {
-            let mut points = super::search::grid(self.over, [1, 2, 2, 2], false);
-            points.extend(critical.worst.clone());
-            points
-        };
-        let mut largest: Option<(f64, Vec<f64>)> = None;
-        for point in points {
-            let at = OperatingPoint { point: &point, others: &critical.others };
-            let loss = self.plant.exact_loss(at, amplitude)?;
-            if largest.as_ref().is_none_or(|(most, _)| loss > *most) {
-                largest = Some((loss, point));
-            }
-        }
-        largest.ok_or_else(|| "the box has no points".to_owned())
     }
 }

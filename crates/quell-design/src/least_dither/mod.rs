@@ -4,28 +4,31 @@
 //! (`worst_point`), first by averaging and finite-R closed forms, which is cheap. Over the other variables the search is global: a grid,
 //! then a pattern search from the best of its local minima, because resonances make the objective multimodal (`search`). The exact
 //! thresholds are then computed only at the points of the box that decide, and followed where a limit binds (`exact`). The answer is
-//! verified by exact periodic responses at points of the box (`verified`). What the structure is stays behind [`Plant`].
+//! verified by exact periodic responses at points of the box (`verified`). What the structure is stays behind [`Plant`]. A structure whose
+//! loud points form narrow tongues names the points that a grid would miss, and searches between points before an answer is accepted.
 
 mod belt;
 mod branch;
 mod covered;
+mod disc;
 mod exact;
 mod quiet;
 mod search;
 mod system;
+mod verified;
 mod worst_point;
 
 pub use belt::{BeltPlant, amplitude_branch_of_belt, averaged_quiet_of_belt};
 pub use branch::{AmplitudeBranch, QuietChange};
 pub use covered::CoveredBox;
-pub use exact::{
-    Designed, FeasibleDesign, InfeasibleDesign, MARGIN, NoDesign, VerifiedPoint, design,
-};
+pub use disc::{DiscAtPoint, DiscPlant};
+pub use exact::{Designed, FeasibleDesign, InfeasibleDesign, MARGIN, NoDesign, design};
 pub use quiet::QuietAmplitudes;
 pub use search::{DesignBasin, DesignPoint};
 pub use system::{
     SystemAtPoint, SystemPlant, amplitude_branch_of_system, averaged_quiet_of_system,
 };
+pub use verified::VerifiedPoint;
 pub use worst_point::NoLeast;
 
 use crate::actuator::{Actuator, ActuatorDemand, ActuatorLimit};
@@ -158,6 +161,8 @@ pub struct ExactVerdict {
     pub quiet: bool,
     /// Modulus of the deciding multiplier of the base response.
     pub multiplier: f64,
+    /// Its growth rate, where small motions have exponents.
+    pub growth_rate: Option<f64>,
 }
 
 /// A structure under a dither that is to be designed: it answers about one operating point.
@@ -226,6 +231,34 @@ pub trait Plant {
     /// # Errors
     /// Why it is unknown.
     fn slip_amplitudes(&self, at: OperatingPoint<'_>) -> Result<Vec<f64>, String>;
+
+    /// Points of the box that a grid may miss and that may be loud at an amplitude up to the largest one.
+    ///
+    /// # Errors
+    /// Why they are unknown.
+    fn special_points(
+        &self,
+        ranges: &[(f64, f64)],
+        others: &[f64],
+        largest: f64,
+    ) -> Result<Vec<Vec<f64>>, String> {
+        let _ = (ranges, others, largest);
+        Ok(Vec::new())
+    }
+
+    /// Points of the box at which an amplitude is loud, by a search that follows the verdict between points.
+    ///
+    /// # Errors
+    /// Why they are unknown.
+    fn loud_points(
+        &self,
+        ranges: &[(f64, f64)],
+        others: &[f64],
+        amplitude: f64,
+    ) -> Result<Vec<Vec<f64>>, String> {
+        let _ = (ranges, others, amplitude);
+        Ok(Vec::new())
+    }
 }
 
 /// A design question about one waveform, in numbers of the equations.

@@ -239,6 +239,9 @@ impl DesignProblem<'_> {
         points: Vec<Vec<f64>>,
     ) -> Result<DesignPoint, NoLeast> {
         let (from, to) = self.amplitude;
+        let special = self.plant.special_points(self.over, others, to);
+        let mut points = points;
+        points.extend(special.map_err(|why| NoLeast::Failed { point: Vec::new(), why })?);
         let search = BoxSearch { ranges: self.over, from, step: 0.0625, closeness: BOX_CLOSENESS };
         let quiet =
             |point: &[f64]| self.plant.averaged(OperatingPoint { point, others }, (from, to));
@@ -286,8 +289,12 @@ impl DesignProblem<'_> {
         done
     }
 
-    /// The choices on the grid that are better than their neighbours, the best first.
+    /// The choices on the grid that are better than their neighbours, the best first. Where neighbours are equal, as they are where
+    /// the smallest allowed amplitude is quiet over a range of frequencies, the middle of the longest run stands for all.
     fn local_minima(&self, choices: &[Vec<f64>], values: &[Option<f64>]) -> Vec<usize> {
+        if self.others.len() == 1 {
+            return middles_of_minima(values);
+        }
         let count = GRID.get(self.others.len()).copied().unwrap_or(2);
         let better = |place: usize, value: f64| {
             (0..self.others.len()).all(|coordinate| {
@@ -345,9 +352,55 @@ impl DesignProblem<'_> {
     }
 }
 
+/// Places in a run of equal values that are tried in turn, as shares of its length: exact responses may reject some of them.
+const IN_A_RUN: [f64; 7] = [0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
+
+/// The local minima along one variable, the best first and the longest first among equal ones: of a run of equal values its middle,
+/// and if it is long then places around it.
+fn middles_of_minima(values: &[Option<f64>]) -> Vec<usize> {
+    let at = |place: usize| values[place].unwrap_or(f64::INFINITY);
+    let mut minima: Vec<(f64, usize, usize)> = Vec::new();
+    let mut first = 0;
+    while first < values.len() {
+        let value = at(first);
+        let count = (first..values.len()).take_while(|place| at(*place) == value).count();
+        let above = |place: Option<usize>| place.is_none_or(|place| at(place) > value);
+        let next = Some(first + count).filter(|next| *next < values.len());
+        if value.is_finite() && above(first.checked_sub(1)) && above(next) {
+            minima.push((value, count, first));
+        }
+        first += count;
+    }
+    minima.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+    minima.truncate(BASINS);
+    let mut places: Vec<usize> = Vec::new();
+    for (_, count, first) in minima {
+        for share in IN_A_RUN {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a share of a count"
+            )]
+            let place = first + (share * count as f64) as usize;
+            if !places.contains(&place) {
+                places.push(place);
+            }
+        }
+    }
+    places
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_middle_of_the_longest_equal_run_comes_first() {
+        let values = [2.0, 1.0, 1.0, 3.0, 1.0, 1.0, 1.0, f64::NAN, 1.5, 4.0]
+            .map(|value: f64| (!value.is_nan()).then_some(value));
+        assert_eq!(middles_of_minima(&values), [5, 4, 6, 2, 1, 8]);
+        assert!(middles_of_minima(&[None, None]).is_empty());
+    }
 
     #[test]
     fn grids_keep_both_ends() {

@@ -144,6 +144,7 @@ impl Plant for SystemPlant<'_> {
         Ok(ExactVerdict {
             quiet: orbit.verdict() == OrbitVerdict::Stable,
             multiplier: orbit.radius(),
+            growth_rate: None,
         })
     }
 

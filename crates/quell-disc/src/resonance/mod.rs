@@ -27,6 +27,7 @@
 //! Accuracy: relative errors are proportional to ε (measured in the tests). Assumption: no third wave is in resonance with the
 //! two.
 
+mod amplitude;
 mod clear;
 mod harmonics;
 mod meetings;

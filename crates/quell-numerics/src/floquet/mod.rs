@@ -99,6 +99,11 @@ impl Floquet {
         Self { flow, period, levels }
     }
 
+    /// The period T.
+    pub fn period(&self) -> f64 {
+        self.period
+    }
+
     /// Steps per period of the first level.
     pub fn first_steps(&self) -> usize {
         self.levels[0].phases.len()
@@ -201,6 +206,43 @@ impl Floquet {
             .collect();
         found.sort_by(|a, b| b.growth_rate.total_cmp(&a.growth_rate));
         Ok(found)
+    }
+
+    /// All exponents, one of each conjugate pair, the fastest first. Steps are doubled while a bound is above `effort.at_least`.
+    ///
+    /// # Errors
+    /// As [`Floquet::growth`].
+    pub fn exponents(
+        &self,
+        phi: &dyn Fn(Phase, &mut Matrix),
+        effort: Effort,
+    ) -> Result<Vec<Exponent>, EigenError> {
+        let generator = Generator::new(&self.flow, self.period, phi);
+        let map = |steps: &Steps| {
+            let map = monodromy::monodromy(&self.flow, steps, phi);
+            generator.process(map, steps.step)
+        };
+        let (mut coarse, mut fine) = (map(&self.levels[0]), map(&self.levels[1]));
+        let mut count = 2 * self.first_steps();
+        loop {
+            let (decomposition, old) = paired(&coarse, &fine)?;
+            let conditions = conditions(&decomposition, 0.0);
+            let values = decomposition.values();
+            let one = |i: usize| {
+                let (old, new, condition) = (&old[i..=i], &values[i..=i], &conditions[i..=i]);
+                self.extrapolate(old, new, condition, &decomposition, count)
+            };
+            let all = (0..old.len()).filter(|&i| values[i].im >= 0.0).map(one);
+            let (mut found, differences): (Vec<Exponent>, Vec<f64>) = all.unzip();
+            let largest = differences.into_iter().fold(0.0, f64::max);
+            if largest <= effort.at_least || 2 * count > effort.finest {
+                found.sort_by(|a, b| b.growth_rate.total_cmp(&a.growth_rate));
+                return Ok(found);
+            }
+            count *= 2;
+            coarse = fine;
+            fine = map(&Steps::new(&self.flow, self.period, count));
+        }
     }
 
     /// Weight of the difference between two levels in the extrapolation.

@@ -209,6 +209,9 @@ class Disc(Study):
     dither :
         A :class:`Dither` of the friction, of any waveform [default: "sine"]; it leads by a quarter of a cycle, so that a sine is
         cos Rτ.
+    design :
+        The table ``[design]`` of :meth:`Study.design`, such as ``{"minimise": "amplitude", "vary": ["dither.amplitude",
+        "dither.frequency_ratio"], "from": [0, 2], "to": [1, 6], "over": {"disc.load.speed": [0.25, 0.9]}}``.
     without :
         Contributions that are left out of the equations.
     youngs_modulus_pa, density_kg_per_m3, thickness_m, outer_radius_m :
@@ -261,6 +264,7 @@ class Disc(Study):
         drive: Profile | Mapping[str, Any] | None = None,
         friction: Friction | Mapping[str, Any] | None = None,
         dither: Dither | Iterable[Dither] | None = None,
+        design: Mapping[str, Any] | None = None,
         without: Iterable[str] | None = None,
         youngs_modulus_pa: Number | None = None,
         density_kg_per_m3: Number | None = None,
@@ -271,7 +275,7 @@ class Disc(Study):
         title: str | None = None,
         **unknown: Unknown,
     ) -> None:
-        keys = given(locals(), "mode", "load", "friction", "dither", "uncertainty", "axes", "title")
+        keys = given(locals(), "mode", "load", "friction", "dither", "design", "uncertainty", "axes", "title")
         disc = Table(**{**keys, "without": several(without)})
         modes = [mode] if isinstance(mode, Table) else several(mode)
         for name, inner in (("mode", modes), ("load", several(load))):
@@ -282,6 +286,7 @@ class Disc(Study):
             disc=disc,
             friction=friction,
             dither=several(dither),
+            design=None if design is None else dict(design),
             uncertainty=None if uncertainty is None else dict(uncertainty),
             sweep=axes_tables(axes),
         )

@@ -785,7 +785,7 @@ class Study(CheckedStudy):
 
     @keywords
     def design(self) -> results.Design:
-        """The least dither that is quiet over a range of operating points, as the table ``[design]`` asks; of a belt or a system.
+        """The least dither that is quiet over a range of operating points, as the table ``[design]`` asks.
 
         Returns
         -------

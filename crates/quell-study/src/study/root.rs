@@ -25,13 +25,6 @@ pub(super) fn read(reader: &mut Reader, document: &Table, tables: &[&str]) -> Op
         if vocabulary::key(Section::Root, name).is_some() || tables.contains(&name) {
             continue;
         }
-        if name == Section::Design.path() {
-            let allowed =
-                "[design] is implemented for belts and systems; a disc has `resonances --clear`";
-            let complaint = Complaint::new(Fault::NotBuilt, name, node.origin, Json::Null, allowed);
-            reader.complain(complaint);
-            continue;
-        }
         if name == Section::Actuator.path() {
             let allowed = "[actuator] is implemented for belts and systems: the dither of a disc modulates its friction";
             let complaint = Complaint::new(Fault::NotBuilt, name, node.origin, Json::Null, allowed);

@@ -4,7 +4,7 @@ use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
-use crate::run::disc::{modes, motion, resonances, stability};
+use crate::run::disc::{design, modes, motion, resonances, stability};
 use crate::run::probability;
 use crate::run::simulate::Options;
 use crate::run::system::simulate::MotionRequest;
@@ -25,6 +25,7 @@ impl Verbs for DiscStudy {
             "modes",
             "stability",
             "simulate",
+            "design",
             "probability",
             "resonances",
             "map",
@@ -56,6 +57,10 @@ impl Verbs for DiscStudy {
 
     fn simulate_from(&self, request: &MotionRequest) -> Reply {
         answer(self, motion::run(self, request))
+    }
+
+    fn design(&self) -> Reply {
+        answer(self, design::run(self))
     }
 
     fn probability(&self, request: probability::ProbabilityRequest, running: Running<'_>) -> Reply {

@@ -12,7 +12,7 @@ use crate::picture;
 use crate::plot::Figure;
 use crate::run::design::LeastDitherFound;
 use crate::run::waveforms::label;
-use crate::study::{BeltSetup, BeltStudy, SystemSetup, SystemStudy};
+use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy, SystemSetup, SystemStudy};
 
 impl Presented<BeltSetup> for LeastDitherFound {
     fn json(&self, study: &BeltStudy) -> Json {
@@ -59,6 +59,31 @@ impl Presented<SystemSetup> for LeastDitherFound {
 
     fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
         Some(Ok(picture::design_of_system(study, self)))
+    }
+}
+
+impl Presented<DiscSetup> for LeastDitherFound {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &DiscStudy) -> Json {
+        self.json(study)
+    }
+
+    fn sentence(&self, study: &DiscStudy) -> Option<String> {
+        Some(self.sentence(study))
+    }
+
+    fn table(&self, _: &DiscStudy) -> String {
+        table(self)
+    }
+
+    fn datasets(&self, study: &DiscStudy) -> Vec<(&'static str, Dataset)> {
+        let dataset = Dataset::of(&study.into(), "design").fact(self.sentence(study));
+        vec![("design", choices(self, dataset))]
+    }
+
+    fn figure(&self, study: &DiscStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::design_of_disc(study, self)))
     }
 }
 

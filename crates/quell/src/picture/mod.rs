@@ -40,7 +40,7 @@ pub(crate) mod window;
 pub use actuator::{actuator, actuator_of_system};
 pub use basins::basins;
 pub use bifurcation::bifurcation;
-pub use design::{design, design_of_system};
+pub use design::{design, design_of_disc, design_of_system};
 pub use fit::fit;
 pub use map::{MOST_PANELS, MapAxis, MapKind, MappedQuantity, map, map_panel};
 pub use orbit::{orbit, response as periodic_response};

@@ -382,10 +382,12 @@ class DesignColumns:
     parameters_dither_amplitude_n: float
     parameters_dither_frequency_hz: float
     parameters_dither_frequency_ratio: float
+    verified_growth_rate: float
     verified_multiplier: float
     verified_operating_points: Any
     verified_point_belt_belt_velocity: float
     verified_point_belt_belt_velocity_m_per_s: float
+    verified_point_disc_load_speed: float
     waveform_feasible: npt.NDArray[Any]
     waveform_objective: npt.NDArray[np.float64]
     waveform_objective_m: npt.NDArray[np.float64]

@@ -237,7 +237,8 @@ class Design(_columns.DesignColumns, Result):
     margin: float | None
     """Share by which the verified amplitude exceeds the least one."""
     verified: dict[str, Any] | None
-    """``protocol``, ``multiplier`` and ``point`` of the deciding operating point, and the number of ``operating_points``."""
+    """``protocol``, ``multiplier`` (of a disc ``growth_rate`` too) and ``point`` of the deciding operating point, and the number of
+    ``operating_points``."""
     friction_loss: float | None
     """The largest share of the mean friction that is lost, on exact responses."""
     drive: dict[str, Any] | None
@@ -496,8 +497,10 @@ class Stability(_columns.StabilityColumns, Result):
     """Disc: speed of the loads, in ω_ref."""
     without: list[str]
     """Disc: contributions that were left out."""
-    changes: list[dict[str, float]]
-    """Disc: change of the dither in which the verdict may change."""
+    changes: list[dict[str, float]] | None
+    """Disc: ``friction`` and ``frequency`` of each motion that is marginal at a friction of the load."""
+    changes_up_to: float | None
+    """Disc: the friction up to which ``changes`` are known; ``None`` where those of every size are."""
     out_of_reach: bool
     """Disc: whether no dither of this kind can change the verdict."""
 

@@ -3,7 +3,7 @@
 //! Modes are computed from the plate, listed as `[[disc.mode]]`, or read from a CSV file; loads are one `[disc.load]` or
 //! several `[[disc.load]]`, each at a point or over an area, on the ground or on a pad and a caliper; `without` switches contributions off; `[friction]` gives the friction of all
 //! loads by a law instead of a force each; `[dither]` modulates every load's friction, `[disc.load.envelope]` gives a load over time
-//! and `[disc.drive]` the speed.
+//! and `[disc.drive]` the speed. `[design]` asks for the least dither over a range of speeds.
 
 mod body;
 mod carriers;
@@ -29,6 +29,7 @@ use quell_model::units::DiscScales;
 use serde_json::Value as Json;
 
 use super::StudyOf;
+use super::design::{self, Design, DesignContext};
 use super::document::Table;
 use super::reader::{CourseFile, Reader};
 use super::study_kind::{Given, StudyKind};
@@ -55,6 +56,8 @@ pub struct DiscSetup {
     courses: Arc<[CourseFile]>,
     /// Files of sampled waveforms.
     waves: Vec<WaveFile>,
+    /// The design that is asked for.
+    design: Option<Design>,
 }
 
 /// The parts that most points of a map share.
@@ -72,7 +75,7 @@ impl StudyKind for DiscSetup {
     }
 
     fn tables(_: &Table) -> &'static [&'static str] {
-        &["schema", "title", "disc", "friction", "dither", "uncertainty", "sweep"]
+        &["schema", "title", "disc", "friction", "dither", "design", "uncertainty", "sweep"]
     }
 
     fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
@@ -102,7 +105,9 @@ impl StudyKind for DiscSetup {
         let waves = files.into_found();
         let read = read.flatten();
         let law = law::read(reader, document, read.as_ref());
-        let (body, (dither, shape), law) = (read?, dither?, law?);
+        let waveform = dither.as_ref().map(|(_, shape)| &shape.waveform);
+        let design = design::read(reader, document, DesignContext { waveform, system: None });
+        let (body, (dither, shape), law, design) = (read?, dither?, law?, design?);
         let shaken = body.loads.iter().find_map(|load| load.slip_ratio);
         if let Some(ratio) = shaken.filter(|_| !matches!(dither, DiscDither::Tangential { .. })) {
             let allowed = "only with tangential dither, whose force it determines";
@@ -131,6 +136,7 @@ impl StudyKind for DiscSetup {
                 plate: Arc::new(PlateSetup { source, material, radii, warnings }),
                 courses: reader.take_files(),
                 waves,
+                design,
             }),
             Err(invalid) => {
                 // The reader knows where most numbers were written; the others are reported by key alone.
@@ -213,6 +219,11 @@ impl DiscStudy {
     /// The disc in the numbers of the equations, whole.
     pub fn disc(&self) -> &Disc {
         &self.kind().disc
+    }
+
+    /// The design that the study asks for.
+    pub fn design(&self) -> Option<&Design> {
+        self.kind().design.as_ref()
     }
 
     /// The disc as a system of its own modes, with the given row, start and unit of time.

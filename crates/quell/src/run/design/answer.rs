@@ -25,9 +25,9 @@ const BINDS: f64 = 0.9999;
 const FRONTIER: [f64; 9] = [0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 2.0];
 
 /// The quantity of an objective.
-fn quantity_of(objective: DesignObjective) -> Quantity {
+fn quantity_of(study: &dyn StudyWithDesign, objective: DesignObjective) -> Quantity {
     match objective {
-        DesignObjective::Amplitude => Quantity::Force,
+        DesignObjective::Amplitude => study.quantity_of_amplitude(),
         DesignObjective::Stroke => Quantity::Displacement,
         DesignObjective::Velocity => Quantity::Velocity,
         DesignObjective::Power => Quantity::Power,
@@ -36,7 +36,10 @@ fn quantity_of(objective: DesignObjective) -> Quantity {
 }
 
 /// The quantity of a limit.
-fn quantity_of_limit(limited: LimitedQuantity) -> Quantity {
+fn quantity_of_limit(study: &dyn StudyWithDesign, limited: LimitedQuantity) -> Quantity {
+    if limited == LimitedQuantity::Amplitude {
+        return study.quantity_of_amplitude();
+    }
     let parameter = LIMITS.iter().find(|parameter| parameter.key() == limited.name());
     parameter.map_or(Quantity::Ratio, |parameter| parameter.quantity)
 }
@@ -50,6 +53,14 @@ impl LeastDitherFound {
     /// The answer of that waveform.
     pub fn answer(&self) -> &Designed {
         &self.waveforms[self.best].1
+    }
+
+    /// The other design variables of the answer, or of the dither that reaches furthest.
+    pub fn chosen(&self) -> Option<Vec<f64>> {
+        match &self.answer().answer {
+            Ok(found) => Some(found.critical.others.clone()),
+            Err(none) => none.covered.as_ref().ok().map(|part| part.others.clone()),
+        }
     }
 
     /// A dither by the paths of the study.
@@ -82,7 +93,7 @@ impl LeastDitherFound {
     /// The answer in a few sentences.
     pub fn sentence(&self, study: &dyn StudyWithDesign) -> String {
         let waveform = label(self.waveform());
-        let force = |value: f64| study.in_words(Quantity::Force, value);
+        let force = |value: f64| study.in_words(study.quantity_of_amplitude(), value);
         let chosen = |others: &[f64]| -> String {
             let values = self.others.iter().zip(others);
             values.fold(String::new(), |mut text, (number, value)| {
@@ -150,8 +161,8 @@ impl LeastDitherFound {
         match &none.why {
             NoDesign::NeverQuiet { point } => format!(
                 "no amplitude from {} to {} of those that the other operating points need is quiet{}",
-                study.in_words(Quantity::Force, self.amplitude.range.0),
-                study.in_words(Quantity::Force, self.amplitude.range.1),
+                study.in_words(study.quantity_of_amplitude(), self.amplitude.range.0),
+                study.in_words(study.quantity_of_amplitude(), self.amplitude.range.1),
                 self.point_in_words(point)
             ),
             NoDesign::Limit { quantity, used, point } => {
@@ -203,6 +214,7 @@ impl LeastDitherFound {
         }
         warnings.extend(self.without_state.first().map(|because| averages_are_a_start(because)));
         warnings.extend(self.warnings_about_drive(study));
+        warnings.extend(study.warnings_about_design());
         warnings
     }
 
@@ -221,7 +233,7 @@ impl LeastDitherFound {
         let basins = self.answer().basins.iter().map(|basin| {
             let mut inner = study.fields();
             inner.plain("parameters", self.by_path(basin.amplitude, &basin.others));
-            inner.number("objective", quantity_of(minimise), basin.objective);
+            inner.number("objective", quantity_of(study, minimise), basin.objective);
             inner
         });
         fields.list("basins", basins.collect::<Vec<_>>());
@@ -232,7 +244,7 @@ impl LeastDitherFound {
                 Ok(found) => found.critical.objective.clone(),
                 Err(none) => Err(self.why(study, none)),
             };
-            inner.known("objective", quantity_of(minimise), objective);
+            inner.known("objective", quantity_of(study, minimise), objective);
             inner
         });
         fields.list("waveforms", rows.collect::<Vec<_>>());
@@ -254,7 +266,7 @@ impl LeastDitherFound {
             .plain("critical", self.by_path(critical.amplitude, &critical.others))
             .plain("parameters", self.by_path(*verified_amplitude, &critical.others))
             .plain("averaged", self.by_path(averaged.amplitude, &averaged.others))
-            .known("objective", quantity_of(minimise), critical.objective.clone())
+            .known("objective", quantity_of(study, minimise), critical.objective.clone())
             .plain("binding", self.binding(critical));
         self.put_drive(fields, study, found.drive.as_ref());
         match &critical.worst {
@@ -267,6 +279,9 @@ impl LeastDitherFound {
         inner.plain("protocol", start);
         if let Some(first) = verified.first() {
             inner.number("multiplier", Quantity::Ratio, first.multiplier);
+            if let Some(rate) = first.growth_rate {
+                inner.measured("growth_rate", "ω_ref", rate);
+            }
             inner.plain("point", self.point_by_path(&first.point));
         }
         inner.plain("operating_points", verified.len());
@@ -342,13 +357,13 @@ impl LeastDitherFound {
                 } else {
                     limit * share
                 };
-                inner.number("value", quantity_of_limit(*quantity), value);
+                inner.number("value", quantity_of_limit(study, *quantity), value);
                 let least = if least.is_finite() {
                     Ok(least)
                 } else {
                     Err("no choice keeps this limit".to_owned())
                 };
-                inner.known("objective", quantity_of(asked.minimise), least);
+                inner.known("objective", quantity_of(study, asked.minimise), least);
                 rows.push(inner);
             }
         }

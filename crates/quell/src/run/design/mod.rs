@@ -12,6 +12,7 @@ use quell_design::least_dither::{
 };
 use quell_dynamics::simulation::within;
 use quell_linear::averaging::DitheredSystem;
+use quell_model::disc::DiscDither;
 use quell_model::units::Quantity;
 use quell_model::{Belt, Dither, Waveform};
 use rayon::prelude::*;
@@ -23,7 +24,7 @@ use crate::contact_state::{averaged_without_states, refused_of_belt};
 use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
 use crate::run::system::in_units;
-use crate::study::{BeltStudy, Design, DesignRange, SystemStudy, SystemUnits};
+use crate::study::{BeltStudy, Design, DesignRange, DiscStudy, SystemStudy, SystemUnits};
 use crate::words::{digits, in_words};
 
 /// Points of the schedule over a box of one coordinate.
@@ -57,6 +58,9 @@ pub struct LeastDitherFound {
     pub schedule: Vec<(f64, Option<f64>)>,
     /// Why the averages, which do not know the states of contacts, differ from those with them at the least dither.
     pub without_state: Vec<String>,
+    /// For a disc whose box is a range of speeds, the exact thresholds in amplitude at speeds of the range, with the dither of the
+    /// answer.
+    pub tongues: Vec<(f64, Vec<f64>)>,
 }
 
 /// A study with a design: its units and what it requests.
@@ -75,6 +79,16 @@ pub trait StudyWithDesign {
 
     /// How frequencies are written.
     fn frequency_scale(&self) -> FrequencyScale;
+
+    /// The quantity of the amplitude that is chosen.
+    fn quantity_of_amplitude(&self) -> Quantity {
+        Quantity::Force
+    }
+
+    /// What a reader of the answer must know about the dither of the study.
+    fn warnings_about_design(&self) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 /// How frequencies of a study are written.
@@ -160,6 +174,45 @@ impl StudyWithDesign for SystemStudy {
     fn frequency_scale(&self) -> FrequencyScale {
         let hertz = (self.units() != SystemUnits::None).then_some(1.0 / TAU);
         FrequencyScale::new(hertz, "angular frequency")
+    }
+}
+
+impl StudyWithDesign for DiscStudy {
+    /// The dither of a disc varies its friction; no actuator of it is described.
+    fn actuator(&self) -> Option<&Actuator> {
+        None
+    }
+
+    fn asked(&self) -> Option<&Design> {
+        self.design()
+    }
+
+    /// The amplitude is relative to the friction, and has no SI value.
+    fn fields(&self) -> Fields {
+        Fields::new(None)
+    }
+
+    fn in_words(&self, _: Quantity, value: f64) -> String {
+        digits(value)
+    }
+
+    fn frequency_scale(&self) -> FrequencyScale {
+        FrequencyScale::new(None, "frequency ratio")
+    }
+
+    fn quantity_of_amplitude(&self) -> Quantity {
+        Quantity::Ratio
+    }
+
+    fn warnings_about_design(&self) -> Vec<String> {
+        match self.disc().dither() {
+            DiscDither::None | DiscDither::Normal { .. } => Vec::new(),
+            DiscDither::Tangential { .. } => vec![
+                "tangential dither removes the mean friction at every amplitude: dither.amplitude is that of the force that remains, \
+                 not of an actuator, and its least value is the quietest; disc.load.slip_ratio gives the force that an actuator needs"
+                    .to_owned(),
+            ],
+        }
     }
 }
 
@@ -335,8 +388,8 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         }
         _ => Vec::new(),
     };
-    let without_state = Vec::new();
-    LeastDitherFound { amplitude, others, over, waveforms, best, schedule, without_state }
+    let (without_state, tongues) = (Vec::new(), Vec::new());
+    LeastDitherFound { amplitude, others, over, waveforms, best, schedule, without_state, tongues }
 }
 
 /// The least amplitude at single operating points, by averaging.

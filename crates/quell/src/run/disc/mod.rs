@@ -3,6 +3,7 @@
 pub mod campbell;
 pub mod check;
 pub mod critical;
+pub mod design;
 pub mod kick;
 pub mod modes;
 pub mod motion;

@@ -3,7 +3,8 @@
 use quell_disc::boundaries::{Marginal, NoBoundary, boundaries};
 use quell_disc::dithered;
 use quell_disc::instability::{GrowthShares, InstabilityKind, origins};
-use quell_disc::partition::{NoPartition, crossings};
+use quell_disc::marginal::marginal_frictions;
+use quell_disc::partition::{FrictionCrossing, NoPartition, crossings};
 use quell_disc::undithered;
 use quell_linear::growth::{Growth, Verdict};
 use quell_model::disc::Contributions;
@@ -43,6 +44,8 @@ pub struct DiscStability {
     /// Frictions at which a motion is marginal, with everything else as given, ascending; or why they are unknown. They have the
     /// sign of the load's own friction, and are ≥ 0 if that is zero.
     pub changes: Result<Vec<MarginalFriction>, String>,
+    /// The largest friction, of either sign, up to which they are known; `None` where every one is.
+    pub changes_up_to: Option<f64>,
     /// Whether the load cannot reach some motion, which is then marginal at any friction.
     pub out_of_reach: bool,
 }
@@ -69,15 +72,29 @@ pub fn run(study: &DiscStudy) -> Result<DiscStability, Failure> {
         _ => Err("the kinds of instability are those of a disc without dither".to_owned()),
     };
     let critical = critical::run(study).map_err(failed)?;
+    let mut changes_up_to = None;
     let (changes, out_of_reach) = match disc.dither() {
         _ if parts != Contributions::ALL => (
             Err("marginal frictions are computed for the whole disc only, and this study leaves parts out".to_owned()),
             false,
         ),
         DiscDither::None => still(study),
-        DiscDither::Normal { .. } | DiscDither::Tangential { .. } => (shaken(study), false),
+        DiscDither::Normal { .. } | DiscDither::Tangential { .. } => {
+            let found = shaken(study);
+            changes_up_to = found.as_ref().ok().and_then(|(_, up_to)| *up_to);
+            (found.map(|(changes, _)| changes), false)
+        }
     };
-    Ok(DiscStability { growth, undithered, unstable, origins, critical, changes, out_of_reach })
+    Ok(DiscStability {
+        growth,
+        undithered,
+        unstable,
+        origins,
+        critical,
+        changes,
+        changes_up_to,
+        out_of_reach,
+    })
 }
 
 /// Boundaries without dither.
@@ -110,23 +127,47 @@ fn still(study: &DiscStudy) -> (Result<Vec<MarginalFriction>, String>, bool) {
 /// The alternative where no exact method gives the boundaries.
 const MAP: &str = "`quell map` over disc.load.friction shows the boundaries in every case";
 
-/// Boundaries under dither.
-fn shaken(study: &DiscStudy) -> Result<Vec<MarginalFriction>, String> {
+/// Two methods find the same friction within this share of it.
+const SAME: f64 = 1e-6;
+
+/// Boundaries under dither: of a sine by D-partition, which finds those of every size except two that are very close in
+/// frequency, which following the exponents finds; of any other waveform, of a slow sine and of a distributed load by
+/// following the exponents alone, up to the friction that is returned with them.
+fn shaken(study: &DiscStudy) -> Result<(Vec<MarginalFriction>, Option<f64>), String> {
     let disc = study.disc();
     // The partition gives factors of the friction, so start from 1, not from 0.
     let unit =
         disc.with("disc.load.friction", 1.0).map_err(|_| "the disc has no load".to_owned())?;
     let sign = sign_of_friction(study);
     let unit = if sign < 0.0 { unit.with_friction_times(-1.0).unwrap_or(unit) } else { unit };
-    let found = crossings(&unit).map_err(|why| match why {
-        NoPartition::TooManyHarmonics { .. } => format!("{why}; {MAP}"),
-        _ => why.to_string(),
-    })?;
-    let change = |crossing: &quell_disc::partition::FrictionCrossing| MarginalFriction {
-        friction: sign * crossing.factor,
-        frequency: crossing.frequency,
-    };
-    Ok(ascending(found.iter().map(change).collect()))
+    let change =
+        |factor: f64, frequency: f64| MarginalFriction { friction: sign * factor, frequency };
+    match crossings(&unit) {
+        Ok(found) => {
+            let mut changes: Vec<MarginalFriction> =
+                found.iter().map(|found| change(found.factor, found.frequency)).collect();
+            let followed = marginal_frictions(&unit).ok().flatten();
+            for missed in followed.into_iter().flat_map(|followed| followed.factors) {
+                let is_same = |known: &FrictionCrossing| {
+                    (known.factor - missed.value).abs() <= SAME * missed.value
+                };
+                if !found.iter().any(is_same) {
+                    changes.push(change(missed.value, missed.frequency));
+                }
+            }
+            Ok((ascending(changes), None))
+        }
+        Err(why @ (NoPartition::Loads(_) | NoPartition::Undithered | NoPartition::Eigenvalues)) => {
+            Err(why.to_string())
+        }
+        Err(why) if disc.law().is_some() => Err(why.to_string()),
+        Err(_) => {
+            let found = marginal_frictions(&unit).map_err(|why| why.to_string())?;
+            let found = found.ok_or_else(|| NoPartition::Undithered.to_string())?;
+            let changes = found.factors.iter().map(|found| change(found.value, found.frequency));
+            Ok((ascending(changes.collect()), Some(found.up_to)))
+        }
+    }
 }
 
 /// −1 if the first load's friction is negative, else 1.
@@ -234,6 +275,14 @@ impl DiscStability {
                 Json::Null
             }
         };
+        object["changes_up_to"] = self.changes_up_to.into();
+        if self.changes_up_to.is_none() {
+            let reason = match &self.changes {
+                Ok(_) => "the marginal frictions of every size are known",
+                Err(reason) => reason.as_str(),
+            };
+            why.insert("changes_up_to".to_owned(), reason.into());
+        }
         if let Some(shaken) = tangential::json(study) {
             object["tangential_dither"] = shaken;
             if object["tangential_dither"].is_null() {

@@ -1,0 +1,214 @@
+//! `design` of a disc: the least amplitude of its dither that is quiet over a box of operating points, speeds above all.
+
+use quell_design::least_dither::{
+    DesignObjective, DesignStart, DiscAtPoint, DiscPlant, LimitedQuantity, OperatingPoint, Plant,
+};
+use quell_disc::marginal::tongue_grid;
+use quell_model::disc::{Contributions, DiscDither};
+use quell_model::parameter::disc::{DISC_DITHER_AMPLITUDE, DISC_SPEED};
+use quell_model::parameter::{DITHER_FREQUENCY_RATIO, Parameter};
+use quell_model::{Disc, Waveform};
+use serde_json::Value as Json;
+
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::run::design::{
+    DesignNumber, DesignNumbers, LeastDitherFound, asked, least_dither, without_amplitude,
+};
+use crate::study::{Design, DesignRange, DiscStudy};
+
+/// Equal steps of the speeds at which thresholds are drawn.
+const DRAWN: u32 = 96;
+
+/// The least dither of a disc.
+///
+/// # Errors
+/// A complaint about a study without `[design]`, about a number in it, a start other than `local`, a quantity that the dither of a disc
+/// does not have, parts that are left out, and loads or speeds over time.
+pub fn run(study: &DiscStudy) -> Result<LeastDitherFound, Failure> {
+    let disc = study.disc();
+    let asked = asked(study, !matches!(disc.dither(), DiscDither::None))?;
+    answerable(study, asked)?;
+    accepted(study, "vary", &asked.vary)?;
+    accepted(study, "over", &asked.over)?;
+    let is_amplitude = |range: &&DesignRange| range.path == DISC_DITHER_AMPLITUDE.path;
+    let (amplitude, others): (Vec<_>, Vec<_>) = asked.vary.iter().partition(is_amplitude);
+    let [amplitude] = amplitude.as_slice() else {
+        let allowed = "a list with dither.amplitude, once: the least one is sought";
+        return Err(without_amplitude(asked, allowed.to_owned()));
+    };
+    let others: Vec<DiscNumber> =
+        others.into_iter().map(|range| DiscNumber::of(study, range)).collect();
+    let over: Vec<DiscNumber> =
+        asked.over.iter().map(|range| DiscNumber::of(study, range)).collect();
+    let at = |waveform: &Waveform, at: OperatingPoint<'_>, value: f64| {
+        let point = over.iter().zip(at.point.iter().copied());
+        let chosen = others.iter().zip(at.others.iter().copied());
+        let numbers: Vec<(&DiscNumber, f64)> = point.chain(chosen).collect();
+        disc_at(study, waveform, &numbers, value)
+    };
+    let at = &at;
+    let discs: Vec<(&Waveform, Box<DiscAtPoint<'_>>)> = asked
+        .waveforms
+        .iter()
+        .map(|waveform| {
+            let disc = move |point: OperatingPoint<'_>, value: f64| at(waveform, point, value);
+            (waveform, Box::new(disc) as Box<DiscAtPoint<'_>>)
+        })
+        .collect();
+    let speed = over.iter().position(|number| number.parameter == Some(DISC_SPEED.path));
+    let plants: Vec<(Waveform, DiscPlant<'_>)> = discs
+        .iter()
+        .map(|(waveform, at)| ((*waveform).clone(), DiscPlant { at: at.as_ref(), speed }))
+        .collect();
+    let only = |numbers: &[DiscNumber]| numbers.iter().map(|known| known.number.clone()).collect();
+    let numbers = DesignNumbers {
+        amplitude: DiscNumber::of(study, amplitude).number,
+        others: only(&others),
+        over: only(&over),
+    };
+    let mut found = least_dither(study, asked, numbers, &plants);
+    if let (Some(_), [range]) = (speed, found.over.as_slice()) {
+        let chosen = found.chosen().unwrap_or_else(|| middles(&found.others));
+        let plant = &plants[found.best].1;
+        found.tongues = tongues(plant, range.range, &chosen, found.amplitude.range);
+    }
+    Ok(found)
+}
+
+/// The middle of each range.
+fn middles(numbers: &[DesignNumber]) -> Vec<f64> {
+    numbers.iter().map(|number| f64::midpoint(number.range.0, number.range.1)).collect()
+}
+
+/// The exact thresholds in amplitude at speeds of a range, among them those in and beside every predicted tongue.
+fn tongues(
+    plant: &DiscPlant<'_>,
+    (from, to): (f64, f64),
+    others: &[f64],
+    range: (f64, f64),
+) -> Vec<(f64, Vec<f64>)> {
+    let first = OperatingPoint { point: &[from], others };
+    // An amplitude at which normal dither would pull the contact apart has no thresholds.
+    let Ok(disc) = (plant.at)(first, range.1) else { return Vec::new() };
+    let thresholds = |speed: f64| {
+        let at = OperatingPoint { point: &[speed], others };
+        let quiet = plant.exact(at, range).ok()?;
+        let ends = quiet.intervals().iter().flat_map(|(low, high)| [*low, *high]);
+        Some((speed, ends.filter(|end| *end > range.0 && *end < range.1).collect()))
+    };
+    tongue_grid(&disc, &(from..=to), DRAWN).into_iter().filter_map(thresholds).collect()
+}
+
+/// A number of `[design]`.
+struct DiscNumber {
+    number: DesignNumber,
+    /// The parameter of the disc that it is, where its values are converted to the equations; other numbers are set as in the study.
+    parameter: Option<&'static str>,
+}
+
+impl DiscNumber {
+    /// A speed and a frequency may be given in SI.
+    fn of(study: &DiscStudy, range: &DesignRange) -> Self {
+        let names = |parameter: &Parameter| {
+            let table = parameter.path.trim_end_matches(parameter.key());
+            let twin = parameter.si.iter().any(|twin| range.path == format!("{table}{}", twin.key));
+            twin || range.path == parameter.path
+        };
+        let known = [DISC_DITHER_AMPLITUDE, DISC_SPEED, DITHER_FREQUENCY_RATIO];
+        let parameter = known.iter().find(|parameter| names(parameter)).map(|known| known.path);
+        // The end that is not zero has the factor between them.
+        let end = if range.to == 0.0 { range.from } else { range.to };
+        let in_equations = || {
+            let path = parameter.filter(|path| range.path != *path)?;
+            let value = study.at([(range.path.as_str(), end)]).ok()?.disc().get(path)?;
+            (value != 0.0).then_some(end / value)
+        };
+        let per_unit = in_equations().unwrap_or(1.0);
+        let (path, ends) = (range.path.clone(), (range.from / per_unit, range.to / per_unit));
+        Self { number: DesignNumber { path, per_unit, range: ends }, parameter }
+    }
+}
+
+/// The disc with its numbers, another waveform and amplitude of its dither.
+fn disc_at(
+    study: &DiscStudy,
+    waveform: &Waveform,
+    numbers: &[(&DiscNumber, f64)],
+    amplitude: f64,
+) -> Result<Disc, String> {
+    let as_written = numbers.iter().filter(|(known, _)| known.parameter.is_none());
+    let as_written: Vec<(&str, f64)> = as_written
+        .map(|(known, value)| (known.number.path.as_str(), value * known.number.per_unit))
+        .collect();
+    let mut disc = match as_written.as_slice() {
+        [] => study.disc().clone(),
+        numbers => study.disc_at(numbers).ok_or("these numbers give no valid disc")?,
+    };
+    let words = |why: quell_model::InvalidValues| why.to_string();
+    if disc.waveform() != waveform {
+        // The amplitude of the study may be too large for another waveform.
+        disc = disc.with(DISC_DITHER_AMPLITUDE.path, 0.0).map_err(words)?;
+        disc = disc.shaped(waveform.clone()).map_err(words)?;
+    }
+    for (known, value) in numbers {
+        let Some(path) = known.parameter else { continue };
+        disc =
+            if path == DISC_SPEED.path { disc.at_speed(*value) } else { disc.with(path, *value) }
+                .map_err(words)?;
+    }
+    disc.with(DISC_DITHER_AMPLITUDE.path, amplitude).map_err(words)
+}
+
+/// Rejects questions that the dither of a disc does not answer.
+fn answerable(study: &DiscStudy, asked: &Design) -> Result<(), Failure> {
+    let refuse = |key: &str, given: Json, allowed: &str| -> Failure {
+        Complaint::new(Fault::Conflict, key, Origin::Whole, given, allowed).into()
+    };
+    if study.parts() != Contributions::ALL {
+        let allowed = "empty: a dither is designed for the whole disc";
+        return Err(refuse("disc.without", study.without().into(), allowed));
+    }
+    if !study.disc().is_steady() {
+        let allowed = "constant: a design is judged at steady speeds, loads and dither";
+        return Err(refuse("disc", Json::Null, allowed));
+    }
+    if asked.start != DesignStart::Local {
+        let allowed = "\"local\": the exponents of small motions decide about a disc, whose motion has no other start";
+        return Err(refuse("design.start", asked.start.name().into(), allowed));
+    }
+    let moves = "the dither of a disc varies its friction and moves nothing";
+    if !matches!(asked.minimise, DesignObjective::Amplitude | DesignObjective::FrictionLoss) {
+        let allowed = format!("\"amplitude\" or \"friction-loss\": {moves}");
+        return Err(refuse("design.minimise", asked.minimise.name().into(), &allowed));
+    }
+    let known = [
+        LimitedQuantity::Amplitude,
+        LimitedQuantity::FrictionLoss,
+        LimitedQuantity::MinimumNormalLoad,
+    ];
+    if let Some((quantity, limit)) =
+        asked.limits.iter().find(|(quantity, _)| !known.contains(quantity))
+    {
+        let key = format!("design.limits.{}", quantity.name());
+        let allowed = format!("amplitude, friction_loss or minimum_normal_load: {moves}");
+        return Err(refuse(&key, (*limit).into(), &allowed));
+    }
+    Ok(())
+}
+
+/// Rejects ranges whose ends give no valid study.
+fn accepted(study: &DiscStudy, key: &str, ranges: &[DesignRange]) -> Result<(), Failure> {
+    let mut wrong: Vec<Complaint> = Vec::new();
+    for range in ranges {
+        for value in [range.from, range.to] {
+            let refused = study.at([(range.path.as_str(), value)]).err();
+            wrong.extend(refused.into_iter().flatten().map(|complaint| Complaint {
+                key: format!("design.{key}"),
+                origin: Origin::Whole,
+                allowed: format!("{}: {}", range.path, complaint.allowed),
+                ..complaint
+            }));
+        }
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
+}
