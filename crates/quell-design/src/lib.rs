@@ -2,6 +2,8 @@
 //! that a structure vibrates.
 
 pub mod actuator;
+pub mod decay;
+pub mod estimates;
 pub mod fit;
 pub mod least_dither;
 pub mod probability;

@@ -2,9 +2,11 @@
 
 use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
+use crate::complaint::Failure;
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
+use crate::run::recorded_motion::RecordedMotion;
 use crate::run::{
     basins, belt_system, bifurcation, curves, describing, design, found_attractor, friction,
     noise_response, orbit, probability, ramp, response, simulate, stability, thresholds, waveforms,
@@ -36,6 +38,8 @@ impl Verbs for BeltStudy {
             "probability",
             "bifurcation",
             "basins",
+            "compare",
+            "fit --record",
             "map",
         ]
     }
@@ -80,6 +84,10 @@ impl Verbs for BeltStudy {
 
     fn response_within(&self, window: (f64, f64)) -> Reply {
         answer(self, window::of_belt(self, window))
+    }
+
+    fn recorded_motion(&self, _: &str) -> Result<RecordedMotion, Failure> {
+        RecordedMotion::of_belt(self)
     }
 
     fn ramp(&self) -> Reply {

@@ -2,10 +2,12 @@
 
 use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
+use crate::complaint::Failure;
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::disc::{modes, motion, resonances, stability};
 use crate::run::probability;
+use crate::run::recorded_motion::RecordedMotion;
 use crate::run::simulate::Options;
 use crate::run::system::simulate::MotionRequest;
 use crate::study::{DiscSetup, DiscStudy};
@@ -27,6 +29,8 @@ impl Verbs for DiscStudy {
             "simulate",
             "probability",
             "resonances",
+            "compare",
+            "fit --record",
             "map",
         ]
     }
@@ -60,6 +64,10 @@ impl Verbs for DiscStudy {
 
     fn probability(&self, request: probability::ProbabilityRequest, running: Running<'_>) -> Reply {
         answer(self, probability::run(self, request, running))
+    }
+
+    fn recorded_motion(&self, verb: &str) -> Result<RecordedMotion, Failure> {
+        RecordedMotion::of_system(&motion::at_rest(self), verb)
     }
 
     fn modes(&self) -> Reply {

@@ -19,6 +19,7 @@ use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
 use crate::run::system::thresholds::MotionThresholdsRequest;
 use crate::run::system::tracked::TrackRequest;
+use crate::run::recorded_motion::RecordedMotion;
 use crate::run::{basins, bifurcation, curves, simulate, thresholds};
 use crate::study::{
     BeltSetup, Kind, Study, StudyKind, StudyOf, SystemStudy, not_available, varies_in_time,
@@ -284,6 +285,15 @@ pub trait Verbs: Send + Sync {
         Err(self.lacks("probability"))
     }
 
+    /// The exact motion as a sensor would record it, which `compare` and `fit --record` set against measurements; `verb` is the one
+    /// that asks.
+    ///
+    /// # Errors
+    /// A kind without motion; a start that does not exist.
+    fn recorded_motion(&self, verb: &str) -> Result<RecordedMotion, Failure> {
+        Err(self.lacks(verb))
+    }
+
     /// Natural frequencies and shapes.
     ///
     /// # Errors
@@ -351,9 +361,18 @@ impl Verbs for OverTime {
 
     fn names(&self) -> &'static [&'static str] {
         if self.kind() == BeltSetup::NAME {
-            &["check", "sketch", "cite", "simulate", "response --window", "bifurcation --ramp"]
+            &[
+                "check",
+                "sketch",
+                "cite",
+                "simulate",
+                "response --window",
+                "bifurcation --ramp",
+                "compare",
+                "fit --record",
+            ]
         } else {
-            &["check", "sketch", "cite", "simulate", "response --window"]
+            &["check", "sketch", "cite", "simulate", "response --window", "compare", "fit --record"]
         }
     }
 
@@ -387,6 +406,10 @@ impl Verbs for OverTime {
 
     fn ramp(&self) -> Reply {
         self.steady.ramp()
+    }
+
+    fn recorded_motion(&self, verb: &str) -> Result<RecordedMotion, Failure> {
+        self.steady.recorded_motion(verb)
     }
 
     fn lacks(&self, verb: &str) -> Failure {

@@ -6,6 +6,7 @@ use crate::cite::Sources;
 use crate::complaint::Failure;
 use crate::outcome::Outcome;
 use crate::run::probability::{ProbabilityRequest, ProbabilityStart};
+use crate::run::recorded_motion::RecordedMotion;
 use crate::run::simulate::Options;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
@@ -28,6 +29,7 @@ impl Verbs for UnderNoise {
                 "simulate",
                 "response",
                 "probability",
+                "compare",
                 "map",
             ],
             _ => &[
@@ -39,6 +41,7 @@ impl Verbs for UnderNoise {
                 "resonances",
                 "simulate",
                 "response --window",
+                "compare",
             ],
         }
     }
@@ -114,6 +117,10 @@ impl Verbs for UnderNoise {
 
     fn response_within(&self, window: (f64, f64)) -> Reply {
         self.periodic.response_within(window)
+    }
+
+    fn recorded_motion(&self, verb: &str) -> Result<RecordedMotion, Failure> {
+        self.periodic.recorded_motion(verb)
     }
 
     fn lacks(&self, verb: &str) -> Failure {

@@ -16,9 +16,12 @@ mod basins;
 mod bifurcation;
 pub mod check;
 mod cite;
+mod compare;
+mod decay;
 mod describing;
 mod design;
 mod disc_motion;
+mod estimates;
 mod fit;
 mod friction;
 mod map;
@@ -27,6 +30,7 @@ mod noise_response;
 mod orbit;
 mod probability;
 mod ramp;
+mod record_fit;
 mod resonances;
 mod response;
 mod simulate;
@@ -37,6 +41,7 @@ mod thresholds;
 mod waveforms;
 mod window;
 
+pub use compare::ComparedStudy;
 pub(crate) use probability::POINTS as DISTRIBUTION_POINTS;
 
 /// The answer of a verb.

@@ -6,11 +6,13 @@
 mod basins;
 mod bifurcation;
 mod caption;
+mod compare;
 mod describing;
 mod design;
 pub mod disc;
 pub mod exponents;
 mod fit;
+mod fitted_record;
 mod friction;
 mod manoeuvre;
 mod map;
@@ -38,9 +40,11 @@ pub(crate) mod window;
 
 pub use basins::basins;
 pub use bifurcation::bifurcation;
+pub use compare::compare;
 pub use describing::describing;
 pub use design::{design, design_of_system};
 pub use fit::fit;
+pub use fitted_record::{decay, record_fit};
 pub use friction::friction;
 pub use map::{MOST_PANELS, MapAxis, MapKind, MappedQuantity, map, map_panel};
 pub use noise_response::noise_response;

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from .._dataset import Arrays, Variable
 from .._result import Result
+from ._measured import Comparison, Decay, RecordFit
 from ._motion import Attractor, NoiseResponse, Orbit, Response, Simulation, Window
 from ._steady import Check, Citations, DescribingFunction, Design, ExactStability, FrictionCurve, Modes, Probability, Resonances, Stability, TrackedStability, Waveforms
 from ._sweeps import Basins, Bifurcation, Map, Ramp, Shard, ThresholdCurves, Thresholds
@@ -26,6 +27,8 @@ __all__ = [
     "Bifurcation",
     "Check",
     "Citations",
+    "Comparison",
+    "Decay",
     "DescribingFunction",
     "Design",
     "ExactStability",
@@ -36,6 +39,7 @@ __all__ = [
     "Orbit",
     "Probability",
     "Ramp",
+    "RecordFit",
     "Resonances",
     "Response",
     "Result",
