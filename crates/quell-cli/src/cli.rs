@@ -12,9 +12,9 @@ use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
 use crate::verbs::{
-    attractor, basins, bifurcation, check, cite, compare, completions, design, fit, friction, map, modes,
-    new, orbit, probability, report, reproduce, resonances, response, schema, simulate, sketch,
-    stability, thresholds, waveforms,
+    attractor, basins, bifurcation, check, cite, compare, completions, design, fit, friction, map,
+    modes, new, orbit, probability, report, reproduce, resonances, response, schema, simulate,
+    sketch, stability, thresholds, waveforms,
 };
 use crate::{answer, help};
 

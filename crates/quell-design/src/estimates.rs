@@ -81,7 +81,8 @@ impl Estimates {
                 _ => Ok(0.0),
             })
             .collect();
-        let visible: Vec<usize> = (0..errors.len()).filter(|place| errors[*place].is_ok()).collect();
+        let visible: Vec<usize> =
+            (0..errors.len()).filter(|place| errors[*place].is_ok()).collect();
         let product = |i: usize, j: usize| {
             let both = found.columns[visible[i]].iter().zip(&found.columns[visible[j]]);
             both.map(|(a, b)| a * b).sum::<f64>() / (norms[visible[i]] * norms[visible[j]])
@@ -157,8 +158,8 @@ impl Estimates {
             return Err("the curve passes through every sample".to_owned());
         }
         let count = self.count as f64;
-        let likelihood = count * libm::log(self.rss / count)
-            + count * (1.0 + libm::log(std::f64::consts::TAU));
+        let likelihood =
+            count * libm::log(self.rss / count) + count * (1.0 + libm::log(std::f64::consts::TAU));
         Ok(likelihood + 2.0 * (self.free + 1) as f64)
     }
 }
@@ -196,7 +197,8 @@ mod tests {
         let x: Vec<f64> = (0..9).map(f64::from).collect();
         let twice = x.iter().map(|x| 2.0 * x).collect();
         let columns = vec![vec![1.0; 9], x, twice];
-        let found = Estimates::of(&minimum(columns), &[Freedom::Free, Freedom::Free, Freedom::Free]);
+        let found =
+            Estimates::of(&minimum(columns), &[Freedom::Free, Freedom::Free, Freedom::Free]);
         assert!(found.errors[0].is_ok() && found.errors[1].is_err() && found.errors[2].is_err());
         let places: Vec<usize> = found.weak[0].shares.iter().map(|(place, _)| *place).collect();
         assert!(places.len() == 2 && places.contains(&1) && places.contains(&2));

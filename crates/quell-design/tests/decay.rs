@@ -14,7 +14,11 @@ fn times(count: usize, step: f64) -> Vec<f64> {
     (0..count).map(|k| step * k as f64).collect()
 }
 
-fn record(planted: &[f64; DECAY_PARAMETERS], quantity: RecordedQuantity, times: &[f64]) -> Vec<f64> {
+fn record(
+    planted: &[f64; DECAY_PARAMETERS],
+    quantity: RecordedQuantity,
+    times: &[f64],
+) -> Vec<f64> {
     readings(&FreeVibration::of(planted), quantity, times, planted[2] > 0.0).values
 }
 
@@ -99,26 +103,31 @@ fn standard_errors_have_their_coverage_over_seeds() {
     assert!((share - 0.683).abs() < 4.0 * (0.683 * 0.317 / RECORDS as f64).sqrt(), "{share}");
 }
 
-/// The law with the least AIC is the planted one; with both, friction is told from damping by the shape of the envelope.
+/// Laws that do not contain the planted one are far worse by their criterion; with both, friction is told from damping by the shape of the
+/// envelope. A law with one number more than the planted one may be better by chance: by more than 4 once in 70 records.
 #[test]
 fn the_criterion_finds_the_planted_law() {
     let times = times(1200, 0.08);
     let laws = [
-        (DecayLaw::Viscous, [1.0, 0.02, 0.0, 1.0, 0.0, 0.0]),
-        (DecayLaw::Coulomb, [1.0, 0.0, 0.01, 1.0, 0.0, 0.0]),
-        (DecayLaw::ViscousCoulomb, [1.0, 0.015, 0.008, 1.0, 0.0, 0.0]),
+        (DecayLaw::Viscous, [1.0, 0.02, 0.0, 1.0, 0.0, 0.0], vec![DecayLaw::Coulomb]),
+        (DecayLaw::Coulomb, [1.0, 0.0, 0.01, 1.0, 0.0, 0.0], vec![DecayLaw::Viscous]),
+        (
+            DecayLaw::ViscousCoulomb,
+            [1.0, 0.015, 0.008, 1.0, 0.0, 0.0],
+            vec![DecayLaw::Viscous, DecayLaw::Coulomb],
+        ),
     ];
-    for (law, planted) in laws {
+    for (law, planted, wrong) in laws {
         let exact = record(&planted, RecordedQuantity::Displacement, &times);
         let mut random = SplitMix::new(3);
         let data: Vec<f64> = exact.iter().map(|y| y + 0.01 * random.normal()).collect();
         let criterion = |law| {
-            fitted(law, &times, &data, RecordedQuantity::Displacement).estimates.aic().expect("noise")
+            let found = fitted(law, &times, &data, RecordedQuantity::Displacement);
+            found.estimates.aic().expect("noise")
         };
-        let mut by_criterion: Vec<(f64, DecayLaw)> =
-            DecayLaw::ALL.map(|law| (criterion(law), law)).to_vec();
-        by_criterion.sort_by(|a, b| a.0.total_cmp(&b.0));
-        assert_eq!(by_criterion[0].1, law, "{by_criterion:?}");
+        let own = criterion(law);
+        assert!(wrong.into_iter().all(|other| criterion(other) > own + 20.0), "{law:?}");
+        assert!(criterion(DecayLaw::ViscousCoulomb) > own - 4.0, "{law:?}");
     }
 }
 

@@ -100,7 +100,8 @@ pub fn fitted(
             Some((values, rss)) => {
                 let columns = function.columns(&next, &values)?;
                 let on_bound = found.on_bound;
-                found = DampedMinimum { at: next, values, columns, rss, on_bound, converged: false };
+                found =
+                    DampedMinimum { at: next, values, columns, rss, on_bound, converged: false };
                 damping *= DAMPING.1;
             }
             None if is_small || damping > LARGEST_DAMPING => {
@@ -140,11 +141,7 @@ fn held(found: &DampedMinimum, residuals: &[f64], search: &DampedSearch) -> Vec<
 }
 
 /// The damped step of the parameters that are not held, and ‖J δ‖; `None` if there is no such parameter.
-fn damped_step(
-    found: &DampedMinimum,
-    residuals: &[f64],
-    damping: f64,
-) -> Option<(Vec<f64>, f64)> {
+fn damped_step(found: &DampedMinimum, residuals: &[f64], damping: f64) -> Option<(Vec<f64>, f64)> {
     let rows = residuals.len();
     let norm = |column: &[f64]| column.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
     let free: Vec<(usize, f64)> = (0..found.at.len())

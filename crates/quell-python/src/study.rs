@@ -19,8 +19,9 @@ use crate::verbs::compare::RecordTexts;
 use crate::verbs::map::Asked;
 use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
 use crate::verbs::{
-    attractor, basins, bifurcation, check, cite, compare, design, fit, friction, map, modes, orbit, probability,
-    report, resonances, response, simulate, sketch, stability, thresholds, waveforms, window,
+    attractor, basins, bifurcation, check, cite, compare, design, fit, friction, map, modes, orbit,
+    probability, report, resonances, response, simulate, sketch, stability, thresholds, waveforms,
+    window,
 };
 use crate::{call, convert, errors};
 

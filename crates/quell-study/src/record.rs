@@ -321,7 +321,8 @@ fn read_record(
     let value = reading_column(path, file, request)?;
     if file.rows().len() > MOST_SAMPLES {
         let count = file.rows().len();
-        let why = format!("it has {count} samples, and at most {MOST_SAMPLES} are read: leave some out");
+        let why =
+            format!("it has {count} samples, and at most {MOST_SAMPLES} are read: leave some out");
         return Err(wrong(why).into());
     }
     let mut record = Record {
@@ -416,7 +417,8 @@ fn read_spectrum(
     }
     reported(path, found)?;
     if frequencies.len() < LEAST_SAMPLES {
-        let why = format!("at least {LEAST_SAMPLES} lines of a spectrum; it has {}", frequencies.len());
+        let why =
+            format!("at least {LEAST_SAMPLES} lines of a spectrum; it has {}", frequencies.len());
         return Err(wrong(why).into());
     }
     Ok(MeasuredSpectrum {
@@ -567,7 +569,8 @@ mod tests {
         let back = rows("time,velocity", |k| format!("{},1", if k == 4 { 2 } else { k }));
         let said = read("c.csv", &back, &RecordRequest::default()).expect_err("backwards");
         assert!(said.contains("line 6") && said.contains("above"), "{said}");
-        let invalid = rows("time,velocity", |k| format!("{k},{}", if k == 5 { "nan" } else { "1" }));
+        let invalid =
+            rows("time,velocity", |k| format!("{k},{}", if k == 5 { "nan" } else { "1" }));
         let said = read("d.csv", &invalid, &RecordRequest::default()).expect_err("not a number");
         assert!(said.contains("line 7, velocity"), "{said}");
         let gap = rows("time,velocity", |k| format!("{},1", if k > 6 { k + 3 } else { k }));

@@ -225,7 +225,8 @@ fn what_a_record_cannot_tell_is_named() {
 #[test]
 fn a_fit_without_numbers_or_with_unknown_ones_is_refused() {
     let path = studies().join("synthetic-squeal.csv");
-    let said = |free: &[&str]| fit(&measured_belt(), &path, free, &[]).expect_err("refused").to_string();
+    let said =
+        |free: &[&str]| fit(&measured_belt(), &path, free, &[]).expect_err("refused").to_string();
     assert!(said(&[]).contains("--free"));
     assert!(said(&["belt.dampingratio"]).contains("damping_ratio"));
     assert!(said(&["belt.damping_ratio=x"]).contains("NAME=START"));
@@ -277,7 +278,9 @@ fn a_record_of_the_study_itself_has_no_difference() {
     };
     let quiet = study.with("dither.amplitude_n", 0.0).expect("valid");
     let done = compare::run(&quiet, &request).expect("a comparison");
-    assert!((compare::decibels(done.before.rms[0] / done.before.rms[1]) - 6.020_599_9).abs() < 1e-5);
+    assert!(
+        (compare::decibels(done.before.rms[0] / done.before.rms[1]) - 6.020_599_9).abs() < 1e-5
+    );
 }
 
 /// The synthetic records: squeal at 40 Hz is seen in both, and the dither quiets what is measured by what the study predicts within 3 dB.

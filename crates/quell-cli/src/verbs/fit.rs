@@ -89,9 +89,16 @@ fn of_decay(arguments: &Arguments) -> Result<Answer, Failure> {
     let all_free = complaints.take(match arguments.free.first() {
         None => Ok(()),
         Some(name) => {
-            let allowed = "left out with --decay: every parameter is estimated that --fix does not fix";
+            let allowed =
+                "left out with --decay: every parameter is estimated that --fix does not fix";
             let origin = Origin::Argument("--free");
-            Err(Failure::from(Complaint::new(Fault::Conflict, "--free", origin, name.as_str(), allowed)))
+            Err(Failure::from(Complaint::new(
+                Fault::Conflict,
+                "--free",
+                origin,
+                name.as_str(),
+                allowed,
+            )))
         }
     });
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
@@ -121,13 +128,19 @@ fn of_record(arguments: &Arguments, path: &std::path::Path) -> Result<Answer, Fa
         Some(law) => {
             let allowed = "left out with --record: the study has its law";
             let origin = Origin::Argument("--law");
-            Err(Failure::from(Complaint::new(Fault::Conflict, "--law", origin, law.as_str(), allowed)))
+            Err(Failure::from(Complaint::new(
+                Fault::Conflict,
+                "--law",
+                origin,
+                law.as_str(),
+                allowed,
+            )))
         }
     });
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
-    let ((study, ()), ((record, settle), (outputs, plot))) = complaints
-        .finish(study.zip(lawless).zip(record.zip(settle).zip(outputs.zip(plot))))?;
+    let ((study, ()), ((record, settle), (outputs, plot))) =
+        complaints.finish(study.zip(lawless).zip(record.zip(settle).zip(outputs.zip(plot))))?;
     let (free, fix) = (arguments.free.clone(), arguments.fix.clone());
     let request = RecordFitRequest { record, free, fix, settle };
     let done = record_fit::run(&study, &arguments.data, &request, interrupt::flag())?;

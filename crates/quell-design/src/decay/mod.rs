@@ -108,8 +108,10 @@ pub fn fit_decay(
     if !law.has_friction() {
         given[2] = Some(0.0);
     }
-    let freedom: Vec<Freedom> =
-        given.iter().map(|one| if one.is_some() { Freedom::Fixed } else { Freedom::Free }).collect();
+    let freedom: Vec<Freedom> = given
+        .iter()
+        .map(|one| if one.is_some() { Freedom::Fixed } else { Freedom::Free })
+        .collect();
     let mut best: Option<DampedMinimum> = None;
     for mut start in start::starts(times, data, quantity)? {
         for (value, given) in start.iter_mut().zip(&given) {
@@ -141,11 +143,8 @@ fn over_growing_parts(
         let end = part * 2.0 * std::f64::consts::PI / start[0];
         let count = times.partition_point(|time| *time <= end);
         let whole = count >= times.len();
-        let mut function = DecayFunction {
-            quantity,
-            times: &times[..count],
-            with_friction: law.has_friction(),
-        };
+        let mut function =
+            DecayFunction { quantity, times: &times[..count], with_friction: law.has_friction() };
         let found = fitted(&mut function, &data[..count], &at, &search(given, start[0]))?;
         if whole {
             return Some(found);

@@ -132,7 +132,8 @@ impl FreeVibration {
     /// The piece that begins at the first sample.
     fn first(&self, with_friction: bool) -> SmoothPiece {
         let (x, v) = (self.displacement, self.velocity);
-        let state = VariedState { x, v, dx: [0.0, 0.0, 0.0, 1.0, 0.0], dv: [0.0, 0.0, 0.0, 0.0, 1.0] };
+        let state =
+            VariedState { x, v, dx: [0.0, 0.0, 0.0, 1.0, 0.0], dv: [0.0, 0.0, 0.0, 0.0, 1.0] };
         if !with_friction {
             return SmoothPiece { from: 0.0, until: f64::INFINITY, sign: Some(0.0), state };
         }

@@ -12,6 +12,7 @@ use crate::run::disc::{motion, resonances};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
 use crate::run::probability::ProbabilityRequest;
+use crate::run::recorded_motion::RecordedMotion;
 use crate::run::system::basins::PlaneRequest;
 use crate::run::system::found_attractor::MotionAttractorRequest;
 use crate::run::system::orbit::WantedMotion;
@@ -19,7 +20,6 @@ use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
 use crate::run::system::thresholds::MotionThresholdsRequest;
 use crate::run::system::tracked::TrackRequest;
-use crate::run::recorded_motion::RecordedMotion;
 use crate::run::{basins, bifurcation, curves, simulate, thresholds};
 use crate::study::{
     BeltSetup, Kind, Study, StudyKind, StudyOf, SystemStudy, not_available, varies_in_time,

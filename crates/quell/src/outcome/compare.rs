@@ -26,7 +26,11 @@ pub struct ComparedStudy {
 
 /// Decibels in a sentence.
 fn in_decibels(value: f64) -> String {
-    if value.is_finite() { format!("{value:.1} dB") } else { "an unlimited number of dB".to_owned() }
+    if value.is_finite() {
+        format!("{value:.1} dB")
+    } else {
+        "an unlimited number of dB".to_owned()
+    }
 }
 
 impl Outcome for ComparedStudy {
@@ -49,7 +53,10 @@ impl Outcome for ComparedStudy {
             match found {
                 Some(found) => fields.nested(name, reduction(found)),
                 None if self.done.after.is_none() => fields.unknown(name, NO_SECOND),
-                None => fields.unknown(name, "the record is too short to separate vibration below the dither"),
+                None => fields.unknown(
+                    name,
+                    "the record is too short to separate vibration below the dither",
+                ),
             };
         }
         fields.plain("warnings", warnings(&self.done));
@@ -100,10 +107,15 @@ impl ComparedStudy {
     /// Lines of the computed spectrum, and of the measured one where it has the same grid.
     fn dataset(&self, record: &ComparedRecord) -> Dataset {
         let unit = record.unit.unwrap_or("1");
-        let (frequencies, measured): (Vec<f64>, Vec<f64>) = record.measured.lines().into_iter().unzip();
+        let (frequencies, measured): (Vec<f64>, Vec<f64>) =
+            record.measured.lines().into_iter().unzip();
         let dataset = Dataset::of(&self.study, "compare")
             .fact(format!("data: {}", record.file.display()))
-            .with_axis(Array::new("frequency", record.frequency_unit.unwrap_or("1"), frequencies.clone()))
+            .with_axis(Array::new(
+                "frequency",
+                record.frequency_unit.unwrap_or("1"),
+                frequencies.clone(),
+            ))
             .with(Array::new("measured", unit, measured));
         let computed = record.computed.lines();
         let same = computed.len() == frequencies.len();
@@ -177,7 +189,11 @@ fn record(record: &ComparedRecord) -> Fields {
         .plain("window", "hann")
         .measured("resolution", hertz, record.resolution)
         .measured("highest", hertz, record.highest)
-        .measured("length", if record.frequency_unit.is_some() { "s" } else { "time" }, record.length)
+        .measured(
+            "length",
+            if record.frequency_unit.is_some() { "s" } else { "time" },
+            record.length,
+        )
         .measured("measured_rms", unit, record.rms[0])
         .measured("computed_rms", unit, record.rms[1]);
     put_decibels(&mut fields, "difference", "dB", decibels(record.rms[0] / record.rms[1]));
@@ -186,30 +202,31 @@ fn record(record: &ComparedRecord) -> Fields {
         fields.measured("computed_slow_rms", unit, computed);
     }
     let reference = format!("dB re 1 {}", record.unit.unwrap_or("unit of the readings"));
-    let lines = record.lines.iter().map(|line| {
-        let mut entry = Fields::new(None);
-        entry.measured("frequency", hertz, line.frequency());
-        let level = |peak: Option<quell_numerics::spectrum::Peak>| {
-            peak.map(|peak| decibels(peak.amplitude))
-        };
-        match level(line.measured) {
-            Some(value) => entry.measured("measured", &reference, value),
-            None => entry.unknown("measured", "the record has no line there"),
-        };
-        match (level(line.computed), line.computed) {
-            (Some(value), Some(peak)) => entry
-                .measured("computed", &reference, value)
-                .measured("computed_frequency", hertz, peak.frequency),
-            _ => entry
-                .unknown("computed", "the study has no line there")
-                .unknown("computed_frequency", "the study has no line there"),
-        };
-        match line.difference() {
-            Ok(value) => entry.measured("difference", "dB", value),
-            Err(why) => entry.unknown("difference", why),
-        };
-        entry
-    });
+    let lines =
+        record.lines.iter().map(|line| {
+            let mut entry = Fields::new(None);
+            entry.measured("frequency", hertz, line.frequency());
+            let level = |peak: Option<quell_numerics::spectrum::Peak>| {
+                peak.map(|peak| decibels(peak.amplitude))
+            };
+            match level(line.measured) {
+                Some(value) => entry.measured("measured", &reference, value),
+                None => entry.unknown("measured", "the record has no line there"),
+            };
+            match (level(line.computed), line.computed) {
+                (Some(value), Some(peak)) => entry
+                    .measured("computed", &reference, value)
+                    .measured("computed_frequency", hertz, peak.frequency),
+                _ => entry
+                    .unknown("computed", "the study has no line there")
+                    .unknown("computed_frequency", "the study has no line there"),
+            };
+            match line.difference() {
+                Ok(value) => entry.measured("difference", "dB", value),
+                Err(why) => entry.unknown("difference", why),
+            };
+            entry
+        });
     fields.list("lines", lines.collect::<Vec<_>>());
     fields.plain("not_comparable", record.not_comparable.clone());
     fields

@@ -39,7 +39,11 @@ impl Outcome for FreeDecay {
         let best = self.best();
         let dataset = Dataset::of_file(self.record.path(), "fit --decay")
             .fact(format!("law: {}", best.law.name()))
-            .with_axis(Array::new("time", self.record.time_unit.unwrap_or("1"), self.record.times.clone()))
+            .with_axis(Array::new(
+                "time",
+                self.record.time_unit.unwrap_or("1"),
+                self.record.times.clone(),
+            ))
             .with(Array::new("measured", unit, self.record.values.clone()))
             .with(Array::new("fitted", unit, best.values.clone()))
             .with(Array::new("fitted_deviation", unit, best.deviations.clone()))
@@ -125,12 +129,17 @@ fn table(done: &FreeDecay) -> String {
         let _ = writeln!(text, "  not determinable: {what}");
     }
     if done.fits.len() > 1 {
-        let _ = writeln!(text, "\n  {:<18}{:>14}{:>14}{:>10}{:>4}", "law", "residual", "AIC", "weight", "p");
+        let _ = writeln!(
+            text,
+            "\n  {:<18}{:>14}{:>14}{:>10}{:>4}",
+            "law", "residual", "AIC", "weight", "p"
+        );
         for (place, fit) in done.fits.iter().enumerate() {
             let aic = fit.estimates.aic();
             let aic = aic.map_or_else(|_| "unbounded".to_owned(), |aic| format!("{aic:.3}"));
             let weight = done.weights.as_ref().map(|weights| weights[place]);
-            let weight = weight.map_or_else(|| "unknown".to_owned(), |weight| format!("{weight:.4}"));
+            let weight =
+                weight.map_or_else(|| "unknown".to_owned(), |weight| format!("{weight:.4}"));
             let residual = figure(fit.estimates.residual());
             let _ = writeln!(
                 text,

@@ -31,7 +31,8 @@ pub(super) fn parameters(named: &NamedEstimates, shown: impl Fn(usize) -> bool) 
 /// Covariance, condition, residual and criterion.
 pub(super) fn numbers(fields: &mut Fields, named: &NamedEstimates, unit: &str) {
     let (order, matrix) = named.covariance();
-    let order: Vec<&str> = order.iter().map(|place| named.parameters[*place].name.as_str()).collect();
+    let order: Vec<&str> =
+        order.iter().map(|place| named.parameters[*place].name.as_str()).collect();
     fields.plain("covariance", json!({ "order": order, "matrix": matrix }));
     match named.estimates.condition {
         Some(condition) => fields.measured("condition", "1", condition),

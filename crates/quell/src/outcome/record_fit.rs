@@ -16,7 +16,8 @@ use crate::run::record_fit::{FreeNumber, RecordFit};
 use crate::words::{digits, listed};
 
 /// How derivatives by numbers of a study are computed.
-const DERIVATIVES: &str = "central differences of exact trajectories; by shift, offset and gain exact";
+const DERIVATIVES: &str =
+    "central differences of exact trajectories; by shift, offset and gain exact";
 
 impl Outcome for RecordFit {
     fn inputs(&self) -> Inputs {
@@ -38,7 +39,8 @@ impl Outcome for RecordFit {
             .plain("quantity", self.record.quantity.name());
         match self.shift_counts_from() {
             Some(words) => fields.plain("shift_from", words),
-            None => fields.unknown("shift_from", "the shift is not free: the record begins with the run"),
+            None => fields
+                .unknown("shift_from", "the shift is not free: the record begins with the run"),
         };
         let others = self.others.iter().map(|other| {
             let mut entry = Fields::new(None);
@@ -97,7 +99,11 @@ impl Outcome for RecordFit {
         let unit = self.record.unit.unwrap_or("1");
         let dataset = Dataset::of(&self.fitted_study, "fit --record")
             .fact(format!("data: {}", self.record.path().display()))
-            .with_axis(Array::new("time", self.record.time_unit.unwrap_or("1"), self.record.times.clone()))
+            .with_axis(Array::new(
+                "time",
+                self.record.time_unit.unwrap_or("1"),
+                self.record.times.clone(),
+            ))
             .with(Array::new("measured", unit, self.record.values.clone()))
             .with(Array::new("fitted", unit, self.values.clone()))
             .with(Array::new("residual", unit, self.residuals()));

@@ -1,11 +1,11 @@
 //! A record with the curve that is fitted to it, and the residuals.
 
+use super::caption::caption_of;
 use super::ruler::Ruler;
 use crate::plot::{
     Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
     SharedLegend, Sharing,
 };
-use super::caption::caption_of;
 use crate::run::decay::FreeDecay;
 use crate::run::record_fit::RecordFit;
 use quell_study::record::Record;
@@ -29,11 +29,15 @@ pub(super) fn figure(shown: &FittedRecord<'_>) -> Figure {
     let largest = |values: &[f64]| values.iter().map(|value| value.abs()).fold(0.0, f64::max);
     let time = Ruler::of_unit(record.time_unit.unwrap_or(""), largest(&record.times));
     let place = Ruler::of_unit(record.unit.unwrap_or(""), largest(&record.values));
-    let residuals: Vec<f64> =
-        record.values.iter().zip(shown.fitted).map(|(y, f)| y - f).collect();
+    let residuals: Vec<f64> = record.values.iter().zip(shown.fitted).map(|(y, f)| y - f).collect();
     let small = Ruler::of_unit(record.unit.unwrap_or(""), largest(&residuals));
     let line = |values: &[f64], ruler: &Ruler| -> Vec<(f64, f64)> {
-        record.times.iter().zip(values).map(|(t, value)| (time.place(*t), ruler.place(*value))).collect()
+        record
+            .times
+            .iter()
+            .zip(values)
+            .map(|(t, value)| (time.place(*t), ruler.place(*value)))
+            .collect()
     };
     let name = record.quantity.name();
     let mut upper = Panel::new(time.axis("time", "t"), place.axis(name, ""));
@@ -48,8 +52,8 @@ pub(super) fn figure(shown: &FittedRecord<'_>) -> Figure {
     upper = measured(upper, &line(&record.values, &place), "measured");
     upper = upper
         .with(Polyline::new(PlotRole::Dithered, line(shown.fitted, &place)).label(shown.label));
-    let lower = Panel::new(time.axis("time", "t"), small_axis(&small))
-        .with(ReferenceLine::horizontal(0.0));
+    let lower =
+        Panel::new(time.axis("time", "t"), small_axis(&small)).with(ReferenceLine::horizontal(0.0));
     let lower = measured(lower, &line(&residuals, &small), "");
     Figure::grid(1, [upper, lower]).sharing_x(Sharing::All).legend(SharedLegend::Below)
 }

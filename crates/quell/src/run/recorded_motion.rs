@@ -72,11 +72,8 @@ impl RecordedMotion {
         let metre = study.units().si_per_unit(Quantity::Displacement).map(|metre| 1.0 / metre);
         let second = study.time_per_second();
         let plain = study.scaled_time().filter(|time| time.plain_in_seconds);
-        let scales = RecordScales {
-            second,
-            metre,
-            plain_time: plain.map_or(1.0, |time| time.per_second),
-        };
+        let scales =
+            RecordScales { second, metre, plain_time: plain.map_or(1.0, |time| time.per_second) };
         Ok(Self {
             system: study.system().clone(),
             row: study.observe(),
@@ -138,7 +135,8 @@ impl RecordScales {
     ) -> Result<RecordUnits, Failure> {
         let lacks = |what: &str, remedy: &str| -> Failure {
             let allowed = format!("a column without a unit: the study has no {what}; {remedy}");
-            Complaint::new(Fault::Mixed, "data file", Origin::Whole, Json::from(file), allowed).into()
+            Complaint::new(Fault::Mixed, "data file", Origin::Whole, Json::from(file), allowed)
+                .into()
         };
         let time = match time_unit {
             None => self.plain_time,

@@ -1,8 +1,8 @@
 //! Lines of a measured and of a computed spectrum, set against each other.
 
-use quell_numerics::spectrum::{Peak, Spectrum};
+use quell_numerics::spectrum::Peak;
 
-use crate::run::compare::spectra::ComparedSpectrum;
+use super::spectra::ComparedSpectrum;
 
 /// Lines below this share of the largest one are not listed: 60 dB.
 const FLOOR: f64 = 1e-3;
@@ -63,33 +63,19 @@ pub(super) fn compared(
     for peak in by_size {
         let near = resolution.max(SAME * peak.frequency);
         let away = |other: &Peak| (other.frequency - peak.frequency).abs();
-        let nearest = (0..theirs.len()).min_by(|a, b| away(&theirs[*a]).total_cmp(&away(&theirs[*b])));
+        let nearest =
+            (0..theirs.len()).min_by(|a, b| away(&theirs[*a]).total_cmp(&away(&theirs[*b])));
         let computed = nearest.filter(|place| away(&theirs[*place]) <= near);
         let computed = computed.map(|place| theirs.remove(place));
         lines.push(ComparedLine { measured: Some(peak), computed });
     }
-    lines.extend(theirs.into_iter().map(|peak| ComparedLine { measured: None, computed: Some(peak) }));
+    lines.extend(
+        theirs.into_iter().map(|peak| ComparedLine { measured: None, computed: Some(peak) }),
+    );
     lines.sort_by(|a, b| b.size().total_cmp(&a.size()));
     lines.truncate(MOST_LINES);
     lines.sort_by(|a, b| a.frequency().total_cmp(&b.frequency()));
     lines
-}
-
-/// Peaks of a spectrum on any grid: the values above both neighbours, at least `floor` of the largest one.
-pub(super) fn peaks_on(frequencies: &[f64], amplitudes: &[f64], floor: f64) -> Vec<Peak> {
-    let largest = amplitudes.iter().copied().fold(0.0, f64::max);
-    (1..amplitudes.len().saturating_sub(1))
-        .filter(|place| {
-            let own = amplitudes[*place];
-            own > amplitudes[place - 1] && own >= amplitudes[place + 1] && own >= floor * largest
-        })
-        .map(|place| Peak { frequency: frequencies[place], amplitude: amplitudes[place] })
-        .collect()
-}
-
-/// Peaks of the spectrum of a record.
-pub(super) fn peaks_of(spectrum: &Spectrum, floor: f64) -> Vec<Peak> {
-    spectrum.peaks(floor)
 }
 
 #[cfg(test)]
@@ -109,7 +95,8 @@ mod tests {
         let measured = of(&[(1.0, 2.0), (3.0, 0.5), (10.0, 0.1)]);
         let computed = of(&[(1.01, 1.0), (3.3, 0.5), (10.0, 0.1)]);
         let found = compared(&measured, &computed, 0.02);
-        let differences: Vec<Option<f64>> = found.iter().map(|line| line.difference().ok()).collect();
+        let differences: Vec<Option<f64>> =
+            found.iter().map(|line| line.difference().ok()).collect();
         assert_eq!(found.len(), 4);
         assert!((differences[0].expect("paired") - 6.020_599_913_279_624).abs() < 1e-12);
         assert_eq!(&differences[1..3], &[None, None]);

@@ -139,7 +139,7 @@ fn one(
 ) -> Result<ComparedRecord, Failure> {
     let mut found = match Measured::read(path, &request.record)? {
         Measured::Record(record) => of_record(motion, dithered, &record, request)?,
-        Measured::Spectrum(spectrum) => of_spectrum(motion, dithered, spectrum, request)?,
+        Measured::Spectrum(spectrum) => of_spectrum(motion, dithered, &spectrum, request)?,
     };
     found.look_at_dither(motion);
     Ok(found)
@@ -190,7 +190,7 @@ fn of_record(
 fn of_spectrum(
     motion: &RecordedMotion,
     dithered: bool,
-    spectrum: MeasuredSpectrum,
+    spectrum: &MeasuredSpectrum,
     request: &CompareRequest,
 ) -> Result<ComparedRecord, Failure> {
     let time_unit = spectrum.frequency_unit.map(|_| "s");
@@ -206,10 +206,8 @@ fn of_spectrum(
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
     let samples = ((1.0 / (spacing * step)).ceil() as usize).clamp(64, MOST_SAMPLES);
     let computed = computed(motion, spectrum.quantity, &units, (step, samples, None), request)?;
-    let own = Spectrum::of(&computed.values, computed.step).map_err(|why| Failure::Failed {
-        key: "compare".to_owned(),
-        why: why.to_string(),
-    })?;
+    let own = Spectrum::of(&computed.values, computed.step)
+        .map_err(|why| Failure::Failed { key: "compare".to_owned(), why: why.to_string() })?;
     let amplitudes = spectrum.amplitudes.clone();
     let measured = ComparedSpectrum::OnGrid { frequencies, amplitudes };
     let own = ComparedSpectrum::OfRecord { spectrum: own };
@@ -335,7 +333,8 @@ impl ComparedRecord {
 
     fn band_below(&mut self, highest: f64) {
         if highest > self.resolution {
-            let of = |spectrum: &ComparedSpectrum| spectrum.root_mean_square(self.resolution, highest);
+            let of =
+                |spectrum: &ComparedSpectrum| spectrum.root_mean_square(self.resolution, highest);
             self.slow_rms = Some([of(&self.measured), of(&self.computed)]);
         }
     }
@@ -344,7 +343,8 @@ impl ComparedRecord {
 impl ComparedLine {
     /// The larger amplitude of the two.
     fn size_of(&self) -> f64 {
-        let size = |peak: Option<quell_numerics::spectrum::Peak>| peak.map_or(0.0, |peak| peak.amplitude);
+        let size =
+            |peak: Option<quell_numerics::spectrum::Peak>| peak.map_or(0.0, |peak| peak.amplitude);
         size(self.measured).max(size(self.computed))
     }
 }
@@ -370,7 +370,8 @@ impl Comparison {
             self.before.columns[1]
         );
         let given = after.columns[1].as_str();
-        Err(Complaint::new(Fault::Mixed, "--after", Origin::Argument("--after"), given, allowed).into())
+        Err(Complaint::new(Fault::Mixed, "--after", Origin::Argument("--after"), given, allowed)
+            .into())
     }
 
     /// Levels of slow vibration, below the slowest dither.

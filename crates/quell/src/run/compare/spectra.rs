@@ -2,8 +2,6 @@
 
 use quell_numerics::spectrum::{Peak, Spectrum};
 
-use super::lines::{peaks_of, peaks_on};
-
 /// A spectrum in the units of the record.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ComparedSpectrum {
@@ -26,7 +24,7 @@ impl ComparedSpectrum {
     pub(super) fn peaks(&self, floor: f64) -> Vec<Peak> {
         match self {
             Self::OfRecord { spectrum } => {
-                let peaks = peaks_of(spectrum, floor).into_iter();
+                let peaks = spectrum.peaks(floor).into_iter();
                 peaks.map(|peak| Peak { frequency: cycles(peak.frequency), ..peak }).collect()
             }
             Self::OnGrid { frequencies, amplitudes } => peaks_on(frequencies, amplitudes, floor),
@@ -36,9 +34,11 @@ impl ComparedSpectrum {
     /// Frequencies and amplitudes of its lines.
     pub fn lines(&self) -> Vec<(f64, f64)> {
         match self {
-            Self::OfRecord { spectrum } => {
-                spectrum.frequencies().map(cycles).zip(spectrum.amplitudes().iter().copied()).collect()
-            }
+            Self::OfRecord { spectrum } => spectrum
+                .frequencies()
+                .map(cycles)
+                .zip(spectrum.amplitudes().iter().copied())
+                .collect(),
             Self::OnGrid { frequencies, amplitudes } => {
                 frequencies.iter().copied().zip(amplitudes.iter().copied()).collect()
             }
@@ -70,4 +70,16 @@ impl ComparedSpectrum {
 /// Cycles per unit of time.
 pub(super) fn cycles(angular: f64) -> f64 {
     angular / std::f64::consts::TAU
+}
+
+/// Peaks of a spectrum on any grid: the values above both neighbours, at least `floor` of the largest one.
+fn peaks_on(frequencies: &[f64], amplitudes: &[f64], floor: f64) -> Vec<Peak> {
+    let largest = amplitudes.iter().copied().fold(0.0, f64::max);
+    (1..amplitudes.len().saturating_sub(1))
+        .filter(|place| {
+            let own = amplitudes[*place];
+            own > amplitudes[place - 1] && own >= amplitudes[place + 1] && own >= floor * largest
+        })
+        .map(|place| Peak { frequency: frequencies[place], amplitude: amplitudes[place] })
+        .collect()
 }

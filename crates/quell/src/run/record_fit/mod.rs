@@ -11,9 +11,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use quell_design::estimates::{Estimates, Freedom};
-use quell_numerics::damped_least_squares::{
-    DampedMinimum, DampedSearch, FittedFunction, fitted,
-};
+use quell_numerics::damped_least_squares::{DampedMinimum, DampedSearch, FittedFunction, fitted};
 use quell_study::record::{Record, RecordRequest};
 
 pub use request::{FreeNumber, FreeStart, MEASUREMENT};
@@ -114,7 +112,8 @@ pub fn run(
     let starts = free_numbers(&study, &request.free)?;
     let free: Vec<FreeNumber> = starts.iter().map(|one| one.number.clone()).collect();
     if record.times.len() <= 2 * free.len() {
-        let allowed = format!("at least {} samples for {} free numbers", 2 * free.len() + 1, free.len());
+        let allowed =
+            format!("at least {} samples for {} free numbers", 2 * free.len() + 1, free.len());
         let given = record.path().display().to_string();
         return Err(Complaint::new(Fault::Path, "data file", Origin::Whole, given, allowed).into());
     }
@@ -135,7 +134,7 @@ pub fn run(
     let base: Vec<f64> = starts.iter().map(|one| one.start.unwrap_or(0.0)).collect();
     let mut model = RecordModel::new(&study, &free, &record, (settle, marker), &base, stop);
     let (minima, tried) = search(&mut model, &starts, period)?;
-    finish(&study, &record, free, &mut model, (minima, tried), (settle, marker.is_some()))
+    finish(&study, &record, &free, &model, (minima, tried), (settle, marker.is_some()))
 }
 
 /// The study with the numbers of `--fix`.
@@ -154,16 +153,13 @@ fn with_fixed(study: &Study, fix: &[String]) -> Result<Study, Failure> {
 }
 
 /// Time before the record.
-fn settling(
-    motion: &RecordedMotion,
-    given: Option<f64>,
-    has_shift: bool,
-) -> Result<f64, Failure> {
+fn settling(motion: &RecordedMotion, given: Option<f64>, has_shift: bool) -> Result<f64, Failure> {
     match (given, has_shift && motion.system.is_steady()) {
         (Some(settle), _) => Ok(settle),
         (None, false) => Ok(0.0),
         (None, true) => motion.period.map(|period| SETTLE_PERIODS * period).ok_or_else(|| {
-            let allowed = "given: nothing oscillates in this study, so that there is no usual settling time";
+            let allowed =
+                "given: nothing oscillates in this study, so that there is no usual settling time";
             Complaint::option("--settle", serde_json::Value::Null, allowed).into()
         }),
     }
@@ -220,8 +216,11 @@ fn keep_least(minima: &mut Vec<DampedMinimum>) {
     let mut kept: Vec<DampedMinimum> = Vec::new();
     for found in minima.drain(..) {
         let is_known = kept.iter().any(|other| {
-            let away: f64 = found.values.iter().zip(&other.values).map(|(a, b)| (a - b) * (a - b)).sum();
-            away.sqrt() <= ONE_MINIMUM * (other.rss / other.values.len() as f64).sqrt() + 1e-9 * size(&other.values)
+            let away: f64 =
+                found.values.iter().zip(&other.values).map(|(a, b)| (a - b) * (a - b)).sum();
+            away.sqrt()
+                <= ONE_MINIMUM * (other.rss / other.values.len() as f64).sqrt()
+                    + 1e-9 * size(&other.values)
         });
         if !is_known && kept.len() < KEPT {
             kept.push(found);
@@ -254,8 +253,8 @@ fn bounds(study: &Study, starts: &[FreeStart]) -> DampedSearch {
 fn finish(
     study: &Study,
     record: &Record,
-    free: Vec<FreeNumber>,
-    model: &mut RecordModel<'_>,
+    free: &[FreeNumber],
+    model: &RecordModel<'_>,
     (mut minima, tried): (Vec<DampedMinimum>, usize),
     (settle, from_highest): (f64, bool),
 ) -> Result<RecordFit, Failure> {
@@ -267,15 +266,13 @@ fn finish(
         factor: 1.0,
     });
     let named = NamedEstimates { parameters: parameters.collect(), estimates };
-    let others = minima
-        .into_iter()
-        .map(|found| OtherMinimum { values: found.at, rss: found.rss })
-        .collect();
+    let others =
+        minima.into_iter().map(|found| OtherMinimum { values: found.at, rss: found.rss }).collect();
     Ok(RecordFit {
         study: study.clone(),
         fitted_study: model.study_at(&best.at)?,
         record: record.clone(),
-        free,
+        free: free.to_vec(),
         named,
         values: best.values,
         converged: best.converged,
@@ -314,12 +311,16 @@ impl RecordFit {
             let value = self.named.value(place);
             let (table, key) = path.rsplit_once('.').unwrap_or(("", path));
             // A table of a list has a place or a name of its own.
-            let is_plain = self.study.system().is_err() && !table.contains('[') && table != "dither";
+            let is_plain =
+                self.study.system().is_err() && !table.contains('[') && table != "dither";
             let line = format!("{key} = {value:?}\n");
             let (heading, line) = if is_plain {
                 (format!("[{table}]\n"), line)
             } else {
-                ("# further numbers, as --set takes them\n".to_owned(), format!("# {path}={value:?}\n"))
+                (
+                    "# further numbers, as --set takes them\n".to_owned(),
+                    format!("# {path}={value:?}\n"),
+                )
             };
             match tables.iter_mut().find(|(known, _)| *known == heading) {
                 Some((_, lines)) => *lines += &line,
@@ -339,7 +340,8 @@ impl RecordFit {
             warnings.push("the search has not converged: try other starts with --free PATH=START, or free fewer numbers".to_owned());
         }
         let of_measurement = |warning: &String| {
-            warning.ends_with("exceeds it") && MEASUREMENT.iter().any(|name| warning.starts_with(name))
+            warning.ends_with("exceeds it")
+                && MEASUREMENT.iter().any(|name| warning.starts_with(name))
         };
         // An offset or a shift that is nearly 0 is no defect.
         warnings.extend(self.named.warnings().into_iter().filter(|text| !of_measurement(text)));
@@ -350,7 +352,9 @@ impl RecordFit {
                 .free
                 .iter()
                 .zip(&other.values)
-                .map(|(number, value)| format!("{} = {}", number.name(), crate::words::digits(*value)))
+                .map(|(number, value)| {
+                    format!("{} = {}", number.name(), crate::words::digits(*value))
+                })
                 .collect();
             if away < NEAR_MINIMUM {
                 warnings.push(format!(

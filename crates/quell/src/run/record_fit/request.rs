@@ -57,12 +57,13 @@ pub struct FreeStart {
 ///
 /// # Errors
 /// Every number that the study does not have, that is given twice, or that has no start.
-pub fn free_numbers(study: &Study, free: &[String]) -> Result<Vec<FreeStart>, Failure> {
+pub(super) fn free_numbers(study: &Study, free: &[String]) -> Result<Vec<FreeStart>, Failure> {
     let mut wrong = Vec::new();
     let mut found: Vec<FreeStart> = Vec::new();
     for text in free {
         let (name, given) = match text.split_once('=') {
-            Some((name, value)) => match value.trim().parse::<f64>().ok().filter(|v| v.is_finite()) {
+            Some((name, value)) => match value.trim().parse::<f64>().ok().filter(|v| v.is_finite())
+            {
                 Some(value) => (name.trim(), Some(value)),
                 None => {
                     let allowed = "NAME=START with a finite number";
@@ -96,7 +97,13 @@ pub fn free_numbers(study: &Study, free: &[String]) -> Result<Vec<FreeStart>, Fa
             "the numbers to estimate: paths of the study, such as belt.damping_ratio, and {}",
             MEASUREMENT.join(", ")
         );
-        wrong.push(Complaint::new(Fault::Missing, "--free", Origin::Argument("--free"), Json::Null, allowed));
+        wrong.push(Complaint::new(
+            Fault::Missing,
+            "--free",
+            Origin::Argument("--free"),
+            Json::Null,
+            allowed,
+        ));
     }
     if wrong.is_empty() { Ok(found) } else { Err(wrong.into()) }
 }
@@ -121,7 +128,8 @@ fn started(study: &Study, path: &str, given: Option<f64>) -> Result<f64, Vec<Com
 
 fn for_option(complaint: Complaint) -> Complaint {
     let allowed = format!("such that {} is {}", complaint.key, complaint.allowed);
-    let allowed = if complaint.fault == Fault::Unknown { complaint.allowed.clone() } else { allowed };
+    let allowed =
+        if complaint.fault == Fault::Unknown { complaint.allowed.clone() } else { allowed };
     Complaint { origin: Origin::Argument("--free"), allowed, ..complaint }
 }
 
