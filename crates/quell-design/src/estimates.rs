@@ -34,7 +34,7 @@ pub struct WeakCombination {
 pub struct Estimates {
     /// Values of all parameters.
     pub values: Vec<f64>,
-    /// The standard errors, or why there is none.
+    /// The standard errors, or the reason why one is missing.
     pub errors: Vec<Result<f64, String>>,
     /// Places of the parameters with standard errors, in the order of the covariance.
     pub order: Vec<usize>,

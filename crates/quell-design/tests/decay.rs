@@ -103,8 +103,8 @@ fn standard_errors_have_their_coverage_over_seeds() {
     assert!((share - 0.683).abs() < 4.0 * (0.683 * 0.317 / RECORDS as f64).sqrt(), "{share}");
 }
 
-/// Laws that do not contain the planted one are far worse by their criterion; with both, friction is told from damping by the shape of the
-/// envelope. A law with one number more than the planted one may be better by chance: by more than 4 once in 70 records.
+/// Laws that do not contain the planted one are far worse by their criterion; with both, the shape of the envelope distinguishes friction from
+/// damping. A law with one number more than the planted one may be better by chance: by more than 4 once in 70 records.
 #[test]
 fn the_criterion_finds_the_planted_law() {
     let times = times(1200, 0.08);

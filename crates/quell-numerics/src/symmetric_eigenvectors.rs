@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn the_pairs_of_a_chain_are_the_known_ones() {
-        // 2 on the diagonal, −1 beside it: λ_k = 2 − 2 cos(kπ/(n + 1)).
+        // 2 on the diagonal, −1 next to it: λ_k = 2 − 2 cos(kπ/(n + 1)).
         let size = 9;
         let chain = Matrix::from_fn(size, size, |i, j| match i.abs_diff(j) {
             0 => 2.0,

@@ -38,8 +38,14 @@ const GAP: f64 = 1.5;
 /// Largest distance of a time from the grid of equal steps, in steps: times are printed with few digits.
 const UNEVEN: f64 = 0.1;
 
-/// A name of a column, its SI unit, and how many of them one number is; `None` without a unit.
-type NamedUnit = (&'static str, Option<(&'static str, f64)>);
+/// An SI unit, and how many of them one number is.
+type SiUnit = (&'static str, f64);
+
+/// A name of a column and its unit; `None` without one.
+type NamedUnit = (&'static str, Option<SiUnit>);
+
+/// A column that a file has: its place, its name and its unit.
+type FoundColumn = (usize, &'static str, Option<SiUnit>);
 
 const TIMES: &[NamedUnit] = &[
     ("time_s", Some(("s", 1.0))),
@@ -128,12 +134,12 @@ impl RecordRequest {
             }
         }
         if let Some(text) = gain {
-            match text.parse::<f64>().ok().filter(|gain| gain.is_finite() && *gain != 0.0) {
-                Some(gain) => request.gain = gain,
-                None => {
-                    let allowed = "a finite number other than 0, which multiplies the readings";
-                    wrong.push(Complaint::option("--gain", text, allowed));
-                }
+            let factor = text.parse::<f64>().ok();
+            if let Some(gain) = factor.filter(|gain| gain.is_finite() && *gain != 0.0) {
+                request.gain = gain;
+            } else {
+                let allowed = "a finite number other than 0, which multiplies the readings";
+                wrong.push(Complaint::option("--gain", text, allowed));
             }
         }
         if let Some(text) = window {
@@ -141,12 +147,10 @@ impl RecordRequest {
                 let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
                 Some((number(from)?, number(to)?)).filter(|(from, to)| from < to)
             });
-            match ends {
-                Some(ends) => request.window = Some(ends),
-                None => {
-                    let allowed = "two times A:B of the record with A < B, such as 0.2:1.5";
-                    wrong.push(Complaint::option("--window", text, allowed));
-                }
+            request.window = ends;
+            if ends.is_none() {
+                let allowed = "two times A:B of the record with A < B, such as 0.2:1.5";
+                wrong.push(Complaint::option("--window", text, allowed));
             }
         }
         if wrong.is_empty() { Ok(request) } else { Err(wrong.into()) }
@@ -155,7 +159,7 @@ impl RecordRequest {
 
 /// A measured time series.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Record {
+pub struct TimeSeries {
     path: PathBuf,
     /// Times, ascending.
     pub times: Vec<f64>,
@@ -193,14 +197,14 @@ pub struct MeasuredSpectrum {
 
 /// A measured time series or spectrum.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Measured {
+pub enum MeasuredFile {
     /// Times and readings.
-    Record(Record),
+    Record(TimeSeries),
     /// Frequencies and amplitudes.
     Spectrum(MeasuredSpectrum),
 }
 
-impl Measured {
+impl MeasuredFile {
     /// Reads a file: a spectrum if it has a column of frequencies and none of times.
     ///
     /// # Errors
@@ -232,15 +236,15 @@ impl MeasuredSpectrum {
     }
 }
 
-impl Record {
+impl TimeSeries {
     /// Reads a file of a time series.
     ///
     /// # Errors
-    /// As [`Measured::read`]; a spectrum.
+    /// As [`MeasuredFile::read`]; a spectrum.
     pub fn read(path: &Path, request: &RecordRequest) -> Result<Self, Failure> {
-        match Measured::read(path, request)? {
-            Measured::Record(record) => Ok(record),
-            Measured::Spectrum(_) => {
+        match MeasuredFile::read(path, request)? {
+            MeasuredFile::Record(record) => Ok(record),
+            MeasuredFile::Spectrum(_) => {
                 let why = "a time series with a column time or time_s; this file is a spectrum";
                 Err(complaint(path, why.to_owned()).into())
             }
@@ -313,7 +317,7 @@ fn read_record(
     path: &Path,
     file: &DataFile<'_>,
     request: &RecordRequest,
-) -> Result<Record, Failure> {
+) -> Result<TimeSeries, Failure> {
     let wrong = |why: String| complaint(path, why);
     let (time_at, time_name, time_factor) = first_of(file, TIMES).ok_or_else(|| {
         wrong(format!("{WHAT} with a column time, time_s or time_ms; it has {}", listed(file)))
@@ -325,7 +329,7 @@ fn read_record(
             format!("it has {count} samples, and at most {MOST_SAMPLES} are read: leave some out");
         return Err(wrong(why).into());
     }
-    let mut record = Record {
+    let mut record = TimeSeries {
         path: path.to_owned(),
         times: Vec::new(),
         values: Vec::new(),
@@ -437,7 +441,7 @@ struct ReadingColumn {
     at: usize,
     name: String,
     quantity: RecordedQuantity,
-    unit: Option<(&'static str, f64)>,
+    unit: Option<SiUnit>,
 }
 
 impl ReadingColumn {
@@ -493,10 +497,7 @@ fn reading_column(
 }
 
 /// The first of these columns that the file has.
-fn first_of(
-    file: &DataFile<'_>,
-    names: &[NamedUnit],
-) -> Option<(usize, &'static str, Option<(&'static str, f64)>)> {
+fn first_of(file: &DataFile<'_>, names: &[NamedUnit]) -> Option<FoundColumn> {
     names.iter().find_map(|(name, unit)| Some((file.column(name)?, *name, *unit)))
 }
 
@@ -527,12 +528,12 @@ fn complaint(path: &Path, why: String) -> Complaint {
 mod tests {
     use super::*;
 
-    fn read(name: &str, text: &str, request: &RecordRequest) -> Result<Measured, String> {
+    fn read(name: &str, text: &str, request: &RecordRequest) -> Result<MeasuredFile, String> {
         let folder = std::env::temp_dir().join(format!("quell-record-{}", std::process::id()));
         std::fs::create_dir_all(&folder).expect("a folder");
         let path = folder.join(name);
         std::fs::write(&path, text).expect("written");
-        Measured::read(&path, request).map_err(|why| why.to_string())
+        MeasuredFile::read(&path, request).map_err(|why| why.to_string())
     }
 
     fn rows(header: &str, row: impl Fn(u32) -> String) -> String {
@@ -543,7 +544,7 @@ mod tests {
     fn units_in_names_become_si_and_a_gain_multiplies() {
         let text = rows("time_ms,displacement_um", |k| format!("{k},{}", 2 * k));
         let request = RecordRequest { gain: -3.0, ..RecordRequest::default() };
-        let Ok(Measured::Record(record)) = read("a.csv", &text, &request) else {
+        let Ok(MeasuredFile::Record(record)) = read("a.csv", &text, &request) else {
             panic!("a record");
         };
         assert_eq!((record.time_unit, record.unit), (Some("s"), Some("m")));
@@ -574,7 +575,8 @@ mod tests {
         let said = read("d.csv", &invalid, &RecordRequest::default()).expect_err("not a number");
         assert!(said.contains("line 7, velocity"), "{said}");
         let gap = rows("time,velocity", |k| format!("{},1", if k > 6 { k + 3 } else { k }));
-        let Ok(Measured::Record(record)) = read("e.csv", &gap, &RecordRequest::default()) else {
+        let Ok(MeasuredFile::Record(record)) = read("e.csv", &gap, &RecordRequest::default())
+        else {
             panic!("a record");
         };
         assert_eq!(record.gaps(), [8]);
@@ -586,7 +588,7 @@ mod tests {
     #[test]
     fn a_file_with_frequencies_is_a_spectrum_in_decibels() {
         let text = rows("frequency_hz,level", |k| format!("{},{}", 10 * k, 20 * k));
-        let Ok(Measured::Spectrum(spectrum)) = read("g.csv", &text, &RecordRequest::default())
+        let Ok(MeasuredFile::Spectrum(spectrum)) = read("g.csv", &text, &RecordRequest::default())
         else {
             panic!("a spectrum");
         };

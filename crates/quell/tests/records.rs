@@ -238,7 +238,7 @@ fn a_fit_without_numbers_or_with_unknown_ones_is_refused() {
 fn a_record_of_the_study_itself_has_no_difference() {
     let study = measured_belt();
     let motion = quell::kind::verbs(&study).recorded_motion("test").expect("a motion");
-    let quiet = quell::run::recorded_motion::RecordedMotion {
+    let quiet = quell::run::recorded_motion::ObservedMotion {
         system: motion.system.undithered(),
         ..motion.clone()
     };
@@ -248,7 +248,7 @@ fn a_record_of_the_study_itself_has_no_difference() {
     let settled = 200.0 * std::f64::consts::TAU;
     let at: Vec<f64> = times.iter().map(|t| t.mul_add(rate, settled)).collect();
     let quantity = quell_design::decay::RecordedQuantity::Velocity;
-    let path = |name: &str, motion: &quell::run::recorded_motion::RecordedMotion| {
+    let path = |name: &str, motion: &quell::run::recorded_motion::ObservedMotion| {
         let (values, _) = motion.readings(quantity, &at).expect("readings");
         let values: Vec<f64> = values.iter().map(|v| v * rate).collect();
         file(name, "time_s,velocity_m_per_s", &times, &values)

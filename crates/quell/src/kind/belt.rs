@@ -6,7 +6,7 @@ use crate::complaint::Failure;
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
-use crate::run::recorded_motion::RecordedMotion;
+use crate::run::recorded_motion::ObservedMotion;
 use crate::run::{
     basins, belt_system, bifurcation, curves, describing, design, found_attractor, friction,
     noise_response, orbit, probability, ramp, response, simulate, stability, thresholds, waveforms,
@@ -86,8 +86,8 @@ impl Verbs for BeltStudy {
         answer(self, window::of_belt(self, window))
     }
 
-    fn recorded_motion(&self, _: &str) -> Result<RecordedMotion, Failure> {
-        RecordedMotion::of_belt(self)
+    fn recorded_motion(&self, _: &str) -> Result<ObservedMotion, Failure> {
+        ObservedMotion::of_belt(self)
     }
 
     fn ramp(&self) -> Reply {

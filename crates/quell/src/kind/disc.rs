@@ -7,7 +7,7 @@ use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::disc::{modes, motion, resonances, stability};
 use crate::run::probability;
-use crate::run::recorded_motion::RecordedMotion;
+use crate::run::recorded_motion::ObservedMotion;
 use crate::run::simulate::Options;
 use crate::run::system::simulate::MotionRequest;
 use crate::study::{DiscSetup, DiscStudy};
@@ -66,8 +66,8 @@ impl Verbs for DiscStudy {
         answer(self, probability::run(self, request, running))
     }
 
-    fn recorded_motion(&self, verb: &str) -> Result<RecordedMotion, Failure> {
-        RecordedMotion::of_system(&motion::at_rest(self), verb)
+    fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
+        ObservedMotion::of_system(&motion::at_rest(self), verb)
     }
 
     fn modes(&self) -> Reply {

@@ -12,7 +12,7 @@ use crate::run::disc::{motion, resonances};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
 use crate::run::probability::ProbabilityRequest;
-use crate::run::recorded_motion::RecordedMotion;
+use crate::run::recorded_motion::ObservedMotion;
 use crate::run::system::basins::PlaneRequest;
 use crate::run::system::found_attractor::MotionAttractorRequest;
 use crate::run::system::orbit::WantedMotion;
@@ -290,7 +290,7 @@ pub trait Verbs: Send + Sync {
     ///
     /// # Errors
     /// A kind without motion; a start that does not exist.
-    fn recorded_motion(&self, verb: &str) -> Result<RecordedMotion, Failure> {
+    fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
         Err(self.lacks(verb))
     }
 
@@ -408,7 +408,7 @@ impl Verbs for OverTime {
         self.steady.ramp()
     }
 
-    fn recorded_motion(&self, verb: &str) -> Result<RecordedMotion, Failure> {
+    fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
         self.steady.recorded_motion(verb)
     }
 

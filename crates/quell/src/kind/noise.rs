@@ -6,7 +6,7 @@ use crate::cite::Sources;
 use crate::complaint::Failure;
 use crate::outcome::Outcome;
 use crate::run::probability::{ProbabilityRequest, ProbabilityStart};
-use crate::run::recorded_motion::RecordedMotion;
+use crate::run::recorded_motion::ObservedMotion;
 use crate::run::simulate::Options;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
@@ -119,7 +119,7 @@ impl Verbs for UnderNoise {
         self.periodic.response_within(window)
     }
 
-    fn recorded_motion(&self, verb: &str) -> Result<RecordedMotion, Failure> {
+    fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
         self.periodic.recorded_motion(verb)
     }
 

@@ -10,7 +10,7 @@ use crate::run::bifurcation::SweepRequest;
 use crate::run::curves::CurvesRequest;
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
-use crate::run::recorded_motion::RecordedMotion;
+use crate::run::recorded_motion::ObservedMotion;
 use crate::run::simulate::Options;
 use crate::run::system::basins::{PlaneRequest, default_plane};
 use crate::run::system::found_attractor::MotionAttractorRequest;
@@ -149,8 +149,8 @@ impl Verbs for SystemStudy {
         answer(self, window::of_system(self, window))
     }
 
-    fn recorded_motion(&self, verb: &str) -> Result<RecordedMotion, Failure> {
-        RecordedMotion::of_system(self, verb)
+    fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
+        ObservedMotion::of_system(self, verb)
     }
 
     fn response_after(&self, request: ResponseRequest) -> Reply {

@@ -100,15 +100,13 @@ fn json(done: &FreeDecay) -> Json {
         entry.plain("law", fit.law.name());
         entry.nested("parameters", parameters(&named, |place| FreeDecay::has(fit, place)));
         criteria(&mut entry, &named, unit);
-        match (&done.weights, best.estimates.aic(), fit.estimates.aic()) {
-            (Some(weights), Ok(least), Ok(aic)) => {
-                entry.measured("difference", "1", aic - least);
-                entry.measured("weight", "1", weights[place]);
-            }
-            _ => {
-                let why = "a law passes through every sample, so that its AIC has no lower bound";
-                entry.unknown("difference", why).unknown("weight", why);
-            }
+        let criteria = (best.estimates.aic(), fit.estimates.aic());
+        if let (Some(weights), (Ok(least), Ok(aic))) = (&done.weights, criteria) {
+            entry.measured("difference", "1", aic - least);
+            entry.measured("weight", "1", weights[place]);
+        } else {
+            let why = "a law passes through every sample, so that its AIC has no lower bound";
+            entry.unknown("difference", why).unknown("weight", why);
         }
         entry
     });

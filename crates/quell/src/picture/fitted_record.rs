@@ -8,14 +8,14 @@ use crate::plot::{
 };
 use crate::run::decay::FreeDecay;
 use crate::run::record_fit::RecordFit;
-use quell_study::record::Record;
+use quell_study::record::TimeSeries;
 
 /// Samples that are drawn as points; more of them are a line.
 const POINTS: usize = 400;
 
 /// A fitted curve at the samples of a record.
 pub(super) struct FittedRecord<'a> {
-    pub(super) record: &'a Record,
+    pub(super) record: &'a TimeSeries,
     /// The curve.
     pub(super) fitted: &'a [f64],
     /// Half of the width of its confidence band.

@@ -1,15 +1,16 @@
 //! `fit --decay`: natural frequency, damping ratio and friction from a record of a free decay.
 
 use std::f64::consts::TAU;
+use std::fmt::Write as _;
 use std::path::Path;
 
 use quell_design::decay::{
     DECAY_NAMES, DECAY_PARAMETERS, DecayFit, DecayLaw, RecordedQuantity, fit_decay,
 };
 use quell_design::fit::{akaike_weights, runs};
-use quell_study::record::{Record, RecordRequest};
+use quell_study::record::{RecordRequest, TimeSeries};
 
-use super::named_estimates::{NamedEstimates, NamedParameter};
+use super::named_estimates::{NamedEstimates, ReportedParameter};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::words::plural;
 
@@ -58,16 +59,16 @@ impl DecayRequest {
                 let place = DECAY_NAMES.iter().position(|known| *known == name.trim())?;
                 Some((place, value.trim().parse::<f64>().ok()?))
             });
-            match pair.filter(|(place, value)| is_possible(*place, *value)) {
-                Some((place, value)) => request.fixed[place] = Some(value),
-                None => {
-                    let allowed = format!(
-                        "NAME=VALUE with a finite number and one of {}; the frequency is above 0, the damping ratio in [0, 0.95], \
-                         the friction not negative",
-                        DECAY_NAMES.join(", ")
-                    );
-                    wrong.push(Complaint::option("--fix", text.as_str(), allowed));
-                }
+            if let Some((place, value)) = pair.filter(|(place, value)| is_possible(*place, *value))
+            {
+                request.fixed[place] = Some(value);
+            } else {
+                let allowed = format!(
+                    "NAME=VALUE with a finite number and one of {}; the frequency is above 0, the damping ratio in [0, 0.95], the \
+                     friction not negative",
+                    DECAY_NAMES.join(", ")
+                );
+                wrong.push(Complaint::option("--fix", text.as_str(), allowed));
             }
         }
         if wrong.is_empty() { Ok(request) } else { Err(wrong.into()) }
@@ -89,7 +90,7 @@ fn is_possible(place: usize, value: f64) -> bool {
 #[derive(Clone, Debug)]
 pub struct FreeDecay {
     /// The record.
-    pub record: Record,
+    pub record: TimeSeries,
     /// The fits by ascending AIC, at least one.
     pub fits: Vec<DecayFit>,
     /// Akaike weights of the fits; `None` if one has no criterion.
@@ -101,7 +102,7 @@ pub struct FreeDecay {
 /// # Errors
 /// Complaints about the file; a record without a visible decay.
 pub fn run(path: &Path, request: &DecayRequest) -> Result<FreeDecay, Failure> {
-    let record = Record::read(path, &request.record)?;
+    let record = TimeSeries::read(path, &request.record)?;
     let times: Vec<f64> = record.times.iter().map(|time| time - record.times[0]).collect();
     let mut fixed = request.fixed;
     fixed[0] = fixed[0].map(|hertz| TAU * hertz);
@@ -139,7 +140,7 @@ impl FreeDecay {
     /// The estimates of a fit with their names.
     pub fn named(&self, fit: &DecayFit) -> NamedEstimates {
         let parameters = DECAY_NAMES.iter().zip(self.units()).enumerate();
-        let parameters = parameters.map(|(place, (name, unit))| NamedParameter {
+        let parameters = parameters.map(|(place, (name, unit))| ReportedParameter {
             name: (*name).to_owned(),
             unit,
             factor: if place == 0 { 1.0 / TAU } else { 1.0 },
@@ -191,17 +192,15 @@ impl FreeDecay {
         let in_seconds = self.record.time_unit.is_some();
         let mut belt = String::from("[belt]\n");
         if Self::has(self.best(), 1) {
-            belt += &format!("damping_ratio = {:?}\n", named.value(1));
+            let _ = writeln!(belt, "damping_ratio = {:?}", named.value(1));
         }
         if in_seconds {
-            belt += &format!("natural_frequency_hz = {:?}\n", named.value(0));
+            let _ = writeln!(belt, "natural_frequency_hz = {:?}", named.value(0));
         }
         if Self::has(self.best(), 2) {
-            belt += &format!(
-                "# friction force over stiffness, {}: {:?}\n",
-                named.parameters[2].unit,
-                named.value(2)
-            );
+            let unit = &named.parameters[2].unit;
+            let value = named.value(2);
+            let _ = writeln!(belt, "# friction force over stiffness, {unit}: {value:?}");
         }
         let uncertainty = named.uncertainty(|name| match name {
             "damping_ratio" => Some("belt.damping_ratio".to_owned()),
@@ -249,7 +248,7 @@ impl FreeDecay {
 }
 
 /// Warnings about gaps.
-pub(crate) fn record_warnings(record: &Record) -> Vec<String> {
+pub(crate) fn record_warnings(record: &TimeSeries) -> Vec<String> {
     let gaps = record.gaps();
     let Some(first) = gaps.first() else { return Vec::new() };
     let count = gaps.len();

@@ -7,7 +7,7 @@ const CORRELATED: f64 = 0.99;
 
 /// A parameter of a fit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct NamedParameter {
+pub struct ReportedParameter {
     /// Name in options and JSON, or path in a study.
     pub name: String,
     /// Unit; "1" without one.
@@ -20,7 +20,7 @@ pub struct NamedParameter {
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedEstimates {
     /// The parameters, in the order of the estimates.
-    pub parameters: Vec<NamedParameter>,
+    pub parameters: Vec<ReportedParameter>,
     /// The estimates in the equations.
     pub estimates: Estimates,
 }

@@ -7,7 +7,7 @@ use quell_dynamics::belt_motion::motion_start;
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart, ReadingSampler};
 use quell_model::units::Quantity;
 use quell_model::{Parametrisation, System};
-use quell_study::record::Record;
+use quell_study::record::TimeSeries;
 use serde_json::Value as Json;
 
 use super::belt_start::begin;
@@ -21,7 +21,7 @@ use crate::study::{BeltStudy, SystemStudy};
 
 /// A study as the structure that a record shows.
 #[derive(Clone, Debug)]
-pub struct RecordedMotion {
+pub struct ObservedMotion {
     /// The structure.
     pub system: System,
     /// The observed row over its displacements.
@@ -45,7 +45,7 @@ pub struct RecordScales {
     pub plain_time: f64,
 }
 
-impl RecordedMotion {
+impl ObservedMotion {
     /// The motion of a belt.
     ///
     /// # Errors
@@ -138,20 +138,19 @@ impl RecordScales {
             Complaint::new(Fault::Mixed, "data file", Origin::Whole, Json::from(file), allowed)
                 .into()
         };
-        let time = match time_unit {
-            None => self.plain_time,
-            Some(_) => self.second.ok_or_else(|| {
-                lacks("seconds", "give the study in SI, such as belt.mass_kg and belt.natural_frequency_hz, or the column time in the unit of the equations")
-            })?,
+        let time = if time_unit.is_some() {
+            let remedy = "give the study in SI, such as belt.mass_kg and belt.natural_frequency_hz, or the column time in the \
+                          unit of the equations";
+            self.second.ok_or_else(|| lacks("seconds", remedy))?
+        } else {
+            self.plain_time
         };
-        let (length, per_time) = match unit {
-            None => (1.0, self.plain_time),
-            Some(_) => {
-                let metre = self.metre.ok_or_else(|| {
-                    lacks("metres", "give the study in SI, or the column without its unit")
-                })?;
-                (metre, self.second.unwrap_or(1.0))
-            }
+        let (length, per_time) = if unit.is_some() {
+            let remedy = "give the study in SI, or the column without its unit";
+            let metre = self.metre.ok_or_else(|| lacks("metres", remedy))?;
+            (metre, self.second.unwrap_or(1.0))
+        } else {
+            (1.0, self.plain_time)
         };
         let order = f64::from(u8::try_from(derivatives(quantity)).unwrap_or(0));
         Ok(RecordUnits { time, reading: libm::pow(per_time, order) / length })
@@ -161,7 +160,7 @@ impl RecordScales {
     ///
     /// # Errors
     /// As [`RecordScales::units`].
-    pub fn of_record(&self, record: &Record) -> Result<RecordUnits, Failure> {
+    pub fn of_record(&self, record: &TimeSeries) -> Result<RecordUnits, Failure> {
         let file = record.path().display().to_string();
         self.units(record.quantity, record.time_unit, record.unit, &file)
     }

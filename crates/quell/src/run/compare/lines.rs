@@ -7,6 +7,10 @@ use super::spectra::ComparedSpectrum;
 /// Lines below this share of the largest one are not listed: 60 dB.
 const FLOOR: f64 = 1e-3;
 
+/// Lines of a measured spectrum below this multiple of its median are noise: the largest of a thousand values of a Rayleigh distribution is
+/// 3.2 times its median.
+const NOISE: f64 = 4.0;
+
 /// Lines farther apart than this share of their frequency are different ones, if the resolution separates them.
 const SAME: f64 = 0.03;
 
@@ -55,10 +59,11 @@ pub(super) fn compared(
     computed: &ComparedSpectrum,
     resolution: f64,
 ) -> Vec<ComparedLine> {
-    let ours = measured.peaks(FLOOR);
     let mut theirs = computed.peaks(FLOOR);
     let mut lines: Vec<ComparedLine> = Vec::new();
-    let mut by_size = ours;
+    let noise = NOISE * measured.median();
+    let mut by_size = measured.peaks(FLOOR);
+    by_size.retain(|peak| peak.amplitude > noise);
     by_size.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
     for peak in by_size {
         let near = resolution.max(SAME * peak.frequency);

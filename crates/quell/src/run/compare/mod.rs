@@ -11,12 +11,12 @@ use std::path::{Path, PathBuf};
 
 use quell_design::decay::RecordedQuantity;
 use quell_numerics::spectrum::Spectrum;
-use quell_study::record::{Measured, MeasuredSpectrum, Record, RecordRequest};
+use quell_study::record::{MeasuredFile, MeasuredSpectrum, RecordRequest, TimeSeries};
 
 pub use lines::{ComparedLine, decibels};
 pub use spectra::ComparedSpectrum;
 
-use super::recorded_motion::{RecordUnits, RecordedMotion};
+use super::recorded_motion::{ObservedMotion, RecordUnits};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::kind::verbs;
 use crate::study::Study;
@@ -115,7 +115,7 @@ pub fn run(study: &Study, request: &CompareRequest) -> Result<Comparison, Failur
         let origin = Origin::Argument("--after");
         return Err(Complaint::new(Fault::Conflict, "--after", origin, given, allowed).into());
     }
-    let quiet = RecordedMotion { system: motion.system.undithered(), ..motion.clone() };
+    let quiet = ObservedMotion { system: motion.system.undithered(), ..motion.clone() };
     let before = one(&quiet, false, &request.measured, request)?;
     let after = one(&motion, true, after, request)?;
     let mut found = Comparison { before, after: Some(after) };
@@ -132,23 +132,23 @@ struct ComputedRecord {
 }
 
 fn one(
-    motion: &RecordedMotion,
+    motion: &ObservedMotion,
     dithered: bool,
     path: &Path,
     request: &CompareRequest,
 ) -> Result<ComparedRecord, Failure> {
-    let mut found = match Measured::read(path, &request.record)? {
-        Measured::Record(record) => of_record(motion, dithered, &record, request)?,
-        Measured::Spectrum(spectrum) => of_spectrum(motion, dithered, &spectrum, request)?,
+    let mut found = match MeasuredFile::read(path, &request.record)? {
+        MeasuredFile::Record(record) => of_record(motion, dithered, &record, request)?,
+        MeasuredFile::Spectrum(spectrum) => of_spectrum(motion, dithered, &spectrum, request)?,
     };
     found.look_at_dither(motion);
     Ok(found)
 }
 
 fn of_record(
-    motion: &RecordedMotion,
+    motion: &ObservedMotion,
     dithered: bool,
-    record: &Record,
+    record: &TimeSeries,
     request: &CompareRequest,
 ) -> Result<ComparedRecord, Failure> {
     let step = record.even_step()?;
@@ -188,7 +188,7 @@ fn of_record(
 
 /// A spectrum from a file: the computed record has its spacing as resolution and ends at its last line.
 fn of_spectrum(
-    motion: &RecordedMotion,
+    motion: &ObservedMotion,
     dithered: bool,
     spectrum: &MeasuredSpectrum,
     request: &CompareRequest,
@@ -237,7 +237,7 @@ fn of_spectrum(
 
 /// The readings of the study: `step` in units of the record, `count` samples, and the time of the first one where the study varies.
 fn computed(
-    motion: &RecordedMotion,
+    motion: &ObservedMotion,
     quantity: RecordedQuantity,
     units: &RecordUnits,
     (step, count, begin): (f64, usize, Option<f64>),
@@ -289,7 +289,7 @@ impl ComparedRecord {
     }
 
     /// What sampling and length hide.
-    fn look_at_dither(&mut self, motion: &RecordedMotion) {
+    fn look_at_dither(&mut self, motion: &ObservedMotion) {
         // One unit of time of the record in those of the equations, from the period of the equations.
         let per_time = match self.frequency_unit {
             Some(_) => motion.scales.second.unwrap_or(1.0),
@@ -375,7 +375,7 @@ impl Comparison {
     }
 
     /// Levels of slow vibration, below the slowest dither.
-    fn band_below_dither(&mut self, motion: &RecordedMotion) {
+    fn band_below_dither(&mut self, motion: &ObservedMotion) {
         let per_time = match self.before.frequency_unit {
             Some(_) => motion.scales.second.unwrap_or(1.0),
             None => motion.scales.plain_time,

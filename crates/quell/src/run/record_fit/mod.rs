@@ -12,13 +12,13 @@ use std::sync::atomic::AtomicBool;
 
 use quell_design::estimates::{Estimates, Freedom};
 use quell_numerics::damped_least_squares::{DampedMinimum, DampedSearch, FittedFunction, fitted};
-use quell_study::record::{Record, RecordRequest};
+use quell_study::record::{RecordRequest, TimeSeries};
 
 pub use request::{FreeNumber, FreeStart, MEASUREMENT};
 
 use super::decay::{pattern, record_warnings};
-use super::named_estimates::{NamedEstimates, NamedParameter};
-use super::recorded_motion::RecordedMotion;
+use super::named_estimates::{NamedEstimates, ReportedParameter};
+use super::recorded_motion::ObservedMotion;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::kind::verbs;
 use crate::study::vocabulary::resolve;
@@ -78,7 +78,7 @@ pub struct RecordFit {
     /// The study with the estimates.
     pub fitted_study: Study,
     /// The record.
-    pub record: Record,
+    pub record: TimeSeries,
     /// The free numbers.
     pub free: Vec<FreeNumber>,
     /// The estimates with their names.
@@ -108,7 +108,7 @@ pub fn run(
     stop: &AtomicBool,
 ) -> Result<RecordFit, Failure> {
     let study = with_fixed(study, &request.fix)?;
-    let record = Record::read(path, &request.record)?;
+    let record = TimeSeries::read(path, &request.record)?;
     let starts = free_numbers(&study, &request.free)?;
     let free: Vec<FreeNumber> = starts.iter().map(|one| one.number.clone()).collect();
     if record.times.len() <= 2 * free.len() {
@@ -153,7 +153,7 @@ fn with_fixed(study: &Study, fix: &[String]) -> Result<Study, Failure> {
 }
 
 /// Time before the record.
-fn settling(motion: &RecordedMotion, given: Option<f64>, has_shift: bool) -> Result<f64, Failure> {
+fn settling(motion: &ObservedMotion, given: Option<f64>, has_shift: bool) -> Result<f64, Failure> {
     match (given, has_shift && motion.system.is_steady()) {
         (Some(settle), _) => Ok(settle),
         (None, false) => Ok(0.0),
@@ -252,7 +252,7 @@ fn bounds(study: &Study, starts: &[FreeStart]) -> DampedSearch {
 
 fn finish(
     study: &Study,
-    record: &Record,
+    record: &TimeSeries,
     free: &[FreeNumber],
     model: &RecordModel<'_>,
     (mut minima, tried): (Vec<DampedMinimum>, usize),
@@ -260,7 +260,7 @@ fn finish(
 ) -> Result<RecordFit, Failure> {
     let best = minima.remove(0);
     let estimates = Estimates::of(&best, &vec![Freedom::Free; free.len()]);
-    let parameters = free.iter().map(|number| NamedParameter {
+    let parameters = free.iter().map(|number| ReportedParameter {
         name: number.name().to_owned(),
         unit: unit(study, record, number),
         factor: 1.0,
@@ -284,7 +284,7 @@ fn finish(
 }
 
 /// Unit of a free number.
-fn unit(study: &Study, record: &Record, number: &FreeNumber) -> String {
+fn unit(study: &Study, record: &TimeSeries, number: &FreeNumber) -> String {
     match number {
         FreeNumber::OfStudy(path) => {
             let of_key = || resolve(path).ok().map(|address| address.key.unit_in_words());

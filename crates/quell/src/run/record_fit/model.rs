@@ -12,13 +12,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, ReadingSampler};
 use quell_numerics::damped_least_squares::FittedFunction;
-use quell_study::record::Record;
+use quell_study::record::TimeSeries;
 
 use super::request::FreeNumber;
 use crate::complaint::Failure;
 use crate::kind::verbs;
 use crate::run::failed;
-use crate::run::recorded_motion::RecordedMotion;
+use crate::run::recorded_motion::ObservedMotion;
 use crate::study::Study;
 
 /// Change of the readings in a step of a difference, relative to their size.
@@ -37,7 +37,7 @@ const GRID: usize = 2000;
 pub(super) struct RecordModel<'a> {
     pub(super) study: &'a Study,
     pub(super) free: &'a [FreeNumber],
-    pub(super) record: &'a Record,
+    pub(super) record: &'a TimeSeries,
     /// Number of samples that are used, from the first.
     pub(super) count: usize,
     /// Settling time in units of the equations.
@@ -65,7 +65,7 @@ impl<'a> RecordModel<'a> {
     pub(super) fn new(
         study: &'a Study,
         free: &'a [FreeNumber],
-        record: &'a Record,
+        record: &'a TimeSeries,
         (settle, marker): (f64, Option<f64>),
         start: &[f64],
         stop: &'a AtomicBool,
@@ -206,18 +206,18 @@ impl FittedFunction for RecordModel<'_> {
 }
 
 /// The same motion from where it is after a time.
-fn settled(motion: &RecordedMotion, settle: f64) -> Result<RecordedMotion, Failure> {
+fn settled(motion: &ObservedMotion, settle: f64) -> Result<ObservedMotion, Failure> {
     if settle <= 0.0 {
         return Ok(motion.clone());
     }
     let engine = Motion::new(&motion.system).map_err(failed)?;
     let until = motion.start.time + settle;
     let end = engine.run(&motion.start, until, MOTION_TOLERANCE, &mut ()).map_err(failed)?;
-    Ok(RecordedMotion { start: end.restart(), ..motion.clone() })
+    Ok(ObservedMotion { start: end.restart(), ..motion.clone() })
 }
 
 /// Time from the start to the highest displacement within a window: a zero of the velocity, by the cubic through its values and slopes.
-fn highest(motion: &RecordedMotion, window: f64) -> Result<f64, Failure> {
+fn highest(motion: &ObservedMotion, window: f64) -> Result<f64, Failure> {
     let step = window / GRID as f64;
     let first = motion.start.time;
     let times: Vec<f64> = (0..=GRID).map(|k| (k as f64).mul_add(step, first)).collect();

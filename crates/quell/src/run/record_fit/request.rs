@@ -62,15 +62,15 @@ pub(super) fn free_numbers(study: &Study, free: &[String]) -> Result<Vec<FreeSta
     let mut found: Vec<FreeStart> = Vec::new();
     for text in free {
         let (name, given) = match text.split_once('=') {
-            Some((name, value)) => match value.trim().parse::<f64>().ok().filter(|v| v.is_finite())
-            {
-                Some(value) => (name.trim(), Some(value)),
-                None => {
+            Some((name, value)) => {
+                let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite());
+                if value.is_none() {
                     let allowed = "NAME=START with a finite number";
                     wrong.push(Complaint::option("--free", text.as_str(), allowed));
                     continue;
                 }
-            },
+                (name.trim(), value)
+            }
             None => (text.trim(), None),
         };
         let number = FreeNumber::named(name);

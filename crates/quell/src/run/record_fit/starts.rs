@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use quell_design::decay::dominant_frequency;
 use quell_numerics::damped_least_squares::FittedFunction;
 use quell_numerics::random::SplitMix;
-use quell_study::record::Record;
+use quell_study::record::TimeSeries;
 
 use super::model::RecordModel;
 use super::request::{FreeNumber, FreeStart};
@@ -37,7 +37,7 @@ const PERIODS: f64 = 6.0;
 const PERIOD_WEIGHT: f64 = 5.0;
 
 /// The period of the largest line of a record, in its unit of time; `None` if it does not vibrate.
-pub(super) fn period(record: &Record) -> Option<f64> {
+pub(super) fn period(record: &TimeSeries) -> Option<f64> {
     let times: Vec<f64> = record.times.iter().map(|time| time - record.times[0]).collect();
     dominant_frequency(&times, &record.values).ok().map(|omega| TAU / omega)
 }
