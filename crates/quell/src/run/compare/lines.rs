@@ -7,10 +7,6 @@ use super::spectra::ComparedSpectrum;
 /// Lines below this share of the largest one are not listed: 60 dB.
 const FLOOR: f64 = 1e-3;
 
-/// Lines of a measured spectrum below this multiple of its median are noise: the largest of a thousand values of a Rayleigh distribution is
-/// 3.2 times its median.
-const NOISE: f64 = 4.0;
-
 /// Lines farther apart than this share of their frequency are different ones, if the resolution separates them.
 const SAME: f64 = 0.03;
 
@@ -61,9 +57,7 @@ pub(super) fn compared(
 ) -> Vec<ComparedLine> {
     let mut theirs = computed.peaks(FLOOR);
     let mut lines: Vec<ComparedLine> = Vec::new();
-    let noise = NOISE * measured.median();
     let mut by_size = measured.peaks(FLOOR);
-    by_size.retain(|peak| peak.amplitude > noise);
     by_size.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
     for peak in by_size {
         let near = resolution.max(SAME * peak.frequency);

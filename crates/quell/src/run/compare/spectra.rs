@@ -31,14 +31,6 @@ impl ComparedSpectrum {
         }
     }
 
-    /// Median of the amplitudes.
-    pub(super) fn median(&self) -> f64 {
-        let mut sizes: Vec<f64> =
-            self.lines().into_iter().map(|(_, amplitude)| amplitude).collect();
-        sizes.sort_by(f64::total_cmp);
-        sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
-    }
-
     /// Frequencies and amplitudes of its lines.
     pub fn lines(&self) -> Vec<(f64, f64)> {
         match self {
