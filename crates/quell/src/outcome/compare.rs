@@ -90,8 +90,9 @@ impl Outcome for ComparedStudy {
     }
 
     fn datasets(&self) -> Vec<(&'static str, Dataset)> {
-        let mut found = vec![("before", self.dataset(&self.done.before))];
-        found.extend(self.done.after.as_ref().map(|after| ("after", self.dataset(after))));
+        let mut found = vec![("before", self.dataset(&self.done.before, ""))];
+        found
+            .extend(self.done.after.as_ref().map(|after| ("after", self.dataset(after, "_after"))));
         found
     }
 
@@ -105,18 +106,19 @@ const NO_SECOND: &str = "one file alone shows no reduction: --after takes the on
 
 impl ComparedStudy {
     /// Lines of the computed spectrum, and of the measured one where it has the same grid.
-    fn dataset(&self, record: &ComparedRecord) -> Dataset {
+    fn dataset(&self, record: &ComparedRecord, ending: &str) -> Dataset {
+        let named = |name: &str| format!("{name}{ending}");
         let unit = record.unit.unwrap_or("1");
         let (frequencies, measured): (Vec<f64>, Vec<f64>) =
             record.measured.lines().into_iter().unzip();
         let dataset = Dataset::of(&self.study, "compare")
             .fact(format!("data: {}", record.file.display()))
             .with_axis(Array::new(
-                "frequency",
+                named("frequency"),
                 record.frequency_unit.unwrap_or("1"),
                 frequencies.clone(),
             ))
-            .with(Array::new("measured", unit, measured));
+            .with(Array::new(named("measured"), unit, measured));
         let computed = record.computed.lines();
         let same = computed.len() == frequencies.len();
         // Lines of a file are at frequencies of their own.
@@ -129,7 +131,7 @@ impl ComparedStudy {
         } else {
             frequencies.iter().map(at).collect()
         };
-        dataset.with(Array::new("computed", unit, values))
+        dataset.with(Array::new(named("computed"), unit, values))
     }
 }
 

@@ -47,7 +47,7 @@ impl Outcome for FreeDecay {
             .with(Array::new("measured", unit, self.record.values.clone()))
             .with(Array::new("fitted", unit, best.values.clone()))
             .with(Array::new("fitted_deviation", unit, best.deviations.clone()))
-            .with(Array::new("residual", unit, self.residuals()));
+            .with(Array::new("point_residual", unit, self.residuals()));
         vec![("record", dataset)]
     }
 

@@ -106,7 +106,7 @@ impl Outcome for RecordFit {
             ))
             .with(Array::new("measured", unit, self.record.values.clone()))
             .with(Array::new("fitted", unit, self.values.clone()))
-            .with(Array::new("residual", unit, self.residuals()));
+            .with(Array::new("point_residual", unit, self.residuals()));
         vec![("record", dataset)]
     }
 
