@@ -12,9 +12,9 @@ use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
 use crate::verbs::{
-    actuator, attractor, basins, bifurcation, check, cite, completions, design, fit, friction, map,
-    modes, new, orbit, probability, report, reproduce, resonances, response, schema, simulate,
-    sketch, stability, thresholds, waveforms,
+    actuator, attractor, basins, bifurcation, check, cite, compare, completions, design, fit,
+    friction, map, modes, new, orbit, probability, report, reproduce, resonances, response, schema,
+    simulate, sketch, stability, thresholds, waveforms,
 };
 use crate::{answer, help};
 
@@ -39,6 +39,7 @@ enum Verb {
     Report(report::Arguments),
     Cite(cite::Arguments),
     Fit(fit::Arguments),
+    Compare(compare::Arguments),
     Friction(friction::Arguments),
     Stability(stability::Arguments),
     Simulate(simulate::Arguments),
@@ -84,6 +85,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Report(arguments) => report::run(arguments),
         Verb::Cite(arguments) => cite::run(arguments),
         Verb::Fit(arguments) => fit::run(arguments),
+        Verb::Compare(arguments) => compare::run(arguments),
         Verb::Friction(arguments) => friction::run(arguments),
         Verb::Stability(arguments) => stability::run(arguments),
         Verb::Simulate(arguments) => simulate::run(arguments),

@@ -1,6 +1,6 @@
 //! The help: verbs in groups, with examples of each.
 //!
-//! Examples use the files that `quell new NAME --save NAME.toml` creates, and `studies/synthetic-friction.csv`, so that each can be
+//! Examples use the files that `quell new NAME --save NAME.toml` creates, and the synthetic measurements in `studies`, so that each can be
 //! run unchanged; a test does that.
 
 use std::fmt::Write as _;
@@ -155,13 +155,23 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
     ),
     (
         "Measurements",
-        &[(
-            "fit",
-            &[
-                "quell fit synthetic-friction.csv",
-                "quell fit synthetic-friction.csv --law decreasing --fix static_coefficient=0.38 --plot fit.svg",
-            ],
-        )],
+        &[
+            (
+                "fit",
+                &[
+                    "quell fit synthetic-friction.csv --law decreasing --fix static_coefficient=0.38 --plot fit.svg",
+                    "quell fit synthetic-decay.csv --decay --plot decay.svg",
+                    "quell fit synthetic-squeal.csv --record --study measured-belt.toml --fix dither.amplitude_n=0 --free friction.static_coefficient,record.shift",
+                ],
+            ),
+            (
+                "compare",
+                &[
+                    "quell compare measured-belt.toml synthetic-squeal.csv --after synthetic-quenched.csv --plot compare.svg",
+                    "quell compare measured-belt.toml synthetic-quenched.csv",
+                ],
+            ),
+        ],
     ),
     (
         "Maps",

@@ -15,6 +15,10 @@ fn place(name: &str) -> Place {
         files.iter().map(|(name, text)| (name.as_str(), *text)).collect();
     let measured = include_str!("../../../studies/synthetic-friction.csv");
     files.push(("synthetic-friction.csv", measured));
+    files.push(("synthetic-decay.csv", include_str!("../../../studies/synthetic-decay.csv")));
+    files.push(("synthetic-squeal.csv", include_str!("../../../studies/synthetic-squeal.csv")));
+    files.push(("synthetic-quenched.csv", include_str!("../../../studies/synthetic-quenched.csv")));
+    files.push(("measured-belt.toml", include_str!("../../../studies/measured-belt.toml")));
     files.push(("design.toml", include_str!("../../../studies/design.toml")));
     files.push(("actuator.toml", include_str!("../../../studies/actuator.toml")));
     files.push(("probability.toml", include_str!("../../../studies/probability.toml")));

@@ -2,6 +2,8 @@
 //! probability that a structure vibrates, and friction models of other programs in place of a law.
 
 pub mod actuator;
+pub mod decay;
+pub mod estimates;
 pub mod fit;
 pub mod least_dither;
 pub mod probability;

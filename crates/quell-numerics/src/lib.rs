@@ -7,7 +7,8 @@
 //! * [`quadrature`], [`gauss_legendre`], [`roots`], [`special`], [`bessel`], [`spectrum`]: integrals, scalar roots and minima,
 //!   special functions, spectra;
 //! * [`extrapolation`]: smooth ordinary differential equations to full accuracy;
-//! * [`symmetric`], [`least_squares`]: eigenvalues of symmetric pencils, fits of a few columns;
+//! * [`symmetric`], [`symmetric_eigenvectors`]: eigenvalues of symmetric pencils, eigenvectors of small symmetric matrices;
+//! * [`least_squares`], [`damped_least_squares`]: linear fits of a few columns, nonlinear fits within bounds;
 //! * [`random`]: pseudorandom numbers with fixed bits;
 //! * [`interval`]: bounds of functions over intervals with outward rounding, for proofs;
 //! * [`normal_form`]: coefficients that decide whether a bifurcation is supercritical;
@@ -15,6 +16,7 @@
 
 pub mod bessel;
 pub mod continuation;
+pub mod damped_least_squares;
 pub mod dispatch;
 pub mod eigen;
 pub mod elementary;
@@ -35,3 +37,4 @@ pub mod roots;
 pub mod special;
 pub mod spectrum;
 pub mod symmetric;
+pub mod symmetric_eigenvectors;

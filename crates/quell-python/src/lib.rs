@@ -40,7 +40,7 @@ mod _quell {
     #[pymodule_export]
     use crate::study::NativeStudy;
     #[pymodule_export]
-    use crate::verbs::fit::fit;
+    use crate::verbs::fit::{fit, fit_decay};
     #[pymodule_export]
     use crate::verbs::new::new;
     #[pymodule_export]

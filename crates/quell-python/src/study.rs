@@ -15,12 +15,13 @@ use quell_model::units::Quantity;
 use crate::answer::NativeAnswer;
 use crate::arguments::{NamedNumbers, Pair, both, ends};
 use crate::verbs::attractor::TimeTexts;
+use crate::verbs::compare::RecordTexts;
 use crate::verbs::map::Asked;
 use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
 use crate::verbs::{
-    actuator, attractor, basins, bifurcation, check, cite, design, friction, map, modes, orbit,
-    probability, report, resonances, response, simulate, sketch, stability, thresholds, waveforms,
-    window,
+    actuator, attractor, basins, bifurcation, check, cite, compare, design, fit, friction, map,
+    modes, orbit, probability, report, resonances, response, simulate, sketch, stability,
+    thresholds, waveforms, window,
 };
 use crate::{call, convert, errors};
 
@@ -509,6 +510,27 @@ impl NativeStudy {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<NativeAnswer> {
         probability::run(py, self.study(), (start, samples, seed), threads, progress)
+    }
+
+    fn compare(
+        &self,
+        py: Python<'_>,
+        files: (PathBuf, Option<PathBuf>),
+        settle: Option<String>,
+        record: RecordTexts,
+    ) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || compare::run(&study, files, settle.as_deref(), &record))
+    }
+
+    fn fit_record(
+        &self,
+        py: Python<'_>,
+        asked: (PathBuf, Vec<String>, Vec<String>),
+        settle: Option<String>,
+        record: RecordTexts,
+    ) -> PyResult<NativeAnswer> {
+        fit::record(py, self.study(), asked, settle, record)
     }
 
     fn modes(&self, py: Python<'_>) -> PyResult<NativeAnswer> {

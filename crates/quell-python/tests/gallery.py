@@ -212,6 +212,12 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "actuator of a system": lambda: study("drive with a motor").actuator(),
     "probability": lambda: quell.Study.from_toml(STUDIES / "probability.toml").probability(samples=200),
     "probability in SI": lambda: probability_in_si().probability(samples=100),
+    "free decay": lambda: quell.fit_decay(STUDIES / "synthetic-decay.csv"),
+    "fit of a record": lambda: quell.Study.from_toml(STUDIES / "measured-belt.toml").fit_record(
+        STUDIES / "synthetic-squeal.csv", free=["friction.static_coefficient", "record.shift"], fix="dither.amplitude_n=0"),
+    "comparison": lambda: quell.Study.from_toml(STUDIES / "measured-belt.toml").compare(
+        STUDIES / "synthetic-squeal.csv", after=STUDIES / "synthetic-quenched.csv"),
+    "comparison of one record": lambda: quell.Study.from_toml(STUDIES / "measured-belt.toml").compare(STUDIES / "synthetic-quenched.csv"),
     "waveforms": lambda: belt().waveforms(),
     "waveforms of a system": lambda: study("drive in SI").waveforms(),
     "waveforms in SI": lambda: belt_in_si().waveforms(),

@@ -37,8 +37,11 @@ OTHER_NAMES = {"--from": "from_"}
 DRAWINGS = {"sketch", "report"}
 """Verbs whose answer is a file; Python returns its text, and `--out` is the argument `path`."""
 
-BESIDE = {"quell.sweep", "quell.quantities"}
-"""Functions that only Python has, all of them about axes and names of maps."""
+BESIDE = {"quell.sweep", "quell.quantities", "quell.fit_decay"}
+"""Functions that only Python has: about axes and names of maps, and the fits whose results have arrays."""
+
+FITS = {"fit_record"}
+"""Methods that are an option of a verb of the command line."""
 
 
 def offered() -> dict[str, Any]:
@@ -49,7 +52,7 @@ def offered() -> dict[str, Any]:
     verbs = {
         name: method
         for name, method in members
-        if name in DRAWINGS or (not name.startswith("_") and "results." in str(method.__annotations__.get("return")))
+        if name not in FITS and (name in DRAWINGS or (not name.startswith("_") and "results." in str(method.__annotations__.get("return"))))
     }
     functions = {
         name: it for name, it in vars(quell).items() if inspect.isfunction(it) and name in quell.__all__
@@ -90,6 +93,7 @@ def test_the_options_are_the_same(verb: str) -> None:
         "reproduce": {"names"},
         "new": {"question", "save"},
         "fit": {"data"},
+        "compare": {"measured"},
     }
     assert wanted <= given, f"Python lacks {wanted - given}"
     assert given - wanted <= python_only.get(verb, set()), f"the command line lacks {given - wanted}"
@@ -133,6 +137,8 @@ CASES: list[tuple[str, str, list[str], Any]] = [
      lambda study: study.bifurcation("dither.amplitude", 0.45, 0.55, points=3, up=True)),
     ("basins", BELT, ["--displacement", "0:0.5", "--velocity", "-0.2:0.2", "--grid", "4x3"],
      lambda study: study.basins(displacement=(0, 0.5), velocity=(-0.2, 0.2), grid=(4, 3))),
+    ("compare", str(STUDIES / "measured-belt.toml"), [str(STUDIES / "synthetic-squeal.csv"), "--after", str(STUDIES / "synthetic-quenched.csv")],
+     lambda study: study.compare(STUDIES / "synthetic-squeal.csv", after=STUDIES / "synthetic-quenched.csv")),
     ("modes", DISC, [], lambda study: study.modes()),
     ("resonances", DISC, ["--speeds", "0:0.9"], lambda study: study.resonances(speeds=(0, 0.9))),
 ]  # fmt: skip
@@ -159,6 +165,20 @@ def test_a_fit_is_the_same(cli: Any) -> None:
     assert quell.fit(data, law=["stribeck", "coulomb"]) == cli("fit", data, "--law", "stribeck", "--law", "coulomb")
     with pytest.raises(quell.StudyError, match="stribeck"):
         quell.fit(data, law="stribek")
+    with pytest.raises(quell.StudyError, match="gain"):
+        quell.fit(data, gain=2.0)
+
+
+def test_fits_of_records_are_the_same(cli: Any) -> None:
+    decay = str(STUDIES / "synthetic-decay.csv")
+    one = cli("fit", decay, "--decay", "--law", "viscous")
+    assert quell.fit_decay(decay, law="viscous").facts == one == quell.fit(decay, decay=True, law="viscous")
+    record, study = str(STUDIES / "synthetic-squeal.csv"), str(STUDIES / "measured-belt.toml")
+    free = ["friction.static_coefficient", "record.shift"]
+    quiet = "dither.amplitude_n=0"
+    other = cli("fit", record, "--record", "--study", study, "--free", ",".join(free), "--fix", quiet)
+    assert quell.Study.from_toml(study).fit_record(record, free=free, fix=quiet).facts == other
+    assert quell.fit(record, record=True, study=study, free=free, fix=quiet) == other
 
 
 def test_a_new_study_is_the_same(cli: Any, tmp_path: Any) -> None:

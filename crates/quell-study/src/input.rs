@@ -76,6 +76,13 @@ impl Inputs {
         inputs
     }
 
+    /// These files and further ones, such as those of measurements.
+    #[must_use]
+    pub fn with_files<'p>(mut self, paths: impl IntoIterator<Item = &'p Path>) -> Self {
+        self.files.extend(paths.into_iter().map(Path::to_owned));
+        self
+    }
+
     /// The input file that `path` refers to, also through links or as a second name of the same file.
     pub fn at(&self, path: &Path) -> Option<InputFile> {
         let found = fs::metadata(path).ok().filter(Metadata::is_file)?;

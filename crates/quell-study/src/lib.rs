@@ -7,6 +7,7 @@
 //! | [`quantity`] | numbers with units in options and arguments |
 //! | [`input`] | the files that a study was read from, which outputs never overwrite |
 //! | [`measurement`] | a CSV file of measured friction |
+//! | [`record`] | CSV files of measured time series and spectra |
 //! | [`schema`] | the JSON Schema of a study file |
 //!
 //! This crate computes nothing: the engines take the belt or the disc of a study, and the crate `quell` runs them.
@@ -33,6 +34,7 @@ pub mod complaint;
 pub mod input;
 pub mod measurement;
 pub mod quantity;
+pub mod record;
 pub mod schema;
 pub mod study;
 

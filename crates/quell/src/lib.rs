@@ -143,7 +143,7 @@
 //! |---|---|
 //! | [`run`] | one function per question, with its outcome |
 //! | [`study`], [`complaint`], [`schema`] | studies and complaints about invalid ones (`quell-study`) |
-//! | [`measurement`] | measured friction in a file (`quell-study`) |
+//! | [`measurement`], [`record`] | measured friction, time series and spectra in files (`quell-study`) |
 //! | [`sweep`], [`store`] | maps: points, quantities, threads; stores that survive interruptions |
 //! | [`picture`], [`plot`] | pictures of outcomes; figures as data (`quell-plot`) |
 //! | [`dataset`], [`fields`], [`output`] | labelled arrays, JSON objects, files that are complete or absent |
@@ -175,7 +175,7 @@ pub mod template;
 pub mod words;
 
 pub use quell_plot as plot;
-pub use quell_study::{complaint, input, measurement, quantity, schema, study};
+pub use quell_study::{complaint, input, measurement, quantity, record, schema, study};
 
 pub use complaint::{Complaint, Complaints, Failure, Fault, Origin};
 pub use study::{BeltStudy, Change, DiscStudy, Study};

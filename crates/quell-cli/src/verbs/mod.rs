@@ -6,6 +6,7 @@ pub(crate) mod basins;
 pub(crate) mod bifurcation;
 pub(crate) mod check;
 pub(crate) mod cite;
+pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod design;
 pub(crate) mod fit;

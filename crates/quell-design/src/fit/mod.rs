@@ -26,7 +26,7 @@ pub use covariance::{Certainty, Covariance};
 pub use diagnosis::{FitFinding, diagnose};
 pub use model::{Estimate, FitModel};
 pub use point::FitPoint;
-pub use statistics::student_quantile;
+pub use statistics::{runs, student_quantile};
 
 /// Why a law cannot be fitted.
 #[derive(Clone, Debug, PartialEq)]

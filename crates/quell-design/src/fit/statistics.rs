@@ -59,7 +59,7 @@ pub(super) fn robust_deviation(values: &[f64]) -> f64 {
 
 /// Number of runs of equal sign, its expectation and the deviation from it in standard deviations, for signs in random order (Wald
 /// and Wolfowitz 1940); `None` for fewer than ten values or a single sign.
-pub(super) fn runs(values: &[f64]) -> Option<(usize, f64, f64)> {
+pub fn runs(values: &[f64]) -> Option<(usize, f64, f64)> {
     let count = values.len() as f64;
     let positive = values.iter().filter(|value| **value > 0.0).count() as f64;
     let negative = count - positive;

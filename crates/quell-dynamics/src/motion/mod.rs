@@ -25,6 +25,7 @@
 //! | `phase`, `state`, `observer`, `stopped` | what goes into a run and comes out of it |
 //! | `extremes` | extremes of a series on a step |
 //! | `contact_meter`, `input_meter`, `row_meter` | integrals over a motion: what contacts do on average, the cost of inputs, a row |
+//! | `reading_sampler` | what a sensor reads at given times |
 
 mod change_block;
 mod change_series;
@@ -46,6 +47,7 @@ mod own_events;
 mod own_friction;
 mod own_state;
 mod phase;
+mod reading_sampler;
 mod row_meter;
 mod rows;
 mod selection;
@@ -73,6 +75,7 @@ pub use observer::{
     RecordedEvent, Trigger,
 };
 pub use phase::ContactPhase;
+pub use reading_sampler::ReadingSampler;
 pub use row_meter::RowMeter;
 pub use state::{ContactEnd, MotionEnd, MotionStart};
 pub use stopped::{Immobile, MotionStopped, StopReason};

@@ -44,6 +44,7 @@ from ._laws import (
     StudyFriction,
 )
 from ._quell import __version__
+from ._record import names_of, record_of
 from ._study import Study
 from ._profile import Profile
 from ._system import Component, Contact, Contacts, System, SystemDither, SystemInitial, SystemMode
@@ -93,6 +94,7 @@ __all__ = [
     "new",
     "quantities",
     "fit",
+    "fit_decay",
     "reproduce",
     "results",
     "schema",
@@ -152,19 +154,38 @@ def fit(
     law: str | list[str] | None = None,
     free: str | list[str] | None = None,
     fix: str | list[str] | None = None,
+    decay: bool = False,
+    record: bool = False,
+    study: Study | str | os.PathLike[str] | None = None,
+    settle: float | str | None = None,
+    column: str | None = None,
+    quantity: str | None = None,
+    gain: float | None = None,
+    window: tuple[float, float] | None = None,
 ) -> dict[str, Any]:
-    """Fits friction laws to measured coefficients, with standard errors, and compares the laws.
+    """Fits friction laws to measured coefficients, a free decay, or a study to a record, with standard errors.
 
     Parameters
     ----------
     data :
-        CSV file with ``slip_velocity`` (or ``slip_velocity_m_per_s``) and ``coefficient``, or ``friction_force`` and ``normal_load``.
+        CSV file with ``slip_velocity`` (or ``slip_velocity_m_per_s``) and ``coefficient``, or ``friction_force`` and ``normal_load``; with
+        ``decay`` and ``record`` with ``time`` (or ``time_s``) and ``displacement``, ``velocity`` or ``acceleration``.
     law :
         Names of laws, or "all" [default: "all"].
     free :
-        Parameters to estimate that are otherwise fixed, such as "exponent".
+        Parameters to estimate that are otherwise fixed, such as "exponent"; with ``record`` numbers of the study.
     fix :
         Parameters to fix, such as "static_coefficient=0.4".
+    decay :
+        Whether to fit a free decay: :func:`fit_decay` returns its result with arrays and a picture.
+    record :
+        Whether to fit a study: :meth:`Study.fit_record` returns its result with arrays and a picture.
+    study :
+        Study of ``record``.
+    settle :
+        Time before the record, of ``record``.
+    column, quantity, gain, window :
+        How a record is read, as in :func:`fit_decay`.
 
     Returns
     -------
@@ -173,15 +194,70 @@ def fit(
         ``residual``, ``aic`` and the comparison of the laws.
     """
     arguments = Arguments()
+    given = {"column": column, "quantity": quantity, "gain": gain, "window": window}
+    if decay:
+        beside = {"record": record or None, "study": study, "settle": settle, "free": free}
+        for name, value in beside.items():
+            if value is not None:
+                arguments.wrong.append(complaint(name, str(value), "left out with decay", "conflict"))
+        arguments.done()
+        return fit_decay(data, law=law, fix=fix, **given).facts  # type: ignore[arg-type]
+    if record:
+        if study is None or law is not None:
+            arguments.wrong.append(complaint("study", None, "given with record, and law left out", "conflict"))
+        arguments.done()
+        read = study if isinstance(study, Study) else Study.from_toml(study)  # type: ignore[arg-type]
+        return read.fit_record(data, free=free or [], fix=fix, settle=settle, **given).facts  # type: ignore[arg-type]
+    for name, value in {"study": study, "settle": settle, **given}.items():
+        if value is not None:
+            arguments.wrong.append(complaint(name, str(value), "given with decay or record", "conflict"))
     place = arguments.path("data", data)
-
-    def names(name: str, given: str | list[str] | None) -> list[str]:
-        listed = [given] if isinstance(given, str) else list(given or [])
-        return [arguments.text(name, it, "a text or a list of texts") or "" for it in listed]
-
-    laws, freed, fixed = names("law", law), names("free", free), names("fix", fix)
+    laws, freed, fixed = (names_of(arguments, name, it) for name, it in (("law", law), ("free", free), ("fix", fix)))
     arguments.done()
     return _quell.fit(str(place), laws, freed, fixed)
+
+
+@keywords
+def fit_decay(
+    data: str | os.PathLike[str],
+    *,
+    law: str | list[str] | None = None,
+    fix: str | list[str] | None = None,
+    column: str | None = None,
+    quantity: str | None = None,
+    gain: float | None = None,
+    window: tuple[float, float] | None = None,
+) -> results.Decay:
+    """Fits natural frequency, damping ratio and friction to a record of a free decay.
+
+    Parameters
+    ----------
+    data :
+        CSV file with ``time`` (or ``time_s``) and ``displacement``, ``velocity`` or ``acceleration``, with their units in the names.
+    law :
+        "viscous", "coulomb", "viscous-coulomb", or "all" [default: "all"].
+    fix :
+        Parameters to fix, such as "offset=0".
+    column :
+        Column of the record [default: the first of displacement, velocity and acceleration].
+    quantity :
+        What the column shows, if its name does not say it.
+    gain :
+        Factor of the readings [default: 1].
+    window :
+        Two times of the record between which it is read.
+
+    Returns
+    -------
+    quell.results.Decay
+        Estimates with standard errors and covariance, the comparison of the laws, and arrays over the samples.
+    """
+    arguments = Arguments()
+    place = arguments.path("data", data)
+    laws, fixed = names_of(arguments, "law", law), names_of(arguments, "fix", fix)
+    texts = record_of(arguments, column, quantity, gain, window)
+    arguments.done()
+    return results.Decay(None, _quell.fit_decay(str(place), laws, fixed, texts))
 
 
 def quantities() -> dict[str, dict[str, str]]:

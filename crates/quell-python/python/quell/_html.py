@@ -160,7 +160,8 @@ def rows_of(rows: Any, tag: str = "td") -> str:
 def result(result: Result) -> str:
     """A result for a notebook."""
     parts = [f"<div><strong>quell {html.escape(result.verb)}</strong>"]
-    title = result.study.title
+    # A free decay has no study.
+    title = getattr(result.study, "title", None)
     if title:
         parts.append(f" <span style='color:#666'>{html.escape(title)}</span>")
     if "sentence" in result.facts:

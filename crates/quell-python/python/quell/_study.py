@@ -18,6 +18,7 @@ from ._axes import Axes
 from ._checked import CheckedStudy
 from ._errors import StudyError, complaint
 from ._laws import StudyFriction
+from ._record import names_of, record_of
 from ._tables import Number
 from ._values import plain
 
@@ -856,6 +857,87 @@ class Study(CheckedStudy):
         arguments.done()
         native = self._native.probability(start, count, chosen, workers, progress)
         return results.Probability(self, native)
+
+    @keywords
+    def compare(
+        self,
+        measured: str | os.PathLike[str],
+        *,
+        after: str | os.PathLike[str] | None = None,
+        column: str | None = None,
+        quantity: str | None = None,
+        gain: float | None = None,
+        window: tuple[float, float] | None = None,
+        settle: float | str | None = None,
+    ) -> results.Comparison:
+        """Compares a measured record or spectrum with the response of the study, before and after its dither.
+
+        Parameters
+        ----------
+        measured :
+            CSV file with ``time`` (or ``time_s``) and ``displacement``, ``velocity`` or ``acceleration``, or with ``frequency_hz`` and
+            ``level``; with ``after`` it is without dither.
+        after :
+            File measured under dither.
+        column, quantity, gain, window :
+            How the files are read, as in :func:`quell.fit_decay`.
+        settle :
+            Time before the computed record, in the units of the study or with a unit [default: 200 periods].
+
+        Returns
+        -------
+        quell.results.Comparison
+            Lines and levels of both spectra, and the reduction by the dither in decibels.
+        """
+        arguments = Arguments()
+        first = arguments.path("measured", measured)
+        second = None if after is None else arguments.path("after", after)
+        time = None if settle is None else arguments.quantity("settle", settle)
+        texts = record_of(arguments, column, quantity, gain, window)
+        arguments.done()
+        return results.Comparison(self, self._native.compare((first, second), time, texts))
+
+    @keywords
+    def fit_record(
+        self,
+        data: str | os.PathLike[str],
+        *,
+        free: str | list[str],
+        fix: str | list[str] | None = None,
+        settle: float | str | None = None,
+        column: str | None = None,
+        quantity: str | None = None,
+        gain: float | None = None,
+        window: tuple[float, float] | None = None,
+    ) -> results.RecordFit:
+        """Fits numbers of the study to a measured record, by its exact motion.
+
+        Parameters
+        ----------
+        data :
+            CSV file with ``time`` (or ``time_s``) and ``displacement``, ``velocity`` or ``acceleration``.
+        free :
+            Paths of the numbers to estimate, such as "belt.damping_ratio", or with a start "belt.damping_ratio=0.01"; also
+            "record.shift", "record.offset" and "record.gain".
+        fix :
+            Other numbers of the study, such as "belt.belt_velocity=0.1".
+        settle :
+            Time from the start of the run to the record [default: 0, with a free "record.shift" 30 periods].
+        column, quantity, gain, window :
+            How the file is read, as in :func:`quell.fit_decay`.
+
+        Returns
+        -------
+        quell.results.RecordFit
+            Estimates with standard errors and covariance, combinations that the record does not determine, and arrays over the samples.
+        """
+        arguments = Arguments()
+        place = arguments.path("data", data)
+        freed, fixed = names_of(arguments, "free", free), names_of(arguments, "fix", fix)
+        time = None if settle is None else arguments.quantity("settle", settle)
+        texts = record_of(arguments, column, quantity, gain, window)
+        arguments.done()
+        return results.RecordFit(self, self._native.fit_record((place, freed, fixed), time, texts))
 
     def modes(self) -> results.Modes:
         """Natural frequencies and shapes of a disc or of a system, and critical speeds of a disc."""

@@ -2,9 +2,11 @@
 
 use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
+use crate::complaint::Failure;
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::found_attractor::AttractorRequest;
+use crate::run::recorded_motion::ObservedMotion;
 use crate::run::system::response::ResponseRequest;
 use crate::run::{
     actuator, basins, belt_system, bifurcation, curves, describing, design, found_attractor,
@@ -38,6 +40,8 @@ impl Verbs for BeltStudy {
             "probability",
             "bifurcation",
             "basins",
+            "compare",
+            "fit --record",
             "map",
         ]
     }
@@ -82,6 +86,10 @@ impl Verbs for BeltStudy {
 
     fn response_within(&self, window: (f64, f64)) -> Reply {
         answer(self, window::of_belt(self, window))
+    }
+
+    fn recorded_motion(&self, _: &str) -> Result<ObservedMotion, Failure> {
+        ObservedMotion::of_belt(self)
     }
 
     fn ramp(&self) -> Reply {

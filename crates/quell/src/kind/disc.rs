@@ -2,10 +2,12 @@
 
 use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
+use crate::complaint::Failure;
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::disc::{design, modes, motion, resonances, stability};
 use crate::run::probability;
+use crate::run::recorded_motion::ObservedMotion;
 use crate::run::simulate::Options;
 use crate::run::system::simulate::MotionRequest;
 use crate::study::{DiscSetup, DiscStudy};
@@ -28,6 +30,8 @@ impl Verbs for DiscStudy {
             "design",
             "probability",
             "resonances",
+            "compare",
+            "fit --record",
             "map",
         ]
     }
@@ -65,6 +69,10 @@ impl Verbs for DiscStudy {
 
     fn probability(&self, request: probability::ProbabilityRequest, running: Running<'_>) -> Reply {
         answer(self, probability::run(self, request, running))
+    }
+
+    fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
+        ObservedMotion::of_system(&motion::at_rest(self), verb)
     }
 
     fn modes(&self) -> Reply {

@@ -12,6 +12,7 @@ use crate::run::disc::{motion, resonances};
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
 use crate::run::probability::ProbabilityRequest;
+use crate::run::recorded_motion::ObservedMotion;
 use crate::run::system::basins::PlaneRequest;
 use crate::run::system::found_attractor::MotionAttractorRequest;
 use crate::run::system::orbit::WantedMotion;
@@ -293,6 +294,15 @@ pub trait Verbs: Send + Sync {
         Err(self.lacks("probability"))
     }
 
+    /// The exact motion as a sensor would record it, which `compare` and `fit --record` set against measurements; `verb` is the one
+    /// that asks.
+    ///
+    /// # Errors
+    /// A kind without motion; a start that does not exist.
+    fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
+        Err(self.lacks(verb))
+    }
+
     /// Natural frequencies and shapes.
     ///
     /// # Errors
@@ -360,9 +370,18 @@ impl Verbs for OverTime {
 
     fn names(&self) -> &'static [&'static str] {
         if self.kind() == DiscSetup::NAME {
-            &["check", "sketch", "cite", "simulate", "response --window"]
+            &["check", "sketch", "cite", "simulate", "response --window", "compare", "fit --record"]
         } else {
-            &["check", "sketch", "cite", "simulate", "response --window", "bifurcation --ramp"]
+            &[
+                "check",
+                "sketch",
+                "cite",
+                "simulate",
+                "response --window",
+                "bifurcation --ramp",
+                "compare",
+                "fit --record",
+            ]
         }
     }
 
@@ -396,6 +415,10 @@ impl Verbs for OverTime {
 
     fn ramp(&self) -> Reply {
         self.steady.ramp()
+    }
+
+    fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
+        self.steady.recorded_motion(verb)
     }
 
     fn lacks(&self, verb: &str) -> Failure {

@@ -6,6 +6,7 @@ use crate::cite::Sources;
 use crate::complaint::Failure;
 use crate::outcome::Outcome;
 use crate::run::probability::{ProbabilityRequest, ProbabilityStart};
+use crate::run::recorded_motion::ObservedMotion;
 use crate::run::simulate::Options;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
@@ -28,6 +29,7 @@ impl Verbs for UnderNoise {
                 "simulate",
                 "response",
                 "probability",
+                "compare",
                 "map",
             ],
             _ => &[
@@ -41,6 +43,7 @@ impl Verbs for UnderNoise {
                 "simulate",
                 "response",
                 "map",
+                "compare",
             ],
         }
     }
@@ -113,6 +116,10 @@ impl Verbs for UnderNoise {
 
     fn response_within(&self, window: (f64, f64)) -> Reply {
         self.periodic.response_within(window)
+    }
+
+    fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
+        self.periodic.recorded_motion(verb)
     }
 
     fn lacks(&self, verb: &str) -> Failure {

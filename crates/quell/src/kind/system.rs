@@ -12,6 +12,7 @@ use crate::run::bifurcation::SweepRequest;
 use crate::run::curves::CurvesRequest;
 use crate::run::found_attractor::AttractorRequest;
 use crate::run::orbit::Wanted;
+use crate::run::recorded_motion::ObservedMotion;
 use crate::run::simulate::Options;
 use crate::run::system::basins::{PlaneRequest, default_plane};
 use crate::run::system::found_attractor::MotionAttractorRequest;
@@ -58,6 +59,8 @@ impl Verbs for SystemStudy {
             "bifurcation",
             "basins",
             "resonances",
+            "compare",
+            "fit --record",
             "map",
         ]
     }
@@ -157,6 +160,10 @@ impl Verbs for SystemStudy {
 
     fn response_within(&self, window: (f64, f64)) -> Reply {
         answer(self, window::of_system(self, window))
+    }
+
+    fn recorded_motion(&self, verb: &str) -> Result<ObservedMotion, Failure> {
+        ObservedMotion::of_system(self, verb)
     }
 
     fn response_after(&self, request: ResponseRequest) -> Reply {

@@ -17,9 +17,12 @@ mod basins;
 mod bifurcation;
 pub mod check;
 mod cite;
+mod compare;
+mod decay;
 mod describing;
 mod design;
 mod disc_motion;
+mod estimates;
 mod fit;
 mod friction;
 pub mod friction_export;
@@ -29,6 +32,7 @@ mod noise_response;
 mod orbit;
 mod probability;
 mod ramp;
+mod record_fit;
 mod resonances;
 mod response;
 mod simulate;
@@ -39,6 +43,7 @@ mod thresholds;
 mod waveforms;
 mod window;
 
+pub use compare::ComparedStudy;
 pub(crate) use probability::POINTS as DISTRIBUTION_POINTS;
 
 /// The answer of a verb.

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from .._dataset import Arrays, Variable
 from .._result import Result
+from ._measured import Comparison, Decay, RecordFit
 from ._motion import Attractor, NoiseResponse, Orbit, Response, Simulation, Window
 from ._steady import Actuator, Check, Citations, ContactFriction, ContactGains, DescribingFunction, Design, ExactStability, FrictionCurve, Modes, Probability, Resonances, Stability, TrackedStability, Waveforms
 from ._sweeps import Basins, Bifurcation, Map, Ramp, Shard, ThresholdCurves, Thresholds
@@ -29,6 +30,8 @@ __all__ = [
     "Citations",
     "ContactFriction",
     "ContactGains",
+    "Comparison",
+    "Decay",
     "DescribingFunction",
     "Design",
     "ExactStability",
@@ -39,6 +42,7 @@ __all__ = [
     "Orbit",
     "Probability",
     "Ramp",
+    "RecordFit",
     "Resonances",
     "Response",
     "Result",

@@ -272,6 +272,27 @@ class CitationsColumns:
     source_reference: npt.NDArray[np.str_]
 
 
+class ComparisonColumns:
+    """Of :class:`quell.results.Comparison`."""
+
+    computed: npt.NDArray[np.float64]
+    computed_after: npt.NDArray[np.float64]
+    frequency: npt.NDArray[np.float64]
+    frequency_after: npt.NDArray[np.float64]
+    measured: npt.NDArray[np.float64]
+    measured_after: npt.NDArray[np.float64]
+
+
+class DecayColumns:
+    """Of :class:`quell.results.Decay`."""
+
+    fitted: npt.NDArray[np.float64]
+    fitted_deviation: npt.NDArray[np.float64]
+    measured: npt.NDArray[np.float64]
+    point_residual: npt.NDArray[np.float64]
+    time: npt.NDArray[np.float64]
+
+
 class ContactFrictionColumns:
     """Of :class:`quell.results.ContactFriction`."""
 
@@ -624,6 +645,15 @@ class RampColumns:
     time: npt.NDArray[np.float64]
     value: npt.NDArray[np.float64]
     velocity: npt.NDArray[np.float64]
+
+
+class RecordFitColumns:
+    """Of :class:`quell.results.RecordFit`."""
+
+    fitted: npt.NDArray[np.float64]
+    measured: npt.NDArray[np.float64]
+    point_residual: npt.NDArray[np.float64]
+    time: npt.NDArray[np.float64]
 
 
 class ResonancesColumns:

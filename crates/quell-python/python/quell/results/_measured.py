@@ -1,0 +1,111 @@
+"""Results of verbs that set a study, or a law, against measurements."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from .._result import Result
+from . import _columns
+
+if TYPE_CHECKING:
+    from .._quell import NativeAnswer
+    from .._study import Study
+
+__all__ = ["Comparison", "Decay", "RecordFit"]
+
+
+class Decay(_columns.DecayColumns, Result):
+    """Natural frequency, damping and friction from a free decay; arrays over the samples (n,). It has no study."""
+
+    verb = "fit_decay"
+    law: str
+    """The law with the least AIC: "viscous", "coulomb" or "viscous-coulomb"."""
+    parameters: dict[str, dict[str, float | bool | None]]
+    """``value``, ``standard_error`` and ``fixed`` by name."""
+    covariance: dict[str, list[Any]]
+    """``order``, the names, and ``matrix``, row by row."""
+    condition: float | None
+    """Condition of the information matrix."""
+    residual: float
+    """Residual standard deviation."""
+    rss: float
+    """Sum of squares of the residuals."""
+    p: int
+    """Number of estimated parameters."""
+    n: int
+    """Number of samples."""
+    aic: float | None
+    """Akaike's information criterion."""
+    converged: bool
+    """Whether the search has converged."""
+    file: str
+    """The file."""
+    columns: list[str]
+    """Its columns."""
+    quantity: str
+    """What the record shows."""
+    comparison: list[dict[str, Any]]
+    """Every law by ascending AIC."""
+    not_determinable: list[str]
+    """What no free decay determines."""
+    tables: dict[str, str]
+    """Tables to paste into a study: ``belt`` and ``uncertainty``."""
+
+    def __init__(self, study: Study | None, native: NativeAnswer | None) -> None:
+        super().__init__(study, native)  # type: ignore[arg-type]
+
+
+class RecordFit(_columns.RecordFitColumns, Result):
+    """Numbers of a study from a measured record; arrays over the samples (n,)."""
+
+    verb = "fit_record"
+    parameters: dict[str, dict[str, float | bool | None]]
+    """``value``, ``standard_error`` and ``fixed`` by path."""
+    covariance: dict[str, list[Any]]
+    """``order``, the paths, and ``matrix``, row by row."""
+    condition: float | None
+    """Condition of the information matrix."""
+    residual: float
+    """Residual standard deviation."""
+    rss: float
+    """Sum of squares of the residuals."""
+    p: int
+    """Number of estimated numbers."""
+    n: int
+    """Number of samples."""
+    aic: float | None
+    """Akaike's information criterion."""
+    converged: bool
+    """Whether the search has converged."""
+    derivatives: str
+    """How derivatives are computed."""
+    starts: int
+    """Number of starts of the search."""
+    file: str
+    """The file."""
+    columns: list[str]
+    """Its columns."""
+    quantity: str
+    """What the record shows."""
+    shift_from: str | None
+    """Where a free shift counts from."""
+    other_minima: list[dict[str, Any]]
+    """Other minima of the sum of squares."""
+    not_determinable: list[dict[str, Any]]
+    """Combinations of numbers that the record hardly determines."""
+    tables: dict[str, str]
+    """Tables to paste into the study: ``numbers`` and ``uncertainty``."""
+
+
+class Comparison(_columns.ComparisonColumns, Result):
+    """Measured and computed spectra; arrays over frequencies (n,), those of a second file with the ending of its dataset."""
+
+    verb = "compare"
+    before: dict[str, Any]
+    """The first file: ``lines``, ``measured_rms``, ``computed_rms``, ``resolution``, ``not_comparable``."""
+    after: dict[str, Any] | None
+    """The same of the second file."""
+    reduction: dict[str, float] | None
+    """Decibels by which the dither reduces the vibration: ``measured``, ``predicted``, ``difference``."""
+    slow_reduction: dict[str, float] | None
+    """The same of the vibration below the dither."""

@@ -1,0 +1,51 @@
+//! `compare`: a measured record or spectrum against the response of a study.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use quell::outcome::ComparedStudy;
+use quell::record::RecordRequest;
+use quell::run::compare::{self, CompareRequest};
+use quell::run::system::start::duration as duration_of_motion;
+use quell::{Failure, Study, quantity};
+
+use crate::answer::NativeAnswer;
+
+/// How a measured file is read: column, quantity, gain and window.
+#[derive(Debug, FromPyObject)]
+pub(crate) struct RecordTexts(Option<String>, Option<String>, Option<String>, Option<String>);
+
+impl RecordTexts {
+    /// The checked request.
+    pub(crate) fn request(&self) -> Result<RecordRequest, Failure> {
+        let Self(column, quantity, gain, window) = self;
+        RecordRequest::new(
+            column.as_deref(),
+            quantity.as_deref(),
+            gain.as_deref(),
+            window.as_deref(),
+        )
+    }
+}
+
+/// A time of the study, in the units of its equations.
+pub(crate) fn time_of(study: &Study, text: &str, option: &'static str) -> Result<f64, Failure> {
+    Ok(match study.system() {
+        Ok(system) => duration_of_motion(&system, text, option)?,
+        Err(_) => quantity::duration(text, study.scales(), option)?,
+    })
+}
+
+/// Runs the verb.
+pub(crate) fn run(
+    study: &Study,
+    (measured, after): (PathBuf, Option<PathBuf>),
+    settle: Option<&str>,
+    record: &RecordTexts,
+) -> Result<NativeAnswer, Failure> {
+    let record = record.request()?;
+    let settle = settle.map(|text| time_of(study, text, "settle")).transpose()?;
+    let request = CompareRequest { measured, after, record, settle };
+    let done = compare::run(study, &request)?;
+    Ok(NativeAnswer::new(Box::new(ComparedStudy { study: study.clone(), done })))
+}

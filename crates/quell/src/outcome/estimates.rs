@@ -1,0 +1,88 @@
+//! Estimates of a fit to a record: objects, rows and words, shared by the fits of decays and of studies.
+
+use std::fmt::Write as _;
+
+use serde_json::{Map, json};
+
+use super::table::figure;
+use crate::fields::Fields;
+use crate::run::named_estimates::NamedEstimates;
+use crate::words::digits;
+
+/// The parameters as an object, those for which `shown` holds.
+pub(super) fn parameters(named: &NamedEstimates, shown: impl Fn(usize) -> bool) -> Fields {
+    let mut inner = Fields::new(None);
+    for place in (0..named.parameters.len()).filter(|place| shown(*place)) {
+        let parameter = &named.parameters[place];
+        let error = named.error(place);
+        let mut object = Map::new();
+        object.insert("value".to_owned(), named.value(place).into());
+        object.insert("standard_error".to_owned(), error.clone().ok().into());
+        let is_fixed = error.as_ref().is_err_and(|why| why.ends_with("fixed"));
+        object.insert("fixed".to_owned(), is_fixed.into());
+        inner.measured(&parameter.name, &parameter.unit, object);
+        if let Err(why) = error {
+            inner.why(&format!("{}.standard_error", parameter.name), why);
+        }
+    }
+    inner
+}
+
+/// Covariance, condition, residual and criterion.
+pub(super) fn numbers(fields: &mut Fields, named: &NamedEstimates, unit: &str) {
+    let (order, matrix) = named.covariance();
+    let order: Vec<&str> =
+        order.iter().map(|place| named.parameters[*place].name.as_str()).collect();
+    fields.plain("covariance", json!({ "order": order, "matrix": matrix }));
+    match named.estimates.condition {
+        Some(condition) => fields.measured("condition", "1", condition),
+        None => fields.unknown("condition", "the information matrix is singular"),
+    };
+    criteria(fields, named, unit);
+    fields.plain("n", named.estimates.count);
+}
+
+/// Residual and criterion.
+pub(super) fn criteria(fields: &mut Fields, named: &NamedEstimates, unit: &str) {
+    fields
+        .measured("residual", unit, named.estimates.residual())
+        .measured("rss", format!("{unit}²").as_str(), named.estimates.rss)
+        .plain("p", named.estimates.free);
+    match named.estimates.aic() {
+        Ok(aic) => fields.measured("aic", "1", aic),
+        Err(why) => fields.unknown("aic", why),
+    };
+}
+
+/// "damping_ratio = 0.01 ± 0.0002".
+pub(super) fn in_words(named: &NamedEstimates, place: usize) -> String {
+    let error = named.error(place).map_or_else(
+        |_| String::new(),
+        |error| format!(" ± {}", quell_model::digits::digits(error, 2)),
+    );
+    let parameter = &named.parameters[place];
+    let unit = match parameter.unit.as_str() {
+        "1" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    format!("{} = {}{error}{unit}", parameter.name, digits(named.value(place)))
+}
+
+/// One row for each parameter.
+pub(super) fn rows(named: &NamedEstimates, shown: impl Fn(usize) -> bool) -> String {
+    let mut text = String::new();
+    let places: Vec<usize> = (0..named.parameters.len()).filter(|place| shown(*place)).collect();
+    let name = |place: &usize| named.parameters[*place].name.as_str();
+    let width = places.iter().map(|place| name(place).chars().count()).max().unwrap_or(0);
+    for place in &places {
+        let known = match named.error(*place) {
+            Ok(error) => format!("± {}", figure(error)),
+            Err(why) => format!("({why})"),
+        };
+        let unit = named.parameters[*place].unit.as_str();
+        let unit = if unit == "1" { String::new() } else { format!("  {unit}") };
+        let value = figure(named.value(*place));
+        let _ = writeln!(text, "  {:<width$}  {value:>12} {known}{unit}", name(place));
+    }
+    text
+}

@@ -1,0 +1,139 @@
+//! `fit --record`: numbers of a study with standard errors, what the record does not determine, and tables for the study.
+
+use std::fmt::Write as _;
+
+use serde_json::{Value as Json, json};
+
+use super::Outcome;
+use super::estimates::{in_words, numbers, parameters, rows};
+use crate::complaint::Failure;
+use crate::dataset::{Array, Dataset};
+use crate::fields::Fields;
+use crate::input::Inputs;
+use crate::picture;
+use crate::plot::Figure;
+use crate::run::record_fit::{FreeNumber, RecordFit};
+use crate::words::{digits, listed};
+
+/// How derivatives by numbers of a study are computed.
+const DERIVATIVES: &str =
+    "central differences of exact trajectories; by shift, offset and gain exact";
+
+impl Outcome for RecordFit {
+    fn inputs(&self) -> Inputs {
+        self.study.inputs().with_files([self.record.path()])
+    }
+
+    fn json(&self) -> Json {
+        let unit = self.record.unit.unwrap_or("1");
+        let mut fields = Fields::new(None);
+        fields.plain("ok", true).plain("sentence", sentence(self));
+        fields.nested("parameters", parameters(&self.named, |_| true));
+        numbers(&mut fields, &self.named, unit);
+        fields
+            .plain("converged", self.converged)
+            .plain("derivatives", DERIVATIVES)
+            .plain("starts", self.tried)
+            .plain("file", self.record.path().display().to_string())
+            .plain("columns", self.record.columns.to_vec())
+            .plain("quantity", self.record.quantity.name());
+        match self.shift_counts_from() {
+            Some(words) => fields.plain("shift_from", words),
+            None => fields
+                .unknown("shift_from", "the shift is not free: the record begins with the run"),
+        };
+        let others = self.others.iter().map(|other| {
+            let mut entry = Fields::new(None);
+            let mut values = Fields::new(None);
+            for (parameter, value) in self.named.parameters.iter().zip(&other.values) {
+                values.measured(&parameter.name, &parameter.unit, *value);
+            }
+            entry.nested("parameters", values).measured("rss", "1", other.rss);
+            entry
+        });
+        fields.list("other_minima", others.collect::<Vec<_>>());
+        let weak: Vec<Json> = self
+            .named
+            .estimates
+            .weak
+            .iter()
+            .map(|weak| {
+                let shares: Vec<Json> = weak
+                    .shares
+                    .iter()
+                    .map(|(place, share)| json!({ "name": self.named.parameters[*place].name, "share": share }))
+                    .collect();
+                json!({ "ratio": weak.ratio, "combination": shares })
+            })
+            .collect();
+        fields.plain("not_determinable", weak);
+        let (numbers, uncertainty) = self.fragments();
+        fields.plain("tables", json!({ "numbers": numbers, "uncertainty": uncertainty }));
+        fields.plain("warnings", self.warnings());
+        fields.finish()
+    }
+
+    fn title(&self) -> Option<&str> {
+        self.study.title()
+    }
+
+    fn sentence(&self) -> Option<String> {
+        Some(sentence(self))
+    }
+
+    fn table(&self) -> String {
+        let mut text = rows(&self.named, |_| true);
+        if let Some(words) = self.shift_counts_from() {
+            let _ = writeln!(text, "  record.shift counts from {words}");
+        }
+        let (numbers, uncertainty) = self.fragments();
+        for part in [numbers, uncertainty] {
+            if !part.is_empty() {
+                let _ = write!(text, "\n{part}");
+            }
+        }
+        text
+    }
+
+    fn datasets(&self) -> Vec<(&'static str, Dataset)> {
+        let unit = self.record.unit.unwrap_or("1");
+        let dataset = Dataset::of(&self.fitted_study, "fit --record")
+            .fact(format!("data: {}", self.record.path().display()))
+            .with_axis(Array::new(
+                "time",
+                self.record.time_unit.unwrap_or("1"),
+                self.record.times.clone(),
+            ))
+            .with(Array::new("measured", unit, self.record.values.clone()))
+            .with(Array::new("fitted", unit, self.values.clone()))
+            .with(Array::new("point_residual", unit, self.residuals()));
+        vec![("record", dataset)]
+    }
+
+    fn figure(&self) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::record_fit(self)))
+    }
+}
+
+impl RecordFit {
+    /// Where a free shift counts from.
+    fn shift_counts_from(&self) -> Option<&'static str> {
+        self.free.contains(&FreeNumber::Shift).then_some(if self.from_highest {
+            "the highest displacement after settling"
+        } else {
+            "the end of the settling time"
+        })
+    }
+}
+
+fn sentence(done: &RecordFit) -> String {
+    let values: Vec<String> =
+        (0..done.free.len()).map(|place| in_words(&done.named, place)).collect();
+    format!(
+        "{} samples of the {} are fitted with a residual standard deviation of {}: {}.",
+        done.record.times.len(),
+        done.record.quantity.name(),
+        digits(done.named.estimates.residual()),
+        listed(&values)
+    )
+}
