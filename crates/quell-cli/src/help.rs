@@ -85,10 +85,9 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
             (
                 "friction",
                 &[
-                    "quell friction own-law.toml --at 0,0.05,0.1",
+                    "quell friction own-law.toml --measured --at 0.02,0.05,0.1",
                     "quell friction quench.toml --describing 0.1",
                     "quell friction quench.toml --save friction.inp",
-                    "quell friction quench.toml --measured --at 0.02,0.05,0.1",
                 ],
             ),
             (

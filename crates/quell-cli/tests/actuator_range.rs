@@ -216,6 +216,24 @@ fn what_cannot_be_answered_is_said() {
     assert_eq!(range[0]["key"], "--frequency");
 }
 
+/// What an elastic slider needs is no average of its law.
+#[test]
+fn contacts_with_a_state_are_refused() {
+    let belt = format!("{BELT}{STACK}");
+    let system = format!("{SYSTEM}{STACK}");
+    let files = [("belt.toml", &belt), ("system.toml", &system)];
+    let place = Place::with("range-state", &files.map(|(name, text)| (name, text.as_str())));
+    for (file, key) in [
+        ("belt.toml", "belt.tangential_stiffness"),
+        ("system.toml", "contact.shoe.tangential_stiffness"),
+    ] {
+        let set = format!("{}=1e9", key.replace("stiffness", "stiffness_n_per_m"));
+        let refused = place.refused(&["actuator", file, "--set", &set]);
+        assert_eq!(refused[0]["key"], key, "{refused:?}");
+        assert!(refused[0]["allowed"].as_str().expect("words").contains("rigid"), "{refused:?}");
+    }
+}
+
 #[test]
 fn a_measured_actuator_has_the_range_of_its_file() {
     let table = "[actuator]\nkind = \"frf\"\nfile = \"stack.csv\"\nmaximum_voltage = 75\n";

@@ -178,7 +178,7 @@ pub fn quench_of_system(
     system: &System,
     input: usize,
 ) -> Result<Quench<NoAverage>, NoQuench<NoAverage>> {
-    if !system.inputs.get(input).is_some_and(|input| !input.profile.waves().is_empty()) {
+    if system.inputs.get(input).is_none_or(|input| input.profile.waves().is_empty()) {
         return Err(NoQuench::NoDither);
     }
     let limit = limit_of_system(system, input)?;

@@ -75,10 +75,10 @@ fn exact_records_are_recovered() {
 /// the mean of that many squares, and 68 % of |z| are below 1.
 #[test]
 fn standard_errors_have_their_coverage_over_seeds() {
+    const RECORDS: usize = 120;
     let planted = [1.0, 0.008, 0.006, 1.0, 0.2, 0.01];
     let times = times(1200, 0.08);
     let exact = record(&planted, RecordedQuantity::Displacement, &times);
-    const RECORDS: usize = 120;
     let mut squares = [0.0; DECAY_PARAMETERS];
     let mut inside = 0;
     for seed in 0..RECORDS {

@@ -27,7 +27,7 @@ use quell_numerics::roots::{Closeness, try_find_root};
 
 use crate::dithered;
 use crate::equations::linearised;
-use crate::resonance::{Order, Tongue, Waves};
+use crate::resonance::{Order, Resonance, Tongue, Waves};
 
 /// Halvings of a step of the grid.
 const DEPTH: u32 = 9;
@@ -93,22 +93,20 @@ impl DiscExponent {
 /// # Errors
 /// [`NotFollowerDither`] where they do not describe this disc or the matrices overflow.
 pub fn exponents(disc: &Disc) -> Result<Vec<DiscExponent>, NotFollowerDither> {
-    match dithered::prepared(disc)? {
-        Some(prepared) => Ok(dithered_exponents(&prepared, 1.0)?),
-        None => {
-            let linear = linearised(&disc.undithered(), Contributions::ALL)?;
-            let values = eigenvalues::all(&linear, &linear.mean_friction())?;
-            let error = eigenvalues::growth(&linear, &linear.mean_friction())?.error;
-            let upper = values.into_iter().filter(|value| value.im >= 0.0);
-            let one = |value: num_complex::Complex64| DiscExponent {
-                rate: value.re,
-                error,
-                frequency: value.im,
-                alone: value.im == 0.0,
-            };
-            Ok(upper.map(one).collect())
-        }
+    if let Some(prepared) = dithered::prepared(disc)? {
+        return Ok(dithered_exponents(&prepared, 1.0)?);
     }
+    let linear = linearised(&disc.undithered(), Contributions::ALL)?;
+    let values = eigenvalues::all(&linear, &linear.mean_friction())?;
+    let error = eigenvalues::growth(&linear, &linear.mean_friction())?.error;
+    let upper = values.into_iter().filter(|value| value.im >= 0.0);
+    let one = |value: num_complex::Complex64| DiscExponent {
+        rate: value.re,
+        error,
+        frequency: value.im,
+        alone: value.im == 0.0,
+    };
+    Ok(upper.map(one).collect())
 }
 
 /// All exponents of a prepared disc with its friction times a factor.
@@ -182,7 +180,7 @@ pub fn tongue_grid(disc: &Disc, speeds: &RangeInclusive<f64>, steps: u32) -> Vec
             let waves = waves.clone().with_order(order);
             let near = from - 0.1..=to + 0.1;
             let meetings = waves.undithered(near.clone()).into_iter().chain(waves.dithered(near));
-            for resonance in meetings.filter(|resonance| resonance.can_be_unstable()) {
+            for resonance in meetings.filter(Resonance::can_be_unstable) {
                 grid.extend(
                     BESIDE.iter().flat_map(|by| [resonance.speed - by, resonance.speed + by]),
                 );

@@ -73,6 +73,26 @@ pub(crate) fn refused_of_system(study: &SystemStudy, verb: &str) -> Result<(), F
     Ok(())
 }
 
+/// Rejects a verb that knows averages alone on a system with a contact that has a state of its own.
+///
+/// # Errors
+/// A complaint about the key that gives the contact its state.
+pub(crate) fn refused_where_averaged(system: &System, verb: &str) -> Result<(), Failure> {
+    let Some(contact) = system.contacts.iter().find(|contact| contact.has_state()) else {
+        return Ok(());
+    };
+    let prefix = format!("contact.{}", contact.name);
+    let (key, value) = match contact.tangential_stiffness {
+        Some(stiffness) => (format!("{prefix}.tangential_stiffness"), Json::from(stiffness)),
+        None => (format!("{prefix}.friction.law"), Json::from(contact.friction.kind().name())),
+    };
+    let allowed = format!(
+        "a rigid contact with a law of the slip velocity alone for `{verb}`, which compares with averages; `design` and `thresholds` know \
+         contacts with a state of their own"
+    );
+    Err(Complaint::new(Fault::Conflict, key, Origin::Whole, value, allowed).into())
+}
+
 /// A warning where the bristles of a law supply energy.
 fn not_passive(law: &Friction, of: &str) -> Option<String> {
     let Friction::Lugre(law) = law else { return None };

@@ -3,6 +3,7 @@
 
 use quell::Study;
 use quell::kind::verbs;
+use quell::run::found_attractor::AttractorRequest;
 use quell::run::noise_response;
 use quell::run::system::response::ResponseRequest;
 use quell::study::{BeltStudy, SystemStudy};
@@ -186,7 +187,7 @@ fn the_share_of_seeds() {
     assert!(noise_response::of_system(&periodic, Some(2), times).is_err());
     // Every run ends quiet or not; there is no orbit.
     let study = system(numbers, "waveform = \"noise\"\nband = [8.0, 12.0]\namplitude = 3.0");
-    assert!(verbs(&Study::from(&study)).attractor(&Default::default()).is_err());
+    assert!(verbs(&Study::from(&study)).attractor(&AttractorRequest::default()).is_err());
 }
 
 /// The finite-R response to every line is in the average of a belt too: critical amplitudes of belt and system agree.

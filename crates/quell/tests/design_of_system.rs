@@ -164,11 +164,6 @@ fn what_design_cannot_do_is_refused_by_name() {
         ("[design.over]", "[design.limits]\nstroke_m = 0.1\n[design.over]", "stroke_m"),
         ("[design.over]", "[design.limits]\nstroke = -0.1\n[design.over]", "design.limits.stroke"),
         (
-            "normal_load = 1.0",
-            "normal_load = 1.0\ntangential_stiffness = 50.0",
-            "tangential_stiffness",
-        ),
-        (
             "waveform = \"sine\"\namplitude = 1.0\nfrequency = 10.0",
             "waveform = \"noise\"\namplitude = 1.0\nband = [8.0, 12.0]\nseed = 1",
             "dither",

@@ -29,7 +29,7 @@ fn map(text: &str, kind: &str, quantities: &[&str]) -> Json {
         .iter()
         .map(|name| MapQuantity::named_for(kind, name, "--quantity").expect("a quantity"))
         .collect();
-    let plan = Plan::new(&study(text), &asked).expect("a plan");
+    let plan = Plan::new(study(text), &asked).expect("a plan");
     let never = AtomicBool::new(false);
     let running = Running { threads: Some(1), stop: &never, progress: &() };
     quell::run::map::run(plan, None, running).expect("a map").json()
@@ -107,20 +107,20 @@ fn points_of_systems_are_the_answers_of_the_verbs() {
             let stability = one.stability().expect("averages").json();
             assert_same(&found, "growth", point, &stability["growth_rate"]);
             assert_same(&found, "verdict", point, &stability["verdict"]);
-            let still = verbs(&study(
-                &system(law, amplitude).split("[[dither]]").next().expect("a part").to_owned(),
-            ));
+            let dithered = system(law, amplitude);
+            let still = verbs(&study(dithered.split("[[dither]]").next().expect("a part")));
             let still = still.stability().expect("small motions").json();
             assert_same(&found, "growth_undithered", point, &still["growth_rate"]);
             assert_eq!(found["growth_undithered_status"][point], "known");
             // The bristles always move with the dither, and the displacement of the dither is that of about one breakaway.
             assert_eq!(found["growth_status"][point], "without_state", "{found}");
             match one.orbit_of_system(&WantedMotion::Base { periods: 1 }) {
-                Ok(orbit) => {
+                // Where the base response does not exist, the verb has the motion that a run from rest reaches.
+                Ok(orbit) if orbit.json()["no_base_response"].is_null() => {
                     assert_same(&found, "orbit_verdict", point, &orbit.json()["verdict"]);
                     assert_same(&found, "orbit_radius", point, &orbit.json()["radius"]);
                 }
-                Err(_) => assert_eq!(found["orbit_radius_status"][point], "no_base_response"),
+                _ => assert_eq!(found["orbit_radius_status"][point], "no_base_response"),
             }
             let end = one.attractor(&AttractorRequest::default()).expect("an end").json();
             let end = &end["attractor"];

@@ -119,11 +119,7 @@ impl BeltPlant {
         Ok(QuietAmplitudes::of_changes((from, to), quiet(found.first), changes))
     }
 
-    fn by_multipliers(
-        &self,
-        belt: &Belt,
-        (from, to): (f64, f64),
-    ) -> Result<QuietAmplitudes, String> {
+    fn by_multipliers(belt: &Belt, (from, to): (f64, f64)) -> Result<QuietAmplitudes, String> {
         let found = amplitude_branch_of_belt(belt, (from, to), STEPS);
         Ok(found.map_err(|why| why.to_string())?.quiet())
     }
@@ -183,7 +179,7 @@ impl Plant for BeltPlant {
     fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {
         let belt = self.at(at)?;
         match self.start {
-            DesignStart::Local => self.by_multipliers(&belt, range),
+            DesignStart::Local => Self::by_multipliers(&belt, range),
             DesignStart::Rest | DesignStart::Squeal => self.by_runs(&belt, range),
         }
     }

@@ -18,7 +18,7 @@
 
 use quell_disc::dithered;
 use quell_disc::marginal::{DiscExponent, MarginalValue, exponents, marginal_values, tongue_grid};
-use quell_disc::resonance::{Order, Tongue, Waves};
+use quell_disc::resonance::{Order, Resonance, Tongue, Waves};
 use quell_disc::undithered;
 use quell_linear::growth::Verdict;
 use quell_model::Disc;
@@ -90,7 +90,7 @@ impl DiscPlant<'_> {
         for order in [Order::First, Order::Second] {
             let waves = waves.clone().with_order(order);
             let all = waves.undithered(from..=to).into_iter().chain(waves.dithered(from..=to));
-            for resonance in all.filter(|resonance| resonance.can_be_unstable()) {
+            for resonance in all.filter(Resonance::can_be_unstable) {
                 match resonance.tongue {
                     Tongue::Absent => {}
                     Tongue::Between { peak_speed, .. } => {

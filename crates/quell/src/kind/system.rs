@@ -4,7 +4,7 @@ use serde_json::Value as Json;
 
 use super::{Reply, Verbs, answer};
 use crate::cite::{self, Sources};
-use crate::complaint::{Complaint, Fault, Origin};
+use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::outcome::check::Valid;
 use crate::outcome::{Answered, Outcome};
 use crate::run::basins::BasinsRequest;

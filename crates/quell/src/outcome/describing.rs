@@ -121,5 +121,6 @@ fn table_of_system(study: &SystemStudy, done: &DescribedContacts) -> String {
             text.push('\n');
         }
     }
-    text.lines().map(|line| format!("{}\n", line.trim_end())).collect()
+    let trimmed: Vec<&str> = text.lines().map(str::trim_end).collect();
+    trimmed.join("\n") + "\n"
 }

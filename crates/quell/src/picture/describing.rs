@@ -27,7 +27,7 @@ pub(crate) fn of_belt(study: &BeltStudy, done: &DescribedFriction) -> Figure {
         panel = panel.with(line(PlotRole::Undithered, bare).label("without dither"));
     }
     panel = panel.with(line(PlotRole::Averaged, done.balances(study)).label("averaged"));
-    panel = panel.with_all(marks(&ruler, done.cycles.iter()));
+    panel = panel.with_all(marks(&ruler, &done.cycles.iter()));
     Figure::single(panel)
         .title(study.title().unwrap_or_default())
         .caption(format!("{}; by the describing function of averaged friction.", caption(study)))
@@ -72,7 +72,7 @@ pub(crate) fn of_system(study: &SystemStudy, done: &DescribedContacts) -> Figure
             .with(ReferenceLine::horizontal(0.0))
             .with(curve(PlotRole::Averaged, contact, balance.growth.clone()));
         panels
-            .push(growth.with_all(marks(&ruler, balance.cycles.iter().map(|found| &found.cycle))));
+            .push(growth.with_all(marks(&ruler, &balance.cycles.iter().map(|found| &found.cycle))));
     }
     Figure::grid(1, panels).title(study.title().unwrap_or_default()).caption(format!(
         "{} {}",
@@ -93,7 +93,7 @@ fn line(ruler: &Ruler, role: PlotRole, amplitudes: &[f64], values: Vec<f64>) -> 
 /// Marks of the limit cycles on the line of no growth.
 fn marks<'a>(
     ruler: &Ruler,
-    cycles: impl Iterator<Item = &'a DescribedCycle> + Clone,
+    cycles: &(impl Iterator<Item = &'a DescribedCycle> + Clone),
 ) -> Vec<Points> {
     let kinds = [(true, "stable cycle", Marker::Disc), (false, "unstable cycle", Marker::Circle)];
     let of = |(stable, label, marker): (bool, &'static str, Marker)| {

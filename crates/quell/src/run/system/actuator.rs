@@ -8,6 +8,7 @@ use quell_model::profile::{Profile, Wave};
 
 use super::{failed, has_equations};
 use crate::complaint::Failure;
+use crate::contact_state::refused_where_averaged;
 use crate::run::actuator::{ActuatorFound, ActuatorQuestion, asked};
 use crate::study::SystemStudy;
 
@@ -19,6 +20,7 @@ use crate::study::SystemStudy;
 pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<ActuatorFound, Failure> {
     has_equations(study, "actuator")?;
     let system = study.system();
+    refused_where_averaged(system, "actuator")?;
     let actuator = asked(study, system.is_dithered())?;
     let input = designed(study);
     let wave = system.inputs.get(input).and_then(|input| input.profile.waves().first());

@@ -275,8 +275,8 @@ impl SystemWaveforms {
     pub fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let mut warnings = study.warnings().to_vec();
         warnings.extend(passivity_of_system(study));
-        let known = self.rows.iter().filter_map(|row| row.averaged.as_ref().ok());
-        let because = known.filter_map(|least| least.without_state.first()).next();
+        let mut known = self.rows.iter().filter_map(|row| row.averaged.as_ref().ok());
+        let because = known.find_map(|least| least.without_state.first());
         warnings.extend(because.map(|because| averages_are_a_start(because)));
         let slow: Vec<String> =
             self.rows.iter().filter(|row| row.slow).map(SystemWaveform::label).collect();
