@@ -252,8 +252,15 @@ impl Outputs {
             },
         };
         if contents.is_empty() {
-            let allowed =
-                "--save: this answer has no table; the table of attractor is that of --lyapunov";
+            let allowed = match TableFormat::of_extension(&extension) {
+                None if extension != WAV => format!(
+                    "--save: this answer has no form in a file .{extension}, which has the averaged friction of a belt"
+                ),
+                _ => {
+                    "--save: this answer has no table; the table of attractor is that of --lyapunov"
+                        .to_owned()
+                }
+            };
             let origin = Origin::Argument("--save");
             return Err(Complaint::new(Fault::Usage, "--save", origin, Json::Null, allowed).into());
         }

@@ -130,7 +130,10 @@ fn friction_without_such_a_form_is_refused() {
         "waveform = \"sine\"",
         "waveform = \"fourier\"\nharmonics = [{ order = 1, sine = 1.0 }, { order = 2, sine = 0.7 }]",
     );
-    let place = Place::with("exchange-refused", &[("sine.toml", SINE), ("uneven.toml", &uneven)]);
+    let system = "[system]\ncoordinates = [\"x\"]\nmass = [1.0]\ndamping = [[0.02]]\nstiffness = [[1.0]]\n[[contact]]\nname = \"pad\"\n\
+        tangent = { x = 1.0 }\nnormal_load = 1.0\nbelt_velocity = 0.1\n[contact.friction]\nlaw = \"coulomb\"\ncoefficient = 0.3\n";
+    let files = [("sine.toml", SINE), ("uneven.toml", &uneven), ("system.toml", system)];
+    let place = Place::with("exchange-refused", &files);
     let (object, status) = place.json(&["friction", "uneven.toml", "--save", "x.inp"]);
     assert_eq!(status, 1, "{object}");
     assert!(
@@ -142,9 +145,12 @@ fn friction_without_such_a_form_is_refused() {
         let errors = place.refused(&ask);
         assert_eq!(errors[0]["key"], option[0], "{errors:?}");
     }
+    let errors = place.refused(&["friction", "system.toml", "--save", "x.inp"]);
+    let said = errors[0].to_string();
+    assert!(said.contains("averaged friction of a belt"), "{said}");
     place.refused(&["friction", "sine.toml", "--save", "x.wav"]);
     place.refused(&["response", "sine.toml", "--save", "x.inp"]);
-    assert_eq!(place.files(), ["sine.toml", "uneven.toml"]);
+    assert_eq!(place.files(), ["sine.toml", "system.toml", "uneven.toml"]);
 }
 
 /// One file has every dataset, which the formats begin to say in their first bytes.

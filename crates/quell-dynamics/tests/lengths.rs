@@ -20,8 +20,10 @@ fn knots(shape: KnotShape, times: &[f64], values: &[f64]) -> Knots {
     Knots::new(times.to_vec(), values.to_vec(), shape).expect("knots")
 }
 
+/// The lines of noise add up to 3.5 times its amplitude, and normal dither must not open the contact.
 fn dither(direction: Direction, waveform: Waveform) -> Dither {
-    Dither { direction, waveform, amplitude: 0.7, frequency_ratio: 5.0, phase: 0.3, envelope: None }
+    let amplitude = if waveform.noise().is_some() { 0.2 } else { 0.7 };
+    Dither { direction, waveform, amplitude, frequency_ratio: 5.0, phase: 0.3, envelope: None }
 }
 
 /// Every waveform that is data, and those that a name says.
@@ -52,11 +54,12 @@ fn belt(friction: Friction, dithers: Vec<Dither>) -> Belt {
     Belt::new(0.01, 1.0, 0.1, friction, dithers).expect("a belt")
 }
 
-/// Contacts: rigid, an elastic slider with and without a falling law, bristles.
+/// Contacts: rigid, an elastic slider with and without a falling law, bristles. The falling law has no viscous part: where friction at a
+/// small slip exceeds the static level, an elastic slider under a varying load can neither adhere nor slide, and the run stops.
 fn contacts(dithers: &[Dither]) -> Vec<(&'static str, Belt)> {
     let with = |friction: Friction| belt(friction, dithers.to_vec());
     let slider = |belt: Belt| belt.with_tangential_stiffness(Some(23.0)).expect("a slider");
-    let falling = || law(LawKind::StribeckExponential, &[0.25, 0.4, 0.1, 2.0, 0.05]);
+    let falling = || law(LawKind::StribeckExponential, &[0.25, 0.4, 0.1, 2.0, 0.0]);
     vec![
         ("rigid", with(law(LawKind::Stribeck, &[0.4, 0.2857, 0.2]))),
         ("slider", slider(with(law(LawKind::Coulomb, &[0.3, 0.3, 0.0])))),
@@ -65,10 +68,11 @@ fn contacts(dithers: &[Dither]) -> Vec<(&'static str, Belt)> {
     ]
 }
 
-fn run(belt: &Belt, start: Start) -> (BeltEnd, Vec<Event>) {
+fn run(name: &str, belt: &Belt, start: Start) -> (BeltEnd, Vec<Event>) {
     let mut record = EventRecorder::default();
     let from = (start, ContactStart::Relaxed);
-    let end = run_belt(belt, from, UNTIL, DEFAULT_TOLERANCE, &mut record).expect("an end");
+    let end = run_belt(belt, from, UNTIL, DEFAULT_TOLERANCE, &mut record)
+        .unwrap_or_else(|why| panic!("{name}: {why:?}"));
     (end, record.events)
 }
 
@@ -79,8 +83,8 @@ fn compared(name: &str, belt: &Belt) -> usize {
         velocity: SCALE * START.velocity,
         ..START
     };
-    let (end, events) = run(belt, START);
-    let (small, small_events) = run(&belt.scaled(SCALE), small_start);
+    let (end, events) = run(name, belt, START);
+    let (small, small_events) = run(name, &belt.scaled(SCALE), small_start);
     assert_eq!(events.len(), small_events.len(), "{name}");
     for (event, small) in events.iter().zip(&small_events) {
         assert_eq!(event.time.to_bits(), small.time.to_bits(), "{name}: {event:?} {small:?}");
@@ -107,7 +111,7 @@ fn of_every_waveform_and_contact() {
             }
         }
     }
-    assert!(events > 5000, "{events}");
+    assert!(events > 3000, "{events}");
 }
 
 #[test]
@@ -145,5 +149,5 @@ fn of_profiles() {
             }
         }
     }
-    assert!(events > 2000, "{events}");
+    assert!(events > 1500, "{events}");
 }

@@ -37,8 +37,15 @@ OTHER_NAMES = {"--from": "from_"}
 DRAWINGS = {"sketch", "report"}
 """Verbs whose answer is a file; Python returns its text, and `--out` is the argument `path`."""
 
-BESIDE = {"quell.sweep", "quell.quantities", "quell.fit_decay"}
-"""Functions that only Python has: about axes and names of maps, and the fits whose results have arrays."""
+BESIDE = {
+    "quell.sweep",
+    "quell.quantities",
+    "quell.fit_decay",
+    "quell.from_abaqus",
+    "quell.from_nastran",
+    "quell.from_universal_file",
+}
+"""Functions that only Python has: about axes and names of maps, the fits whose results have arrays, and files of other programs."""
 
 FITS = {"fit_record"}
 """Methods that are an option of a verb of the command line."""

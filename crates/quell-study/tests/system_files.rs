@@ -184,7 +184,7 @@ fn wrong_matrix_files_are_complained_about_at_their_key() {
         ("'M.mtx'", "'none.mtx'", "system.mass.file", "cannot be read"),
         ("'M.mtx'", "'indefinite.mtx'", "system.mass", "positive definite"),
         ("'M.mtx'", "'abaqus.mtx'", "system.mass.file", "%%MatrixMarket"),
-        ("'M.mtx'", "3", "system.mass.file", "a text"),
+        ("'M.mtx'", "3", "system.mass.file", "a string"),
         ("{ file = 'M.mtx' }", "{ file = 'M.mtx', also = 1 }", "system.mass", "file alone"),
         ("{ file = 'M.mtx' }", "{}", "system.mass", "file alone"),
         ("{ file = 'M.mtx' }", "'M.mtx'", "system.mass", "{ file ="),

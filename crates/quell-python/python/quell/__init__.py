@@ -196,7 +196,7 @@ def fit(
     arguments = Arguments()
     given = {"column": column, "quantity": quantity, "gain": gain, "window": window}
     if decay:
-        beside = {"record": record or None, "study": study, "settle": settle, "free": free}
+        beside: dict[str, object] = {"record": record or None, "study": study, "settle": settle, "free": free}
         for name, value in beside.items():
             if value is not None:
                 arguments.wrong.append(complaint(name, str(value), "left out with decay", "conflict"))
@@ -208,7 +208,8 @@ def fit(
         arguments.done()
         read = study if isinstance(study, Study) else Study.from_toml(study)  # type: ignore[arg-type]
         return read.fit_record(data, free=free or [], fix=fix, settle=settle, **given).facts  # type: ignore[arg-type]
-    for name, value in {"study": study, "settle": settle, **given}.items():
+    alone: dict[str, object] = {"study": study, "settle": settle, **given}
+    for name, value in alone.items():
         if value is not None:
             arguments.wrong.append(complaint(name, str(value), "given with decay or record", "conflict"))
     place = arguments.path("data", data)

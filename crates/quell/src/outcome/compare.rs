@@ -186,7 +186,7 @@ fn record(record: &ComparedRecord) -> Fields {
     fields
         .plain("file", record.file.display().to_string())
         .plain("columns", record.columns.to_vec())
-        .plain("quantity", record.quantity.name())
+        .plain("recorded_quantity", record.quantity.name())
         .plain("dithered", record.dithered)
         .plain("window", "hann")
         .measured("resolution", hertz, record.resolution)

@@ -93,7 +93,7 @@ fn json(done: &FreeDecay) -> Json {
     fields.plain("converged", best.converged);
     fields.plain("file", done.record.path().display().to_string());
     fields.plain("columns", done.record.columns.to_vec());
-    fields.plain("quantity", done.record.quantity.name());
+    fields.plain("recorded_quantity", done.record.quantity.name());
     let compared = done.fits.iter().enumerate().map(|(place, fit)| {
         let named = done.named(fit);
         let mut entry = Fields::new(None);

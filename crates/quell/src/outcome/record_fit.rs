@@ -36,7 +36,7 @@ impl Outcome for RecordFit {
             .plain("starts", self.tried)
             .plain("file", self.record.path().display().to_string())
             .plain("columns", self.record.columns.to_vec())
-            .plain("quantity", self.record.quantity.name());
+            .plain("recorded_quantity", self.record.quantity.name());
         match self.shift_counts_from() {
             Some(words) => fields.plain("shift_from", words),
             None => fields

@@ -57,6 +57,7 @@ pub fn run(study: &BeltStudy, fastest: f64) -> Result<FrictionExport, Failure> {
     let belt = study.belt();
     let (speeds, coefficients) = averaged(study, fastest)?;
     let largest = coefficients.iter().fold(0.0f64, |most, value| most.max(*value));
+    same_in_both_directions(study, &speeds, &coefficients, largest)?;
     if let Some(at) = coefficients.iter().position(|value| *value < 0.0) {
         let speed = in_words(study, Quantity::Velocity, speeds[at]);
         return Err(failed(format!(
@@ -64,7 +65,6 @@ pub fn run(study: &BeltStudy, fastest: f64) -> Result<FrictionExport, Failure> {
             coefficients[at]
         )));
     }
-    same_in_both_directions(study, &speeds, &coefficients, largest)?;
     let curve = SpeedCurve { speeds, coefficients };
     let table = SlipRateTable::of(&curve, TOLERANCE * largest);
     let (decay, translational) =

@@ -315,14 +315,35 @@ def is_knot(parts: list[Token]) -> bool:
     return len(parts) > 2 and isinstance(parts[-1], int) and parts[-3] in PROFILES
 
 
+def whole_lists(study: Study, changes: Mapping[str, Any]) -> dict[str, Any]:
+    """Changes of a study in which those of single knots are the whole lists of their profiles, because a study takes lists whole."""
+    lists: dict[str, list[Any]] = {}
+    others: dict[str, Any] = {}
+    for path, value in changes.items():
+        parts = tokens(path)
+        if not is_knot(parts):
+            others[path] = value
+            continue
+        name = path[: path.rindex("[")]
+        lists.setdefault(name, list(listed_at(study, parts[:-1])))[int(parts[-1])] = value
+    return {**others, **lists}
+
+
+def listed_at(study: Study, parts: list[Token]) -> list[Any]:
+    """The list of a study at a path; a table that is given once may be named with its place."""
+    document: Any = study._native.document()
+    for token in parts:
+        document = document[token] if not isinstance(token, int) or isinstance(document, list) else document
+    found: list[Any] = document
+    return found
+
+
 def span_of_knot(study: Study, parts: list[Token], value: float) -> tuple[float, float, bool]:
     """The ends of the slider of a knot: a time lies between its neighbours, a value about those of all knots."""
-    document: Any = study._native.document()
-    for token in parts[:-1]:
-        document = document[token] if not isinstance(token, int) or isinstance(document, list) else document
-    listed = [float(it) for it in document if isinstance(it, (int, float))]
+    whole = listed_at(study, parts[:-1])
+    listed = [float(it) for it in whole if isinstance(it, (int, float))]
     place = int(parts[-1])
-    if len(listed) != len(document):
+    if len(listed) != len(whole):
         return span(value, None, None, False, False)
     if parts[-2] in TIMES:
         last = len(listed) == place + 1

@@ -16,8 +16,8 @@ TABLES = {"design": "design", "actuator": "actuator", "probability": "uncertaint
 
 def asked(study: Study) -> list[str]:
     """The questions of a study, in the order in which they are shown."""
-    tables = {path.split(".")[0] for path in study.settings}
-    dithered = any(path.split("[")[0].split(".")[0] == "dither" for path in study.settings)
+    tables = study._native.document()
+    dithered = "dither" in tables
     return [verb for verb, table in TABLES.items() if table in tables and (dithered or verb == "probability")]
 
 

@@ -13,6 +13,7 @@ from .._errors import QuellError, StudyError
 from .._quell import NativeStudy
 from .._study import Study
 from .._tables import Number
+from ._numbers import whole_lists
 from ._other_law import other_law
 from ._other_waveform import other_waveform
 
@@ -39,7 +40,7 @@ class Step:
 
     base: Study
     source: Source
-    changes: Mapping[str, Number | str] = field(default_factory=dict)
+    changes: Mapping[str, Any] = field(default_factory=dict)
     start: Mapping[str, float] | None = None
     """Values that replace those of the start of the study, by name, or ``None``."""
 
@@ -67,7 +68,7 @@ class State:
         waveforms = {path: str(name) for path, name in changes.items() if path.split(".")[-1] == "waveform"}
         if waveforms and len(waveforms) == len(changes):
             return all([self.set_waveform(path, name) for path, name in waveforms.items()])
-        step = replace(self.step, changes={**self.step.changes, **changes})
+        step = replace(self.step, changes={**self.step.changes, **whole_lists(self.study, changes)})
         return self._take(step, tuple(changes))
 
     def set_start(self, start: Mapping[str, float] | None) -> bool:

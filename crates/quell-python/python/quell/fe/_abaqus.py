@@ -66,6 +66,7 @@ def from_abaqus(
 
     Examples
     --------
+    >>> import quell
     >>> import pathlib, tempfile
     >>> folder = pathlib.Path(tempfile.mkdtemp())
     >>> _ = (folder / "brake_STIF1.mtx").write_text("1,1, 1,1, 2.0\\n1,2, 1,1, 1.0\\n1,2, 1,2, 0.6666666666666667\\n")

@@ -12,6 +12,84 @@ import numpy as np
 import numpy.typing as npt
 
 
+class ActuatorColumns:
+    """Of :class:`quell.results.Actuator`."""
+
+    amplitude_n: npt.NDArray[np.float64]
+    best_amplitude: float
+    best_amplitude_n: float
+    best_contact_contact: npt.NDArray[np.str_]
+    best_contact_slip_velocity: npt.NDArray[np.float64]
+    best_contact_slip_velocity_m_per_s: npt.NDArray[np.float64]
+    best_contact_surface_velocity: npt.NDArray[np.float64]
+    best_contact_surface_velocity_m_per_s: npt.NDArray[np.float64]
+    best_frequency: float
+    best_frequency_hz: float
+    best_margin: float
+    best_needed: float
+    best_needed_n: float
+    binding_from: npt.NDArray[np.float64]
+    binding_from_hz: npt.NDArray[np.float64]
+    binding_limit: npt.NDArray[np.str_]
+    binding_to: npt.NDArray[np.float64]
+    binding_to_hz: npt.NDArray[np.float64]
+    frequency_hz: npt.NDArray[np.float64]
+    from_hz: float
+    needed_n: npt.NDArray[np.float64]
+    own_amplitude: float
+    own_amplitude_n: float
+    own_contact_contact: npt.NDArray[np.str_]
+    own_contact_slip_velocity: npt.NDArray[np.float64]
+    own_contact_slip_velocity_m_per_s: npt.NDArray[np.float64]
+    own_contact_surface_velocity: npt.NDArray[np.float64]
+    own_contact_surface_velocity_m_per_s: npt.NDArray[np.float64]
+    own_drive_current_peak: float
+    own_drive_current_peak_to_peak: float
+    own_drive_current_rms: float
+    own_drive_displacement_peak: float
+    own_drive_displacement_peak_m: float
+    own_drive_displacement_peak_to_peak: float
+    own_drive_displacement_peak_to_peak_m: float
+    own_drive_displacement_rms: float
+    own_drive_displacement_rms_m: float
+    own_drive_force_peak: float
+    own_drive_force_peak_n: float
+    own_drive_force_peak_to_peak: float
+    own_drive_force_peak_to_peak_n: float
+    own_drive_force_rms: float
+    own_drive_force_rms_n: float
+    own_drive_rated_limit: npt.NDArray[np.str_]
+    own_drive_rated_used: npt.NDArray[np.float64]
+    own_drive_samples_per_period: float
+    own_drive_voltage_peak: float
+    own_drive_voltage_peak_to_peak: float
+    own_drive_voltage_rms: float
+    own_frequency: float
+    own_frequency_hz: float
+    own_given: float
+    own_given_n: float
+    own_margin: float
+    own_needed: float
+    own_needed_n: float
+    own_used: float
+    resonance_amplitude: npt.NDArray[np.float64]
+    resonance_amplitude_n: npt.NDArray[np.float64]
+    resonance_frequency: npt.NDArray[np.float64]
+    resonance_frequency_hz: npt.NDArray[np.float64]
+    resonance_helps: npt.NDArray[Any]
+    resonance_limit: npt.NDArray[np.str_]
+    resonance_margin: npt.NDArray[np.float64]
+    resonance_needed: npt.NDArray[np.float64]
+    resonance_needed_n: npt.NDArray[np.float64]
+    slip_velocity_m_per_s: npt.NDArray[np.float64]
+    stroke_m: npt.NDArray[np.float64]
+    sufficient_from: npt.NDArray[np.float64]
+    sufficient_from_hz: npt.NDArray[np.float64]
+    sufficient_to: npt.NDArray[np.float64]
+    sufficient_to_hz: npt.NDArray[np.float64]
+    to_hz: float
+
+
 class AttractorColumns:
     """Of :class:`quell.results.Attractor`."""
 
@@ -272,27 +350,6 @@ class CitationsColumns:
     source_reference: npt.NDArray[np.str_]
 
 
-class ComparisonColumns:
-    """Of :class:`quell.results.Comparison`."""
-
-    computed: npt.NDArray[np.float64]
-    computed_after: npt.NDArray[np.float64]
-    frequency: npt.NDArray[np.float64]
-    frequency_after: npt.NDArray[np.float64]
-    measured: npt.NDArray[np.float64]
-    measured_after: npt.NDArray[np.float64]
-
-
-class DecayColumns:
-    """Of :class:`quell.results.Decay`."""
-
-    fitted: npt.NDArray[np.float64]
-    fitted_deviation: npt.NDArray[np.float64]
-    measured: npt.NDArray[np.float64]
-    point_residual: npt.NDArray[np.float64]
-    time: npt.NDArray[np.float64]
-
-
 class ContactFrictionColumns:
     """Of :class:`quell.results.ContactFriction`."""
 
@@ -312,14 +369,107 @@ class ContactFrictionColumns:
 class ContactGainsColumns:
     """Of :class:`quell.results.ContactGains`."""
 
+    contact_name: npt.NDArray[np.str_]
+    contact_normal_load: npt.NDArray[np.float64]
+    contact_normal_load_n: npt.NDArray[np.float64]
+    contact_slip_velocity: npt.NDArray[np.float64]
+    contact_slip_velocity_m_per_s: npt.NDArray[np.float64]
+    contact_small_gain: npt.NDArray[np.float64]
+    contact_small_gain_s_per_m: npt.NDArray[np.float64]
+    contact_value: float
     gain: npt.NDArray[np.float64]
+    growth_rate_value: float
     limit_cycle_amplitude_m: float | None
     limit_cycle_frequency_hz: float | None
     limit_cycle_velocity_m_per_s: float | None
     mean_coefficient: npt.NDArray[np.float64]
     row: npt.NDArray[np.float64]
     undithered_gain: npt.NDArray[np.float64]
-    velocity_amplitude: npt.NDArray[np.float64]
+
+
+class ComparisonColumns:
+    """Of :class:`quell.results.Comparison`."""
+
+    after_columns: npt.NDArray[np.str_]
+    after_computed_after: npt.NDArray[np.float64]
+    after_computed_rms: float
+    after_computed_slow_rms: float
+    after_difference: float
+    after_dithered: Any
+    after_highest: float
+    after_length: float
+    after_line_computed: npt.NDArray[np.float64]
+    after_line_computed_frequency: npt.NDArray[np.float64]
+    after_line_difference: npt.NDArray[np.float64]
+    after_line_frequency: npt.NDArray[np.float64]
+    after_line_measured: npt.NDArray[np.float64]
+    after_measured_after: npt.NDArray[np.float64]
+    after_measured_rms: float
+    after_measured_slow_rms: float
+    after_resolution: float
+    before_columns: npt.NDArray[np.str_]
+    before_computed_rms: float
+    before_computed_slow_rms: float
+    before_difference: float
+    before_dithered: Any
+    before_highest: float
+    before_length: float
+    before_line_computed: npt.NDArray[np.float64]
+    before_line_computed_frequency: npt.NDArray[np.float64]
+    before_line_difference: npt.NDArray[np.float64]
+    before_line_frequency: npt.NDArray[np.float64]
+    before_line_measured: npt.NDArray[np.float64]
+    before_measured_rms: float
+    before_measured_slow_rms: float
+    before_resolution: float
+    computed: npt.NDArray[np.float64]
+    frequency: npt.NDArray[np.float64]
+    frequency_after: npt.NDArray[np.float64]
+    measured: npt.NDArray[np.float64]
+    reduction_difference: float
+    reduction_measured: float
+    reduction_predicted: float
+    slow_reduction_difference: float
+    slow_reduction_measured: float
+    slow_reduction_predicted: float
+
+
+class DecayColumns:
+    """Of :class:`quell.results.Decay`."""
+
+    comparison_aic: npt.NDArray[np.float64]
+    comparison_difference: npt.NDArray[np.float64]
+    comparison_law: npt.NDArray[np.str_]
+    comparison_p: npt.NDArray[Any]
+    comparison_residual: npt.NDArray[np.float64]
+    comparison_rss: npt.NDArray[np.float64]
+    comparison_weight: npt.NDArray[np.float64]
+    covariance_matrix_value: npt.NDArray[np.float64]
+    covariance_order_value: npt.NDArray[np.str_]
+    fitted: npt.NDArray[np.float64]
+    fitted_deviation: npt.NDArray[np.float64]
+    measured: npt.NDArray[np.float64]
+    not_determinable_value: npt.NDArray[np.str_]
+    parameters_damping_ratio_fixed: Any
+    parameters_damping_ratio_standard_error: float
+    parameters_damping_ratio_value: float
+    parameters_displacement_fixed: Any
+    parameters_displacement_standard_error: float
+    parameters_displacement_value: float
+    parameters_friction_displacement_fixed: Any
+    parameters_friction_displacement_standard_error: float
+    parameters_friction_displacement_value: float
+    parameters_natural_frequency_fixed: Any
+    parameters_natural_frequency_standard_error: float
+    parameters_natural_frequency_value: float
+    parameters_offset_fixed: Any
+    parameters_offset_standard_error: float
+    parameters_offset_value: float
+    parameters_velocity_fixed: Any
+    parameters_velocity_standard_error: float
+    parameters_velocity_value: float
+    point_residual: npt.NDArray[np.float64]
+    time: npt.NDArray[np.float64]
 
 
 class DescribingFunctionColumns:
@@ -339,13 +489,22 @@ class DescribingFunctionColumns:
     limit_cycle_velocity_amplitude_error_m_per_s: npt.NDArray[np.float64]
     limit_cycle_velocity_amplitude_m_per_s: npt.NDArray[np.float64]
     limit_cycle_velocity_m_per_s: float
+    sharper_limit_cycle_amplitude: float
+    sharper_limit_cycle_amplitude_m: float
+    sharper_limit_cycle_amplitude_m_value: npt.NDArray[np.float64]
+    sharper_limit_cycle_amplitude_value: npt.NDArray[np.float64]
+    sharper_limit_cycle_stable: npt.NDArray[Any]
+    sharper_limit_cycle_velocity: float
+    sharper_limit_cycle_velocity_amplitude: npt.NDArray[np.float64]
+    sharper_limit_cycle_velocity_amplitude_error: npt.NDArray[np.float64]
+    sharper_limit_cycle_velocity_amplitude_error_m_per_s: npt.NDArray[np.float64]
+    sharper_limit_cycle_velocity_amplitude_m_per_s: npt.NDArray[np.float64]
+    sharper_limit_cycle_velocity_m_per_s: float
+    sharper_small_gain: float
+    sharper_small_gain_s_per_m: float
     small_gain_s_per_m: float
     undithered_gain_s_per_m: list[float | None]
     velocity_amplitude_m_per_s: list[float | None]
-
-
-class ActuatorColumns:
-    """Of :class:`quell.results.Actuator`."""
 
 
 class DesignColumns:
@@ -449,6 +608,7 @@ class FrictionCurveColumns:
     law_static_coefficient: float
     measured_base_value: npt.NDArray[Any]
     measured_verdict_value: npt.NDArray[np.str_]
+    sharper_effective_slope_s_per_m: list[float | None]
     slip_velocity_m_per_s: list[float | None]
 
 
@@ -501,8 +661,16 @@ class MapColumns:
     orbit_verdict_status: npt.NDArray[np.uint8]
     peak_to_peak: npt.NDArray[Any]
     peak_to_peak_status: npt.NDArray[np.uint8]
-    quench_amplitude: npt.NDArray[Any]
+    quench_amplitude: npt.NDArray[np.float64]
+    quench_amplitude_averaged: npt.NDArray[np.float64]
+    quench_amplitude_averaged_status: npt.NDArray[np.uint8]
     quench_amplitude_status: npt.NDArray[np.uint8]
+    quench_kind: npt.NDArray[np.uint8]
+    quench_kind_status: npt.NDArray[np.uint8]
+    quench_last: npt.NDArray[np.float64]
+    quench_last_status: npt.NDArray[np.uint8]
+    quench_lost: npt.NDArray[np.float64]
+    quench_lost_status: npt.NDArray[np.uint8]
     settled: npt.NDArray[np.uint8]
     settled_status: npt.NDArray[np.uint8]
     slip_ratio: npt.NDArray[np.float64]
@@ -548,14 +716,37 @@ class ModesColumns:
 class NoiseResponseColumns:
     """Of :class:`quell.results.NoiseResponse`."""
 
+    amplitude_m: list[float | None]
+    amplitude_m_value: npt.NDArray[np.float64]
+    band_end_hz: float
+    contact_mean_friction: npt.NDArray[np.float64]
+    contact_mean_friction_n: npt.NDArray[np.float64]
+    contact_mean_friction_undithered: npt.NDArray[np.float64]
+    contact_mean_friction_undithered_n: npt.NDArray[np.float64]
+    contact_name: npt.NDArray[np.str_]
     cost_displacement_rms: float
     cost_force_peak: float
     cost_force_rms: float
     cost_power: float
     cost_stroke: float
     cost_velocity_rms: float
+    dither_displacement_rms: npt.NDArray[np.float64]
+    dither_displacement_rms_m: npt.NDArray[np.float64]
+    dither_force_peak: npt.NDArray[np.float64]
+    dither_force_peak_n: npt.NDArray[np.float64]
+    dither_force_rms: npt.NDArray[np.float64]
+    dither_force_rms_n: npt.NDArray[np.float64]
+    dither_power: npt.NDArray[np.float64]
+    dither_power_w: npt.NDArray[np.float64]
+    dither_stroke: npt.NDArray[np.float64]
+    dither_stroke_m: npt.NDArray[np.float64]
+    dither_velocity_rms: npt.NDArray[np.float64]
+    dither_velocity_rms_m_per_s: npt.NDArray[np.float64]
     mean_friction_value: float
+    record_length_s: float
     seed: npt.NDArray[np.float64]
+    settle_s: float
+    undithered_amplitude_m: float
 
 
 class OrbitColumns:
@@ -629,20 +820,32 @@ class RampColumns:
     """Of :class:`quell.results.Ramp`."""
 
     displacement: npt.NDArray[np.float64]
+    largest_m_per_s: float
+    least_m_per_s: float
     manoeuvre_dither_onset: float
+    manoeuvre_dither_onset_s: float
     manoeuvre_overshoot: float
     manoeuvre_time_to_quench: float
+    manoeuvre_time_to_quench_s: float
     manoeuvre_vibration_amplitude: npt.NDArray[np.float64]
+    manoeuvre_vibration_amplitude_m: npt.NDArray[np.float64]
     manoeuvre_vibration_from: npt.NDArray[np.float64]
+    manoeuvre_vibration_from_s: npt.NDArray[np.float64]
     manoeuvre_vibration_to: npt.NDArray[np.float64]
+    manoeuvre_vibration_to_s: npt.NDArray[np.float64]
     switch_becomes: npt.NDArray[np.str_]
     switch_threshold: npt.NDArray[np.float64]
+    switch_threshold_m_per_s: npt.NDArray[np.float64]
     switch_time: npt.NDArray[np.float64]
+    switch_time_s: npt.NDArray[np.float64]
     switch_value: npt.NDArray[np.float64]
+    switch_value_m_per_s: npt.NDArray[np.float64]
     threshold_becomes: npt.NDArray[np.str_]
     threshold_kind: npt.NDArray[np.str_]
     threshold_value: npt.NDArray[np.float64]
+    threshold_value_m_per_s: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]
+    until_s: float
     value: npt.NDArray[np.float64]
     velocity: npt.NDArray[np.float64]
 
@@ -650,8 +853,16 @@ class RampColumns:
 class RecordFitColumns:
     """Of :class:`quell.results.RecordFit`."""
 
+    covariance_matrix_value: npt.NDArray[np.float64]
+    covariance_order_value: npt.NDArray[np.str_]
     fitted: npt.NDArray[np.float64]
     measured: npt.NDArray[np.float64]
+    parameters_friction_static_coefficient_fixed: Any
+    parameters_friction_static_coefficient_standard_error: float
+    parameters_friction_static_coefficient_value: float
+    parameters_record_shift_fixed: Any
+    parameters_record_shift_standard_error: float
+    parameters_record_shift_value: float
     point_residual: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]
 
@@ -880,7 +1091,9 @@ class StabilityColumns:
     """Of :class:`quell.results.Stability`."""
 
     change_frequency: npt.NDArray[np.float64]
+    change_frequency_hz: npt.NDArray[np.float64]
     change_friction: npt.NDArray[np.float64]
+    change_friction_n: npt.NDArray[np.float64]
     contact_effective_coefficient: npt.NDArray[np.float64]
     contact_friction: npt.NDArray[np.float64]
     contact_friction_n: npt.NDArray[np.float64]

@@ -42,7 +42,7 @@ class Decay(_columns.DecayColumns, Result):
     """The file."""
     columns: list[str]
     """Its columns."""
-    quantity: str
+    recorded_quantity: str
     """What the record shows."""
     comparison: list[dict[str, Any]]
     """Every law by ascending AIC."""
@@ -85,7 +85,7 @@ class RecordFit(_columns.RecordFitColumns, Result):
     """The file."""
     columns: list[str]
     """Its columns."""
-    quantity: str
+    recorded_quantity: str
     """What the record shows."""
     shift_from: str | None
     """Where a free shift counts from."""

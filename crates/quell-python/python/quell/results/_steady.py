@@ -334,7 +334,7 @@ class Actuator(_columns.ActuatorColumns, Result):
     @property
     def limit(self) -> npt.NDArray[np.str_]:
         """Name of the limit that binds (n,)."""
-        return self.arrays["limit"].words
+        return self.arrays["limit"].words()
 
 
 class Probability(_columns.ProbabilityColumns, Result):

@@ -284,7 +284,7 @@ impl DescribedContacts {
             .fact(self.sentence(study))
             .fact(format!("contacts: {}", names.join(", ")))
             .with_axis(Array::new("row", "1", numbers))
-            .with(Array::new("contact", "1", place))
+            .with(Array::new("contact_number", "1", place))
             .array("velocity_amplitude", Quantity::Velocity, rows(&GainCurve::amplitudes))
             .array("mean_coefficient", Quantity::Ratio, rows(&GainCurve::coefficients))
             .per_velocity("gain", rows(&GainCurve::gains))

@@ -169,7 +169,7 @@ impl SystemFriction {
         Dataset::of(&study.into(), "friction")
             .fact(format!("contacts: {}", names.join(", ")))
             .with_axis(Array::new("row", "1", numbers))
-            .with(Array::new("contact", "1", place))
+            .with(Array::new("contact_number", "1", place))
             .array("slip_velocity", Quantity::Velocity, rows(&FrictionCurve::slip_velocities))
             .array("coefficient", Quantity::Ratio, rows(&FrictionCurve::coefficients))
             .array(
