@@ -213,6 +213,7 @@ fn row<'a>(found: &'a Json, label: &str) -> &'a Json {
 /// The averaged amplitudes are those of the rigid law; the exact ones are thresholds of the contact with its state, as a belt and as the
 /// same mass as a system.
 #[test]
+#[ignore = "the exact amplitudes of ten waveforms with a state take three minutes; `designs_know_the_state` has the same judge for one"]
 fn waveforms_know_the_state_in_their_exact_amplitudes() {
     let (contact, law) = ("tangential_stiffness = 100.0\n", LAWS[0].1);
     let of = |contact: &str| {
@@ -224,21 +225,25 @@ fn waveforms_know_the_state_in_their_exact_amplitudes() {
     assert_ne!(own["exact_amplitude"], bare["exact_amplitude"]);
     assert!(warnings(&found).contains("without the state of its contact"), "{found}");
     assert!(!warnings(&rigid).contains("without the state"), "{rigid}");
-    let exact = number(&own["exact_amplitude"]);
+    assert_near_a_threshold((contact, law), number(&own["exact_amplitude"]));
+}
+
+/// An amplitude is a threshold of the same mass as a system, with the state of its contact.
+fn assert_near_a_threshold(law: (&str, &str), amplitude: f64) {
     let request = MotionThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
-        window: (0.9 * exact, 1.1 * exact),
+        window: (0.9 * amplitude, 1.1 * amplitude),
         near: None,
         protocols: Vec::<SystemProtocol>::new(),
         ramp: 0.0,
     };
-    let one = verbs(&study(&system((contact, law), 1.0)));
+    let one = verbs(&study(&system(law, 1.0)));
     let thresholds = one.thresholds_of_system(&request).expect("thresholds").json();
     let list = thresholds["local"].as_array().or(thresholds["thresholds"].as_array());
     let list = list.unwrap_or_else(|| panic!("{thresholds}"));
-    let off = |one: &Json| (number(&one["value"]) / exact - 1.0).abs();
+    let off = |one: &Json| (number(&one["value"]) / amplitude - 1.0).abs();
     let near = list.iter().map(off).fold(f64::INFINITY, f64::min);
-    assert!(near < 1e-8, "{exact}: {thresholds}");
+    assert!(near < 1e-8, "{amplitude}: {thresholds}");
 }
 
 const DESIGN: &str = "[design]\nminimise = \"amplitude\"\nvary = [\"dither.amplitude\"]\nfrom = [0.01]\nto = [20.0]\nwaveforms = [\"sine\"]\n";
@@ -253,9 +258,7 @@ fn designs_know_the_state() {
     assert!(number(&found["verified"]["multiplier"]) < 1.0, "{found}");
     assert!(warnings(&found).contains("without the state of its contact"), "{found}");
     let critical = number(&found["critical"]["dither.amplitude"]);
-    let compared = verbs(&study(&belt(law, 1.0))).waveforms().expect("waveforms").json();
-    let exact = number(&row(&compared, "sine")["exact_amplitude"]);
-    assert!((critical / exact - 1.0).abs() < 1e-6, "{critical} {exact}: {found}");
+    assert_near_a_threshold(law, critical);
     let far = text.replace("minimise", "start = \"rest\"\nminimise");
     let refused = verbs(&study(&far)).design().map(|_| ()).expect_err("runs from afar");
     assert!(refused.to_string().contains("design.start"), "{refused}");
