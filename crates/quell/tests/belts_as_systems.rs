@@ -133,7 +133,7 @@ fn the_slow_vibration_of_two_masses() {
     );
     let study = SystemStudy::parse(&text, &[]).expect("valid");
     let found = answer(&study, |verbs| verbs.describing(0.3));
-    assert_eq!(found["contact"], "pad", "{found}");
+    assert_eq!(found["balanced_contact"], "pad", "{found}");
     let times = ResponseRequest { settle: Some(1500.0), record: Some(600.0) };
     let exact = answer(&study, |verbs| verbs.response_after(times));
     close(number(&found["limit_cycle_amplitude"]), number(&exact["amplitude"]), 0.05, "amplitude");

@@ -354,10 +354,10 @@ class ContactFrictionColumns:
     """Of :class:`quell.results.ContactFriction`."""
 
     coefficient: npt.NDArray[np.float64]
-    contact: npt.NDArray[np.float64]
     contact_fast_velocity: npt.NDArray[np.float64]
     contact_fast_velocity_m_per_s: npt.NDArray[np.float64]
     contact_name: npt.NDArray[np.str_]
+    contact_number: npt.NDArray[np.float64]
     contact_surface_velocity: npt.NDArray[np.float64]
     contact_surface_velocity_m_per_s: npt.NDArray[np.float64]
     effective_coefficient: npt.NDArray[np.float64]
@@ -372,11 +372,11 @@ class ContactGainsColumns:
     contact_name: npt.NDArray[np.str_]
     contact_normal_load: npt.NDArray[np.float64]
     contact_normal_load_n: npt.NDArray[np.float64]
+    contact_number: npt.NDArray[np.float64]
     contact_slip_velocity: npt.NDArray[np.float64]
     contact_slip_velocity_m_per_s: npt.NDArray[np.float64]
     contact_small_gain: npt.NDArray[np.float64]
     contact_small_gain_s_per_m: npt.NDArray[np.float64]
-    contact_value: float
     gain: npt.NDArray[np.float64]
     growth_rate_value: float
     limit_cycle_amplitude_m: float | None

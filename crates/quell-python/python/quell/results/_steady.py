@@ -41,6 +41,9 @@ class Check(_columns.CheckColumns, Result):
     """Disc: its dither."""
     dithers: list[dict[str, Any]]
     """Belt and system: the dithers, with ``amplitude_ratio`` (velocity of a free mass) of a belt."""
+    given_amplitudes: list[dict[str, Any]]
+    """Belt and system: amplitudes of the dither that are given by another size than a peak force: ``key``, ``value``, ``unit``,
+    ``amplitude``, ``amplitude_unit``, and whether it is ``by_actuator``."""
     contact_laws: list[dict[str, Any]]
     """System: ``name``, ``normal_load``, ``belt_velocity`` with their units, ``law``, and whether ``normal`` and ``tangent`` are
     given, of each contact."""
@@ -193,7 +196,7 @@ class ContactGains(_columns.ContactGainsColumns, Result):
     and velocity amplitude."""
 
     verb = "friction"
-    contact: str | None
+    balanced_contact: str | None
     """The contact whose amplitude the slow vibration has; ``None`` where harmonic balance does not hold."""
     limit_cycle_velocity: float | None
     """Velocity amplitude at this contact of the smallest stable limit cycle."""
@@ -285,6 +288,10 @@ class Actuator(_columns.ActuatorColumns, Result):
     ``drive``."""
     binding: list[dict[str, Any]]
     """Which ``limit`` binds ``from`` one frequency ``to`` another."""
+    from_: float
+    """Lower end of the range of frequencies."""
+    to: float
+    """Upper end of the range of frequencies."""
     changes: list[dict[str, Any]]
     """Each ``frequency`` at which the limit changes: the one ``below`` and the one ``above``."""
     resonances: list[dict[str, Any]]

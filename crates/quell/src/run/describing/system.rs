@@ -236,13 +236,13 @@ impl DescribedContacts {
                 });
                 let growth: Vec<Option<f64>> = balance.growth.iter().copied().map(Some).collect();
                 fields
-                    .plain("contact", self.contacts[balance.contact].name.as_str())
+                    .plain("balanced_contact", self.contacts[balance.contact].name.as_str())
                     .list("limit_cycles", cycles.collect::<Vec<_>>())
                     .rate("small_growth_rate", balance.small.clone())
                     .rates("growth_rate", &growth, "unknown");
             }
             Err(why) => {
-                for name in ["contact", "limit_cycles", "growth_rate"] {
+                for name in ["balanced_contact", "limit_cycles", "growth_rate"] {
                     fields.unknown(name, why.as_str());
                 }
                 fields.rate("small_growth_rate", Err(why.clone()));
