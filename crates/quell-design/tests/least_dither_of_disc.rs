@@ -133,7 +133,7 @@ fn a_narrow_tongue_is_not_missed() {
     assert!(loudest(&disc, (from, to), 1.0, None) <= 1e-10 && to - from > 0.05);
 }
 
-/// Where nothing squeals the smallest amplitude is the answer, and where a whole range squeals there is none.
+/// Where nothing squeals the smallest amplitude is the answer, and where a whole range squeals no dither is.
 #[test]
 fn limits() {
     let normal = DiscDither::Normal { amplitude: 0.0, frequency_ratio: 2.7 };

@@ -12,7 +12,7 @@
 //! along the line and is no crossing: at ξ = 0 and on the lines of table 5.1 an exponent is imaginary for every friction.
 //!
 //! Two crossings within the last interval ([`DEPTH`] halvings of a step of the grid) are missed, and so is a tongue within a step of
-//! the grid without any sign of it at its ends and its middle. The grid of a line over speeds therefore has points in and beside
+//! the grid without any sign of it at its ends and its middle. The grid of a line over speeds therefore has points in and next to
 //! every predicted tongue ([`tongue_grid`]).
 
 use core::ops::RangeInclusive;
@@ -169,7 +169,7 @@ fn own_threshold(disc: &Disc) -> f64 {
     if least > 0.0 && least.is_finite() { least } else { 1.0 }
 }
 
-/// Points of a line over speeds at a dither frequency: equal steps, points beside every meeting of two waves, and points in every
+/// Points of a line over speeds at a dither frequency: equal steps, points next to every meeting of two waves, and points in every
 /// predicted tongue.
 pub fn tongue_grid(disc: &Disc, speeds: &RangeInclusive<f64>, steps: u32) -> Vec<f64> {
     let (from, to) = (*speeds.start(), *speeds.end());
@@ -236,7 +236,7 @@ pub fn marginal_values<E>(
 
 /// What a rate does between two points of a line.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Course {
+enum RateCourse {
     /// It does not change its sign, or is zero along the line.
     Calm,
     /// It changes its sign once, in the first or the second half.
@@ -246,9 +246,9 @@ enum Course {
 }
 
 /// The course of a rate through three points.
-fn course(all: [&DiscExponent; 3]) -> Course {
+fn course(all: [&DiscExponent; 3]) -> RateCourse {
     if all.iter().all(|exponent| exponent.is_zero()) {
-        return Course::Calm;
+        return RateCourse::Calm;
     }
     let [first, middle, last] = all.map(|exponent| exponent.rate);
     let bend = (middle - 0.5 * (first + last)).abs();
@@ -257,11 +257,11 @@ fn course(all: [&DiscExponent; 3]) -> Course {
     match in_halves {
         [false, false] => {
             let least = first.abs().min(middle.abs()).min(last.abs());
-            if least > bend { Course::Calm } else { Course::Rough { in_halves } }
+            if least > bend { RateCourse::Calm } else { RateCourse::Rough { in_halves } }
         }
-        [true, true] => Course::Rough { in_halves },
-        [in_first, _] if (first - last).abs() > 4.0 * bend => Course::Crosses { in_first },
-        _ => Course::Rough { in_halves },
+        [true, true] => RateCourse::Rough { in_halves },
+        [in_first, _] if (first - last).abs() > 4.0 * bend => RateCourse::Crosses { in_first },
+        _ => RateCourse::Rough { in_halves },
     }
 }
 
@@ -288,18 +288,18 @@ impl<E> Line<'_, E> {
         let middle = self.point(at)?;
         let points = [first, &middle, last];
         let count = points.map(|point| point.exponents.len()).into_iter().min().unwrap_or(0);
-        let courses: Vec<Course> =
+        let courses: Vec<RateCourse> =
             (0..count).map(|rank| course(points.map(|point| &point.exponents[rank]))).collect();
-        let is_rough = |course: &Course| matches!(course, Course::Rough { .. });
+        let is_rough = |course: &RateCourse| matches!(course, RateCourse::Rough { .. });
         if courses.iter().any(is_rough) && depth > 0 && self.evaluations < MOST {
             self.search(first, &middle, depth - 1)?;
             return self.search(&middle, last, depth - 1);
         }
         for (rank, course) in courses.into_iter().enumerate() {
             let halves = match course {
-                Course::Calm => [false, false],
-                Course::Crosses { in_first } => [in_first, !in_first],
-                Course::Rough { in_halves } => in_halves,
+                RateCourse::Calm => [false, false],
+                RateCourse::Crosses { in_first } => [in_first, !in_first],
+                RateCourse::Rough { in_halves } => in_halves,
             };
             for (half, crosses) in halves.into_iter().enumerate() {
                 if crosses {

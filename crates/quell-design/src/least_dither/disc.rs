@@ -31,7 +31,7 @@ use crate::actuator::{Actuator, ActuatorDemand};
 /// Steps of a line over amplitudes; intervals in which an exponent may cross are halved.
 const STEPS: u32 = 8;
 
-/// Steps of a line over speeds, in addition to the points in and beside predicted tongues.
+/// Steps of a line over speeds, in addition to the points in and next to predicted tongues.
 const SPEEDS: u32 = 48;
 
 /// Points of the box along each coordinate other than the speed where tongues are sought.

@@ -1,8 +1,9 @@
 //! The least dither by exact thresholds, near that of averaging, and its verification.
 
 use super::covered::{CoveredBox, covered};
+use super::no_design::NoDesign;
 use super::search::{AveragedSearch, DesignBasin, DesignPoint};
-use super::verified::VerifiedPoint;
+use super::verified::{MARGIN, VerifiedPoint};
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
 use super::{DesignProblem, DesignStart, LimitedQuantity, OperatingPoint};
 use crate::actuator::ActuatorDemand;
@@ -24,9 +25,6 @@ const BINDS: f64 = 1.0 - 1e-6;
 
 /// Steps of the secant method along a limit, and the closeness to it.
 const SECANT: (usize, f64) = (12, 1e-7);
-
-/// Share of the least amplitude by which the verified dither exceeds it.
-pub const MARGIN: f64 = 1e-3;
 
 /// A least dither.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,32 +54,6 @@ pub struct InfeasibleDesign {
     pub covered: Result<CoveredBox, String>,
 }
 
-/// Why no dither is allowed.
-#[derive(Clone, Debug, PartialEq)]
-pub enum NoDesign {
-    /// No allowed amplitude is quiet at this operating point.
-    NeverQuiet {
-        /// The point.
-        point: Vec<f64>,
-    },
-    /// The nearest dither exceeds a limit.
-    Limit {
-        /// The limited quantity.
-        quantity: LimitedQuantity,
-        /// The ratio of its value to the limit (of the limit to its value for a smallest load).
-        used: f64,
-        /// The operating point, if it decides.
-        point: Option<Vec<f64>>,
-    },
-    /// A point has no answer.
-    Failed {
-        /// The point.
-        point: Vec<f64>,
-        /// Why.
-        why: String,
-    },
-}
-
 /// The answer about one waveform.
 #[derive(Clone, Debug)]
 pub struct Designed {
@@ -91,15 +63,6 @@ pub struct Designed {
     pub basins: Vec<DesignBasin>,
     /// Every choice of the design variables that was tried by averaging, in the order of the first design variable.
     pub tried: Vec<DesignPoint>,
-}
-
-impl From<NoLeast> for NoDesign {
-    fn from(why: NoLeast) -> Self {
-        match why {
-            NoLeast::NeverQuiet { point } => Self::NeverQuiet { point },
-            NoLeast::Failed { point, why } => Self::Failed { point, why },
-        }
-    }
 }
 
 /// The least dither of a problem.

@@ -12,6 +12,7 @@ mod branch;
 mod covered;
 mod disc;
 mod exact;
+mod no_design;
 mod quiet;
 mod search;
 mod system;
@@ -22,13 +23,14 @@ pub use belt::{BeltPlant, amplitude_branch_of_belt, averaged_quiet_of_belt};
 pub use branch::{AmplitudeBranch, QuietChange};
 pub use covered::CoveredBox;
 pub use disc::{DiscAtPoint, DiscPlant};
-pub use exact::{Designed, FeasibleDesign, InfeasibleDesign, MARGIN, NoDesign, design};
+pub use exact::{Designed, FeasibleDesign, InfeasibleDesign, design};
+pub use no_design::NoDesign;
 pub use quiet::QuietAmplitudes;
 pub use search::{DesignBasin, DesignPoint};
 pub use system::{
     SystemAtPoint, SystemPlant, amplitude_branch_of_system, averaged_quiet_of_system,
 };
-pub use verified::VerifiedPoint;
+pub use verified::{MARGIN, VerifiedPoint};
 pub use worst_point::NoLeast;
 
 use crate::actuator::{Actuator, ActuatorDemand, ActuatorLimit};

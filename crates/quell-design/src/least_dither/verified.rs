@@ -1,8 +1,11 @@
 //! The verification of a least dither by exact responses over the box, and its loss of friction there.
 
-use super::exact::{MARGIN, NoDesign};
+use super::no_design::NoDesign;
 use super::search::{DesignPoint, grid};
 use super::{DesignObjective, DesignProblem, ExactVerdict, LimitedQuantity, OperatingPoint};
+
+/// Share of the least amplitude by which the verified dither exceeds it.
+pub const MARGIN: f64 = 1e-3;
 
 /// Rounds in which points that fail the verification are added to those that decide.
 const ROUNDS: usize = 4;

@@ -7,8 +7,8 @@
 //! Source: The `MathWorks`, MAT-File Format (level 5). A file is a header of 128 bytes and a sequence of elements, each a tag (type,
 //! number of bytes) and data filled up to a multiple of 8 bytes. Numbers are little-endian, which the header says.
 
+use super::content::{program, shape};
 use super::names::{free, identifier};
-use super::{program, shape};
 use crate::dataset::{Array, Dataset};
 
 /// Types of data.

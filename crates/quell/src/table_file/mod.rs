@@ -3,6 +3,7 @@
 //! CSV holds one dataset per file; the other formats hold every dataset of an answer, with units and provenance, in one.
 //! The extension of a file decides. Files have no date and no name of a machine, so that equal answers are equal files.
 
+mod content;
 mod matlab;
 mod names;
 mod netcdf;
@@ -72,14 +73,4 @@ impl TableFormat {
             Self::NetCdf => vec![netcdf::file(datasets)],
         })
     }
-}
-
-/// Lengths of the axes of a dataset.
-fn shape(dataset: &Dataset) -> Vec<usize> {
-    dataset.axes().iter().map(|axis| axis.values.len()).collect()
-}
-
-/// The line that names the program.
-fn program(verb: &str) -> String {
-    format!("quell {} {verb}", env!("CARGO_PKG_VERSION"))
 }

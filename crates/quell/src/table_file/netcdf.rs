@@ -9,8 +9,8 @@
 //! Source: Unidata, NetCDF classic and 64-bit offset file formats. Numbers are big-endian; names, attributes and data are
 //! filled up to multiples of 4 bytes.
 
+use super::content::{program, shape};
 use super::names::free;
-use super::{program, shape};
 use crate::dataset::{Array, Dataset, Provenance};
 
 /// Tags of lists.

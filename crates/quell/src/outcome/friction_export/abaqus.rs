@@ -6,7 +6,7 @@
 
 use std::fmt::Write as _;
 
-use super::{ExportUnits, comment, provenance};
+use super::comments::{ExportUnits, comment, provenance};
 use crate::run::friction_export::FrictionExport;
 use crate::study::BeltStudy;
 use crate::words::digits;

@@ -1,17 +1,12 @@
 //! Averaged friction as files of other programs: Abaqus (`.inp`) and MATLAB with Simscape (`.m`).
 
 mod abaqus;
+mod comments;
 mod simscape;
 
-use std::fmt::Write as _;
-
-use quell_model::units::Quantity;
-
-use crate::quantity;
+use self::comments::ExportUnits;
 use crate::run::friction_export::FrictionExport;
-use crate::run::law;
 use crate::study::BeltStudy;
-use crate::words::digits;
 
 /// Extensions of these files.
 pub const EXTENSIONS: &[&str] = &["inp", "m"];
@@ -23,76 +18,5 @@ pub(super) fn text(study: &BeltStudy, export: &FrictionExport, extension: &str) 
         "inp" => Some(abaqus::text(study, export, &units)),
         "m" => Some(simscape::text(study, export, &units)),
         _ => None,
-    }
-}
-
-/// The units of the numbers of a file: SI for a study in SI, else those of the equations.
-struct ExportUnits {
-    /// Unit of a slip speed, and that of the study in it.
-    speed: (String, f64),
-    force: (String, f64),
-    is_si: bool,
-}
-
-impl ExportUnits {
-    fn of(study: &BeltStudy) -> Self {
-        let unit = |quantity: Quantity| match study.scales().zip(quantity.si_unit()) {
-            Some((scales, (unit, _))) => (unit.to_owned(), scales.si_per_unit(quantity)),
-            None => (quantity::unit_of(quantity, false), 1.0),
-        };
-        let is_si = study.scales().is_some();
-        Self { speed: unit(Quantity::Velocity), force: unit(Quantity::Force), is_si }
-    }
-
-    /// A unit of a comment: that of a number without units is dimensionless.
-    fn named(&self, (unit, _): &(String, f64)) -> String {
-        if self.is_si { unit.clone() } else { format!("{unit}, dimensionless") }
-    }
-}
-
-/// The lines that say what the numbers are and where they hold, without marks of comments.
-fn provenance(study: &BeltStudy, export: &FrictionExport, units: &ExportUnits) -> Vec<String> {
-    let mut lines = vec![format!("quell {} friction", env!("CARGO_PKG_VERSION"))];
-    lines.extend(study.title().map(|title| format!("title: {}", title.replace(['\n', '\r'], " "))));
-    let what = if export.is_dithered {
-        "friction of the slow motion, averaged over one period of the dither"
-    } else {
-        "friction of the law; the study has no dither"
-    };
-    lines.push(what.to_owned());
-    let belt = study.belt();
-    if export.is_dithered {
-        let fast = digits(belt.fast_velocity() * units.speed.1);
-        lines.push(format!("largest fast slip velocity: {fast} {}", units.named(&units.speed)));
-        lines.push("It holds while the slow motion is slow against the dither.".to_owned());
-    }
-    let table = &export.table;
-    let last = table.points.last().map_or(0.0, |point| point.0);
-    lines.push(format!(
-        "slip speeds from 0 to {} {}",
-        digits(last * units.speed.1),
-        units.named(&units.speed)
-    ));
-    lines.push(format!(
-        "largest error of the coefficient between the {} points of the table: {}",
-        table.points.len(),
-        digits(table.largest_error)
-    ));
-    for (label, words) in law::words(study) {
-        lines.push(format!("{}: {words}", label.trim()));
-    }
-    lines.extend(export.warnings.iter().map(|warning| format!("warning: {warning}")));
-    lines.extend(study.changes().iter().map(|change| format!("changed: {change}")));
-    lines.push("study:".to_owned());
-    lines.extend(study.text().lines().map(|line| format!("  {line}")));
-    lines
-}
-
-/// Adds lines of comments.
-fn comment(text: &mut String, mark: &str, lines: &[String]) {
-    for line in lines {
-        // A line feed in a title or a warning would end the comment.
-        let line = line.replace(['\n', '\r'], " ");
-        let _ = writeln!(text, "{}", format!("{mark} {line}").trim_end());
     }
 }

@@ -80,7 +80,7 @@ fn middles(numbers: &[DesignNumber]) -> Vec<f64> {
     numbers.iter().map(|number| f64::midpoint(number.range.0, number.range.1)).collect()
 }
 
-/// The exact thresholds in amplitude at speeds of a range, among them those in and beside every predicted tongue.
+/// The exact thresholds in amplitude at speeds of a range, among them those in and next to every predicted tongue.
 fn tongues(
     plant: &DiscPlant<'_>,
     (from, to): (f64, f64),
