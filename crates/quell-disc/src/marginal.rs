@@ -11,7 +11,7 @@
 //! its bracket; in every other case the interval is halved. A rate that is zero within its error at all three points is marginal
 //! along the line and is no crossing: at ξ = 0 and on the lines of table 5.1 an exponent is imaginary for every friction.
 //!
-//! Two crossings within the last interval ([`DEPTH`] halvings of a step of the grid) are missed, and so is a tongue within a step of
+//! Two crossings within the last interval (`DEPTH` halvings of a step of the grid) are missed, and so is a tongue within a step of
 //! the grid without any sign of it at its ends and its middle. The grid of a line over speeds therefore has points in and next to
 //! every predicted tongue ([`tongue_grid`]).
 
