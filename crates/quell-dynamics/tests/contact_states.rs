@@ -4,6 +4,7 @@ use quell_dynamics::motion::{
     ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder, MotionStart,
 };
 use quell_dynamics::simulation::EventKind;
+use quell_model::profile::{KnotShape, Knots, Profile};
 use quell_model::{Belt, Direction, Dither, LawKind, Parametrisation, System, Waveform};
 
 fn dithered(direction: Direction, amplitude: f64, frequency_ratio: f64, phase: f64) -> Dither {
@@ -111,6 +112,7 @@ fn a_run_continues_from_the_state_of_its_contacts() {
     let cases = [
         (LawKind::Coulomb, vec![0.3, 0.3, 0.0], Some(20.0)),
         (LawKind::StribeckExponential, vec![0.25, 0.4, 0.1, 2.0, 0.05], Some(20.0)),
+        (LawKind::StribeckExponential, vec![0.3, 0.3, 0.1, 2.0, 0.5], Some(20.0)),
         (LawKind::Lugre, vec![0.3, 0.4, 0.05, 100.0, 2.0, 0.02], None),
     ];
     for (law, values, stiffness) in cases {
@@ -160,5 +162,87 @@ fn loads_with_jumps_and_kinks_agree_with_fixed_steps() {
         let off = (end.state[0] - x).abs() + (end.state[1] - v).abs();
         assert!(off < 1e-5, "{normal:?}: {off:e}");
         assert!((end.contacts[0].friction - force).abs() < 1e-4, "{normal:?}");
+    }
+}
+
+/// A law that rises with γ above its static level bounds adhesion too: the force of a spring does not jump up to it. Against the same
+/// fixed steps, whose bound is then the level at γ.
+#[test]
+fn a_law_that_rises_above_its_static_level_agrees_with_fixed_steps() {
+    for waveform in [Waveform::Square, Waveform::Triangle, Waveform::Sine] {
+        let normal = Dither { waveform, ..dithered(Direction::Normal, 0.6, 5.0, 0.4) };
+        let tangential = dithered(Direction::Tangential, 0.5, 3.0, 0.0);
+        let dithers = vec![normal.clone(), tangential.clone()];
+        let law = [0.3, 0.3, 0.1, 2.0, 0.5];
+        let kind = LawKind::StribeckExponential;
+        let system = slider((0.02, 0.1), kind, &law, Some(15.0), dithers);
+        let (end, events) = run(&system, [0.1, -0.2], 10.0);
+        assert!(events.events.len() > 10, "{}", events.events.len());
+        let step = 1e-6;
+        let (mut x, mut v, mut force) = (0.1_f64, -0.2_f64, 0.0_f64);
+        for k in 0..10_000_000_u32 {
+            let time = (f64::from(k) + 0.5) * step;
+            let dither = |dither: &Dither| {
+                let phase = dither.frequency_ratio.mul_add(time, dither.phase);
+                dither.amplitude * dither.waveform.value(phase)
+            };
+            let slip = 0.1 - v;
+            let bound = (0.3 + 0.5 * slip.abs()) * (1.0 + dither(&normal));
+            force = (force + 15.0 * slip * step).clamp(-bound, bound);
+            v += step * (force + dither(&tangential) - x - 0.04 * v);
+            x += step * v;
+        }
+        let off = (end.state[0] - x).abs() + (end.state[1] - v).abs();
+        assert!(off < 1e-5, "{normal:?}: {off:e}");
+        assert!((end.contacts[0].friction - force).abs() < 1e-4, "{normal:?}");
+    }
+}
+
+/// The level of this law rises at zero slip and falls from γ = 0.0033 on: a slider that begins to slip there under a varying load.
+#[test]
+fn a_slider_passes_the_rise_of_its_law_at_small_slip() {
+    let law = LawKind::StribeckExponential.build(&[0.25, 0.4, 0.1, 2.0, 0.05]).expect("a law");
+    let belt = Belt::new(0.01, 1.0, 0.1, law, Vec::new()).expect("a belt");
+    let belt = belt.with_tangential_stiffness(Some(23.0)).expect("a stiffness");
+    let mut system = belt.system();
+    let load = Knots::new(vec![0.0, 9.0, 21.0], vec![1.0, 1.4, 0.8], KnotShape::Linear);
+    system.contacts[0].varying_load = Some(Profile::over(load.expect("knots")));
+    let (end, events) = run(&system, [0.1, -0.2], 60.0);
+    assert!(end.time == 60.0 && events.events.len() > 5, "{}", events.events.len());
+}
+
+/// Pseudo-random numbers in [0, 1), from a linear congruence.
+fn uniform(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*seed >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Random sliders, of falling and rising laws, under dither along and across, end their runs with T within its bound.
+#[test]
+fn random_sliders_run_to_their_ends() {
+    let mut seed = 19;
+    let waveforms = [Waveform::Sine, Waveform::Triangle, Waveform::Square];
+    for case in 0..400 {
+        let mut next = |low: f64, high: f64| low + (high - low) * uniform(&mut seed);
+        let values = [next(0.1, 0.4), next(0.1, 0.5), next(0.02, 0.4), 2.0, next(0.0, 1.0)];
+        let values = [values[0].min(values[1]), values[1], values[2], values[3], values[4]];
+        let mut dither = |direction, amplitude| Dither {
+            waveform: waveforms[next(0.0, 3.0) as usize].clone(),
+            ..dithered(direction, amplitude, next(1.3, 9.0), next(0.0, 6.0))
+        };
+        let dithers = vec![dither(Direction::Tangential, 0.7), dither(Direction::Normal, 0.6)];
+        let stiffness = 10_f64.powf(next(0.0, 3.0));
+        let belt = (next(0.0, 0.1), next(0.01, 0.4));
+        let kind = LawKind::StribeckExponential;
+        let system = slider(belt, kind, &values, Some(stiffness), dithers);
+        let motion = Motion::new(&system).expect("a motion");
+        let state = motion.relaxed(&[next(-0.5, 0.5), next(-0.5, 0.5)]);
+        let start = MotionStart { time: 0.0, state };
+        let end = motion.run(&start, 30.0, MOTION_TOLERANCE, &mut ());
+        let end = end.unwrap_or_else(|why| panic!("{case}: {why:?} {system:?}"));
+        let contact = &end.contacts[0];
+        let level = system.contacts[0].friction.coefficient(contact.slip_velocity.abs());
+        let bound = level.max(values[1]) * contact.normal_load;
+        assert!(contact.friction.abs() <= bound * (1.0 + 1e-9), "{case}: {end:?}");
     }
 }

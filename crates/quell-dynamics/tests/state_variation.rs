@@ -13,6 +13,8 @@ use quell_numerics::matrix::Matrix;
 
 const COULOMB: [f64; 3] = [0.3, 0.3, 0.0];
 const FALLING: [f64; 5] = [0.25, 0.4, 0.1, 2.0, 0.05];
+/// Above its static level at every slip.
+const RISING: [f64; 5] = [0.3, 0.3, 0.1, 2.0, 0.5];
 const BRISTLES: [f64; 6] = [0.3, 0.4, 0.05, 100.0, 2.0, 0.02];
 
 fn dither(direction: Direction, amplitude: f64, frequency_ratio: f64) -> Dither {
@@ -143,6 +145,13 @@ fn changes_are_those_of_differences() {
             None,
             vec![dither(across, 0.5, 3.0), dither(along, 0.5, 4.5)],
         ),
+        of_belt(
+            0.1,
+            (LawKind::StribeckExponential, &RISING),
+            Some(20.0),
+            vec![dither(across, 0.4, 3.0), dither(along, 0.8, 4.5)],
+        ),
+        bouncing((LawKind::StribeckExponential, &RISING), Some(20.0)),
         bouncing((LawKind::Lugre, &BRISTLES), None),
         bouncing((LawKind::StribeckExponential, &FALLING), Some(20.0)),
     ];

@@ -34,6 +34,8 @@ pub(super) struct ContactMasks<V = f64> {
     pub(super) all_act: bool,
     pub(super) most_slip_zeros: usize,
     pub(super) most_load_zeros: usize,
+    /// Whether the series of the law along γ is needed: where the contact slips, or adheres beyond its static bound.
+    pub(super) follows_law: bool,
     /// Direction of an elastic slider's slip times the sign of γ; not read of rigid contacts.
     pub(super) turned: f64,
 }
@@ -57,9 +59,9 @@ impl ContactMasks {
         let is_saturated = now.sticks() && now.saturated != 0;
         let direction = f64::from(now.phase.slip_sign());
         // The law is evaluated on the branch of γ.
-        let sign = match now.own {
-            OwnNow::Elastic(own) => f64::from(own.branch),
-            OwnNow::Rigid | OwnNow::Bristles => direction,
+        let (sign, is_beyond) = match now.own {
+            OwnNow::Elastic(own) => (f64::from(own.branch), own.beyond != 0),
+            OwnNow::Rigid | OwnNow::Bristles => (direction, false),
         };
         Self {
             sign,
@@ -79,6 +81,7 @@ impl ContactMasks {
             all_act: slips || is_saturated,
             most_slip_zeros: now.slip_zeros,
             most_load_zeros: now.load_zeros,
+            follows_law: slips || is_beyond,
             turned: direction * sign,
         }
     }
@@ -107,6 +110,7 @@ impl<V: Lane> ContactMasks<V> {
             all_act: false,
             most_slip_zeros: 0,
             most_load_zeros: 0,
+            follows_law: false,
             turned: 0.0,
         }
     }
@@ -134,6 +138,7 @@ impl<V: Lane> ContactMasks<V> {
             usize::from(reaches(1.0)) + usize::from(reaches(2.0))
         };
         self.any_slips = self.slipping.any_positive();
+        self.follows_law = self.any_slips;
         self.any_sticks = self.sticking.any_positive();
         self.any_open = self.open.any_positive();
         self.any_saturated = self.saturated.abs().any_positive();

@@ -1,6 +1,6 @@
 //! The guards of a step: the polynomials whose first root ends it.
 
-use quell_numerics::lane::{Lane, horner};
+use quell_numerics::lane::{Lane, horner, partial_product};
 use quell_numerics::polynomial::side_by_side::proof_of_no_root;
 use quell_numerics::polynomial::{derivative, first_crossing_after, value};
 
@@ -11,7 +11,7 @@ use super::observer::Trigger;
 use super::own_friction::own_speed;
 use super::own_state::{OwnState, OwnStateKind};
 use super::phase::{ContactNow, ContactPhase, ElasticNow, OwnNow};
-use super::rows::StateRow;
+use super::rows::{RowEntries, StateRow};
 use super::selection::ZERO_ACCELERATION;
 use crate::simulation::{ORDER, Series};
 
@@ -54,7 +54,7 @@ pub(super) struct Guards<'a> {
     pub(super) contacts: &'a [ContactSeries],
 }
 
-/// Most guards of one contact: the load, and the margins on both sides.
+/// Most guards of one contact: the load, and the margins on both sides or at both bounds.
 const GUARDS: usize = 3;
 
 impl<'a> Guards<'a> {
@@ -134,6 +134,9 @@ impl<'a> Guards<'a> {
     {
         let (equation, series) = (&self.equations.contacts[contact], &self.contacts[contact]);
         match self.now[contact].phase {
+            ContactPhase::Stick if elastic.beyond != 0 => {
+                Some(beyond_static_bound(equation, (contact, place), elastic, series, margin))
+            }
             ContactPhase::Stick => {
                 let side = if place == 1 { 1 } else { -1 };
                 *margin = margin_above(equation.static_coefficient, f64::from(side), series);
@@ -227,6 +230,34 @@ pub(super) fn proof_of_no_event<R: StateRow, V: Lane>(
         }
     }
     proof
+}
+
+/// The guards of an elastic slider that adheres on one side beyond its static bound: T reaches the sliding level there, or returns to
+/// the static bound.
+fn beyond_static_bound<'m>(
+    equation: &ContactEquation<RowEntries>,
+    (contact, place): (usize, usize),
+    elastic: ElasticNow,
+    series: &ContactSeries,
+    margin: &'m mut Series,
+) -> Guard<'m> {
+    let (side, branch) = (f64::from(elastic.beyond), f64::from(elastic.branch));
+    if place == 1 {
+        for (k, margin) in margin.iter_mut().enumerate() {
+            let level = branch * partial_product(&series.coefficient, &series.pressed, k, 0, k);
+            *margin = f64::mul_add(-side, series.friction[k], level);
+        }
+        let mut zeros = elastic.margin_zeros[0];
+        if branch * series.slip[0] < 0.0 {
+            // The surface has reversed at once: the law goes on along its other branch.
+            (margin[0], zeros) = (-1.0, 0);
+        }
+        let what = Trigger::Margin(contact, elastic.beyond);
+        return Guard { what, series: margin, sign: 1.0, zeros };
+    }
+    *margin = margin_above(equation.static_coefficient, side, series);
+    let what = Trigger::Margin(contact, -elastic.beyond);
+    Guard { what, series: margin, sign: -1.0, zeros: elastic.margin_zeros[1] }
 }
 
 /// The margin μ_s N ∓ T of a sticking contact on one side.

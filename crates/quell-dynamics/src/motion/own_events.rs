@@ -5,11 +5,13 @@
 
 use quell_model::Friction;
 use quell_model::friction::SlidingLaw;
+use quell_numerics::lane::partial_product;
 
 use super::engine::{MotionProgress, MotionRun};
 use super::own_friction::own_speed;
 use super::own_state::{OwnState, OwnStateKind};
 use super::phase::{ContactNow, ContactPhase, ElasticNow, OwnNow};
+use super::stopped::MotionStopped;
 use crate::simulation::ORDER;
 
 /// Forces within this share of a level are at it: they are ends of steps, accurate to their tolerance.
@@ -84,18 +86,25 @@ impl MotionRun<'_> {
         let level = self.system.contacts[contact].friction.coefficient(slip.abs()) * pressed;
         self.set_elastic(contact, ContactPhase::Stick, slip, |_| {});
         let is_at = |level: f64| level > 0.0 && (force.abs() - level).abs() <= AT_LEVEL * level;
-        if force.abs() > bound * (1.0 + AT_LEVEL) {
+        if force.abs() > bound * (1.0 + AT_LEVEL) && force.abs() < level * (1.0 - AT_LEVEL) {
+            self.set_elastic(contact, ContactPhase::Stick, slip, |own| own.beyond = direction);
+        } else if force.abs() > bound * (1.0 + AT_LEVEL) {
             self.set_elastic(contact, ContactPhase::Slip(direction), slip, |_| {});
         } else if is_at(level) {
             self.set_elastic(contact, ContactPhase::Slip(direction), slip, |_| {});
             let (speed, _) = self.own_speed_now(contact)?;
             if f64::from(direction) * speed <= 0.0 {
                 self.series_start(contact, force);
-                self.set_elastic(contact, ContactPhase::Stick, slip, |_| {});
+                self.adhere(contact, direction, None)?;
             }
         }
-        if self.now[contact].phase == ContactPhase::Stick && is_at(bound) {
-            self.find_margin_zeros(contact, direction)?;
+        let adheres_below = match self.now[contact].own {
+            OwnNow::Elastic(own) => own.beyond == 0,
+            OwnNow::Rigid | OwnNow::Bristles => false,
+        };
+        if self.now[contact].phase == ContactPhase::Stick && adheres_below && is_at(bound) {
+            let zeros = self.bound_margin(contact, direction)?.zeros;
+            self.note_zeros(contact, usize::from(direction < 0), zeros);
         }
         Ok(())
     }
@@ -137,7 +146,7 @@ impl MotionRun<'_> {
 
     /// The slip of a contact with a state of its own has ended: its own speed, or of bristles γ, has reached zero.
     pub(super) fn own_slip_ends(&mut self, contact: usize, is_immediate: bool) -> MotionProgress {
-        let load_zeros = self.now[contact].load_zeros;
+        let ContactNow { load_zeros, slip_zeros, .. } = self.now[contact];
         let ContactPhase::Slip(direction) = self.now[contact].phase else { return Ok(()) };
         let OwnNow::Elastic(elastic) = self.now[contact].own else {
             let now = self.now_in(contact, ContactPhase::Slip(-direction));
@@ -151,22 +160,77 @@ impl MotionRun<'_> {
                 self.series_start(contact, carried);
             }
         }
-        let slip = self.slip(contact).0;
-        self.set_elastic(contact, ContactPhase::Stick, slip, |_| {});
+        let turned_to = (slip_zeros > 0).then_some(elastic.branch);
+        self.adhere(contact, direction, turned_to)?;
         self.now[contact].load_zeros = load_zeros;
+        Ok(())
+    }
+
+    /// An elastic slider adheres from here; `direction` is the side on which T may be at a bound, `turned_to` the sign that γ is about to
+    /// have where it is zero now. T of a spring does not jump up: beyond its static bound it adheres on while the sliding level is higher.
+    fn adhere(&mut self, contact: usize, direction: i8, turned_to: Option<i8>) -> MotionProgress {
+        let slip = self.slip(contact).0;
         let pressed = self.load(contact) * self.factor(contact);
         let bound = self.equations.contacts[contact].static_coefficient * pressed;
+        let level = self.system.contacts[contact].friction.coefficient(slip.abs()) * pressed;
         let force = f64::from(direction) * self.own(contact).map_or(0.0, |(_, force)| force);
-        if (bound - force).abs() <= AT_LEVEL * bound {
-            self.find_margin_zeros(contact, direction)?;
+        let is_at = |level: f64| (level - force).abs() <= AT_LEVEL * level;
+        self.set_elastic(contact, ContactPhase::Stick, slip, |_| {});
+        let mut zeros = 0;
+        if is_at(bound) {
+            let margin = self.bound_margin(contact, direction)?;
+            zeros = margin.zeros;
+            if !margin.falls {
+                self.note_zeros(contact, usize::from(direction < 0), zeros);
+                return Ok(());
+            }
+        } else if force <= bound {
+            return Ok(());
+        }
+        self.set_elastic(contact, ContactPhase::Stick, slip, |own| {
+            (own.beyond, own.branch) = (direction, turned_to.unwrap_or(0));
+        });
+        self.now[contact].slip_zeros = usize::from(turned_to.is_some());
+        self.note_zeros(contact, 1, zeros);
+        if is_at(level) {
+            let zeros = self.level_margin(contact)?.zeros;
+            self.note_zeros(contact, 0, zeros);
         }
         Ok(())
     }
 
-    /// An elastic slider has reached its static bound.
+    /// An elastic slider has reached its static bound, or, where it adheres beyond it, the sliding level or the static bound again.
     pub(super) fn own_release(&mut self, contact: usize, direction: i8) -> MotionProgress {
         let load_zeros = self.now[contact].load_zeros;
         let slip = self.slip(contact).0;
+        let beyond = match self.now[contact].own {
+            OwnNow::Elastic(own) => own.beyond,
+            OwnNow::Rigid | OwnNow::Bristles => 0,
+        };
+        let side = if beyond == 0 { direction } else { beyond };
+        let pressed = self.load(contact) * self.factor(contact);
+        let bound = self.equations.contacts[contact].static_coefficient * pressed;
+        let level = self.system.contacts[contact].friction.coefficient(slip.abs()) * pressed;
+        let force = f64::from(side) * self.own(contact).map_or(0.0, |(_, force)| force);
+        let returns = direction == -beyond || bound - force > AT_LEVEL * bound;
+        if beyond != 0 && returns {
+            self.set_elastic(contact, ContactPhase::Stick, slip, |_| {});
+            if (bound - force).abs() <= AT_LEVEL * bound {
+                let zeros = self.bound_margin(contact, beyond)?.zeros;
+                self.note_zeros(contact, usize::from(beyond < 0), zeros);
+            }
+            self.now[contact].load_zeros = load_zeros;
+            return Ok(());
+        }
+        if level - force > AT_LEVEL * level {
+            self.set_elastic(contact, ContactPhase::Stick, slip, |own| own.beyond = side);
+            if beyond == 0 && (bound - force).abs() <= AT_LEVEL * bound {
+                let zeros = self.bound_margin(contact, side)?.zeros;
+                self.note_zeros(contact, 1, zeros);
+            }
+            self.now[contact].load_zeros = load_zeros;
+            return Ok(());
+        }
         let released = |own: &mut ElasticNow| own.is_released = true;
         self.set_elastic(contact, ContactPhase::Slip(direction), slip, released);
         self.now[contact].load_zeros = load_zeros;
@@ -179,13 +243,21 @@ impl MotionRun<'_> {
         Ok(())
     }
 
-    /// γ of an elastic slider that slides has changed its sign: |γ| has a kink there.
-    pub(super) fn own_turn(&mut self, contact: usize) {
+    /// γ of an elastic slider that slides has changed its sign: |γ| has a kink there, at which its own speed jumps. Under a law that rises
+    /// with |γ| the slip ends there.
+    pub(super) fn own_turn(&mut self, contact: usize) -> MotionProgress {
         let now = &mut self.now[contact];
-        if let (OwnNow::Elastic(own), ContactPhase::Slip(_)) = (&mut now.own, now.phase) {
-            own.branch = -own.branch;
-            now.slip_zeros = 1;
+        let (OwnNow::Elastic(own), ContactPhase::Slip(direction)) = (&mut now.own, now.phase)
+        else {
+            return Ok(());
+        };
+        own.branch = -own.branch;
+        now.slip_zeros = 1;
+        let (speed, terms) = self.own_speed_now(contact)?;
+        if f64::from(direction) * speed < -ZERO_RATE * terms {
+            return self.own_slip_ends(contact, false);
         }
+        Ok(())
     }
 
     /// A contact with a state of its own has landed: an elastic slider slides at once where the load rises slower than its spring.
@@ -200,11 +272,18 @@ impl MotionRun<'_> {
         self.set_elastic(contact, ContactPhase::Stick, slip, |own| own.margin_zeros = [1, 1]);
         self.now[contact].load_zeros = load_zeros;
         self.look_ahead()?;
-        let level = self.equations.contacts[contact].static_coefficient;
-        let rise = level * self.series.contacts[contact].pressed[1];
-        if load_zeros > 0 && stiffness * slip.abs() > rise {
-            let direction = if slip < 0.0 { -1 } else { 1 };
+        let bound = self.equations.contacts[contact].static_coefficient;
+        let level = self.system.contacts[contact].friction.coefficient(slip.abs());
+        let direction = if slip < 0.0 { -1 } else { 1 };
+        let rise = self.series.contacts[contact].pressed[1];
+        let pull = stiffness * slip.abs();
+        if load_zeros > 0 && pull > bound.max(level) * rise {
             self.set_elastic(contact, ContactPhase::Slip(direction), slip, |_| {});
+            self.now[contact].load_zeros = load_zeros;
+        } else if load_zeros > 0 && pull > bound * rise {
+            self.set_elastic(contact, ContactPhase::Stick, slip, |own| {
+                (own.beyond, own.margin_zeros) = (direction, [1, 1]);
+            });
             self.now[contact].load_zeros = load_zeros;
         } else if load_zeros == 0 {
             self.set_elastic(contact, ContactPhase::Stick, slip, |_| {});
@@ -220,19 +299,16 @@ impl MotionRun<'_> {
         slip: f64,
         change: impl FnOnce(&mut ElasticNow),
     ) {
-        let branch = match phase {
-            ContactPhase::Slip(direction) if slip == 0.0 => direction,
-            ContactPhase::Slip(_) => {
-                if slip < 0.0 {
-                    -1
-                } else {
-                    1
-                }
-            }
-            ContactPhase::Stick | ContactPhase::Open => 0,
-        };
-        let mut own = ElasticNow { branch, ..ElasticNow::default() };
+        let mut own = ElasticNow::default();
         change(&mut own);
+        let direction = if own.beyond == 0 { phase.slip_sign() } else { own.beyond };
+        own.branch = match direction {
+            0 => 0,
+            _ if own.branch != 0 => own.branch,
+            _ if slip < 0.0 => -1,
+            _ if slip > 0.0 => 1,
+            direction => direction,
+        };
         self.now[contact] = ContactNow { own: OwnNow::Elastic(own), ..ContactNow::of(phase) };
     }
 
@@ -251,7 +327,7 @@ impl MotionRun<'_> {
     }
 
     /// The own speed of an elastic slider that slides, and the size of its terms.
-    fn own_speed_now(&mut self, contact: usize) -> Result<(f64, f64), super::MotionStopped> {
+    fn own_speed_now(&mut self, contact: usize) -> Result<(f64, f64), MotionStopped> {
         self.look_ahead()?;
         let Some(OwnState { kind: OwnStateKind::Elastic { stiffness }, .. }) =
             self.equations.contacts[contact].own
@@ -265,26 +341,66 @@ impl MotionRun<'_> {
         Ok((speed[0], self.slip(contact).1 + spring))
     }
 
-    /// The multiplicity of the zero of the margin of an elastic slider that begins to adhere at its static bound: 2 where its own
-    /// speed is zero, for the margin falls at the rate k_t γ − μ_s Ṅ; else 1.
-    fn find_margin_zeros(&mut self, contact: usize, direction: i8) -> MotionProgress {
+    /// The start of the static bound minus T on one side, of a slider that adheres: it falls at the rate k_t γ − μ_s Ṅ.
+    fn bound_margin(
+        &mut self,
+        contact: usize,
+        direction: i8,
+    ) -> Result<MarginStart, MotionStopped> {
         self.look_ahead()?;
         let level = self.equations.contacts[contact].static_coefficient;
-        let size = self.slip(contact).1;
+        let pressed = &self.series.contacts[contact].pressed;
+        let rises = [level * pressed[1], level * pressed[2]];
+        Ok(self.margin_start(contact, direction, rises))
+    }
+
+    /// The same of the sliding level, of a slider that adheres beyond its static bound.
+    fn level_margin(&mut self, contact: usize) -> Result<MarginStart, MotionStopped> {
+        self.look_ahead()?;
+        let OwnNow::Elastic(own) = self.now[contact].own else {
+            return Ok(MarginStart { zeros: 1, falls: false });
+        };
         let series = &self.series.contacts[contact];
-        let side = f64::from(direction);
-        let rate = f64::mul_add(level, series.pressed[1], -(side * series.friction[1]));
+        let term = |k| {
+            f64::from(own.branch) * partial_product(&series.coefficient, &series.pressed, k, 0, k)
+        };
+        Ok(self.margin_start(contact, own.beyond, [term(1), term(2)]))
+    }
+
+    /// From the first two terms of a level on the step that is expanded, where the margin is zero now.
+    fn margin_start(&self, contact: usize, direction: i8, rises: [f64; 2]) -> MarginStart {
+        let size = self.slip(contact).1;
+        let friction = &self.series.contacts[contact].friction;
         let per_slip = match self.equations.contacts[contact].own {
             Some(OwnState { kind: OwnStateKind::Elastic { stiffness }, .. }) => stiffness,
             _ => 0.0,
         };
-        let terms = (level * series.pressed[1]).abs() + per_slip * size;
-        let zeros = if rate.abs() <= ZERO_RATE * terms { 2 } else { 1 };
-        if let OwnNow::Elastic(own) = &mut self.now[contact].own {
-            own.margin_zeros[usize::from(direction < 0)] = zeros;
+        let side = f64::from(direction);
+        let falls = [1, 2].map(|k| f64::mul_add(side, friction[k], -rises[k - 1]));
+        let terms = rises[0].abs() + per_slip * size;
+        if falls[0].abs() <= ZERO_RATE * terms {
+            // Its own speed is zero.
+            MarginStart { zeros: 2, falls: falls[1] > 0.0 }
+        } else {
+            MarginStart { zeros: 1, falls: falls[0] > 0.0 }
         }
-        Ok(())
     }
+
+    /// Notes the multiplicity of the zero of a margin of an elastic slider.
+    fn note_zeros(&mut self, contact: usize, place: usize, zeros: usize) {
+        if let OwnNow::Elastic(own) = &mut self.now[contact].own {
+            own.margin_zeros[place] = zeros;
+        }
+    }
+}
+
+/// A margin of an elastic slider that begins at zero.
+#[derive(Clone, Copy, Debug)]
+struct MarginStart {
+    /// Multiplicity of the zero.
+    zeros: usize,
+    /// Whether the margin is negative right after it.
+    falls: bool,
 }
 
 /// g at a slip velocity.

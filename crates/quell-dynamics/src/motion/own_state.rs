@@ -1,8 +1,9 @@
 //! Contacts with a state of their own, one number each, which follows the states of the structure.
 //!
 //! * An elastic slider has the state T. It adheres, Ṫ = k_t γ, while |T| < μ_s N; it slides at T = sμ(|γ|)N, s = ±1, and adheres
-//!   again where its own speed γ − Ṫ/k_t reaches zero: γ alone does not end a slip under a load that varies. An adhering slider is a
-//!   spring; only a rigid contact is held by a force that is sought. Jenkins (1962), Iwan (1966).
+//!   again where its own speed γ − Ṫ/k_t reaches zero: γ alone does not end a slip under a load that varies. The force of a spring does
+//!   not jump up: where the law rises above its static level (a viscous part), |T| < max(μ_s, μ(|γ|))N bounds adhesion. An adhering
+//!   slider is a spring; only a rigid contact is held by a force that is sought. Jenkins (1962), Iwan (1966).
 //! * Bristles have the state z: ż = γ − σ₀|γ|z/g(γ), T = N(σ₀z + σ₁ż + σ₂γ). They never stick; each sign change of γ is an event,
 //!   because |γ| has a kink there. Canudas de Wit et al. (1995).
 //!

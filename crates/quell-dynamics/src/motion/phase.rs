@@ -54,8 +54,10 @@ pub(super) enum OwnNow {
 /// An elastic slider at the start of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct ElasticNow {
-    /// Sign of γ while it slides, which can differ from the direction of its slip; 0 while it adheres.
+    /// Sign of γ while it slides, which can differ from the direction of its slip, and while it adheres beyond its static bound; else 0.
     pub(super) branch: i8,
+    /// Side on which it adheres although T is beyond its static bound, because the sliding level μ(|γ|)N is still higher; else 0.
+    pub(super) beyond: i8,
     /// Multiplicity of the zero of its own speed at the start of a slip.
     pub(super) speed_zeros: usize,
     /// Multiplicity of the zeros of its margins at the upper and at the lower bound.
@@ -88,7 +90,8 @@ impl ContactNow {
         self.slip_zeros = 0;
         self.load_zeros = 0;
         if let OwnNow::Elastic(now) = &mut self.own {
-            *now = ElasticNow { branch: now.branch, ..ElasticNow::default() };
+            let ElasticNow { branch, beyond, .. } = *now;
+            *now = ElasticNow { branch, beyond, ..ElasticNow::default() };
         }
     }
 

@@ -12,6 +12,7 @@ use super::contact_masks::{ContactMasks, chosen};
 use super::contact_series::{ContactSeries, SeriesOf};
 use super::equations::ContactEquation;
 use super::own_friction;
+use super::own_state::OwnStateKind;
 use super::rows::{StateRow, StateStorage};
 use super::series::StepSeries;
 use super::speed_terms::SpeedMatrices;
@@ -94,7 +95,7 @@ impl<V: Lane, S: StateStorage<V>> StepRecurrence<'_, V, S> {
     ) {
         for (index, (law, branch)) in laws.iter_mut().zip(branches).enumerate() {
             let (contact, masks) = (&self.contacts[index], &self.masks[index]);
-            if !masks.any_slips {
+            if !masks.follows_law {
                 continue;
             }
             let start = &self.series.states[..self.storage.size()];
@@ -219,6 +220,19 @@ impl<V: Lane, S: StateStorage<V>> StepRecurrence<'_, V, S> {
                 let level = contact.static_coefficient * series.pressed[0].abs();
                 let level = level.max(contact.static_coefficient * contact.normal_load);
                 bound(&series.friction, level, masks.sticking);
+            }
+            if masks.follows_law && !masks.any_slips {
+                // The level of an elastic slider that adheres ends the step, but does not act on the state.
+                bound(&series.coefficient, series.coefficient[0].abs(), V::splat(1.0));
+            }
+            if masks.any_slips
+                && let Some(OwnStateKind::Bristles { stiffness, .. }) = contact.own.map(|o| o.kind)
+                && let Some(own) = &series.own
+            {
+                // Stiff bristles are faster than the time scale, with which their derivatives would be a scale too large: they slide at
+                // the deflection g/σ₀.
+                let level = series.coefficient[0].abs() * V::splat(1.0 / stiffness);
+                bound(&own.deflection, level, V::splat(1.0));
             }
             if series.load_varies {
                 let level = series.load[0].abs().max(contact.normal_load);

@@ -123,7 +123,7 @@ impl MotionRun<'_> {
         if !self.now[contact].is_open() {
             match trigger.what {
                 Trigger::Slip(_) => self.own_slip_ends(contact, trigger.after == 0.0)?,
-                Trigger::Turn(_) => self.own_turn(contact),
+                Trigger::Turn(_) => self.own_turn(contact)?,
                 Trigger::Margin(_, side) => self.own_release(contact, side)?,
                 Trigger::Load(_) => {}
             }

@@ -19,7 +19,7 @@
 //! A contact with a state of its own contributes its number to the state. Where a contact lands its own number begins at zero at that
 //! moment, so that S has the row f⁺∇hᵀ/ḣ there. An elastic slider whose T drops at its release has no change of its own from there on:
 //! T = sμN gives it. The ends of its slips, the sign changes of γ, and the reversals of bristles have f⁺ = f⁻ and S = I: T and ż are
-//! continuous there.
+//! continuous there. Where a slip ends at a sign change of γ (a law that rises with |γ|) Ṫ jumps, and S is that of the guard γ.
 //!
 //! Between events the changes are Taylor series like the state (`change_series`). Reference: Leine and Nijmeijer (2004), ch. 7.
 
@@ -346,8 +346,9 @@ impl<'a> MotionVariation<'a> {
         self.columns = columns;
     }
 
-    /// ∇h of the guard that reached zero, while the contacts still do what they did before.
-    fn gradient(&mut self, trigger: Trigger) -> Option<Vec<f64>> {
+    /// ∇h of the guard that reached zero, while the contacts still do what they did before; `ends_slip` says whether its contact sticks or
+    /// adheres from there on.
+    fn gradient(&mut self, trigger: Trigger, ends_slip: bool) -> Option<Vec<f64>> {
         let size = self.equations.size;
         match trigger {
             // Where a contact lands, its own number begins at zero.
@@ -357,7 +358,12 @@ impl<'a> MotionVariation<'a> {
                 let row = || equation.approach.dense(size).into_iter().map(|entry| -entry);
                 lands.then(|| row().collect())
             }
-            Trigger::Turn(_) => None,
+            Trigger::Turn(_) if !ends_slip => None,
+            Trigger::Turn(contact) => {
+                let OwnNow::Elastic(own) = self.now[contact].own else { return None };
+                let row = self.equations.contacts[contact].tangent.dense(size);
+                Some(row.into_iter().map(|entry| -f64::from(own.branch) * entry).collect())
+            }
             Trigger::Slip(contact) if self.equations.contacts[contact].own.is_some() => None,
             Trigger::Slip(contact) => {
                 let sign = f64::from(self.now[contact].phase.slip_sign());
@@ -502,7 +508,8 @@ impl MotionObserver for MotionVariation<'_> {
             | Trigger::Margin(contact, _)
             | Trigger::Load(contact)
             | Trigger::Turn(contact)) = trigger;
-            if let Some(gradient) = self.gradient(trigger) {
+            let ends_slip = moment.after[contact] == ContactPhase::Stick;
+            if let Some(gradient) = self.gradient(trigger, ends_slip) {
                 self.pending.push(PendingJump { contact, gradient, rate: -rate });
             }
         }
