@@ -1,5 +1,8 @@
 //! Contacts with a state of their own: elastic sliders and LuGre bristles.
 
+use std::f64::consts::PI;
+
+use quell_dynamics::mean_friction::mean_friction;
 use quell_dynamics::motion::{
     ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionRecorder, MotionStart,
 };
@@ -245,4 +248,22 @@ fn random_sliders_run_to_their_ends() {
         let bound = level.max(values[1]) * contact.normal_load;
         assert!(contact.friction.abs() <= bound * (1.0 + 1e-9), "{case}: {end:?}");
     }
+}
+
+/// Bristles far stiffer than the dither is fast: the mean friction under v = V + a cos θ at V/a = 0.1 is 2 asin(0.1)/π for a rigid contact,
+/// and differs from it by a part that falls as one over their stiffness.
+#[test]
+fn stiff_bristles_have_the_mean_friction_of_a_rigid_contact() {
+    let rigid = 2.0 / PI * 0.1_f64.asin();
+    let off = [1e3, 1e4, 1e5].map(|stiffness| {
+        let law = LawKind::Lugre.build(&[1.0, 1.0, 0.05, stiffness, 0.0, 0.0]).expect("a law");
+        let dither = dithered(Direction::Tangential, 10.0, 10.0, 0.0);
+        let belt = Belt::new(0.01, 1.0, 0.1, law, vec![dither]).expect("a belt");
+        mean_friction(&belt, 0.1).expect("a mean").coefficient - rigid
+    });
+    assert!((off[0] - 2.16e-4).abs() < 1e-6, "{off:?}");
+    assert!(
+        (off[0] / off[1] - 10.0).abs() < 0.1 && (off[1] / off[2] - 10.0).abs() < 0.1,
+        "{off:?}"
+    );
 }
