@@ -12,9 +12,9 @@ use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
 use crate::verbs::{
-    actuator, attractor, basins, bifurcation, check, cite, compare, completions, design, fit,
-    friction, map, modes, new, orbit, probability, report, reproduce, resonances, response, schema,
-    simulate, sketch, stability, thresholds, waveforms,
+    actuator, atlas, attractor, basins, bifurcation, check, cite, compare, completions, design,
+    fit, friction, map, modes, new, orbit, probability, report, reproduce, resonances, response,
+    schema, simulate, sketch, stability, thresholds, waveforms,
 };
 use crate::{answer, help};
 
@@ -47,6 +47,7 @@ enum Verb {
     Orbit(orbit::Arguments),
     Attractor(attractor::Arguments),
     Thresholds(thresholds::Arguments),
+    Atlas(atlas::Arguments),
     Waveforms(waveforms::Arguments),
     Design(design::Arguments),
     Actuator(actuator::Arguments),
@@ -93,6 +94,7 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Orbit(arguments) => orbit::run(arguments),
         Verb::Attractor(arguments) => attractor::run(arguments),
         Verb::Thresholds(arguments) => thresholds::run(arguments),
+        Verb::Atlas(arguments) => atlas::run(arguments),
         Verb::Waveforms(arguments) => waveforms::run(arguments),
         Verb::Design(arguments) => design::run(arguments),
         Verb::Actuator(arguments) => actuator::run(arguments),

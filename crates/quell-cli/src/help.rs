@@ -54,6 +54,14 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                 ],
             ),
             (
+                "atlas",
+                &[
+                    "quell atlas quench.toml --exact",
+                    "quell atlas --plot atlas.svg",
+                    "quell atlas --save atlas.csv",
+                ],
+            ),
+            (
                 "waveforms",
                 &[
                     "quell waveforms quench.toml",

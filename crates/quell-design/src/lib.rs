@@ -2,6 +2,7 @@
 //! probability that a structure vibrates, and friction models of other programs in place of a law.
 
 pub mod actuator;
+pub mod atlas;
 pub mod decay;
 pub mod estimates;
 pub mod fit;

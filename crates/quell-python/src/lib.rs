@@ -40,6 +40,8 @@ mod _quell {
     #[pymodule_export]
     use crate::study::NativeStudy;
     #[pymodule_export]
+    use crate::verbs::atlas::atlas_tables;
+    #[pymodule_export]
     use crate::verbs::fit::{fit, fit_decay};
     #[pymodule_export]
     use crate::verbs::new::new;

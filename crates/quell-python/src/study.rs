@@ -19,8 +19,8 @@ use crate::verbs::compare::RecordTexts;
 use crate::verbs::map::Asked;
 use crate::verbs::simulate::{Begin, GivenTimes, SoundTexts};
 use crate::verbs::{
-    actuator, attractor, basins, bifurcation, check, cite, compare, design, fit, friction, map,
-    modes, orbit, probability, report, resonances, response, simulate, sketch, stability,
+    actuator, atlas, attractor, basins, bifurcation, check, cite, compare, design, fit, friction,
+    map, modes, orbit, probability, report, resonances, response, simulate, sketch, stability,
     thresholds, waveforms, window,
 };
 use crate::{call, convert, errors};
@@ -481,6 +481,12 @@ impl NativeStudy {
             (None, None) => StartLayout::default(),
         };
         basins::run_in_plane(py, self.study(), (plane, layout, over), threads, progress)
+    }
+
+    /// `exact`: whether the thresholds are also computed by continuation.
+    fn atlas(&self, py: Python<'_>, exact: bool) -> PyResult<NativeAnswer> {
+        let study = self.study();
+        call::run(py, move || atlas::run(&study, exact))
     }
 
     fn waveforms(&self, py: Python<'_>) -> PyResult<NativeAnswer> {

@@ -108,12 +108,17 @@ impl Dataset {
 
     /// An empty dataset of an answer about a data file, without a study.
     pub fn of_file(path: &Path, verb: &'static str) -> Self {
+        Self::without_study(verb).fact(format!("data: {}", path.display()))
+    }
+
+    /// An empty dataset of dimensionless numbers, without a study.
+    pub fn without_study(verb: &'static str) -> Self {
         let provenance = Provenance {
             verb,
             title: None,
             text: String::new(),
             changes: Vec::new(),
-            facts: vec![format!("data: {}", path.display())],
+            facts: Vec::new(),
         };
         Self { provenance, scales: None, units: None, axes: Vec::new(), arrays: Vec::new() }
     }

@@ -770,6 +770,30 @@ class Study(CheckedStudy):
         return results.Basins(self, native)
 
     @keywords
+    def atlas(self, *, exact: bool = False) -> results.Atlas:
+        """The exact thresholds of a belt under one tangential dither, from the tables of the atlas in dimensionless groups.
+
+        The atlas has the laws stribeck, decreasing and stribeck-exponential (exponent 2) under sine, triangle and square dither.
+        :func:`quell.atlas` has the tables themselves.
+
+        Parameters
+        ----------
+        exact :
+            Whether to compute the thresholds by continuation too, and report the difference.
+
+        Returns
+        -------
+        quell.results.Atlas
+            The groups, the amplitudes at which the verdict changes with their errors, and the thresholds over the belt's speed (n,).
+
+        Raises
+        ------
+        StudyError
+            If the study is outside the atlas, with every key that places it there.
+        """
+        return results.Atlas(self, self._native.atlas(bool(exact)))
+
+    @keywords
     def waveforms(self) -> results.Waveforms:
         """The least dither of each waveform that quenches by averaging, and its cost.
 

@@ -9,7 +9,7 @@ use crate::run::found_attractor::AttractorRequest;
 use crate::run::recorded_motion::ObservedMotion;
 use crate::run::system::response::ResponseRequest;
 use crate::run::{
-    actuator, basins, belt_system, bifurcation, curves, describing, design, found_attractor,
+    actuator, atlas, basins, belt_system, bifurcation, curves, describing, design, found_attractor,
     friction, noise_response, orbit, probability, ramp, response, simulate, stability, thresholds,
     waveforms, window,
 };
@@ -34,6 +34,7 @@ impl Verbs for BeltStudy {
             "orbit",
             "attractor",
             "thresholds",
+            "atlas",
             "waveforms",
             "design",
             "actuator",
@@ -134,6 +135,10 @@ impl Verbs for BeltStudy {
 
     fn probability(&self, request: probability::ProbabilityRequest, running: Running<'_>) -> Reply {
         answer(self, probability::run(self, request, running))
+    }
+
+    fn atlas(&self, exact: bool) -> Reply {
+        answer(self, atlas::run(self, exact))
     }
 
     fn waveforms(&self) -> Reply {

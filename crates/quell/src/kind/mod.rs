@@ -268,6 +268,15 @@ pub trait Verbs: Send + Sync {
         Err(self.lacks("waveforms"))
     }
 
+    /// The thresholds by the atlas; with `exact` also those by continuation.
+    ///
+    /// # Errors
+    /// A kind without this verb; as [`crate::run::atlas::run`].
+    fn atlas(&self, exact: bool) -> Reply {
+        let _ = exact;
+        Err(self.lacks("atlas"))
+    }
+
     /// The least dither that is quiet over a box of operating points.
     ///
     /// # Errors

@@ -4,6 +4,7 @@
 //! equations. The caption states the law, the belt, the dither and the start.
 
 mod actuator;
+mod atlas;
 mod basins;
 mod bifurcation;
 mod caption;
@@ -40,6 +41,7 @@ mod waveforms;
 pub(crate) mod window;
 
 pub use actuator::{actuator, actuator_of_system};
+pub use atlas::{atlas, atlas_tables};
 pub use basins::basins;
 pub use bifurcation::bifurcation;
 pub use compare::compare;

@@ -37,6 +37,7 @@ const ERRORS: &[&str] = &[
     "/residual",
     "/local/0/error",
     "/thresholds/0/error",
+    "/changes/0/relative_error",
 ];
 
 /// The page.

@@ -2,6 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
+use quell_design::atlas::AtlasPoint;
 use quell_model::Direction;
 use quell_model::units::Quantity;
 
@@ -26,6 +27,7 @@ pub(super) enum ReportedVerb {
     Friction,
     Resonances,
     Thresholds(ThresholdsRequest),
+    Atlas,
     Design,
     Actuator,
     Probability,
@@ -101,6 +103,10 @@ fn of_belt(study: &BeltStudy) -> Vec<ReportStep> {
         let path = path_in_words(study, &belt.dither_path(place, "amplitude"));
         let unit = study.scales().map_or(1.0, |scales| scales.si_per_unit(Quantity::Force));
         steps.extend(thresholds(&path, unit * dither.amplitude, unit * room));
+    }
+    if AtlasPoint::of_belt(belt).is_ok() {
+        let heading = "Thresholds among those of all belts";
+        steps.push(ReportStep::new("atlas", heading, BRANCH, ReportedVerb::Atlas));
     }
     let dithered = !belt.dithers().is_empty();
     steps.extend(questions(Questions {
@@ -200,6 +206,7 @@ pub(super) fn ask(verbs: &dyn Verbs, asked: ReportedVerb) -> Reply {
         ReportedVerb::Friction => verbs.friction(None, false),
         ReportedVerb::Resonances => verbs.resonances(ResonancesRequest::default()),
         ReportedVerb::Thresholds(request) => verbs.thresholds(request),
+        ReportedVerb::Atlas => verbs.atlas(false),
         ReportedVerb::Design => verbs.design(),
         ReportedVerb::Actuator => verbs.actuator(None),
         ReportedVerb::Probability => {

@@ -4,6 +4,7 @@
 //! SI ([`crate::fields`]).
 
 pub mod actuator;
+pub mod atlas;
 pub mod attractor;
 pub mod basins;
 mod belt_start;
