@@ -225,12 +225,12 @@ fn uniform(seed: &mut u64) -> f64 {
 fn random_sliders_run_to_their_ends() {
     let mut seed = 19;
     let waveforms = [Waveform::Sine, Waveform::Triangle, Waveform::Square];
-    for case in 0..400 {
+    for case in 0..400_usize {
         let mut next = |low: f64, high: f64| low + (high - low) * uniform(&mut seed);
         let values = [next(0.1, 0.4), next(0.1, 0.5), next(0.02, 0.4), 2.0, next(0.0, 1.0)];
         let values = [values[0].min(values[1]), values[1], values[2], values[3], values[4]];
         let mut dither = |direction, amplitude| Dither {
-            waveform: waveforms[next(0.0, 3.0) as usize].clone(),
+            waveform: waveforms[(case + usize::from(direction == Direction::Normal)) % 3].clone(),
             ..dithered(direction, amplitude, next(1.3, 9.0), next(0.0, 6.0))
         };
         let dithers = vec![dither(Direction::Tangential, 0.7), dither(Direction::Normal, 0.6)];
