@@ -10,7 +10,8 @@
 //! * [`threshold`]: the test functions of a fold, a flip, a Neimark–Sacker bifurcation and a grazing bifurcation;
 //! * [`criticality`]: whether a bifurcation is supercritical or subcritical;
 //! * [`fold`]: on which side of a fold two fixed points exist;
-//! * [`curve`]: the curve of a threshold in two parameters.
+//! * [`curve`]: the curve of a threshold in two parameters;
+//! * [`sensitivity`]: derivatives of a threshold with respect to other parameters.
 //!
 //! Lengths along a branch are measured in scaled coordinates: the state in units of [`PeriodMap::scale`], each parameter in
 //! units of the width of its window.
@@ -24,6 +25,7 @@ pub mod branch;
 pub mod criticality;
 pub mod curve;
 pub mod fold;
+pub mod sensitivity;
 pub mod shooting;
 pub mod threshold;
 
