@@ -15,6 +15,7 @@ mod exact;
 mod no_design;
 mod quiet;
 mod search;
+mod sensitivity;
 mod system;
 mod verified;
 mod worst_point;
@@ -27,6 +28,7 @@ pub use exact::{Designed, FeasibleDesign, InfeasibleDesign, design};
 pub use no_design::NoDesign;
 pub use quiet::QuietAmplitudes;
 pub use search::{DesignBasin, DesignPoint};
+pub use sensitivity::{LeastAmplitude, LeastAmplitudeSensitivity, SystemOfNumbers};
 pub use system::{
     SystemAtPoint, SystemPlant, amplitude_branch_of_system, averaged_quiet_of_system,
 };

@@ -186,9 +186,9 @@ impl ResponsePlane for MotionPlane<'_> {
 }
 
 /// A family whose distance is that of one contact from one of its events, or of contacts that graze together.
-struct GuardedFamily<'a> {
-    family: MotionFamily<'a>,
-    guards: Vec<BorderGuard>,
+pub(super) struct GuardedFamily<'a> {
+    pub(super) family: MotionFamily<'a>,
+    pub(super) guards: Vec<BorderGuard>,
 }
 
 impl GuardedFamily<'_> {

@@ -14,6 +14,7 @@
 //! | `settled` | the periodic motion on which a run ends |
 //! | `thresholds` | values of a parameter at which the base response gains or loses stability |
 //! | `curves` | their curves over a second parameter |
+//! | `sensitivity` | their derivatives with respect to other numbers |
 
 mod approach;
 mod curves;
@@ -23,6 +24,7 @@ mod passages;
 mod periodic;
 mod ramp;
 mod recurrence;
+mod sensitivity;
 mod settled;
 mod thresholds;
 mod transient;
@@ -34,5 +36,6 @@ pub use periodic::{
     MotionOrbit, NoMotionOrbit, base_motion, is_on_sliding, motion_near, sliding_state,
 };
 pub use ramp::ramped_motion;
+pub use sensitivity::motion_sensitivity;
 pub use settled::{LEAST_PERIODS, MOST_PERIODS, SettledMotion, settled, settled_many};
 pub use thresholds::{MotionThreshold, MotionThresholds, motion_thresholds};
