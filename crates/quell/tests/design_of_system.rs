@@ -219,3 +219,69 @@ fn a_system_in_si_has_the_same_answer() {
     let stroke = number(&found["objective"]);
     assert!((stroke / (2.0 * 1.4863197137178406 / 99.0) - 1.0).abs() < 1e-5, "{stroke}");
 }
+
+/// The derivatives of the least amplitude: of the belt written as a system, as a belt, and in SI, they are the same up to units, and
+/// agree with least amplitudes of changed studies.
+#[test]
+fn derivatives_are_in_the_units_of_the_study() {
+    let own = format!("{BELT}{}", design(AMPLITUDE, "[0.05, 0.15]", ""));
+    let found = facts(&own);
+    assert_eq!(found["threshold"]["kind"], "grazing");
+    assert!(found["threshold"]["meets"].is_null());
+    let amplitude = number(&found["critical"]["dither.amplitude"]);
+    for (path, from, to, change) in [
+        ("friction.static_coefficient", "= 0.4", "= 0.4004", 4e-4),
+        ("dither.frequency", "frequency = 10.0", "frequency = 10.01", 1e-2),
+        ("contact.belt.belt_velocity", "[0.05, 0.15]", "[0.05, 0.15015]", 1.5e-4),
+        ("system.damping[0]", "damping = [0.01]", "damping = [0.01001]", 1e-5),
+    ] {
+        let rate = number(&found["sensitivity"][path]);
+        let changed = number(&facts(&own.replace(from, to))["critical"]["dither.amplitude"]);
+        let difference = (changed - amplitude) / change;
+        let size = difference.abs().max(1e-3 * amplitude);
+        // The least amplitudes are located to 10⁻⁷, and the difference is one-sided.
+        assert!((rate - difference).abs() < 5e-3 * size, "{path}: {rate} {difference}");
+    }
+    let relative = &found["sensitivity_relative"];
+    assert!((number(&relative["dither.frequency"]) - 1.01 / 0.99).abs() < 0.02, "{relative}");
+    assert!(found["sensitivity"]["dither.amplitude"].is_null());
+    assert!(found["sensitivity"].get("dither.amplitude").is_none(), "{found}");
+    // In SI with m = 2 kg and k = 200 N/m.
+    let si = "[system]\nunits = \"SI\"\ncoordinates = [\"x\"]\nmass = [2.0]\ndamping = [0.2]\nstiffness = [200.0]\n[[contact]]\n\
+              name = \"belt\"\ntangent = { x = 1.0 }\nnormal_load_n = 200.0\nbelt_velocity_m_per_s = 1.0\n[friction]\n\
+              law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity_m_per_s = 2.0\n\
+              [[dither]]\nat = { x = 1.0 }\nwaveform = \"sine\"\namplitude_n = 200.0\nfrequency_hz = 15.915494309189533\n\
+              [design]\nminimise = \"amplitude\"\nvary = [\"dither.amplitude_n\"]\nfrom = [2.0]\nto = [4000.0]\n\
+              [design.over]\n\"contact.belt.belt_velocity_m_per_s\" = [0.5, 1.5]\n";
+    let in_si = facts(si);
+    let twins = [
+        ("contact.belt.belt_velocity", "contact.belt.belt_velocity_m_per_s", 200.0 / 10.0),
+        ("dither.frequency", "dither.frequency_hz", 200.0 * std::f64::consts::TAU / 10.0),
+        ("friction.reference_velocity", "friction.reference_velocity_m_per_s", 200.0 / 10.0),
+        ("contact.belt.normal_load", "contact.belt.normal_load_n", 1.0),
+    ];
+    for (path, twin, unit) in twins {
+        let (own, other) =
+            (number(&found["sensitivity"][path]), number(&in_si["sensitivity"][twin]));
+        assert!((own * unit - other).abs() < 1e-5 * other.abs().max(1.0), "{path}: {own} {other}");
+        let [own, other] = [(&found, path), (&in_si, twin)]
+            .map(|(json, path)| number(&json["sensitivity_relative"][path]));
+        assert!((own - other).abs() < 1e-6, "{path}: {own} {other}");
+    }
+    assert_eq!(in_si["units"]["sensitivity"], "N per unit of the number");
+}
+
+/// At a tip the amplitude does not depend on the speed of the study, and both thresholds are named.
+#[test]
+fn derivatives_at_a_tip_are_those_of_the_tip() {
+    let own = format!("{BELT}{}", design(AMPLITUDE, "[0.05, 0.2]", ""));
+    let found = facts(&own);
+    assert_eq!(found["threshold"]["kind"], "grazing");
+    assert!(found["threshold"]["meets"].is_string(), "{found}");
+    assert!(number(&found["sensitivity"]["contact.belt.belt_velocity"]).abs() < 1e-6);
+    let changed = facts(&own.replace("= 0.2857", "= 0.28599"));
+    let amplitude = |json: &Json| number(&json["critical"]["dither.amplitude"]);
+    let difference = (amplitude(&changed) - amplitude(&found)) / 2.9e-4;
+    let rate = number(&found["sensitivity"]["friction.minimum_coefficient"]);
+    assert!((rate - difference).abs() < 0.01 * difference.abs(), "{rate} {difference}");
+}

@@ -18,8 +18,9 @@ const STEPS: u32 = 8;
 /// Distance up to which two thresholds meet, relative to the amplitude: tips are located to 10⁻⁷ of the range of the box.
 const MEETS: f64 = 1e-4;
 
-/// Steps from a tip into the box on both sides, relative to its range: the search may end on the side on which nothing is loud.
-const ASIDE: [f64; 3] = [0.0, -1e-5, 1e-5];
+/// Step to both sides of a point inside the box, relative to its range: beyond the error of a tip, so that both of its thresholds are
+/// seen.
+const ASIDE: f64 = 1e-6;
 
 /// A system at an amplitude, an operating point, and numbers of the structure.
 pub type SystemOfNumbers<'a> = dyn Fn(f64, &[f64], &[f64]) -> Result<System, String> + Sync + 'a;
@@ -60,49 +61,45 @@ impl LeastAmplitude<'_> {
             let (low, high) = self.over[*place];
             self.point[*place] > low && self.point[*place] < high
         });
-        let asides: &[f64] = if inside.is_some() { &ASIDE } else { &ASIDE[..1] };
-        let mut last = None;
-        for aside in asides {
+        let mut near = self.thresholds_at(self.point)?;
+        let Some(place) = inside else {
+            let deciding = self.deciding(&near, WINDOW)?;
+            return self.derivatives(self.point, &near[deciding], None);
+        };
+        let (low, high) = self.over[place];
+        for aside in [-ASIDE, ASIDE] {
             let mut point = self.point.to_vec();
-            if let Some(place) = inside {
-                let (low, high) = self.over[place];
-                point[place] = (point[place] + aside * (high - low)).clamp(low, high);
-            }
-            match self.at_point(&point, inside) {
-                Ok(found) => return Ok(found),
-                Err(why) => last = last.or(Some(why)),
-            }
+            point[place] = (point[place] + aside * (high - low)).clamp(low, high);
+            near.extend(self.thresholds_at(&point)?);
         }
-        Err(last.unwrap_or_else(|| "the threshold was not found".to_owned()))
+        near.retain(|threshold| (threshold.value - self.amplitude).abs() <= MEETS * self.amplitude);
+        let deciding = &near[self.deciding(&near, MEETS)?];
+        // Of the thresholds that meet at a tip, each changes the verdict on one side alone, or both on one side.
+        let other = |threshold: &&MotionThreshold| {
+            threshold.kind != deciding.kind || threshold.contacts != deciding.contacts
+        };
+        let meets = near.iter().find(other).map(|threshold| (place, threshold));
+        self.derivatives(self.point, deciding, meets)
     }
 
-    fn at_point(
-        &self,
-        point: &[f64],
-        inside: Option<usize>,
-    ) -> Result<LeastAmplitudeSensitivity, String> {
+    /// The thresholds near the amplitude at an operating point.
+    fn thresholds_at(&self, point: &[f64]) -> Result<Vec<MotionThreshold>, String> {
         let at = |values: &[f64]| (self.at)(values[0], point, self.numbers);
         let window = (self.amplitude * (1.0 - WINDOW), self.amplitude * (1.0 + WINDOW));
         let found = motion_thresholds(&at, window, STEPS, None).map_err(|why| why.to_string())?;
-        let distance = |threshold: &&MotionThreshold| (threshold.value - self.amplitude).abs();
-        let of_tip = if inside.is_some() { MEETS } else { WINDOW };
-        let deciding = found
-            .thresholds
-            .iter()
-            .filter(|threshold| threshold.becomes == Some(OrbitVerdict::Stable))
-            .filter(|threshold| distance(threshold) <= of_tip * self.amplitude)
+        Ok(found.thresholds)
+    }
+
+    /// The threshold nearest to the amplitude at which the base response becomes stable.
+    fn deciding(&self, found: &[MotionThreshold], within: f64) -> Result<usize, String> {
+        let distance = |place: &usize| (found[*place].value - self.amplitude).abs();
+        (0..found.len())
+            .filter(|place| found[*place].becomes == Some(OrbitVerdict::Stable))
+            .filter(|place| distance(place) <= within * self.amplitude)
             .min_by(|a, b| distance(a).total_cmp(&distance(b)))
             .ok_or_else(|| {
                 format!("no threshold of the base response is at the amplitude {}", self.amplitude)
-            })?;
-        let meets = inside.and_then(|place| {
-            let near = |other: &&MotionThreshold| {
-                let apart = (other.value - deciding.value).abs();
-                other.value != deciding.value && apart <= MEETS * self.amplitude
-            };
-            Some((place, found.thresholds.iter().find(near)?))
-        });
-        self.derivatives(point, deciding, meets)
+            })
     }
 
     fn derivatives(
@@ -128,8 +125,10 @@ impl LeastAmplitude<'_> {
             }
             (self.at)(values[0], &point, &values[determined..])
         };
-        let both: Vec<&MotionThreshold> =
+        let mut both: Vec<&MotionThreshold> =
             [deciding].into_iter().chain(meets.map(|(_, other)| other)).collect();
+        // Either becomes quiet on one side of a tip: the one of a contact is named first.
+        both.sort_by_key(|threshold| threshold.contacts.is_empty());
         let found = motion_sensitivity(&at, &both, &parameters, &sizes);
         let found = found.map_err(|why| why.to_string())?;
         let derivatives = found.derivatives.into_iter().map(|rates| match rates {
@@ -137,8 +136,8 @@ impl LeastAmplitude<'_> {
             Err(why) => Err(why.to_string()),
         });
         Ok(LeastAmplitudeSensitivity {
-            kind: deciding.kind,
-            meets: meets.map(|(_, other)| other.kind),
+            kind: both[0].kind,
+            meets: both.get(1).map(|other| other.kind),
             derivatives: derivatives.collect(),
         })
     }

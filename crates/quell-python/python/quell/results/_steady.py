@@ -261,6 +261,13 @@ class Design(_columns.DesignColumns, Result):
     """The answer of each waveform: ``waveform``, ``feasible``, ``objective``."""
     covered: dict[str, list[float]] | None
     """Where no dither is allowed: the largest part of the box that one dither serves."""
+    sensitivity: dict[str, float | None] | None
+    """Exact derivative of the least amplitude with respect to each number of the study by its path, at the operating point that decides:
+    the unit of the amplitude per unit of the number. ``None`` where the amplitude is that of runs from a start."""
+    sensitivity_relative: dict[str, float | None] | None
+    """The same as percents of amplitude per percent of the number."""
+    threshold: dict[str, Any] | None
+    """``kind`` of the threshold that decides, and the one that it ``meets`` at a tip."""
 
     @property
     def used(self) -> npt.NDArray[np.float64]:

@@ -117,6 +117,7 @@ impl LeastDitherFound {
                     format!("; {} at the limit", binding.join(", "))
                 };
                 let drive = self.drive_in_words(study, found.drive.as_ref());
+                let depends = self.sensitivity_in_words();
                 let largest = found.verified.iter().map(|at| at.multiplier).fold(0.0, f64::max);
                 let loss = found.friction_loss.as_ref().map_or(String::new(), |(loss, point)| {
                     let change = if *loss < 0.0 { "gains" } else { "loses" };
@@ -128,7 +129,7 @@ impl LeastDitherFound {
                 });
                 format!(
                     "The least dither that is quiet in the whole range is a {waveform} of amplitude {}{}{decides}{binds}. At {} it is \
-                     verified by exact responses at {} operating points: the largest multiplier is {}.{drive}{loss}",
+                     verified by exact responses at {} operating points: the largest multiplier is {}.{drive}{loss}{depends}",
                     force(critical.amplitude),
                     chosen(&critical.others),
                     force(found.verified_amplitude),
@@ -298,6 +299,7 @@ impl LeastDitherFound {
         });
         fields.list("limits", used.collect::<Vec<_>>());
         fields.list("frontier", self.frontier(study));
+        self.put_sensitivity(fields, study);
     }
 
     fn put_infeasible(
@@ -307,7 +309,9 @@ impl LeastDitherFound {
         none: &InfeasibleDesign,
     ) {
         let why = self.why(study, none);
-        for name in ["critical", "averaged", "objective", "drive"] {
+        let unknown = ["critical", "averaged", "objective", "drive"];
+        for name in unknown.into_iter().chain(["sensitivity", "sensitivity_relative", "threshold"])
+        {
             fields.unknown(name, why.clone());
         }
         if let NoDesign::NeverQuiet { point } | NoDesign::Limit { point: Some(point), .. } =

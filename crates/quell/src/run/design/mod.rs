@@ -2,6 +2,9 @@
 
 mod answer;
 mod drive;
+mod sensitivity;
+
+pub use sensitivity::{AmplitudeRate, DesignSensitivity};
 
 use std::f64::consts::TAU;
 
@@ -14,7 +17,7 @@ use quell_dynamics::simulation::within;
 use quell_linear::averaging::DitheredSystem;
 use quell_model::disc::DiscDither;
 use quell_model::units::Quantity;
-use quell_model::{Belt, Dither, Waveform};
+use quell_model::{Belt, Dither, Parametrisation, System, Waveform};
 use rayon::prelude::*;
 use serde_json::Value as Json;
 
@@ -24,6 +27,7 @@ use crate::contact_state::{averaged_without_states, refused_of_belt};
 use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
 use crate::run::system::in_units;
+use crate::study::vocabulary::resolve;
 use crate::study::{BeltStudy, Design, DesignRange, DiscStudy, SystemStudy, SystemUnits};
 use crate::words::{digits, in_words};
 
@@ -61,10 +65,19 @@ pub struct LeastDitherFound {
     /// For a disc whose box is a range of speeds, the exact thresholds in amplitude at speeds of the range, with the dither of the
     /// answer.
     pub tongues: Vec<(f64, Vec<f64>)>,
+    /// How the least amplitude depends on the numbers of the study, or why that is unknown.
+    pub sensitivity: Result<DesignSensitivity, String>,
+}
+
+impl DesignNumber {
+    /// Smallest and largest value in the unit of the path.
+    pub(super) fn range_in_units(&self) -> (f64, f64) {
+        (self.range.0 * self.per_unit, self.range.1 * self.per_unit)
+    }
 }
 
 /// A study with a design: its units and what it requests.
-pub trait StudyWithDesign {
+pub trait StudyWithDesign: Sync {
     /// The table `[design]`.
     fn asked(&self) -> Option<&Design>;
 
@@ -84,6 +97,21 @@ pub trait StudyWithDesign {
     fn quantity_of_amplitude(&self) -> Quantity {
         Quantity::Force
     }
+
+    /// The document of the study after its changes.
+    fn document(&self) -> Json;
+
+    /// The number at a path, in the unit of its key; `None` where the study has none there.
+    fn number_at(&self, path: &str) -> Option<f64>;
+
+    /// The unit of the number at a path; `1` without a unit.
+    fn unit_at(&self, path: &str) -> String;
+
+    /// The equations with numbers set in order as by `--set`, and another waveform of the dither that is designed.
+    ///
+    /// # Errors
+    /// Why the study cannot take these numbers, or has no equations of motion.
+    fn system_with(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Result<System, String>;
 
     /// What a reader of the answer must know about the dither of the study.
     fn warnings_about_design(&self) -> Vec<String> {
@@ -152,6 +180,25 @@ impl StudyWithDesign for BeltStudy {
         let hertz = self.scales().map(|scales| scales.si_per_unit(Quantity::FrequencyRatio));
         FrequencyScale::new(hertz, "frequency ratio")
     }
+
+    fn document(&self) -> Json {
+        Self::document(self)
+    }
+
+    fn number_at(&self, path: &str) -> Option<f64> {
+        number_in(&Self::document(self), path)
+    }
+
+    fn unit_at(&self, path: &str) -> String {
+        let unit = resolve(path).map_or("1", |address| address.key.unit_in_words());
+        if unit.is_empty() { "1".to_owned() } else { unit.to_owned() }
+    }
+
+    fn system_with(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Result<System, String> {
+        let study = self.at(numbers.iter().copied()).map_err(|why| why.to_string())?;
+        let belt = with_waveform(study.belt(), waveform).map_err(|why| why.to_string())?;
+        Ok(belt.system())
+    }
 }
 
 impl StudyWithDesign for SystemStudy {
@@ -174,6 +221,26 @@ impl StudyWithDesign for SystemStudy {
     fn frequency_scale(&self) -> FrequencyScale {
         let hertz = (self.units() != SystemUnits::None).then_some(1.0 / TAU);
         FrequencyScale::new(hertz, "angular frequency")
+    }
+
+    fn document(&self) -> Json {
+        Self::document(self)
+    }
+
+    fn number_at(&self, path: &str) -> Option<f64> {
+        self.number(path)
+    }
+
+    fn unit_at(&self, path: &str) -> String {
+        self.unit_of(path).unwrap_or("1").to_owned()
+    }
+
+    fn system_with(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Result<System, String> {
+        let amplitude = self
+            .asked()
+            .and_then(|asked| asked.vary.iter().find_map(|range| self.dither_of(&range.path)));
+        let system = self.system_at(numbers).map_err(|why| why.to_string())?;
+        Ok(crate::run::system::design::with_waveform(system, amplitude.unwrap_or(0), waveform))
     }
 }
 
@@ -213,6 +280,22 @@ impl StudyWithDesign for DiscStudy {
                     .to_owned(),
             ],
         }
+    }
+
+    fn document(&self) -> Json {
+        Self::document(self)
+    }
+
+    fn number_at(&self, _: &str) -> Option<f64> {
+        None
+    }
+
+    fn unit_at(&self, _: &str) -> String {
+        "1".to_owned()
+    }
+
+    fn system_with(&self, _: &Waveform, _: &[(&str, f64)]) -> Result<System, String> {
+        Err("derivatives are computed of belts and systems, whose thresholds are those of periodic motions".to_owned())
     }
 }
 
@@ -389,7 +472,20 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         _ => Vec::new(),
     };
     let (without_state, tongues) = (Vec::new(), Vec::new());
-    LeastDitherFound { amplitude, others, over, waveforms, best, schedule, without_state, tongues }
+    let sensitivity = Err("no dither is allowed".to_owned());
+    let found = LeastDitherFound {
+        amplitude,
+        others,
+        over,
+        waveforms,
+        best,
+        schedule,
+        without_state,
+        tongues,
+        sensitivity,
+    };
+    let sensitivity = found.sensitivity_of(study);
+    LeastDitherFound { sensitivity, ..found }
 }
 
 /// The least amplitude at single operating points, by averaging.
@@ -406,6 +502,17 @@ fn schedule(
         quiet.intervals().last().map(|(least, _)| *least)
     };
     super::evenly((low, high), SCHEDULE).into_iter().map(|point| (point, at(point))).collect()
+}
+
+/// The number at a path of a document; `None` where it has no number there.
+fn number_in(document: &Json, path: &str) -> Option<f64> {
+    let pointer = path.replace(['.', '['], "/").replace(']', "");
+    let whole = document.pointer(&format!("/{pointer}")).and_then(Json::as_f64);
+    // The path of an only entry has no index.
+    whole.or_else(|| {
+        let (table, rest) = pointer.split_once('/')?;
+        document.pointer(&format!("/{table}/0/{rest}")).and_then(Json::as_f64)
+    })
 }
 
 /// The belt with another waveform of its first dither.

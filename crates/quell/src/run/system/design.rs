@@ -60,7 +60,7 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
 }
 
 /// The system with another waveform of one dither.
-fn with_waveform(mut system: System, input: usize, waveform: &Waveform) -> System {
+pub(crate) fn with_waveform(mut system: System, input: usize, waveform: &Waveform) -> System {
     if let Some(input) = system.inputs.get_mut(input)
         && let [wave] = input.profile.waves()
         && wave.waveform != *waveform

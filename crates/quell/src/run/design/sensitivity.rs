@@ -1,0 +1,255 @@
+//! How the least amplitude of a design depends on every number of the study, in the units of the study.
+
+use quell_design::least_dither::{DesignStart, LeastAmplitude, LeastAmplitudeSensitivity};
+use quell_dynamics::orbit::threshold::ThresholdKind;
+use quell_model::{System, Waveform};
+use serde_json::Value as Json;
+
+use super::{LeastDitherFound, StudyWithDesign};
+use crate::fields::Fields;
+
+/// Relative change by which a number is tried: whether the equations contain it, and whether it may vary.
+const TRIED: f64 = 1e-3;
+
+/// Numbers of a study that are differentiated at most, each of which takes a few periods of motion: matrices of large structures are
+/// written as numbers too.
+const MOST_NUMBERS: usize = 400;
+
+/// Tables of a study that do not describe its equations.
+const APART: [&str; 6] = ["schema", "title", "sweep", "design", "uncertainty", "observe"];
+
+/// The derivative of the least amplitude with respect to one number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AmplitudeRate {
+    /// Path of the number in the study.
+    pub path: String,
+    /// Its value, in the unit of its key.
+    pub value: f64,
+    /// The derivative: the unit of the amplitude per unit of the number; or why it is unknown.
+    pub rate: Result<f64, String>,
+}
+
+/// How the least amplitude of a design depends on the numbers of the study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignSensitivity {
+    /// The kind of the threshold that decides.
+    pub kind: ThresholdKind,
+    /// The threshold that it meets at the operating point that decides, if any.
+    pub meets: Option<ThresholdKind>,
+    /// The least amplitude, in the unit of its path.
+    pub amplitude: f64,
+    /// The derivatives, in the order of the study.
+    pub rates: Vec<AmplitudeRate>,
+}
+
+/// Every number that a document writes, by its path; entries of lists with a name by their name.
+fn written(document: &Json) -> Vec<String> {
+    let mut paths = Vec::new();
+    for (name, value) in document.as_object().into_iter().flatten() {
+        if !APART.contains(&name.as_str()) {
+            below(name, value, &mut paths);
+        }
+    }
+    paths
+}
+
+fn below(path: &str, value: &Json, paths: &mut Vec<String>) {
+    match value {
+        Json::Object(table) => {
+            for (name, value) in table {
+                below(&format!("{path}.{name}"), value, paths);
+            }
+        }
+        Json::Array(list) => {
+            for (index, value) in list.iter().enumerate() {
+                let name = value.get("name").and_then(Json::as_str);
+                let named =
+                    name.filter(|_| !path.contains('.')).map(|name| format!("{path}.{name}"));
+                let alone = list.len() == 1 && value.is_object();
+                let own = if alone { path.to_owned() } else { format!("{path}[{index}]") };
+                below(&named.unwrap_or(own), value, paths);
+            }
+        }
+        Json::Number(_) | Json::String(_) => paths.push(path.to_owned()),
+        Json::Null | Json::Bool(_) => {}
+    }
+}
+
+/// The study at its least dither, and one number changed.
+struct AtLeast<'a> {
+    study: &'a dyn StudyWithDesign,
+    waveform: &'a Waveform,
+    /// The amplitude, the other design variables and the operating point.
+    set: Vec<(&'a str, f64)>,
+}
+
+impl AtLeast<'_> {
+    fn with(&self, path: &str, value: f64) -> Result<System, String> {
+        let mut numbers = self.set.clone();
+        numbers.push((path, value));
+        self.study.system_with(self.waveform, &numbers)
+    }
+
+    /// The numbers that the equations contain, with their values: those of the design at their chosen values, then the others that the
+    /// study writes. A number that cannot vary comes with the reason.
+    fn numbers(&self) -> Result<Vec<(String, f64, Result<(), String>)>, String> {
+        let base = self.study.system_with(self.waveform, &self.set)?;
+        let (amplitude, chosen) = self.set.split_first().ok_or("nothing is chosen")?;
+        let louder = self.with(amplitude.0, amplitude.1 * (1.0 + TRIED))?;
+        let mut found: Vec<(String, f64, Result<(), String>)> = Vec::new();
+        let add = |path: &str, value: f64, found: &mut Vec<(String, f64, Result<(), String>)>| {
+            let moved = self.with(path, value * (1.0 + TRIED));
+            match moved.or_else(|_| self.with(path, value * (1.0 - TRIED))) {
+                Ok(moved) if moved != base && moved != louder => {
+                    found.push((path.to_owned(), value, Ok(())));
+                }
+                Ok(_) => {}
+                Err(why) => found.push((path.to_owned(), value, Err(why))),
+            }
+        };
+        for (path, value) in chosen.iter().filter(|(_, value)| *value != 0.0) {
+            add(path, *value, &mut found);
+        }
+        for path in written(&self.study.document()) {
+            let known = found.iter().any(|(known, ..)| *known == path);
+            let Some(value) = self.study.number_at(&path) else { continue };
+            // A number that the design chooses has another value here, by whatever key it is written.
+            let is_chosen = || self.with(&path, value).is_ok_and(|same| same != base);
+            if value != 0.0 && !known && path != amplitude.0 && !is_chosen() {
+                add(&path, value, &mut found);
+            }
+        }
+        Ok(found)
+    }
+}
+
+impl LeastDitherFound {
+    /// The derivatives of the least amplitude with respect to the numbers of the study.
+    pub(super) fn sensitivity_of(
+        &self,
+        study: &dyn StudyWithDesign,
+    ) -> Result<DesignSensitivity, String> {
+        let found = self.answer().answer.as_ref().map_err(|_| "no dither is allowed")?;
+        if study.asked().is_some_and(|asked| asked.start != DesignStart::Local) {
+            return Err(
+                "the amplitude is that of runs from a start, which depends on numbers by jumps"
+                    .to_owned(),
+            );
+        }
+        let critical = &found.critical;
+        let worst = critical
+            .worst
+            .as_ref()
+            .ok_or("the smallest allowed amplitude is quiet everywhere: no threshold decides")?;
+        let in_units = |numbers: &[super::DesignNumber], values: &[f64]| -> Vec<f64> {
+            numbers.iter().zip(values).map(|(number, value)| value * number.per_unit).collect()
+        };
+        let amplitude = critical.amplitude * self.amplitude.per_unit;
+        let others = in_units(&self.others, &critical.others);
+        let point = in_units(&self.over, worst);
+        let over: Vec<(f64, f64)> =
+            self.over.iter().map(super::DesignNumber::range_in_units).collect();
+        let other_paths = self.others.iter().map(|number| number.path.as_str());
+        let over_paths: Vec<&str> = self.over.iter().map(|number| number.path.as_str()).collect();
+        let chosen: Vec<(&str, f64)> = other_paths.zip(others).collect();
+        let mut set = vec![(self.amplitude.path.as_str(), amplitude)];
+        set.extend(&chosen);
+        set.extend(over_paths.iter().copied().zip(point.iter().copied()));
+        let at_least = AtLeast { study, waveform: self.waveform(), set };
+        let mut numbers = at_least.numbers()?;
+        numbers.truncate(MOST_NUMBERS);
+        let vary: Vec<(&str, f64)> = numbers
+            .iter()
+            .filter(|(_, _, may_vary)| may_vary.is_ok())
+            .map(|(path, value, _)| (path.as_str(), *value))
+            .collect();
+        let at = |amplitude: f64, point: &[f64], values: &[f64]| {
+            let mut set = vec![(self.amplitude.path.as_str(), amplitude)];
+            set.extend(&chosen);
+            set.extend(over_paths.iter().copied().zip(point.iter().copied()));
+            let changed = vary.iter().zip(values).filter(|((_, own), value)| own != *value);
+            set.extend(changed.map(|((path, _), value)| (*path, *value)));
+            study.system_with(self.waveform(), &set)
+        };
+        let values: Vec<f64> = vary.iter().map(|(_, value)| *value).collect();
+        let least =
+            LeastAmplitude { at: &at, amplitude, point: &point, over: &over, numbers: &values };
+        let LeastAmplitudeSensitivity { kind, meets, derivatives } = least.sensitivity()?;
+        let mut derivatives = derivatives.into_iter();
+        let rates = numbers.into_iter().map(|(path, value, may_vary)| {
+            let rate = may_vary.and_then(|()| {
+                derivatives.next().unwrap_or_else(|| Err("it was not computed".to_owned()))
+            });
+            AmplitudeRate { path, value, rate }
+        });
+        Ok(DesignSensitivity { kind, meets, amplitude, rates: rates.collect() })
+    }
+
+    /// Adds `sensitivity`, `sensitivity_relative` and `threshold`.
+    pub(super) fn put_sensitivity(&self, fields: &mut Fields, study: &dyn StudyWithDesign) {
+        let names = ["sensitivity", "sensitivity_relative"];
+        let found = match &self.sensitivity {
+            Ok(found) => found,
+            Err(why) => {
+                for name in names.into_iter().chain(["threshold"]) {
+                    fields.unknown(name, why.clone());
+                }
+                return;
+            }
+        };
+        let scale = |rate: &AmplitudeRate| [1.0, rate.value / found.amplitude];
+        for (place, name) in names.into_iter().enumerate() {
+            let mut table = serde_json::Map::new();
+            for rate in &found.rates {
+                let value = rate.rate.as_ref().ok().map(|value| value * scale(rate)[place]);
+                let value = value.filter(|value| value.is_finite());
+                table.insert(rate.path.clone(), value.into());
+                if value.is_none() {
+                    let why = rate.rate.as_ref().err().cloned();
+                    let why = why
+                        .unwrap_or_else(|| "its value is beyond the range of numbers".to_owned());
+                    fields.why(&format!("{name}.{}", rate.path), why);
+                }
+            }
+            let unit = match place {
+                0 => format!("{} per unit of the number", study.unit_at(&self.amplitude.path)),
+                _ => "1".to_owned(),
+            };
+            fields.measured(name, &unit, table);
+        }
+        let mut inner = study.fields();
+        inner.plain("kind", found.kind.name());
+        match found.meets {
+            Some(other) => inner.plain("meets", other.name()),
+            None => inner.unknown("meets", "no other threshold meets it there"),
+        };
+        fields.nested("threshold", inner);
+    }
+
+    /// The two numbers on which the least amplitude depends most, in words; empty where they are unknown.
+    pub(super) fn sensitivity_in_words(&self) -> String {
+        let Ok(found) = &self.sensitivity else { return String::new() };
+        let mut most: Vec<(&str, f64)> = found
+            .rates
+            .iter()
+            .filter_map(|rate| {
+                let relative = rate.rate.as_ref().ok()? * rate.value / found.amplitude;
+                Some((rate.path.as_str(), relative))
+            })
+            .collect();
+        most.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+        let words: Vec<String> = most
+            .iter()
+            .take(2)
+            .map(|(path, relative)| {
+                let change = if *relative < 0.0 { "less" } else { "more" };
+                format!("{} % {change} for 1 % more {path}", crate::words::digits(relative.abs()))
+            })
+            .collect();
+        if words.is_empty() {
+            String::new()
+        } else {
+            format!(" It needs {}.", words.join(", and "))
+        }
+    }
+}
