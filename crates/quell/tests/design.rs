@@ -52,7 +52,7 @@ fn a_study_in_si_has_the_same_answer() {
                 minimum_coefficient = 0.2857\nreference_velocity_m_per_s = 2.0\n[dither]\ndirection = \"tangential\"\n\
                 waveform = \"sine\"\namplitude_n = 200.0\nfrequency_hz = 15.915494309189533\n";
     let design = "[design]\nminimise = \"stroke\"\nvary = [\"dither.amplitude_n\"]\nfrom = [2.0]\nto = [4000.0]\n[design.over]\n\
-                  \"belt.belt_velocity_m_per_s\" = [0.5, 1.5]\n[design.limits]\nstroke_m = 0.5\namplitude_n = 1000.0\n";
+                  \"belt.belt_velocity_m_per_s\" = [0.5, 1.5]\n[design.limits]\nstroke_m = 0.5\namplitude_n = 1000.0\nresponse_peak_m = 0.2\n";
     let found = facts(&format!("{belt}{design}"));
     let newtons = found["critical"]["dither.amplitude_n"].as_f64().expect("a number");
     assert!((newtons / (200.0 * 1.4863197137178406) - 1.0).abs() < 1e-6, "{newtons}");
@@ -61,6 +61,16 @@ fn a_study_in_si_has_the_same_answer() {
     let stroke = found["objective"].as_f64().expect("a number");
     assert!((stroke / (2.0 * 1.4863197137178406 / 99.0) - 1.0).abs() < 1e-5, "{stroke}");
     assert_eq!(found["binding"].as_array().map(Vec::len), Some(0));
+    // The exact response is about as large: 10 % above it nothing binds, and 10 % below it nothing is allowed.
+    let peak = found["response_peak_m"].as_f64().expect("a number");
+    assert!((2.0 * peak / stroke - 1.0).abs() < 0.05, "{peak} {stroke}");
+    let limited = |factor: f64| {
+        let limit = format!("response_peak_m = {}", factor * peak);
+        facts(&format!("{belt}{design}").replace("response_peak_m = 0.2", &limit))
+    };
+    assert_eq!(limited(1.1)["critical"], found["critical"]);
+    assert_eq!(limited(0.9)["feasible"], false);
+    assert_eq!(found["schedule"].as_array().map(Vec::len), Some(33));
 }
 
 #[test]
@@ -78,6 +88,16 @@ fn wrong_designs_are_refused_with_their_keys() {
         ("\"square\"]", "\"burst\"]", "design.waveforms[2]"),
         ("vary = [\"dither.amplitude\"]", "vary = [\"dither.frequency_ratio\"]", "design.vary"),
         ("[0.05, 0.15]", "[-0.05, 0.15]", "design.over"),
+        (
+            "[design.over]",
+            "[design.limits]\nresponse_rms = -1\n[design.over]",
+            "limits.response_rms",
+        ),
+        (
+            "[design.over]",
+            "[design.limits]\nresponse_peak_m = 1.0\n[design.over]",
+            "response_peak_m",
+        ),
     ] {
         let said = with(from, to);
         assert!(said.contains(key), "{to}: {said}");

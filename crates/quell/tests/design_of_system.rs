@@ -285,3 +285,56 @@ fn derivatives_at_a_tip_are_those_of_the_tip() {
     let rate = number(&found["sensitivity"]["friction.minimum_coefficient"]);
     assert!((rate - difference).abs() < 0.01 * difference.abs(), "{rate} {difference}");
 }
+
+/// A schedule over a box of one coordinate has the exact least amplitude of each operating point alone, and says what it saves.
+#[test]
+fn a_schedule_has_the_designs_of_its_points() {
+    let found = facts(&format!("{BELT}{}", design(AMPLITUDE, "[0.05, 0.15]", "")));
+    let rows = found["schedule"].as_array().expect("a list");
+    assert_eq!(rows.len(), 33);
+    let path = "contact.belt.belt_velocity";
+    for place in [0, 16, 32] {
+        let speed = number(&rows[place][path]);
+        let alone = format!("[{speed}, {speed}]");
+        let single = facts(&format!("{BELT}{}", design(AMPLITUDE, &alone, "")));
+        let single = number(&single["critical"]["dither.amplitude"]);
+        let amplitude = number(&rows[place]["amplitude"]);
+        assert!((amplitude / single - 1.0).abs() < 1e-6, "{speed}: {amplitude} {single}");
+    }
+    let mean = rows.iter().map(|row| number(&row["objective"])).sum::<f64>() / 33.0;
+    let saved = 1.0 - mean / number(&found["objective"]);
+    assert!((number(&found["saved_by_schedule"]) - saved).abs() < 1e-12);
+    // By averaging at high frequency the amplitude is in proportion to the speed: 1/3 is saved.
+    assert!((saved - 1.0 / 3.0).abs() < 0.01, "{saved}");
+    let two = "[0.05, 0.15]\n\"contact.belt.normal_load\" = [0.9, 1.0]";
+    let box_of_two = facts(&format!("{BELT}{}", design(AMPLITUDE, two, "")));
+    assert!(box_of_two["schedule"].is_null() && box_of_two["saved_by_schedule"].is_null());
+}
+
+/// The response is that of the exact orbit: of one mass far above resonance A/(R² − 1) for a sine. A limit below it makes the design
+/// infeasible where nothing can give way, and decides the frequency where that is free.
+#[test]
+fn a_limited_response_is_that_of_exact_orbits() {
+    let free = facts(&format!("{BELT}{}", design(AMPLITUDE, "[0.05, 0.15]", "")));
+    let amplitude = number(&free["parameters"]["dither.amplitude"]);
+    let [rms, peak] = ["response_rms", "response_peak"].map(|name| number(&free[name]));
+    assert!((peak * 99.0 / amplitude - 1.0).abs() < 0.03, "{peak}");
+    assert!((rms * 99.0 / amplitude * 2.0_f64.sqrt() - 1.0).abs() < 0.03, "{rms}");
+    let limit = |limits: &str| format!("[design.limits]\n{limits}\n");
+    let loose =
+        design(AMPLITUDE, "[0.05, 0.15]", &limit(&format!("response_rms = {}", 1.01 * rms)));
+    assert_eq!(facts(&format!("{BELT}{loose}"))["critical"], free["critical"]);
+    let tight = design(AMPLITUDE, "[0.05, 0.15]", &limit(&format!("response_rms = {}", 0.9 * rms)));
+    let none = facts(&format!("{BELT}{tight}"));
+    assert_eq!(none["feasible"], false);
+    assert!(none["sentence"].as_str().expect("a text").contains("response_rms"), "{none}");
+    let vary = "vary = [\"dither.amplitude\", \"dither.frequency\"]\nfrom = [0.01, 2.0]\nto = [20.0, 20.0]";
+    let bound = design(vary, "[0.05, 0.2]", &limit("response_peak = 0.02"));
+    let found = facts(&format!("{BELT}{bound}"));
+    assert_eq!(found["binding"], serde_json::json!(["response_peak"]), "{found}");
+    let peak = number(&found["response_peak"]);
+    assert!((peak / 0.02 - 1.0).abs() < 1e-5, "{peak}");
+    // Close to a stroke of 0.04 without friction, which has R = 8.1273.
+    let frequency = number(&found["critical"]["dither.frequency"]);
+    assert!((frequency / 8.1273 - 1.0).abs() < 0.1, "{frequency}");
+}

@@ -15,6 +15,7 @@ use quell_model::{Belt, Direction, Parametrisation, System};
 
 use super::branch::AmplitudeBranch;
 use super::quiet::AveragedChange;
+use super::response::{ResponseSize, linear_response, response_on};
 use super::{DesignStart, DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
 use crate::actuator::{Actuator, ActuatorDemand};
 
@@ -29,6 +30,9 @@ const TRIED: u32 = 24;
 
 /// Slow periods over which the mean friction of a periodic response is measured.
 const LOSS_PERIODS: u32 = 20;
+
+/// The row that is observed: the displacement of the mass.
+const DISPLACEMENT: [f64; 1] = [1.0];
 
 /// A belt whose first dither is designed.
 #[derive(Clone, Debug)]
@@ -220,6 +224,25 @@ impl Plant for BeltPlant {
         let solver = Solver { settle: 0.0, record_periods: LOSS_PERIODS, ..Solver::default() };
         let response = respond(&belt, orbit.start, &solver).map_err(|why| why.to_string())?;
         Ok(1.0 - response.mean_friction / response.steady_sliding_friction)
+    }
+
+    fn exact_response(
+        &self,
+        at: OperatingPoint<'_>,
+        amplitude: f64,
+    ) -> Result<ResponseSize, String> {
+        let belt = self.dithered(at, amplitude)?;
+        let orbit = from_sliding(&belt, GROWTH_STEPS).map_err(|why| why.to_string())?;
+        let state = [orbit.start.displacement, orbit.start.velocity];
+        response_on(&belt.system(), (&state, orbit.period), &DISPLACEMENT)
+    }
+
+    fn averaged_response(
+        &self,
+        at: OperatingPoint<'_>,
+        amplitude: f64,
+    ) -> Result<ResponseSize, String> {
+        linear_response(&self.system(at, amplitude)?, 0, &DISPLACEMENT)
     }
 
     fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {

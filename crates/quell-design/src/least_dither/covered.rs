@@ -89,6 +89,10 @@ impl DesignProblem<'_> {
                 LimitedQuantity::Power => price().map(|price| price.power),
                 LimitedQuantity::FrictionLoss => self.plant.averaged_loss(at, amplitude),
                 LimitedQuantity::Actuator(limit) => self.share_of_actuator(*limit, at, amplitude),
+                LimitedQuantity::ResponseRms | LimitedQuantity::ResponsePeak => {
+                    let size = self.plant.averaged_response(at, amplitude);
+                    size.map(|size| quantity.of_response().map_or(0.0, |of| of(size)))
+                }
                 LimitedQuantity::MinimumNormalLoad => {
                     let load = self.plant.minimum_normal_load(at, amplitude);
                     return load.is_ok_and(|load| load >= *limit);
@@ -107,18 +111,26 @@ impl DesignProblem<'_> {
                 LimitedQuantity::FrictionLoss => {
                     self.plant.exact_loss(at, amplitude).is_ok_and(|loss| loss <= *limit)
                 }
-                _ => self.keeps_limits_but_loss(at.point[0], others, amplitude),
+                LimitedQuantity::ResponseRms | LimitedQuantity::ResponsePeak => {
+                    let size = self.plant.exact_response(at, amplitude);
+                    let value = size.map(|size| quantity.of_response().map_or(0.0, |of| of(size)));
+                    value.is_ok_and(|value| value <= *limit)
+                }
+                _ => self.keeps_averaged_limits(at.point[0], others, amplitude),
             })
         };
         quiet && others_kept()
     }
 
-    fn keeps_limits_but_loss(&self, point: f64, others: &[f64], amplitude: f64) -> bool {
+    /// Whether a dither keeps the limits that are judged without trajectories.
+    fn keeps_averaged_limits(&self, point: f64, others: &[f64], amplitude: f64) -> bool {
         let limits: Vec<_> = self
             .limits
             .iter()
             .copied()
-            .filter(|(quantity, _)| *quantity != LimitedQuantity::FrictionLoss)
+            .filter(|(quantity, _)| {
+                *quantity != LimitedQuantity::FrictionLoss && quantity.of_response().is_none()
+            })
             .collect();
         DesignProblem { limits: &limits, ..*self }.keeps_limits(point, others, amplitude)
     }

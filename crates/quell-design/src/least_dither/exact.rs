@@ -2,10 +2,10 @@
 
 use super::covered::{CoveredBox, covered};
 use super::no_design::NoDesign;
-use super::search::{AveragedSearch, DesignBasin, DesignPoint};
+use super::search::{AveragedSearch, DesignBasin, DesignPoint, Judged};
 use super::verified::{MARGIN, VerifiedPoint};
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
-use super::{DesignProblem, DesignStart, LimitedQuantity, OperatingPoint};
+use super::{DesignProblem, DesignStart, LimitedQuantity, OperatingPoint, ResponseSize};
 use crate::actuator::ActuatorDemand;
 
 /// Window of exact thresholds about the amplitude of averaging, as factors.
@@ -23,6 +23,9 @@ const BELOW: f64 = 1e-12;
 /// A limit binds by averaging if at least this share of it is used.
 const BINDS: f64 = 1.0 - 1e-6;
 
+/// Times that a limit of the response is followed again with a further operating point.
+const RESPONSE_ROUNDS: usize = 2;
+
 /// Steps of the secant method along a limit, and the closeness to it.
 const SECANT: (usize, f64) = (12, 1e-7);
 
@@ -39,6 +42,8 @@ pub struct FeasibleDesign {
     pub verified: Vec<VerifiedPoint>,
     /// The largest loss of mean friction on the exact responses, with its operating point, or why it is unknown.
     pub friction_loss: Result<(f64, Vec<f64>), String>,
+    /// The largest size of the observed response on the exact responses, or why it is unknown.
+    pub response: Result<ResponseSize, String>,
     /// What the verified dither demands of the actuator where a limit is used most, with the operating point, or why it is unknown.
     pub drive: Result<(ActuatorDemand, Vec<f64>), String>,
 }
@@ -149,9 +154,21 @@ impl DesignProblem<'_> {
         } else if !self.others.is_empty() {
             critical = self.at_the_minimum(critical);
         }
-        let (critical, verified) = self.verified(critical)?;
+        let (mut critical, mut verified) = self.verified(critical)?;
+        let mut response = self.exact_response(&critical);
+        for _ in 0..RESPONSE_ROUNDS {
+            // Where a limit is exceeded at a point of the box that was not judged on the way, it is judged from there on.
+            let Some(point) = self.beyond_response(&critical) else { break };
+            critical.decisive.push(point);
+            critical = self.at_the_limit(critical)?;
+            (critical, verified) = self.verified(critical)?;
+            response = self.exact_response(&critical);
+        }
         if critical.use_of_limits() > 1.0 + SECANT.1 * 10.0 {
             return Err(exceeded(&critical));
+        }
+        if let Some(point) = self.beyond_response(&critical) {
+            return Err(self.response_exceeded(&critical, point));
         }
         let verified_amplitude = critical.amplitude * (1.0 + MARGIN);
         let friction_loss = self.exact_loss(&critical, verified_amplitude);
@@ -178,6 +195,7 @@ impl DesignProblem<'_> {
             verified_amplitude,
             verified,
             friction_loss,
+            response,
             drive,
         })
     }
@@ -250,7 +268,7 @@ impl DesignProblem<'_> {
         if found.worst.is_none() && lower > from {
             found = least(self.points(), from, None)?;
         }
-        Ok(self.priced(others, found))
+        Ok(self.priced(others, found, Judged::Exactly))
     }
 
     /// The choice on the limit: the first design variable moves until the exact amplitude uses the limit wholly.

@@ -14,6 +14,8 @@ mod disc;
 mod exact;
 mod no_design;
 mod quiet;
+mod response;
+mod schedule;
 mod search;
 mod sensitivity;
 mod system;
@@ -27,6 +29,8 @@ pub use disc::{DiscAtPoint, DiscPlant};
 pub use exact::{Designed, FeasibleDesign, InfeasibleDesign, design};
 pub use no_design::NoDesign;
 pub use quiet::QuietAmplitudes;
+pub use response::ResponseSize;
+pub use schedule::ScheduledDither;
 pub use search::{DesignBasin, DesignPoint};
 pub use sensitivity::{LeastAmplitude, LeastAmplitudeSensitivity, SystemOfNumbers};
 pub use system::{
@@ -84,19 +88,25 @@ pub enum LimitedQuantity {
     FrictionLoss,
     /// Smallest normal load of a contact under normal dither, at least.
     MinimumNormalLoad,
+    /// Root mean square of the response that is observed, about its mean, at the worst operating point, at most.
+    ResponseRms,
+    /// Half of the range of that response, at most.
+    ResponsePeak,
     /// A limit of the actuator: its share that is used, at most 1.
     Actuator(ActuatorLimit),
 }
 
 impl LimitedQuantity {
     /// Every quantity of `[design.limits]`.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::Amplitude,
         Self::Stroke,
         Self::Velocity,
         Self::Power,
         Self::FrictionLoss,
         Self::MinimumNormalLoad,
+        Self::ResponseRms,
+        Self::ResponsePeak,
     ];
 
     /// Name in a study.
@@ -108,7 +118,18 @@ impl LimitedQuantity {
             Self::Power => "power",
             Self::FrictionLoss => "friction_loss",
             Self::MinimumNormalLoad => "minimum_normal_load",
+            Self::ResponseRms => "response_rms",
+            Self::ResponsePeak => "response_peak",
             Self::Actuator(limit) => limit.path(),
+        }
+    }
+
+    /// The size of a response that it limits; `None` for other quantities.
+    pub(crate) fn of_response(self) -> Option<fn(ResponseSize) -> f64> {
+        match self {
+            Self::ResponseRms => Some(|size| size.rms),
+            Self::ResponsePeak => Some(|size| size.peak),
+            _ => None,
         }
     }
 }
@@ -217,6 +238,31 @@ pub trait Plant {
     /// Why it is unknown.
     fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String>;
 
+    /// The size of the observed response on the exact base response.
+    ///
+    /// # Errors
+    /// Why it is unknown.
+    fn exact_response(
+        &self,
+        at: OperatingPoint<'_>,
+        amplitude: f64,
+    ) -> Result<ResponseSize, String> {
+        let _ = (at, amplitude);
+        Err("the structure has no displacement that is observed".to_owned())
+    }
+
+    /// An estimate of the same without trajectories.
+    ///
+    /// # Errors
+    /// Why it is unknown.
+    fn averaged_response(
+        &self,
+        at: OperatingPoint<'_>,
+        amplitude: f64,
+    ) -> Result<ResponseSize, String> {
+        self.exact_response(at, amplitude)
+    }
+
     /// The smallest normal load under the dither.
     ///
     /// # Errors
@@ -269,7 +315,7 @@ pub trait Plant {
 #[derive(Clone, Copy)]
 pub struct DesignProblem<'a> {
     /// The structure.
-    pub plant: &'a dyn Plant,
+    pub plant: &'a (dyn Plant + Sync),
     /// What is to be small.
     pub objective: DesignObjective,
     /// Smallest and largest amplitude.

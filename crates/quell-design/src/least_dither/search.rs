@@ -3,6 +3,7 @@
 //! A grid over these variables (equal ratios where a range is positive) finds the local minima of the objective among the points that
 //! keep every limit; the best of them are refined by a pattern search that stays on the allowed side of the limits.
 
+use super::verified::MARGIN;
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
 use crate::actuator::{ActuatorDemand, ActuatorLimit};
 
@@ -14,6 +15,18 @@ const GRID: [usize; 4] = [1, 49, 13, 6];
 /// Points of the box along each coordinate where every point is judged, and while design variables are searched.
 const FINE: [usize; 4] = [1, 33, 9, 5];
 const COARSE: [usize; 4] = [1, 7, 3, 2];
+
+/// Points of the box along each coordinate at which a limited response is judged while a limit is followed.
+const RESPONSE_POINTS: [usize; 4] = [1, 3, 2, 2];
+
+/// How limits of the response are judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Judged {
+    /// By the linear structure.
+    ByAveraging,
+    /// On exact base responses.
+    Exactly,
+}
 
 /// Local minima that are refined.
 const BASINS: usize = 4;
@@ -122,6 +135,23 @@ impl DesignProblem<'_> {
         Ok(largest)
     }
 
+    /// How far a limit of the response is used on exact base responses, those of the verified dither.
+    fn exactly_used(
+        &self,
+        (quantity, limit): (LimitedQuantity, f64),
+        others: &[f64],
+        amplitude: f64,
+        points: &[Vec<f64>],
+    ) -> Option<Result<f64, String>> {
+        let of = quantity.of_response()?;
+        let verified = amplitude * (1.0 + MARGIN);
+        let largest = points.iter().try_fold(0.0, |most: f64, point| {
+            let size = self.plant.exact_response(OperatingPoint { point, others }, verified)?;
+            Ok(most.max(of(size) / limit))
+        });
+        Some(largest)
+    }
+
     /// How far a limit is used at an amplitude.
     fn used(
         &self,
@@ -144,6 +174,13 @@ impl DesignProblem<'_> {
             LimitedQuantity::Actuator(limit) => self.largest(worst, |point| {
                 self.share_of_actuator(limit, OperatingPoint { point, others }, amplitude)
             })?,
+            LimitedQuantity::ResponseRms | LimitedQuantity::ResponsePeak => {
+                let of = quantity.of_response().unwrap_or(|_| 0.0);
+                self.largest(worst, |point| {
+                    let at = OperatingPoint { point, others };
+                    self.plant.averaged_response(at, amplitude).map(of)
+                })?
+            }
             LimitedQuantity::MinimumNormalLoad => {
                 let left = -self.largest(worst, |point| {
                     self.plant
@@ -211,7 +248,7 @@ impl DesignProblem<'_> {
     }
 
     /// A choice of design variables with an amplitude, its objective and the use of every limit.
-    pub(super) fn priced(&self, others: &[f64], least: LeastOfBox) -> DesignPoint {
+    pub(super) fn priced(&self, others: &[f64], least: LeastOfBox, judged: Judged) -> DesignPoint {
         let LeastOfBox { amplitude, worst, decisive } = least;
         let price = |of: fn(super::DitherPrice) -> f64| {
             self.largest(worst.as_ref(), |point| {
@@ -225,8 +262,17 @@ impl DesignProblem<'_> {
             DesignObjective::Power => price(|price| price.power),
             DesignObjective::FrictionLoss => self.averaged_loss(others, amplitude, worst.as_ref()),
         };
-        let used = self.limits.iter().map(|&(quantity, limit)| {
-            (quantity, self.used((quantity, limit), others, amplitude, worst.as_ref()))
+        let mut points = grid(self.over, RESPONSE_POINTS, false);
+        points.extend(worst.iter().chain(&decisive).cloned());
+        let exactly = |limited| match judged {
+            Judged::ByAveraging => None,
+            Judged::Exactly => self.exactly_used(limited, others, amplitude, &points),
+        };
+        let used = self.limits.iter().map(|limited| {
+            let used = exactly(*limited);
+            let used =
+                used.unwrap_or_else(|| self.used(*limited, others, amplitude, worst.as_ref()));
+            (limited.0, used)
         });
         let used = used.collect();
         DesignPoint { others: others.to_vec(), amplitude, objective, worst, decisive, used }
@@ -245,7 +291,7 @@ impl DesignProblem<'_> {
         let search = BoxSearch { ranges: self.over, from, step: 0.0625, closeness: BOX_CLOSENESS };
         let quiet =
             |point: &[f64]| self.plant.averaged(OperatingPoint { point, others }, (from, to));
-        Ok(self.priced(others, least_of_box(search, points, &quiet)?))
+        Ok(self.priced(others, least_of_box(search, points, &quiet)?, Judged::ByAveraging))
     }
 
     /// The search over all design variables.

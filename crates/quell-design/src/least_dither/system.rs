@@ -13,6 +13,7 @@ use quell_model::profile::Wave;
 
 use super::branch::AmplitudeBranch;
 use super::quiet::AveragedChange;
+use super::response::{ResponseSize, linear_response, response_on};
 use super::{DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
 use crate::actuator::{Actuator, ActuatorDemand};
 
@@ -32,6 +33,8 @@ pub struct SystemPlant<'a> {
     pub at: &'a SystemAtPoint<'a>,
     /// The input whose dither is designed, counted from 0.
     pub input: usize,
+    /// The row over the coordinates, or states, that is observed.
+    pub observe: &'a [f64],
 }
 
 fn in_words(why: impl std::fmt::Display) -> String {
@@ -175,6 +178,24 @@ impl Plant for SystemPlant<'_> {
         let means = meter.means().ok_or("the base response has no period")?;
         let linear = Linearised::new(&system.undithered()).map_err(in_words)?;
         Self::largest_loss(&linear, means.iter().map(|means| means.friction))
+    }
+
+    fn exact_response(
+        &self,
+        at: OperatingPoint<'_>,
+        amplitude: f64,
+    ) -> Result<ResponseSize, String> {
+        let system = (self.at)(at, amplitude)?;
+        let orbit = Self::base(&system)?;
+        response_on(&system, (&orbit.state, orbit.period), self.observe)
+    }
+
+    fn averaged_response(
+        &self,
+        at: OperatingPoint<'_>,
+        amplitude: f64,
+    ) -> Result<ResponseSize, String> {
+        linear_response(&(self.at)(at, amplitude)?, self.input, self.observe)
     }
 
     fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {

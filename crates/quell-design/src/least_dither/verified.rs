@@ -2,10 +2,15 @@
 
 use super::no_design::NoDesign;
 use super::search::{DesignPoint, grid};
-use super::{DesignObjective, DesignProblem, ExactVerdict, LimitedQuantity, OperatingPoint};
+use super::{
+    DesignObjective, DesignProblem, ExactVerdict, LimitedQuantity, OperatingPoint, ResponseSize,
+};
 
 /// Share of the least amplitude by which the verified dither exceeds it.
 pub const MARGIN: f64 = 1e-3;
+
+/// Share of a limit of the response up to which it is kept: the method that follows a limit ends within this of it.
+const RESPONSE_KEPT: f64 = 1.0 + 1e-6;
 
 /// Rounds in which points that fail the verification are added to those that decide.
 const ROUNDS: usize = 4;
@@ -86,5 +91,61 @@ impl DesignProblem<'_> {
             }
         }
         largest.ok_or_else(|| "the box has no points".to_owned())
+    }
+
+    /// The limits of the response.
+    fn response_limits(&self) -> impl Iterator<Item = (LimitedQuantity, f64)> {
+        self.limits.iter().copied().filter(|(quantity, _)| quantity.of_response().is_some())
+    }
+
+    /// The largest size of the observed response in the box on the exact responses of the verified dither: at every point where a
+    /// limit is on it.
+    pub(super) fn exact_response(&self, critical: &DesignPoint) -> Result<ResponseSize, String> {
+        let mut largest = ResponseSize { rms: 0.0, peak: 0.0 };
+        for point in self.points_of_response(critical) {
+            let at = OperatingPoint { point: &point, others: &critical.others };
+            let amplitude = critical.amplitude * (1.0 + MARGIN);
+            largest = largest.or_larger(self.plant.exact_response(at, amplitude)?);
+        }
+        Ok(largest)
+    }
+
+    fn points_of_response(&self, critical: &DesignPoint) -> Vec<Vec<f64>> {
+        let is_limited = self.response_limits().next().is_some();
+        let mut points =
+            if is_limited { self.points() } else { grid(self.over, [1, 2, 2, 2], false) };
+        points.extend(critical.worst.clone());
+        if is_limited {
+            points.extend(critical.decisive.iter().cloned());
+        }
+        points
+    }
+
+    /// The operating point at which a limit of the response is exceeded most by the verified dither; `None` where every limit is kept.
+    pub(super) fn beyond_response(&self, critical: &DesignPoint) -> Option<Vec<f64>> {
+        self.response_limits().next()?;
+        let points = self.points_of_response(critical);
+        let used = points.into_iter().filter_map(|point| {
+            let used = self.response_used(critical, &point).1;
+            (used > RESPONSE_KEPT).then_some((used, point))
+        });
+        used.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point)
+    }
+
+    /// The limit of the response that is used most at a point, and its share; a response that is unknown uses none.
+    fn response_used(&self, critical: &DesignPoint, point: &[f64]) -> (LimitedQuantity, f64) {
+        let at = OperatingPoint { point, others: &critical.others };
+        let size = self.plant.exact_response(at, critical.amplitude * (1.0 + MARGIN));
+        let used = self.response_limits().map(|(quantity, limit)| {
+            let value = size.as_ref().ok().zip(quantity.of_response());
+            (quantity, value.map_or(0.0, |(size, of)| of(*size) / limit))
+        });
+        used.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((LimitedQuantity::ResponseRms, 0.0))
+    }
+
+    /// That a limit of the response is exceeded at a point.
+    pub(super) fn response_exceeded(&self, critical: &DesignPoint, point: Vec<f64>) -> NoDesign {
+        let (quantity, used) = self.response_used(critical, &point);
+        NoDesign::Limit { quantity, used, point: Some(point) }
     }
 }

@@ -67,6 +67,24 @@ pub const LIMIT_NORMAL_LOAD: Parameter = limit(
     &[si("minimum_normal_load_n", "N")],
 );
 
+/// Largest root mean square of the observed response.
+pub const LIMIT_RESPONSE_RMS: Parameter = limit(
+    "design.limits.response_rms",
+    "x_rms",
+    "largest root mean square of the observed response about its mean, on exact responses",
+    Quantity::Displacement,
+    &[si("response_rms_m", "m")],
+);
+
+/// Largest peak of the observed response.
+pub const LIMIT_RESPONSE_PEAK: Parameter = limit(
+    "design.limits.response_peak",
+    "x_peak",
+    "largest half of the range of the observed response, on exact responses",
+    Quantity::Displacement,
+    &[si("response_peak_m", "m")],
+);
+
 /// Every limit, in the order of a study file.
 pub const LIMITS: &[Parameter] = &[
     LIMIT_AMPLITUDE,
@@ -75,4 +93,6 @@ pub const LIMITS: &[Parameter] = &[
     LIMIT_POWER,
     LIMIT_FRICTION_LOSS,
     LIMIT_NORMAL_LOAD,
+    LIMIT_RESPONSE_RMS,
+    LIMIT_RESPONSE_PEAK,
 ];

@@ -121,11 +121,12 @@ fn schedule(done: &LeastDitherFound, axis: &AxisOfPath<'_>) -> Panel {
     let across = done.over.first().map_or("", |number| number.path.as_str());
     let per_unit = done.over.first().map_or(1.0, |number| number.per_unit);
     let up = done.amplitude.per_unit;
-    let points =
-        done.schedule.iter().filter_map(|(point, least)| Some((point * per_unit, (*least)? * up)));
+    let scheduled = done.schedule.iter().flatten();
+    let points = scheduled
+        .filter_map(|row| Some((row.point.first()? * per_unit, row.amplitude.as_ref().ok()? * up)));
     let mut panel = Panel::new(axis(across), axis(&done.amplitude.path).from(0.0)).with(
         Polyline::new(PlotRole::Series(0), points.collect::<Vec<_>>())
-            .label("by averaging, at each operating point"),
+            .label("exact least amplitude at each operating point"),
     );
     if let Ok(found) = &done.answer().answer {
         let line =

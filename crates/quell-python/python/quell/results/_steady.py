@@ -261,6 +261,16 @@ class Design(_columns.DesignColumns, Result):
     """The answer of each waveform: ``waveform``, ``feasible``, ``objective``."""
     covered: dict[str, list[float]] | None
     """Where no dither is allowed: the largest part of the box that one dither serves."""
+    response_rms: float | None
+    """Root mean square of the observed displacement about its mean, on the exact responses to the verified dither: the largest of the
+    box."""
+    response_peak: float | None
+    """Half of its range, the largest of the box."""
+    schedule: list[dict[str, Any]] | None
+    """For a box of one coordinate the exact least dither at 33 operating points: the coordinate by its path, ``amplitude``,
+    ``objective``."""
+    saved_by_schedule: float | None
+    """Share of the objective that such a dither saves on average."""
     sensitivity: dict[str, float | None] | None
     """Exact derivative of the least amplitude with respect to each number of the study by its path, at the operating point that decides:
     the unit of the amplitude per unit of the number. ``None`` where the amplitude is that of runs from a start."""

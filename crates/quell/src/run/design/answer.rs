@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use quell_design::actuator::Actuator;
 use quell_design::least_dither::{
     DesignObjective, DesignPoint, Designed, FeasibleDesign, InfeasibleDesign, LimitedQuantity,
-    MARGIN, NoDesign,
+    MARGIN, NoDesign, ResponseSize,
 };
 use quell_model::Waveform;
 use quell_model::parameter::design::LIMITS;
@@ -25,7 +25,7 @@ const BINDS: f64 = 0.9999;
 const FRONTIER: [f64; 9] = [0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 2.0];
 
 /// The quantity of an objective.
-fn quantity_of(study: &dyn StudyWithDesign, objective: DesignObjective) -> Quantity {
+pub(super) fn quantity_of(study: &dyn StudyWithDesign, objective: DesignObjective) -> Quantity {
     match objective {
         DesignObjective::Amplitude => study.quantity_of_amplitude(),
         DesignObjective::Stroke => Quantity::Displacement,
@@ -117,6 +117,7 @@ impl LeastDitherFound {
                     format!("; {} at the limit", binding.join(", "))
                 };
                 let drive = self.drive_in_words(study, found.drive.as_ref());
+                let follows = self.schedule_in_words(study);
                 let depends = self.sensitivity_in_words();
                 let largest = found.verified.iter().map(|at| at.multiplier).fold(0.0, f64::max);
                 let loss = found.friction_loss.as_ref().map_or(String::new(), |(loss, point)| {
@@ -129,7 +130,7 @@ impl LeastDitherFound {
                 });
                 format!(
                     "The least dither that is quiet in the whole range is a {waveform} of amplitude {}{}{decides}{binds}. At {} it is \
-                     verified by exact responses at {} operating points: the largest multiplier is {}.{drive}{loss}{depends}",
+                     verified by exact responses at {} operating points: the largest multiplier is {}.{drive}{loss}{follows}{depends}",
                     force(critical.amplitude),
                     chosen(&critical.others),
                     force(found.verified_amplitude),
@@ -299,6 +300,14 @@ impl LeastDitherFound {
         });
         fields.list("limits", used.collect::<Vec<_>>());
         fields.list("frontier", self.frontier(study));
+        let response =
+            |of: fn(&ResponseSize) -> f64| found.response.as_ref().map(of).map_err(Clone::clone);
+        fields.known("response_rms", Quantity::Displacement, response(|size| size.rms)).known(
+            "response_peak",
+            Quantity::Displacement,
+            response(|size| size.peak),
+        );
+        self.put_schedule(fields, study, minimise);
         self.put_sensitivity(fields, study);
     }
 
@@ -309,9 +318,20 @@ impl LeastDitherFound {
         none: &InfeasibleDesign,
     ) {
         let why = self.why(study, none);
-        let unknown = ["critical", "averaged", "objective", "drive"];
-        for name in unknown.into_iter().chain(["sensitivity", "sensitivity_relative", "threshold"])
-        {
+        let unknown = [
+            "critical",
+            "averaged",
+            "objective",
+            "drive",
+            "response_rms",
+            "response_peak",
+            "schedule",
+            "saved_by_schedule",
+            "sensitivity",
+            "sensitivity_relative",
+            "threshold",
+        ];
+        for name in unknown {
             fields.unknown(name, why.clone());
         }
         if let NoDesign::NeverQuiet { point } | NoDesign::Limit { point: Some(point), .. } =

@@ -2,6 +2,7 @@
 
 mod answer;
 mod drive;
+mod schedule;
 mod sensitivity;
 
 pub use sensitivity::{AmplitudeRate, DesignSensitivity};
@@ -11,7 +12,7 @@ use std::f64::consts::TAU;
 use quell_design::actuator::Actuator;
 use quell_design::least_dither::{
     BeltPlant, DesignProblem, DesignStart, Designed, LimitedQuantity, OperatingPoint, Plant,
-    SystemAtPoint, SystemPlant, design,
+    ScheduledDither, SystemAtPoint, SystemPlant, design,
 };
 use quell_dynamics::simulation::within;
 use quell_linear::averaging::DitheredSystem;
@@ -32,7 +33,7 @@ use crate::study::{BeltStudy, Design, DesignRange, DiscStudy, SystemStudy, Syste
 use crate::words::{digits, in_words};
 
 /// Points of the schedule over a box of one coordinate.
-const SCHEDULE: usize = 97;
+const SCHEDULE: usize = 33;
 
 /// A number of the study that a design chooses or ranges over.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,8 +59,9 @@ pub struct LeastDitherFound {
     pub waveforms: Vec<(Waveform, Designed)>,
     /// The waveform of the answer: the best feasible one, or the first.
     pub best: usize,
-    /// The least amplitude at single operating points of a box of one coordinate, by averaging: a schedule in place of one dither.
-    pub schedule: Vec<(f64, Option<f64>)>,
+    /// The exact least dither at single operating points of a box of one coordinate: a schedule in place of one dither; or why there is
+    /// none.
+    pub schedule: Result<Vec<ScheduledDither>, String>,
     /// Why the averages, which do not know the states of contacts, differ from those with them at the least dither.
     pub without_state: Vec<String>,
     /// For a disc whose box is a range of speeds, the exact thresholds in amplitude at speeds of the range, with the dither of the
@@ -380,7 +382,7 @@ pub fn run(study: &BeltStudy) -> Result<LeastDitherFound, Failure> {
             (waveform.clone(), Box::new(at) as Box<SystemAtPoint<'_>>)
         })
         .collect();
-    Ok(least_dither_of_systems(study, asked, numbers, &systems, 0))
+    Ok(least_dither_of_systems(study, asked, numbers, &systems, (0, &[1.0])))
 }
 
 /// Rejects runs from afar, which the designs of systems do not judge.
@@ -399,17 +401,18 @@ pub(crate) fn is_local(asked: &Design, of: &str) -> Result<(), Failure> {
     Err(Complaint::new(Fault::Conflict, "design.start", Origin::Whole, name, allowed).into())
 }
 
-/// The least dither of the waveforms of a study, each with its system; `input` is that of the dither.
+/// The least dither of the waveforms of a study, each with its system; `input` is that of the dither, `observe` the row over the
+/// coordinates whose response is reported.
 pub(crate) fn least_dither_of_systems(
     study: &dyn StudyWithDesign,
     asked: &Design,
     numbers: DesignNumbers,
     systems: &[(Waveform, Box<SystemAtPoint<'_>>)],
-    input: usize,
+    (input, observe): (usize, &[f64]),
 ) -> LeastDitherFound {
     let plants: Vec<(Waveform, SystemPlant<'_>)> = systems
         .iter()
-        .map(|(waveform, at)| (waveform.clone(), SystemPlant { at: at.as_ref(), input }))
+        .map(|(waveform, at)| (waveform.clone(), SystemPlant { at: at.as_ref(), input, observe }))
         .collect();
     let found = least_dither(study, asked, numbers, &plants);
     let without_state = without_state(&found, systems[found.best].1.as_ref());
@@ -444,20 +447,20 @@ pub(crate) fn least_dither<P: Plant + Sync>(
     let of_actuator = actuator.map(Actuator::limits).into_iter().flatten();
     let of_actuator = of_actuator.map(|limit| (LimitedQuantity::Actuator(limit), 1.0));
     let limits: Vec<_> = asked.limits.iter().copied().chain(of_actuator).collect();
-    let designed = |(waveform, plant): &(Waveform, P)| {
-        let problem = DesignProblem {
-            plant,
-            objective: asked.minimise,
-            amplitude: amplitude.range,
-            others: &other_ranges,
-            over: &box_ranges,
-            limits: &limits,
-            actuator,
-            start: asked.start,
-        };
-        (waveform.clone(), within(STEPS_OF_MANY_SEARCHES, || design(problem)))
+    let problem = |plant| DesignProblem {
+        plant,
+        objective: asked.minimise,
+        amplitude: amplitude.range,
+        others: &other_ranges,
+        over: &box_ranges,
+        limits: &limits,
+        actuator,
+        start: asked.start,
     };
-    let waveforms: Vec<(Waveform, Designed)> = plants.par_iter().map(designed).collect();
+    let designed = plants.par_iter().map(|(waveform, plant)| {
+        (waveform.clone(), within(STEPS_OF_MANY_SEARCHES, || design(problem(plant))))
+    });
+    let waveforms: Vec<(Waveform, Designed)> = designed.collect();
     let value = |designed: &Designed| match &designed.answer {
         Ok(found) => found.critical.objective.clone().unwrap_or(f64::INFINITY),
         Err(_) => f64::INFINITY,
@@ -465,11 +468,15 @@ pub(crate) fn least_dither<P: Plant + Sync>(
     let best = (0..waveforms.len())
         .min_by(|a, b| value(&waveforms[*a].1).total_cmp(&value(&waveforms[*b].1)))
         .unwrap_or(0);
-    let schedule = match (&plants.get(best), box_ranges.as_slice(), &waveforms[best].1.answer) {
-        (Some((_, plant)), [range], Ok(found)) => {
-            schedule(plant, *range, &found.critical.others, amplitude.range)
+    let schedule = match (plants.get(best), box_ranges.as_slice(), &waveforms[best].1.answer) {
+        _ if asked.start != DesignStart::Local => {
+            Err("runs from a start are judged only where they decide".to_owned())
         }
-        _ => Vec::new(),
+        (Some((_, plant)), [range], Ok(found)) => {
+            Ok(schedule(problem(plant), *range, &found.critical.others))
+        }
+        (_, [_], _) => Err("no dither is allowed".to_owned()),
+        _ => Err("the box of operating points has not exactly one coordinate".to_owned()),
     };
     let (without_state, tongues) = (Vec::new(), Vec::new());
     let sensitivity = Err("no dither is allowed".to_owned());
@@ -488,20 +495,10 @@ pub(crate) fn least_dither<P: Plant + Sync>(
     LeastDitherFound { sensitivity, ..found }
 }
 
-/// The least amplitude at single operating points, by averaging.
-fn schedule(
-    plant: &dyn Plant,
-    (low, high): (f64, f64),
-    others: &[f64],
-    range: (f64, f64),
-) -> Vec<(f64, Option<f64>)> {
-    let at = |point: f64| {
-        let place = OperatingPoint { point: &[point], others };
-        let quiet = plant.averaged(place, range).ok()?;
-        // The quiet amplitudes that reach up to the largest one: smaller quiet amplitudes may be followed by loud ones.
-        quiet.intervals().last().map(|(least, _)| *least)
-    };
-    super::evenly((low, high), SCHEDULE).into_iter().map(|point| (point, at(point))).collect()
+/// The exact least dithers along a box of one coordinate.
+fn schedule(problem: DesignProblem<'_>, range: (f64, f64), others: &[f64]) -> Vec<ScheduledDither> {
+    let at = |point: f64| within(STEPS_OF_MANY_SEARCHES, || problem.scheduled(&[point], others));
+    super::evenly(range, SCHEDULE).into_par_iter().map(at).collect()
 }
 
 /// The number at a path of a document; `None` where it has no number there.

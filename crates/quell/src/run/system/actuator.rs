@@ -32,7 +32,7 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<ActuatorFou
     let at = |place: OperatingPoint<'_>, amplitude: f64| -> Result<System, String> {
         Ok(with_dither(system, input, amplitude, place.others.first().copied()))
     };
-    let plant = SystemPlant { at: &at, input };
+    let plant = SystemPlant { at: &at, input, observe: &[] };
     let speed = |contact: &quell_model::Contact| contact.surface_velocity.mean().abs();
     let contacts = system.contacts.iter();
     let question = ActuatorQuestion {

@@ -56,7 +56,7 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         others: others.iter().map(|range| number(range)).collect(),
         over: asked.over.iter().map(number).collect(),
     };
-    Ok(least_dither_of_systems(study, asked, numbers, &systems, input))
+    Ok(least_dither_of_systems(study, asked, numbers, &systems, (input, &study.observe())))
 }
 
 /// The system with another waveform of one dither.

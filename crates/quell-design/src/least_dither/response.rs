@@ -1,0 +1,64 @@
+//! The size of the response that is observed: of the exact base response, and an estimate from the structure without friction's slope.
+
+use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart, RowMeter};
+use quell_linear::harmonic;
+use quell_linear::linearised::Linearised;
+use quell_model::System;
+use quell_model::waveform::WaveSine;
+
+/// The size of a displacement over a period.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ResponseSize {
+    /// Root mean square about its mean.
+    pub rms: f64,
+    /// Half of its range from the least to the largest value.
+    pub peak: f64,
+}
+
+impl ResponseSize {
+    /// The larger of each.
+    #[must_use]
+    pub fn or_larger(self, other: Self) -> Self {
+        Self { rms: self.rms.max(other.rms), peak: self.peak.max(other.peak) }
+    }
+}
+
+/// The response along a row over the coordinates on a periodic motion, given by its state at t = 0 and its period.
+pub(super) fn response_on(
+    system: &System,
+    (state, period): (&[f64], f64),
+    row: &[f64],
+) -> Result<ResponseSize, String> {
+    let motion = Motion::new(system).map_err(|why| why.to_string())?;
+    let mut meter = RowMeter::new(row, 0.0, period, 0);
+    let start = MotionStart { time: 0.0, state: state.to_vec() };
+    let run = motion.run(&start, period, MOTION_TOLERANCE, &mut meter);
+    run.map_err(|why| why.to_string())?;
+    Ok(ResponseSize { rms: meter.deviation(), peak: 0.5 * meter.range() })
+}
+
+/// An estimate of the response along a row to an input, from the sliding structure without the slope of friction: exact for a sine and
+/// for sums of sines, apart from the peak of a sum, for which all lines peak together. Of other waveforms it is that of a sine.
+pub(super) fn linear_response(
+    system: &System,
+    input: usize,
+    row: &[f64],
+) -> Result<ResponseSize, String> {
+    let none = || "the dither that is designed does not act".to_owned();
+    let acting = system.inputs.get(input).ok_or_else(none)?;
+    let wave = acting.profile.waves().first().ok_or_else(none)?;
+    let sliding = Linearised::new(system).map_err(|why| why.to_string())?;
+    let one = || vec![WaveSine { multiple: 1.0, amplitude: 1.0, phase: 0.0 }];
+    let (mut mean_square, mut peak) = (0.0, 0.0);
+    for line in wave.waveform.sines().unwrap_or_else(one) {
+        let frequency = line.multiple * wave.frequency;
+        let found = harmonic::response(system, &sliding, &acting.target, frequency)
+            .ok_or("a harmonic of the dither is at the frequency of an undamped motion")?;
+        let along = row.iter().zip(&found.displacement);
+        let (re, im) = along.fold((0.0, 0.0), |(re, im), (r, q)| (re + r * q.re, im + r * q.im));
+        let amplitude = (line.amplitude * wave.amplitude).abs() * libm::hypot(re, im);
+        mean_square += 0.5 * amplitude * amplitude;
+        peak += amplitude;
+    }
+    Ok(ResponseSize { rms: f64::sqrt(mean_square), peak })
+}

@@ -1,0 +1,58 @@
+//! The exact least amplitude at single operating points: what a dither that follows the operating point needs.
+
+use super::{DesignObjective, DesignProblem, OperatingPoint};
+
+/// Window about the amplitude of averaging in which the exact one is sought first, as factors.
+const WINDOW: (f64, f64) = (0.85, 1.15);
+
+/// The least dither at one operating point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScheduledDither {
+    /// The operating point.
+    pub point: Vec<f64>,
+    /// The exact least amplitude there, or why it is unknown.
+    pub amplitude: Result<f64, String>,
+    /// The objective there.
+    pub objective: Result<f64, String>,
+}
+
+impl DesignProblem<'_> {
+    /// The least amplitude that is quiet at one operating point, with the other design variables of a design: that of a box of this
+    /// point alone, without limits.
+    pub fn scheduled(&self, point: &[f64], others: &[f64]) -> ScheduledDither {
+        let at = OperatingPoint { point, others };
+        let amplitude = self.least_at(at);
+        let objective = amplitude.clone().and_then(|amplitude| self.objective_at(at, amplitude));
+        ScheduledDither { point: point.to_vec(), amplitude, objective }
+    }
+
+    /// The exact least amplitude at a point: near that of averaging, below which a point is loud, or else in the whole range.
+    fn least_at(&self, at: OperatingPoint<'_>) -> Result<f64, String> {
+        let (from, to) = self.amplitude;
+        let none = || "no amplitude of the range is quiet there".to_owned();
+        let averaged = self.plant.averaged(at, self.amplitude)?.least_from(from);
+        if let Some(averaged) = averaged {
+            let (low, high) = ((averaged * WINDOW.0).max(from), (averaged * WINDOW.1).min(to));
+            if low < high
+                && let Ok(near) = self.plant.exact(at, (low, high))
+                && let Some(least) = near.least_from(low)
+                && (least > low || low == from)
+            {
+                return Ok(least);
+            }
+        }
+        self.plant.exact(at, self.amplitude)?.least_from(from).ok_or_else(none)
+    }
+
+    /// The objective of an amplitude at one operating point.
+    fn objective_at(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
+        let price = || self.plant.price(at, amplitude);
+        match self.objective {
+            DesignObjective::Amplitude => Ok(amplitude),
+            DesignObjective::Stroke => price().map(|price| price.stroke),
+            DesignObjective::Velocity => price().map(|price| price.velocity),
+            DesignObjective::Power => price().map(|price| price.power),
+            DesignObjective::FrictionLoss => self.plant.averaged_loss(at, amplitude),
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! The schedule of a design: a dither whose amplitude follows the operating point.
+
+use quell_design::least_dither::DesignObjective;
+use quell_model::units::Quantity;
+
+use super::answer::quantity_of;
+use super::{LeastDitherFound, StudyWithDesign};
+use crate::fields::Fields;
+use crate::words::digits;
+
+impl LeastDitherFound {
+    /// The share of the objective that a schedule saves on average over the box.
+    fn saved(&self) -> Result<f64, String> {
+        let schedule = self.schedule.as_ref().map_err(Clone::clone)?;
+        let found = self.answer().answer.as_ref().map_err(|_| "no dither is allowed".to_owned())?;
+        let single = found.critical.objective.clone()?;
+        let objectives = schedule.iter().map(|row| row.objective.clone());
+        let objectives: Vec<f64> = objectives.collect::<Result<_, _>>()?;
+        if objectives.is_empty() || single == 0.0 {
+            return Err("the objective of the single dither is 0".to_owned());
+        }
+        Ok(1.0 - objectives.iter().sum::<f64>() / objectives.len() as f64 / single)
+    }
+
+    /// What a schedule saves, in a sentence; empty where that is unknown or nothing.
+    pub(super) fn schedule_in_words(&self, study: &dyn StudyWithDesign) -> String {
+        let (Ok(saved), Some(over)) = (self.saved(), self.over.first()) else {
+            return String::new();
+        };
+        let minimise = study.asked().map_or(DesignObjective::Amplitude, |asked| asked.minimise);
+        if saved < 5e-4 {
+            return String::new();
+        }
+        let (saved, path) = (digits(libm::round(1000.0 * saved) / 10.0), &over.path);
+        match minimise {
+            DesignObjective::Amplitude => {
+                format!(" An amplitude that follows {path} would be {saved} % smaller on average.")
+            }
+            other => format!(
+                " An amplitude that follows {path} would need {saved} % less {} on average.",
+                other.name().replace('-', " ")
+            ),
+        }
+    }
+
+    /// Adds `schedule` and `saved_by_schedule`.
+    pub(super) fn put_schedule(
+        &self,
+        fields: &mut Fields,
+        study: &dyn StudyWithDesign,
+        minimise: DesignObjective,
+    ) {
+        match &self.schedule {
+            Ok(schedule) => {
+                let rows = schedule.iter().map(|row| {
+                    let mut inner = study.fields();
+                    for (number, value) in self.over.iter().zip(&row.point) {
+                        inner.plain(&number.path, value * number.per_unit);
+                    }
+                    inner
+                        .known("amplitude", study.quantity_of_amplitude(), row.amplitude.clone())
+                        .known("objective", quantity_of(study, minimise), row.objective.clone());
+                    inner
+                });
+                fields.list("schedule", rows.collect::<Vec<_>>());
+            }
+            Err(why) => {
+                fields.unknown("schedule", why.clone());
+            }
+        }
+        fields.known("saved_by_schedule", Quantity::Ratio, self.saved());
+    }
+}
