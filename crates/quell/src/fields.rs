@@ -241,6 +241,11 @@ impl Fields {
         Json::Object(self.object)
     }
 
+    /// Factor and unit of a quantity in SI; `None` of a study without units.
+    pub(crate) fn in_si(&self, quantity: Quantity) -> Option<(f64, &'static str)> {
+        self.twin("", quantity).map(|(_, factor, unit)| (factor, unit))
+    }
+
     fn twin(&self, name: &str, quantity: Quantity) -> Option<(String, f64, &'static str)> {
         let (unit, suffix) = quantity.si_unit()?;
         let factor = match self.si? {

@@ -2,18 +2,20 @@
 
 use super::caption::{caption, caption_of_disc, caption_of_system};
 use super::system::name_of as name_of_path;
+use quell_design::least_dither::{DesignObjective, DesignPoint, LimitedQuantity};
+
 use crate::plot::{
-    Figure, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine,
+    Figure, LineStyle, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
     SharedLegend,
 };
-use crate::run::design::LeastDitherFound;
+use crate::run::design::{LeastDitherFound, StudyWithDesign, quantity_of};
 use crate::run::varied::name_of;
 use crate::study::vocabulary::resolve;
 use crate::study::{BeltStudy, DiscStudy, SystemStudy};
 
 /// Required amplitudes over the other number that is chosen, or over the operating points.
 pub fn design(study: &BeltStudy, done: &LeastDitherFound) -> Figure {
-    panel(done, &|path| axis(study, path))
+    figure(study, done, &|path| axis(study, path))
         .title(study.title().unwrap_or_default())
         .caption(format!("{}. {}", caption(study), done.sentence(study)))
 }
@@ -27,7 +29,7 @@ pub fn design_of_system(study: &SystemStudy, done: &LeastDitherFound) -> Figure 
             None => axis,
         }
     };
-    panel(done, &axis).title(study.title().unwrap_or_default()).caption(format!(
+    figure(study, done, &axis).title(study.title().unwrap_or_default()).caption(format!(
         "{} {}",
         caption_of_system(study),
         done.sentence(study)
@@ -87,9 +89,21 @@ fn tongues(done: &LeastDitherFound, axis: &AxisOfPath<'_>) -> Panel {
 /// The axis of the number at a path.
 type AxisOfPath<'a> = dyn Fn(&str) -> PlotAxis + 'a;
 
-fn panel(done: &LeastDitherFound, axis: &AxisOfPath<'_>) -> Figure {
-    let panel = if done.others.is_empty() { schedule(done, axis) } else { region(done, axis) };
-    Figure::single(panel).legend(SharedLegend::Below)
+/// The panels of a design: over the other number that is chosen, along the box, and against its limits.
+fn figure(study: &dyn StudyWithDesign, done: &LeastDitherFound, axis: &AxisOfPath<'_>) -> Figure {
+    let mut panels = Vec::new();
+    if !done.others.is_empty() {
+        panels.push(region(done, axis));
+    }
+    let is_scheduled = done.schedule.as_ref().is_ok_and(|schedule| !schedule.is_empty());
+    if is_scheduled || done.others.is_empty() {
+        panels.push(schedule(done, axis));
+    }
+    panels.extend(frontier(study, done, axis));
+    if panels.len() == 1 {
+        return Figure::grid(1, panels).legend(SharedLegend::Below);
+    }
+    Figure::grid(1, panels)
 }
 
 /// An axis of a number, by its key.
@@ -144,31 +158,171 @@ fn schedule(done: &LeastDitherFound, axis: &AxisOfPath<'_>) -> Panel {
     panel
 }
 
-/// The required amplitude over the first other number, and the largest amplitude that keeps every limit.
+/// The least amplitude over the other number that is chosen, the largest one within each limit, and what both leave.
 fn region(done: &LeastDitherFound, axis: &AxisOfPath<'_>) -> Panel {
     let number = &done.others[0];
-    let up = done.amplitude.per_unit;
+    let mut panel = Panel::new(axis(&number.path), axis(&done.amplitude.path).from(0.0));
+    panel =
+        if done.others.len() == 1 { with_curves(panel, done) } else { with_choices(panel, done) };
+    if let Ok(found) = &done.answer().answer {
+        let up = done.amplitude.per_unit;
+        let at = vec![(found.critical.others[0] * number.per_unit, found.critical.amplitude * up)];
+        panel = panel.with(
+            Points::new(PlotRole::Exact, at)
+                .marker(Marker::Disc)
+                .size(4.0)
+                .label("exact least dither"),
+        );
+    }
+    panel
+}
+
+/// Every choice that was tried, of several numbers.
+fn with_choices(panel: Panel, done: &LeastDitherFound) -> Panel {
+    let (number, up) = (&done.others[0], done.amplitude.per_unit);
     let tried = &done.answer().tried;
-    let curve = |keeps: bool| -> Vec<(f64, f64)> {
+    let points = |keeps: bool| -> Vec<(f64, f64)> {
         let chosen = tried.iter().filter(|point| (point.use_of_limits() <= 1.0) == keeps);
         chosen.map(|point| (point.others[0] * number.per_unit, point.amplitude * up)).collect()
     };
-    let mut panel = Panel::new(axis(&number.path), axis(&done.amplitude.path).from(0.0))
+    panel
         .with(
-            Points::new(PlotRole::Series(0), curve(true))
+            Points::new(PlotRole::Series(0), points(true))
                 .marker(Marker::Circle)
                 .label("least amplitude, every limit kept"),
         )
         .with(
-            Points::new(PlotRole::Undecided, curve(false))
+            Points::new(PlotRole::Undecided, points(false))
                 .marker(Marker::Cross)
                 .label("least amplitude, a limit exceeded"),
-        );
-    if let Ok(found) = &done.answer().answer {
-        let at = vec![(found.critical.others[0] * number.per_unit, found.critical.amplitude * up)];
-        panel = panel.with(
-            Points::new(PlotRole::Series(1), at).marker(Marker::Disc).label("exact least dither"),
-        );
+        )
+}
+
+/// A quantity with a limit, or the rating of an actuator, in words.
+fn noun_of(quantity: LimitedQuantity) -> String {
+    let name = quantity.name();
+    name.rsplit_once('.').map_or(name, |(_, rating)| rating).replace('_', " ")
+}
+
+/// Largest amplitude that is drawn over the largest least one: limits far above it say nothing.
+const HEADROOM: f64 = 1.6;
+
+/// The least amplitude by averaging, the lines of the limits, and the amplitudes between them.
+fn with_curves(mut panel: Panel, done: &LeastDitherFound) -> Panel {
+    let (number, up) = (&done.others[0], done.amplitude.per_unit);
+    let tried = &done.answer().tried;
+    let least: Vec<(f64, f64)> = tried
+        .iter()
+        .map(|point| (point.others[0] * number.per_unit, point.amplitude * up))
+        .collect();
+    let top = HEADROOM * least.iter().map(|(_, amplitude)| *amplitude).fold(0.0, f64::max);
+    let quantities: Vec<LimitedQuantity> = tried
+        .first()
+        .map_or(Vec::new(), |point| point.used.iter().map(|(limit, _)| *limit).collect());
+    let lines: Vec<Vec<Option<f64>>> = (0..quantities.len())
+        .map(|place| tried.iter().map(|point| largest_within(point, place)).collect())
+        .collect();
+    panel = panel.with_all(allowed(&least, &lines, (top, up)));
+    panel = panel.with(
+        Polyline::new(PlotRole::Averaged, least.iter().copied())
+            .label("least amplitude, by averaging"),
+    );
+    for (place, line) in lines.iter().enumerate() {
+        let x = least.iter().map(|(x, _)| *x);
+        let drawn = x.zip(line).filter_map(|(x, most)| Some((x, (*most)? * up)));
+        let pieces = pieces_below(drawn, top);
+        if !pieces.is_empty() {
+            let label = format!("limit of {}", noun_of(quantities[place]));
+            panel = panel.with(Polyline::pieces(PlotRole::Series(place), pieces).label(label));
+        }
     }
     panel
+}
+
+/// The largest amplitude within a limit, of a quantity that is a power of the amplitude.
+fn largest_within(point: &DesignPoint, place: usize) -> Option<f64> {
+    let (quantity, used) = &point.used[place];
+    let used = used.as_ref().ok().filter(|used| **used > 0.0)?;
+    match quantity {
+        LimitedQuantity::Power => Some(point.amplitude / used.sqrt()),
+        LimitedQuantity::Amplitude
+        | LimitedQuantity::Stroke
+        | LimitedQuantity::Velocity
+        | LimitedQuantity::ResponseRms
+        | LimitedQuantity::ResponsePeak
+        | LimitedQuantity::Actuator(_) => Some(point.amplitude / used),
+        LimitedQuantity::FrictionLoss | LimitedQuantity::MinimumNormalLoad => None,
+    }
+}
+
+/// The pieces of a curve up to a height.
+fn pieces_below(curve: impl Iterator<Item = (f64, f64)>, top: f64) -> Vec<Vec<(f64, f64)>> {
+    let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
+    for (x, y) in curve {
+        if y <= top {
+            pieces.last_mut().into_iter().for_each(|piece| piece.push((x, y)));
+        } else if pieces.last().is_some_and(|piece| !piece.is_empty()) {
+            pieces.push(Vec::new());
+        }
+    }
+    pieces.retain(|piece| piece.len() > 1);
+    pieces
+}
+
+/// The amplitudes from the least one to the tightest limit, where it leaves any.
+fn allowed(least: &[(f64, f64)], lines: &[Vec<Option<f64>>], (top, up): (f64, f64)) -> Vec<Region> {
+    let most = |place: usize| {
+        lines.iter().filter_map(|line| line[place]).fold(top, |most, own| most.min(own * up))
+    };
+    let mut regions: Vec<Vec<(f64, f64, f64)>> = vec![Vec::new()];
+    for (place, (x, amplitude)) in least.iter().enumerate() {
+        if *amplitude <= most(place) {
+            regions.last_mut().into_iter().for_each(|own| own.push((*x, *amplitude, most(place))));
+        } else if regions.last().is_some_and(|own| !own.is_empty()) {
+            regions.push(Vec::new());
+        }
+    }
+    regions.retain(|own| own.len() > 1);
+    let shade = |(number, own): (usize, &Vec<(f64, f64, f64)>)| {
+        let lower = own.iter().map(|(x, low, _)| (*x, *low));
+        let upper = own.iter().map(|(x, _, high)| (*x, *high));
+        let region = Region::between(PlotRole::Stable, lower, upper);
+        if number == 0 { region.label("quiet within every limit") } else { region }
+    };
+    regions.iter().enumerate().map(shade).collect()
+}
+
+/// The least objective against each limit, relative to that of the study; `None` where the choices of the design trade nothing.
+fn frontier(
+    study: &dyn StudyWithDesign,
+    done: &LeastDitherFound,
+    axis: &AxisOfPath<'_>,
+) -> Option<Panel> {
+    let points = done.frontier(study);
+    let minimise = study.asked()?.minimise;
+    let noun = PlotAxis::new(format!("least {}", minimise.name().replace('-', " ")));
+    let (vertical, up) = match minimise {
+        DesignObjective::Amplitude => (axis(&done.amplitude.path), done.amplitude.per_unit),
+        _ => match study.fields().in_si(quantity_of(study, minimise)) {
+            Some((factor, unit)) => (noun.unit(unit), factor),
+            None => (noun, 1.0),
+        },
+    };
+    let mut panel =
+        Panel::new(PlotAxis::new("limit relative to that of the study"), vertical.from(0.0));
+    let mut drawn = 0;
+    for own in points.chunk_by(|a, b| a.quantity == b.quantity) {
+        let curve = own.iter().filter_map(|point| Some((point.share, point.objective? * up)));
+        let curve: Vec<(f64, f64)> = curve.collect();
+        let varies = curve.iter().any(|(_, objective)| *objective != curve[0].1);
+        if curve.len() > 1 && varies {
+            let label = format!("limit of {}, by averaging", noun_of(own[0].quantity));
+            panel = panel.with(Polyline::new(PlotRole::Series(drawn), curve).label(label));
+            drawn += 1;
+        }
+    }
+    let found = done.answer().answer.as_ref().ok()?;
+    let objective = found.critical.objective.clone().ok()?;
+    let at = Points::new(PlotRole::Exact, vec![(1.0, objective * up)]).marker(Marker::Disc);
+    (drawn > 0).then(|| panel.with(at.size(4.0).label("exact least dither")))
 }

@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-use quell_design::actuator::Actuator;
 use quell_design::least_dither::{
     DesignObjective, DesignPoint, Designed, FeasibleDesign, InfeasibleDesign, LimitedQuantity,
     MARGIN, NoDesign, ResponseSize,
@@ -21,11 +20,8 @@ use crate::words::digits;
 /// A limit binds if at least this share of it is used.
 const BINDS: f64 = 0.9999;
 
-/// Shares of a limit at which the frontier is evaluated.
-const FRONTIER: [f64; 9] = [0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 2.0];
-
 /// The quantity of an objective.
-pub(super) fn quantity_of(study: &dyn StudyWithDesign, objective: DesignObjective) -> Quantity {
+pub(crate) fn quantity_of(study: &dyn StudyWithDesign, objective: DesignObjective) -> Quantity {
     match objective {
         DesignObjective::Amplitude => study.quantity_of_amplitude(),
         DesignObjective::Stroke => Quantity::Displacement,
@@ -36,7 +32,7 @@ pub(super) fn quantity_of(study: &dyn StudyWithDesign, objective: DesignObjectiv
 }
 
 /// The quantity of a limit.
-fn quantity_of_limit(study: &dyn StudyWithDesign, limited: LimitedQuantity) -> Quantity {
+pub(super) fn quantity_of_limit(study: &dyn StudyWithDesign, limited: LimitedQuantity) -> Quantity {
     if limited == LimitedQuantity::Amplitude {
         return study.quantity_of_amplitude();
     }
@@ -299,7 +295,7 @@ impl LeastDitherFound {
             inner
         });
         fields.list("limits", used.collect::<Vec<_>>());
-        fields.list("frontier", self.frontier(study));
+        self.put_frontier(fields, study, minimise);
         let response =
             |of: fn(&ResponseSize) -> f64| found.response.as_ref().map(of).map_err(Clone::clone);
         fields.known("response_rms", Quantity::Displacement, response(|size| size.rms)).known(
@@ -352,45 +348,5 @@ impl LeastDitherFound {
                 fields.unknown("covered", why.clone()).unknown("parameters", why.clone());
             }
         }
-    }
-
-    /// The objective against each limit, from the choices that were tried by averaging.
-    fn frontier(&self, study: &dyn StudyWithDesign) -> Vec<Fields> {
-        let Some(asked) = study.asked() else { return Vec::new() };
-        let mut rows = Vec::new();
-        let of_actuator = study.actuator().map(Actuator::limits).into_iter().flatten();
-        let of_actuator = of_actuator.map(|limit| (LimitedQuantity::Actuator(limit), 1.0));
-        let limits: Vec<_> = asked.limits.iter().copied().chain(of_actuator).collect();
-        for (place, (quantity, limit)) in limits.iter().enumerate() {
-            for share in FRONTIER {
-                let keeps = |point: &&DesignPoint| {
-                    point.used.iter().enumerate().all(|(number, (_, used))| {
-                        let most = if number == place { share } else { 1.0 };
-                        used.as_ref().is_ok_and(|used| *used <= most)
-                    })
-                };
-                let answer = self.answer();
-                let tried = answer.tried.iter().filter(keeps);
-                let least = tried
-                    .filter_map(|point| point.objective.clone().ok())
-                    .fold(f64::INFINITY, f64::min);
-                let mut inner = study.fields();
-                inner.plain("limit", quantity.name());
-                let value = if *quantity == LimitedQuantity::MinimumNormalLoad {
-                    limit / share
-                } else {
-                    limit * share
-                };
-                inner.number("value", quantity_of_limit(study, *quantity), value);
-                let least = if least.is_finite() {
-                    Ok(least)
-                } else {
-                    Err("no choice keeps this limit".to_owned())
-                };
-                inner.known("objective", quantity_of(study, asked.minimise), least);
-                rows.push(inner);
-            }
-        }
-        rows
     }
 }

@@ -2,9 +2,11 @@
 
 mod answer;
 mod drive;
+mod frontier;
 mod schedule;
 mod sensitivity;
 
+pub(crate) use answer::quantity_of;
 pub use sensitivity::{AmplitudeRate, DesignSensitivity};
 
 use std::f64::consts::TAU;
