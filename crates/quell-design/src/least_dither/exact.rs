@@ -3,9 +3,9 @@
 use super::covered::{CoveredBox, covered};
 use super::no_design::NoDesign;
 use super::search::{AveragedSearch, DesignBasin, DesignPoint, Judged};
-use super::verified::{MARGIN, VerifiedPoint};
+use super::verified::VerifiedPoint;
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
-use super::{DesignProblem, DesignStart, LimitedQuantity, OperatingPoint, ResponseSize};
+use super::{DesignProblem, DesignStart, LimitedQuantity, MARGIN, OperatingPoint, ResponseSize};
 use crate::actuator::ActuatorDemand;
 
 /// Window of exact thresholds about the amplitude of averaging, as factors.

@@ -36,10 +36,13 @@ pub use sensitivity::{LeastAmplitude, LeastAmplitudeSensitivity, SystemOfNumbers
 pub use system::{
     SystemAtPoint, SystemPlant, amplitude_branch_of_system, averaged_quiet_of_system,
 };
-pub use verified::{MARGIN, VerifiedPoint};
+pub use verified::VerifiedPoint;
 pub use worst_point::NoLeast;
 
 use crate::actuator::{Actuator, ActuatorDemand, ActuatorLimit};
+
+/// Share of the least amplitude by which the verified dither exceeds it.
+pub const MARGIN: f64 = 1e-3;
 
 /// What is to be small.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,11 +3,10 @@
 //! A grid over these variables (equal ratios where a range is positive) finds the local minima of the objective among the points that
 //! keep every limit; the best of them are refined by a pattern search that stays on the allowed side of the limits.
 
-use super::verified::MARGIN;
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
 use crate::actuator::{ActuatorDemand, ActuatorLimit};
 
-use super::{DesignObjective, DesignProblem, LimitedQuantity, OperatingPoint};
+use super::{DesignObjective, DesignProblem, LimitedQuantity, MARGIN, OperatingPoint};
 
 /// Points of the grid along each design variable, by their number.
 const GRID: [usize; 4] = [1, 49, 13, 6];

@@ -3,11 +3,9 @@
 use super::no_design::NoDesign;
 use super::search::{DesignPoint, grid};
 use super::{
-    DesignObjective, DesignProblem, ExactVerdict, LimitedQuantity, OperatingPoint, ResponseSize,
+    DesignObjective, DesignProblem, ExactVerdict, LimitedQuantity, MARGIN, OperatingPoint,
+    ResponseSize,
 };
-
-/// Share of the least amplitude by which the verified dither exceeds it.
-pub const MARGIN: f64 = 1e-3;
 
 /// Share of a limit of the response up to which it is kept: the method that follows a limit ends within this of it.
 const RESPONSE_KEPT: f64 = 1.0 + 1e-6;

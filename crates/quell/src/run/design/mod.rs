@@ -19,6 +19,7 @@ use quell_design::least_dither::{
 use quell_dynamics::simulation::within;
 use quell_linear::averaging::DitheredSystem;
 use quell_model::disc::DiscDither;
+use quell_model::profile::{Profile, Wave};
 use quell_model::units::Quantity;
 use quell_model::{Belt, Dither, Parametrisation, System, Waveform};
 use rayon::prelude::*;
@@ -61,8 +62,8 @@ pub struct LeastDitherFound {
     pub waveforms: Vec<(Waveform, Designed)>,
     /// The waveform of the answer: the best feasible one, or the first.
     pub best: usize,
-    /// The exact least dither at single operating points of a box of one coordinate: a schedule in place of one dither; or why there is
-    /// none.
+    /// The exact least dither at single operating points of a box of one coordinate: a schedule in place of one dither; or why it has
+    /// no points.
     pub schedule: Result<Vec<ScheduledDither>, String>,
     /// Why the averages, which do not know the states of contacts, differ from those with them at the least dither.
     pub without_state: Vec<String>,
@@ -244,7 +245,7 @@ impl StudyWithDesign for SystemStudy {
             .asked()
             .and_then(|asked| asked.vary.iter().find_map(|range| self.dither_of(&range.path)));
         let system = self.system_at(numbers).map_err(|why| why.to_string())?;
-        Ok(crate::run::system::design::with_waveform(system, amplitude.unwrap_or(0), waveform))
+        Ok(system_with_waveform(system, amplitude.unwrap_or(0), waveform))
     }
 }
 
@@ -512,6 +513,22 @@ fn number_in(document: &Json, path: &str) -> Option<f64> {
         let (table, rest) = pointer.split_once('/')?;
         document.pointer(&format!("/{table}/0/{rest}")).and_then(Json::as_f64)
     })
+}
+
+/// The system with another waveform of one dither.
+pub(crate) fn system_with_waveform(
+    mut system: System,
+    input: usize,
+    waveform: &Waveform,
+) -> System {
+    if let Some(input) = system.inputs.get_mut(input)
+        && let [wave] = input.profile.waves()
+        && wave.waveform != *waveform
+    {
+        let wave = Wave { waveform: waveform.clone(), ..wave.clone() };
+        input.profile = Profile::constant(input.profile.mean()).with(wave);
+    }
+    system
 }
 
 /// The belt with another waveform of its first dither.

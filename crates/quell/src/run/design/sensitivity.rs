@@ -83,6 +83,9 @@ struct AtLeast<'a> {
     set: Vec<(&'a str, f64)>,
 }
 
+/// A number of the study: its path, its value, and whether it can vary or why not.
+type StudyNumber = (String, f64, Result<(), String>);
+
 impl AtLeast<'_> {
     fn with(&self, path: &str, value: f64) -> Result<System, String> {
         let mut numbers = self.set.clone();
@@ -92,12 +95,12 @@ impl AtLeast<'_> {
 
     /// The numbers that the equations contain, with their values: those of the design at their chosen values, then the others that the
     /// study writes. A number that cannot vary comes with the reason.
-    fn numbers(&self) -> Result<Vec<(String, f64, Result<(), String>)>, String> {
+    fn numbers(&self) -> Result<Vec<StudyNumber>, String> {
         let base = self.study.system_with(self.waveform, &self.set)?;
         let (amplitude, chosen) = self.set.split_first().ok_or("nothing is chosen")?;
         let louder = self.with(amplitude.0, amplitude.1 * (1.0 + TRIED))?;
-        let mut found: Vec<(String, f64, Result<(), String>)> = Vec::new();
-        let add = |path: &str, value: f64, found: &mut Vec<(String, f64, Result<(), String>)>| {
+        let mut found: Vec<StudyNumber> = Vec::new();
+        let add = |path: &str, value: f64, found: &mut Vec<StudyNumber>| {
             let moved = self.with(path, value * (1.0 + TRIED));
             match moved.or_else(|_| self.with(path, value * (1.0 - TRIED))) {
                 Ok(moved) if moved != base && moved != louder => {
@@ -113,7 +116,7 @@ impl AtLeast<'_> {
         for path in written(&self.study.document()) {
             let known = found.iter().any(|(known, ..)| *known == path);
             let Some(value) = self.study.number_at(&path) else { continue };
-            // A number that the design chooses has another value here, by whatever key it is written.
+            // A number that the design chooses has another value here, under any key.
             let is_chosen = || self.with(&path, value).is_ok_and(|same| same != base);
             if value != 0.0 && !known && path != amplitude.0 && !is_chosen() {
                 add(&path, value, &mut found);

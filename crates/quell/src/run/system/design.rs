@@ -1,14 +1,13 @@
 //! `design` of a system: the least amplitude of one of its dithers that is quiet over a box of operating points, under limits.
 
 use quell_design::least_dither::{OperatingPoint, SystemAtPoint};
-use quell_model::profile::{Profile, Wave};
 use quell_model::{System, Waveform};
 
 use super::has_equations;
 use crate::complaint::{Complaint, Failure, Origin};
 use crate::run::design::{
     DesignNumber, DesignNumbers, LeastDitherFound, asked, is_local, least_dither_of_systems,
-    without_amplitude,
+    system_with_waveform, without_amplitude,
 };
 use crate::study::{DesignRange, SystemStudy};
 
@@ -35,7 +34,7 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         let numbers: Vec<(&str, f64)> =
             over.chain(other).chain([(amplitude.path.as_str(), value)]).collect();
         let system = study.system_at(&numbers).map_err(|why| why.to_string())?;
-        Ok(with_waveform(system, input, waveform))
+        Ok(system_with_waveform(system, input, waveform))
     };
     let systems: Vec<(Waveform, Box<SystemAtPoint<'_>>)> = asked
         .waveforms
@@ -57,18 +56,6 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         over: asked.over.iter().map(number).collect(),
     };
     Ok(least_dither_of_systems(study, asked, numbers, &systems, (input, &study.observe())))
-}
-
-/// The system with another waveform of one dither.
-pub(crate) fn with_waveform(mut system: System, input: usize, waveform: &Waveform) -> System {
-    if let Some(input) = system.inputs.get_mut(input)
-        && let [wave] = input.profile.waves()
-        && wave.waveform != *waveform
-    {
-        let wave = Wave { waveform: waveform.clone(), ..wave.clone() };
-        input.profile = Profile::constant(input.profile.mean()).with(wave);
-    }
-    system
 }
 
 /// Rejects ranges whose ends give no valid study.
