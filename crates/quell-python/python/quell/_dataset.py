@@ -220,8 +220,7 @@ class Facts:
             self.attrs[label] = value
         elif isinstance(value, Mapping):
             for inner, it in self.in_units(value).items():
-                # Some keys are paths of numbers of the study.
-                key = inner.replace(".", "_").replace("[", "_").replace("]", "")
+                key = key_of(inner)
                 self.add(f"{label}_{key}", f"{former}_{key}", inner, it)
         elif isinstance(value, list):
             self.many(label, former, name, value)
@@ -237,7 +236,8 @@ class Facts:
             for inner in dict.fromkeys(key for it in values for key in it):
                 column = [it.get(inner) for it in values]
                 if all(isinstance(it, (int, float, bool, str, type(None))) for it in column):
-                    self.put((f"{dim}_{inner}", f"{old}_{inner}"), inner, (dim,), as_array(column))
+                    key = key_of(inner)
+                    self.put((f"{dim}_{key}", f"{old}_{key}"), inner, (dim,), as_array(column))
         elif values and all(isinstance(it, (int, float, bool, str, type(None))) for it in values):
             self.put((label, former), name, (dim,), as_array(values), (old,))
         elif values and all(isinstance(it, list) for it in values):
@@ -263,6 +263,11 @@ class Facts:
             attrs["why"] = self.why[label]
         former = self.found.free(former, former_dims)
         self.found.put(self.found.free(label, dims), former, Variable(dims, values, attrs))
+
+
+def key_of(path: str) -> str:
+    """A key, which can be the path of a number of the study, as a part of a name."""
+    return path.replace(".", "_").replace("[", "_").replace("]", "")
 
 
 def as_array(values: list[Any]) -> npt.NDArray[Any]:

@@ -627,6 +627,14 @@ class DesignColumns:
     parameters_dither_amplitude_n: float
     parameters_dither_frequency_hz: float
     parameters_dither_frequency_ratio: float
+    response_peak_m: float
+    response_rms_m: float
+    schedule_amplitude: npt.NDArray[np.float64]
+    schedule_amplitude_n: npt.NDArray[np.float64]
+    schedule_objective: npt.NDArray[np.float64]
+    schedule_objective_m: npt.NDArray[np.float64]
+    schedule_objective_w: npt.NDArray[np.float64]
+    threshold_meets: float
     verified_growth_rate: float
     verified_multiplier: float
     verified_operating_points: Any

@@ -16,7 +16,7 @@ const TRIED: f64 = 1e-3;
 const MOST_NUMBERS: usize = 400;
 
 /// Tables of a study that do not describe its equations.
-const APART: [&str; 6] = ["schema", "title", "sweep", "design", "uncertainty", "observe"];
+const APART: [&str; 7] = ["schema", "title", "sweep", "design", "uncertainty", "observe", "solver"];
 
 /// The derivative of the least amplitude with respect to one number.
 #[derive(Clone, Debug, PartialEq)]
