@@ -244,3 +244,72 @@ fn distributions_have_the_units_of_their_keys() {
     ));
     assert!(wrong.contains("lognormal[1]"), "{wrong}");
 }
+
+const STRIBECK: &str = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.1\n[friction]\nlaw = \"stribeck\"\n\
+                        static_coefficient = 0.4\nminimum_coefficient = 0.25\nreference_velocity = 0.5\n\
+                        [dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = 1.2\nfrequency_ratio = 10.0\n";
+
+/// The least quiet amplitude grows with the speed, so that its quantile over speeds is that of the speed of the same share.
+#[test]
+fn quantiles_of_thresholds_are_thresholds_at_quantiles() {
+    let uncertain = "[uncertainty]\n\"belt.belt_velocity\" = { uniform = [0.05, 0.15] }\n";
+    for (start, samples) in [(ProbabilityStart::Averaged, 4000), (ProbabilityStart::Local, 100)] {
+        let found = found(&format!("{STRIBECK}{uncertain}"), samples, start);
+        let thresholds = &found["quantiles"]["threshold"];
+        let values = ["0.05", "0.5", "0.95"].map(|share| number(&thresholds[share]));
+        let shares = values.map(|amplitude| share_quenched(amplitude, start));
+        for (share, exact) in shares.into_iter().zip([0.05, 0.5, 0.95]) {
+            let error = 4.0 * (exact * (1.0_f64 - exact) / samples as f64).sqrt();
+            assert!((share - exact).abs() < error, "{start:?}: {values:?} {shares:?}");
+        }
+    }
+    let without = STRIBECK.split("[dither]").next().expect("a belt");
+    let found = averaged(&format!("{without}{uncertain}"), 50);
+    assert!(found["quantiles"]["threshold"]["0.5"].is_null());
+    let of_runs = format!("{STRIBECK}{uncertain}");
+    let found = self::found(&of_runs, 3, ProbabilityStart::Rest);
+    assert!(found["quantiles"]["threshold"]["0.5"].is_null());
+}
+
+/// The share of the speeds that an amplitude quenches: up to the threshold in speed, by bisection of the verdict.
+fn share_quenched(amplitude: f64, start: ProbabilityStart) -> f64 {
+    let (mut low, mut high) = (0.05_f64, 0.15_f64);
+    let dithered = STRIBECK.replace("amplitude = 1.2", &format!("amplitude = {amplitude}"));
+    let vibrates = |speed: f64| {
+        let text = dithered.replace("belt_velocity = 0.1", &format!("belt_velocity = {speed}"));
+        let certain = format!(
+            "{text}[uncertainty]\n\"belt.damping_ratio\" = {{ uniform = [0.005, 0.0050000001] }}\n"
+        );
+        let found = found(&certain, 1, start);
+        let key =
+            if start == ProbabilityStart::Averaged { "vibrating_sharper" } else { "vibrating" };
+        found[key] == 1
+    };
+    for _ in 0..14 {
+        let middle = f64::midpoint(low, high);
+        if vibrates(middle) { high = middle } else { low = middle }
+    }
+    (low - 0.05) / 0.1
+}
+
+/// Rates and forces are those of every sample in SI, whatever its mass and stiffness: the units of the equations are its own.
+#[test]
+fn uncertain_scales_change_rates_and_forces() {
+    let text = |mass: f64, uncertain: &str| {
+        format!(
+            "[belt]\nmass_kg = {mass}\nstiffness_n_per_m = 100.0\ndamping_ratio = 0.005\nnormal_force_n = 100.0\n\
+             belt_velocity_m_per_s = 1.0\n[friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.25\n\
+             reference_velocity_m_per_s = 5.0\n[dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude_n = 120.0\n\
+             frequency_hz = 20.0\n[uncertainty]\n{uncertain}\n"
+        )
+    };
+    let mass =
+        |mass: f64| format!("\"belt.mass_kg\" = {{ uniform = [{mass}, {}] }}", mass * 1.000_001);
+    let elsewhere = averaged(&text(1.0, &mass(0.5)), 50);
+    let own = averaged(&text(0.5, &mass(0.5)), 50);
+    for quantity in ["growth", "threshold"] {
+        let key = if quantity == "growth" { "0.5_per_s" } else { "0.5_n" };
+        let [a, b] = [&elsewhere, &own].map(|found| number(&found["quantiles"][quantity][key]));
+        assert!((a / b - 1.0).abs() < 1e-9, "{quantity}: {a} {b}");
+    }
+}

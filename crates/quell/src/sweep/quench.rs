@@ -4,7 +4,6 @@ use quell_design::quench::{
     NoQuench, NotQuenched, Quench, quench_kind, quench_of_belt, quench_of_system,
 };
 use quell_dynamics::simulation::within;
-use quell_linear::averaging::NoAverage;
 use quell_model::{Belt, System};
 
 use super::status::Status;
@@ -69,10 +68,37 @@ pub(super) fn quench_numbers_of_belt(belt: &Belt) -> Result<QuenchNumbers, Statu
     found.map(|found| QuenchNumbers::of(&found, status)).map_err(|why| no_quench(why, status))
 }
 
+/// The numbers about one dither of a system, that of `input`.
 pub(super) fn quench_numbers_of_system(
     system: &System,
-    status: fn(&NoAverage) -> Status,
+    input: usize,
 ) -> Result<QuenchNumbers, Status> {
-    let found = within(STEPS_OF_MANY_SEARCHES, || quench_of_system(system, 0));
+    let found = within(STEPS_OF_MANY_SEARCHES, || quench_of_system(system, input));
+    let status = |why: &_| Status::from(why);
     found.map(|found| QuenchNumbers::of(&found, status)).map_err(|why| no_quench(why, status))
+}
+
+/// The exact quench amplitude of the first dither of a belt as a number: 0 where sliding is stable without the dither, infinite where
+/// no amplitude up to the limit of the search is quiet.
+///
+/// # Errors
+/// Why it is unknown.
+pub(crate) fn least_quiet_of_belt(belt: &Belt) -> Result<f64, Status> {
+    as_number(quench_numbers_of_belt(belt)?.least)
+}
+
+/// The same of a dither of a system, that of `input`.
+///
+/// # Errors
+/// Why it is unknown.
+pub(crate) fn least_quiet_of_system(system: &System, input: usize) -> Result<f64, Status> {
+    as_number(quench_numbers_of_system(system, input)?.least)
+}
+
+fn as_number(least: Result<f64, Status>) -> Result<f64, Status> {
+    match least {
+        Err(Status::QuietWithoutDither) => Ok(0.0),
+        Err(Status::NeverQuiet) => Ok(f64::INFINITY),
+        other => other,
+    }
 }

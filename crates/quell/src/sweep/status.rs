@@ -4,7 +4,7 @@
 
 use quell_dynamics::response::{Uncertain, Undefined};
 use quell_dynamics::start::NoSquealingStart;
-use quell_linear::averaging::AveragingError;
+use quell_linear::averaging::{AveragingError, NoAverage};
 
 /// Status of one number of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -297,6 +297,19 @@ impl From<&AveragingError> for Status {
             AveragingError::NotFast { .. } => Self::NotFast,
             AveragingError::NoResponse(_) => Self::NoAverageOfWaveform,
             AveragingError::Quadrature(_) => Self::NotConverged,
+        }
+    }
+}
+
+impl From<&NoAverage> for Status {
+    fn from(why: &NoAverage) -> Self {
+        match why {
+            NoAverage::NoSteadySliding(_) => Self::NoSteadySliding,
+            NoAverage::Resonance { .. } => Self::Resonance,
+            NoAverage::TooManyFrequencies { .. } => Self::TooManyGroups,
+            NoAverage::NoResponse(_) => Self::NoAverageOfWaveform,
+            NoAverage::Mean(why) => why.into(),
+            NoAverage::Eigenvalues(_) => Self::NotFinite,
         }
     }
 }

@@ -5,7 +5,7 @@ use quell_dynamics::motion::orbit::family::NoImage;
 use quell_dynamics::motion::orbit::{NoMotionOrbit, base_motion};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::Effect;
-use quell_linear::averaging::{Becomes, CriticalInput, DitheredContact, DitheredSystem, NoAverage};
+use quell_linear::averaging::{Becomes, CriticalInput, DitheredContact, DitheredSystem};
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
 use quell_model::units;
@@ -128,7 +128,7 @@ fn evaluate(system: &System, wanted: &[Computation]) -> Results {
             }
             Computation::SystemCritical => results.system_critical = Some(critical(system)),
             Computation::SystemQuench => {
-                results.quench = Some(quench_numbers_of_system(system, status));
+                results.quench = Some(quench_numbers_of_system(system, 0));
             }
             Computation::SystemOrbit => results.system_orbit = Some(base_response(system)),
             _ => {}
@@ -147,7 +147,7 @@ fn undithered(system: &System) -> Result<SystemPoint, Status> {
 /// The largest growth rate of a system, by averaging under dither.
 pub(crate) fn growth(system: &System) -> Result<SystemPoint, Status> {
     let average = DitheredSystem::new(system).and_then(|prepared| prepared.average());
-    let average = average.map_err(|why| status(&why))?;
+    let average = average.map_err(|why| Status::from(&why))?;
     let growth = average.growth().map_err(|_| Status::NotFinite)?;
     let contacts = system.contacts.iter().zip(&average.contacts);
     let ratios = contacts
@@ -165,8 +165,8 @@ fn critical(system: &System) -> Result<Vec<(CriticalInput, bool)>, Status> {
     if system.inputs.is_empty() {
         return Err(Status::NoDither);
     }
-    let prepared = DitheredSystem::new(system).map_err(|why| status(&why))?;
-    let found = prepared.critical_amplitudes(0).map_err(|why| status(&why))?;
+    let prepared = DitheredSystem::new(system).map_err(|why| Status::from(&why))?;
+    let found = prepared.critical_amplitudes(0).map_err(|why| Status::from(&why))?;
     let differs = |critical: &CriticalInput| {
         let average = prepared.average_with(Some((0, critical.amplitude)));
         average.is_ok_and(|at| !averaged_without_states(system, &at.contacts).is_empty())
@@ -220,17 +220,6 @@ fn steady_response(study: &SystemStudy) -> Result<SystemResponsePoint, Status> {
         })
         .is_empty(),
     })
-}
-
-fn status(why: &NoAverage) -> Status {
-    match why {
-        NoAverage::NoSteadySliding(_) => Status::NoSteadySliding,
-        NoAverage::Resonance { .. } => Status::Resonance,
-        NoAverage::TooManyFrequencies { .. } => Status::TooManyGroups,
-        NoAverage::NoResponse(_) => Status::NoAverageOfWaveform,
-        NoAverage::Mean(why) => why.into(),
-        NoAverage::Eigenvalues(_) => Status::NotFinite,
-    }
 }
 
 const RATE: VariableKind = VariableKind::SystemRate;

@@ -1,6 +1,7 @@
 //! The answer of `probability` as a sentence and as JSON.
 
 use quell_design::probability::{SobolEstimate, SobolIndices, quantile};
+use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::{SampledGrowth, SampledKind, VerdictTally, VibrationProbability};
@@ -55,8 +56,15 @@ impl VibrationProbability {
             ),
             None => String::new(),
         };
+        let enough = self.thresholds.quantile(0.95).map_or(String::new(), |amplitude| {
+            let rounded = digits(amplitude).parse().unwrap_or(amplitude);
+            format!(
+                " An amplitude of {} is quiet in 95 % of the samples.",
+                study.force_in_words(rounded)
+            )
+        });
         format!(
-            "The probability that it vibrates {} is {probability}, from {} samples.{sharper}{growth}{cause}",
+            "The probability that it vibrates {} is {probability}, from {} samples.{sharper}{growth}{cause}{enough}",
             self.start.words(),
             self.samples
         )
@@ -106,6 +114,11 @@ impl VibrationProbability {
             }
             quantiles.nested(name, inner);
         }
+        let mut inner = study.fields();
+        for (key, share) in QUANTILES {
+            inner.known(key, Quantity::Force, self.thresholds.quantile(share));
+        }
+        quantiles.nested("threshold", inner);
         fields.nested("quantiles", quantiles);
         for (name, growth) in
             [("indices", Some(&self.growth)), ("indices_sharper", self.growth_sharper.as_ref())]

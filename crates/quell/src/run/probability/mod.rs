@@ -6,13 +6,15 @@
 
 mod answer;
 mod sampled;
+mod thresholds;
 
 use std::sync::atomic::Ordering;
 
 use quell_design::probability::{SobolIndices, binomial_interval, quantile, sobol_indices};
 use rayon::prelude::*;
 
-pub use sampled::{AveragedGrowth, JudgedGrowth, SampledKind};
+pub use sampled::{AveragedGrowth, JudgedGrowth, SampledBelt, SampledKind};
+pub use thresholds::SampledThresholds;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::study::{StudyKind, StudyOf};
@@ -26,6 +28,9 @@ pub const SAMPLES_OF_MOTIONS: usize = 1000;
 
 /// Most samples.
 pub const MOST_SAMPLES: usize = 10_000_000;
+
+/// Why the threshold of a sample that a run judges is unknown.
+const OF_RUNS: &str = "thresholds are those of small motions: by averaging, or with --start local";
 
 /// Points in one piece of work.
 const CHUNK: usize = 64;
@@ -176,6 +181,8 @@ pub struct VibrationProbability {
     pub growth: SampledGrowth,
     /// Those of finite-R averaging, of a dithered belt.
     pub growth_sharper: Option<SampledGrowth>,
+    /// The least quiet amplitudes of the first dither, by averaging or, judged by the base response, exactly.
+    pub thresholds: SampledThresholds,
     /// Samples in which slip leaves the range of a friction law.
     pub beyond_range: usize,
     /// Samples in which the fast motion opens a contact, which averaging does not describe.
@@ -186,12 +193,13 @@ pub struct VibrationProbability {
     pub invalid_why: Option<String>,
 }
 
-/// One sample: its growth at the first point, the second, and the mixed ones, and its verdict.
+/// One sample: its growth at the first point, the second, and the mixed ones, its verdict and its threshold.
 struct JudgedSample {
     first: AveragedGrowth,
     second: AveragedGrowth,
     mixed: Vec<AveragedGrowth>,
     verdict: Result<bool, String>,
+    threshold: Option<Result<f64, String>>,
 }
 
 /// How probable it is that a study vibrates.
@@ -238,6 +246,11 @@ where
             ProbabilityStart::Averaged => verdict(&growth.limit),
             _ => study.vibrates(&first, start),
         };
+        let threshold = SampledThresholds::includes(number).then(|| match start {
+            ProbabilityStart::Averaged => study.threshold(&first, false),
+            ProbabilityStart::Local => study.threshold(&first, true),
+            ProbabilityStart::Rest | ProbabilityStart::Squeal => Err(OF_RUNS.to_owned()),
+        });
         let second = study.averaged_growth(&at(&points.second)?);
         // With one group the mixed point is the second one.
         let mixed = if single {
@@ -246,7 +259,7 @@ where
             let mixed = points.mixed.iter().map(|values| Ok(study.averaged_growth(&at(values)?)));
             mixed.collect::<Result<_, String>>()?
         };
-        Ok(JudgedSample { first: growth, second, mixed, verdict })
+        Ok(JudgedSample { first: growth, second, mixed, verdict, threshold })
     };
     running.progress.begin(samples, 0);
     let pool = running.pool()?;
@@ -289,6 +302,9 @@ where
             .then(|| VerdictTally::of(sharper_verdicts.iter())),
         growth: growth(&valid, &groups, |growth| Some(&growth.limit)),
         growth_sharper: sharper.then(|| growth(&valid, &groups, |growth| growth.sharper.as_ref())),
+        thresholds: SampledThresholds::of(
+            valid.iter().filter_map(|sample| sample.threshold.as_ref()),
+        ),
         beyond_range: valid.iter().filter(|sample| sample.first.beyond_range).count(),
         opens: valid.iter().filter(|sample| sample.first.opens).count(),
         groups,

@@ -1,12 +1,14 @@
 //! The kinds of study whose numbers can be uncertain, and the judges of one sample.
 
+use quell_design::least_dither::{averaged_quiet_of_belt, averaged_quiet_of_system};
 use quell_dynamics::attractor::reached;
 use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
 use quell_dynamics::start::{InitialState, NoSquealingStart};
 use quell_linear::averaging::{AveragedVerdict, AveragingOptions, criterion};
 use quell_linear::growth::{Growth, Verdict, of_criterion};
 use quell_model::disc::Disc;
-use quell_model::{Belt, Dither, System};
+use quell_model::units::{Quantity, Scales};
+use quell_model::{Belt, Dither, Input, System};
 
 use super::ProbabilityStart;
 use crate::complaint::{Complaint, Failure};
@@ -14,10 +16,13 @@ use crate::contact_state::refused_of_belt;
 use crate::fields::Fields;
 use crate::range;
 use crate::run::system::attractor::{MotionKind, end_of_run, local_verdict};
-use crate::run::system::has_equations;
 use crate::run::system::protocol::SystemProtocol;
+use crate::run::system::{has_equations, in_units};
 use crate::study::{BeltStudy, DiscStudy, SystemStudy, SystemUnits};
-use crate::sweep::{Status, growth_of_disc, growth_of_system};
+use crate::sweep::{
+    Status, growth_of_disc, growth_of_system, least_quiet_of_belt, least_quiet_of_system,
+};
+use crate::words::{digits, in_words};
 
 /// Steps by which the dither grows from zero to the base response of a belt.
 const GROWTH_STEPS: u32 = 8;
@@ -81,6 +86,13 @@ pub trait SampledKind {
     /// The growth of its small motions, by averaging under dither.
     fn averaged_growth(&self, sampled: &Self::Sampled) -> AveragedGrowth;
 
+    /// The least amplitude of its first dither that is quiet, by averaging with the response to the dither or exactly: 0 where it is
+    /// quiet without, infinite where no amplitude is.
+    ///
+    /// # Errors
+    /// Why that is unknown.
+    fn threshold(&self, sampled: &Self::Sampled, exactly: bool) -> Result<f64, String>;
+
     /// Whether it vibrates, by its exact motion.
     ///
     /// # Errors
@@ -90,12 +102,43 @@ pub trait SampledKind {
     /// An empty answer in the units of the study.
     fn fields(&self) -> Fields;
 
+    /// A force of the equations with its unit.
+    fn force_in_words(&self, force: f64) -> String;
+
     /// The unit of growth rates in sentences, pictures and datasets, and how many of them one of the equations is.
     fn unit_of_rates(&self) -> (&'static str, f64);
 }
 
+/// Why a study without dither has no threshold.
+const NO_DITHER: &str = "the study has no dither";
+
+/// A belt of a sample. Its equations may have other scales than those of the study: the mass or the stiffness may be uncertain.
+pub struct SampledBelt {
+    belt: Belt,
+    /// Rates and forces of the study's equations that one of this belt's is.
+    rate: f64,
+    force: f64,
+}
+
+impl SampledBelt {
+    fn new(belt: Belt, scales: Option<(Scales, Scales)>) -> Self {
+        let (mut rate, mut force) = (1.0, 1.0);
+        if let Some((study, own)) = scales {
+            let force_of = |scales: &Scales| scales.si_per_unit(Quantity::Force);
+            rate = own.angular_frequency() / study.angular_frequency();
+            force = force_of(&own) / force_of(&study);
+        }
+        Self { belt, rate, force }
+    }
+
+    fn growth(&self, options: AveragingOptions) -> Result<JudgedGrowth, String> {
+        let found = by_averaging(&self.belt, options)?;
+        Ok(JudgedGrowth { rate: self.rate * found.rate, ..found })
+    }
+}
+
 impl SampledKind for BeltStudy {
-    type Sampled = Belt;
+    type Sampled = SampledBelt;
 
     fn can_be_sampled(&self, start: ProbabilityStart) -> Result<(), Failure> {
         if start == ProbabilityStart::Averaged {
@@ -108,28 +151,44 @@ impl SampledKind for BeltStudy {
         refused_of_belt(self, "probability")
     }
 
-    fn sampled_at(&self, numbers: &[(&str, f64)]) -> Result<Belt, String> {
+    fn sampled_at(&self, numbers: &[(&str, f64)]) -> Result<SampledBelt, String> {
         let study = self.at(numbers.iter().copied()).map_err(|why| why.to_string())?;
-        Ok(study.belt().clone())
+        Ok(SampledBelt::new(study.belt().clone(), self.scales().zip(study.scales())))
     }
 
-    fn averaged_growth(&self, belt: &Belt) -> AveragedGrowth {
+    fn averaged_growth(&self, sampled: &SampledBelt) -> AveragedGrowth {
+        let belt = &sampled.belt;
         let amplitude = belt.dithers().first().map_or(0.0, |dither| dither.amplitude);
         let slip = range::at_amplitude(belt, amplitude);
         let beyond_range = belt.friction().range().is_some_and(|range| slip > range.upper);
         let is_fast = |dither: &Dither| dither.lowest_ratio() > 1.0;
         let sharper = (!belt.dithers().is_empty()).then(|| {
             if belt.dithers().iter().all(is_fast) {
-                by_averaging(belt, AveragingOptions::FINITE_R)
+                sampled.growth(AveragingOptions::FINITE_R)
             } else {
                 Err(Status::NotFast.about().to_owned())
             }
         });
-        let limit = by_averaging(belt, AveragingOptions::default());
+        let limit = sampled.growth(AveragingOptions::default());
         AveragedGrowth { limit, sharper, beyond_range, opens: false }
     }
 
-    fn vibrates(&self, belt: &Belt, start: ProbabilityStart) -> Result<bool, String> {
+    fn threshold(&self, sampled: &SampledBelt, exactly: bool) -> Result<f64, String> {
+        let belt = &sampled.belt;
+        if belt.dithers().is_empty() {
+            return Err(NO_DITHER.to_owned());
+        }
+        let least = if exactly {
+            least_quiet_of_belt(belt).map_err(|why| why.about().to_owned())?
+        } else {
+            let quiet = averaged_quiet_of_belt(belt, (0.0, f64::INFINITY));
+            quiet.map_err(|why| why.to_string())?.least_from(0.0).unwrap_or(f64::INFINITY)
+        };
+        Ok(sampled.force * least)
+    }
+
+    fn vibrates(&self, sampled: &SampledBelt, start: ProbabilityStart) -> Result<bool, String> {
+        let belt = &sampled.belt;
         let initial = match start {
             ProbabilityStart::Averaged | ProbabilityStart::Local => return is_unstable(belt),
             ProbabilityStart::Rest => InitialState::Rest,
@@ -150,6 +209,10 @@ impl SampledKind for BeltStudy {
 
     fn fields(&self) -> Fields {
         Fields::new(self.scales())
+    }
+
+    fn force_in_words(&self, force: f64) -> String {
+        in_words(self, Quantity::Force, force)
     }
 
     fn unit_of_rates(&self) -> (&'static str, f64) {
@@ -203,6 +266,16 @@ impl SampledKind for SystemStudy {
         }
     }
 
+    fn threshold(&self, system: &System, exactly: bool) -> Result<f64, String> {
+        let acts = |input: &Input| !input.profile.waves().is_empty();
+        let input = system.inputs.iter().position(acts).ok_or(NO_DITHER)?;
+        if exactly {
+            return least_quiet_of_system(system, input).map_err(|why| why.about().to_owned());
+        }
+        let quiet = averaged_quiet_of_system(system, input, (0.0, f64::INFINITY));
+        Ok(quiet.map_err(|why| why.to_string())?.least_from(0.0).unwrap_or(f64::INFINITY))
+    }
+
     fn vibrates(&self, system: &System, start: ProbabilityStart) -> Result<bool, String> {
         let protocol = match start {
             ProbabilityStart::Averaged | ProbabilityStart::Local => {
@@ -221,7 +294,7 @@ impl SampledKind for SystemStudy {
             Err(_) if start == ProbabilityStart::Squeal && is_quiet_without_dither(system) => {
                 return Ok(false);
             }
-            Err(why) => return Err(in_words(&why)),
+            Err(why) => return Err(said(&why)),
         };
         let end = end_of_run(system, &self.observe(), &state)?;
         Ok(match end.attractor.kind {
@@ -235,6 +308,10 @@ impl SampledKind for SystemStudy {
         Fields::of_system(self.units())
     }
 
+    fn force_in_words(&self, force: f64) -> String {
+        in_units(self.units(), Quantity::Force, force)
+    }
+
     fn unit_of_rates(&self) -> (&'static str, f64) {
         (if self.units() == SystemUnits::None { "1" } else { "1/s" }, 1.0)
     }
@@ -246,7 +323,7 @@ fn is_quiet_without_dither(system: &System) -> bool {
 }
 
 /// Why a start does not exist.
-fn in_words(why: &Failure) -> String {
+fn said(why: &Failure) -> String {
     match why {
         Failure::Wrong(complaints) => complaints
             .iter()
@@ -280,12 +357,21 @@ impl SampledKind for DiscStudy {
         AveragedGrowth::of(growth.map_err(|status| status.about().to_owned()))
     }
 
+    fn threshold(&self, _: &Disc, _: bool) -> Result<f64, String> {
+        Err("thresholds are those of belts and systems: `thresholds` has those of a disc"
+            .to_owned())
+    }
+
     fn vibrates(&self, disc: &Disc, _: ProbabilityStart) -> Result<bool, String> {
         self.averaged_growth(disc).limit?.vibrates
     }
 
     fn fields(&self) -> Fields {
         Fields::new(None)
+    }
+
+    fn force_in_words(&self, force: f64) -> String {
+        digits(force)
     }
 
     fn unit_of_rates(&self) -> (&'static str, f64) {

@@ -1,0 +1,55 @@
+//! The least quiet amplitudes of samples, and their quantiles.
+
+use quell_design::probability::quantile;
+
+/// Samples of which the threshold is computed by averaging, at most.
+const MOST: usize = 10_000;
+
+/// The least quiet amplitudes of samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SampledThresholds {
+    /// Known amplitudes of the first dither, ascending: 0 of a sample that is quiet without it, infinite of one that no amplitude
+    /// quiets.
+    pub amplitudes: Vec<f64>,
+    /// Samples whose threshold is unknown.
+    pub unknown: usize,
+    /// Why the first of them is.
+    pub why: Option<String>,
+}
+
+impl SampledThresholds {
+    /// Whether the threshold of a sample is computed: averages of the first ones alone, which are random as any others.
+    pub(super) fn includes(number: usize) -> bool {
+        number < MOST
+    }
+
+    pub(super) fn of<'a>(thresholds: impl Iterator<Item = &'a Result<f64, String>>) -> Self {
+        let mut found = Self { amplitudes: Vec::new(), unknown: 0, why: None };
+        for threshold in thresholds {
+            match threshold {
+                Ok(amplitude) => found.amplitudes.push(*amplitude),
+                Err(why) => {
+                    found.unknown += 1;
+                    found.why.get_or_insert_with(|| why.clone());
+                }
+            }
+        }
+        found.amplitudes.sort_by(f64::total_cmp);
+        found
+    }
+
+    /// The amplitude that is enough for a share of the samples.
+    ///
+    /// # Errors
+    /// Why no amplitude is known to be.
+    pub(crate) fn quantile(&self, share: f64) -> Result<f64, String> {
+        let unknown = || self.why.clone().unwrap_or_else(|| "no threshold is known".to_owned());
+        let found = quantile(&self.amplitudes, share).ok_or_else(unknown)?;
+        if found.is_finite() {
+            return Ok(found);
+        }
+        let never = self.amplitudes.iter().filter(|amplitude| amplitude.is_infinite()).count();
+        let all = self.amplitudes.len();
+        Err(format!("no amplitude is quiet in {never} of {all} samples"))
+    }
+}
