@@ -1,24 +1,12 @@
 //! The least dither by exact thresholds, near that of averaging, and its verification.
 
 use super::covered::{CoveredBox, covered};
+use super::exact_box::{ExactBox, WINDOW};
 use super::no_design::NoDesign;
 use super::search::{AveragedSearch, DesignBasin, DesignPoint, Judged};
 use super::verified::VerifiedPoint;
-use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
-use super::{DesignProblem, DesignStart, LimitedQuantity, MARGIN, OperatingPoint, ResponseSize};
+use super::{DesignProblem, LimitedQuantity, MARGIN, OperatingPoint, ResponseSize};
 use crate::actuator::ActuatorDemand;
-
-/// Window of exact thresholds about the amplitude of averaging, as factors.
-const WINDOW: (f64, f64) = (0.85, 1.15);
-
-/// First step over the box about the points of averaging, and the last one, as shares of its ranges.
-const STEPS: (f64, f64) = (0.015625, 1e-7);
-
-/// The same where runs are judged: each takes many of them.
-const STEPS_OF_RUNS: (f64, f64) = (0.015625, 1e-3);
-
-/// Share by which a search begins below the end of a loud set, so that the set decides.
-const BELOW: f64 = 1e-12;
 
 /// A limit binds by averaging if at least this share of it is used.
 const BINDS: f64 = 1.0 - 1e-6;
@@ -205,29 +193,6 @@ impl DesignProblem<'_> {
         self.exact_point_from(others, near, near.amplitude * WINDOW.0)
     }
 
-    /// The points that decide at a neighbouring choice, and points on both sides of each: an exact tip may end before that of averaging.
-    fn neighbourhood(&self, near: &DesignPoint) -> Vec<Vec<f64>> {
-        let mut points = near.decisive.clone();
-        points.extend(near.worst.clone());
-        points.dedup();
-        if points.is_empty() {
-            return self.points();
-        }
-        for point in points.clone() {
-            for (coordinate, (low, high)) in self.over.iter().enumerate() {
-                for sign in [1.0, -1.0] {
-                    let mut next = point.clone();
-                    let value = point[coordinate] + sign * STEPS.0 * (high - low);
-                    next[coordinate] = value.clamp(*low, *high);
-                    if !points.contains(&next) {
-                        points.push(next);
-                    }
-                }
-            }
-        }
-        points
-    }
-
     /// The same, with amplitudes from `lowest` on.
     pub(super) fn exact_point_from(
         &self,
@@ -235,39 +200,10 @@ impl DesignProblem<'_> {
         near: &DesignPoint,
         lowest: f64,
     ) -> Result<DesignPoint, NoDesign> {
-        let (from, to) = self.amplitude;
-        let points = self.neighbourhood(near);
-        let (first, last) = match self.start {
-            DesignStart::Local => STEPS,
-            DesignStart::Rest | DesignStart::Squeal => STEPS_OF_RUNS,
+        let quiet = |point: &[f64], range: (f64, f64)| {
+            self.plant.exact(OperatingPoint { point, others }, range)
         };
-        // Runs from afar may need much more than the local threshold.
-        let upper = match self.start {
-            DesignStart::Local => (near.amplitude.max(lowest) * WINDOW.1).min(to),
-            DesignStart::Rest | DesignStart::Squeal => to,
-        };
-        let least = |points: Vec<Vec<f64>>, lower: f64, near: Option<f64>| {
-            let quiet =
-                |point: &[f64]| self.plant.exact(OperatingPoint { point, others }, (lower, upper));
-            // Averaging has shown that smaller amplitudes are loud somewhere: the search begins at the loud sets that end near its
-            // amplitude.
-            let mut begin = lower;
-            for (point, near) in points.iter().zip(near.into_iter().cycle()) {
-                let set =
-                    quiet(point).map_err(|why| NoLeast::Failed { point: point.clone(), why })?;
-                let ends = set.intervals().iter().map(|(low, _)| *low).filter(|low| *low > lower);
-                let nearest = ends.min_by(|a, b| (a - near).abs().total_cmp(&(b - near).abs()));
-                begin = begin.max(nearest.map_or(lower, |end| end * (1.0 - BELOW)));
-            }
-            let search = BoxSearch { ranges: self.over, from: begin, step: first, closeness: last };
-            least_of_box(search, points, &quiet)
-        };
-        let lower = lowest.clamp(from, upper);
-        let mut found: LeastOfBox = least(points, lower, Some(near.amplitude.max(lower)))?;
-        // By exact thresholds nothing is loud near the amplitude of averaging: the whole range is searched, and the whole box.
-        if found.worst.is_none() && lower > from {
-            found = least(self.points(), from, None)?;
-        }
+        let found = ExactBox::of(self).least(&quiet, near.into(), lowest)?;
         Ok(self.priced(others, found, Judged::Exactly))
     }
 

@@ -9,12 +9,15 @@
 
 mod belt;
 mod branch;
+mod confident;
 mod covered;
 mod disc;
 mod exact;
+mod exact_box;
 mod no_design;
 mod quiet;
 mod response;
+mod scaled;
 mod schedule;
 mod search;
 mod sensitivity;
@@ -24,12 +27,14 @@ mod worst_point;
 
 pub use belt::{BeltPlant, amplitude_branch_of_belt, averaged_quiet_of_belt};
 pub use branch::{AmplitudeBranch, QuietChange};
+pub use confident::{LeastOfSample, LeastQuantile, SampledLeast, SampledQuiet};
 pub use covered::CoveredBox;
 pub use disc::{DiscAtPoint, DiscPlant};
 pub use exact::{Designed, FeasibleDesign, InfeasibleDesign, design};
 pub use no_design::NoDesign;
 pub use quiet::QuietAmplitudes;
 pub use response::ResponseSize;
+pub use scaled::ScaledPlant;
 pub use schedule::ScheduledDither;
 pub use search::{DesignBasin, DesignPoint};
 pub use sensitivity::{LeastAmplitude, LeastAmplitudeSensitivity, SystemOfNumbers};

@@ -62,6 +62,15 @@ impl QuietAmplitudes {
         Self::of_changes((from, to), false, inside)
     }
 
+    /// The same amplitudes in another unit, of which one is `factor` of the present one.
+    #[must_use]
+    pub fn times(mut self, factor: f64) -> Self {
+        for (low, high) in &mut self.intervals {
+            (*low, *high) = (*low * factor, *high * factor);
+        }
+        self
+    }
+
     /// The intervals.
     pub fn intervals(&self) -> &[(f64, f64)] {
         &self.intervals

@@ -114,10 +114,15 @@ pub(super) fn grid(ranges: &[(f64, f64)], counts: [usize; 4], in_ratios: bool) -
     points
 }
 
+/// Points of a box at which every answer is judged.
+pub(super) fn box_points(over: &[(f64, f64)]) -> Vec<Vec<f64>> {
+    grid(over, FINE, false)
+}
+
 impl DesignProblem<'_> {
     /// Points of the box at which every answer is judged.
     pub(super) fn points(&self) -> Vec<Vec<f64>> {
-        grid(self.over, FINE, false)
+        box_points(self.over)
     }
 
     /// The largest value of a quantity over the corners of the box and the point that decides.

@@ -96,3 +96,36 @@ pub const LIMITS: &[Parameter] = &[
     LIMIT_RESPONSE_RMS,
     LIMIT_RESPONSE_PEAK,
 ];
+
+/// Share of the random samples in which the dither is to be quiet.
+pub const CONFIDENCE: Parameter = Parameter {
+    path: "design.confidence",
+    symbol: "P",
+    about: "share of the samples of [uncertainty] in which the dither is to be quiet",
+    quantity: Quantity::Ratio,
+    bounds: Bounds { lower: 0.0, lower_included: false, upper: 0.9999 },
+    si: &[],
+};
+
+/// Number of these samples.
+pub const SAMPLES: Parameter = Parameter {
+    path: "design.samples",
+    symbol: "n",
+    about: "number of samples of [uncertainty] [default: 20 beyond the confidence, at least 400]",
+    quantity: Quantity::Count,
+    bounds: Bounds { lower: 20.0, lower_included: true, upper: 1e6 },
+    si: &[],
+};
+
+/// Seed of these samples.
+pub const SEED: Parameter = Parameter {
+    path: "design.seed",
+    symbol: "s",
+    about: "seed of the samples of [uncertainty] [default: 1]",
+    quantity: Quantity::Count,
+    bounds: Bounds { lower: 0.0, lower_included: true, upper: 9_007_199_254_740_992.0 },
+    si: &[],
+};
+
+/// The numbers of a design under uncertainty.
+pub const CONFIDENT: &[Parameter] = &[CONFIDENCE, SAMPLES, SEED];

@@ -3,7 +3,7 @@
 use quell_design::least_dither::{DesignObjective, DesignStart, LimitedQuantity};
 use quell_model::Waveform;
 use quell_model::parameter::Bounds;
-use quell_model::parameter::design::LIMITS;
+use quell_model::parameter::design::{CONFIDENCE, CONFIDENT, LIMITS, SAMPLES, SEED};
 use serde_json::Value as Json;
 
 use super::document::{Node, Table, Value};
@@ -38,7 +38,27 @@ pub struct Design {
     pub over: Vec<DesignRange>,
     /// Limits in numbers of the equations.
     pub limits: Vec<(LimitedQuantity, f64)>,
+    /// The share of random samples in which the dither is to be quiet, if it is asked for.
+    pub confidence: Option<Confidence>,
 }
+
+/// A share of random samples of `[uncertainty]` in which a dither is to be quiet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Confidence {
+    /// The share, above 0 and below 1.
+    pub share: f64,
+    /// Number of samples.
+    pub samples: usize,
+    /// Their seed.
+    pub seed: u64,
+}
+
+/// Samples that lie beyond the share of a confidence by default, and the fewest and most samples by default.
+const BEYOND: f64 = 20.0;
+const DEFAULT_SAMPLES: (f64, f64) = (400.0, 100_000.0);
+
+/// Seed by default, as that of `quell probability`.
+const DEFAULT_SEED: f64 = 1.0;
 
 /// The study whose dither is designed.
 #[derive(Clone, Copy)]
@@ -90,6 +110,7 @@ pub(super) fn read(
     let over = operating_points(reader, table, context);
     let waveforms = waveforms(reader, table, context.waveform);
     let limits = limits(reader, table, context);
+    let confidence = confidence(reader, table);
     if let (Some(vary), Some(over)) = (&vary, &over)
         && let Some(both) =
             over.iter().find(|range| vary.iter().any(|known| known.path == range.path))
@@ -109,6 +130,7 @@ pub(super) fn read(
         start,
         over: over?,
         limits: limits?,
+        confidence: confidence?,
     };
     (reader.complaints_so_far() == before).then_some(Some(design))
 }
@@ -291,6 +313,36 @@ fn waveforms(reader: &mut Reader, table: &Table, own: Option<&Waveform>) -> Opti
         return None;
     }
     found.into_iter().collect()
+}
+
+/// `confidence`, with `samples` and `seed`, which belong to it: `Some(None)` without it, `None` if it is invalid.
+#[expect(clippy::option_option, reason = "invalid, absent, given")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "whole numbers within the bounds of the registry"
+)]
+fn confidence(reader: &mut Reader, table: &Table) -> Option<Option<Confidence>> {
+    let given = CONFIDENT.iter().find_map(|parameter| table.get(parameter.key()));
+    let mut number = |parameter| reader.optional(table, "design", parameter, None);
+    let (share, samples, seed) = (number(CONFIDENCE), number(SAMPLES), number(SEED));
+    let Found::Value(share) = share else {
+        let alone = matches!(share, Found::Absent);
+        if let Some(node) = given.filter(|_| alone) {
+            let allowed =
+                "a number above 0 and below 1, such as 0.99, of which samples and seed are options";
+            let (key, null) = (CONFIDENCE.path, Json::Null);
+            reader.complain(Complaint::new(Fault::Missing, key, node.origin, null, allowed));
+            return None;
+        }
+        return alone.then_some(None);
+    };
+    let default = (BEYOND / (1.0 - share)).ceil().clamp(DEFAULT_SAMPLES.0, DEFAULT_SAMPLES.1);
+    Some(Some(Confidence {
+        share,
+        samples: samples.or(default)? as usize,
+        seed: seed.or(DEFAULT_SEED)? as u64,
+    }))
 }
 
 /// `[design.limits]`.

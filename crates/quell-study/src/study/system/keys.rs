@@ -232,6 +232,7 @@ fn design() -> Vec<SystemKey> {
             Role::Choices(choice) => SystemRole::Choices(choice),
             Role::AxisValues => SystemRole::Numbers,
             Role::Ranges => SystemRole::Ranges,
+            Role::Number(parameter) => SystemRole::Number(parameter),
             _ => SystemRole::Names,
         };
         key(known.name, role, known.about)

@@ -95,7 +95,8 @@ fn numbers() -> Vec<Key> {
     let mut parameters: Vec<Parameter> = Vec::new();
     // A study of a system has keys of its own (`study::system`), which only it knows.
     let of_kinds = parameter::BELT.iter().chain(parameter::disc::DISC);
-    let of_questions = parameter::design::LIMITS.iter().chain(parameter::actuator::ACTUATOR);
+    let of_designs = parameter::design::LIMITS.iter().chain(parameter::design::CONFIDENT);
+    let of_questions = of_designs.chain(parameter::actuator::ACTUATOR);
     for parameter in of_kinds.chain(of_questions) {
         if !parameters.iter().any(|known| known.path == parameter.path) {
             parameters.push(*parameter);

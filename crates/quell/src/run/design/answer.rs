@@ -60,7 +60,7 @@ impl LeastDitherFound {
     }
 
     /// A dither by the paths of the study.
-    fn by_path(&self, amplitude: f64, others: &[f64]) -> Json {
+    pub(super) fn by_path(&self, amplitude: f64, others: &[f64]) -> Json {
         let all = [&self.amplitude].into_iter().chain(&self.others);
         let values = [amplitude].into_iter().chain(others.iter().copied());
         let values = all
@@ -86,17 +86,20 @@ impl LeastDitherFound {
         if words.is_empty() { String::new() } else { format!(" at {}", words.join(", ")) }
     }
 
+    /// The design variables other than the amplitude in words, each after a comma.
+    pub(super) fn chosen_in_words(&self, others: &[f64]) -> String {
+        let values = self.others.iter().zip(others);
+        values.fold(String::new(), |mut text, (number, value)| {
+            let _ = write!(text, ", {} = {}", number.path, digits(value * number.per_unit));
+            text
+        })
+    }
+
     /// The answer in a few sentences.
     pub fn sentence(&self, study: &dyn StudyWithDesign) -> String {
         let waveform = label(self.waveform());
         let force = |value: f64| study.in_words(study.quantity_of_amplitude(), value);
-        let chosen = |others: &[f64]| -> String {
-            let values = self.others.iter().zip(others);
-            values.fold(String::new(), |mut text, (number, value)| {
-                let _ = write!(text, ", {} = {}", number.path, digits(value * number.per_unit));
-                text
-            })
-        };
+        let chosen = |others: &[f64]| self.chosen_in_words(others);
         match &self.answer().answer {
             Ok(found) => {
                 let critical = &found.critical;
@@ -115,6 +118,7 @@ impl LeastDitherFound {
                 let drive = self.drive_in_words(study, found.drive.as_ref());
                 let follows = self.schedule_in_words(study);
                 let depends = self.sensitivity_in_words();
+                let confident = self.confident_in_words(study);
                 let largest = found.verified.iter().map(|at| at.multiplier).fold(0.0, f64::max);
                 let loss = found.friction_loss.as_ref().map_or(String::new(), |(loss, point)| {
                     let change = if *loss < 0.0 { "gains" } else { "loses" };
@@ -126,7 +130,7 @@ impl LeastDitherFound {
                 });
                 format!(
                     "The least dither that is quiet in the whole range is a {waveform} of amplitude {}{}{decides}{binds}. At {} it is \
-                     verified by exact responses at {} operating points: the largest multiplier is {}.{drive}{loss}{follows}{depends}",
+                     verified by exact responses at {} operating points: the largest multiplier is {}.{drive}{confident}{loss}{follows}{depends}",
                     force(critical.amplitude),
                     chosen(&critical.others),
                     force(found.verified_amplitude),
@@ -212,6 +216,7 @@ impl LeastDitherFound {
         }
         warnings.extend(self.without_state.first().map(|because| averages_are_a_start(because)));
         warnings.extend(self.warnings_about_drive(study));
+        warnings.extend(self.warnings_about_samples());
         warnings.extend(study.warnings_about_design());
         warnings
     }
@@ -304,6 +309,7 @@ impl LeastDitherFound {
             response(|size| size.peak),
         );
         self.put_schedule(fields, study, minimise);
+        self.put_confident(fields, study, minimise);
         self.put_sensitivity(fields, study);
     }
 
@@ -319,6 +325,7 @@ impl LeastDitherFound {
             "averaged",
             "objective",
             "drive",
+            "confident",
             "response_rms",
             "response_peak",
             "schedule",

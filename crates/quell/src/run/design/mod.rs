@@ -1,39 +1,37 @@
 //! `design`: the least dither that is quiet over a box of operating points, under limits.
 
 mod answer;
+mod belt;
+mod confident;
 mod drive;
 mod frontier;
 mod schedule;
 mod sensitivity;
+mod study_with_design;
 
 pub(crate) use answer::quantity_of;
+pub use belt::run;
+pub use confident::ConfidentDither;
+pub(crate) use confident::SampleOf;
 pub use sensitivity::{AmplitudeRate, DesignSensitivity};
-
-use std::f64::consts::TAU;
+pub use study_with_design::{FrequencyScale, StudyWithDesign};
 
 use quell_design::actuator::Actuator;
 use quell_design::least_dither::{
-    BeltPlant, DesignProblem, DesignStart, Designed, LimitedQuantity, OperatingPoint, Plant,
-    ScheduledDither, SystemAtPoint, SystemPlant, design,
+    DesignProblem, DesignStart, Designed, LimitedQuantity, OperatingPoint, Plant, ScheduledDither,
+    SystemAtPoint, SystemPlant, design,
 };
 use quell_dynamics::simulation::within;
 use quell_linear::averaging::DitheredSystem;
-use quell_model::disc::DiscDither;
 use quell_model::profile::{Profile, Wave};
-use quell_model::units::Quantity;
-use quell_model::{Belt, Dither, Parametrisation, System, Waveform};
+use quell_model::{System, Waveform};
 use rayon::prelude::*;
 use serde_json::Value as Json;
 
-use super::varied::Named;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::contact_state::{averaged_without_states, refused_of_belt};
+use crate::contact_state::averaged_without_states;
 use crate::effort::STEPS_OF_MANY_SEARCHES;
-use crate::fields::Fields;
-use crate::run::system::in_units;
-use crate::study::vocabulary::resolve;
-use crate::study::{BeltStudy, Design, DesignRange, DiscStudy, SystemStudy, SystemUnits};
-use crate::words::{digits, in_words};
+use crate::study::Design;
 
 /// Points of the schedule over a box of one coordinate.
 const SCHEDULE: usize = 33;
@@ -72,235 +70,14 @@ pub struct LeastDitherFound {
     pub tongues: Vec<(f64, Vec<f64>)>,
     /// How the least amplitude depends on the numbers of the study, or why that is unknown.
     pub sensitivity: Result<DesignSensitivity, String>,
+    /// The dither that is quiet in the share of random samples that is asked for, or why it is unknown.
+    pub confident: Result<ConfidentDither, String>,
 }
 
 impl DesignNumber {
     /// Smallest and largest value in the unit of the path.
     pub(super) fn range_in_units(&self) -> (f64, f64) {
         (self.range.0 * self.per_unit, self.range.1 * self.per_unit)
-    }
-}
-
-/// A study with a design: its units and what it requests.
-pub trait StudyWithDesign: Sync {
-    /// The table `[design]`.
-    fn asked(&self) -> Option<&Design>;
-
-    /// The table `[actuator]`.
-    fn actuator(&self) -> Option<&Actuator>;
-
-    /// An empty answer in the units of the study.
-    fn fields(&self) -> Fields;
-
-    /// A quantity of the equations with its unit.
-    fn in_words(&self, quantity: Quantity, value: f64) -> String;
-
-    /// How frequencies are written.
-    fn frequency_scale(&self) -> FrequencyScale;
-
-    /// The quantity of the amplitude that is chosen.
-    fn quantity_of_amplitude(&self) -> Quantity {
-        Quantity::Force
-    }
-
-    /// The document of the study after its changes.
-    fn document(&self) -> Json;
-
-    /// The number at a path, in the unit of its key; `None` where the study has none there.
-    fn number_at(&self, path: &str) -> Option<f64>;
-
-    /// The unit of the number at a path; `1` without a unit.
-    fn unit_at(&self, path: &str) -> String;
-
-    /// The equations with numbers set in order as by `--set`, and another waveform of the dither that is designed.
-    ///
-    /// # Errors
-    /// Why the study cannot take these numbers, or has no equations of motion.
-    fn system_with(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Result<System, String>;
-
-    /// What a reader of the answer must know about the dither of the study.
-    fn warnings_about_design(&self) -> Vec<String> {
-        Vec::new()
-    }
-}
-
-/// How frequencies of a study are written.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrequencyScale {
-    /// Of one in the equations.
-    pub factor: f64,
-    /// The unit after a number, with a space; empty for a pure number.
-    pub unit: &'static str,
-    /// What the number is called.
-    pub noun: &'static str,
-}
-
-impl FrequencyScale {
-    /// In hertz, where a frequency of the equations has a value in hertz.
-    fn new(hertz: Option<f64>, noun: &'static str) -> Self {
-        match hertz {
-            Some(factor) => Self { factor, unit: " Hz", noun: "frequency" },
-            None => Self { factor: 1.0, unit: "", noun },
-        }
-    }
-
-    /// A frequency of the equations.
-    pub(crate) fn of(self, frequency: f64) -> f64 {
-        self.factor * frequency
-    }
-
-    /// With its unit.
-    pub(crate) fn with_unit(self, frequency: f64) -> String {
-        format!("{}{}", digits(self.of(frequency)), self.unit)
-    }
-
-    /// With its unit, or with a noun where it has none.
-    pub(crate) fn with_noun(self, frequency: f64) -> String {
-        if self.unit.is_empty() {
-            format!("the {} {}", self.noun, self.with_unit(frequency))
-        } else {
-            self.with_unit(frequency)
-        }
-    }
-}
-
-impl StudyWithDesign for BeltStudy {
-    fn actuator(&self) -> Option<&Actuator> {
-        self.actuator()
-    }
-
-    fn asked(&self) -> Option<&Design> {
-        self.design()
-    }
-
-    fn fields(&self) -> Fields {
-        Fields::new(self.scales())
-    }
-
-    fn in_words(&self, quantity: Quantity, value: f64) -> String {
-        in_words(self, quantity, value)
-    }
-
-    fn frequency_scale(&self) -> FrequencyScale {
-        let hertz = self.scales().map(|scales| scales.si_per_unit(Quantity::FrequencyRatio));
-        FrequencyScale::new(hertz, "frequency ratio")
-    }
-
-    fn document(&self) -> Json {
-        Self::document(self)
-    }
-
-    fn number_at(&self, path: &str) -> Option<f64> {
-        number_in(&Self::document(self), path)
-    }
-
-    fn unit_at(&self, path: &str) -> String {
-        let unit = resolve(path).map_or("1", |address| address.key.unit_in_words());
-        if unit.is_empty() { "1".to_owned() } else { unit.to_owned() }
-    }
-
-    fn system_with(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Result<System, String> {
-        let study = self.at(numbers.iter().copied()).map_err(|why| why.to_string())?;
-        let belt = with_waveform(study.belt(), waveform).map_err(|why| why.to_string())?;
-        Ok(belt.system())
-    }
-}
-
-impl StudyWithDesign for SystemStudy {
-    fn actuator(&self) -> Option<&Actuator> {
-        self.actuator()
-    }
-
-    fn asked(&self) -> Option<&Design> {
-        self.design()
-    }
-
-    fn fields(&self) -> Fields {
-        Fields::of_system(self.units())
-    }
-
-    fn in_words(&self, quantity: Quantity, value: f64) -> String {
-        in_units(self.units(), quantity, value)
-    }
-
-    fn frequency_scale(&self) -> FrequencyScale {
-        let hertz = (self.units() != SystemUnits::None).then_some(1.0 / TAU);
-        FrequencyScale::new(hertz, "angular frequency")
-    }
-
-    fn document(&self) -> Json {
-        Self::document(self)
-    }
-
-    fn number_at(&self, path: &str) -> Option<f64> {
-        self.number(path)
-    }
-
-    fn unit_at(&self, path: &str) -> String {
-        self.unit_of(path).unwrap_or("1").to_owned()
-    }
-
-    fn system_with(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Result<System, String> {
-        let amplitude = self
-            .asked()
-            .and_then(|asked| asked.vary.iter().find_map(|range| self.dither_of(&range.path)));
-        let system = self.system_at(numbers).map_err(|why| why.to_string())?;
-        Ok(system_with_waveform(system, amplitude.unwrap_or(0), waveform))
-    }
-}
-
-impl StudyWithDesign for DiscStudy {
-    /// The dither of a disc varies its friction; no actuator of it is described.
-    fn actuator(&self) -> Option<&Actuator> {
-        None
-    }
-
-    fn asked(&self) -> Option<&Design> {
-        self.design()
-    }
-
-    /// The amplitude is relative to the friction, and has no SI value.
-    fn fields(&self) -> Fields {
-        Fields::new(None)
-    }
-
-    fn in_words(&self, _: Quantity, value: f64) -> String {
-        digits(value)
-    }
-
-    fn frequency_scale(&self) -> FrequencyScale {
-        FrequencyScale::new(None, "frequency ratio")
-    }
-
-    fn quantity_of_amplitude(&self) -> Quantity {
-        Quantity::Ratio
-    }
-
-    fn warnings_about_design(&self) -> Vec<String> {
-        match self.disc().dither() {
-            DiscDither::None | DiscDither::Normal { .. } => Vec::new(),
-            DiscDither::Tangential { .. } => vec![
-                "tangential dither removes the mean friction at every amplitude: dither.amplitude is that of the force that remains, \
-                 not of an actuator, and its least value is the quietest; disc.load.slip_ratio gives the force that an actuator needs"
-                    .to_owned(),
-            ],
-        }
-    }
-
-    fn document(&self) -> Json {
-        Self::document(self)
-    }
-
-    fn number_at(&self, _: &str) -> Option<f64> {
-        None
-    }
-
-    fn unit_at(&self, _: &str) -> String {
-        "1".to_owned()
-    }
-
-    fn system_with(&self, _: &Waveform, _: &[(&str, f64)]) -> Result<System, String> {
-        Err("derivatives are computed of belts and systems, whose thresholds are those of periodic motions".to_owned())
     }
 }
 
@@ -336,58 +113,6 @@ pub(crate) fn without_amplitude(asked: &Design, allowed: String) -> Failure {
     Complaint::new(Fault::Value, "design.vary", Origin::Whole, given, allowed).into()
 }
 
-/// The least dither of a belt.
-///
-/// # Errors
-/// A complaint about a study without `[design]` or a number in it; runs from afar of a contact with a state.
-pub fn run(study: &BeltStudy) -> Result<LeastDitherFound, Failure> {
-    refused_of_belt(study, "design")?;
-    let belt = study.belt();
-    let asked = asked(study, !belt.dithers().is_empty())?;
-    let (vary, over) = (numbers(study, "vary", &asked.vary)?, numbers(study, "over", &asked.over)?);
-    let own = belt.dither_path(0, "amplitude");
-    let is_own = |path: &str| path == own || path == "dither.amplitude";
-    let (amplitude, others): (Vec<_>, Vec<_>) =
-        vary.into_iter().partition(|(path, _)| is_own(path));
-    let [(_, amplitude)] = amplitude.as_slice() else {
-        let allowed = format!(
-            "a list with {own}, the amplitude of the first dither, once: the least one is sought"
-        );
-        return Err(without_amplitude(asked, allowed));
-    };
-    let paths = |numbers: &[(String, DesignNumber)]| -> Vec<String> {
-        numbers.iter().map(|(path, _)| path.clone()).collect()
-    };
-    let (over_paths, other_paths) = (paths(&over), paths(&others));
-    let plant = |waveform: &Waveform| -> Result<BeltPlant, Failure> {
-        let belt = with_waveform(belt, waveform).map_err(|why| failed(why.to_string()))?;
-        let (over, others) = (over_paths.clone(), other_paths.clone());
-        Ok(BeltPlant { belt, over, others, start: asked.start })
-    };
-    let plants: Vec<(Waveform, BeltPlant)> = asked
-        .waveforms
-        .iter()
-        .map(|waveform| Ok((waveform.clone(), plant(waveform)?)))
-        .collect::<Result<_, Failure>>()?;
-    let only = |numbers: Vec<(String, DesignNumber)>| -> Vec<DesignNumber> {
-        numbers.into_iter().map(|(_, number)| number).collect()
-    };
-    let numbers =
-        DesignNumbers { amplitude: amplitude.clone(), others: only(others), over: only(over) };
-    if !belt.has_contact_state() {
-        return Ok(least_dither(study, asked, numbers, &plants));
-    }
-    is_local(asked, "a contact with a state of its own")?;
-    let systems: Vec<(Waveform, Box<SystemAtPoint<'_>>)> = plants
-        .iter()
-        .map(|(waveform, plant)| {
-            let at = move |point: OperatingPoint<'_>, value: f64| plant.system(point, value);
-            (waveform.clone(), Box::new(at) as Box<SystemAtPoint<'_>>)
-        })
-        .collect();
-    Ok(least_dither_of_systems(study, asked, numbers, &systems, (0, &[1.0])))
-}
-
 /// Rejects runs from afar, which the designs of systems do not judge.
 ///
 /// # Errors
@@ -406,20 +131,24 @@ pub(crate) fn is_local(asked: &Design, of: &str) -> Result<(), Failure> {
 
 /// The least dither of the waveforms of a study, each with its system; `input` is that of the dither, `observe` the row over the
 /// coordinates whose response is reported.
+///
+/// # Errors
+/// A complaint about uncertain numbers that the design gives.
 pub(crate) fn least_dither_of_systems(
     study: &dyn StudyWithDesign,
     asked: &Design,
-    numbers: DesignNumbers,
+    numbers: &DesignNumbers,
     systems: &[(Waveform, Box<SystemAtPoint<'_>>)],
     (input, observe): (usize, &[f64]),
-) -> LeastDitherFound {
+    samples: &SampleOf<'_>,
+) -> Result<LeastDitherFound, Failure> {
     let plants: Vec<(Waveform, SystemPlant<'_>)> = systems
         .iter()
         .map(|(waveform, at)| (waveform.clone(), SystemPlant { at: at.as_ref(), input, observe }))
         .collect();
-    let found = least_dither(study, asked, numbers, &plants);
+    let found = least_dither(study, asked, numbers, &plants, Ok(samples))?;
     let without_state = without_state(&found, systems[found.best].1.as_ref());
-    LeastDitherFound { without_state, ..found }
+    Ok(LeastDitherFound { without_state, ..found })
 }
 
 /// Why the averages of a design, which do not know the states of contacts, differ from those with them at its least dither.
@@ -434,14 +163,20 @@ fn without_state(found: &LeastDitherFound, at: &SystemAtPoint<'_>) -> Vec<String
     average.map(|average| averaged_without_states(&system, &average.contacts)).unwrap_or_default()
 }
 
-/// The least dither of the waveforms of a study, each with its structure.
+/// The least dither of the waveforms of a study, each with its structure; `samples` are those of its uncertain numbers, or why it has
+/// none.
+///
+/// # Errors
+/// A complaint about uncertain numbers that the design gives.
 pub(crate) fn least_dither<P: Plant + Sync>(
     study: &dyn StudyWithDesign,
     asked: &Design,
-    numbers: DesignNumbers,
+    numbers: &DesignNumbers,
     plants: &[(Waveform, P)],
-) -> LeastDitherFound {
-    let DesignNumbers { amplitude, others, over } = numbers;
+    samples: Result<&SampleOf<'_>, &'static str>,
+) -> Result<LeastDitherFound, Failure> {
+    let sampling = confident::sampling(study, asked, numbers)?;
+    let DesignNumbers { amplitude, others, over } = numbers.clone();
     let ranges = |numbers: &[DesignNumber]| -> Vec<(f64, f64)> {
         numbers.iter().map(|number| number.range).collect()
     };
@@ -483,6 +218,15 @@ pub(crate) fn least_dither<P: Plant + Sync>(
     };
     let (without_state, tongues) = (Vec::new(), Vec::new());
     let sensitivity = Err("no dither is allowed".to_owned());
+    let confident = match (sampling, samples, plants.get(best), &waveforms[best].1.answer) {
+        (Err(why), ..) => Err(why),
+        (Ok(_), Err(why), ..) => Err(why.to_owned()),
+        (Ok(sampling), Ok(samples), Some((_, plant)), Ok(found)) => {
+            let sample = |values: &[(&str, f64)], others: &[f64]| samples(best, values, others);
+            sampling.confident(&problem(plant), &found.critical, &sample)
+        }
+        _ => Err("no dither is allowed".to_owned()),
+    };
     let found = LeastDitherFound {
         amplitude,
         others,
@@ -493,26 +237,16 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         without_state,
         tongues,
         sensitivity,
+        confident,
     };
     let sensitivity = found.sensitivity_of(study);
-    LeastDitherFound { sensitivity, ..found }
+    Ok(LeastDitherFound { sensitivity, ..found })
 }
 
 /// The exact least dithers along a box of one coordinate.
 fn schedule(problem: DesignProblem<'_>, range: (f64, f64), others: &[f64]) -> Vec<ScheduledDither> {
     let at = |point: f64| within(STEPS_OF_MANY_SEARCHES, || problem.scheduled(&[point], others));
     super::evenly(range, SCHEDULE).into_par_iter().map(at).collect()
-}
-
-/// The number at a path of a document; `None` where it has no number there.
-fn number_in(document: &Json, path: &str) -> Option<f64> {
-    let pointer = path.replace(['.', '['], "/").replace(']', "");
-    let whole = document.pointer(&format!("/{pointer}")).and_then(Json::as_f64);
-    // The path of an only entry has no index.
-    whole.or_else(|| {
-        let (table, rest) = pointer.split_once('/')?;
-        document.pointer(&format!("/{table}/0/{rest}")).and_then(Json::as_f64)
-    })
 }
 
 /// The system with another waveform of one dither.
@@ -529,51 +263,4 @@ pub(crate) fn system_with_waveform(
         input.profile = Profile::constant(input.profile.mean()).with(wave);
     }
     system
-}
-
-/// The belt with another waveform of its first dither.
-fn with_waveform(belt: &Belt, waveform: &Waveform) -> Result<Belt, quell_model::InvalidValues> {
-    let mut dithers: Vec<Dither> = belt.dithers().to_vec();
-    dithers[0].waveform = waveform.clone();
-    belt.dithered_by(dithers)
-}
-
-/// Numbers of `[design]` with their paths in the equations. Both ends of every range must give valid studies.
-fn numbers(
-    study: &BeltStudy,
-    key: &str,
-    ranges: &[DesignRange],
-) -> Result<Vec<(String, DesignNumber)>, Failure> {
-    let mut found = Vec::new();
-    let mut wrong: Vec<Complaint> = Vec::new();
-    let placed = |complaint: Complaint, path: &str| Complaint {
-        key: format!("design.{key}"),
-        origin: Origin::Whole,
-        allowed: format!("{path}: {}", complaint.allowed),
-        ..complaint
-    };
-    for range in ranges {
-        let named = match Named::new(study, "[design]", &range.path) {
-            Ok(named) => named,
-            Err(complaint) => {
-                wrong.push(placed(*complaint, &range.path));
-                continue;
-            }
-        };
-        for value in [range.from, range.to] {
-            let refused = named.unable(study, ("[design]", value));
-            wrong.extend(refused.map(|complaint| placed(complaint, &range.path)));
-        }
-        let number = DesignNumber {
-            path: range.path.clone(),
-            per_unit: 1.0 / named.of(1.0),
-            range: (named.of(range.from), named.of(range.to)),
-        };
-        found.push((named.path.clone(), number));
-    }
-    if wrong.is_empty() { Ok(found) } else { Err(wrong.into()) }
-}
-
-fn failed(why: String) -> Failure {
-    Failure::Failed { key: "design".to_owned(), why }
 }

@@ -66,7 +66,8 @@ pub fn run(study: &DiscStudy) -> Result<LeastDitherFound, Failure> {
         others: only(&others),
         over: only(&over),
     };
-    let mut found = least_dither(study, asked, numbers, &plants);
+    let none = "design.confidence is for belts and systems";
+    let mut found = least_dither(study, asked, &numbers, &plants, Err(none))?;
     if let (Some(_), [range]) = (speed, found.over.as_slice()) {
         let chosen = found.chosen().unwrap_or_else(|| middles(&found.others));
         let plant = &plants[found.best].1;
@@ -175,6 +176,10 @@ fn answerable(study: &DiscStudy, asked: &Design) -> Result<(), Failure> {
     if asked.start != DesignStart::Local {
         let allowed = "\"local\": the exponents of small motions decide about a disc, whose motion has no other start";
         return Err(refuse("design.start", asked.start.name().into(), allowed));
+    }
+    if asked.confidence.is_some() {
+        let allowed = "absent: random samples are judged of belts and systems; `quell probability` judges a disc at one dither";
+        return Err(refuse("design.confidence", Json::Null, allowed));
     }
     let moves = "the dither of a disc varies its friction and moves nothing";
     if !matches!(asked.minimise, DesignObjective::Amplitude | DesignObjective::FrictionLoss) {

@@ -1,6 +1,6 @@
 //! `design` of a system: the least amplitude of one of its dithers that is quiet over a box of operating points, under limits.
 
-use quell_design::least_dither::{OperatingPoint, SystemAtPoint};
+use quell_design::least_dither::{OperatingPoint, Plant, SampledQuiet, SystemAtPoint, SystemPlant};
 use quell_model::{System, Waveform};
 
 use super::has_equations;
@@ -55,7 +55,38 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         others: others.iter().map(|range| number(range)).collect(),
         over: asked.over.iter().map(number).collect(),
     };
-    Ok(least_dither_of_systems(study, asked, numbers, &systems, (input, &study.observe())))
+    let paths: Vec<&str> =
+        asked.over.iter().chain(others.iter().copied()).map(|range| range.path.as_str()).collect();
+    let samples = |waveform: usize, values: &[(&str, f64)], others: &[f64]| {
+        let waveform = asked.waveforms[waveform].clone();
+        let fixed: Vec<(String, f64)> =
+            values.iter().map(|(path, value)| ((*path).to_owned(), *value)).collect();
+        let (paths, own, path) = (paths.clone(), others.to_vec(), amplitude.path.as_str());
+        let system = move |at: OperatingPoint<'_>, value: f64| -> Result<System, String> {
+            let fixed = fixed.iter().map(|(path, value)| (path.as_str(), *value));
+            let chosen = paths.iter().copied().zip(at.point.iter().chain(at.others).copied());
+            let numbers: Vec<(&str, f64)> = fixed.chain(chosen).chain([(path, value)]).collect();
+            let system = study.system_at(&numbers).map_err(|why| why.to_string())?;
+            Ok(system_with_waveform(system, input, &waveform))
+        };
+        // A sample that is no valid study must not be one whose dither is too small.
+        let at = |others: &[f64]| {
+            let point: Vec<f64> = asked.over.iter().map(|range| range.from).collect();
+            system(OperatingPoint { point: &point, others }, amplitude.from).map(|_| ())
+        };
+        at(&own)?;
+        let exactly = |exactly: bool| {
+            let (system, others) = (system.clone(), own.clone());
+            move |point: &[f64], range: (f64, f64)| {
+                let of = SystemPlant { at: &system, input, observe: &[] };
+                let at = OperatingPoint { point, others: &others };
+                if exactly { of.exact(at, range) } else { of.averaged(at, range) }
+            }
+        };
+        Ok(SampledQuiet { averaged: Box::new(exactly(false)), exact: Box::new(exactly(true)) })
+    };
+    let observe = study.observe();
+    least_dither_of_systems(study, asked, &numbers, &systems, (input, &observe), &samples)
 }
 
 /// Rejects ranges whose ends give no valid study.
