@@ -12,7 +12,7 @@
 //!
 //! gives da/dp. It stays regular at a fold, where φ_x − 1 is singular (H. B. Keller, *Lectures on Numerical Methods in Bifurcation
 //! Problems*, 1987). φ_x comes from the variational equation. The other entries are central differences of φ and g at fixed state and
-//! parameters, extrapolated to step zero (Richardson): derivatives of the equations, with an error of about 10⁻¹⁰ of a typical value.
+//! parameters, extrapolated to step zero with an estimate of their error: derivatives of the equations, to 10⁻¹⁰ where they are smooth.
 //! No threshold is located twice, so that neither its tolerance nor a change of branch enters.
 
 use std::fmt;
@@ -24,12 +24,18 @@ use super::threshold::BifurcationKind;
 use super::{Image, PeriodMap, modulus, multipliers};
 use crate::matrix::Matrix;
 
-/// First step of the differences over the typical size of what is moved. Truncation leaves its sixth power; with a smaller step the
-/// rounding of an image, 10⁻¹⁴, would be the larger error.
+/// First step of the differences over the typical size of what is moved.
 const FIRST_STEP: f64 = 2e-3;
 
-/// Steps of one difference, each half the one before.
-const LEVELS: usize = 3;
+/// Steps of one difference at most, each half the one before.
+const LEVELS: usize = 12;
+
+/// Relative error of slopes at which no smaller step is tried, and up to which they are accepted.
+const ACCURATE: f64 = 1e-10;
+const ACCEPTED: f64 = 1e-5;
+
+/// Part of the largest slope relative to which the errors of smaller ones count.
+const SMALL: f64 = 1e-4;
 
 /// Times that the first step is divided by four where a state next to the threshold has other events.
 const RETREATS: usize = 4;
@@ -59,6 +65,8 @@ pub enum NoSensitivity {
     Singular,
     /// Newton's method did not return to the threshold.
     NotConverged,
+    /// The equations have no slope there: differences with smaller and smaller steps do not agree.
+    NotSmooth,
 }
 
 impl fmt::Display for NoSensitivity {
@@ -70,6 +78,7 @@ impl fmt::Display for NoSensitivity {
             }
             Self::NotCritical => "no multiplier is on the unit circle",
             Self::Singular => "the equations of the threshold are singular",
+            Self::NotSmooth => "the equations of the threshold have no slope there",
             Self::NotConverged => "Newton's method did not return to the threshold",
         })
     }
@@ -289,24 +298,63 @@ fn difference(
     Err(last)
 }
 
+/// A slope with an estimate of its error.
+#[derive(Clone, Copy)]
+struct Slope {
+    value: f64,
+    error: f64,
+}
+
+/// The slopes at zero, each from the steps between truncation and rounding (C. J. F. Ridders, *Accurate computation of F'(x) and
+/// F'(x)F''(x)*, 1982): steps are halved until no slope improves. How small a step must be depends on how near the border of the piece,
+/// or another scale of the motion, is.
 fn extrapolated_difference(
     first: f64,
     values: &impl Fn(f64) -> Result<Vec<f64>, NoSensitivity>,
 ) -> Result<Vec<f64>, NoSensitivity> {
     let mut step = first;
     let mut before: Vec<Vec<f64>> = Vec::new();
+    let mut best: Vec<Slope> = Vec::new();
     for _ in 0..LEVELS {
         let (after, behind) = (values(step)?, values(-step)?);
-        let slope = after.iter().zip(&behind).map(|(a, b)| (a - b) / (2.0 * step)).collect();
+        let slope: Vec<f64> =
+            after.iter().zip(&behind).map(|(a, b)| (a - b) / (2.0 * step)).collect();
+        if best.is_empty() {
+            best = slope.iter().map(|value| Slope { value: *value, error: f64::INFINITY }).collect();
+        }
         let mut row: Vec<Vec<f64>> = vec![slope];
         let mut power = 1.0;
         for (k, coarser) in before.iter().enumerate() {
             power *= 4.0;
             let finer = row[k].iter().zip(coarser);
-            row.push(finer.map(|(fine, coarse)| fine + (fine - coarse) / (power - 1.0)).collect());
+            let next: Vec<f64> =
+                finer.map(|(fine, coarse)| fine + (fine - coarse) / (power - 1.0)).collect();
+            for (place, value) in next.iter().enumerate() {
+                let error = (value - row[k][place]).abs().max((value - coarser[place]).abs());
+                if error < best[place].error {
+                    best[place] = Slope { value: *value, error };
+                }
+            }
+            row.push(next);
         }
         before = row;
         step *= 0.5;
+        if !before[1..].is_empty() && worst(&best) < ACCURATE {
+            break;
+        }
     }
-    before.pop().ok_or(NoSensitivity::OtherEvents)
+    let accepted = worst(&best) < ACCEPTED;
+    accepted
+        .then(|| best.iter().map(|slope| slope.value).collect())
+        .ok_or(NoSensitivity::NotSmooth)
+}
+
+/// The largest error of slopes, each relative to itself or to a part of the largest one.
+fn worst(slopes: &[Slope]) -> f64 {
+    let largest = slopes.iter().map(|slope| slope.value.abs()).fold(0.0, f64::max);
+    let relative = |slope: &Slope| {
+        let size = slope.value.abs().max(SMALL * largest);
+        if size == 0.0 { 0.0 } else { slope.error / size }
+    };
+    slopes.iter().map(relative).fold(0.0, f64::max)
 }
