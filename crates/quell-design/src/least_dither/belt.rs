@@ -3,7 +3,6 @@
 use quell_dynamics::attractor::{Reached, SWITCH_CLOSENESS, switches};
 use quell_dynamics::orbit::threshold::{NoThresholds, local};
 use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
-use quell_dynamics::response::{Solver, respond};
 use quell_dynamics::simulation::Start;
 use quell_dynamics::start::{InitialState, NoSquealingStart};
 use quell_linear::averaging::{
@@ -15,7 +14,7 @@ use quell_model::{Belt, Direction, Parametrisation, System};
 
 use super::branch::AmplitudeBranch;
 use super::quiet::AveragedChange;
-use super::response::{ResponseSize, linear_response, response_on};
+use super::response::{ResponseSize, linear_response, loss_on, response_on};
 use super::{DesignStart, DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
 use crate::actuator::{Actuator, ActuatorDemand};
 
@@ -27,9 +26,6 @@ const GROWTH_STEPS: u32 = 8;
 
 /// Values tried between the ends of a range for runs from a start.
 const TRIED: u32 = 24;
-
-/// Slow periods over which the mean friction of a periodic response is measured.
-const LOSS_PERIODS: u32 = 20;
 
 /// The row that is observed: the displacement of the mass.
 const DISPLACEMENT: [f64; 1] = [1.0];
@@ -221,9 +217,8 @@ impl Plant for BeltPlant {
     fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
         let belt = self.dithered(at, amplitude)?;
         let orbit = from_sliding(&belt, GROWTH_STEPS).map_err(|why| why.to_string())?;
-        let solver = Solver { settle: 0.0, record_periods: LOSS_PERIODS, ..Solver::default() };
-        let response = respond(&belt, orbit.start, &solver).map_err(|why| why.to_string())?;
-        Ok(1.0 - response.mean_friction / response.steady_sliding_friction)
+        let state = [orbit.start.displacement, orbit.start.velocity];
+        loss_on(&belt.system(), (&state, orbit.period))
     }
 
     fn exact_response(

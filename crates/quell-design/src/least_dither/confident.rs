@@ -11,7 +11,7 @@ use super::exact_box::{ExactBox, Near, QuietSet, WINDOW};
 use super::quiet::QuietAmplitudes;
 use super::search::{Judged, grid};
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
-use super::{DesignPoint, DesignProblem, LimitedQuantity, MARGIN};
+use super::{DesignPoint, DesignProblem};
 use crate::probability::binomial_interval;
 
 /// First step over the box by averaging, and the last one, as shares of its ranges.
@@ -106,14 +106,7 @@ impl DesignProblem<'_> {
     pub fn with_amplitude(&self, design: &DesignPoint, amplitude: f64) -> DesignPoint {
         let DesignPoint { worst, decisive, .. } = design.clone();
         let at = LeastOfBox { amplitude, worst, decisive };
-        let mut point = self.priced(&design.others, at, Judged::Exactly);
-        for (place, (quantity, limit)) in self.limits.iter().enumerate() {
-            if *quantity == LimitedQuantity::FrictionLoss {
-                let loss = self.exact_loss(&point, amplitude * (1.0 + MARGIN));
-                point.used[place].1 = loss.map(|(loss, _)| loss / limit);
-            }
-        }
-        point
+        self.priced(&design.others, at, Judged::Exactly)
     }
 
     fn points_near(&self, design: &DesignPoint) -> Vec<Vec<f64>> {

@@ -87,6 +87,7 @@ impl DesignProblem<'_> {
                 LimitedQuantity::Stroke => price().map(|price| price.stroke),
                 LimitedQuantity::Velocity => price().map(|price| price.velocity),
                 LimitedQuantity::Power => price().map(|price| price.power),
+                // Where averaging is near enough; `serves` judges exactly.
                 LimitedQuantity::FrictionLoss => self.plant.averaged_loss(at, amplitude),
                 LimitedQuantity::Actuator(limit) => self.share_of_actuator(*limit, at, amplitude),
                 LimitedQuantity::ResponseRms | LimitedQuantity::ResponsePeak => {

@@ -28,12 +28,22 @@ pub struct FeasibleDesign {
     pub verified_amplitude: f64,
     /// The points at which it was verified: the one that decides first.
     pub verified: Vec<VerifiedPoint>,
+    /// The amplitude from which the dither is loud again somewhere, above the verified one: `None` where every larger amplitude of the
+    /// range is quiet at the points that were judged.
+    pub loud_from: Result<Option<f64>, String>,
     /// The largest loss of mean friction on the exact responses, with its operating point, or why it is unknown.
     pub friction_loss: Result<(f64, Vec<f64>), String>,
     /// The largest size of the observed response on the exact responses, or why it is unknown.
     pub response: Result<ResponseSize, String>,
     /// What the verified dither demands of the actuator where a limit is used most, with the operating point, or why it is unknown.
     pub drive: Result<(ActuatorDemand, Vec<f64>), String>,
+}
+
+impl FeasibleDesign {
+    /// The largest multiplier at the points at which the dither was verified.
+    pub fn largest_multiplier(&self) -> f64 {
+        self.verified.iter().map(|at| at.multiplier).fold(0.0, f64::max)
+    }
 }
 
 /// Why there is no dither, and how far one reaches.
@@ -175,6 +185,7 @@ impl DesignProblem<'_> {
                 }
             }
         }
+        let loud_from = self.loud_from(&critical, verified_amplitude);
         let worst = critical.worst.as_ref();
         let drive = self.largest_demand(&critical.others, verified_amplitude, worst);
         Ok(FeasibleDesign {
@@ -182,6 +193,7 @@ impl DesignProblem<'_> {
             averaged: averaged.clone(),
             verified_amplitude,
             verified,
+            loud_from,
             friction_loss,
             response,
             drive,

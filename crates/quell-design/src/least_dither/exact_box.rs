@@ -98,7 +98,7 @@ impl<'a> ExactBox<'a> {
             DesignStart::Local => (near.amplitude.max(lowest) * WINDOW.1).min(to),
             DesignStart::Rest | DesignStart::Squeal => to,
         };
-        let least = |points: Vec<Vec<f64>>, lower: f64, near: Option<f64>| {
+        let least = |points: Vec<Vec<f64>>, (lower, upper): (f64, f64), near: Option<f64>| {
             let quiet = |point: &[f64]| exact(point, (lower, upper));
             // Averaging has shown that smaller amplitudes are loud somewhere: the search begins at the loud sets that end near its
             // amplitude.
@@ -115,10 +115,15 @@ impl<'a> ExactBox<'a> {
             least_of_box(search, points, &quiet)
         };
         let lower = lowest.clamp(from, upper);
-        let found = least(points, lower, Some(near.amplitude.max(lower)))?;
+        let about = Some(near.amplitude.max(lower));
+        let found = match least(points.clone(), (lower, upper), about) {
+            // The quiet amplitudes of the points do not meet in the window: they may beyond it.
+            Err(NoLeast::NeverQuiet { .. }) if upper < to => least(points, (lower, to), about)?,
+            found => found?,
+        };
         // By exact thresholds nothing is loud near the amplitude of averaging: the whole range is searched, and the whole box.
         if found.worst.is_none() && lower > from {
-            return least(box_points(self.over), from, None);
+            return least(box_points(self.over), (from, upper), None);
         }
         Ok(found)
     }

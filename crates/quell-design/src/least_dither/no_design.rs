@@ -29,6 +29,13 @@ pub enum NoDesign {
     },
 }
 
+impl NoDesign {
+    /// Whether it is known that there is no design: not where a computation failed on the way.
+    pub fn is_known(&self) -> bool {
+        !matches!(self, Self::Failed { .. })
+    }
+}
+
 impl From<NoLeast> for NoDesign {
     fn from(why: NoLeast) -> Self {
         match why {

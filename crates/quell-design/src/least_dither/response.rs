@@ -1,6 +1,7 @@
-//! The size of the response that is observed: of the exact base response, and an estimate from the structure without friction's slope.
+//! The size of the response that is observed, of the exact base response or estimated from the structure without friction's slope, and
+//! the friction that is lost on it.
 
-use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart, RowMeter};
+use quell_dynamics::motion::{ContactMeter, MOTION_TOLERANCE, Motion, MotionStart, RowMeter};
 use quell_linear::harmonic;
 use quell_linear::linearised::Linearised;
 use quell_model::System;
@@ -35,6 +36,32 @@ pub(super) fn response_on(
     let run = motion.run(&start, period, MOTION_TOLERANCE, &mut meter);
     run.map_err(|why| why.to_string())?;
     Ok(ResponseSize { rms: meter.deviation(), peak: 0.5 * meter.range() })
+}
+
+/// The largest share of the friction of steady sliding that a contact loses on a periodic motion, given by its state at t = 0 and its
+/// period.
+pub(super) fn loss_on(system: &System, (state, period): (&[f64], f64)) -> Result<f64, String> {
+    let motion = Motion::new(system).map_err(|why| why.to_string())?;
+    let mut meter = ContactMeter::new(system.contacts.len());
+    let start = MotionStart { time: 0.0, state: state.to_vec() };
+    let run = motion.run(&start, period, MOTION_TOLERANCE, &mut meter);
+    run.map_err(|why| why.to_string())?;
+    let means = meter.means().ok_or("the base response has no period")?;
+    let linear = Linearised::new(&system.undithered()).map_err(|why| why.to_string())?;
+    largest_loss(&linear, means.iter().map(|means| means.friction))
+}
+
+/// The largest share of the friction of steady sliding that a contact loses, from the mean friction of every contact.
+pub(super) fn largest_loss(
+    linear: &Linearised,
+    mean_friction: impl Iterator<Item = f64>,
+) -> Result<f64, String> {
+    let steady = linear.friction();
+    let known = steady.iter().zip(mean_friction).filter(|(steady, _)| steady.force != 0.0);
+    known
+        .map(|(steady, mean)| 1.0 - mean / steady.force)
+        .max_by(f64::total_cmp)
+        .ok_or_else(|| "no contact has friction in steady sliding".to_owned())
 }
 
 /// An estimate of the response along a row to an input, from the sliding structure without the slope of friction: exact for a sine and

@@ -27,11 +27,15 @@ pub(super) enum Judged {
     Exactly,
 }
 
+/// Share by which the estimate of a limited response or loss of friction, at the amplitude of averaging, may be wrong.
+const ESTIMATE: f64 = 0.05;
+
 /// Local minima that are refined.
 const BASINS: usize = 4;
 
-/// Steps of the search over design variables, as shares of their ranges.
+/// Last step of the search over design variables, as a share of their ranges, and where responses are computed at each choice.
 const CLOSENESS: f64 = 1e-9;
+const CLOSENESS_OF_RESPONSES: f64 = 1e-3;
 
 /// Steps of the search over the box.
 const BOX_CLOSENESS: f64 = 1e-9;
@@ -85,6 +89,17 @@ impl DesignPoint {
     /// The objective where every limit is kept.
     pub(super) fn allowed(&self) -> Option<f64> {
         self.objective.as_ref().ok().copied().filter(|_| self.use_of_limits() <= 1.0)
+    }
+
+    /// The objective where every limit may be kept: those whose use is an estimate may be exceeded by its error.
+    fn may_be_allowed(&self) -> Option<f64> {
+        let kept = |(quantity, used): &(LimitedQuantity, Result<f64, String>)| {
+            let estimated = quantity.of_response().is_some()
+                || *quantity == LimitedQuantity::FrictionLoss;
+            let most = if estimated { 1.0 + ESTIMATE } else { 1.0 };
+            used.as_ref().is_ok_and(|used| *used <= most)
+        };
+        self.objective.as_ref().ok().copied().filter(|_| self.used.iter().all(kept))
     }
 }
 
@@ -174,7 +189,7 @@ impl DesignProblem<'_> {
             LimitedQuantity::Stroke => price(|price| price.stroke)?,
             LimitedQuantity::Velocity => price(|price| price.velocity)?,
             LimitedQuantity::Power => price(|price| price.power)?,
-            LimitedQuantity::FrictionLoss => self.averaged_loss(others, amplitude, worst)?,
+            LimitedQuantity::FrictionLoss => self.largest_loss(others, amplitude, worst)?,
             LimitedQuantity::Actuator(limit) => self.largest(worst, |point| {
                 self.share_of_actuator(limit, OperatingPoint { point, others }, amplitude)
             })?,
@@ -239,16 +254,18 @@ impl DesignProblem<'_> {
             .ok_or_else(|| "the box has no points".to_owned())
     }
 
-    /// The largest loss of mean friction in the box, by averaging.
-    pub(super) fn averaged_loss(
+    /// The largest loss of mean friction at the corners of the box and the point that decides, on the exact base responses of the
+    /// verified dither: averaging, which is off by several per cent near a graze, is no estimate of it.
+    fn largest_loss(
         &self,
         others: &[f64],
         amplitude: f64,
         worst: Option<&Vec<f64>>,
     ) -> Result<f64, String> {
-        let loss =
-            |point: &[f64]| self.plant.averaged_loss(OperatingPoint { point, others }, amplitude);
-        self.largest(worst, loss)
+        let verified = amplitude * (1.0 + MARGIN);
+        self.largest(worst, |point| {
+            self.plant.exact_loss(OperatingPoint { point, others }, verified)
+        })
     }
 
     /// A choice of design variables with an amplitude, its objective and the use of every limit.
@@ -264,7 +281,7 @@ impl DesignProblem<'_> {
             DesignObjective::Stroke => price(|price| price.stroke),
             DesignObjective::Velocity => price(|price| price.velocity),
             DesignObjective::Power => price(|price| price.power),
-            DesignObjective::FrictionLoss => self.averaged_loss(others, amplitude, worst.as_ref()),
+            DesignObjective::FrictionLoss => self.largest_loss(others, amplitude, worst.as_ref()),
         };
         let mut points = grid(self.over, RESPONSE_POINTS, false);
         points.extend(worst.iter().chain(&decisive).cloned());
@@ -280,6 +297,12 @@ impl DesignProblem<'_> {
         });
         let used = used.collect();
         DesignPoint { others: others.to_vec(), amplitude, objective, worst, decisive, used }
+    }
+
+    /// Whether every choice takes exact responses, whose loss of friction is small or limited.
+    fn judges_by_responses(&self) -> bool {
+        self.objective == DesignObjective::FrictionLoss
+            || self.limits.iter().any(|(quantity, _)| *quantity == LimitedQuantity::FrictionLoss)
     }
 
     /// The least amplitude by averaging at a choice of design variables.
@@ -304,7 +327,7 @@ impl DesignProblem<'_> {
         if self.others.is_empty() {
             match self.averaged_point(&[], self.points()) {
                 Ok(point) => {
-                    done.found.extend(point.allowed().map(|_| point.clone()));
+                    done.found.extend(point.may_be_allowed().map(|_| point.clone()));
                     done.tried.push(point);
                 }
                 Err(why) => done.refused.push((Vec::new(), why)),
@@ -316,7 +339,7 @@ impl DesignProblem<'_> {
         let mut values = Vec::new();
         for choice in &choices {
             let point = self.averaged_point(choice, coarse.clone());
-            values.push(point.as_ref().ok().and_then(DesignPoint::allowed));
+            values.push(point.as_ref().ok().and_then(DesignPoint::may_be_allowed));
             match point {
                 Ok(point) => done.tried.push(point),
                 Err(why) => done.refused.push((choice.clone(), why)),
@@ -329,12 +352,12 @@ impl DesignProblem<'_> {
             let mut points = self.points();
             points.extend(refined.decisive.iter().cloned());
             match self.averaged_point(&refined.others, points) {
-                Ok(point) if point.allowed().is_some() => done.found.push(point),
+                Ok(point) if point.may_be_allowed().is_some() => done.found.push(point),
                 Ok(point) => done.tried.push(point),
                 Err(why) => done.refused.push((refined.others, why)),
             }
         }
-        let value = |point: &DesignPoint| point.allowed().unwrap_or(f64::INFINITY);
+        let value = |point: &DesignPoint| point.may_be_allowed().unwrap_or(f64::INFINITY);
         done.found.sort_by(|a, b| value(a).total_cmp(&value(b)));
         done
     }
@@ -371,7 +394,9 @@ impl DesignProblem<'_> {
     fn refined(&self, mut best: DesignPoint, tried: &mut Vec<DesignPoint>) -> DesignPoint {
         let count = GRID.get(self.others.len()).copied().unwrap_or(2);
         let mut step = 1.0 / (count - 1) as f64;
-        while step > CLOSENESS {
+        let closeness =
+            if self.judges_by_responses() { CLOSENESS_OF_RESPONSES } else { CLOSENESS };
+        while step > closeness {
             let mut moved = false;
             for (coordinate, (low, high)) in self.others.iter().enumerate() {
                 for sign in [1.0, -1.0] {
@@ -385,8 +410,9 @@ impl DesignProblem<'_> {
                     let mut points = best.decisive.clone();
                     points.extend(grid(self.over, [1, 2, 2, 2], false));
                     let Ok(next) = self.averaged_point(&others, points) else { continue };
-                    let allowed = next.allowed();
-                    let better = allowed.zip(best.allowed()).is_some_and(|(new, old)| new < old);
+                    let allowed = next.may_be_allowed();
+                    let better =
+                        allowed.zip(best.may_be_allowed()).is_some_and(|(new, old)| new < old);
                     tried.push(next.clone());
                     if better {
                         (best, moved) = (next, true);

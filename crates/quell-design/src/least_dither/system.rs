@@ -1,7 +1,6 @@
 //! Any linear structure with friction contacts as one whose dither is designed.
 
 use quell_dynamics::motion::orbit::{MotionOrbit, NoMotionOrbit, base_motion, motion_thresholds};
-use quell_dynamics::motion::{ContactMeter, MOTION_TOLERANCE, Motion, MotionStart};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_linear::averaging::{Becomes, DitheredSystem, NoAverage};
 use quell_linear::driven_point::DrivenPoint;
@@ -13,7 +12,7 @@ use quell_model::profile::Wave;
 
 use super::branch::AmplitudeBranch;
 use super::quiet::AveragedChange;
-use super::response::{ResponseSize, linear_response, response_on};
+use super::response::{ResponseSize, largest_loss, linear_response, loss_on, response_on};
 use super::{DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
 use crate::actuator::{Actuator, ActuatorDemand};
 
@@ -67,19 +66,6 @@ impl SystemPlant<'_> {
     /// The base response under an amplitude.
     fn base(system: &System) -> Result<MotionOrbit, String> {
         base_motion(system, GROWTH_STEPS).map_err(in_words)
-    }
-
-    /// The largest share of the friction of steady sliding that a contact loses, from the mean friction of every contact.
-    fn largest_loss(
-        linear: &Linearised,
-        mean_friction: impl Iterator<Item = f64>,
-    ) -> Result<f64, String> {
-        let steady = linear.friction();
-        let known = steady.iter().zip(mean_friction).filter(|(steady, _)| steady.force != 0.0);
-        known
-            .map(|(steady, mean)| 1.0 - mean / steady.force)
-            .max_by(f64::total_cmp)
-            .ok_or_else(|| "no contact has friction in steady sliding".to_owned())
     }
 }
 
@@ -165,19 +151,13 @@ impl Plant for SystemPlant<'_> {
         let prepared = DitheredSystem::new(&system).map_err(in_words)?;
         let average = prepared.average().map_err(in_words)?;
         let means = average.contacts.iter().map(|contact| contact.friction);
-        Self::largest_loss(prepared.sliding(), means)
+        largest_loss(prepared.sliding(), means)
     }
 
     fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
         let system = (self.at)(at, amplitude)?;
         let orbit = Self::base(&system)?;
-        let motion = Motion::new(&system).map_err(in_words)?;
-        let mut meter = ContactMeter::new(system.contacts.len());
-        let start = MotionStart { time: 0.0, state: orbit.state.clone() };
-        motion.run(&start, orbit.period, MOTION_TOLERANCE, &mut meter).map_err(in_words)?;
-        let means = meter.means().ok_or("the base response has no period")?;
-        let linear = Linearised::new(&system.undithered()).map_err(in_words)?;
-        Self::largest_loss(&linear, means.iter().map(|means| means.friction))
+        loss_on(&system, (&orbit.state, orbit.period))
     }
 
     fn exact_response(

@@ -1,9 +1,11 @@
 //! The verification of a least dither by exact responses over the box, and its loss of friction there.
 
+use std::cmp::Ordering;
+
 use super::no_design::NoDesign;
 use super::search::{DesignPoint, grid};
 use super::{
-    DesignObjective, DesignProblem, ExactVerdict, LimitedQuantity, MARGIN, OperatingPoint,
+    DesignObjective, DesignProblem, DesignStart, ExactVerdict, LimitedQuantity, MARGIN, OperatingPoint,
     ResponseSize,
 };
 
@@ -57,11 +59,38 @@ impl DesignProblem<'_> {
             }
             critical.decisive.extend(failing);
             let others = critical.others.clone();
-            let lowest = critical.amplitude;
-            critical = self.exact_point_from(&others, &critical, lowest)?;
+            // The next least amplitude is above the one that failed; at the critical one itself a response may graze.
+            critical = self.exact_point_from(&others, &critical, amplitude)?;
         }
         let point = critical.decisive.last().cloned().unwrap_or_default();
         Err(NoDesign::NeverQuiet { point })
+    }
+
+    /// Where the quiet amplitudes that a verified one belongs to end, at the corners of the box and the points that decide.
+    pub(super) fn loud_from(
+        &self,
+        critical: &DesignPoint,
+        verified: f64,
+    ) -> Result<Option<f64>, String> {
+        if self.start != DesignStart::Local {
+            return Err("runs from a start are judged only up to the least amplitude".to_owned());
+        }
+        let (_, to) = self.amplitude;
+        let mut points = grid(self.over, [1, 2, 2, 2], false);
+        points.extend(critical.worst.iter().chain(&critical.decisive).cloned());
+        points.sort_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
+        points.dedup();
+        let mut first: Option<f64> = None;
+        for point in points {
+            let at = OperatingPoint { point: &point, others: &critical.others };
+            let quiet = self.plant.exact(at, (verified, to.max(verified)))?;
+            let interval = quiet.intervals().iter().find(|(low, _)| *low <= verified);
+            let end = interval.map_or(verified, |(_, high)| *high);
+            if end < to {
+                first = Some(first.map_or(end, |known: f64| known.min(end)));
+            }
+        }
+        Ok(first)
     }
 
     /// The largest loss of mean friction in the box on the exact responses.

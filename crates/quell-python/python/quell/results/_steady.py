@@ -223,8 +223,8 @@ class Design(_columns.DesignColumns, Result):
     """The least dither that is quiet over a box of operating points; arrays over the choices that were tried (n,)."""
 
     verb = "design"
-    feasible: bool
-    """Whether one dither is quiet in the whole box and keeps every limit."""
+    feasible: bool | None
+    """Whether one dither is quiet in the whole box and keeps every limit; ``None`` where the search failed on the way."""
     waveform: str
     """Its waveform."""
     minimise: str

@@ -20,6 +20,9 @@ use crate::words::digits;
 /// A limit binds if at least this share of it is used.
 const BINDS: f64 = 0.9999;
 
+/// Quiet amplitudes up to this multiple of the least one are a narrow range, of which a user is warned.
+const NARROW: f64 = 1.5;
+
 /// The quantity of an objective.
 pub(crate) fn quantity_of(study: &dyn StudyWithDesign, objective: DesignObjective) -> Quantity {
     match objective {
@@ -119,7 +122,7 @@ impl LeastDitherFound {
                 let follows = self.schedule_in_words(study);
                 let depends = self.sensitivity_in_words();
                 let confident = self.confident_in_words(study);
-                let largest = found.verified.iter().map(|at| at.multiplier).fold(0.0, f64::max);
+                let largest = found.largest_multiplier();
                 let loss = found.friction_loss.as_ref().map_or(String::new(), |(loss, point)| {
                     let change = if *loss < 0.0 { "gains" } else { "loses" };
                     format!(
@@ -150,10 +153,14 @@ impl LeastDitherFound {
                         digits(part.ends.1 * per_unit)
                     )
                 });
-                format!(
-                    "No allowed dither is quiet in the whole range: {}.{covered}",
-                    self.why(study, none)
-                )
+                let why = self.why(study, none);
+                if none.why.is_known() {
+                    format!("No allowed dither is quiet in the whole range: {why}.{covered}")
+                } else {
+                    format!(
+                        "Whether an allowed dither is quiet in the whole range is unknown: {why}.{covered}"
+                    )
+                }
             }
         }
     }
@@ -169,7 +176,12 @@ impl LeastDitherFound {
             ),
             NoDesign::Limit { quantity, used, point } => {
                 let at = point.as_ref().map_or(String::new(), |point| self.point_in_words(point));
-                format!("{} would be {} times its limit{at}", quantity.name(), digits(*used))
+                let used = match quantity {
+                    // A limit from below.
+                    LimitedQuantity::MinimumNormalLoad => 1.0 / used,
+                    _ => *used,
+                };
+                format!("{} would be {} times its limit{at}", quantity.name(), digits(used))
             }
             NoDesign::Failed { point, why } => format!("{why}{}", self.point_in_words(point)),
         }
@@ -197,8 +209,9 @@ impl LeastDitherFound {
         let mut warnings = Vec::new();
         for (waveform, designed) in &self.waveforms {
             if let (Err(none), true) = (&designed.answer, self.waveforms.len() > 1) {
+                let none_known = if none.why.is_known() { "no allowed dither" } else { "unknown" };
                 warnings.push(format!(
-                    "{}: no allowed dither: {}",
+                    "{}: {none_known}: {}",
                     label(waveform),
                     self.why(study, none)
                 ));
@@ -214,9 +227,19 @@ impl LeastDitherFound {
                 digits(100.0 * (exact / averaged - 1.0).abs())
             ));
         }
+        if let Ok(found) = &self.answer().answer
+            && let Ok(Some(end)) = found.loud_from
+            && end < NARROW * found.critical.amplitude
+        {
+            warnings.push(format!(
+                "it vibrates again from {} on: a larger dither is not safer",
+                study.in_words(study.quantity_of_amplitude(), end)
+            ));
+        }
         warnings.extend(self.without_state.first().map(|because| averages_are_a_start(because)));
         warnings.extend(self.warnings_about_drive(study));
         warnings.extend(self.warnings_about_samples());
+        warnings.extend(self.warnings_about_laws(study));
         warnings.extend(study.warnings_about_design());
         warnings
     }
@@ -227,7 +250,7 @@ impl LeastDitherFound {
         let minimise = asked.map_or(DesignObjective::Amplitude, |asked| asked.minimise);
         let mut fields = study.fields();
         fields.plain("ok", true).plain("sentence", self.sentence(study));
-        fields.plain("feasible", self.answer().answer.is_ok());
+        self.put_whether_feasible(&mut fields, study, self.answer());
         fields.plain("waveform", self.waveform().name()).plain("minimise", minimise.name());
         match &self.answer().answer {
             Ok(found) => self.put_feasible(&mut fields, study, found, minimise),
@@ -242,7 +265,8 @@ impl LeastDitherFound {
         fields.list("basins", basins.collect::<Vec<_>>());
         let rows = self.waveforms.iter().map(|(waveform, designed)| {
             let mut inner = study.fields();
-            inner.plain("waveform", waveform.name()).plain("feasible", designed.answer.is_ok());
+            inner.plain("waveform", waveform.name());
+            self.put_whether_feasible(&mut inner, study, designed);
             let objective = match &designed.answer {
                 Ok(found) => found.critical.objective.clone(),
                 Err(none) => Err(self.why(study, none)),
@@ -253,6 +277,23 @@ impl LeastDitherFound {
         fields.list("waveforms", rows.collect::<Vec<_>>());
         fields.plain("warnings", self.warnings(study));
         fields.finish()
+    }
+
+    /// Adds `feasible`: null where the search failed on the way.
+    fn put_whether_feasible(
+        &self,
+        fields: &mut Fields,
+        study: &dyn StudyWithDesign,
+        designed: &Designed,
+    ) {
+        match &designed.answer {
+            Err(none) if !none.why.is_known() => {
+                fields.unknown("feasible", self.why(study, none));
+            }
+            answer => {
+                fields.plain("feasible", answer.is_ok());
+            }
+        }
     }
 
     fn put_feasible(
@@ -277,6 +318,9 @@ impl LeastDitherFound {
             None => fields.unknown("worst", "the smallest allowed amplitude is quiet everywhere"),
         };
         fields.number("margin", Quantity::Ratio, MARGIN);
+        let loud = || "no larger amplitude of the range is loud where it was judged".to_owned();
+        let loud_from = found.loud_from.clone().and_then(|end| end.ok_or_else(loud));
+        fields.known("loud_from", study.quantity_of_amplitude(), loud_from);
         let start = study.asked().map_or("local", |asked| asked.start.name());
         let mut inner = study.fields();
         inner.plain("protocol", start);
@@ -287,6 +331,7 @@ impl LeastDitherFound {
             }
             inner.plain("point", self.point_by_path(&first.point));
         }
+        inner.number("largest_multiplier", Quantity::Ratio, found.largest_multiplier());
         inner.plain("operating_points", verified.len());
         fields.nested("verified", inner);
         fields.known(
@@ -324,6 +369,7 @@ impl LeastDitherFound {
             "critical",
             "averaged",
             "objective",
+            "loud_from",
             "drive",
             "confident",
             "response_rms",

@@ -8,6 +8,7 @@ mod frontier;
 mod schedule;
 mod sensitivity;
 mod study_with_design;
+mod validity;
 
 pub(crate) use answer::quantity_of;
 pub use belt::run;

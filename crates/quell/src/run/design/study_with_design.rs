@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use quell_design::actuator::Actuator;
+use quell_linear::averaging::DitheredSystem;
 use quell_model::disc::DiscDither;
 use quell_model::units::Quantity;
 use quell_model::{Parametrisation, System, Waveform};
@@ -11,6 +12,7 @@ use serde_json::Value as Json;
 use super::belt::with_waveform;
 use super::system_with_waveform;
 use crate::fields::Fields;
+use crate::range::{outside_of_laws, sentence, with_dither};
 use crate::run::system::in_units;
 use crate::study::vocabulary::resolve;
 use crate::study::{BeltStudy, Design, DiscStudy, SystemStudy, SystemUnits, Uncertainty};
@@ -52,6 +54,14 @@ pub trait StudyWithDesign: Sync {
     /// # Errors
     /// Why the study cannot take these numbers, or has no equations of motion.
     fn system_with(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Result<System, String>;
+
+    /// Warnings where slip leaves the range of a friction law by averaging, with numbers set in order as by `--set` and another waveform
+    /// of the dither that is designed. None where averaging has no answer.
+    fn beyond_laws(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Vec<String> {
+        let Ok(system) = self.system_with(waveform, numbers) else { return Vec::new() };
+        let average = DitheredSystem::new(&system).and_then(|prepared| prepared.average());
+        average.map_or_else(|_| Vec::new(), |found| outside_of_laws(&system, Some(&found.contacts)))
+    }
 
     /// The uncertain numbers.
     fn uncertain(&self) -> Option<&Uncertainty>;
@@ -103,6 +113,15 @@ impl FrequencyScale {
 }
 
 impl StudyWithDesign for BeltStudy {
+    fn beyond_laws(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Vec<String> {
+        let Ok(study) = self.at(numbers.iter().copied()) else { return Vec::new() };
+        let Ok(belt) = with_waveform(study.belt(), waveform) else { return Vec::new() };
+        let slip = with_dither(&belt, belt.belt_velocity());
+        let range = belt.friction().range().filter(|range| slip > range.upper);
+        let warning = range.map(|range| sentence(&study, &range, "slip including dither reaches", slip));
+        warning.into_iter().collect()
+    }
+
     fn uncertain(&self) -> Option<&Uncertainty> {
         self.uncertainty()
     }
