@@ -173,7 +173,10 @@ fn a_loss_of_friction_is_judged_on_exact_responses() {
     assert!((found.critical.amplitude / 1.4863197137178406 - 1.0).abs() < 1e-6);
     let (loss, _) = found.friction_loss.expect("a loss");
     let used = found.critical.used[0].1.clone().expect("a loss") * 0.25;
-    assert!((used - loss.max(0.0)).abs() < 1e-9, "the limit is judged on exact responses: {loss} {used}");
+    assert!(
+        (used - loss.max(0.0)).abs() < 1e-9,
+        "the limit is judged on exact responses: {loss} {used}"
+    );
     let corner = OperatingPoint { point: &[0.145], others: &[] };
     let averaged = Plant::averaged_loss(&plant, corner, found.critical.amplitude).expect("a loss");
     assert!(loss < averaged, "near the graze averaging loses too much: {loss} {averaged}");

@@ -198,7 +198,7 @@ fn complaints_name_the_place() {
         // Reaches negative values.
         (
             "\"belt.normal_load\" = { normal = [1.0, 0.5] }",
-            "lognormal = [median, sigma] has positive values",
+            "positive values alone (lognormal = [median, sigma])",
         ),
         ("\"belt.normal_load\" = { uniform = [-1.0, 0.5] }", "belt.normal_load = -1"),
         ("\"friction.law\" = { normal = [1.0, 0.1] }", "path of a number"),
@@ -255,8 +255,7 @@ fn quantiles_of_thresholds_are_thresholds_at_quantiles() {
     let uncertain = "[uncertainty]\n\"belt.belt_velocity\" = { uniform = [0.05, 0.15] }\n";
     for (start, samples) in [(ProbabilityStart::Averaged, 4000), (ProbabilityStart::Local, 100)] {
         let found = found(&format!("{STRIBECK}{uncertain}"), samples, start);
-        let thresholds = &found["quantiles"]["threshold"];
-        let values = ["0.05", "0.5", "0.95"].map(|share| number(&thresholds[share]));
+        let values = [0, 1, 2].map(|place| number(&found["thresholds"][place]["amplitude"]));
         let shares = values.map(|amplitude| share_quenched(amplitude, start));
         for (share, exact) in shares.into_iter().zip([0.05, 0.5, 0.95]) {
             let error = 4.0 * (exact * (1.0_f64 - exact) / samples as f64).sqrt();
@@ -265,10 +264,10 @@ fn quantiles_of_thresholds_are_thresholds_at_quantiles() {
     }
     let without = STRIBECK.split("[dither]").next().expect("a belt");
     let found = averaged(&format!("{without}{uncertain}"), 50);
-    assert!(found["quantiles"]["threshold"]["0.5"].is_null());
+    assert!(found["thresholds"][1]["amplitude"].is_null());
     let of_runs = format!("{STRIBECK}{uncertain}");
     let found = self::found(&of_runs, 3, ProbabilityStart::Rest);
-    assert!(found["quantiles"]["threshold"]["0.5"].is_null());
+    assert!(found["thresholds"][1]["amplitude"].is_null());
 }
 
 /// The share of the speeds that an amplitude quenches: up to the threshold in speed, by bisection of the verdict.
@@ -307,9 +306,38 @@ fn uncertain_scales_change_rates_and_forces() {
         |mass: f64| format!("\"belt.mass_kg\" = {{ uniform = [{mass}, {}] }}", mass * 1.000_001);
     let elsewhere = averaged(&text(1.0, &mass(0.5)), 50);
     let own = averaged(&text(0.5, &mass(0.5)), 50);
-    for quantity in ["growth", "threshold"] {
-        let key = if quantity == "growth" { "0.5_per_s" } else { "0.5_n" };
-        let [a, b] = [&elsewhere, &own].map(|found| number(&found["quantiles"][quantity][key]));
-        assert!((a / b - 1.0).abs() < 1e-9, "{quantity}: {a} {b}");
+    for pointer in ["/quantiles/growth/0.5_per_s", "/thresholds/1/amplitude_n"] {
+        let [a, b] = [&elsewhere, &own].map(|found| found.pointer(pointer).map_or(0.0, number));
+        assert!((a / b - 1.0).abs() < 1e-9, "{pointer}: {a} {b}");
     }
+}
+
+/// Averaging of a dither that is not fast is warned of, and its sharper form is unknown below the resonance.
+#[test]
+fn averaging_of_slow_dither_is_warned_of() {
+    let uncertain = "[uncertainty]\n\"belt.belt_velocity\" = { uniform = [0.05, 0.15] }\n";
+    let of = |ratio: &str| {
+        let text =
+            STRIBECK.replace("frequency_ratio = 10.0", &format!("frequency_ratio = {ratio}"));
+        averaged(&format!("{text}{uncertain}"), 60)
+    };
+    let warned = |found: &Json, words: &str| {
+        let warnings = found["warnings"].as_array().expect("warnings");
+        warnings.iter().any(|warning| warning.as_str().is_some_and(|said| said.contains(words)))
+    };
+    let slow = of("0.5");
+    assert!(warned(&slow, "R is below 5 in 60 of 60 samples"), "{slow}");
+    assert!(slow["probability_sharper"].is_null());
+    assert!(
+        slow["sentence"]
+            .as_str()
+            .is_some_and(|said| said.contains("By finite-R averaging it is unknown"))
+    );
+    // Fast enough for both, and not for the limit of high frequency.
+    let near = averaged(
+        &format!("{}{uncertain}", STRIBECK.replace("amplitude = 1.2", "amplitude = 0.985")),
+        400,
+    );
+    assert!(warned(&near, "disagree"), "{near}");
+    assert!(!warned(&of("10.0"), "below 5"));
 }

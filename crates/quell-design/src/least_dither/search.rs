@@ -94,8 +94,8 @@ impl DesignPoint {
     /// The objective where every limit may be kept: those whose use is an estimate may be exceeded by its error.
     fn may_be_allowed(&self) -> Option<f64> {
         let kept = |(quantity, used): &(LimitedQuantity, Result<f64, String>)| {
-            let estimated = quantity.of_response().is_some()
-                || *quantity == LimitedQuantity::FrictionLoss;
+            let estimated =
+                quantity.of_response().is_some() || *quantity == LimitedQuantity::FrictionLoss;
             let most = if estimated { 1.0 + ESTIMATE } else { 1.0 };
             used.as_ref().is_ok_and(|used| *used <= most)
         };
@@ -394,8 +394,7 @@ impl DesignProblem<'_> {
     fn refined(&self, mut best: DesignPoint, tried: &mut Vec<DesignPoint>) -> DesignPoint {
         let count = GRID.get(self.others.len()).copied().unwrap_or(2);
         let mut step = 1.0 / (count - 1) as f64;
-        let closeness =
-            if self.judges_by_responses() { CLOSENESS_OF_RESPONSES } else { CLOSENESS };
+        let closeness = if self.judges_by_responses() { CLOSENESS_OF_RESPONSES } else { CLOSENESS };
         while step > closeness {
             let mut moved = false;
             for (coordinate, (low, high)) in self.others.iter().enumerate() {

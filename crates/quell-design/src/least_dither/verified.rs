@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 use super::no_design::NoDesign;
 use super::search::{DesignPoint, grid};
 use super::{
-    DesignObjective, DesignProblem, DesignStart, ExactVerdict, LimitedQuantity, MARGIN, OperatingPoint,
-    ResponseSize,
+    DesignObjective, DesignProblem, DesignStart, ExactVerdict, LimitedQuantity, MARGIN,
+    OperatingPoint, ResponseSize,
 };
 
 /// Share of a limit of the response up to which it is kept: the method that follows a limit ends within this of it.

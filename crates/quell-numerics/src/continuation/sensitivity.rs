@@ -320,7 +320,8 @@ fn extrapolated_difference(
         let slope: Vec<f64> =
             after.iter().zip(&behind).map(|(a, b)| (a - b) / (2.0 * step)).collect();
         if best.is_empty() {
-            best = slope.iter().map(|value| Slope { value: *value, error: f64::INFINITY }).collect();
+            best =
+                slope.iter().map(|value| Slope { value: *value, error: f64::INFINITY }).collect();
         }
         let mut row: Vec<Vec<f64>> = vec![slope];
         let mut power = 1.0;
@@ -344,9 +345,7 @@ fn extrapolated_difference(
         }
     }
     let accepted = worst(&best) < ACCEPTED;
-    accepted
-        .then(|| best.iter().map(|slope| slope.value).collect())
-        .ok_or(NoSensitivity::NotSmooth)
+    accepted.then(|| best.iter().map(|slope| slope.value).collect()).ok_or(NoSensitivity::NotSmooth)
 }
 
 /// The largest error of slopes, each relative to itself or to a part of the largest one.

@@ -260,7 +260,7 @@ impl<K: StudyKind> StudyOf<K> {
                 let Err(wrong) = self.at([(path, value)]) else { continue };
                 let key = format!("uncertainty.\"{path}\"");
                 complaints.extend(wrong.into_iter().map(|complaint| {
-                    let allowed = uncertainty::beyond(&complaint.key, value, &complaint.allowed);
+                    let allowed = uncertainty::beyond(path, value, &complaint);
                     Complaint { key: key.clone(), origin, value: path.into(), allowed, ..complaint }
                 }));
             }

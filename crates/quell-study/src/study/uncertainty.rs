@@ -67,11 +67,18 @@ impl Uncertainty {
     }
 }
 
-/// What is wrong with an extreme value of a distribution, and what to do.
-pub(super) fn beyond(key: &str, value: f64, allowed: &str) -> String {
+/// What is wrong with an extreme value of a distribution, and what to do; `about` is the complaint about the study with that value.
+pub(super) fn beyond(path: &str, value: f64, about: &Complaint) -> String {
+    // The value may be wrong together with another number.
+    let must = if about.key == path {
+        format!("must be {}", about.allowed)
+    } else {
+        format!("does not fit {}, which must be {}", about.key, about.allowed)
+    };
     format!(
-        "a distribution of values that give valid studies: {key} = {value:.6}, which has a probability of at least 10⁻⁶, must be \
-         {allowed}; lognormal = [median, sigma] has positive values alone, uniform = [from, to] has ends"
+        "a distribution of values that give valid studies: {path} = {value:.6}, which has a probability of at least 10⁻⁶, {must}; a \
+         distribution of its own can have positive values alone (lognormal = [median, sigma]) or ends (uniform = [from, to]); in \
+         [uncertainty.covariance] leave the number out (`quell fit --fix` keeps it)"
     )
 }
 
@@ -218,7 +225,7 @@ impl Gathering<'_> {
         for (place, row) in matrix.iter().enumerate() {
             let variance = row[place];
             if variance <= 0.0 {
-                let allowed = "a matrix with positive variances in its diagonal";
+                let allowed = "a matrix with positive variances in its diagonal: a number that is certain is left out of of, mean and matrix";
                 reader.wrong(&format!("{prefix}.matrix[{place}][{place}]"), node, allowed);
                 return None;
             }

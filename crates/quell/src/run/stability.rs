@@ -26,7 +26,7 @@ use crate::study::BeltStudy;
 use crate::words::{digits, in_words};
 
 /// Below this frequency ratio a dither is hardly fast.
-const FAST: f64 = 5.0;
+pub(crate) const FAST: f64 = 5.0;
 
 /// Averaged stability under one model of the fast motion.
 #[derive(Clone, Debug)]

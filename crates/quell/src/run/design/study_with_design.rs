@@ -118,7 +118,8 @@ impl StudyWithDesign for BeltStudy {
         let Ok(belt) = with_waveform(study.belt(), waveform) else { return Vec::new() };
         let slip = with_dither(&belt, belt.belt_velocity());
         let range = belt.friction().range().filter(|range| slip > range.upper);
-        let warning = range.map(|range| sentence(&study, &range, "slip including dither reaches", slip));
+        let warning =
+            range.map(|range| sentence(&study, &range, "slip including dither reaches", slip));
         warning.into_iter().collect()
     }
 

@@ -4,13 +4,24 @@ use quell_design::probability::{SobolEstimate, SobolIndices, quantile};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::{SampledGrowth, SampledKind, VerdictTally, VibrationProbability};
+use super::{ProbabilityStart, SampledGrowth, SampledKind, VerdictTally, VibrationProbability};
 use crate::fields::Fields;
+use crate::run::stability::FAST;
 use crate::words::plural;
 
 /// Digits of numbers in sentences: more are not known from a sample.
 fn digits(value: f64) -> String {
     quell_model::digits::digits(value, 3)
+}
+
+/// A share in per cent: next to 100 % with the digits that tell it from that.
+fn per_cent(share: f64) -> String {
+    if share > 0.99 && share < 1.0 {
+        let rest = quell_model::digits::digits(100.0 * (1.0 - share), 2);
+        let decimals = rest.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+        return format!("{:.decimals$} %", 100.0 * share);
+    }
+    format!("{} %", digits(100.0 * share))
 }
 
 /// Quantiles of the growth rate in the answer.
@@ -19,7 +30,6 @@ pub(crate) const QUANTILES: [(&str, f64); 3] = [("0.05", 0.05), ("0.5", 0.5), ("
 impl VibrationProbability {
     /// The sentence of the answer.
     pub fn sentence(&self, study: &impl SampledKind) -> String {
-        let per_cent = |share: f64| format!("{} %", digits(100.0 * share));
         let of = |tally: &VerdictTally| {
             let (low, high) = tally.interval();
             tally.probability().map(|probability| {
@@ -35,9 +45,16 @@ impl VibrationProbability {
             return format!("No verdict of {} samples is known.", self.samples);
         };
         let sharper = self.verdicts_sharper.as_ref().and_then(of);
-        let sharper = sharper.map_or(String::new(), |found| {
-            format!(" By finite-R averaging, with the response of the oscillator to the dither, it is {found}.")
-        });
+        let sharper = match (sharper, &self.verdicts_sharper) {
+            (Some(found), _) => format!(
+                " By finite-R averaging, with the response of the oscillator to the dither, it is {found}."
+            ),
+            (None, Some(tally)) => {
+                let why = tally.why.as_deref().unwrap_or("no verdict is known");
+                format!(" By finite-R averaging it is unknown: {why}.")
+            }
+            (None, None) => String::new(),
+        };
         let cause = self.main_cause().map_or(String::new(), |(paths, total)| {
             format!(
                 " {} causes {} of the variance of the growth rate, alone and together with others.",
@@ -48,9 +65,11 @@ impl VibrationProbability {
         });
         let (unit, factor) = study.unit_of_rates();
         let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
+        // Whatever decides about the vibration, the growth rate is that of averaging.
+        let by = if self.start == ProbabilityStart::Averaged { "" } else { " by averaging" };
         let growth = match self.growth.quantiles() {
             Some([low, _, high]) => format!(
-                " The growth rate is between {}{unit} and {}{unit} in 90 % of the samples.",
+                " The growth rate{by} is between {}{unit} and {}{unit} in 90 % of the samples.",
                 digits(low * factor),
                 digits(high * factor)
             ),
@@ -64,9 +83,10 @@ impl VibrationProbability {
             )
         });
         format!(
-            "The probability that it vibrates {} is {probability}, from {} samples.{sharper}{growth}{cause}{enough}",
+            "The probability that it vibrates {} is {probability}, from {} sample{}.{sharper}{growth}{cause}{enough}",
             self.start.words(),
-            self.samples
+            self.samples,
+            plural(self.samples)
         )
     }
 
@@ -114,12 +134,14 @@ impl VibrationProbability {
             }
             quantiles.nested(name, inner);
         }
-        let mut inner = study.fields();
-        for (key, share) in QUANTILES {
-            inner.known(key, Quantity::Force, self.thresholds.quantile(share));
-        }
-        quantiles.nested("threshold", inner);
         fields.nested("quantiles", quantiles);
+        let thresholds = QUANTILES.map(|(_, share)| {
+            let mut inner = study.fields();
+            inner.measured("share", "1", share);
+            inner.known("amplitude", Quantity::Force, self.thresholds.quantile(share));
+            inner
+        });
+        fields.list("thresholds", thresholds);
         for (name, growth) in
             [("indices", Some(&self.growth)), ("indices_sharper", self.growth_sharper.as_ref())]
         {
@@ -179,6 +201,18 @@ impl VibrationProbability {
             warnings.push(format!(
                 "the growth rate of {} is unknown. The first: {why}",
                 samples(self.growth.unknown)
+            ));
+        }
+        if self.hardly_fast > 0 {
+            warnings.push(format!(
+                "averaging assumes fast dither, and R is below {FAST} in {}: --start local judges by exact responses",
+                samples(self.hardly_fast)
+            ));
+        }
+        if self.apart > 0 {
+            warnings.push(format!(
+                "the two averaging methods disagree about {}: --start local judges by exact responses",
+                samples(self.apart)
             ));
         }
         if self.beyond_range > 0 {

@@ -187,6 +187,10 @@ pub struct VibrationProbability {
     pub beyond_range: usize,
     /// Samples in which the fast motion opens a contact, which averaging does not describe.
     pub opens: usize,
+    /// Samples with a dither that is hardly fast, of a belt judged by averaging.
+    pub hardly_fast: usize,
+    /// Samples about which the two methods of averaging disagree.
+    pub apart: usize,
     /// Samples that are no valid studies.
     pub invalid: usize,
     /// Why the first of them is none.
@@ -289,6 +293,7 @@ where
         }
     }
     let groups = joint.groups().to_vec();
+    let averaged = start == ProbabilityStart::Averaged;
     let sharper = valid.iter().any(|sample| sample.first.sharper.is_some());
     let sharper_verdicts: Vec<Result<bool, String>> =
         valid.iter().filter_map(|sample| Some(verdict(sample.first.sharper.as_ref()?))).collect();
@@ -298,8 +303,7 @@ where
         seed,
         paths,
         verdicts: VerdictTally::of(valid.iter().map(|sample| &sample.verdict)),
-        verdicts_sharper: (sharper && start == ProbabilityStart::Averaged)
-            .then(|| VerdictTally::of(sharper_verdicts.iter())),
+        verdicts_sharper: (sharper && averaged).then(|| VerdictTally::of(sharper_verdicts.iter())),
         growth: growth(&valid, &groups, |growth| Some(&growth.limit)),
         growth_sharper: sharper.then(|| growth(&valid, &groups, |growth| growth.sharper.as_ref())),
         thresholds: SampledThresholds::of(
@@ -307,10 +311,18 @@ where
         ),
         beyond_range: valid.iter().filter(|sample| sample.first.beyond_range).count(),
         opens: valid.iter().filter(|sample| sample.first.opens).count(),
+        hardly_fast: valid.iter().filter(|sample| averaged && sample.first.hardly_fast).count(),
+        apart: valid.iter().filter(|sample| averaged && disagree(&sample.first)).count(),
         groups,
         invalid,
         invalid_why,
     })
+}
+
+/// Whether the two methods of averaging have different verdicts.
+fn disagree(growth: &AveragedGrowth) -> bool {
+    let sharper = growth.sharper.as_ref().and_then(|found| verdict(found).ok());
+    sharper.is_some_and(|sharper| verdict(&growth.limit).is_ok_and(|limit| limit != sharper))
 }
 
 /// The verdict of a growth rate.

@@ -15,6 +15,7 @@ use crate::complaint::{Complaint, Failure};
 use crate::contact_state::refused_of_belt;
 use crate::fields::Fields;
 use crate::range;
+use crate::run::stability::FAST;
 use crate::run::system::attractor::{MotionKind, end_of_run, local_verdict};
 use crate::run::system::protocol::SystemProtocol;
 use crate::run::system::{has_equations, in_units};
@@ -58,11 +59,13 @@ pub struct AveragedGrowth {
     pub beyond_range: bool,
     /// Whether the fast motion opens a contact.
     pub opens: bool,
+    /// Whether a dither of a belt is hardly fast, so that averaging may be wrong.
+    pub hardly_fast: bool,
 }
 
 impl AveragedGrowth {
     fn of(limit: Result<JudgedGrowth, String>) -> Self {
-        Self { limit, sharper: None, beyond_range: false, opens: false }
+        Self { limit, sharper: None, beyond_range: false, opens: false, hardly_fast: false }
     }
 }
 
@@ -170,7 +173,8 @@ impl SampledKind for BeltStudy {
             }
         });
         let limit = sampled.growth(AveragingOptions::default());
-        AveragedGrowth { limit, sharper, beyond_range, opens: false }
+        let hardly_fast = belt.dithers().iter().any(|dither| dither.lowest_ratio() < FAST);
+        AveragedGrowth { limit, sharper, beyond_range, opens: false, hardly_fast }
     }
 
     fn threshold(&self, sampled: &SampledBelt, exactly: bool) -> Result<f64, String> {
@@ -261,6 +265,7 @@ impl SampledKind for SystemStudy {
                 sharper: None,
                 beyond_range: point.beyond_range,
                 opens: point.opens,
+                hardly_fast: false,
             },
             Err(status) => AveragedGrowth::of(Err(status.about().to_owned())),
         }
