@@ -6,7 +6,7 @@ use quell_model::parameter::{
 };
 
 use super::statistics::{robust_deviation, runs};
-use super::{Certainty, FitPoint, LawFit};
+use super::{Certainty, FitPoint, LawFit, ROUNDING};
 
 /// Residuals above this multiple of the robust standard deviation are outliers.
 const OUTLIER: f64 = 4.0;
@@ -185,7 +185,7 @@ fn residuals(fit: &LawFit, points: &[FitPoint]) -> Vec<FitFinding> {
         .collect();
     let deviation = robust_deviation(&scaled);
     // Residuals at rounding are no outliers of an exact fit.
-    let rounding = 1e-12 * points.iter().map(|point| point.coefficient.abs()).fold(0.0, f64::max);
+    let rounding = ROUNDING * points.iter().map(|point| point.coefficient.abs()).fold(0.0, f64::max);
     let places: Vec<usize> = (0..scaled.len())
         .filter(|&place| {
             scaled[place].abs() > OUTLIER * deviation && fit.residuals[place].abs() > rounding
@@ -197,7 +197,7 @@ fn residuals(fit: &LawFit, points: &[FitPoint]) -> Vec<FitFinding> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|a, b| points[*a].speed().total_cmp(&points[*b].speed()));
     let sorted: Vec<f64> = order.iter().map(|place| fit.residuals[*place]).collect();
-    let exact = sorted.iter().all(|residual| residual.abs() <= rounding);
+    let exact = fit.is_exact();
     if let Some((runs, expected, score)) = runs(&sorted).filter(|_| !exact)
         && score < -UNLIKELY
     {

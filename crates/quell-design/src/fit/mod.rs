@@ -28,6 +28,9 @@ pub use model::{Estimate, FitModel};
 pub use point::FitPoint;
 pub use statistics::{runs, student_quantile};
 
+/// Residuals up to this part of the largest coefficient are rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Why a law cannot be fitted.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unfitted {
@@ -106,6 +109,8 @@ pub struct LawFit {
     pub free: usize,
     /// c − μ of each point.
     pub residuals: Vec<f64>,
+    /// Largest |c|.
+    largest: f64,
     /// Σ ln σ.
     log_deviations: f64,
     /// The law in steady sliding.
@@ -124,12 +129,18 @@ impl LawFit {
         (self.rss / (self.points - self.free) as f64).sqrt()
     }
 
+    /// Whether the law passes through every point, up to rounding.
+    pub fn is_exact(&self) -> bool {
+        let largest = self.largest * ROUNDING;
+        self.residuals.iter().all(|residual| residual.abs() <= largest)
+    }
+
     /// Akaike's information criterion.
     ///
     /// # Errors
     /// The law passes through every point, so that the criterion has no lower bound.
     pub fn aic(&self) -> Result<f64, String> {
-        if self.rss <= 0.0 {
+        if self.is_exact() {
             return Err("the law passes through every point".to_owned());
         }
         let count = self.points as f64;
@@ -223,6 +234,7 @@ pub fn fit(model: &FitModel, points: &[FitPoint]) -> Result<LawFit, Unfitted> {
         rss: found.rss,
         points: points.len(),
         free,
+        largest: points.iter().map(|point| point.coefficient.abs()).fold(0.0, f64::max),
         residuals: points
             .iter()
             .map(|point| point.coefficient - curve.coefficient(point.speed()))
