@@ -185,7 +185,8 @@ fn residuals(fit: &LawFit, points: &[FitPoint]) -> Vec<FitFinding> {
         .collect();
     let deviation = robust_deviation(&scaled);
     // Residuals at rounding are no outliers of an exact fit.
-    let rounding = ROUNDING * points.iter().map(|point| point.coefficient.abs()).fold(0.0, f64::max);
+    let rounding =
+        ROUNDING * points.iter().map(|point| point.coefficient.abs()).fold(0.0, f64::max);
     let places: Vec<usize> = (0..scaled.len())
         .filter(|&place| {
             scaled[place].abs() > OUTLIER * deviation && fit.residuals[place].abs() > rounding

@@ -71,15 +71,19 @@ impl<'t> DataFile<'t> {
             lines.next().ok_or_else(|| format!("{what} with a header line of column names"))?;
         let names: Vec<&str> =
             header.split(',').map(|name| name.trim().trim_matches('"')).collect();
-        let same = |(place, name): (usize, &&str)| !name.is_empty() && names[..place].contains(name);
+        let same =
+            |(place, name): (usize, &&str)| !name.is_empty() && names[..place].contains(name);
         if names.iter().enumerate().any(same) {
-            return Err(format!("{what} whose columns have different names; two have the same one"));
+            return Err(format!(
+                "{what} whose columns have different names; two have the same one"
+            ));
         }
         let rows: Vec<Row<'t>> = lines
             .map(|(line, row)| Row { line, cells: row.split(',').map(str::trim).collect() })
             .collect();
         // A comma at the end of a line adds no number.
-        let longer = |row: &&Row<'_>| row.cells.iter().skip(names.len()).any(|cell| !cell.is_empty());
+        let longer =
+            |row: &&Row<'_>| row.cells.iter().skip(names.len()).any(|cell| !cell.is_empty());
         if let Some(row) = rows.iter().find(longer) {
             return Err(format!(
                 "{what} with at most as many cells in a line as columns; line {} has {} cells for {} columns (numbers have a decimal point, \
