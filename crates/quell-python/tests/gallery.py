@@ -113,6 +113,17 @@ def design_in_si() -> quell.Study:
 
 
 @cache
+def design_under_uncertainty() -> quell.Study:
+    """A question about the dither that is enough for most friction laws, in SI."""
+    design = {
+        "minimise": "stroke", "vary": ["dither.amplitude_n"], "from": [1.0], "to": [4000.0], "limits": {"stroke_m": 1.0},
+        "confidence": 0.9, "samples": 40,
+    }  # fmt: skip
+    uncertainty = {"belt.mass_kg": {"lognormal": [2.0, 0.05]}}
+    return belt_in_si().replace(design=design, uncertainty=uncertainty)
+
+
+@cache
 def probability_in_si() -> quell.Study:
     """A belt of uncertain speed, in SI."""
     return belt_in_si().replace(uncertainty={"belt.belt_velocity_m_per_s": {"lognormal": [0.5, 0.3]}})
@@ -205,6 +216,7 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "describing function in SI": lambda: belt_in_si().friction(describing=3.0),
     "design": lambda: quell.Study.from_toml(STUDIES / "design.toml").design(),
     "design in SI": lambda: design_in_si().design(),
+    "design under uncertainty": lambda: design_under_uncertainty().design(),
     "design with an actuator": lambda: quell.Study.from_toml(STUDIES / "actuator.toml").design(),
     "design of a disc": lambda: quell.Study.from_toml(STUDIES / "which-dither-frequency.toml").design(),
     "design without an answer": lambda: design_in_si().set({"design.limits.amplitude_n": 100.0}).design(),

@@ -584,6 +584,27 @@ class DesignColumns:
     basin_objective_m: npt.NDArray[np.float64]
     basin_objective_w: npt.NDArray[np.float64]
     binding_value: npt.NDArray[np.str_]
+    confident_allowed: Any
+    confident_amplitude: float
+    confident_amplitude_n: float
+    confident_confidence: float
+    confident_exact: Any
+    confident_high: float
+    confident_high_n: float
+    confident_invalid: Any
+    confident_limit_limit: npt.NDArray[np.str_]
+    confident_limit_used: npt.NDArray[np.float64]
+    confident_loud_again: Any
+    confident_low: float
+    confident_low_n: float
+    confident_never_quiet: Any
+    confident_objective: float
+    confident_objective_m: float
+    confident_over_least: float
+    confident_parameters_dither_amplitude_n: float
+    confident_samples: Any
+    confident_seed: Any
+    confident_unknown: Any
     critical_dither_amplitude: float
     critical_dither_amplitude_n: float
     critical_dither_frequency_hz: float
@@ -620,6 +641,7 @@ class DesignColumns:
     frontier_value_m: npt.NDArray[np.float64]
     limit_limit: npt.NDArray[np.str_]
     limit_used: npt.NDArray[np.float64]
+    loud_from_n: float | None
     number: npt.NDArray[np.float64]
     objective_m: float
     objective_w: float
@@ -636,6 +658,7 @@ class DesignColumns:
     schedule_objective_w: npt.NDArray[np.float64]
     threshold_meets: float
     verified_growth_rate: float
+    verified_largest_multiplier: float
     verified_multiplier: float
     verified_operating_points: Any
     verified_point_belt_belt_velocity: float
@@ -887,6 +910,9 @@ class ProbabilityColumns:
     quantiles_growth_sharper_0_05_per_s: float
     quantiles_growth_sharper_0_5_per_s: float
     quantiles_growth_sharper_0_95_per_s: float
+    threshold_amplitude: npt.NDArray[np.float64]
+    threshold_amplitude_n: npt.NDArray[np.float64]
+    threshold_share: npt.NDArray[np.float64]
 
 
 class RampColumns:

@@ -243,9 +243,16 @@ class Design(_columns.DesignColumns, Result):
     """The operating point that decides."""
     margin: float | None
     """Share by which the verified amplitude exceeds the least one."""
+    loud_from: float | None
+    """The larger amplitude from which it vibrates again somewhere in the box; ``None`` where no amplitude of the range does."""
     verified: dict[str, Any] | None
-    """``protocol``, ``multiplier`` (of a disc ``growth_rate`` too) and ``point`` of the deciding operating point, and the number of
-    ``operating_points``."""
+    """``protocol``, ``multiplier`` (of a disc ``growth_rate`` too) and ``point`` of the deciding operating point, the
+    ``largest_multiplier``, and the number of ``operating_points``."""
+    confident: dict[str, Any] | None
+    """The dither that is quiet in the share ``confidence`` of ``samples``: its ``parameters``, ``amplitude`` with its 95 % interval
+    from ``low`` to ``high``, ``over_least``, ``objective``, ``limits`` and whether they are kept (``allowed``); samples whose threshold
+    is ``exact``, ``never_quiet``, ``loud_again`` by averaging, ``unknown`` or ``invalid``. ``None`` without ``confidence`` in
+    ``[design]``."""
     friction_loss: float | None
     """The largest share of the mean friction that is lost, on exact responses."""
     drive: dict[str, Any] | None
@@ -403,6 +410,8 @@ class Probability(_columns.ProbabilityColumns, Result):
     """Samples whose verdict is unknown."""
     quantiles: dict[str, dict[str, float]]
     """Quantiles 0.05, 0.5 and 0.95 of the growth rate, ``growth`` and of a dithered belt ``growth_sharper``."""
+    thresholds: list[dict[str, Any]]
+    """The least ``amplitude`` of the first dither that is enough for a ``share`` of the samples: 0.05, 0.5 and 0.95."""
     indices: dict[str, dict[str, float | None]]
     """Sobol indices of the growth rate by path: ``first`` and ``total`` with their standard errors."""
     indices_sharper: dict[str, dict[str, float | None]]
