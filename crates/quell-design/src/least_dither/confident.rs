@@ -271,8 +271,8 @@ mod tests {
         let mut averaged: Vec<f64> = (0..95).map(|k| 1.0 + f64::from(k) / 100.0).collect();
         averaged.extend([f64::INFINITY; 5]);
         let mut known = SampledLeast::new(averaged.clone());
-        for sample in 0..100 {
-            known.add(sample, averaged[sample]);
+        for (sample, amplitude) in averaged.iter().enumerate() {
+            known.add(sample, *amplitude);
         }
         let at = |probability: f64| known.quantile(probability).expect("samples").value;
         assert_eq!((at(0.95), at(0.96)), (1.94, f64::INFINITY));
