@@ -291,7 +291,7 @@ fn share_quenched(amplitude: f64, start: ProbabilityStart) -> f64 {
     (low - 0.05) / 0.1
 }
 
-/// Rates and forces are those of every sample in SI, whatever its mass and stiffness: the units of the equations are its own.
+/// Rates and forces are those of every sample in SI: the units of the equations depend on its mass and stiffness.
 #[test]
 fn uncertain_scales_change_rates_and_forces() {
     let text = |mass: f64, uncertain: &str| {

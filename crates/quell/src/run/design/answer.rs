@@ -11,7 +11,8 @@ use quell_model::parameter::design::LIMITS;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::{LeastDitherFound, StudyWithDesign};
+use super::found::LeastDitherFound;
+use super::study_with_design::StudyWithDesign;
 use crate::contact_state::averages_are_a_start;
 use crate::fields::Fields;
 use crate::run::waveforms::label;

@@ -3,12 +3,11 @@
 use quell_design::least_dither::{
     BeltPlant, OperatingPoint, Plant, SampledQuiet, SystemAtPoint, SystemPlant,
 };
-use quell_model::{Belt, Dither, Waveform};
+use quell_model::Waveform;
 
-use super::{
-    DesignNumber, DesignNumbers, LeastDitherFound, asked, is_local, least_dither,
-    least_dither_of_systems, without_amplitude,
-};
+use super::found::{DesignNumber, DesignNumbers, LeastDitherFound};
+use super::least::{asked, is_local, least_dither, least_dither_of_systems, without_amplitude};
+use super::waveform::with_waveform;
 use crate::complaint::{Complaint, Failure, Origin};
 use crate::contact_state::refused_of_belt;
 use crate::run::varied::Named;
@@ -115,16 +114,6 @@ fn sampled(
         }
     };
     Ok(SampledQuiet { averaged: Box::new(exactly(false)), exact: Box::new(exactly(true)) })
-}
-
-/// The belt with another waveform of its first dither.
-pub(super) fn with_waveform(
-    belt: &Belt,
-    waveform: &Waveform,
-) -> Result<Belt, quell_model::InvalidValues> {
-    let mut dithers: Vec<Dither> = belt.dithers().to_vec();
-    dithers[0].waveform = waveform.clone();
-    belt.dithered_by(dithers)
 }
 
 /// Numbers of `[design]` with their paths in the equations. Both ends of every range must give valid studies.

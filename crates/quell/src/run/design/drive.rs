@@ -2,7 +2,8 @@
 
 use quell_design::actuator::ActuatorDemand;
 
-use super::{LeastDitherFound, StudyWithDesign};
+use super::found::LeastDitherFound;
+use super::study_with_design::StudyWithDesign;
 use crate::fields::Fields;
 use crate::run::actuator::{demand_fields, warning_about_samples, warnings_about_actuator};
 use crate::words::digits;

@@ -4,7 +4,8 @@ use quell_design::actuator::Actuator;
 use quell_design::least_dither::{DesignObjective, DesignPoint, LimitedQuantity};
 
 use super::answer::{quantity_of, quantity_of_limit};
-use super::{LeastDitherFound, StudyWithDesign};
+use super::found::LeastDitherFound;
+use super::study_with_design::StudyWithDesign;
 use crate::fields::Fields;
 
 /// Shares of a limit at which the frontier is evaluated.

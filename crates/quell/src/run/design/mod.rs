@@ -1,267 +1,33 @@
 //! `design`: the least dither that is quiet over a box of operating points, under limits.
+//!
+//! | file | contents |
+//! |---|---|
+//! | `belt` | the question about a belt; those about discs and systems are in `run::disc` and `run::system` |
+//! | `study_with_design` | what a kind of study answers about itself |
+//! | `least`, `sampling`, `sensitivity` | the search over waveforms, random samples, derivatives |
+//! | `found` | what is found |
+//! | `answer`, `confident`, `drive`, `frontier`, `schedule`, `validity` | its parts as sentences, warnings and JSON |
 
 mod answer;
 mod belt;
 mod confident;
 mod drive;
+mod found;
 mod frontier;
+mod least;
+mod sampling;
 mod schedule;
 mod sensitivity;
 mod study_with_design;
 mod validity;
+mod waveform;
 
 pub(crate) use answer::quantity_of;
 pub use belt::run;
-pub use confident::ConfidentDither;
-pub(crate) use confident::SampleOf;
-pub use sensitivity::{AmplitudeRate, DesignSensitivity};
-pub use study_with_design::{FrequencyScale, StudyWithDesign};
-
-use quell_design::actuator::Actuator;
-use quell_design::least_dither::{
-    DesignProblem, DesignStart, Designed, LimitedQuantity, OperatingPoint, Plant, ScheduledDither,
-    SystemAtPoint, SystemPlant, design,
+pub(crate) use found::DesignNumbers;
+pub use found::{
+    AmplitudeRate, ConfidentDither, DesignNumber, DesignSensitivity, LeastDitherFound,
 };
-use quell_dynamics::simulation::within;
-use quell_linear::averaging::DitheredSystem;
-use quell_model::profile::{Profile, Wave};
-use quell_model::{System, Waveform};
-use rayon::prelude::*;
-use serde_json::Value as Json;
-
-use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::contact_state::averaged_without_states;
-use crate::effort::STEPS_OF_MANY_SEARCHES;
-use crate::study::Design;
-
-/// Points of the schedule over a box of one coordinate.
-const SCHEDULE: usize = 33;
-
-/// A number of the study that a design chooses or ranges over.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DesignNumber {
-    /// Path as it was written.
-    pub path: String,
-    /// Value of the named key that corresponds to 1 in the equations.
-    pub per_unit: f64,
-    /// Smallest and largest value, in numbers of the equations.
-    pub range: (f64, f64),
-}
-
-/// The least dither of a study.
-#[derive(Clone, Debug)]
-pub struct LeastDitherFound {
-    /// The amplitude.
-    pub amplitude: DesignNumber,
-    /// The other numbers that are chosen.
-    pub others: Vec<DesignNumber>,
-    /// The box of operating points.
-    pub over: Vec<DesignNumber>,
-    /// The answer of each waveform, in the order of the study.
-    pub waveforms: Vec<(Waveform, Designed)>,
-    /// The waveform of the answer: the best feasible one, or the first.
-    pub best: usize,
-    /// The exact least dither at single operating points of a box of one coordinate: a schedule in place of one dither; or why it has
-    /// no points.
-    pub schedule: Result<Vec<ScheduledDither>, String>,
-    /// Why the averages, which do not know the states of contacts, differ from those with them at the least dither.
-    pub without_state: Vec<String>,
-    /// For a disc whose box is a range of speeds, the exact thresholds in amplitude at speeds of the range, with the dither of the
-    /// answer.
-    pub tongues: Vec<(f64, Vec<f64>)>,
-    /// How the least amplitude depends on the numbers of the study, or why that is unknown.
-    pub sensitivity: Result<DesignSensitivity, String>,
-    /// The dither that is quiet in the share of random samples that is asked for, or why it is unknown.
-    pub confident: Result<ConfidentDither, String>,
-}
-
-impl DesignNumber {
-    /// Smallest and largest value in the unit of the path.
-    pub(super) fn range_in_units(&self) -> (f64, f64) {
-        (self.range.0 * self.per_unit, self.range.1 * self.per_unit)
-    }
-}
-
-/// The numbers that a design chooses and over which it ranges.
-#[derive(Clone, Debug)]
-pub(crate) struct DesignNumbers {
-    pub(crate) amplitude: DesignNumber,
-    pub(crate) others: Vec<DesignNumber>,
-    pub(crate) over: Vec<DesignNumber>,
-}
-
-/// The table `[design]` of a study with a dither.
-///
-/// # Errors
-/// A complaint about what is missing.
-pub(crate) fn asked(study: &dyn StudyWithDesign, has_dither: bool) -> Result<&Design, Failure> {
-    let (key, allowed) = match study.asked() {
-        Some(design) if has_dither => return Ok(design),
-        Some(_) => {
-            ("dither", "given: its direction, frequency and waveform are where the design begins")
-        }
-        None => (
-            "design",
-            "a table [design] with minimise, vary, from and to: what is to be small, and over which numbers",
-        ),
-    };
-    Err(Complaint::new(Fault::Missing, key, Origin::Whole, Json::Null, allowed).into())
-}
-
-/// The complaint about `vary` without the amplitude of one dither.
-pub(crate) fn without_amplitude(asked: &Design, allowed: String) -> Failure {
-    let given: Vec<&str> = asked.vary.iter().map(|range| range.path.as_str()).collect();
-    Complaint::new(Fault::Value, "design.vary", Origin::Whole, given, allowed).into()
-}
-
-/// Rejects runs from afar, which the designs of systems do not judge.
-///
-/// # Errors
-/// A complaint about the start.
-pub(crate) fn is_local(asked: &Design, of: &str) -> Result<(), Failure> {
-    if asked.start == DesignStart::Local {
-        return Ok(());
-    }
-    let allowed = format!(
-        "\"local\": for {of} the base response and its multipliers decide; `thresholds --from-rest` and `--from-squeal` judge runs \
-         from afar"
-    );
-    let name = asked.start.name();
-    Err(Complaint::new(Fault::Conflict, "design.start", Origin::Whole, name, allowed).into())
-}
-
-/// The least dither of the waveforms of a study, each with its system; `input` is that of the dither, `observe` the row over the
-/// coordinates whose response is reported.
-///
-/// # Errors
-/// A complaint about uncertain numbers that the design gives.
-pub(crate) fn least_dither_of_systems(
-    study: &dyn StudyWithDesign,
-    asked: &Design,
-    numbers: &DesignNumbers,
-    systems: &[(Waveform, Box<SystemAtPoint<'_>>)],
-    (input, observe): (usize, &[f64]),
-    samples: &SampleOf<'_>,
-) -> Result<LeastDitherFound, Failure> {
-    let plants: Vec<(Waveform, SystemPlant<'_>)> = systems
-        .iter()
-        .map(|(waveform, at)| (waveform.clone(), SystemPlant { at: at.as_ref(), input, observe }))
-        .collect();
-    let found = least_dither(study, asked, numbers, &plants, Ok(samples))?;
-    let without_state = without_state(&found, systems[found.best].1.as_ref());
-    Ok(LeastDitherFound { without_state, ..found })
-}
-
-/// Why the averages of a design, which do not know the states of contacts, differ from those with them at its least dither.
-fn without_state(found: &LeastDitherFound, at: &SystemAtPoint<'_>) -> Vec<String> {
-    let Ok(feasible) = &found.answer().answer else { return Vec::new() };
-    let critical = &feasible.critical;
-    let middle = || found.over.iter().map(|over| 0.5 * (over.range.0 + over.range.1)).collect();
-    let point: Vec<f64> = critical.worst.clone().unwrap_or_else(middle);
-    let place = OperatingPoint { point: &point, others: &critical.others };
-    let Ok(system) = at(place, critical.amplitude) else { return Vec::new() };
-    let average = DitheredSystem::new(&system).and_then(|prepared| prepared.average());
-    average.map(|average| averaged_without_states(&system, &average.contacts)).unwrap_or_default()
-}
-
-/// The least dither of the waveforms of a study, each with its structure; `samples` are those of its uncertain numbers, or why it has
-/// none.
-///
-/// # Errors
-/// A complaint about uncertain numbers that the design gives.
-pub(crate) fn least_dither<P: Plant + Sync>(
-    study: &dyn StudyWithDesign,
-    asked: &Design,
-    numbers: &DesignNumbers,
-    plants: &[(Waveform, P)],
-    samples: Result<&SampleOf<'_>, &'static str>,
-) -> Result<LeastDitherFound, Failure> {
-    let sampling = confident::sampling(study, asked, numbers)?;
-    let DesignNumbers { amplitude, others, over } = numbers.clone();
-    let ranges = |numbers: &[DesignNumber]| -> Vec<(f64, f64)> {
-        numbers.iter().map(|number| number.range).collect()
-    };
-    let (box_ranges, other_ranges) = (ranges(&over), ranges(&others));
-    let actuator = study.actuator();
-    let of_actuator = actuator.map(Actuator::limits).into_iter().flatten();
-    let of_actuator = of_actuator.map(|limit| (LimitedQuantity::Actuator(limit), 1.0));
-    let limits: Vec<_> = asked.limits.iter().copied().chain(of_actuator).collect();
-    let problem = |plant| DesignProblem {
-        plant,
-        objective: asked.minimise,
-        amplitude: amplitude.range,
-        others: &other_ranges,
-        over: &box_ranges,
-        limits: &limits,
-        actuator,
-        start: asked.start,
-    };
-    let designed = plants.par_iter().map(|(waveform, plant)| {
-        (waveform.clone(), within(STEPS_OF_MANY_SEARCHES, || design(problem(plant))))
-    });
-    let waveforms: Vec<(Waveform, Designed)> = designed.collect();
-    let value = |designed: &Designed| match &designed.answer {
-        Ok(found) => found.critical.objective.clone().unwrap_or(f64::INFINITY),
-        Err(_) => f64::INFINITY,
-    };
-    let best = (0..waveforms.len())
-        .min_by(|a, b| value(&waveforms[*a].1).total_cmp(&value(&waveforms[*b].1)))
-        .unwrap_or(0);
-    let schedule = match (plants.get(best), box_ranges.as_slice(), &waveforms[best].1.answer) {
-        _ if asked.start != DesignStart::Local => {
-            Err("runs from a start are judged only where they decide".to_owned())
-        }
-        (Some((_, plant)), [range], Ok(found)) => {
-            Ok(schedule(problem(plant), *range, &found.critical.others))
-        }
-        (_, [_], _) => Err("no dither is allowed".to_owned()),
-        _ => Err("the box of operating points has not exactly one coordinate".to_owned()),
-    };
-    let (without_state, tongues) = (Vec::new(), Vec::new());
-    let sensitivity = Err("no dither is allowed".to_owned());
-    let confident = match (sampling, samples, plants.get(best), &waveforms[best].1.answer) {
-        (Err(why), ..) => Err(why),
-        (Ok(_), Err(why), ..) => Err(why.to_owned()),
-        (Ok(sampling), Ok(samples), Some((_, plant)), Ok(found)) => {
-            let sample = |values: &[(&str, f64)], others: &[f64]| samples(best, values, others);
-            sampling.confident(&problem(plant), &found.critical, &sample)
-        }
-        _ => Err("no dither is allowed".to_owned()),
-    };
-    let found = LeastDitherFound {
-        amplitude,
-        others,
-        over,
-        waveforms,
-        best,
-        schedule,
-        without_state,
-        tongues,
-        sensitivity,
-        confident,
-    };
-    let sensitivity = found.sensitivity_of(study);
-    Ok(LeastDitherFound { sensitivity, ..found })
-}
-
-/// The exact least dithers along a box of one coordinate.
-fn schedule(problem: DesignProblem<'_>, range: (f64, f64), others: &[f64]) -> Vec<ScheduledDither> {
-    let at = |point: f64| within(STEPS_OF_MANY_SEARCHES, || problem.scheduled(&[point], others));
-    super::evenly(range, SCHEDULE).into_par_iter().map(at).collect()
-}
-
-/// The system with another waveform of one dither.
-pub(crate) fn system_with_waveform(
-    mut system: System,
-    input: usize,
-    waveform: &Waveform,
-) -> System {
-    if let Some(input) = system.inputs.get_mut(input)
-        && let [wave] = input.profile.waves()
-        && wave.waveform != *waveform
-    {
-        let wave = Wave { waveform: waveform.clone(), ..wave.clone() };
-        input.profile = Profile::constant(input.profile.mean()).with(wave);
-    }
-    system
-}
+pub(crate) use least::{asked, is_local, least_dither, least_dither_of_systems, without_amplitude};
+pub use study_with_design::{FrequencyScale, StudyWithDesign};
+pub(crate) use waveform::system_with_waveform;

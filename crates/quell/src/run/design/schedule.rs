@@ -4,7 +4,8 @@ use quell_design::least_dither::DesignObjective;
 use quell_model::units::Quantity;
 
 use super::answer::quantity_of;
-use super::{LeastDitherFound, StudyWithDesign};
+use super::found::LeastDitherFound;
+use super::study_with_design::StudyWithDesign;
 use crate::fields::Fields;
 use crate::words::digits;
 

@@ -1,11 +1,11 @@
 //! How the least amplitude of a design depends on every number of the study, in the units of the study.
 
 use quell_design::least_dither::{DesignStart, LeastAmplitude, LeastAmplitudeSensitivity};
-use quell_dynamics::orbit::threshold::ThresholdKind;
 use quell_model::{System, Waveform};
 use serde_json::Value as Json;
 
-use super::{LeastDitherFound, StudyWithDesign};
+use super::found::{AmplitudeRate, DesignNumber, DesignSensitivity, LeastDitherFound};
+use super::study_with_design::StudyWithDesign;
 use crate::fields::Fields;
 
 /// Relative change by which a number is tried: whether the equations contain it, and whether it may vary.
@@ -17,30 +17,6 @@ const MOST_NUMBERS: usize = 400;
 
 /// Tables of a study that do not describe its equations.
 const APART: [&str; 7] = ["schema", "title", "sweep", "design", "uncertainty", "observe", "solver"];
-
-/// The derivative of the least amplitude with respect to one number.
-#[derive(Clone, Debug, PartialEq)]
-pub struct AmplitudeRate {
-    /// Path of the number in the study.
-    pub path: String,
-    /// Its value, in the unit of its key.
-    pub value: f64,
-    /// The derivative: the unit of the amplitude per unit of the number; or why it is unknown.
-    pub rate: Result<f64, String>,
-}
-
-/// How the least amplitude of a design depends on the numbers of the study.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DesignSensitivity {
-    /// The kind of the threshold that decides.
-    pub kind: ThresholdKind,
-    /// The threshold that it meets at the operating point that decides, if any.
-    pub meets: Option<ThresholdKind>,
-    /// The least amplitude, in the unit of its path.
-    pub amplitude: f64,
-    /// The derivatives, in the order of the study.
-    pub rates: Vec<AmplitudeRate>,
-}
 
 /// Every number that a document writes, by its path; entries of lists with a name by their name.
 fn written(document: &Json) -> Vec<String> {
@@ -144,14 +120,13 @@ impl LeastDitherFound {
             .worst
             .as_ref()
             .ok_or("the smallest allowed amplitude is quiet everywhere: no threshold decides")?;
-        let in_units = |numbers: &[super::DesignNumber], values: &[f64]| -> Vec<f64> {
+        let in_units = |numbers: &[DesignNumber], values: &[f64]| -> Vec<f64> {
             numbers.iter().zip(values).map(|(number, value)| value * number.per_unit).collect()
         };
         let amplitude = critical.amplitude * self.amplitude.per_unit;
         let others = in_units(&self.others, &critical.others);
         let point = in_units(&self.over, worst);
-        let over: Vec<(f64, f64)> =
-            self.over.iter().map(super::DesignNumber::range_in_units).collect();
+        let over: Vec<(f64, f64)> = self.over.iter().map(DesignNumber::range_in_units).collect();
         let other_paths = self.others.iter().map(|number| number.path.as_str());
         let over_paths: Vec<&str> = self.over.iter().map(|number| number.path.as_str()).collect();
         let chosen: Vec<(&str, f64)> = other_paths.zip(others).collect();
@@ -160,7 +135,10 @@ impl LeastDitherFound {
         set.extend(over_paths.iter().copied().zip(point.iter().copied()));
         let at_least = AtLeast { study, waveform: self.waveform(), set };
         let mut numbers = at_least.numbers()?;
-        numbers.truncate(MOST_NUMBERS);
+        for (_, _, may_vary) in numbers.iter_mut().skip(MOST_NUMBERS) {
+            *may_vary =
+                Err(format!("the first {MOST_NUMBERS} numbers of a study are differentiated"));
+        }
         let vary: Vec<(&str, f64)> = numbers
             .iter()
             .filter(|(_, _, may_vary)| may_vary.is_ok())

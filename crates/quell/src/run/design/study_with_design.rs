@@ -9,8 +9,7 @@ use quell_model::units::Quantity;
 use quell_model::{Parametrisation, System, Waveform};
 use serde_json::Value as Json;
 
-use super::belt::with_waveform;
-use super::system_with_waveform;
+use super::waveform::{system_with_waveform, with_waveform};
 use crate::fields::Fields;
 use crate::range::{outside_of_laws, sentence, with_dither};
 use crate::run::system::in_units;

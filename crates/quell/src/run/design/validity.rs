@@ -1,6 +1,7 @@
 //! Where the least dither leaves the range of a friction law.
 
-use super::{DesignNumber, LeastDitherFound, StudyWithDesign};
+use super::found::{DesignNumber, LeastDitherFound};
+use super::study_with_design::StudyWithDesign;
 
 impl LeastDitherFound {
     /// Warnings where the dither of the answer takes the slip out of the range of a law, at a corner of the box or the point that decides.

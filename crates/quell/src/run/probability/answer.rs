@@ -14,7 +14,7 @@ fn digits(value: f64) -> String {
     quell_model::digits::digits(value, 3)
 }
 
-/// A share in per cent: next to 100 % with the digits that tell it from that.
+/// A share in per cent: next to 100 % with the digits in which it differs from that.
 fn per_cent(share: f64) -> String {
     if share > 0.99 && share < 1.0 {
         let rest = quell_model::digits::digits(100.0 * (1.0 - share), 2);
@@ -65,7 +65,7 @@ impl VibrationProbability {
         });
         let (unit, factor) = study.unit_of_rates();
         let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-        // Whatever decides about the vibration, the growth rate is that of averaging.
+        // The growth rate is that of averaging, also where exact motions decide about the vibration.
         let by = if self.start == ProbabilityStart::Averaged { "" } else { " by averaging" };
         let growth = match self.growth.quantiles() {
             Some([low, _, high]) => format!(

@@ -1,0 +1,184 @@
+//! The least dither of any structure: every waveform, the best of them, and what belongs to its answer.
+
+use quell_design::actuator::Actuator;
+use quell_design::least_dither::{
+    DesignProblem, DesignStart, Designed, LimitedQuantity, OperatingPoint, Plant, ScheduledDither,
+    SystemAtPoint, SystemPlant, design,
+};
+use quell_dynamics::simulation::within;
+use quell_linear::averaging::DitheredSystem;
+use quell_model::Waveform;
+use rayon::prelude::*;
+use serde_json::Value as Json;
+
+use super::found::{DesignNumber, DesignNumbers, LeastDitherFound};
+use super::sampling::{SampleOf, sampling};
+use super::study_with_design::StudyWithDesign;
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::contact_state::averaged_without_states;
+use crate::effort::STEPS_OF_MANY_SEARCHES;
+use crate::run::evenly;
+use crate::study::Design;
+
+/// Points of the schedule over a box of one coordinate.
+const SCHEDULE: usize = 33;
+
+/// The table `[design]` of a study with a dither.
+///
+/// # Errors
+/// A complaint about what is missing.
+pub(crate) fn asked(study: &dyn StudyWithDesign, has_dither: bool) -> Result<&Design, Failure> {
+    let (key, allowed) = match study.asked() {
+        Some(design) if has_dither => return Ok(design),
+        Some(_) => {
+            ("dither", "given: its direction, frequency and waveform are where the design begins")
+        }
+        None => (
+            "design",
+            "a table [design] with minimise, vary, from and to: what is to be small, and over which numbers",
+        ),
+    };
+    Err(Complaint::new(Fault::Missing, key, Origin::Whole, Json::Null, allowed).into())
+}
+
+/// The complaint about `vary` without the amplitude of one dither.
+pub(crate) fn without_amplitude(asked: &Design, allowed: String) -> Failure {
+    let given: Vec<&str> = asked.vary.iter().map(|range| range.path.as_str()).collect();
+    Complaint::new(Fault::Value, "design.vary", Origin::Whole, given, allowed).into()
+}
+
+/// Rejects runs from afar, which the designs of systems do not judge.
+///
+/// # Errors
+/// A complaint about the start.
+pub(crate) fn is_local(asked: &Design, of: &str) -> Result<(), Failure> {
+    if asked.start == DesignStart::Local {
+        return Ok(());
+    }
+    let allowed = format!(
+        "\"local\": for {of} the base response and its multipliers decide; `thresholds --from-rest` and `--from-squeal` judge runs \
+         from afar"
+    );
+    let name = asked.start.name();
+    Err(Complaint::new(Fault::Conflict, "design.start", Origin::Whole, name, allowed).into())
+}
+
+/// The least dither of the waveforms of a study, each with its system; `input` is that of the dither, `observe` the row over the
+/// coordinates whose response is reported.
+///
+/// # Errors
+/// A complaint about uncertain numbers that the design gives.
+pub(crate) fn least_dither_of_systems(
+    study: &dyn StudyWithDesign,
+    asked: &Design,
+    numbers: &DesignNumbers,
+    systems: &[(Waveform, Box<SystemAtPoint<'_>>)],
+    (input, observe): (usize, &[f64]),
+    samples: &SampleOf<'_>,
+) -> Result<LeastDitherFound, Failure> {
+    let plants: Vec<(Waveform, SystemPlant<'_>)> = systems
+        .iter()
+        .map(|(waveform, at)| (waveform.clone(), SystemPlant { at: at.as_ref(), input, observe }))
+        .collect();
+    let found = least_dither(study, asked, numbers, &plants, Ok(samples))?;
+    let without_state = without_state(&found, systems[found.best].1.as_ref());
+    Ok(LeastDitherFound { without_state, ..found })
+}
+
+/// Why the averages of a design, which do not know the states of contacts, differ from those with them at its least dither.
+fn without_state(found: &LeastDitherFound, at: &SystemAtPoint<'_>) -> Vec<String> {
+    let Ok(feasible) = &found.answer().answer else { return Vec::new() };
+    let critical = &feasible.critical;
+    let middle = || found.over.iter().map(|over| 0.5 * (over.range.0 + over.range.1)).collect();
+    let point: Vec<f64> = critical.worst.clone().unwrap_or_else(middle);
+    let place = OperatingPoint { point: &point, others: &critical.others };
+    let Ok(system) = at(place, critical.amplitude) else { return Vec::new() };
+    let average = DitheredSystem::new(&system).and_then(|prepared| prepared.average());
+    average.map(|average| averaged_without_states(&system, &average.contacts)).unwrap_or_default()
+}
+
+/// The least dither of the waveforms of a study, each with its structure; `samples` are those of its uncertain numbers, or why it has
+/// none.
+///
+/// # Errors
+/// A complaint about uncertain numbers that the design gives.
+pub(crate) fn least_dither<P: Plant + Sync>(
+    study: &dyn StudyWithDesign,
+    asked: &Design,
+    numbers: &DesignNumbers,
+    plants: &[(Waveform, P)],
+    samples: Result<&SampleOf<'_>, &'static str>,
+) -> Result<LeastDitherFound, Failure> {
+    let sampling = sampling(study, asked, numbers)?;
+    let DesignNumbers { amplitude, others, over } = numbers.clone();
+    let ranges = |numbers: &[DesignNumber]| -> Vec<(f64, f64)> {
+        numbers.iter().map(|number| number.range).collect()
+    };
+    let (box_ranges, other_ranges) = (ranges(&over), ranges(&others));
+    let actuator = study.actuator();
+    let of_actuator = actuator.map(Actuator::limits).into_iter().flatten();
+    let of_actuator = of_actuator.map(|limit| (LimitedQuantity::Actuator(limit), 1.0));
+    let limits: Vec<_> = asked.limits.iter().copied().chain(of_actuator).collect();
+    let problem = |plant| DesignProblem {
+        plant,
+        objective: asked.minimise,
+        amplitude: amplitude.range,
+        others: &other_ranges,
+        over: &box_ranges,
+        limits: &limits,
+        actuator,
+        start: asked.start,
+    };
+    let designed = plants.par_iter().map(|(waveform, plant)| {
+        (waveform.clone(), within(STEPS_OF_MANY_SEARCHES, || design(problem(plant))))
+    });
+    let waveforms: Vec<(Waveform, Designed)> = designed.collect();
+    let value = |designed: &Designed| match &designed.answer {
+        Ok(found) => found.critical.objective.clone().unwrap_or(f64::INFINITY),
+        Err(_) => f64::INFINITY,
+    };
+    let best = (0..waveforms.len())
+        .min_by(|a, b| value(&waveforms[*a].1).total_cmp(&value(&waveforms[*b].1)))
+        .unwrap_or(0);
+    let schedule = match (plants.get(best), box_ranges.as_slice(), &waveforms[best].1.answer) {
+        _ if asked.start != DesignStart::Local => {
+            Err("runs from a start are judged only where they decide".to_owned())
+        }
+        (Some((_, plant)), [range], Ok(found)) => {
+            Ok(schedule(problem(plant), *range, &found.critical.others))
+        }
+        (_, [_], _) => Err("no dither is allowed".to_owned()),
+        _ => Err("the box of operating points has not exactly one coordinate".to_owned()),
+    };
+    let (without_state, tongues) = (Vec::new(), Vec::new());
+    let sensitivity = Err("no dither is allowed".to_owned());
+    let confident = match (sampling, samples, plants.get(best), &waveforms[best].1.answer) {
+        (Err(why), ..) => Err(why),
+        (Ok(_), Err(why), ..) => Err(why.to_owned()),
+        (Ok(sampling), Ok(samples), Some((_, plant)), Ok(found)) => {
+            let sample = |values: &[(&str, f64)], others: &[f64]| samples(best, values, others);
+            sampling.confident(&problem(plant), &found.critical, &sample)
+        }
+        _ => Err("no dither is allowed".to_owned()),
+    };
+    let found = LeastDitherFound {
+        amplitude,
+        others,
+        over,
+        waveforms,
+        best,
+        schedule,
+        without_state,
+        tongues,
+        sensitivity,
+        confident,
+    };
+    let sensitivity = found.sensitivity_of(study);
+    Ok(LeastDitherFound { sensitivity, ..found })
+}
+
+/// The exact least dithers along a box of one coordinate.
+fn schedule(problem: DesignProblem<'_>, range: (f64, f64), others: &[f64]) -> Vec<ScheduledDither> {
+    let at = |point: f64| within(STEPS_OF_MANY_SEARCHES, || problem.scheduled(&[point], others));
+    evenly(range, SCHEDULE).into_par_iter().map(at).collect()
+}

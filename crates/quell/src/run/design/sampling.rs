@@ -1,0 +1,273 @@
+//! Random samples of the uncertain numbers of a design, and the dither that is quiet in a share of them.
+
+use quell_design::least_dither::{
+    DesignPoint, DesignProblem, DesignStart, LeastOfSample, LimitedQuantity, NoDesign, NoLeast,
+    SampledLeast, SampledQuiet, ScaledPlant, design,
+};
+use quell_dynamics::simulation::within;
+use rayon::prelude::*;
+use serde_json::Value as Json;
+
+use super::found::{ConfidentDither, DesignNumber, DesignNumbers};
+use super::study_with_design::StudyWithDesign;
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::effort::STEPS_OF_MANY_SEARCHES;
+use crate::study::{Confidence, Design, Uncertainty};
+use crate::words::digits;
+
+/// The quiet amplitudes of a sample for a waveform by its number: of numbers by path, with the other design variables.
+pub(crate) type SampleOf<'a> =
+    dyn Fn(usize, &[(&str, f64)], &[f64]) -> Result<SampledQuiet<'a>, String> + Sync + 'a;
+
+/// The same of one waveform.
+type SampleAtPoint<'a, 's> =
+    dyn Fn(&[(&str, f64)], &[f64]) -> Result<SampledQuiet<'s>, String> + Sync + 'a;
+
+/// Times that the other design variables are chosen again for the larger amplitude that the samples need.
+const ROUNDS: usize = 4;
+
+/// Relative change of the ratio of that amplitude to the least one at which the choice is accepted.
+const CLOSENESS: f64 = 1e-3;
+
+/// Random samples of the uncertain numbers of a study.
+pub(super) struct DrawnSamples<'a> {
+    confidence: Confidence,
+    uncertainty: &'a Uncertainty,
+}
+
+/// The samples that a design asks for, or why it asks for none.
+///
+/// # Errors
+/// A complaint about an uncertain number that the design gives, or about runs from afar.
+pub(super) fn sampling<'a>(
+    study: &'a dyn StudyWithDesign,
+    asked: &Design,
+    numbers: &DesignNumbers,
+) -> Result<Result<DrawnSamples<'a>, String>, Failure> {
+    let Some(confidence) = asked.confidence else {
+        return Ok(Err("design.confidence is not given".to_owned()));
+    };
+    let Some(uncertainty) = study.uncertain() else {
+        let allowed = "a table [uncertainty] with distributions, such as \"belt.damping_ratio\" = { lognormal = [0.05, 0.5] }: \
+                       design.confidence is a share of its samples";
+        let (origin, null) = (Origin::Whole, Json::Null);
+        return Err(Complaint::new(Fault::Missing, "uncertainty", origin, null, allowed).into());
+    };
+    let refuse = |key: &str, given: Json, allowed: String| -> Failure {
+        Complaint::new(Fault::Conflict, key, Origin::Whole, given, allowed).into()
+    };
+    if asked.start != DesignStart::Local {
+        let allowed = "\"local\" with design.confidence: the exact thresholds of the base response decide about samples";
+        return Err(refuse("design.start", asked.start.name().into(), allowed.to_owned()));
+    }
+    let DesignNumbers { amplitude, others, over } = numbers;
+    let mut given = [amplitude].into_iter().chain(others).chain(over);
+    let both = |number: &&DesignNumber| uncertainty.paths().any(|path| path == number.path);
+    if let Some(number) = given.find(both) {
+        let allowed = format!(
+            "without {}, which [design] gives: a number of design.vary is chosen, one of design.over takes every value of its range",
+            number.path
+        );
+        return Err(refuse("uncertainty", number.path.as_str().into(), allowed));
+    }
+    Ok(Ok(DrawnSamples { confidence, uncertainty }))
+}
+
+/// What is known of one sample by averaging.
+enum Averaged {
+    Invalid(String),
+    Least(LeastOfSample),
+    Never,
+    Unknown(String),
+}
+
+/// The least amplitude that is quiet in a share of the samples.
+struct Quantile {
+    amplitude: f64,
+    interval: (f64, f64),
+    exact: usize,
+    never: usize,
+    loud_again: usize,
+    unknown: (usize, Option<String>),
+    invalid: (usize, Option<String>),
+}
+
+impl DrawnSamples<'_> {
+    /// The dither near a design that is quiet in the share of the samples that is asked for.
+    ///
+    /// # Errors
+    /// Why it does not exist.
+    pub(super) fn confident(
+        &self,
+        problem: &DesignProblem<'_>,
+        critical: &DesignPoint,
+        sample: &SampleAtPoint<'_, '_>,
+    ) -> Result<ConfidentDither, String> {
+        let mut chosen = critical.clone();
+        let mut factor = None;
+        for round in 1..=ROUNDS {
+            let found = self.quantile(problem, &chosen, sample)?;
+            let dither = problem.with_amplitude(&chosen, found.amplitude);
+            let ratio = found.amplitude / chosen.amplitude;
+            let settled =
+                factor.is_some_and(|factor: f64| (ratio / factor - 1.0).abs() < CLOSENESS);
+            let free = !problem.others.is_empty() && round < ROUNDS;
+            if settled || !free || dither.use_of_limits() <= 1.0 {
+                let Quantile { interval, exact, never, loud_again, unknown, invalid, .. } = found;
+                return Ok(ConfidentDither {
+                    confidence: self.confidence,
+                    dither,
+                    interval,
+                    least: chosen.amplitude,
+                    exact,
+                    never,
+                    loud_again,
+                    unknown,
+                    invalid,
+                });
+            }
+            // The other design variables that keep the limits under the larger amplitude.
+            factor = Some(ratio);
+            chosen = enlarged(problem, ratio)?;
+        }
+        Err("the choice under the limits did not settle".to_owned())
+    }
+
+    /// The amplitude that is enough for the share of the samples, with the other variables of a design.
+    fn quantile(
+        &self,
+        problem: &DesignProblem<'_>,
+        design: &DesignPoint,
+        sample: &SampleAtPoint<'_, '_>,
+    ) -> Result<Quantile, String> {
+        let Confidence { share, samples, seed } = self.confidence;
+        let paths: Vec<&str> = self.uncertainty.paths().collect();
+        let joint = self.uncertainty.joint();
+        let judged = |number: u64| {
+            let values = joint.sample(seed, number).first;
+            let numbers: Vec<(&str, f64)> = paths.iter().copied().zip(values).collect();
+            sample(&numbers, &design.others)
+        };
+        let averaged = |number: u64| match judged(number) {
+            Err(why) => Averaged::Invalid(why),
+            Ok(sample) => match problem.averaged_least_of(&sample, design) {
+                Ok(least) => Averaged::Least(least),
+                Err(NoLeast::NeverQuiet { .. }) => Averaged::Never,
+                Err(NoLeast::Failed { why, .. }) => Averaged::Unknown(why),
+            },
+        };
+        let all: Vec<Averaged> = (0..samples as u64).into_par_iter().map(averaged).collect();
+        let why_first = |whys: &[&String]| (whys.len(), whys.first().map(|why| (*why).clone()));
+        let of = |sample: &Averaged| match sample {
+            Averaged::Least(least) => least.amplitude(),
+            _ => f64::INFINITY,
+        };
+        let invalid: Vec<&String> = all
+            .iter()
+            .filter_map(|sample| if let Averaged::Invalid(why) = sample { Some(why) } else { None })
+            .collect();
+        let mut unknown: Vec<String> = all
+            .iter()
+            .filter_map(
+                |sample| if let Averaged::Unknown(why) = sample { Some(why.clone()) } else { None },
+            )
+            .collect();
+        let valid: Vec<usize> =
+            (0..all.len()).filter(|number| !matches!(all[*number], Averaged::Invalid(_))).collect();
+        if valid.is_empty() {
+            return Err(format!(
+                "no sample is a valid study: {}",
+                invalid.first().map_or("", |why| why.as_str())
+            ));
+        }
+        let mut known = SampledLeast::new(valid.iter().map(|number| of(&all[*number])).collect());
+        let exactly = |place: usize| -> (usize, Result<f64, NoLeast>) {
+            let Averaged::Least(least) = &all[valid[place]] else {
+                return (place, Ok(f64::INFINITY));
+            };
+            let failed = |why| NoLeast::Failed { point: Vec::new(), why };
+            let found = judged(valid[place] as u64).map_err(failed).and_then(|sample| {
+                within(STEPS_OF_MANY_SEARCHES, || problem.exact_least_of(&sample, least))
+            });
+            (place, found)
+        };
+        loop {
+            let needed = known.needed(share);
+            if needed.is_empty() {
+                break;
+            }
+            let found: Vec<_> = needed.into_par_iter().map(exactly).collect();
+            for (place, exact) in found {
+                let exact = exact.unwrap_or_else(|why| {
+                    if let NoLeast::Failed { why, .. } = why {
+                        unknown.push(why);
+                    }
+                    f64::INFINITY
+                });
+                known.add(place, exact);
+            }
+        }
+        let quantile = known.quantile(share).ok_or("there are no samples")?;
+        let never = all.iter().filter(|sample| matches!(sample, Averaged::Never)).count();
+        if !quantile.value.is_finite() {
+            return Err(format!(
+                "no amplitude up to {} is known to be quiet in {} of {} samples{}",
+                problem.amplitude.1,
+                never + unknown.len(),
+                valid.len(),
+                unknown.first().map_or(String::new(), |why| format!("; the first: {why}"))
+            ));
+        }
+        let loud = |place: &usize| {
+            let below = of(&all[valid[*place]]) < quantile.interval.0;
+            below
+                && !known.contains(*place)
+                && judged(valid[*place] as u64).is_ok_and(|sample| {
+                    !problem.is_quiet_by_averaging(&sample, design, quantile.value)
+                })
+        };
+        let loud_again = (0..valid.len()).into_par_iter().filter(loud).count();
+        let unknown: Vec<&String> = unknown.iter().collect();
+        Ok(Quantile {
+            amplitude: quantile.value,
+            interval: quantile.interval,
+            exact: known.known(),
+            never,
+            loud_again,
+            unknown: why_first(&unknown),
+            invalid: why_first(&invalid),
+        })
+    }
+}
+
+/// The design whose dither, enlarged by a factor, keeps every limit.
+///
+/// # Errors
+/// Why it does not exist.
+fn enlarged(problem: &DesignProblem<'_>, factor: f64) -> Result<DesignPoint, String> {
+    let plant = ScaledPlant { plant: problem.plant, factor };
+    let (from, to) = problem.amplitude;
+    let limits: Vec<(LimitedQuantity, f64)> = problem
+        .limits
+        .iter()
+        .map(|(quantity, limit)| match quantity {
+            LimitedQuantity::Amplitude => (*quantity, limit / factor),
+            _ => (*quantity, *limit),
+        })
+        .collect();
+    let amplitude = (from, (to / factor).max(from));
+    let problem = DesignProblem { plant: &plant, amplitude, limits: &limits, ..*problem };
+    let found = within(STEPS_OF_MANY_SEARCHES, || design(problem));
+    found.answer.map(|found| found.critical).map_err(|none| match none.why {
+        NoDesign::NeverQuiet { .. } => {
+            format!("{factor} times the least amplitude, which the samples need, is beyond its range")
+        }
+        NoDesign::Limit { quantity, used, .. } => format!(
+            "{} would be {} times its limit at the amplitude that the samples need, {} times the least one",
+            quantity.name(),
+            digits(used),
+            digits(factor)
+        ),
+        NoDesign::Failed { why, .. } => why,
+    })
+}
