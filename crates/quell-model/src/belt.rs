@@ -110,8 +110,8 @@ impl Belt {
     pub fn unsimulated(&self) -> Option<&'static str> {
         if self.has_contact_state() {
             return Some(
-                "friction has a state of its own (an elastic slider, or the law \"lugre\"), which `simulate` and `friction` take \
-                 into account, but no other verb of a belt",
+                "friction has a state of its own (an elastic slider, or the law \"lugre\"), which this question about a \
+                 belt does not take into account",
             );
         }
         self.friction.unsimulated()

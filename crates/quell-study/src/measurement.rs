@@ -227,6 +227,9 @@ fn one_of(file: &DataFile<'_>, names: &[&'static str]) -> Result<Option<NamedCol
         .collect();
     match found[..] {
         [] => Ok(None),
+        [only] if file.is_ambiguous(only.name) => {
+            Err(format!("{WHAT} with one column {}, not several", only.name))
+        }
         [only] => Ok(Some(only)),
         [first, second, ..] => Err(format!(
             "{WHAT} with one of the columns {} and {}, not both",
@@ -280,6 +283,19 @@ mod tests {
         let weighted = read("c.csv", weighted).expect("valid");
         assert!(weighted.is_si() && weighted.is_weighted());
         assert_eq!(weighted.points()[0].standard_deviation, 0.01);
+    }
+
+    /// Decimal commas are cells of their own, and two columns of one name are two measurements.
+    #[test]
+    fn cells_beyond_the_columns_and_columns_of_one_name_are_refused() {
+        let commas = read("commas", "slip_velocity,coefficient\n1,1,0,40\n2,1,0,38\n");
+        let said = commas.expect_err("decimal commas");
+        assert!(said.contains("line 2: 4 cells for 2 columns"), "{said}");
+        let twice = read("twice", "slip_velocity,coefficient,coefficient\n1,0.4,0.3\n");
+        let said = twice.expect_err("two columns");
+        assert!(said.contains("one column coefficient, not several"), "{said}");
+        // A comma at the end of a line adds nothing.
+        assert!(read("end", "slip_velocity,coefficient\n1,0.4,\n2,0.3,\n").is_ok());
     }
 
     #[test]

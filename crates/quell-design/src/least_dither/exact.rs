@@ -120,6 +120,10 @@ fn exceeded(point: &DesignPoint) -> NoDesign {
     let mut worst: Option<(LimitedQuantity, f64)> = None;
     for (quantity, used) in &point.used {
         match used {
+            Err(why) if matches!(quantity, LimitedQuantity::Actuator(_)) => {
+                let (quantity, why) = (*quantity, why.clone());
+                return NoDesign::Unlimited { quantity, point: point.worst.clone(), why };
+            }
             Err(why) => {
                 return NoDesign::Failed {
                     point: point.worst.clone().unwrap_or_default(),

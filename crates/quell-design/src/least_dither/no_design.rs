@@ -20,6 +20,15 @@ pub enum NoDesign {
         /// The operating point, if it decides.
         point: Option<Vec<f64>>,
     },
+    /// A limit of the actuator that no dither is known to keep: it has no finite value, or the file of the actuator ends before.
+    Unlimited {
+        /// The limited quantity.
+        quantity: LimitedQuantity,
+        /// The operating point, if it decides.
+        point: Option<Vec<f64>>,
+        /// Why.
+        why: String,
+    },
     /// A point has no answer.
     Failed {
         /// The point.

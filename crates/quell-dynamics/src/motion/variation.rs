@@ -370,6 +370,8 @@ impl<'a> MotionVariation<'a> {
                 let row = self.equations.contacts[contact].tangent.dense(size);
                 Some(row.into_iter().map(|entry| -sign * entry).collect())
             }
+            // At the very start no neighbouring motion is released earlier.
+            Trigger::Margin(..) if self.last.is_empty() => None,
             Trigger::Margin(contact, side) => {
                 let equation = &self.equations.contacts[contact];
                 if let Some(own) = equation.own {

@@ -54,6 +54,8 @@ pub(crate) struct Row<'t> {
     /// Number of the line, from 1.
     line: usize,
     cells: Vec<&'t str>,
+    /// Number of columns of the file.
+    columns: usize,
 }
 
 impl<'t> DataFile<'t> {
@@ -71,34 +73,25 @@ impl<'t> DataFile<'t> {
             lines.next().ok_or_else(|| format!("{what} with a header line of column names"))?;
         let names: Vec<&str> =
             header.split(',').map(|name| name.trim().trim_matches('"')).collect();
-        let same =
-            |(place, name): (usize, &&str)| !name.is_empty() && names[..place].contains(name);
-        if names.iter().enumerate().any(same) {
-            return Err(format!(
-                "{what} whose columns have different names; two have the same one"
-            ));
-        }
-        let rows: Vec<Row<'t>> = lines
-            .map(|(line, row)| Row { line, cells: row.split(',').map(str::trim).collect() })
+        let columns = names.len();
+        let rows = lines
+            .map(|(line, row)| Row {
+                line,
+                cells: row.split(',').map(str::trim).collect(),
+                columns,
+            })
             .collect();
-        // A comma at the end of a line adds no number.
-        let longer =
-            |row: &&Row<'_>| row.cells.iter().skip(names.len()).any(|cell| !cell.is_empty());
-        if let Some(row) = rows.iter().find(longer) {
-            return Err(format!(
-                "{what} with at most as many cells in a line as columns; line {} has {} cells for {} columns (numbers have a decimal point, \
-                 not a comma)",
-                row.line,
-                row.cells.len(),
-                names.len()
-            ));
-        }
         Ok(Self { names, rows })
     }
 
     /// Index of a column.
     pub(crate) fn column(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| *known == name)
+    }
+
+    /// Whether two columns have this name.
+    pub(crate) fn is_ambiguous(&self, name: &str) -> bool {
+        self.names.iter().filter(|known| **known == name).count() > 1
     }
 
     /// Names of the columns.
@@ -139,6 +132,15 @@ impl Row<'_> {
         allowed: &str,
         right: impl Fn(f64) -> bool,
     ) -> Result<f64, String> {
+        // A comma at the end of a line adds no cell.
+        if self.cells.iter().skip(self.columns).any(|cell| !cell.is_empty()) {
+            return Err(format!(
+                "line {}: {} cells for {} columns; numbers have a decimal point, not a comma",
+                self.line,
+                self.cells.len(),
+                self.columns
+            ));
+        }
         let cell = self.cells.get(at).copied().unwrap_or_default();
         cell.parse().ok().filter(|&value| right(value)).ok_or_else(|| {
             let short: String = cell.chars().take(SHOWN).collect();

@@ -184,6 +184,10 @@ impl LeastDitherFound {
                 };
                 format!("{} would be {} times its limit{at}", quantity.name(), digits(used))
             }
+            NoDesign::Unlimited { quantity, point, why } => {
+                let at = point.as_ref().map_or(String::new(), |point| self.point_in_words(point));
+                format!("{}: {why}{at}", quantity.name())
+            }
             NoDesign::Failed { point, why } => format!("{why}{}", self.point_in_words(point)),
         }
     }

@@ -268,6 +268,6 @@ fn enlarged(problem: &DesignProblem<'_>, factor: f64) -> Result<DesignPoint, Str
             digits(used),
             digits(factor)
         ),
-        NoDesign::Failed { why, .. } => why,
+        NoDesign::Unlimited { why, .. } | NoDesign::Failed { why, .. } => why,
     })
 }
