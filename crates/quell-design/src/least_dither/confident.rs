@@ -17,16 +17,20 @@ use crate::probability::binomial_interval;
 /// First step over the box by averaging, and the last one, as shares of its ranges.
 const STEPS: (f64, f64) = (0.0625, 1e-6);
 
-/// Last step of exact thresholds over the box.
+/// Last step of exact thresholds over the box: where a tip decides, a threshold is too low by about this share of the range, which is far
+/// less than the interval of a quantile. A design itself steps to 10⁻⁷.
 const CLOSENESS: f64 = 1e-4;
 
-/// Samples all over the order of averaging whose exact amplitude is computed first.
+/// Samples all over the order of averaging whose exact amplitude is computed first: they show the ratios elsewhere. With fewer, a ratio
+/// that occurs rarely is overlooked; the range of the ratios is doubled for that reason.
 const SPREAD: usize = 16;
 
-/// Relative range of the ratios of exact to averaged amplitudes that is narrow.
+/// Relative range of the ratios of exact to averaged amplitudes that is narrow: the accuracy to which a design is asked for (0.5 %). A
+/// smaller value computes more samples exactly; a larger one makes the amplitude larger than it must be.
 const NARROW: f64 = 5e-3;
 
-/// Samples on each side of the interval of the quantile whose exact amplitude is computed first, as a share of all.
+/// Samples on each side of the interval of the quantile whose exact amplitude is computed first, as a share of all. It decides only how
+/// many rounds follow.
 const FIRST: f64 = 0.005;
 
 /// The quiet amplitudes of one sample over the operating points, with the other design variables of a design.

@@ -211,8 +211,7 @@ impl DrawnSamples<'_> {
         let never = all.iter().filter(|sample| matches!(sample, Averaged::Never)).count();
         if !quantile.value.is_finite() {
             return Err(format!(
-                "no amplitude up to {} is known to be quiet in {} of {} samples{}",
-                problem.amplitude.1,
+                "no amplitude of the range is known to be quiet in {} of {} samples{}",
                 never + unknown.len(),
                 valid.len(),
                 unknown.first().map_or(String::new(), |why| format!("; the first: {why}"))
@@ -260,7 +259,10 @@ fn enlarged(problem: &DesignProblem<'_>, factor: f64) -> Result<DesignPoint, Str
     let found = within(STEPS_OF_MANY_SEARCHES, || design(problem));
     found.answer.map(|found| found.critical).map_err(|none| match none.why {
         NoDesign::NeverQuiet { .. } => {
-            format!("{factor} times the least amplitude, which the samples need, is beyond its range")
+            format!(
+                "{} times the least amplitude, which the samples need, is beyond its range",
+                digits(factor)
+            )
         }
         NoDesign::Limit { quantity, used, .. } => format!(
             "{} would be {} times its limit at the amplitude that the samples need, {} times the least one",
