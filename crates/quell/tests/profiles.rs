@@ -263,3 +263,24 @@ fn a_window_begins_as_the_run_does() {
     assert!(number(&window["amplitude"]) < 1e-12, "{window}");
     assert!((number(&window["mean"]) - 0.3).abs() < 1e-12, "{window}");
 }
+
+/// A slow mass that nothing moves changes no interval of vibration, however little of its period the run contains.
+#[test]
+fn intervals_of_short_runs_are_judged_by_an_oscillation_that_they_contain() {
+    let run = |coordinates: &str, numbers: &str| {
+        let text = format!(
+            "[system]\ncoordinates = [{coordinates}]\n{numbers}[[contact]]\ntangent = {{ mass = 1 }}\nnormal_load = 1\n\
+             [contact.drive]\ntime = [0, 60, 150]\nvelocity = [0.1, 0.1, 0.4]\n[contact.friction]\nlaw = \"stribeck\"\n\
+             static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n"
+        );
+        simulated(&study(&text), 150.0, true)["manoeuvre"].clone()
+    };
+    let alone = run("\"mass\"", "mass = [1]\ndamping = [0.01]\nstiffness = [1]\n");
+    let beside = run(
+        "\"mass\", \"aside\"",
+        "mass = [1, 1]\ndamping = [[0.01, 0], [0, 0.0002]]\nstiffness = [[1, 0], [0, 0.0004]]\n",
+    );
+    let vibration = alone["vibration"].as_array().expect("intervals");
+    assert!(vibration.len() == 1 && number(&vibration[0]["to"]) < 120.0, "{alone}");
+    assert_eq!(alone, beside);
+}

@@ -209,18 +209,16 @@ fn manoeuvre(study: &SystemStudy, traced: TracedRow, start: f64) -> Option<Manoe
     ))
 }
 
-/// Period of the slowest oscillation of the structure, at the beginning of the run where its speed varies; of a structure without one a
-/// fiftieth of the run.
+/// Period of the slowest oscillation of the structure that the run contains, at the beginning of the run where its speed varies; of a
+/// structure without one a fiftieth of the run.
 pub(crate) fn natural_period(study: &SystemStudy, (from, until): (f64, f64)) -> f64 {
     let length = until - from;
-    let found = modes_at(study, from).map(|found| {
+    let slowest = modes_at(study, from).ok().and_then(|found| {
         let oscillating = found.modes.iter().filter(|mode| mode.eigenvalue.im > mode.error);
-        oscillating.map(modes::natural).fold(f64::INFINITY, f64::min)
+        let periods = oscillating.map(|mode| TAU / modes::natural(mode));
+        periods.filter(|period| *period < length).reduce(f64::max)
     });
-    match found {
-        Ok(slowest) if slowest.is_finite() && TAU / slowest < length / 4.0 => TAU / slowest,
-        _ => length / 50.0,
-    }
+    slowest.unwrap_or(length / 50.0)
 }
 
 /// The modes of a study; where its speed varies, those of a moment.
