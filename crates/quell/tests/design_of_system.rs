@@ -338,3 +338,17 @@ fn a_limited_response_is_that_of_exact_orbits() {
     let frequency = number(&found["critical"]["dither.frequency"]);
     assert!((frequency / 8.1273 - 1.0).abs() < 0.1, "{frequency}");
 }
+
+/// Where a schedule leaves the mean friction above that without dither, no percentage is named.
+#[test]
+fn a_schedule_that_loses_no_friction_says_so() {
+    let asked =
+        design(AMPLITUDE, "[0.05, 0.3]", "").replace("\"amplitude\"\n", "\"friction-loss\"\n");
+    let found = facts(&format!("{BELT}{asked}"));
+    assert!(number(&found["saved_by_schedule"]) > 1.0, "{found}");
+    let rows = found["schedule"].as_array().expect("a list");
+    assert!(rows.iter().map(|row| number(&row["objective"])).sum::<f64>() < 0.0);
+    let sentence = found["sentence"].as_str().expect("a text");
+    assert!(sentence.contains("the friction loss is negative on average"), "{sentence}");
+    assert!(!sentence.contains("less friction loss"), "{sentence}");
+}

@@ -10,15 +10,16 @@ use crate::fields::Fields;
 use crate::words::digits;
 
 impl LeastDitherFound {
-    /// The share of the objective that a schedule saves on average over the box.
+    /// The share of the objective that a schedule saves on average over the box; more than 1 where the mean is negative, as a loss of
+    /// friction can be.
     fn saved(&self) -> Result<f64, String> {
         let schedule = self.schedule.as_ref().map_err(Clone::clone)?;
         let found = self.answer().answer.as_ref().map_err(|_| "no dither is allowed".to_owned())?;
         let single = found.critical.objective.clone()?;
         let objectives = schedule.iter().map(|row| row.objective.clone());
         let objectives: Vec<f64> = objectives.collect::<Result<_, _>>()?;
-        if objectives.is_empty() || single == 0.0 {
-            return Err("the objective of the single dither is 0".to_owned());
+        if objectives.is_empty() || single <= 0.0 {
+            return Err("the objective of the single dither is not positive".to_owned());
         }
         Ok(1.0 - objectives.iter().sum::<f64>() / objectives.len() as f64 / single)
     }
@@ -32,14 +33,19 @@ impl LeastDitherFound {
         if saved < 5e-4 {
             return String::new();
         }
-        let (saved, path) = (digits(libm::round(1000.0 * saved) / 10.0), &over.path);
+        let (percent, path) = (digits(libm::round(1000.0 * saved) / 10.0), &over.path);
+        let name = minimise.name().replace('-', " ");
         match minimise {
             DesignObjective::Amplitude => {
-                format!(" An amplitude that follows {path} would be {saved} % smaller on average.")
+                format!(
+                    " An amplitude that follows {path} would be {percent} % smaller on average."
+                )
             }
-            other => format!(
-                " An amplitude that follows {path} would need {saved} % less {} on average.",
-                other.name().replace('-', " ")
+            _ if saved > 1.0 => {
+                format!(" With an amplitude that follows {path} the {name} is negative on average.")
+            }
+            _ => format!(
+                " An amplitude that follows {path} would need {percent} % less {name} on average."
             ),
         }
     }
