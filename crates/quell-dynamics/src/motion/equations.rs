@@ -10,6 +10,7 @@
 //! matrix, and a modal structure stays sparse.
 
 use quell_model::System;
+use quell_model::profile::Profile;
 use quell_model::system::{Contact, InputTarget, Mechanical, Structure};
 use quell_numerics::matrix::Matrix;
 
@@ -105,7 +106,7 @@ pub(super) struct ContactForcing {
     pub(super) surface: Forcing,
     /// N₀ + ΔN.
     pub(super) load: Forcing,
-    /// The part of ΔN without reaction on the structure.
+    /// The part of N₀ + ΔN − N₀(0) without reaction on the structure.
     pub(super) guided: Forcing,
     /// Factor on the friction force.
     pub(super) factor: Option<Forcing>,
@@ -117,6 +118,14 @@ impl ContactForcing {
     pub(super) fn all(&self) -> [Option<&Forcing>; 4] {
         [Some(&self.surface), Some(&self.load), Some(&self.guided), self.factor.as_ref()]
     }
+}
+
+/// N₀(t) − N₀(0) of a load over time on a contact with a normal row. What presses the contact on balances it at every moment, as it
+/// balances a constant load: q is measured from the loaded rest of the moment. `None` where the load is constant or acts on no row.
+fn balanced_change(contact: &Contact) -> Option<Profile> {
+    let is_pressing = contact.normal.iter().flatten().any(|entry| *entry != 0.0);
+    let varying = contact.varying_load.as_ref().filter(|_| is_pressing)?;
+    Some(varying.clone().about(varying.mean() - contact.normal_load))
 }
 
 impl Forcings {
@@ -136,7 +145,8 @@ impl Forcings {
                 };
                 let steady = contact.load();
                 let loads: Vec<_> = std::iter::once(&steady).chain(on_load(false)).collect();
-                let guided: Vec<_> = on_load(true).collect();
+                let balanced = balanced_change(contact);
+                let guided: Vec<_> = balanced.iter().chain(on_load(true)).collect();
                 let factors = system.inputs.iter().filter(
                     |input| matches!(input.target, InputTarget::Friction { contact } if contact == index),
                 );

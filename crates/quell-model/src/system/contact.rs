@@ -11,6 +11,9 @@ use crate::profile::Profile;
 /// * normal load N = N₀ + k nᵀq + d nᵀq̇, nᵀq the approach; q is measured from the loaded rest without friction;
 /// * the force on the structure is t T + n (T sᵀq − (N − N₀)).
 ///
+/// A load over time takes the place of N₀ in both: what presses the contact on balances it at every moment, so that a run follows the
+/// studies whose constant load is that of the moment. An oscillation that the structure shall take is an input to the load.
+///
 /// A contact without a tangent slips at γ = v; one without a normal has a prescribed load.
 ///
 /// A contact has a state of its own if a tangential stiffness precedes its slip (an elastic slider), or if its law has one

@@ -66,24 +66,6 @@ pub(super) fn warnings(system: &System, units: SystemUnits, modal: bool) -> Vec<
     warnings
 }
 
-/// Warnings about loads over time that act on the structure.
-pub(super) fn moving_loads(system: &System) -> Vec<String> {
-    let moves = system.contacts.iter().filter(|contact| {
-        let along =
-            contact.normal.as_ref().is_some_and(|row| row.iter().any(|entry| *entry != 0.0));
-        contact.varying_load.is_some() && along
-    });
-    moves
-        .map(|contact| {
-            format!(
-                "contact {}: a run lets the change of contact.{}.load act on the structure along its normal row, so that a compliant \
-                 structure takes a part of it; averages and --at-time take the load as that of the structure at rest",
-                contact.name, contact.name
-            )
-        })
-        .collect()
-}
-
 /// Warnings about stiffness and damping with one entry of a symmetric pair, once for each matrix.
 pub(super) fn half_symmetric(system: &System) -> Vec<String> {
     let Some(mechanical) = system.structure.mechanical() else { return Vec::new() };

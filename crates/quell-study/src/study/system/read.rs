@@ -154,7 +154,6 @@ fn warnings(
     let plausible = (!measured).then(|| plausible::warnings(system, numbers.units, modal));
     let half = table.has("coordinates").then(|| plausible::half_symmetric(system));
     let listed = plausible.into_iter().chain(half).flatten();
-    let listed = listed.chain(plausible::moving_loads(system));
     listed.chain(unused::warning(document, numbers)).collect()
 }
 
