@@ -159,6 +159,9 @@ impl fmt::Display for Complaint {
             Fault::Unknown => write!(f, "unknown {key}")?,
             Fault::Missing => write!(f, "{key} is missing: {allowed}")?,
             Fault::Value => write!(f, "{key} = {}: must be {allowed}", self.given())?,
+            Fault::Conflict | Fault::Mixed | Fault::NotBuilt if allowed.starts_with("left out") => {
+                write!(f, "{key}: must be {allowed}")?;
+            }
             Fault::Conflict | Fault::Mixed | Fault::NotBuilt => write!(f, "{key}: {allowed}")?,
         }
         match (&self.suggestion, self.fault) {

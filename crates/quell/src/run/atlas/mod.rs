@@ -103,7 +103,12 @@ fn complaint(study: &BeltStudy, outside: &OutsideAtlas) -> Complaint {
             format!("from {} to {}: {allowed}", words(*least), words(*most))
         }
     };
-    let fault = if study.belt().dithers().is_empty() { Fault::Missing } else { Fault::Value };
+    let is_given = value.is_some() || word.is_some();
+    let fault = match () {
+        () if allowed.starts_with("left out") => Fault::Conflict,
+        () if is_given => Fault::Value,
+        () => Fault::Missing,
+    };
     let number = value.map(|value| Json::from(scale * value));
     let value = number.or(word.map(Json::from)).unwrap_or(Json::Null);
     let key = in_system(key, study.scales().is_some());
