@@ -30,6 +30,10 @@ use crate::words::{capital, listed, plural};
 /// Periods of the slowest oscillation that a run lasts if no duration is given.
 pub const DEFAULT_PERIODS: f64 = 100.0;
 
+/// Windows of a manoeuvre in which no motion of the structure oscillates. Nothing sets a scale of time there but the run itself: so
+/// many windows resolve its parts, and each still averages over two of a hundred parts of it.
+const WINDOWS_WITHOUT_OSCILLATION: f64 = 50.0;
+
 /// Samples per period of the fastest dither and of the fastest motion of the structure.
 const SAMPLES_PER_PERIOD: f64 = 64.0;
 
@@ -213,12 +217,18 @@ fn manoeuvre(study: &SystemStudy, traced: TracedRow, start: f64) -> Option<Manoe
 /// structure without one a fiftieth of the run.
 pub(crate) fn natural_period(study: &SystemStudy, (from, until): (f64, f64)) -> f64 {
     let length = until - from;
-    let slowest = modes_at(study, from).ok().and_then(|found| {
-        let oscillating = found.modes.iter().filter(|mode| mode.eigenvalue.im > mode.error);
-        let periods = oscillating.map(|mode| TAU / modes::natural(mode));
+    let periods = natural_frequencies(study, from).ok().map(|found| {
+        let periods = found.into_iter().map(|natural| TAU / natural);
         periods.filter(|period| *period < length).reduce(f64::max)
     });
-    slowest.unwrap_or(length / 50.0)
+    periods.flatten().unwrap_or(length / WINDOWS_WITHOUT_OSCILLATION)
+}
+
+/// Natural frequencies of the oscillating modes at a moment, contacts closed and without friction.
+fn natural_frequencies(study: &SystemStudy, time: f64) -> Result<Vec<f64>, Failure> {
+    let found = modes_at(study, time)?;
+    let oscillating = found.modes.iter().filter(|mode| mode.eigenvalue.im > mode.error);
+    Ok(oscillating.map(modes::natural).collect())
 }
 
 /// The modes of a study; where its speed varies, those of a moment.
@@ -267,9 +277,8 @@ pub(crate) fn beyond_laws(system: &System, largest: impl Fn(usize) -> f64) -> Ve
 /// # Errors
 /// A complaint about `option`, the missing duration, if nothing oscillates.
 pub(crate) fn slowest_period(study: &SystemStudy, option: &'static str) -> Result<f64, Failure> {
-    let found = modes_at(study, 0.0)?;
-    let oscillating = found.modes.iter().filter(|mode| mode.eigenvalue.im > mode.error);
-    let slowest = oscillating.map(modes::natural).chain(study.system().acting_frequencies());
+    let own = natural_frequencies(study, 0.0)?;
+    let slowest = own.into_iter().chain(study.system().acting_frequencies());
     let slowest = slowest.fold(f64::INFINITY, f64::min);
     if slowest.is_finite() {
         return Ok(TAU / slowest);
