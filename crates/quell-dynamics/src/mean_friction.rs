@@ -12,6 +12,7 @@
 //! Accuracy: that of the steps, about 10⁻¹² of μ_s, and the last change of an elastic slider from period to period. Slopes are
 //! differences of fourth order, with the difference to those of twice the step as their error.
 
+use std::collections::VecDeque;
 use std::fmt;
 
 use quell_linear::averaging::{Effective, SlopeSide};
@@ -25,6 +26,10 @@ use crate::orbit::{NoOrbit, common_period};
 
 /// Most periods that an elastic slider may take to its periodic motion.
 const MOST_PERIODS: usize = 4000;
+
+/// Most periods of the dither that a motion of an elastic slider may take to repeat itself: under a falling law it jumps at its release,
+/// and a soft slider that slips slowly is released only once in many periods.
+const MOST_MULTIPLE: usize = 1000;
 
 /// Change of the mean friction coefficient from period to period, over μ_s, at which a motion is periodic.
 const PERIODIC: f64 = 1e-11;
@@ -64,7 +69,11 @@ impl fmt::Display for NoMeanFriction {
                  slides in one direction at most",
             ),
             Self::NotPeriodic { periods } => {
-                write!(f, "the state of the contact is not periodic after {periods} periods")
+                write!(
+                    f,
+                    "the state of the contact repeats itself after none of up to {MOST_MULTIPLE} periods of the dither, looked for over \
+                     {periods} of them"
+                )
             }
         }
     }
@@ -193,16 +202,21 @@ impl Prescribed<'_> {
         Ok(self.over(self.over(periodic)?.0)?.1)
     }
 
-    /// An elastic slider: period by period from a state at its bound.
+    /// An elastic slider: period by period from a state at its bound, until it repeats itself after one or several periods.
     fn of_slider(&self, start: f64, level: f64) -> Result<f64, NoMeanFriction> {
-        let (mut own, mut last) = self.over(start)?;
+        let mut recent = VecDeque::from([self.over(start)?]);
         for _ in 0..MOST_PERIODS {
-            let (next, mean) = self.over(own)?;
-            let still = (next - own).abs() <= PERIODIC * level * self.load;
-            if still && (mean - last).abs() <= PERIODIC * level {
-                return Ok(mean);
+            let found = self.over(recent[0].0)?;
+            let repeats = |(own, mean): &(f64, f64)| {
+                (found.0 - own).abs() <= PERIODIC * level * self.load
+                    && (found.1 - mean).abs() <= PERIODIC * level
+            };
+            if let Some(before) = recent.iter().position(repeats) {
+                let others: f64 = recent.iter().take(before).map(|(_, mean)| mean).sum();
+                return Ok((found.1 + others) / (before + 1) as f64);
             }
-            (own, last) = (next, mean);
+            recent.push_front(found);
+            recent.truncate(MOST_MULTIPLE);
         }
         Err(NoMeanFriction::NotPeriodic { periods: MOST_PERIODS })
     }

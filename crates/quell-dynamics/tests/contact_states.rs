@@ -1,6 +1,6 @@
 //! Contacts with a state of their own: elastic sliders and LuGre bristles.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use quell_dynamics::mean_friction::mean_friction;
 use quell_dynamics::motion::{
@@ -266,4 +266,41 @@ fn stiff_bristles_have_the_mean_friction_of_a_rigid_contact() {
         (off[0] / off[1] - 10.0).abs() < 0.1 && (off[1] / off[2] - 10.0).abs() < 0.1,
         "{off:?}"
     );
+}
+
+/// A soft slider that slips slowly is released once in several periods of the dither: its mean is that of all of them, as plain steps of
+/// the same law find it.
+#[test]
+fn a_slider_repeats_itself_after_several_periods() {
+    let (amplitude, rate) = (0.5, 5.0);
+    let values = [0.2, 0.5, 0.05, 2.0, 0.0];
+    for (stiffness, slip) in [(2.0, 0.06), (2.0, 0.01), (5.0, 0.03)] {
+        let law = LawKind::StribeckExponential.build(&values).expect("a law");
+        let dither = vec![dithered(Direction::Tangential, amplitude, rate, 0.0)];
+        let belt = Belt::new(0.01, 1.0, 0.1, law.clone(), dither).expect("a belt");
+        let belt = belt.with_tangential_stiffness(Some(stiffness)).expect("a stiffness");
+        let found = mean_friction(&belt, slip).expect("a mean").coefficient;
+
+        let step = TAU / rate / 4000.0;
+        let (mut force, mut slides, mut sum) = (0.5_f64, false, 0.0);
+        let (skipped, counted) = (200 * 4000, 3000 * 4000);
+        for count in 0..skipped + counted {
+            let gamma = slip - amplitude / rate * (rate * step * f64::from(count)).cos();
+            let level = law.coefficient(gamma.abs()).copysign(force);
+            if slides {
+                let own = gamma - (level - force) / (step * stiffness);
+                // A release is a jump of T at a slip that goes on.
+                slides = own * force > 0.0 || (level - force).abs() > 0.01;
+                force = level;
+            } else {
+                force += stiffness * gamma * step;
+                slides = force.abs() >= law.static_coefficient();
+            }
+            if count >= skipped {
+                sum += force;
+            }
+        }
+        let mean = sum / f64::from(counted);
+        assert!((found - mean).abs() < 3e-3, "k_t = {stiffness}, V = {slip}: {found} {mean}");
+    }
 }

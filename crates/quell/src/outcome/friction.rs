@@ -80,7 +80,9 @@ fn table(study: &BeltStudy, curve: &FrictionCurve) -> String {
             point.coefficient.as_ref().map_or_else(|_| "any".to_owned(), |value| figure(*value));
         let (mean, slope) = match &point.effective {
             Ok(found) => (figure(found.coefficient), figure(found.slope / per_unit)),
-            Err(_) => ("any".to_owned(), "none".to_owned()),
+            // Without slip any friction may hold; elsewhere a reason follows.
+            Err(_) if point.slip_velocity == 0.0 => ("any".to_owned(), "none".to_owned()),
+            Err(_) => ("unknown".to_owned(), "unknown".to_owned()),
         };
         let v = figure(point.slip_velocity * per_unit);
         let _ = write!(text, "  {v:>14}  {law:>14}  {mean:>14}  {slope:>14}");
@@ -105,23 +107,30 @@ fn measured_words(found: &Result<SteadyFriction, String>) -> String {
     }
 }
 
-/// Why friction could not be measured, each reason once, with the slip velocities.
+/// Why friction is unknown or could not be measured, each reason once, with the slip velocities.
 fn reasons(curve: &FrictionCurve, shown: impl Fn(f64) -> String) -> String {
     const MOST: usize = 4;
-    let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
-    for (point, found) in curve.points.iter().zip(curve.measured.iter().flatten()) {
-        let Err(why) = found else { continue };
-        let at = shown(point.slip_velocity);
-        match reasons.iter_mut().find(|(known, _)| known == why) {
+    let unknown = curve.points.iter().filter(|point| point.slip_velocity != 0.0);
+    let unknown = unknown.filter_map(|point| {
+        Some(("unknown", point.slip_velocity, point.effective.as_ref().err()?.as_str()))
+    });
+    let unmeasured = curve.points.iter().zip(curve.measured.iter().flatten());
+    let unmeasured = unmeasured.filter_map(|(point, found)| {
+        Some(("not measured", point.slip_velocity, found.as_ref().err()?.as_str()))
+    });
+    let mut reasons: Vec<((&str, &str), Vec<String>)> = Vec::new();
+    for (what, slip, why) in unknown.chain(unmeasured) {
+        let at = shown(slip);
+        match reasons.iter_mut().find(|(known, _)| *known == (what, why)) {
             Some((_, places)) => places.push(at),
-            None => reasons.push((why, vec![at])),
+            None => reasons.push(((what, why), vec![at])),
         }
     }
-    let lines = reasons.into_iter().map(|(why, places)| {
+    let lines = reasons.into_iter().map(|((what, why), places)| {
         let more = places.len().saturating_sub(MOST);
         let listed = places[..places.len() - more].join(", ");
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-        format!("  not measured at v_r = {listed}{more}: {why}\n")
+        format!("  {what} at v_r = {listed}{more}: {why}\n")
     });
     lines.collect()
 }
