@@ -14,6 +14,7 @@ use quell_model::units::Quantity;
 use super::cycle::{BASE_STEPS, kicked_by};
 use super::cycle_samples::CycleSamples;
 use super::in_units;
+use super::passing::nearest_distance;
 use crate::fields::Fields;
 use crate::study::{SystemStudy, SystemUnits};
 
@@ -263,8 +264,9 @@ impl SystemAttractor {
         }
     }
 
-    /// Whether both are one motion: periodic with the same states, perhaps after some periods of the dither.
-    pub fn is(&self, other: &Self) -> bool {
+    /// Whether both are one motion of a system: periodic with the same states, perhaps after some periods of the dither, or the same
+    /// cycle, found at another of its moments.
+    pub fn is(&self, other: &Self, system: &System) -> bool {
         let size = self.state.iter().chain(&self.section).fold(0.0, |m: f64, x| m.max(x.abs()));
         let near = |state: &Vec<f64>| {
             let pairs = state.iter().zip(&self.state);
@@ -276,7 +278,10 @@ impl SystemAttractor {
                 MotionKind::Periodic { periods: others, .. },
             ) => periods == others && other.states.iter().any(near),
             (MotionKind::Cycle { period, .. }, MotionKind::Cycle { period: others, .. }) => {
-                (period - others).abs() <= SAME * period && other.states.iter().any(near)
+                let passes =
+                    || nearest_distance(system, (&other.state, *others), &self.state) <= SAME;
+                (period - others).abs() <= SAME * period
+                    && (other.states.iter().any(near) || passes())
             }
             // A record shows a part of a motion that is not periodic: such motions count as one.
             (MotionKind::Rest, MotionKind::Rest)

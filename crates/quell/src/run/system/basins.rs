@@ -285,7 +285,7 @@ impl SystemPortrait {
         for end in found {
             match end {
                 Ok(EndOfRun { attractor, periods }) => {
-                    let place = motions.iter().position(|(known, _)| attractor.is(known));
+                    let place = motions.iter().position(|(known, _)| attractor.is(known, system));
                     let place = place.unwrap_or_else(|| {
                         motions.push((attractor, 0));
                         motions.len() - 1
