@@ -34,6 +34,9 @@ const LEAST: f64 = 1e-3;
 /// A vibration from the start on counts if it lasts longer than this many natural periods.
 const TRANSIENT: f64 = 2.0;
 
+/// Switches that a sentence names one by one.
+const MOST_SWITCHES: usize = 6;
+
 /// Why no threshold is known on a branch that ends.
 const NOT_COVERED: &str = "the base response does not exist over the whole ramp";
 
@@ -86,6 +89,26 @@ impl RampCourse {
         (self.factor * least, self.factor * largest)
     }
 
+    /// The times at which it passes a value, and whether it rises there. Between two knots it is monotone.
+    fn passes(&self, value: f64) -> Vec<(f64, bool)> {
+        let pieces = self.knots.times().windows(2).filter_map(|ends| {
+            let [mut low, mut high] = [ends[0], ends[1]];
+            let rises = self.value(low) < value;
+            if rises == (self.value(high) < value) {
+                return None;
+            }
+            // To the last bit: the interval is halved until nothing lies between its ends.
+            while let middle = low + 0.5 * (high - low)
+                && middle > low
+                && middle < high
+            {
+                if (self.value(middle) < value) == rises { low = middle } else { high = middle }
+            }
+            Some((high, rises))
+        });
+        pieces.collect()
+    }
+
     /// The time of the last knot.
     fn until(&self) -> f64 {
         self.knots.times().last().copied().unwrap_or_default()
@@ -116,6 +139,17 @@ pub struct RampSwitch {
     /// The value of the ramp then.
     pub value: f64,
     /// Whether vibration ends.
+    pub to_quiet: bool,
+}
+
+/// A moment at which a ramp passes a value where the stability of the steady study changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RampCrossing {
+    /// Time.
+    pub time: f64,
+    /// The value.
+    pub value: f64,
+    /// Whether the base response becomes stable in the direction in which the ramp moves.
     pub to_quiet: bool,
 }
 
@@ -191,10 +225,54 @@ impl Ramp {
         Self { what, ramped, manoeuvre, until, motion, switches, thresholds, warnings }
     }
 
-    /// The threshold next to a value.
-    pub fn nearest(&self, value: f64) -> Option<&RampThreshold> {
-        let known = self.thresholds.as_ref().ok()?.iter();
-        known.min_by(|a, b| (a.value - value).abs().total_cmp(&(b.value - value).abs()))
+    /// The moments at which the ramp passes a threshold, in order.
+    fn crossings(&self) -> Vec<RampCrossing> {
+        let known = self.thresholds.iter().flatten();
+        let mut crossings: Vec<RampCrossing> = known
+            .flat_map(|threshold| {
+                let stays_quiet = match threshold.becomes {
+                    "stable" => Some(true),
+                    "unstable" => Some(false),
+                    _ => None,
+                };
+                let passed = stays_quiet.map(|_| self.ramped.passes(threshold.value));
+                passed.into_iter().flatten().map(move |(time, rises)| RampCrossing {
+                    time,
+                    value: threshold.value,
+                    to_quiet: stays_quiet == Some(rises),
+                })
+            })
+            .collect();
+        crossings.sort_by(|a, b| a.time.total_cmp(&b.time));
+        crossings
+    }
+
+    /// The threshold that belongs to a switch: the last one before it if the base response changes there as the run does at the
+    /// switch, which is late then; else the next one that does so, before which the run jumps early.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn threshold_of(&self, switch: &RampSwitch) -> Result<RampCrossing, &'static str> {
+        let crossings = self.crossings();
+        let (before, after) =
+            crossings.split_at(crossings.partition_point(|crossing| crossing.time <= switch.time));
+        let is_alike = |crossing: &&RampCrossing| crossing.to_quiet == switch.to_quiet;
+        let found = before.last().filter(is_alike).or_else(|| after.iter().find(is_alike)).copied();
+        found.ok_or(if self.thresholds.as_ref().is_ok_and(|known| !known.is_empty()) {
+            "the ramp passes no threshold at which the base response changes like this"
+        } else {
+            "no exact threshold is known over the ramp"
+        })
+    }
+
+    fn switch_in_words(&self, switch: &RampSwitch, in_its_unit: impl Fn(f64) -> String) -> String {
+        let becomes = if switch.to_quiet { "ceases" } else { "begins" };
+        let mut text = format!("{becomes} to vibrate at {}", in_its_unit(switch.value));
+        if let Ok(threshold) = self.threshold_of(switch) {
+            let order = if threshold.time <= switch.time { "after" } else { "before" };
+            let _ = write!(text, " ({order} the exact threshold {})", in_its_unit(threshold.value));
+        }
+        text
     }
 
     /// What happens along the ramp, in a few sentences; `in_words` writes a quantity with its unit.
@@ -212,16 +290,12 @@ impl Ramp {
         let vibrates = self.manoeuvre.as_ref().is_some_and(|found| {
             found.vibration.iter().any(|interval| interval.to > found.whole.0 + transient)
         });
-        let each = self.switches.iter().map(|switch| {
-            let becomes = if switch.to_quiet { "ceases" } else { "begins" };
-            let mut text = format!("{becomes} to vibrate at {}", in_its_unit(switch.value));
-            if let Some(threshold) = self.nearest(switch.value) {
-                let _ =
-                    write!(text, " (exact threshold next to it: {})", in_its_unit(threshold.value));
-            }
-            text
-        });
-        let each: Vec<String> = each.collect();
+        let named = self.switches.iter().take(MOST_SWITCHES);
+        let mut each: Vec<String> =
+            named.map(|switch| self.switch_in_words(switch, in_its_unit)).collect();
+        if let further @ 1.. = self.switches.len().saturating_sub(MOST_SWITCHES) {
+            each.push(format!("and so on, {further} more times"));
+        }
         let what = self.what;
         let _ = match (each.as_slice(), vibrates) {
             ([], true) => write!(text, "{what} vibrates all the time."),
@@ -252,9 +326,13 @@ impl Ramp {
                 .number("time", Quantity::Time, switch.time)
                 .number("value", quantity, switch.value)
                 .plain("becomes", if switch.to_quiet { "quiet" } else { "vibrating" });
-            let nearest = self.nearest(switch.value).map(|threshold| threshold.value);
-            let why = "no exact threshold is known over the ramp".to_owned();
-            inner.known("threshold", quantity, nearest.ok_or(why));
+            let threshold = self.threshold_of(switch).map_err(str::to_owned);
+            let time = threshold.as_ref().map(|found| found.time).map_err(Clone::clone);
+            inner.known("threshold", quantity, threshold.map(|found| found.value)).known(
+                "threshold_time",
+                Quantity::Time,
+                time,
+            );
             inner
         });
         fields.list("switches", switches.collect::<Vec<_>>());
