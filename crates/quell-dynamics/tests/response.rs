@@ -4,6 +4,8 @@
 use quell_dynamics::response::{Solver, SteadyResponse, Undefined, respond};
 use quell_dynamics::simulation::Start;
 use quell_dynamics::start::{InitialState, NoSquealingStart};
+use quell_linear::linear_cost::linear_cost;
+use quell_model::waveform::{Burst, FourierWave, Harmonic, Hold, SampledWave};
 use quell_model::{Belt, LawKind, Waveform};
 use quell_zoo::BeltExt;
 use quell_zoo::belt::{self, dissertation, stribeck_under};
@@ -99,6 +101,27 @@ fn a_squealing_start_is_on_the_cycle() {
             }
             start => assert_eq!(start, Err(NoSquealingStart::SettlesToSliding), "{velocity}"),
         }
+    }
+}
+
+/// In pure slip the displacement under a dither is that of the linear oscillator, whatever the waveform: the stroke is that of its
+/// whole period, not of one line.
+#[test]
+fn the_stroke_of_every_waveform_is_that_of_its_period() {
+    let burst = Burst::new(Waveform::Sine, 3, 5).expect("a burst").into_waveform();
+    let values = (0..128).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 } + f64::from(i % 5)).collect();
+    let samples = Waveform::Samples(SampledWave::new(values, Hold::Zero).expect("samples").into());
+    let harmonic = |order, sine| Harmonic { order, cosine: 0.4, sine };
+    let series = FourierWave::new(vec![harmonic(1, 0.0), harmonic(3, 8.0)]).expect("harmonics");
+    let series = Waveform::Fourier(series.into());
+    for (waveform, frequency_ratio, share) in
+        [(burst, 40.0, 5e-3), (samples, 2.7, 2e-2), (series, 9.0, 5e-3)]
+    {
+        let dither = tangential(waveform, 0.05, frequency_ratio);
+        let belt = belt::stribeck().at_speed(0.2).with_dither(dither.clone());
+        let stroke = response(&belt).dither_stroke.expect("tangential");
+        let linear = linear_cost(&dither, belt.damping_ratio()).expect("a response").stroke;
+        assert!((stroke / linear - 1.0).abs() < share, "{stroke} {linear}");
     }
 }
 

@@ -78,6 +78,18 @@ impl Dither {
         self.frequency_ratio * self.waveform.highest_multiple()
     }
 
+    /// The frequency ratio that the samples of a motion must resolve: the highest ratio; of a wave of samples, whose spectrum has no end,
+    /// at least the root mean square frequency of the impulse that it gives to a mass, √(⟨g²⟩/⟨G²⟩) R.
+    pub fn resolved_ratio(&self) -> f64 {
+        let highest = self.highest_ratio();
+        if !matches!(self.waveform, Waveform::Samples(_)) {
+            return highest;
+        }
+        let mean_square = self.waveform.mean_square_integral();
+        let multiple = self.waveform.root_mean_square() / mean_square.sqrt();
+        highest.max(self.frequency_ratio * multiple)
+    }
+
     /// R, of noise the frequency ratio of its first line: what must be high for averaging.
     pub fn lowest_ratio(&self) -> f64 {
         self.frequency_ratio * self.waveform.lowest_multiple()

@@ -45,7 +45,7 @@ impl Meter {
             .cloned()
             .collect();
         Self {
-            fastest: tangential.iter().fold(0.0, |rate, dither| rate.max(dither.highest_ratio())),
+            fastest: tangential.iter().fold(0.0, |rate, dither| rate.max(dither.resolved_ratio())),
             tangential,
             belt_velocity: belt.belt_velocity(),
             first_time: start.time,
@@ -160,7 +160,7 @@ pub(super) fn minimum_normal_load(belt: &Belt, from: f64, length: f64) -> f64 {
         .cloned()
         .collect();
     let load = belt.normal_load();
-    let fastest = normal.iter().fold(0.0_f64, |rate, dither| rate.max(dither.highest_ratio()));
+    let fastest = normal.iter().fold(0.0_f64, |rate, dither| rate.max(dither.resolved_ratio()));
     match normal.as_slice() {
         [] => load,
         [only] if length * only.repetition_ratio() >= TAU => {

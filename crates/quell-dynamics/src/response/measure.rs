@@ -97,7 +97,8 @@ pub struct MeasuredRecord {
     pub mean_friction: f64,
     /// Mean power ⟨D_T g_T x′⟩ over kω₀; `None` if not requested, or if all dither is normal.
     pub dither_power: Option<f64>,
-    /// Peak-to-peak displacement at the frequencies of the tangential dithers; `None` under the same conditions as the power.
+    /// Peak-to-peak displacement in the lines of the tangential dithers; `None` under the same conditions as the power, and where
+    /// these lines are unknown ([`super::stroke_is_measured`]).
     pub dither_stroke: Option<f64>,
     /// Smallest normal load.
     pub minimum_normal_load: f64,
@@ -324,7 +325,7 @@ impl<O> RecordObserver<O> {
             stick_fraction: self.meter.stick_fraction(),
             mean_friction: self.meter.mean_friction(),
             dither_power: has_cost.then(|| self.meter.dither_power()),
-            dither_stroke: has_cost.then(|| self.spectral.stroke()),
+            dither_stroke: if has_cost { self.spectral.stroke() } else { None },
             minimum_normal_load: cost::minimum_normal_load(belt, self.sampling.from, length),
             largest_slip: self.slip.speed,
             events: end.events,

@@ -14,6 +14,7 @@
 //! side, with the same bits; only [`respond`] keeps the samples too, for spectra and pictures.
 
 mod cost;
+mod dither_lines;
 mod effect;
 mod effective;
 mod isocline;
@@ -30,6 +31,7 @@ mod system_response;
 pub use quell_numerics::spectrum::{Peak, Spectrum};
 
 pub use crate::band::BAND_END;
+pub use dither_lines::stroke_is_measured;
 pub use effect::{Effect, QUENCHED, RunEnding, Uncertain, Vibrations, effect};
 pub use effective::{
     SteadyFriction, WindowMean, measured_effective_friction, steady_effective_friction,

@@ -3,10 +3,11 @@
 
 use std::f64::consts::TAU;
 
-use quell_model::{Belt, Direction};
+use quell_model::Belt;
 use quell_numerics::elementary::sin_cos_of_phase;
 use quell_numerics::spectrum::low_band::{LargestLines, LowBand};
 
+use super::dither_lines::{self, LineGroup};
 use super::solver::Solver;
 use crate::band::BAND_END;
 use crate::simulation::Segment;
@@ -44,7 +45,7 @@ pub fn samples_per_slow_period(belt: &Belt) -> f64 {
         .dithers()
         .iter()
         .filter(|dither| dither.amplitude > 0.0)
-        .fold(0.0_f64, |rate, dither| rate.max(dither.highest_ratio()));
+        .fold(0.0_f64, |rate, dither| rate.max(dither.resolved_ratio()));
     let wanted = SAMPLES_PER_SLOW_PERIOD.max(SAMPLES_PER_DITHER_PERIOD * fastest);
     (wanted / 32.0).ceil() * 32.0
 }
@@ -79,7 +80,9 @@ pub(super) struct SpectralMeter {
     band: LowBand,
     /// Upper end of the band that is searched for lines.
     band_end: f64,
+    /// The tones of the dithers, in the order of their groups; none where they are not measured.
     tones: Vec<Tone>,
+    groups: Result<Vec<LineGroup>, &'static str>,
 }
 
 /// Sums of a record under the Hann window at one frequency.
@@ -96,20 +99,16 @@ struct Tone {
 impl SpectralMeter {
     /// For a record of `belt`; with the lines of the dither only if `with_tones`.
     pub(super) fn new(belt: &Belt, sampling: Sampling, with_tones: bool) -> Self {
-        let mut frequencies: Vec<f64> = belt
-            .dithers_along(Direction::Tangential)
-            .filter(|dither| with_tones && dither.amplitude > 0.0)
-            .map(|dither| dither.frequency_ratio)
-            .collect();
-        frequencies.sort_by(f64::total_cmp);
-        frequencies.dedup();
+        let groups = if with_tones { dither_lines::groups(belt) } else { Ok(Vec::new()) };
+        let frequencies = groups.iter().flatten().flat_map(|group| group.frequencies.clone());
         let tone = |frequency| Tone { frequency, ..Tone::default() };
         let decimation = sampling.per_slow_period / CELLS_PER_SLOW_PERIOD;
         Self {
             sampling,
             band: LowBand::new(sampling.count, sampling.step, decimation),
             band_end: band_end(belt, sampling),
-            tones: frequencies.into_iter().map(tone).collect(),
+            tones: frequencies.map(tone).collect(),
+            groups,
         }
     }
 
@@ -118,10 +117,17 @@ impl SpectralMeter {
         self.band.largest_lines(self.band_end)
     }
 
-    /// Peak-to-peak displacement at the frequencies of the tangential dithers: twice the
-    /// spectral amplitude at each different one, summed.
-    pub(super) fn stroke(&self) -> f64 {
-        self.tones.iter().map(|tone| 2.0 * tone.amplitude()).sum()
+    /// Peak-to-peak displacement in the lines of the tangential dithers, of those with different periods the sum; `None` where these
+    /// lines are unknown.
+    pub(super) fn stroke(&self) -> Option<f64> {
+        let mut tones = self.tones.iter();
+        let groups = self.groups.as_ref().ok()?;
+        let strokes = groups.iter().map(|group| {
+            let lines: Vec<_> =
+                tones.by_ref().take(group.frequencies.len()).map(Tone::line).collect();
+            dither_lines::peak_to_peak(group.repetition, &lines)
+        });
+        Some(strokes.sum())
     }
 
     /// Adds the missing samples at the end: the last sample may round to just after it.
@@ -198,11 +204,11 @@ impl Tone {
         self.window[1] = weight.mul_add(sine, self.window[1]);
     }
 
-    /// Spectral amplitude, the weighted mean removed.
-    fn amplitude(&self) -> f64 {
+    /// Its frequency and its two spectral amplitudes, of cosine and sine, the weighted mean removed.
+    fn line(&self) -> [f64; 3] {
         let mean = self.sample[0] / self.weight;
         let cosine = self.sample[1] - mean * self.window[0];
         let sine = self.sample[2] - mean * self.window[1];
-        2.0 * libm::hypot(cosine, sine) / self.weight
+        [self.frequency, 2.0 * cosine / self.weight, 2.0 * sine / self.weight]
     }
 }

@@ -48,8 +48,9 @@ pub struct SteadyResponse {
     /// Mean power ⟨D_T g_T x′⟩ (over kω₀) that tangential dither feeds in; `None` if all dither
     /// is normal, because the model has no normal motion on which it could do work.
     pub dither_power: Option<f64>,
-    /// Peak-to-peak displacement at the frequencies of the tangential dithers, which their
-    /// actuators must follow; `None` under the same condition as the power.
+    /// Peak-to-peak displacement in the lines of the tangential dithers, which their actuators must follow: of sines, triangles and
+    /// squares the line at their frequency, of other waveforms all lines together; `None` under the same condition as the power, and
+    /// where these lines are unknown ([`super::stroke_is_measured`]).
     pub dither_stroke: Option<f64>,
     /// Smallest normal load N in the record.
     pub minimum_normal_load: f64,

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use quell_dynamics::response::stroke_is_measured;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -62,7 +63,10 @@ fn table(study: &BeltStudy, done: &MeasuredResponse) -> String {
     table.known(
         "dither stroke",
         Quantity::Displacement,
-        response.dither_stroke.ok_or_else(only_normal),
+        response.dither_stroke.ok_or_else(|| match stroke_is_measured(study.belt()) {
+            Ok(()) => only_normal(),
+            Err(why) => why.to_owned(),
+        }),
     );
     table.number("smallest normal load", Quantity::Force, response.minimum_normal_load);
     let mut text = table.text();

@@ -3,10 +3,11 @@
 use quell_dynamics::attractor::Reached;
 use quell_dynamics::response::{
     BAND_END, Effect, RunEnding, SettledRecord, SteadyResponse, Uncertain, respond,
-    respond_with_state, samples_per_slow_period,
+    respond_with_state, samples_per_slow_period, stroke_is_measured,
 };
 use quell_dynamics::simulation::{Sample, Start, within};
 use quell_model::units::Quantity;
+use quell_model::{Dither, Waveform};
 use serde_json::Value as Json;
 
 use super::belt_start::begin;
@@ -129,7 +130,12 @@ impl MeasuredResponse {
         });
         let stroke = response.dither_stroke.map(|stroke| {
             let stroke = in_words(study, Quantity::Displacement, stroke);
-            format!("needs a peak-to-peak stroke of {stroke} at its frequency")
+            let of_one_line = |dither: &Dither| {
+                matches!(dither.waveform, Waveform::Sine | Waveform::Triangle | Waveform::Square)
+            };
+            let several = !study.belt().dithers().iter().all(of_one_line);
+            let at = if several { "frequencies" } else { "frequency" };
+            format!("needs a peak-to-peak stroke of {stroke} at its {at}")
         });
         let parts: Vec<String> = [loss, power, stroke].into_iter().flatten().collect();
         match parts.as_slice() {
@@ -335,7 +341,10 @@ impl MeasuredResponse {
             .known(
                 "dither_stroke",
                 Quantity::Displacement,
-                response.dither_stroke.ok_or_else(only_normal),
+                response.dither_stroke.ok_or_else(|| match stroke_is_measured(study.belt()) {
+                    Ok(()) => only_normal(),
+                    Err(why) => why.to_owned(),
+                }),
             )
             .number("minimum_normal_load", Quantity::Force, response.minimum_normal_load)
             .number("settle", Quantity::Time, study.solver().settle)

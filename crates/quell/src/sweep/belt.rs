@@ -66,7 +66,11 @@ const OF_EFFICIENCY: &[Status] = &[
     Status::UnditheredUnknown,
 ];
 
-/// Statuses of power and stroke other than known.
+/// Statuses of stroke other than known.
+const OF_STROKE: &[Status] =
+    &[Status::Stalled, Status::NoSquealingStart, Status::OnlyNormalDither, Status::LinesUnknown];
+
+/// Statuses of power other than known.
 const OF_COST: &[Status] = &[Status::Stalled, Status::NoSquealingStart, Status::OnlyNormalDither];
 
 /// Statuses of averaging other than known.
@@ -155,7 +159,7 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
         variable(("dither_power", "P"), "mean power of the dither", VariableKind::Number(units::Quantity::Power), OF_COST, |r| steady(r)?.dither_power.ok_or(Status::OnlyNormalDither)),
     ]),
     belt("dither-stroke", "peak-to-peak displacement of the dither's actuator", Computation::ResponseWithCost, &[
-        variable(("dither_stroke", ""), "stroke of the dither's actuator", LENGTH, OF_COST, |r| steady(r)?.dither_stroke.ok_or(Status::OnlyNormalDither)),
+        variable(("dither_stroke", ""), "stroke of the dither's actuator", LENGTH, OF_STROKE, stroke),
     ]),
     belt("minimum-normal-load", "smallest normal load divided by k", Computation::Response, &[
         variable(("minimum_normal_load", "N_{min}"), "smallest normal load", FORCE, OF_RESPONSE, |r| Ok(steady(r)?.minimum_normal_load)),
@@ -187,6 +191,13 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
 
 fn steady(results: &Results) -> Result<ResponseNumbers, Status> {
     results.steady.unwrap_or(Err(Status::Missing))
+}
+
+fn stroke(results: &Results) -> Result<f64, Status> {
+    let found = steady(results)?;
+    let has_power = found.dither_power.is_some();
+    let unknown = if has_power { Status::LinesUnknown } else { Status::OnlyNormalDither };
+    found.dither_stroke.ok_or(unknown)
 }
 
 #[expect(clippy::cast_precision_loss, reason = "one of five words")]

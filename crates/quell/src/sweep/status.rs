@@ -78,6 +78,8 @@ pub enum Status {
     LoudAtLimit = 41,
     /// The first dither moves no contact.
     NoReach = 42,
+    /// Stroke: the lines of the dither are not measured ([`quell_dynamics::response::stroke_is_measured`]).
+    LinesUnknown = 43,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -119,6 +121,7 @@ impl Status {
         Self::StaysQuiet,
         Self::LoudAtLimit,
         Self::NoReach,
+        Self::LinesUnknown,
         Self::Missing,
     ];
 
@@ -174,6 +177,7 @@ impl Status {
             Self::StaysQuiet => "stays_quiet",
             Self::LoudAtLimit => "loud_at_limit",
             Self::NoReach => "no_reach",
+            Self::LinesUnknown => "lines_unknown",
             Self::Missing => "missing",
         }
     }
@@ -200,6 +204,9 @@ impl Status {
                 "the vibration still changes within the record: raise solver.settle"
             }
             Self::Unresolved => "the dither changes the vibration by less than the record resolves",
+            Self::LinesUnknown => {
+                "the displacement at the frequencies of the dither is not separated from other vibration"
+            }
             Self::OnlyNormalDither => {
                 "all dither is normal, and the model has no motion in the normal direction"
             }
