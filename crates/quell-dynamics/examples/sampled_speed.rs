@@ -28,8 +28,8 @@ fn main() {
             for count in [20_u32, 100, 1000] {
                 let cases = workload.cases.iter();
                 let cases = cases.map(|(belt, start)| (sampled(belt, count, hold), *start));
-                // As many pieces for every n, so that all take about as long.
-                let until = workload.until / f64::from(count);
+                // About as many pieces for every n, over several periods of the dither at least.
+                let until = workload.until * (10.0 / f64::from(count) + 0.01);
                 let one = Workload { name: workload.name, cases: cases.collect(), until };
                 let each = |microseconds: f64| microseconds / f64::from(count);
                 let mut times = vec![format!("\"alone\": {:.4}", each(one.time_alone()))];
