@@ -227,9 +227,6 @@ fn one_of(file: &DataFile<'_>, names: &[&'static str]) -> Result<Option<NamedCol
         .collect();
     match found[..] {
         [] => Ok(None),
-        [only] if file.is_ambiguous(only.name) => {
-            Err(format!("{WHAT} with one column {}, not several", only.name))
-        }
         [only] => Ok(Some(only)),
         [first, second, ..] => Err(format!(
             "{WHAT} with one of the columns {} and {}, not both",
@@ -293,7 +290,7 @@ mod tests {
         assert!(said.contains("line 2: 4 cells for 2 columns"), "{said}");
         let twice = read("twice", "slip_velocity,coefficient,coefficient\n1,0.4,0.3\n");
         let said = twice.expect_err("two columns");
-        assert!(said.contains("one column coefficient, not several"), "{said}");
+        assert!(said.contains("columns 2 and 3 have the same"), "{said}");
         // A comma at the end of a line adds nothing.
         assert!(read("end", "slip_velocity,coefficient\n1,0.4,\n2,0.3,\n").is_ok());
     }

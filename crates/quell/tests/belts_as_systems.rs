@@ -255,6 +255,21 @@ fn a_ramp() {
     assert_eq!(last["becomes"], "quiet");
     let (value, threshold) = (number(&last["value"]), number(&last["threshold"]));
     assert!(value > threshold && value < 1.2 * threshold, "{last}");
+    // Every threshold is passed in the sense of its switch. The drive is symmetric about 400, where it turns.
+    for found in switches.iter().filter(|found| !found["threshold"].is_null()) {
+        let (passed, value) = (number(&found["threshold_time"]), number(&found["threshold"]));
+        let at_that_time = 0.05 + 0.25 * (passed - 400.0).abs() / 400.0;
+        close(at_that_time, value, 1e-9, "passed");
+        let known = thresholds.iter().find(|known| number(&known["value"]) == value);
+        let becomes = known.expect("a threshold")["becomes"] == "stable";
+        let rises = passed > 400.0;
+        assert_eq!(becomes == rises, found["becomes"] == "quiet", "{found}");
+    }
+    // Vibration begins after the lower threshold is passed on the way up, late.
+    let first = &switches[0];
+    assert_eq!(first["becomes"], "vibrating");
+    assert!(number(&first["threshold"]) < number(&first["value"]), "{first}");
+    assert!(number(&first["threshold_time"]) < number(&first["time"]), "{first}");
 }
 
 /// A load and an amplitude of a system as ramps; without dither the thresholds are those of steady sliding.

@@ -41,6 +41,20 @@ pub(crate) fn checksum(values: &[f64]) -> u64 {
     })
 }
 
+/// Checks that no two columns have one name: which of them is meant would be a guess. Empty names may repeat.
+///
+/// # Errors
+/// The places of two that have. Names are not shown: the file may be any.
+pub(crate) fn distinct(names: &[&str]) -> Result<(), String> {
+    let named = names.iter().enumerate().filter(|(_, name)| !name.is_empty());
+    for (place, name) in named {
+        if let Some(before) = names[..place].iter().position(|known| known == name) {
+            return Err(format!("columns {} and {} have the same", before + 1, place + 1));
+        }
+    }
+    Ok(())
+}
+
 /// A CSV file whose columns are known.
 #[derive(Debug)]
 pub(crate) struct DataFile<'t> {
@@ -62,7 +76,7 @@ impl<'t> DataFile<'t> {
     /// Splits the text into column names and rows.
     ///
     /// # Errors
-    /// If there is no header line.
+    /// If there is no header line, or if it has one name twice.
     pub(crate) fn new(text: &'t str, what: &str) -> Result<Self, String> {
         let mut lines = text
             .lines()
@@ -73,6 +87,8 @@ impl<'t> DataFile<'t> {
             lines.next().ok_or_else(|| format!("{what} with a header line of column names"))?;
         let names: Vec<&str> =
             header.split(',').map(|name| name.trim().trim_matches('"')).collect();
+        distinct(&names)
+            .map_err(|why| format!("{what} whose columns have different names; {why}"))?;
         let columns = names.len();
         let rows = lines
             .map(|(line, row)| Row {
@@ -87,11 +103,6 @@ impl<'t> DataFile<'t> {
     /// Index of a column.
     pub(crate) fn column(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| *known == name)
-    }
-
-    /// Whether two columns have this name.
-    pub(crate) fn is_ambiguous(&self, name: &str) -> bool {
-        self.names.iter().filter(|known| **known == name).count() > 1
     }
 
     /// Names of the columns.

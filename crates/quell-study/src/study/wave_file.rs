@@ -14,6 +14,12 @@ const WHAT: &str = "a file of samples, one number per line, or a CSV file with a
 /// The column of samples.
 const COLUMN: &str = "value";
 
+/// Columns of times, which are checked for equal steps.
+const TIMES: [&str; 2] = ["time", "time_s"];
+
+/// Difference of a step in time from the mean step, as a share of it, from which samples are not at equal distances.
+const UNEQUAL: f64 = 0.1;
+
 /// A file of samples that has been read.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct WaveFile {
@@ -87,31 +93,75 @@ fn parse(text: &str) -> Result<Vec<f64>, String> {
         .peekable();
     let (_, first) = lines.peek().copied().ok_or_else(|| format!("{WHAT}; this file is empty"))?;
     let number = |cell: &str| cell.trim().trim_matches('"').parse::<f64>();
-    let column = if number(first).is_ok() {
-        0
+    let (column, time, columns) = if number(first).is_ok() {
+        (0, None, 1)
     } else {
         let names: Vec<&str> = first.split(',').map(|name| name.trim().trim_matches('"')).collect();
+        data_file::distinct(&names)
+            .map_err(|why| format!("{WHAT} whose columns have different names; {why}"))?;
         let column = match names.iter().position(|name| *name == COLUMN) {
             None if names.len() == 1 => 0,
             found => found.ok_or(WHAT)?,
         };
         lines.next();
-        column
+        (column, names.iter().position(|name| TIMES.contains(name)), names.len())
     };
-    lines
-        .map(|(line, row)| {
-            if row.is_empty() {
-                return Err(format!(
-                    "line {line} is empty: samples are at equal distances, without gaps"
-                ));
-            }
-            let cell = row.split(',').nth(column).unwrap_or_default();
-            match number(cell) {
-                Ok(value) if value.is_finite() => Ok(value),
-                _ => Err(format!("line {line} must have a finite number as sample")),
-            }
-        })
-        .collect()
+    let mut times = Vec::new();
+    let mut values = Vec::new();
+    for (line, row) in lines {
+        if row.is_empty() {
+            return Err(format!(
+                "line {line} is empty: samples are at equal distances, without gaps"
+            ));
+        }
+        let cells: Vec<&str> = row.split(',').collect();
+        // A comma at the end of a line adds no cell.
+        if cells.iter().skip(columns).any(|cell| !cell.trim().is_empty()) {
+            return Err(format!(
+                "line {line}: {} cells for {columns} columns; numbers have a decimal point, not a comma",
+                cells.len()
+            ));
+        }
+        let finite = |place: usize| {
+            let found = cells.get(place).and_then(|cell| number(cell).ok());
+            found.filter(|value| value.is_finite())
+        };
+        values.push(
+            finite(column)
+                .ok_or_else(|| format!("line {line} must have a finite number as sample"))?,
+        );
+        if let Some(place) = time {
+            let found = finite(place)
+                .ok_or_else(|| format!("line {line} must have a finite number as time"))?;
+            times.push((line, found));
+        }
+    }
+    equal_steps(&times)?;
+    Ok(values)
+}
+
+/// Checks that the times of the samples have equal steps: their values are not used, the dither has its own frequency.
+///
+/// # Errors
+/// The line with another step.
+fn equal_steps(times: &[(usize, f64)]) -> Result<(), String> {
+    let [(_, first), .., (_, last)] = times else { return Ok(()) };
+    let mean = (last - first) / (times.len() - 1) as f64;
+    let rounding = f64::EPSILON * first.abs().max(last.abs());
+    // Times are often written with few digits, so that a step may be off by a part of itself.
+    let wrong = times.windows(2).find(|pair| {
+        let step = pair[1].1 - pair[0].1;
+        step.is_nan() || step <= 0.0 || (step - mean).abs() > UNEQUAL * mean + 4.0 * rounding
+    });
+    let Some(pair) = wrong else { return Ok(()) };
+    if pair[1].1 <= pair[0].1 {
+        return Err(format!("line {}: times must ascend", pair[1].0));
+    }
+    Err(format!(
+        "line {}: its step in time differs from the mean step by more than {} %; samples are at equal distances",
+        pair[1].0,
+        100.0 * UNEQUAL
+    ))
 }
 
 #[cfg(test)]
@@ -122,6 +172,7 @@ mod tests {
     fn numbers_and_columns() {
         assert_eq!(parse("# g\n1\n -0.5\n2e-1\n\n"), Ok(vec![1.0, -0.5, 0.2]));
         assert_eq!(parse("time,value\n0,1\n1,\"2\"\n"), Ok(vec![1.0, 2.0]));
+        assert_eq!(parse("time,value\n0,1\n0.33,2\n0.67,0\n1,1\n"), Ok(vec![1.0, 2.0, 0.0, 1.0]));
         assert_eq!(parse("force\n1\n2\n"), Ok(vec![1.0, 2.0]));
     }
 
@@ -136,6 +187,12 @@ mod tests {
             ("time,value\n0,1\n1\n", "line 3"),
             ("time,force\n0,1\n", "a column value"),
             ("1,2\n3,4\n", "a column value"),
+            ("1\n0,5\n", "line 2: 2 cells for 1 columns"),
+            ("value\n1\n0,5\n", "line 3: 2 cells for 1 columns"),
+            ("value,value\n1,2\n", "columns 1 and 2"),
+            ("time,value\n0,1\n1,2\n3,1\n", "line 3: its step"),
+            ("time_s,value\n0,1\n-1,2\n-2,1\n", "times must ascend"),
+            ("time,value\n0,1\nx,2\n", "line 3 must have a finite number as time"),
         ] {
             let said = parse(text).expect_err(text);
             assert!(said.contains(words), "{text:?}: {said}");

@@ -146,7 +146,8 @@ class Ramp(_columns.RampColumns, Result):
     until: float
     """End of the run, at the last knot."""
     switches: list[dict[str, Any]]
-    """``time`` and ``value`` at which the run begins or ceases to vibrate, ``becomes``, and the nearest exact ``threshold``."""
+    """``time`` and ``value`` at which the run begins or ceases to vibrate, ``becomes``, and the exact ``threshold`` at which the base
+    response changes in the same sense, with the ``threshold_time`` at which the ramp passes it."""
     thresholds: list[dict[str, Any]] | None
     """Exact thresholds of the base response at constant values: ``value``, ``kind``, ``becomes``."""
     manoeuvre: dict[str, Any]
