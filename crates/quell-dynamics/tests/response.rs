@@ -1,7 +1,7 @@
 //! Steady responses: published statements that independent computations confirm, limits and
 //! identities of the costs.
 
-use quell_dynamics::response::{Solver, SteadyResponse, Undefined, respond};
+use quell_dynamics::response::{Solver, SteadyResponse, Undefined, respond, stroke_is_measured};
 use quell_dynamics::simulation::Start;
 use quell_dynamics::start::{InitialState, NoSquealingStart};
 use quell_linear::linear_cost::linear_cost;
@@ -123,6 +123,13 @@ fn the_stroke_of_every_waveform_is_that_of_its_period() {
         let linear = linear_cost(&dither, belt.damping_ratio()).expect("a response").stroke;
         assert!((stroke / linear - 1.0).abs() < share, "{stroke} {linear}");
     }
+    // A record that is shorter than the pause of a burst separates no lines.
+    let rare = Burst::new(Waveform::Sine, 3, 997).expect("a burst").into_waveform();
+    let belt = belt::stribeck().at_speed(0.2).with_dither(tangential(rare, 0.05, 10.0));
+    assert_eq!(response(&belt).dither_stroke, None);
+    let why = stroke_is_measured(&belt, Solver::default().record_periods).expect_err("too short");
+    assert!(why.contains("record_periods"), "{why}");
+    assert!(stroke_is_measured(&belt, 400).is_ok());
 }
 
 #[test]

@@ -210,6 +210,12 @@ fn wrong_tables_are_named_with_their_place() {
     for (keys, key, why) in [
         ("[belt.load]\ntime = [0, 1]\nload = [1, 0]", "belt.load.load[1]", "> 0"),
         (
+            "normal_load = 1\n[dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.7\nfrequency_ratio = 9\n\
+             [dither.envelope]\ntime = [0, 1]\nshare = [1, -1]",
+            "dither.envelope.share[1]",
+            "≥ 0",
+        ),
+        (
             "[belt.load]\ntime = [0, 1]\nload = [1, 0.5]\n[dither]\ndirection = \"normal\"\nwaveform = \"sine\"\namplitude = 0.7\n\
              frequency_ratio = 9",
             "dither.amplitude",

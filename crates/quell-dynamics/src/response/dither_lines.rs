@@ -24,6 +24,12 @@ const NOISE: &str =
 /// Why the stroke is unknown under a waveform of very many pieces.
 const TOO_FINE: &str = "the waveform has too many pieces and too high frequencies for its lines to be separated from other vibration";
 
+/// Why the stroke is unknown in a short record.
+const TOO_SHORT: &str = "the record has fewer than four periods of the dither, too few to separate its lines: raise solver.record_periods";
+
+/// Fewest periods of a waveform in a record whose lines a Hann window separates.
+const FEWEST_PERIODS: f64 = 4.0;
+
 /// Lines of the dithers of one period, in ascending order.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct LineGroup {
@@ -33,16 +39,19 @@ pub(super) struct LineGroup {
     pub(super) frequencies: Vec<f64>,
 }
 
-/// The lines of the tangential dithers of a belt, those with the same period together.
+/// The lines of the tangential dithers of a belt, those with the same period together, for a record of this many slow periods 2π.
 ///
 /// # Errors
 /// Why they are unknown.
-pub(super) fn groups(belt: &Belt) -> Result<Vec<LineGroup>, &'static str> {
+pub(super) fn groups(belt: &Belt, record_periods: u32) -> Result<Vec<LineGroup>, &'static str> {
     let mut groups: Vec<LineGroup> = Vec::new();
     for dither in belt.dithers_along(Direction::Tangential).filter(|dither| dither.amplitude > 0.0)
     {
         let repetition = dither.repetition_ratio();
         let frequencies = lines(dither)?;
+        if frequencies.len() > 1 && f64::from(record_periods) * repetition < FEWEST_PERIODS {
+            return Err(TOO_SHORT);
+        }
         match groups.iter_mut().find(|group| group.repetition == repetition) {
             Some(group) => group.frequencies.extend(frequencies),
             None => groups.push(LineGroup { repetition, frequencies }),
@@ -56,12 +65,12 @@ pub(super) fn groups(belt: &Belt) -> Result<Vec<LineGroup>, &'static str> {
     Ok(groups)
 }
 
-/// Whether a record gives the stroke of the tangential dithers of a belt.
+/// Whether a record of so many slow periods gives the stroke of the tangential dithers of a belt.
 ///
 /// # Errors
 /// Why it does not.
-pub fn stroke_is_measured(belt: &Belt) -> Result<(), &'static str> {
-    groups(belt).map(|_| ())
+pub fn stroke_is_measured(belt: &Belt, record_periods: u32) -> Result<(), &'static str> {
+    groups(belt, record_periods).map(|_| ())
 }
 
 /// Frequencies of the lines of a dither: its own of the waveforms of the dissertation, of others all that move a mass noticeably.

@@ -99,7 +99,10 @@ struct Tone {
 impl SpectralMeter {
     /// For a record of `belt`; with the lines of the dither only if `with_tones`.
     pub(super) fn new(belt: &Belt, sampling: Sampling, with_tones: bool) -> Self {
-        let groups = if with_tones { dither_lines::groups(belt) } else { Ok(Vec::new()) };
+        let record_periods =
+            u32::try_from(sampling.count / sampling.per_slow_period).unwrap_or(u32::MAX);
+        let groups =
+            if with_tones { dither_lines::groups(belt, record_periods) } else { Ok(Vec::new()) };
         let frequencies = groups.iter().flatten().flat_map(|group| group.frequencies.clone());
         let tone = |frequency| Tone { frequency, ..Tone::default() };
         let decimation = sampling.per_slow_period / CELLS_PER_SLOW_PERIOD;

@@ -49,7 +49,11 @@ pub(crate) fn distinct(names: &[&str]) -> Result<(), String> {
     let named = names.iter().enumerate().filter(|(_, name)| !name.is_empty());
     for (place, name) in named {
         if let Some(before) = names[..place].iter().position(|known| known == name) {
-            return Err(format!("columns {} and {} have the same", before + 1, place + 1));
+            return Err(format!(
+                "a CSV file with columns of different names; columns {} and {} have the same",
+                before + 1,
+                place + 1
+            ));
         }
     }
     Ok(())
@@ -87,8 +91,7 @@ impl<'t> DataFile<'t> {
             lines.next().ok_or_else(|| format!("{what} with a header line of column names"))?;
         let names: Vec<&str> =
             header.split(',').map(|name| name.trim().trim_matches('"')).collect();
-        distinct(&names)
-            .map_err(|why| format!("{what} whose columns have different names; {why}"))?;
+        distinct(&names)?;
         let columns = names.len();
         let rows = lines
             .map(|(line, row)| Row {

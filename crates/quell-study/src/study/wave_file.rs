@@ -97,8 +97,7 @@ fn parse(text: &str) -> Result<Vec<f64>, String> {
         (0, None, 1)
     } else {
         let names: Vec<&str> = first.split(',').map(|name| name.trim().trim_matches('"')).collect();
-        data_file::distinct(&names)
-            .map_err(|why| format!("{WHAT} whose columns have different names; {why}"))?;
+        data_file::distinct(&names)?;
         let column = match names.iter().position(|name| *name == COLUMN) {
             None if names.len() == 1 => 0,
             found => found.ok_or(WHAT)?,

@@ -63,9 +63,11 @@ fn table(study: &BeltStudy, done: &MeasuredResponse) -> String {
     table.known(
         "dither stroke",
         Quantity::Displacement,
-        response.dither_stroke.ok_or_else(|| match stroke_is_measured(study.belt()) {
-            Ok(()) => only_normal(),
-            Err(why) => why.to_owned(),
+        response.dither_stroke.ok_or_else(|| {
+            match stroke_is_measured(study.belt(), study.solver().record_periods) {
+                Ok(()) => only_normal(),
+                Err(why) => why.to_owned(),
+            }
         }),
     );
     table.number("smallest normal load", Quantity::Force, response.minimum_normal_load);

@@ -341,9 +341,11 @@ impl MeasuredResponse {
             .known(
                 "dither_stroke",
                 Quantity::Displacement,
-                response.dither_stroke.ok_or_else(|| match stroke_is_measured(study.belt()) {
-                    Ok(()) => only_normal(),
-                    Err(why) => why.to_owned(),
+                response.dither_stroke.ok_or_else(|| {
+                    match stroke_is_measured(study.belt(), study.solver().record_periods) {
+                        Ok(()) => only_normal(),
+                        Err(why) => why.to_owned(),
+                    }
                 }),
             )
             .number("minimum_normal_load", Quantity::Force, response.minimum_normal_load)

@@ -40,7 +40,7 @@ pub const LOAD: CourseTable = CourseTable {
 pub const ENVELOPE: CourseTable = CourseTable {
     value: "share",
     quantity: Quantity::Ratio,
-    bounds: Bounds::FINITE,
+    bounds: Bounds::NOT_NEGATIVE,
     oscillates: false,
     jumps: true,
 };
