@@ -104,7 +104,7 @@ fn a_squealing_start_is_on_the_cycle() {
     }
 }
 
-/// In pure slip the displacement under a dither is that of the linear oscillator, whatever the waveform: the stroke is that of its
+/// In pure slip the displacement under a dither of any waveform is that of the linear oscillator: the stroke is that of its
 /// whole period, not of one line.
 #[test]
 fn the_stroke_of_every_waveform_is_that_of_its_period() {

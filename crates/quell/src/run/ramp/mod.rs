@@ -251,7 +251,7 @@ impl Ramp {
     /// switch, which is late then; else the next one that does so, before which the run jumps early.
     ///
     /// # Errors
-    /// Why there is none.
+    /// Why none belongs to it.
     pub fn threshold_of(&self, switch: &RampSwitch) -> Result<RampCrossing, &'static str> {
         let crossings = self.crossings();
         let (before, after) =
