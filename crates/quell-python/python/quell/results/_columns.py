@@ -935,6 +935,8 @@ class RampColumns:
     switch_becomes: npt.NDArray[np.str_]
     switch_threshold: npt.NDArray[np.float64]
     switch_threshold_m_per_s: npt.NDArray[np.float64]
+    switch_threshold_time: npt.NDArray[np.float64]
+    switch_threshold_time_s: npt.NDArray[np.float64]
     switch_time: npt.NDArray[np.float64]
     switch_time_s: npt.NDArray[np.float64]
     switch_value: npt.NDArray[np.float64]
