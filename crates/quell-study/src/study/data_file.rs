@@ -59,6 +59,20 @@ pub(crate) fn distinct(names: &[&str]) -> Result<(), String> {
     Ok(())
 }
 
+/// Checks that a line has no cells beyond the columns, as decimal commas add them. A comma at the end of a line adds none.
+///
+/// # Errors
+/// The line, and the numbers of cells and columns.
+pub(crate) fn within(cells: &[&str], columns: usize, line: usize) -> Result<(), String> {
+    if cells.iter().skip(columns).all(|cell| cell.trim().is_empty()) {
+        return Ok(());
+    }
+    let count = cells.len();
+    Err(format!(
+        "line {line}: {count} cells for {columns} columns; numbers have a decimal point, not a comma"
+    ))
+}
+
 /// A CSV file whose columns are known.
 #[derive(Debug)]
 pub(crate) struct DataFile<'t> {
@@ -146,15 +160,7 @@ impl Row<'_> {
         allowed: &str,
         right: impl Fn(f64) -> bool,
     ) -> Result<f64, String> {
-        // A comma at the end of a line adds no cell.
-        if self.cells.iter().skip(self.columns).any(|cell| !cell.is_empty()) {
-            return Err(format!(
-                "line {}: {} cells for {} columns; numbers have a decimal point, not a comma",
-                self.line,
-                self.cells.len(),
-                self.columns
-            ));
-        }
+        within(&self.cells, self.columns, self.line)?;
         let cell = self.cells.get(at).copied().unwrap_or_default();
         cell.parse().ok().filter(|&value| right(value)).ok_or_else(|| {
             let short: String = cell.chars().take(SHOWN).collect();

@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-use quell_dynamics::response::stroke_is_measured;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -60,16 +59,7 @@ fn table(study: &BeltStudy, done: &MeasuredResponse) -> String {
     table.known("friction loss", Quantity::Ratio, done.friction_loss());
     let only_normal = || "all dither is normal".to_owned();
     table.known("dither power", Quantity::Power, response.dither_power.ok_or_else(only_normal));
-    table.known(
-        "dither stroke",
-        Quantity::Displacement,
-        response.dither_stroke.ok_or_else(|| {
-            match stroke_is_measured(study.belt(), study.solver().record_periods) {
-                Ok(()) => only_normal(),
-                Err(why) => why.to_owned(),
-            }
-        }),
-    );
+    table.known("dither stroke", Quantity::Displacement, done.dither_stroke(study, only_normal));
     table.number("smallest normal load", Quantity::Force, response.minimum_normal_load);
     let mut text = table.text();
     if !response.peaks.is_empty() {

@@ -148,6 +148,18 @@ impl MeasuredResponse {
         }
     }
 
+    /// The stroke of the tangential dithers, or why it is unknown; `only_normal` says that no dither is tangential.
+    pub(crate) fn dither_stroke(
+        &self,
+        study: &BeltStudy,
+        only_normal: impl FnOnce() -> String,
+    ) -> Result<f64, String> {
+        self.response.dither_stroke.ok_or_else(|| {
+            let measured = stroke_is_measured(study.belt(), study.solver().record_periods);
+            measured.err().map_or_else(only_normal, str::to_owned)
+        })
+    }
+
     /// Whether both runs have settled, as far as E requires: a run that decays to zero need not settle.
     pub fn settled(&self) -> bool {
         let response = &self.response;
@@ -338,16 +350,7 @@ impl MeasuredResponse {
             .number("steady_sliding_friction", Quantity::Force, response.steady_sliding_friction)
             .known("friction_loss", Quantity::Ratio, self.friction_loss())
             .known("dither_power", Quantity::Power, response.dither_power.ok_or_else(only_normal))
-            .known(
-                "dither_stroke",
-                Quantity::Displacement,
-                response.dither_stroke.ok_or_else(|| {
-                    match stroke_is_measured(study.belt(), study.solver().record_periods) {
-                        Ok(()) => only_normal(),
-                        Err(why) => why.to_owned(),
-                    }
-                }),
-            )
+            .known("dither_stroke", Quantity::Displacement, self.dither_stroke(study, only_normal))
             .number("minimum_normal_load", Quantity::Force, response.minimum_normal_load)
             .number("settle", Quantity::Time, study.solver().settle)
             .number("record_length", Quantity::Time, response.record.length())

@@ -13,8 +13,10 @@ mod system;
 
 use std::fmt::Write as _;
 
+use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::profile::Knots;
 use quell_model::units::Quantity;
+use quell_numerics::roots::{Closeness, find_root};
 use serde_json::Value as Json;
 
 use super::manoeuvre::{Manoeuvre, SampledMotion, VibrationInterval, vibration_levels};
@@ -92,19 +94,14 @@ impl RampCourse {
     /// The times at which it passes a value, and whether it rises there. Between two knots it is monotone.
     fn passes(&self, value: f64) -> Vec<(f64, bool)> {
         let pieces = self.knots.times().windows(2).filter_map(|ends| {
-            let [mut low, mut high] = [ends[0], ends[1]];
+            let (low, high) = (ends[0], ends[1]);
             let rises = self.value(low) < value;
             if rises == (self.value(high) < value) {
                 return None;
             }
-            // To the last bit: the interval is halved until nothing lies between its ends.
-            while let middle = low + 0.5 * (high - low)
-                && middle > low
-                && middle < high
-            {
-                if (self.value(middle) < value) == rises { low = middle } else { high = middle }
-            }
-            Some((high, rises))
+            let off = |time: f64| self.value(time) - value;
+            let root = find_root(off, low, high, Closeness::default()).ok()?;
+            Some((root.location, rises))
         });
         pieces.collect()
     }
@@ -230,16 +227,15 @@ impl Ramp {
         let known = self.thresholds.iter().flatten();
         let mut crossings: Vec<RampCrossing> = known
             .flat_map(|threshold| {
-                let stays_quiet = match threshold.becomes {
-                    "stable" => Some(true),
-                    "unstable" => Some(false),
-                    _ => None,
-                };
-                let passed = stays_quiet.map(|_| self.ramped.passes(threshold.value));
+                let above = threshold.becomes;
+                let is_known = [OrbitVerdict::Stable, OrbitVerdict::Unstable]
+                    .iter()
+                    .any(|verdict| verdict.name() == above);
+                let passed = is_known.then(|| self.ramped.passes(threshold.value));
                 passed.into_iter().flatten().map(move |(time, rises)| RampCrossing {
                     time,
                     value: threshold.value,
-                    to_quiet: stays_quiet == Some(rises),
+                    to_quiet: (above == OrbitVerdict::Stable.name()) == rises,
                 })
             })
             .collect();

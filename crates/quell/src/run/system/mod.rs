@@ -18,7 +18,6 @@ pub mod history;
 pub mod measured;
 pub mod modes;
 pub mod orbit;
-
 pub mod orbit_answer;
 mod passing;
 pub mod protocol;

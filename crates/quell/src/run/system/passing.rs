@@ -6,7 +6,8 @@ use quell_dynamics::motion::{
 use quell_model::System;
 use quell_numerics::roots::{Closeness, minimise};
 
-/// Places in a segment between which the distance is looked at before it is minimised.
+/// Places in a segment between which the distance is looked at before it is minimised. A minimum narrower than their distance would be
+/// missed, and one motion counted as two.
 const PLACES: usize = 8;
 
 /// The least distance between a state and the run from another one over a time, over the largest number of the state.

@@ -30,8 +30,8 @@ use crate::words::{capital, listed, plural};
 /// Periods of the slowest oscillation that a run lasts if no duration is given.
 pub const DEFAULT_PERIODS: f64 = 100.0;
 
-/// Windows of a manoeuvre in which no motion of the structure oscillates. Nothing sets a scale of time there but the run itself: so
-/// many windows resolve its parts, and each still averages over two of a hundred parts of it.
+/// Windows of a manoeuvre in which no motion of the structure oscillates. Only the run itself sets a scale of time there: moments are
+/// found to within 1 % of it, half of a window.
 const WINDOWS_WITHOUT_OSCILLATION: f64 = 50.0;
 
 /// Samples per period of the fastest dither and of the fastest motion of the structure.
