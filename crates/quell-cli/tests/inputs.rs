@@ -259,7 +259,7 @@ fn ended(mut child: Child) -> (Option<i32>, Duration) {
 fn signals_end_every_verb() {
     let place = Place::with("signals", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
     let begin = |arguments: &[&str]| {
-        let mut command = place.command(arguments);
+        let mut command = place.command_with_signals(arguments);
         let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
         let child = child.expect("quell runs");
         std::thread::sleep(Duration::from_millis(700));

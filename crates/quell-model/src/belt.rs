@@ -10,10 +10,11 @@ use crate::parameter::{
     NORMAL_LOAD, Parameter, TANGENTIAL_STIFFNESS, indexed, split_index,
 };
 use crate::profile::{Knots, Profile};
-use crate::system::{Contact, Input, InputTarget, MassMatrix, Mechanical, System};
+use crate::system::System;
 use crate::units::Scales;
 use crate::{Invalid, InvalidValues};
-use quell_numerics::matrix::Matrix;
+
+mod system;
 
 /// Mass, spring, damper, contact, friction law and dither, in the numbers of the equations.
 #[derive(Clone, Debug, PartialEq)]
@@ -499,40 +500,8 @@ impl Parametrisation for Belt {
         Some(self.scales?.si_per_unit(Self::parameter(self, path)?.quantity))
     }
 
-    /// One coordinate of unit mass and stiffness; its contact is loaded by F, and normal dither has no reaction (4.1).
     fn system(&self) -> System {
-        let one = |value: f64| Matrix::from_fn(1, 1, |_, _| value);
-        let structure = Mechanical::new(
-            vec!["x".to_owned()],
-            MassMatrix::identity(1),
-            one(2.0 * self.damping_ratio),
-            one(1.0),
-        );
-        let contact = Contact {
-            name: "belt".to_owned(),
-            tangent: Some(vec![1.0]),
-            force: None,
-            normal: None,
-            slope: None,
-            normal_load: self.normal_load,
-            varying_load: self.load.clone(),
-            normal_stiffness: 0.0,
-            normal_damping: 0.0,
-            surface_velocity: self
-                .drive
-                .clone()
-                .unwrap_or_else(|| Profile::constant(self.belt_velocity)),
-            friction: self.friction.clone(),
-            tangential_stiffness: self.tangential_stiffness,
-        };
-        let inputs = self.dithers.iter().map(|dither| Input {
-            target: match dither.direction {
-                Direction::Tangential => InputTarget::Force(vec![1.0]),
-                Direction::Normal => InputTarget::NormalLoad { contact: 0, reaction: false },
-            },
-            profile: Profile::default().with(dither.wave()),
-        });
-        System { structure: structure.into(), contacts: vec![contact], inputs: inputs.collect() }
+        self.scaled_system()
     }
 }
 
@@ -581,6 +550,41 @@ mod tests {
             let value = |index: usize| system.inputs[index].profile.value(time);
             assert_eq!(value(0), belt.dither_force(Direction::Tangential, time));
             assert_eq!(belt.normal_load() + value(1), belt.normal_load_at(time));
+        }
+    }
+
+    #[test]
+    fn the_system_in_si_has_the_forces_of_the_scaled_one() {
+        let scales = Scales::new(2.0, 200.0).expect("valid");
+        let belt = belt(vec![dither(Direction::Tangential, 0.3), dither(Direction::Normal, 0.5)])
+            .and_then(|belt| belt.with_tangential_stiffness(Some(40.0)))
+            .expect("valid")
+            .in_si(Some(scales));
+        let (scaled, si) = (belt.system(), belt.system_in_si().expect("in SI").expect("a law"));
+        let close = |found: f64, expected: f64| {
+            assert!((found - expected).abs() <= 1e-14 * expected.abs(), "{found} {expected}");
+        };
+        let [one, other] =
+            [&scaled, &si].map(|system| system.structure.mechanical().expect("masses"));
+        close(other.mass().matrix()[(0, 0)], 2.0 * one.mass().matrix()[(0, 0)]);
+        close(other.damping()[(0, 0)], 20.0 * one.damping()[(0, 0)]);
+        close(other.stiffness()[(0, 0)], 200.0);
+        let [one, other] = [&scaled, &si].map(|system| &system.contacts[0]);
+        close(other.normal_load, 200.0 * one.normal_load);
+        close(other.tangential_stiffness.expect("elastic"), 8000.0);
+        for slip in [0.0, 0.013, 0.4, 3.0] {
+            close(other.friction.coefficient(10.0 * slip), one.friction.coefficient(slip));
+            close(10.0 * other.friction.slope(10.0 * slip), one.friction.slope(slip));
+        }
+        for time in [0.0, 0.37, 2.1] {
+            close(
+                other.surface_velocity.value(time / 10.0),
+                10.0 * one.surface_velocity.value(time),
+            );
+            for (input, scaled) in si.inputs.iter().zip(&scaled.inputs) {
+                let expected = 200.0 * scaled.profile.value(time);
+                assert!((input.profile.value(time / 10.0) - expected).abs() < 1e-12);
+            }
         }
     }
 

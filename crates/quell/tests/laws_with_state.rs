@@ -361,6 +361,124 @@ fn belts_with_a_state_are_answered_as_their_systems() {
     assert_eq!(a["thresholds"], b["thresholds"], "{a}");
 }
 
+/// Units of a belt of 2 kg on 200 N/m, ω₀ = 10 rad/s, and the same numbers in both forms.
+const IN_SI: &str = "mass_kg = 2.0\nstiffness_n_per_m = 200.0\ndamping_ratio = 0.02\nnormal_force_n = 200.0\nbelt_velocity_m_per_s = 1.0\n";
+const SCALED: &str = "damping_ratio = 0.02\nnormal_load = 1.0\nbelt_velocity = 0.1\n";
+
+/// A belt in SI and the same belt in the numbers of the equations: an elastic slider under Stribeck's law, one under a formula, bristles.
+fn in_both_forms() -> [[BeltStudy; 2]; 3] {
+    let whole = |belt: &str, contact: &str, friction: &str, dither: &str| {
+        self::belt(&format!(
+            "[belt]\n{belt}{contact}[friction]\n{friction}[dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\n{dither}"
+        ))
+    };
+    let levels = "static_coefficient = 0.4\n";
+    let si = |contact: &str, friction: &str| {
+        whole(IN_SI, contact, friction, "amplitude_n = 100.0\nfrequency_hz = 15.915494309189533\n")
+    };
+    let scaled = |contact: &str, friction: &str| {
+        whole(SCALED, contact, friction, "amplitude = 0.5\nfrequency_ratio = 10.0\n")
+    };
+    let stribeck = format!("law = \"stribeck\"\n{levels}minimum_coefficient = 0.25\n");
+    let lugre = format!("law = \"lugre\"\n{levels}coefficient = 0.25\n");
+    let formula = |scale: f64| {
+        format!("law = \"expression\"\ncoefficient = \"0.25 + 0.15*exp(-abs(v)/{scale:?})\"\n")
+    };
+    [
+        [
+            si(
+                "tangential_stiffness_n_per_m = 6000.0\n",
+                &format!("{stribeck}reference_velocity_m_per_s = 1.5\n"),
+            ),
+            scaled(
+                "tangential_stiffness = 30.0\n",
+                &format!("{stribeck}reference_velocity = 0.15\n"),
+            ),
+        ],
+        [
+            si("tangential_stiffness_n_per_m = 6000.0\n", &formula(1.5)),
+            scaled("tangential_stiffness = 30.0\n", &formula(0.15)),
+        ],
+        [
+            si(
+                "",
+                &format!(
+                    "{lugre}reference_velocity_m_per_s = 1.0\nbristle_stiffness_per_m = 1000.0\nbristle_damping_s_per_m = 0.01\nviscous_s_per_m = 0.01\n"
+                ),
+            ),
+            scaled(
+                "",
+                &format!(
+                    "{lugre}reference_velocity = 0.1\nbristle_stiffness = 1000.0\nbristle_damping = 0.1\nviscous = 0.1\n"
+                ),
+            ),
+        ],
+    ]
+}
+
+/// The verbs about motions that repeat answer a belt in SI in metres, seconds and newtons, and as they do in the numbers of the
+/// equations.
+#[test]
+fn belts_with_a_state_are_answered_in_si() {
+    let close = |si: &Json, scaled: &Json, unit: f64| {
+        let (found, expected) = (number(si), unit * number(scaled));
+        assert!((found - expected).abs() <= 1e-7 * expected.abs().max(1e-3), "{found} {expected}");
+    };
+    for [si, scaled] in in_both_forms() {
+        let [si, scaled] = [&si, &scaled].map(|study| verbs(&Study::from(study)));
+        let of = |ask: &dyn Fn(&dyn quell::kind::Verbs) -> quell::kind::Reply| {
+            [&si, &scaled]
+                .map(|verbs| ask(verbs.as_ref()).unwrap_or_else(|why| panic!("{why}")).json())
+        };
+        let [a, b] = of(&|verbs| verbs.orbit(orbit::Wanted::OfSliding { periods: 1 }));
+        assert_eq!(a["verdict"], b["verdict"]);
+        assert_eq!(a["units"]["period"], "s");
+        close(&a["period"], &b["period"], 0.1);
+        close(&a["radius"], &b["radius"], 1.0);
+        for (place, unit) in [1.0, 10.0].into_iter().enumerate() {
+            close(&a["state"][place], &b["state"][place], unit);
+        }
+        let [a, b] = of(&|verbs| verbs.attractor(&AttractorRequest::default()));
+        assert_eq!(a["kind"], b["kind"]);
+    }
+    for [si, scaled] in in_both_forms() {
+        let ask = |study: &BeltStudy, parameter: &str, unit: f64| {
+            let request = ThresholdsRequest {
+                parameter: parameter.to_owned(),
+                from: 0.3 * unit,
+                to: 1.6 * unit,
+                protocols: Vec::new(),
+                ramp: 0.0,
+            };
+            verbs(&Study::from(study)).thresholds(request).expect("thresholds").json()
+        };
+        let a = ask(&si, "dither.amplitude_n", 200.0);
+        let b = ask(&scaled, "dither.amplitude", 1.0);
+        let lists = [&a, &b].map(|json| json["thresholds"].as_array().expect("a list").clone());
+        // The base response of a slider under a falling law ends where the slider first adheres: it then climbs to the static level.
+        let ends = a["ending"] == "lost";
+        assert!(lists[0].len() == lists[1].len() && ends == lists[0].is_empty(), "{a} {b}");
+        if ends {
+            close(&a["furthest"], &b["furthest"], 200.0);
+        }
+        for (one, other) in lists[0].iter().zip(&lists[1]) {
+            close(&one["value"], &other["value"], 200.0);
+            assert_eq!(one["kind"], other["kind"]);
+        }
+        assert_eq!(a["parameter"], "dither.amplitude_n");
+    }
+    let [[si, _], ..] = in_both_forms();
+    let refused = verbs(&Study::from(&si)).thresholds(ThresholdsRequest {
+        parameter: "dither.amplitude".to_owned(),
+        from: 0.3,
+        to: 1.6,
+        protocols: Vec::new(),
+        ramp: 0.0,
+    });
+    let why = refused.err().expect("a key of another form").to_string();
+    assert!(why.contains("did you mean dither.amplitude_n"), "{why}");
+}
+
 /// The record of a belt with an elastic slider has the amplitude of the same motion as a system, and the belt's words.
 #[test]
 fn the_response_of_a_belt_with_a_slider_is_that_of_its_motion() {

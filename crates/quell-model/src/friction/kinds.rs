@@ -11,6 +11,7 @@ use super::{
     Surroundings,
 };
 use crate::parameter::Parameter;
+use crate::units::{Quantity, Scales};
 use crate::{Invalid, InvalidValues};
 
 macro_rules! laws {
@@ -257,6 +258,31 @@ macro_rules! laws {
 }
 
 laws!(numbers: Stribeck, Decreasing, Coulomb, StribeckExponential, Lugre; data: Expression, Samples);
+
+impl Friction {
+    /// The law of a study in SI with slip in metres per second in place of the numbers of the equations.
+    ///
+    /// # Errors
+    /// Numbers that are out of their bounds in SI.
+    pub fn in_si(&self, scales: &Scales) -> Result<Self, InvalidValues> {
+        let velocity = scales.si_per_unit(Quantity::Velocity);
+        match self {
+            Self::Expression(law) => {
+                Ok(Self::Expression(law.in_unit(velocity * law.velocity_unit())))
+            }
+            Self::Samples(law) => {
+                Ok(Self::Samples(law.in_unit(velocity * law.curve().velocity_unit())))
+            }
+            law => {
+                let (kind, values) = (law.kind(), law.values());
+                let numbers = kind.parameters().iter().zip(values);
+                let in_si =
+                    |(parameter, value): (&Parameter, f64)| scales.to_si(parameter.quantity, value);
+                kind.build(&numbers.map(in_si).collect::<Vec<f64>>())
+            }
+        }
+    }
+}
 
 impl LawKind {
     /// The law with a name.

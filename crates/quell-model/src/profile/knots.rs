@@ -146,6 +146,12 @@ impl Knots {
         Self { values: self.values.iter().map(|value| factor * value).collect(), ..self.clone() }
     }
 
+    /// The knots in another unit of time, of which one unit of their own is `factor` > 0.
+    #[must_use]
+    pub fn in_time_unit(&self, factor: f64) -> Self {
+        Self { times: self.times.iter().map(|time| factor * time).collect(), ..self.clone() }
+    }
+
     /// Whether all values are equal.
     pub fn is_constant(&self) -> bool {
         let (least, most) = self.range();

@@ -90,6 +90,22 @@ impl Profile {
         Self { mean: factor * self.mean, knots, ..self.with_waves_scaled(factor) }
     }
 
+    /// The same profile in another unit of time, of which one unit of its own is `factor`.
+    #[must_use]
+    pub fn in_time_unit(&self, factor: f64) -> Self {
+        let knots = |knots: &Knots| knots.in_time_unit(factor);
+        let wave = |wave: &Wave| Wave {
+            frequency: wave.frequency / factor,
+            envelope: wave.envelope.as_ref().map(knots),
+            ..wave.clone()
+        };
+        Self {
+            mean: self.mean,
+            knots: self.knots.as_ref().map(knots),
+            waves: self.waves.iter().map(wave).collect(),
+        }
+    }
+
     /// The same profile without its waves.
     #[must_use]
     pub fn without_waves(&self) -> Self {

@@ -94,26 +94,29 @@ impl Verbs for BeltStudy {
     }
 
     fn ramp(&self) -> Reply {
+        if let Some(system) = belt_system::of_state(self, "bifurcation --ramp")? {
+            return system.ramp();
+        }
         answer(self, ramp::of_belt(self))
     }
 
     fn attractor(&self, request: &AttractorRequest) -> Reply {
         if let Some(system) = belt_system::of_state(self, "attractor")? {
-            return system.attractor_of_system(&belt_system::attractor(request));
+            return system.attractor_of_system(&belt_system::attractor(self, request));
         }
         answer(self, found_attractor::run(self, request))
     }
 
     fn orbit(&self, wanted: orbit::Wanted) -> Reply {
         if let Some(system) = belt_system::of_state(self, "orbit")? {
-            return system.orbit_of_system(&belt_system::wanted(wanted));
+            return system.orbit_of_system(&belt_system::wanted(self, wanted));
         }
         answer(self, orbit::run(self, wanted))
     }
 
     fn thresholds(&self, request: thresholds::ThresholdsRequest) -> Reply {
         if let Some(system) = belt_system::of_state(self, "thresholds")? {
-            return system.thresholds_of_system(&belt_system::thresholds(request));
+            return system.thresholds_of_system(&belt_system::thresholds(self, request));
         }
         answer(self, thresholds::run(self, request))
     }
@@ -154,7 +157,7 @@ impl Verbs for BeltStudy {
 
     fn basins(&self, request: &basins::BasinsRequest, running: Running<'_>) -> Reply {
         if let Some(system) = belt_system::of_state(self, "basins")? {
-            return system.basins(request, running);
+            return system.basins(&belt_system::basins(self, request), running);
         }
         answer(self, basins::run(self, request, running))
     }

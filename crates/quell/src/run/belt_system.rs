@@ -3,9 +3,9 @@
 //! The engine for belts has no place for that state, so such a belt is answered by the verbs of systems; its numbers keep their paths.
 
 use quell_dynamics::start::InitialState;
-use quell_model::Parametrisation;
-use serde_json::Value as Json;
+use quell_model::units::Quantity;
 
+use super::basins::BasinsRequest;
 use super::found_attractor::AttractorRequest;
 use super::orbit::Wanted;
 use super::protocol::Protocol;
@@ -15,84 +15,102 @@ use super::system::protocol::SystemProtocol;
 use super::system::start::StateNumbers;
 use super::system::thresholds::MotionThresholdsRequest;
 use super::thresholds::ThresholdsRequest;
-use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::complaint::Failure;
 use crate::contact_state::passivity;
-use crate::study::{BeltStudy, DescribedSystem, Study, SystemStart, SystemStudy, not_periodic};
+use crate::study::{
+    BeltStudy, DescribedSystem, Study, SystemStart, SystemStudy, SystemUnits, not_periodic,
+};
 
-/// The system of a belt whose contact has a state of its own, in the numbers of the equations; `None` of a rigid contact.
+/// The system of a belt whose contact has a state of its own, in SI where the study is, otherwise in the numbers of the equations;
+/// `None` of a rigid contact.
 ///
 /// # Errors
-/// Noise, which has no period; a study in SI, whose numbers would lose their units.
+/// Noise, which has no period; a law whose numbers are out of their bounds in SI.
 pub(crate) fn of_state(study: &BeltStudy, verb: &str) -> Result<Option<SystemStudy>, Failure> {
-    let belt = study.belt();
-    if !belt.has_contact_state() {
+    if !study.belt().has_contact_state() {
         return Ok(None);
     }
     if let Some(key) = Study::from(study).noise() {
         return Err(not_periodic(verb, key).into());
     }
-    if study.scales().is_some() {
-        let allowed = format!(
-            "a study in the numbers of the equations, or the same belt as [system] with units = \"SI\": `{verb}` of a belt whose contact \
-             has a state of its own is that of its system, whose numbers here have no units"
-        );
-        return Err(
-            Complaint::new(Fault::Conflict, "belt", Origin::Whole, Json::Null, allowed).into()
-        );
-    }
+    described(study).map(Some)
+}
+
+/// The belt as a system in SI where the study is, otherwise in the numbers of the equations.
+///
+/// # Errors
+/// A law whose numbers are out of their bounds in SI.
+pub(crate) fn described(study: &BeltStudy) -> Result<SystemStudy, Failure> {
+    let units = if study.scales().is_some() { SystemUnits::Si } else { SystemUnits::None };
     let initial = match study.initial() {
         InitialState::Rest => SystemStart::Rest,
         InitialState::Sliding => SystemStart::Sliding,
         InitialState::Squealing => SystemStart::Squealing,
         InitialState::Explicit { displacement, velocity } => {
             // The contact begins without load, as in `simulate`.
-            SystemStart::Values(vec![displacement, velocity, 0.0])
+            SystemStart::Values(vec![displacement, in_units(study, velocity), 0.0])
         }
     };
-    Ok(Some(study.as_system(DescribedSystem {
-        system: belt.system(),
+    Ok(study.as_system(DescribedSystem {
+        system: study.system()?,
+        units,
         observe: vec![1.0],
         initial,
-        warnings: passivity(belt).into_iter().collect(),
+        warnings: passivity(study.belt()).into_iter().collect(),
         time: None,
-        belt: Some(belt.clone()),
-    })))
+        belt: Some(study.clone()),
+    }))
+}
+
+/// A velocity of the equations in the units of the system; displacements are lengths in both.
+fn in_units(study: &BeltStudy, velocity: f64) -> f64 {
+    study.scales().map_or(velocity, |scales| scales.to_si(Quantity::Velocity, velocity))
 }
 
 /// Displacement and velocity as numbers of a state.
-fn numbers((displacement, velocity): (f64, f64)) -> StateNumbers {
-    vec![(0, displacement), (1, velocity)]
+fn numbers(study: &BeltStudy, (displacement, velocity): (f64, f64)) -> StateNumbers {
+    vec![(0, displacement), (1, in_units(study, velocity))]
 }
 
 /// The request about a belt for its system.
-pub(crate) fn wanted(wanted: Wanted) -> WantedMotion {
+pub(crate) fn wanted(study: &BeltStudy, wanted: Wanted) -> WantedMotion {
     match wanted {
         Wanted::OfSliding { periods } => WantedMotion::Base { periods },
-        Wanted::Near { state, periods } => WantedMotion::Near { state: numbers(state), periods },
-        Wanted::After(start) => WantedMotion::After(protocol(start)),
+        Wanted::Near { state, periods } => {
+            WantedMotion::Near { state: numbers(study, state), periods }
+        }
+        Wanted::After(start) => WantedMotion::After(protocol(study, start)),
     }
 }
 
 /// The request about a belt for its system.
-pub(crate) fn thresholds(request: ThresholdsRequest) -> MotionThresholdsRequest {
+pub(crate) fn thresholds(study: &BeltStudy, request: ThresholdsRequest) -> MotionThresholdsRequest {
     let ThresholdsRequest { parameter, from, to, protocols, ramp } = request;
-    let protocols = protocols.into_iter().map(protocol).collect();
+    let protocols = protocols.into_iter().map(|start| protocol(study, start)).collect();
     MotionThresholdsRequest { parameter, window: (from, to), near: None, protocols, ramp }
 }
 
-fn protocol(protocol: Protocol) -> SystemProtocol {
+fn protocol(study: &BeltStudy, protocol: Protocol) -> SystemProtocol {
     match protocol {
         Protocol::Rest => SystemProtocol::Rest,
         Protocol::Sliding => SystemProtocol::Sliding,
         Protocol::Squeal => SystemProtocol::Squeal,
         Protocol::From(displacement, velocity) => {
-            SystemProtocol::From(numbers((displacement, velocity)))
+            SystemProtocol::From(numbers(study, (displacement, velocity)))
         }
     }
 }
 
 /// The request about a belt for its system.
-pub(crate) fn attractor(request: &AttractorRequest) -> MotionAttractorRequest {
+pub(crate) fn attractor(study: &BeltStudy, request: &AttractorRequest) -> MotionAttractorRequest {
     let AttractorRequest { start, lyapunov } = *request;
-    MotionAttractorRequest { start: start.map_or_else(Vec::new, numbers), lyapunov }
+    let start = start.map_or_else(Vec::new, |state| numbers(study, state));
+    MotionAttractorRequest { start, lyapunov }
+}
+
+/// The request about a belt for its system.
+pub(crate) fn basins(study: &BeltStudy, request: &BasinsRequest) -> BasinsRequest {
+    let end = |velocity: f64| in_units(study, velocity);
+    let velocity = request.velocity.map(|(from, to)| (end(from), end(to)));
+    BasinsRequest { velocity, ..request.clone() }
 }

@@ -11,6 +11,9 @@ use crate::words::plural;
 const BEGINS: f64 = 0.2;
 const ENDS: f64 = 0.1;
 
+/// A pause of fewer natural periods belongs to the vibration: stick–slip at low speed rests between its slips.
+const PAUSE: f64 = 6.0;
+
 /// Vibration below this share of the largest displacement is none.
 const LEAST: f64 = 1e-3;
 
@@ -86,30 +89,46 @@ impl Manoeuvre {
         let levels = levels(motion, period);
         let largest = levels.iter().fold(0.0, |most: f64, (_, level)| most.max(*level));
         let reach = displacement.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let mut vibration: Vec<VibrationInterval> = Vec::new();
-        let mut going = false;
-        if largest > LEAST * reach {
-            for (time, level) in &levels {
-                if going {
-                    going = *level > ENDS * largest;
-                } else if *level > BEGINS * largest {
-                    going = true;
-                    let from =
-                        if vibration.is_empty() && *time <= start + period { start } else { *time };
-                    vibration.push(VibrationInterval { from, to: *time, level: *level });
-                }
-                if let Some(last) = vibration.last_mut().filter(|_| going) {
-                    last.to = *time;
-                    last.level = last.level.max(*level);
-                }
-            }
-            if let Some(last) = vibration.last_mut().filter(|_| going) {
-                last.to = end;
-            }
-        }
+        let vibration = if largest > LEAST * reach {
+            intervals(&levels, largest, (start, end), period)
+        } else {
+            Vec::new()
+        };
         let (time_to_quench, overshoot) = quenching(&vibration, &levels, onset, end);
         Self { vibration, onset, time_to_quench, overshoot, whole: (start, end) }
     }
+}
+
+/// The intervals in which the level rises above [`BEGINS`] of the largest one, until it falls below [`ENDS`] of it for longer than a
+/// [`PAUSE`].
+fn intervals(
+    levels: &[(f64, f64)],
+    largest: f64,
+    (start, end): (f64, f64),
+    period: f64,
+) -> Vec<VibrationInterval> {
+    let mut vibration: Vec<VibrationInterval> = Vec::new();
+    let mut going = false;
+    for (time, level) in levels {
+        if going {
+            going = *level > ENDS * largest;
+        } else if *level > BEGINS * largest {
+            going = true;
+            let resumes = vibration.last().is_some_and(|last| time - last.to < PAUSE * period);
+            let from = if vibration.is_empty() && *time <= start + period { start } else { *time };
+            if !resumes {
+                vibration.push(VibrationInterval { from, to: *time, level: *level });
+            }
+        }
+        if let Some(last) = vibration.last_mut().filter(|_| going) {
+            last.to = *time;
+            last.level = last.level.max(*level);
+        }
+    }
+    if let Some(last) = vibration.last_mut().filter(|_| going) {
+        last.to = end;
+    }
+    vibration
 }
 
 /// The displacement without the motion under a fast dither; `None` without one.
@@ -387,6 +406,22 @@ mod tests {
         assert!(found(None).time_to_quench.is_err());
         let quench = found(Some(TAU / 10.0)).time_to_quench.expect("quenched");
         assert!((quench - 10.0).abs() < TAU, "{quench}");
+    }
+
+    /// Slips of one natural period with rests of `rest` natural periods between them, ten times.
+    fn with_rests(rest: f64) -> usize {
+        let displacement = motion(|time| {
+            let (whole, repeat) = (time / TAU, rest + 1.0);
+            let slips = whole < 10.0 * repeat && whole.rem_euclid(repeat) < 1.0;
+            if slips { time.sin() } else { 0.0 }
+        });
+        Manoeuvre::of(sampled(&displacement), TAU, None, None).vibration.len()
+    }
+
+    #[test]
+    fn short_rests_belong_to_a_vibration() {
+        assert_eq!(with_rests(3.0), 1);
+        assert!(with_rests(9.0) > 4);
     }
 
     #[test]

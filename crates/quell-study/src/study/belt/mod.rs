@@ -3,6 +3,7 @@
 mod band;
 mod dither;
 pub(in crate::study) mod friction;
+mod number;
 mod solver;
 mod table;
 
@@ -15,7 +16,8 @@ use quell_dynamics::response::Solver;
 use quell_dynamics::start::InitialState;
 use quell_model::parameter::NORMAL_LOAD;
 use quell_model::units::{Quantity, Scales};
-use quell_model::{Belt, Dither, Friction, LawKind};
+use quell_model::{Belt, Dither, Friction, Invalid, LawKind, Parametrisation, System};
+use serde_json::Value as Json;
 
 use super::StudyOf;
 use super::actuator::{self, ActuatorContext, GivenActuator};
@@ -25,6 +27,8 @@ use super::dither_size::GivenSize;
 use super::document::Table;
 use super::reader::{CourseFile, Reader};
 use super::study_kind::{Given, StudyKind, wrong_kind};
+use crate::complaint::{Complaint, Complaints, Fault, Origin};
+
 use super::system::{DescribedSystem, SystemSetup, SystemStudy};
 
 pub use friction::Measured;
@@ -186,6 +190,27 @@ impl BeltStudy {
     /// Mass and stiffness of a study in SI.
     pub fn scales(&self) -> Option<Scales> {
         self.kind().belt.scales()
+    }
+
+    /// The number at a path, such as `dither.amplitude` or, of a study in SI, `dither.amplitude_n`, in the unit of its key; `None`
+    /// where the study has no such number.
+    pub fn number(&self, path: &str) -> Option<f64> {
+        number::number(self.belt(), path)
+    }
+
+    /// The system of the belt, in SI where the study is.
+    ///
+    /// # Errors
+    /// A complaint about a law whose numbers are out of their bounds in SI.
+    pub fn system(&self) -> Result<System, Complaints> {
+        let belt = self.belt();
+        belt.system_in_si().unwrap_or_else(|| Ok(belt.system())).map_err(|invalid| {
+            let complaint = |invalid: Invalid| {
+                let Invalid { key, value, allowed } = invalid;
+                Complaint::new(Fault::Value, key, Origin::Whole, Json::String(value), allowed)
+            };
+            invalid.into_iter().map(complaint).collect::<Vec<Complaint>>().into()
+        })
     }
 
     /// The belt as a system, with the given row and start.

@@ -36,22 +36,23 @@ use crate::study::wave_file::WaveFile;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::study::vocabulary::resolve;
 use crate::study::vocabulary::size::{
     DITHER_SIZES, SignalMeasure, SizeKey, SizedSignal, measure_of,
 };
 use quell_design::actuator::Actuator;
+use quell_model::System;
 use quell_model::parameter::DITHER_AMPLITUDE;
-use quell_model::{Belt, Invalid, Parametrisation, System};
-use serde_json::Value as Json;
 
 use super::StudyOf;
 use super::actuator::GivenActuator;
+use super::belt::BeltStudy;
 use super::design::Design;
 use super::dither_size::GivenSize;
 use super::document::{Node, Table, Value};
 use super::reader::{CourseFile, Reader};
 use super::study_kind::{Given, StudyKind};
-use crate::complaint::{Complaint, Complaints, Fault, Origin};
+use crate::complaint::{Complaint, Complaints, Origin};
 
 pub use frequency_response::FrequencyResponse;
 pub use initial::SystemStart;
@@ -163,8 +164,8 @@ impl SystemStudy {
         self.kind().observe.clone()
     }
 
-    /// The belt whose numbers, in those of the equations, are the parameters of this system.
-    pub fn belt(&self) -> Option<&Belt> {
+    /// The study of a belt whose numbers, under their own keys, are the parameters of this system.
+    pub fn belt(&self) -> Option<&BeltStudy> {
         self.kind().belt.as_deref()
     }
 
@@ -192,7 +193,7 @@ impl SystemStudy {
     /// in SI for a path that ends in a twin. `None` where the study has no such number.
     pub fn number(&self, path: &str) -> Option<f64> {
         if let Some(belt) = self.belt() {
-            return belt.get(path);
+            return belt.number(path);
         }
         self.amplitude_at(path)
             .or_else(|| path::number(&self.source.document, &self.kind().numbers, path))
@@ -222,7 +223,8 @@ impl SystemStudy {
     /// The unit of the number at a path, `1` for a ratio; `None` without a unit and where the study has no such number.
     pub fn unit_of(&self, path: &str) -> Option<&'static str> {
         if let Some(belt) = self.belt() {
-            return belt.get(path).map(|_| "1");
+            let unit = || resolve(path).ok().and_then(|address| address.key.measured_in());
+            return belt.number(path).map(|_| unit().unwrap_or("1"));
         }
         path::measured_in(&self.source.document, path)
     }
@@ -233,7 +235,8 @@ impl SystemStudy {
     /// All complaints about the changed study.
     pub fn system_at(&self, numbers: &[(&str, f64)]) -> Result<System, Complaints> {
         if let Some(belt) = self.belt() {
-            return belt_at(belt, numbers);
+            let set = |study: BeltStudy, (path, value): &(&str, f64)| study.with(path, *value);
+            return numbers.iter().try_fold(belt.clone(), set)?.system();
         }
         let mut document = self.source.document.clone();
         for apart in ["sweep", "design", "uncertainty"] {
@@ -252,19 +255,4 @@ impl SystemStudy {
             _ => Err(complaints.into()),
         }
     }
-}
-
-/// The system of a belt with these numbers set in order.
-fn belt_at(belt: &Belt, numbers: &[(&str, f64)]) -> Result<System, Complaints> {
-    let mut changed = belt.clone();
-    for (path, value) in numbers {
-        changed = changed.with(path, *value).map_err(|invalid| {
-            let complaint = |invalid: Invalid| {
-                let Invalid { key, value, allowed } = invalid;
-                Complaint::new(Fault::Value, key, Origin::Whole, Json::String(value), allowed)
-            };
-            invalid.into_iter().map(complaint).collect::<Vec<Complaint>>()
-        })?;
-    }
-    Ok(changed.system())
 }

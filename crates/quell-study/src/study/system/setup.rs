@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use quell_model::{Belt, System};
+use quell_model::System;
 
 use super::frequency_response::FrequencyResponse;
 use super::initial::SystemStart;
@@ -11,6 +11,7 @@ use super::modes_file::ModeList;
 use super::numbers::Numbers;
 use super::units::SystemUnits;
 use crate::study::actuator::GivenActuator;
+use crate::study::belt::BeltStudy;
 use crate::study::belt::friction::Measured;
 use crate::study::design::Design;
 use crate::study::dither_size::GivenSize;
@@ -44,8 +45,8 @@ pub struct SystemSetup {
     pub(super) sizes: Arc<[GivenSize]>,
     /// Time of numbers without units in seconds; `None` where the study does not determine it.
     pub(super) time: Option<ScaledTime>,
-    /// The belt whose numbers are the parameters, where the system is that of a belt.
-    pub(super) belt: Option<Arc<Belt>>,
+    /// The study whose numbers are the parameters, where the system is that of a belt.
+    pub(super) belt: Option<Arc<BeltStudy>>,
 }
 
 /// The unit of time of a study whose other numbers have no units.
@@ -60,8 +61,10 @@ pub struct ScaledTime {
 /// A system that a study of another kind describes, with what a run of it needs.
 #[derive(Clone, Debug)]
 pub struct DescribedSystem {
-    /// The system, in numbers without units.
+    /// The system, in these units.
     pub system: System,
+    /// The units of its numbers.
+    pub units: SystemUnits,
     /// The row that is observed, over the coordinates.
     pub observe: Vec<f64>,
     /// Where a run begins.
@@ -70,18 +73,18 @@ pub struct DescribedSystem {
     pub warnings: Vec<String>,
     /// Its unit of time, if it is known.
     pub time: Option<ScaledTime>,
-    /// The belt whose numbers are the parameters of the system.
-    pub belt: Option<Belt>,
+    /// The study of a belt whose numbers are the parameters of the system.
+    pub belt: Option<BeltStudy>,
 }
 
 impl From<DescribedSystem> for SystemSetup {
     fn from(described: DescribedSystem) -> Self {
-        let DescribedSystem { system, observe, initial, warnings, time, belt } = described;
+        let DescribedSystem { system, units, observe, initial, warnings, time, belt } = described;
         Self {
             system: Arc::new(system),
             observe,
             initial,
-            numbers: Numbers::default(),
+            numbers: Numbers { units, ..Numbers::default() },
             warnings,
             measured: Arc::default(),
             waves: Arc::default(),

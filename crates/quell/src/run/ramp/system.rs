@@ -10,11 +10,13 @@ use quell_model::units::Quantity;
 
 use super::{Ramp, RampCourse, RampThreshold, RampedMotion};
 use crate::complaint::Failure;
+use crate::run::belt_system;
 use crate::run::system::has_equations;
 use crate::run::system::simulate::{self, MotionRequest, natural_period};
 use crate::run::system::thresholds::{self, MotionThresholdsRequest, is_dithered_within};
 use crate::run::system::tracked;
 use crate::run::thresholds::side;
+use crate::run::varied::key_of;
 use crate::study::{Study, SystemStudy};
 
 /// Runs the ramp of a system from t = 0 to the last knot.
@@ -60,7 +62,10 @@ fn courses(study: &SystemStudy) -> Vec<RampCourse> {
         ];
         for (profile, parameter, words) in given {
             found.extend(profile.and_then(Profile::knots).map(|knots| RampCourse {
-                path: format!("contact.{name}.{}", parameter.key()),
+                path: study.belt().map_or_else(
+                    || format!("contact.{name}.{}", parameter.key()),
+                    |belt| key_of(belt, parameter.path),
+                ),
                 words,
                 quantity: parameter.quantity,
                 knots: knots.clone(),
@@ -69,6 +74,10 @@ fn courses(study: &SystemStudy) -> Vec<RampCourse> {
         }
     }
     let count = system.inputs.len();
+    let amplitude = |index: usize| {
+        let path = indexed("dither", index, count, "amplitude");
+        study.belt().map_or_else(|| path.clone(), |belt| key_of(belt, &path))
+    };
     for (index, input) in system.inputs.iter().enumerate() {
         let Some(wave) = input.profile.waves().first() else { continue };
         let quantity = match input.target {
@@ -76,7 +85,7 @@ fn courses(study: &SystemStudy) -> Vec<RampCourse> {
             InputTarget::Friction { .. } => Quantity::Ratio,
         };
         found.extend(wave.envelope.as_ref().map(|envelope| RampCourse {
-            path: indexed("dither", index, count, "amplitude"),
+            path: amplitude(index),
             words: match count {
                 1 => "dither amplitude".to_owned(),
                 _ => format!("amplitude of dither[{index}]"),
@@ -98,12 +107,22 @@ fn oscillates(study: &SystemStudy) -> bool {
     study.system().contacts.iter().any(contact) || study.system().inputs.iter().any(input)
 }
 
+/// The steady system of a time.
+fn steady_at(study: &SystemStudy, time: f64) -> Result<SystemStudy, Failure> {
+    match study.belt() {
+        Some(belt) => {
+            let per_second = belt.scales().map_or(1.0, |scales| scales.angular_frequency());
+            belt_system::described(&Study::from(belt).at_time(per_second * time)?.belt()?)
+        }
+        None => Ok(Study::from(study).at_time(time)?.system()?),
+    }
+}
+
 /// Thresholds of the steady system over the values of the ramp: under dither of its base response, otherwise of steady sliding.
 fn thresholds(study: &SystemStudy, ramped: &RampCourse) -> Result<Vec<RampThreshold>, String> {
     let window = ramped.searched()?;
     let in_words = |why: Failure| why.to_string();
-    let steady = Study::from(study).at_time(ramped.time_of_largest());
-    let steady = steady.map_err(|why| why.to_string())?.system().map_err(|why| why.to_string())?;
+    let steady = steady_at(study, ramped.time_of_largest()).map_err(in_words)?;
     let parameter = ramped.path.clone();
     let request = MotionThresholdsRequest { parameter, window, ..Default::default() };
     if is_dithered_within(&steady, &request) {

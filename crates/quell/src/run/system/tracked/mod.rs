@@ -9,6 +9,7 @@ use quell_linear::criticality::first_lyapunov;
 use quell_linear::linearised::{FrictionSlopes, Linearised};
 use quell_linear::steady::NoSteadySliding;
 use quell_linear::tracking::{Family, StabilityChange, ThresholdOfStability, Tracked, track};
+use quell_model::parameter::BELT_VELOCITY;
 use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov};
 use quell_numerics::eigen::EigenError;
 use quell_numerics::matrix::Matrix;
@@ -18,6 +19,7 @@ use super::validity::ContactRanges;
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
 use crate::contact_state::refused_of_system;
+use crate::run::varied::key_of;
 use crate::study::SystemStudy;
 
 /// Values of the parameter at which eigenvalues are computed at least.
@@ -259,6 +261,10 @@ fn extend(
 
 /// The path of the study that is closest to a wrong one.
 fn nearest(study: &SystemStudy, path: &str) -> Option<String> {
+    if let Some(belt) = study.belt() {
+        let key = key_of(belt, path);
+        return belt.number(&key).map(|_| key);
+    }
     let complaints = study.with(path, 0.0).err()?;
     complaints.iter().find_map(|complaint| complaint.suggestion.clone())
 }
@@ -272,8 +278,9 @@ pub(super) fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<
     for ((option, from, to), path, window) in [Some(first), along].into_iter().flatten() {
         if study.number(path).is_none() {
             let contact = study.system().contacts.first().map_or("NAME", |contact| &contact.name);
-            let allowed = if study.belt().is_some() {
-                "the path of a number of the study, such as belt.belt_velocity".to_owned()
+            let allowed = if let Some(belt) = study.belt() {
+                let example = key_of(belt, BELT_VELOCITY.path);
+                format!("the path of a number of the study, such as {example}")
             } else {
                 format!(
                     "the path of a number of the study, such as contact.{contact}.normal_load; quell check lists the contacts"
