@@ -10,12 +10,14 @@
 //! * [`symmetric`], [`symmetric_eigenvectors`]: eigenvalues of symmetric pencils, eigenvectors of small symmetric matrices;
 //! * [`least_squares`], [`damped_least_squares`]: linear fits of a few columns, nonlinear fits within bounds;
 //! * [`random`]: pseudorandom numbers with fixed bits;
+//! * [`cyclic`]: sequences whose beginning is arbitrary;
 //! * [`interval`]: bounds of functions over intervals with outward rounding, for proofs;
 //! * [`normal_form`]: coefficients that decide whether a bifurcation is supercritical;
 //! * [`continuation`]: fixed points of period maps by shooting, their branches, thresholds and curves of thresholds.
 
 pub mod bessel;
 pub mod continuation;
+pub mod cyclic;
 pub mod damped_least_squares;
 pub mod dispatch;
 pub mod eigen;

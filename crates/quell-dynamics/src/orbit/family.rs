@@ -5,6 +5,7 @@
 
 use quell_model::Belt;
 use quell_numerics::continuation::{Image, PeriodMap};
+use quell_numerics::cyclic::least_rotation;
 
 use super::no_orbit::NoOrbit;
 use super::period::common_period;
@@ -30,11 +31,7 @@ impl Signature {
         if events.is_empty() {
             return if stuck > 0.0 { Self::Stuck } else { Self::PureSlip(sign) };
         }
-        let key = |first: usize| {
-            let rotated = events[first..].iter().chain(&events[..first]);
-            rotated.map(|(kind, sign)| (*kind as u8, *sign)).collect::<Vec<_>>()
-        };
-        let first = (0..events.len()).min_by_key(|first| key(*first)).unwrap_or(0);
+        let first = least_rotation(events, |(kind, sign)| (*kind as u8, *sign));
         Self::Events([&events[first..], &events[..first]].concat())
     }
 

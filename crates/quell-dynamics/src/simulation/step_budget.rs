@@ -65,6 +65,11 @@ pub fn within<T>(steps: u64, work: impl FnOnce() -> T) -> T {
     work()
 }
 
+/// Whether the request of this thread has used up its steps: what it found is not the end of what it searched for.
+pub fn is_used_up() -> bool {
+    LEFT.with(Cell::get) == 0
+}
+
 /// The step budget of one run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StepBudget {
@@ -178,6 +183,8 @@ mod tests {
             run(1)
         });
         assert_eq!((outer, run(u64::MAX / 2)), (Err(TOO_MUCH), Ok(())));
+        let used_up = within(100, || [run(60), run(40)].map(|_| is_used_up()));
+        assert_eq!((used_up, is_used_up()), ([true, true], false));
         assert_eq!(within(100, || [within(10, || run(20)), run(80)]), [Ok(()); 2]);
         // Runs without steps are limited too.
         let begun = within(STEPS_PER_START * 3, || {

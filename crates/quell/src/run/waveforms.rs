@@ -11,7 +11,7 @@ use quell_dynamics::motion::orbit::family::SystemAt;
 use quell_dynamics::motion::orbit::motion_thresholds;
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::orbit::threshold::{BranchEnding, NoThresholds, local};
-use quell_dynamics::simulation::within;
+use quell_dynamics::simulation::{is_used_up, within};
 use quell_linear::averaging::{
     AveragedVerdict, AveragingOptions, Becomes, criterion, critical_amplitudes,
 };
@@ -27,7 +27,7 @@ use crate::contact_state::{
     averages_are_a_start, passivity, refused_of_belt, rigid_average, small_motions,
 };
 use crate::dataset::{Array, Dataset};
-use crate::effort::STEPS_OF_MANY_SEARCHES;
+use crate::effort::STEPS_OF_AN_ALTERNATIVE;
 use crate::fields::Fields;
 use crate::study::BeltStudy;
 use crate::words::{digits, in_words};
@@ -273,8 +273,11 @@ fn exact(belt: &Belt, averaged: f64) -> Result<f64, String> {
         };
         return exact_of_system(&at, averaged, range);
     }
-    let found = within(STEPS_OF_MANY_SEARCHES, || local(belt, &path, range.0, range.1, STEPS));
+    let (found, cut_short) = within(STEPS_OF_AN_ALTERNATIVE, || {
+        (local(belt, &path, range.0, range.1, STEPS), is_used_up())
+    });
     let found = found.map_err(|why| match why {
+        _ if cut_short => TOO_SENSITIVE.to_owned(),
         NoThresholds::Invalid { .. } => "the contact would open".to_owned(),
         NoThresholds::Start(why) => {
             format!("no base response at the beginning of the search: {why}")
@@ -282,7 +285,7 @@ fn exact(belt: &Belt, averaged: f64) -> Result<f64, String> {
         NoThresholds::Lost { .. } => "the continuation lost the base response".to_owned(),
     })?;
     let changes = found.thresholds.iter().map(|threshold| (threshold.value, threshold.becomes));
-    least_stable(changes, found.ending, range.1 / averaged)
+    least_stable(changes, (found.ending, cut_short), range.1 / averaged)
 }
 
 /// The amplitudes near the averaged one in which the exact one is sought.
@@ -309,17 +312,26 @@ pub(crate) fn exact_of_system(
     averaged: f64,
     range: (f64, f64),
 ) -> Result<f64, String> {
-    let found = within(STEPS_OF_MANY_SEARCHES, || motion_thresholds(at, range, STEPS, None));
-    let found =
-        found.map_err(|why| format!("no base response at the beginning of the search: {why}"))?;
+    let (found, cut_short) = within(STEPS_OF_AN_ALTERNATIVE, || {
+        (motion_thresholds(at, range, STEPS, None), is_used_up())
+    });
+    let found = found.map_err(|why| match cut_short {
+        true => TOO_SENSITIVE.to_owned(),
+        false => format!("no base response at the beginning of the search: {why}"),
+    })?;
     let changes = found.thresholds.iter().map(|threshold| (threshold.value, threshold.becomes));
-    least_stable(changes, found.ending, range.1 / averaged)
+    least_stable(changes, (found.ending, cut_short), range.1 / averaged)
 }
 
-/// The least value from which a branch is stable, by the values at which its verdict changes; `to` is the end of the search.
+/// Why no amplitude is known where the steps of the search are used up.
+const TOO_SENSITIVE: &str =
+    "the base response is so sensitive that the search used up its steps before it became stable";
+
+/// The least value from which a branch is stable, by the values at which its verdict changes; how the branch ended, and whether for
+/// want of steps; `to` is the end of the search.
 fn least_stable(
     changes: impl Iterator<Item = (f64, Option<OrbitVerdict>)>,
-    ending: BranchEnding,
+    (ending, cut_short): (BranchEnding, bool),
     to: f64,
 ) -> Result<f64, String> {
     let stable = Some(OrbitVerdict::Stable);
@@ -336,6 +348,7 @@ fn least_stable(
                 digits(to)
             )
         }
+        _ if cut_short => TOO_SENSITIVE.to_owned(),
         _ => "the base response ends before it becomes stable".to_owned(),
     })
 }

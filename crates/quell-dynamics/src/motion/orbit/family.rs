@@ -10,6 +10,7 @@ use quell_linear::pure_slip::period;
 use quell_model::System;
 use quell_model::system::Contact;
 use quell_numerics::continuation::{Image, PeriodMap};
+use quell_numerics::cyclic::least_rotation;
 
 use super::super::{
     ContactPhase, Immobile, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver, MotionStart,
@@ -46,11 +47,7 @@ impl MotionSignature {
         if events.is_empty() {
             return Self::Steady(phases);
         }
-        let key = |first: usize| {
-            let rotated = events[first..].iter().chain(&events[..first]);
-            rotated.map(|(kind, contact, sign)| (*kind as u8, *contact, *sign)).collect::<Vec<_>>()
-        };
-        let first = (0..events.len()).min_by_key(|first| key(*first)).unwrap_or(0);
+        let first = least_rotation(events, |(kind, contact, sign)| (*kind as u8, *contact, *sign));
         let acts = |contact: usize| events.iter().any(|(_, acting, _)| *acting == contact);
         let others = phases.into_iter().enumerate();
         let others = others.map(|(contact, phase)| (!acts(contact)).then_some(phase)).collect();
