@@ -3,6 +3,7 @@
 //! A plain number is in the units of the study: SI or dimensionless. A number with a unit requires a study in SI; angles and
 //! ratios may have units (`30deg`, `2%`) in any study.
 
+use quell_model::digits::digits;
 use quell_model::units::measure::{self, Unread};
 use quell_model::units::{Quantity, Scales};
 use serde_json::Value as Json;
@@ -227,7 +228,9 @@ pub fn duration(
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
     let time = parse(text, Quantity::Time, scales, option)?;
-    bearable(time, text, option)
+    let longest =
+        scales.map(|scales| format!("{} s", digits(scales.to_si(Quantity::Time, MOST_TIME), 6)));
+    bearable_up_to(time, text, option, longest)
 }
 
 /// Rejects a time τ beyond [`MOST_TIME`], reported as given.
@@ -239,10 +242,21 @@ pub fn bearable(
     given: impl Into<Json>,
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
+    bearable_up_to(time, given, option, None)
+}
+
+/// [`bearable`], with [`MOST_TIME`] in words.
+fn bearable_up_to(
+    time: f64,
+    given: impl Into<Json>,
+    option: &'static str,
+    longest: Option<String>,
+) -> Result<f64, Box<Complaint>> {
     if (0.0..=MOST_TIME).contains(&time) {
         return Ok(time);
     }
-    let allowed = format!("a time between 0, the start of the run, and τ = {MOST_TIME:e}");
+    let longest = longest.unwrap_or_else(|| format!("τ = {MOST_TIME:e}"));
+    let allowed = format!("a time between 0, the start of the run, and {longest}");
     Err(Box::new(Complaint::option(option, given, allowed)))
 }
 
@@ -263,6 +277,8 @@ mod tests {
         for wrong in ["", "s", "fast", "3m", "nan", "inf", "infs", "1e999", "1e308h", "--json"] {
             assert!(time(wrong).is_err(), "{wrong}");
         }
+        let too_long = duration("1e300", scales, "--until").map_err(|wrong| wrong.allowed);
+        assert!(too_long.is_err_and(|allowed| allowed.ends_with("and 1e8 s")));
         assert!(time("3m").is_err_and(|allowed| allowed.contains("in s")));
         assert_eq!(parse("50mm/s", Quantity::Velocity, scales, "--at").ok(), Some(0.005));
     }
