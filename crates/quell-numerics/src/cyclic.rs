@@ -40,9 +40,8 @@ mod tests {
     fn it_is_the_least_of_all_rotations() {
         let mut random = SplitMix::new(7);
         for length in 0..40_usize {
-            for letters in 1..4_u8 {
-                let letter = |random: &mut SplitMix| (random.share() * f64::from(letters)) as u8;
-                let sequence: Vec<u8> = (0..length).map(|_| letter(&mut random)).collect();
+            for letters in 1..4_u64 {
+                let sequence: Vec<u64> = (0..length).map(|_| random.bits() % letters).collect();
                 let rotated = |from: usize| [&sequence[from..], &sequence[..from]].concat();
                 let least = (0..length).min_by_key(|from| rotated(*from)).unwrap_or(0);
                 assert_eq!(least_rotation(&sequence, |letter| *letter), least, "{sequence:?}");
