@@ -195,6 +195,17 @@ impl<'s> Motion<'s> {
         MotionRun::new(parts, &whole, until, tolerance, observer).run()
     }
 
+    /// The state with T of the elastic sliders that nearly are at their sliding levels put at them, where they slide from there on, and
+    /// these contacts; `None` where no T changes.
+    pub(crate) fn at_sliding_levels(&self, state: &[f64]) -> Option<(Vec<f64>, Vec<usize>)> {
+        if !self.system.contacts.iter().any(|contact| contact.tangential_stiffness.is_some()) {
+            return None;
+        }
+        let parts = (self.system, &self.equations);
+        let start = MotionStart { time: 0.0, state: state.to_vec() };
+        MotionRun::new(parts, &start, f64::INFINITY, MOTION_TOLERANCE, &mut ()).at_sliding_levels()
+    }
+
     /// The same with some contacts kept in these phases: the smooth continuation of a motion beyond the borders of the phases,
     /// which is no motion of the system there. A kept contact has no events.
     pub(crate) fn continued(

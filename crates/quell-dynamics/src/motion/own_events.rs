@@ -17,6 +17,10 @@ use crate::simulation::ORDER;
 /// Forces within this share of a level are at it: they are ends of steps, accurate to their tolerance.
 const AT_LEVEL: f64 = 1e-11;
 
+/// Forces within this share of the sliding level are near it: a guess of a periodic motion that slides misses the level by the square of
+/// its error.
+const NEAR_LEVEL: f64 = 1e-2;
+
 /// Rates below this share of their terms are zero to rounding.
 const ZERO_RATE: f64 = 1e-9;
 
@@ -107,6 +111,42 @@ impl MotionRun<'_> {
             self.note_zeros(contact, usize::from(direction < 0), zeros);
         }
         Ok(())
+    }
+
+    /// The state with T of the elastic sliders that are near their sliding levels put at them, where they slide from there on, and these
+    /// contacts; `None` where no T changes.
+    pub(super) fn at_sliding_levels(mut self) -> Option<(Vec<f64>, Vec<usize>)> {
+        let given = self.series.start().to_vec();
+        let mut near = Vec::new();
+        for contact in 0..self.now.len() {
+            let Some((OwnState { kind: OwnStateKind::Elastic { .. }, place }, force)) =
+                self.own(contact)
+            else {
+                continue;
+            };
+            let pressed = self.load(contact).max(0.0) * self.factor(contact);
+            let slip = self.slip(contact).0;
+            let level = self.system.contacts[contact].friction.coefficient(slip.abs()) * pressed;
+            let off = (force.abs() - level).abs();
+            if off > AT_LEVEL * level && off <= NEAR_LEVEL * level {
+                self.series_start(contact, level.copysign(force));
+                near.push((contact, place));
+            }
+        }
+        if near.is_empty() {
+            return None;
+        }
+        let mut state = self.series.start().to_vec();
+        self.open().ok()?;
+        near.retain(|(contact, place)| {
+            let slides = matches!(self.now[*contact].phase, ContactPhase::Slip(_));
+            if !slides {
+                state[*place] = given[*place];
+            }
+            slides
+        });
+        let contacts: Vec<usize> = near.into_iter().map(|(contact, _)| contact).collect();
+        (!contacts.is_empty()).then_some((state, contacts))
     }
 
     /// T of an elastic slider that slides from the start of a run follows from the slip and the load, for any number before.

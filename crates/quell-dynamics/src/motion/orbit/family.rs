@@ -194,8 +194,8 @@ pub(super) fn shot_within(
     held: Option<&MotionSignature>,
     tolerance: f64,
 ) -> Result<(Image<MotionSignature>, Shot), NoImage> {
-    let mut variation = MotionVariation::new(motion);
-    let end = run_over(motion, state, (time, tolerance), held, &mut variation)?;
+    let new = || MotionVariation::new(motion);
+    let (end, variation) = run_over(motion, state, (time, tolerance), held, new)?;
     if variation.has_failed {
         return Err(NoImage::NoVariation);
     }
@@ -232,21 +232,35 @@ pub(super) fn shot_of(
     shot(&motion, state, time, Some(signature))
 }
 
-/// The run over a time, continued on the piece of a signature.
-fn run_over(
+/// The run over a time, continued on the piece of a signature, and its observer.
+///
+/// T of an elastic slider that slides follows from its slip and load: a guess whose T misses that level would adhere first, which no
+/// motion near the periodic one does. It begins at the level, unless it would end the period in adhesion, where T is a number of its own.
+fn run_over<O: MotionObserver>(
     motion: &Motion<'_>,
     state: &[f64],
     (time, tolerance): (f64, f64),
     held: Option<&MotionSignature>,
-    observer: &mut dyn MotionObserver,
-) -> Result<MotionEnd, NoImage> {
-    let start = MotionStart { time: 0.0, state: state.to_vec() };
+    observer: impl Fn() -> O,
+) -> Result<(MotionEnd, O), NoImage> {
     let contacts = motion.system().contacts.len();
-    let end = match held {
-        Some(held) => motion.continued(&start, &held.slipping(contacts), time, observer),
-        None => motion.run(&start, time, tolerance, observer),
+    let run = |state: Vec<f64>| {
+        let start = MotionStart { time: 0.0, state };
+        let mut observer = observer();
+        let end = match held {
+            Some(held) => motion.continued(&start, &held.slipping(contacts), time, &mut observer),
+            None => motion.run(&start, time, tolerance, &mut observer),
+        };
+        end.map(|end| (end, observer)).map_err(NoImage::Stopped)
     };
-    end.map_err(NoImage::Stopped)
+    if let Some((at_levels, sliders)) = motion.at_sliding_levels(state) {
+        let found = run(at_levels)?;
+        let slides = |slider: &usize| found.0.contacts[*slider].phase != ContactPhase::Stick;
+        if sliders.iter().all(slides) {
+            return Ok(found);
+        }
+    }
+    run(state.to_vec())
 }
 
 /// What a shot met on its way.
@@ -313,7 +327,7 @@ impl PeriodMap for MotionFamily<'_> {
         let system = (self.at)(parameters).map_err(NoImage::Invalid)?;
         let motion = Motion::new(&system).map_err(NoImage::Immobile)?;
         let time = time_of(&motion, self.periods)?;
-        run_over(&motion, state, (time, MOTION_TOLERANCE), held, &mut ()).map(|end| end.state)
+        run_over(&motion, state, (time, MOTION_TOLERANCE), held, || ()).map(|(end, ())| end.state)
     }
 
     fn smoother(&self, signature: &MotionSignature, parameters: &[f64]) -> Vec<MotionSignature> {

@@ -167,9 +167,14 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         held: Option<&F::Signature>,
         share: f64,
     ) -> MaybeSolution<F> {
-        let predicted = between((&a.unknowns, &a.tangent), (&b.unknowns, &b.tangent), share);
         let heading: Vec<f64> = b.unknowns.iter().zip(&a.unknowns).map(|(b, a)| b - a).collect();
-        self.at(&predicted, &normalised(heading), held, Some(&a.derivative))
+        // At a border the derivative may be steep: then neither its cubic nor the derivative itself is that of the points beyond.
+        let cubic = between((&a.unknowns, &a.tangent), (&b.unknowns, &b.tangent), share);
+        let straight: Vec<f64> =
+            a.unknowns.iter().zip(&heading).map(|(a, h)| h.mul_add(share, *a)).collect();
+        let normal = normalised(heading);
+        self.at(&cubic, &normal, held, Some(&a.derivative))
+            .or_else(|| self.at(&straight, &normal, held, None))
     }
 }
 
@@ -289,13 +294,10 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         } else {
             let width = (far.parameter() - near.parameter()).abs() + 1e-12;
             let error = width * (self.follow.to - self.follow.from).abs();
-            out.push(self.special_point(
-                BifurcationKind::Border,
-                &near,
-                error,
-                &before,
-                Some(next),
-            ));
+            let kind = BifurcationKind::Border;
+            out.push(self.special_point(kind, &near, error, &before, Some(&far)));
+            // What changes between the border and the end of the step is on the piece beyond.
+            self.thresholds(&far, next, out);
         }
         StepOutcome::Over(Some(Box::new(next.clone())))
     }
