@@ -17,6 +17,11 @@ pub struct QuietAmplitudes {
 }
 
 impl QuietAmplitudes {
+    /// Of intervals in ascending order without common points.
+    pub(super) fn of_intervals(intervals: Vec<(f64, f64)>) -> Self {
+        Self { intervals }
+    }
+
     /// From the verdict at the lower end of a range and the changes of the verdict in it, in ascending order: (amplitude, whether
     /// larger amplitudes are quiet).
     pub fn of_changes(

@@ -1,23 +1,39 @@
 //! Any linear structure with friction contacts as one whose dither is designed.
 
-use quell_dynamics::motion::orbit::{MotionOrbit, NoMotionOrbit, base_motion, motion_thresholds};
+use quell_dynamics::attractor::SWITCH_CLOSENESS;
+use quell_dynamics::motion::orbit::{
+    MotionOrbit, NoMotionOrbit, RunOutcome, VariedRun, base_motion, motion_thresholds,
+    squealing_state, values_tried,
+};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_linear::averaging::{Becomes, DitheredSystem, NoAverage};
 use quell_linear::driven_point::DrivenPoint;
 use quell_linear::growth::Verdict;
 use quell_linear::input_cost::input_cost;
 use quell_linear::linearised::Linearised;
+use quell_linear::spectrum::growth;
 use quell_model::System;
 use quell_model::profile::Wave;
 
 use super::branch::AmplitudeBranch;
 use super::quiet::AveragedChange;
 use super::response::{ResponseSize, largest_loss, linear_response, loss_on, response_on};
-use super::{DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
+use super::{
+    DesignStart, DitherPrice, ExactVerdict, MARGIN, OperatingPoint, Plant, QuietAmplitudes,
+};
 use crate::actuator::{Actuator, ActuatorDemand};
 
 /// Steps of the continuation over a range of amplitudes.
 const STEPS: u32 = 8;
+
+/// Share of the range between two amplitudes at which runs from a start are tried.
+const TRIED_WITHIN: f64 = 1.0 / 16.0;
+
+/// Least steps in which an interval is divided for them.
+const LEAST_TRIED: u32 = 2;
+
+/// Most integration steps of one run from a start and of what decides where it ends.
+const STEPS_OF_A_RUN: u64 = 20_000_000;
 
 /// Steps by which the dither grows from zero to a verified base response.
 const GROWTH_STEPS: u32 = 8;
@@ -25,7 +41,8 @@ const GROWTH_STEPS: u32 = 8;
 /// A system at an operating point with an amplitude of the dither that is designed, or why it is no valid system.
 pub type SystemAtPoint<'a> = dyn Fn(OperatingPoint<'_>, f64) -> Result<System, String> + Sync + 'a;
 
-/// A system one of whose dithers is designed, judged by small motions: averaged sliding, then the multipliers of the base response.
+/// A system one of whose dithers is designed, judged by small motions, averaged sliding and then the multipliers of the base response, or
+/// by runs from a start, which must end in step with the dither.
 #[derive(Clone, Copy)]
 pub struct SystemPlant<'a> {
     /// The system at an operating point with an amplitude.
@@ -34,6 +51,8 @@ pub struct SystemPlant<'a> {
     pub input: usize,
     /// The row over the coordinates, or states, that is observed.
     pub observe: &'a [f64],
+    /// The runs that must end quiet.
+    pub start: DesignStart,
 }
 
 fn in_words(why: impl std::fmt::Display) -> String {
@@ -63,10 +82,105 @@ impl SystemPlant<'_> {
         Ok(answer(&point))
     }
 
+    /// An answer about the runs from the start; `None` where nothing squeals without dither, so that every run is quiet.
+    fn about_runs<T>(
+        &self,
+        at: OperatingPoint<'_>,
+        answer: impl FnOnce(&VariedRun<'_>) -> Result<T, String>,
+    ) -> Result<Option<T>, String> {
+        let system = |values: &[f64]| (self.at)(at, values[0]);
+        let without = system(&[0.0])?.undithered();
+        let state = match self.start {
+            DesignStart::Squeal => match squealing_state(&without) {
+                Ok(state) => state,
+                Err(_) if is_quiet_without(&without)? => return Ok(None),
+                Err(why) => return Err(format!("the limit cycle without dither: {why}")),
+            },
+            DesignStart::Local | DesignStart::Rest => vec![0.0; without.state_size()],
+        };
+        let start = |_: &System| Ok(state.clone());
+        let run = VariedRun { start: &start, ramp: 0.0, at: &system, most_steps: STEPS_OF_A_RUN };
+        answer(&run).map(Some)
+    }
+
+    /// The amplitudes in a range whose base response is stable and whose run from the start ends in step with the dither, by the judges
+    /// of `thresholds`. No run is quiet for good where the base response is unstable.
+    fn by_runs(
+        &self,
+        at: OperatingPoint<'_>,
+        (from, to): (f64, f64),
+    ) -> Result<QuietAmplitudes, String> {
+        let stable = self.by_multipliers(at, (from, to))?;
+        let found = self.about_runs(at, |run| {
+            let within = TRIED_WITHIN * (to - from);
+            let each = stable.intervals().iter().map(|interval| in_step(run, *interval, within));
+            Ok(each.collect::<Result<Vec<_>, String>>()?.concat())
+        })?;
+        Ok(found.map_or(stable, QuietAmplitudes::of_intervals))
+    }
+
+    /// The amplitudes in a range whose base response is stable: the judge of `thresholds`.
+    fn by_multipliers(
+        &self,
+        at: OperatingPoint<'_>,
+        range: (f64, f64),
+    ) -> Result<QuietAmplitudes, String> {
+        let found = amplitude_branch_of_system(&|value| (self.at)(at, value), range, STEPS);
+        Ok(found.map_err(in_words)?.quiet())
+    }
+
     /// The base response under an amplitude.
     fn base(system: &System) -> Result<MotionOrbit, String> {
         base_motion(system, GROWTH_STEPS).map_err(in_words)
     }
+}
+
+/// The amplitudes within an interval of stable base responses whose run ends in step with the dither, tried at steps of at most
+/// `within`. At the ends of the interval itself no run settles: the margin of a verified dither away from them it must.
+fn in_step(
+    run: &VariedRun<'_>,
+    (low, high): (f64, f64),
+    within: f64,
+) -> Result<Vec<(f64, f64)>, String> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a count of at most sixteen steps"
+    )]
+    let steps = (((high - low) / within).ceil() as u32).max(LEAST_TRIED);
+    let begin = (low * (1.0 + MARGIN)).max(low + MARGIN * within).min(0.5 * (low + high));
+    let end = high - MARGIN * (high - begin) / f64::from(steps);
+    let outcomes: Vec<(f64, RunOutcome)> =
+        values_tried((begin, end), steps).map(|value| (value, run.outcome(value))).collect();
+    // A run that does not settle is not known to be quiet.
+    let quiet = |outcome: &RunOutcome| outcome.is_in_step() == Some(true);
+    if !outcomes.iter().any(|(_, outcome)| quiet(outcome))
+        && let Some((amplitude, RunOutcome::Unknown(why))) =
+            outcomes.iter().find(|(_, outcome)| outcome.is_in_step().is_none())
+    {
+        return Err(format!("the run at the amplitude {amplitude}: {why}"));
+    }
+    let changes = outcomes.windows(2).filter(|pair| quiet(&pair[0].1) != quiet(&pair[1].1));
+    let changes = changes.map(|pair| {
+        let becomes = quiet(&pair[1].1);
+        let (mut loud, mut still) =
+            if becomes { (pair[0].0, pair[1].0) } else { (pair[1].0, pair[0].0) };
+        while (still - loud).abs() > SWITCH_CLOSENESS * still {
+            let middle = 0.5 * (loud + still);
+            *(if quiet(&run.outcome(middle)) { &mut still } else { &mut loud }) = middle;
+        }
+        // The end that has been seen to be quiet.
+        (still, becomes)
+    });
+    let first = outcomes.first().is_some_and(|(_, outcome)| quiet(outcome));
+    Ok(QuietAmplitudes::of_changes((low, high), first, changes).intervals().to_vec())
+}
+
+/// Whether steady sliding is stable without dither, so that no limit cycle is needed for a design.
+fn is_quiet_without(system: &System) -> Result<bool, String> {
+    let linear = Linearised::new(system).map_err(in_words)?;
+    let growth = growth(&linear, &linear.friction()).map_err(in_words)?;
+    Ok(growth.verdict() == Verdict::Stable)
 }
 
 /// The base response of a system over the amplitude of one of its dithers, followed in at least `steps` steps: the judge of
@@ -124,17 +238,26 @@ impl Plant for SystemPlant<'_> {
     }
 
     fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {
-        let found = amplitude_branch_of_system(&|value| (self.at)(at, value), range, STEPS);
-        Ok(found.map_err(in_words)?.quiet())
+        if self.start != DesignStart::Local {
+            return self.by_runs(at, range);
+        }
+        self.by_multipliers(at, range)
     }
 
     fn verdict(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<ExactVerdict, String> {
         let orbit = Self::base(&(self.at)(at, amplitude)?)?;
-        Ok(ExactVerdict {
-            quiet: orbit.verdict() == OrbitVerdict::Stable,
-            multiplier: orbit.radius(),
-            growth_rate: None,
-        })
+        let stable = orbit.verdict() == OrbitVerdict::Stable;
+        let quiet = match self.start {
+            DesignStart::Local => stable,
+            DesignStart::Rest | DesignStart::Squeal => {
+                let outcome = |run: &VariedRun<'_>| match run.outcome(amplitude) {
+                    RunOutcome::Unknown(why) => Err(why),
+                    known => Ok(known.is_in_step() == Some(true)),
+                };
+                stable && self.about_runs(at, outcome)?.unwrap_or(true)
+            }
+        };
+        Ok(ExactVerdict { quiet, multiplier: orbit.radius(), growth_rate: None })
     }
 
     fn price(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<DitherPrice, String> {

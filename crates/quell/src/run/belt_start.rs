@@ -4,10 +4,10 @@ use quell_dynamics::belt_motion::ContactStart;
 use quell_dynamics::simulation::Start;
 use quell_model::Parametrisation;
 
-use super::system::cycle::squealing_state;
 use super::{of_beginning, start};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::study::{BeltStudy, InitialState};
+use quell_dynamics::motion::orbit::squealing_state;
 
 /// The initial state of a study with that of its contact: steady sliding and squeal have the contact's own number, and other starts
 /// begin with a contact without load.

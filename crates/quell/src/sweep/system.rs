@@ -2,7 +2,7 @@
 //! end, steady responses, and the quantities read from them.
 
 use quell_dynamics::motion::orbit::family::NoImage;
-use quell_dynamics::motion::orbit::{NoMotionOrbit, base_motion};
+use quell_dynamics::motion::orbit::{BASE_STEPS, NoMotionOrbit, base_motion};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::response::Effect;
 use quell_linear::averaging::{Becomes, CriticalInput, DitheredContact, DitheredSystem};
@@ -24,7 +24,6 @@ use crate::complaint::Failure;
 use crate::contact_state::averaged_without_states;
 use crate::range::outside_of_laws;
 use crate::run::system::attractor::end_of_run;
-use crate::run::system::cycle::BASE_STEPS;
 use crate::run::system::protocol::SystemProtocol;
 use crate::run::system::response::{self, ResponseRequest};
 use crate::run::system::simulate::beyond_laws;

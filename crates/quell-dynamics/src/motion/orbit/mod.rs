@@ -11,13 +11,16 @@
 //! | `approach` | how a run approaches steady sliding |
 //! | `recurrence` | when a run comes back near its own states |
 //! | `ramp` | a run whose dither grows from zero |
+//! | `cycle_search` | a stable limit cycle from several starts |
 //! | `settled` | the periodic motion on which a run ends |
 //! | `thresholds` | values of a parameter at which the base response gains or loses stability |
+//! | `switches` | values at which a run from a start changes to another motion |
 //! | `curves` | their curves over a second parameter |
 //! | `sensitivity` | their derivatives with respect to other numbers |
 
 mod approach;
 mod curves;
+mod cycle_search;
 pub mod family;
 mod free;
 mod passages;
@@ -26,11 +29,16 @@ mod ramp;
 mod recurrence;
 mod sensitivity;
 mod settled;
+mod switches;
 mod thresholds;
 mod transient;
 mod watch;
 
 pub use curves::{MotionCurve, MotionCurves, MotionPlane, motion_curves};
+pub use cycle_search::{
+    BASE_STEPS, CycleSearch, NamedStart, TriedStart, base_state, kicked_by, search_cycle,
+    squealing_state, usual_starts, without_cycle,
+};
 pub use free::{NoCycle, free_cycle};
 pub use periodic::{
     MotionOrbit, NoMotionOrbit, base_motion, is_on_sliding, motion_near, sliding_state,
@@ -38,4 +46,7 @@ pub use periodic::{
 pub use ramp::ramped_motion;
 pub use sensitivity::motion_sensitivity;
 pub use settled::{LEAST_PERIODS, MOST_PERIODS, SettledMotion, settled, settled_many};
+pub use switches::{
+    RunOutcome, RunSwitch, RunSwitches, StartOfRun, TriedValue, VariedRun, values_tried,
+};
 pub use thresholds::{MotionThreshold, MotionThresholds, motion_thresholds};

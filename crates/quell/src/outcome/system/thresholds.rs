@@ -12,8 +12,8 @@ use crate::outcome::thresholds::rows_of_curves;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::system::curves::{SystemCurves, kind_in_words};
-use crate::run::system::switches::STEPS_TRIED;
 use crate::run::system::thresholds::MotionThresholdsFound;
+use crate::run::system::thresholds::STEPS_TRIED;
 use crate::run::thresholds::side;
 use crate::study::{SystemSetup, SystemStudy};
 

@@ -6,7 +6,7 @@ use quell_design::least_dither::{
 use quell_model::Waveform;
 
 use super::found::{DesignNumber, DesignNumbers, LeastDitherFound};
-use super::least::{asked, is_local, least_dither, least_dither_of_systems, without_amplitude};
+use super::least::{asked, least_dither, least_dither_of_systems, without_amplitude};
 use super::waveform::with_waveform;
 use crate::complaint::{Complaint, Failure, Origin};
 use crate::contact_state::refused_of_belt;
@@ -57,7 +57,6 @@ pub fn run(study: &BeltStudy) -> Result<LeastDitherFound, Failure> {
     if !belt.has_contact_state() {
         return least_dither(study, asked, &numbers, &plants, Ok(&samples));
     }
-    is_local(asked, "a contact with a state of its own")?;
     let systems: Vec<(Waveform, Box<SystemAtPoint<'_>>)> = plants
         .iter()
         .map(|(waveform, plant)| {
@@ -106,7 +105,8 @@ fn sampled(
                 (false, false) => plant.averaged(at, range),
                 (exactly, true) => {
                     let system = |at: OperatingPoint<'_>, value: f64| plant.system(at, value);
-                    let of = SystemPlant { at: &system, input: 0, observe: &[] };
+                    let of =
+                        SystemPlant { at: &system, input: 0, observe: &[], start: plant.start };
                     if exactly { of.exact(at, range) } else { of.averaged(at, range) }
                 }
             };

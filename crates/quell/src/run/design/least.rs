@@ -47,22 +47,6 @@ pub(crate) fn without_amplitude(asked: &Design, allowed: String) -> Failure {
     Complaint::new(Fault::Value, "design.vary", Origin::Whole, given, allowed).into()
 }
 
-/// Rejects runs from afar, which the designs of systems do not judge.
-///
-/// # Errors
-/// A complaint about the start.
-pub(crate) fn is_local(asked: &Design, of: &str) -> Result<(), Failure> {
-    if asked.start == DesignStart::Local {
-        return Ok(());
-    }
-    let allowed = format!(
-        "\"local\": for {of} the base response and its multipliers decide; `thresholds --from-rest` and `--from-squeal` judge runs \
-         from afar"
-    );
-    let name = asked.start.name();
-    Err(Complaint::new(Fault::Conflict, "design.start", Origin::Whole, name, allowed).into())
-}
-
 /// The least dither of the waveforms of a study, each with its system; `input` is that of the dither, `observe` the row over the
 /// coordinates whose response is reported.
 ///
@@ -78,7 +62,9 @@ pub(crate) fn least_dither_of_systems(
 ) -> Result<LeastDitherFound, Failure> {
     let plants: Vec<(Waveform, SystemPlant<'_>)> = systems
         .iter()
-        .map(|(waveform, at)| (waveform.clone(), SystemPlant { at: at.as_ref(), input, observe }))
+        .map(|(waveform, at)| {
+            (waveform.clone(), SystemPlant { at: at.as_ref(), input, observe, start: asked.start })
+        })
         .collect();
     let found = least_dither(study, asked, numbers, &plants, Ok(samples))?;
     let without_state = without_state(&found, systems[found.best].1.as_ref());

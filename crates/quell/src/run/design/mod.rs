@@ -28,6 +28,6 @@ pub(crate) use found::DesignNumbers;
 pub use found::{
     AmplitudeRate, ConfidentDither, DesignNumber, DesignSensitivity, LeastDitherFound,
 };
-pub(crate) use least::{asked, is_local, least_dither, least_dither_of_systems, without_amplitude};
+pub(crate) use least::{asked, least_dither, least_dither_of_systems, without_amplitude};
 pub use study_with_design::{FrequencyScale, StudyWithDesign};
 pub(crate) use waveform::system_with_waveform;

@@ -1,6 +1,6 @@
 //! `actuator` of a system: where over frequency its actuator can give one of its dithers.
 
-use quell_design::least_dither::{OperatingPoint, SystemPlant};
+use quell_design::least_dither::{DesignStart, OperatingPoint, SystemPlant};
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::{MotionSpectrum, SmallMotion, spectrum};
 use quell_model::System;
@@ -32,7 +32,7 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<ActuatorFou
     let at = |place: OperatingPoint<'_>, amplitude: f64| -> Result<System, String> {
         Ok(with_dither(system, input, amplitude, place.others.first().copied()))
     };
-    let plant = SystemPlant { at: &at, input, observe: &[] };
+    let plant = SystemPlant { at: &at, input, observe: &[], start: DesignStart::Local };
     let speed = |contact: &quell_model::Contact| contact.surface_velocity.mean().abs();
     let contacts = system.contacts.iter();
     let question = ActuatorQuestion {

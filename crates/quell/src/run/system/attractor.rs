@@ -1,8 +1,8 @@
 //! The motion on which a run of a system ends, as `bifurcation` and `basins` report it.
 
 use quell_dynamics::motion::orbit::{
-    MotionOrbit, NoCycle, NoMotionOrbit, SettledMotion, base_motion, free_cycle, is_on_sliding,
-    settled, settled_many,
+    BASE_STEPS, MotionOrbit, NoCycle, NoMotionOrbit, SettledMotion, base_motion, free_cycle,
+    is_on_sliding, kicked_by, settled, settled_many,
 };
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart};
 use quell_linear::linearised::Linearised;
@@ -11,7 +11,6 @@ use quell_linear::spectrum;
 use quell_model::System;
 use quell_model::units::Quantity;
 
-use super::cycle::{BASE_STEPS, kicked_by};
 use super::cycle_samples::CycleSamples;
 use super::in_units;
 use super::passing::nearest_distance;

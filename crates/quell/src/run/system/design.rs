@@ -6,7 +6,7 @@ use quell_model::{System, Waveform};
 use super::has_equations;
 use crate::complaint::{Complaint, Failure, Origin};
 use crate::run::design::{
-    DesignNumber, DesignNumbers, LeastDitherFound, asked, is_local, least_dither_of_systems,
+    DesignNumber, DesignNumbers, LeastDitherFound, asked, least_dither_of_systems,
     system_with_waveform, without_amplitude,
 };
 use crate::study::{DesignRange, SystemStudy};
@@ -14,11 +14,10 @@ use crate::study::{DesignRange, SystemStudy};
 /// The least dither of a system.
 ///
 /// # Errors
-/// A complaint about a study without `[design]` or without equations, about a number in it, and a start other than `local`.
+/// A complaint about a study without `[design]` or without equations, and about a number in it.
 pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
     has_equations(study, "design")?;
     let asked = asked(study, !study.system().inputs.is_empty())?;
-    is_local(asked, "a system")?;
     let is_amplitude = |range: &&DesignRange| study.dither_of(&range.path).is_some();
     let (amplitude, others): (Vec<_>, Vec<_>) = asked.vary.iter().partition(is_amplitude);
     let [amplitude] = amplitude.as_slice() else {
@@ -78,7 +77,7 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         let exactly = |exactly: bool| {
             let (system, others) = (system.clone(), own.clone());
             move |point: &[f64], range: (f64, f64)| {
-                let of = SystemPlant { at: &system, input, observe: &[] };
+                let of = SystemPlant { at: &system, input, observe: &[], start: asked.start };
                 let at = OperatingPoint { point, others: &others };
                 if exactly { of.exact(at, range) } else { of.averaged(at, range) }
             }

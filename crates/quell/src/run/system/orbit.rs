@@ -2,12 +2,12 @@
 //! Floquet multipliers; without dither the limit cycle on which a run ends, or what was tried to find one.
 
 use quell_dynamics::motion::orbit::{
-    MotionOrbit, NoMotionOrbit, SettledMotion, base_motion, motion_near, settled,
+    BASE_STEPS, CycleSearch, MotionOrbit, NamedStart, NoMotionOrbit, SettledMotion, TriedStart,
+    base_motion, motion_near, search_cycle, settled, usual_starts,
 };
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
 
-use super::cycle::{self, BASE_STEPS, CycleSearch, TriedStart};
 use super::cycle_samples::CycleSamples;
 use super::protocol::{SystemProtocol, unnamed};
 use super::start::{StateNumbers, start_with};
@@ -185,23 +185,21 @@ fn undithered(study: &SystemStudy, wanted: &WantedMotion) -> Result<OrbitOfSyste
         return Err(Complaint::option("--periods", *periods, allowed).into());
     }
     let free = system.undithered();
-    let given = |protocol: &SystemProtocol| -> Result<cycle::NamedStart, Failure> {
+    let given = |protocol: &SystemProtocol| -> Result<NamedStart, Failure> {
         Ok((protocol.words(study), protocol.state(study, &free)?))
     };
     let CycleSearch { found, tried } = match wanted {
-        WantedMotion::After(SystemProtocol::Squeal) => {
-            cycle::search(&free, cycle::usual_starts(&free))
-        }
-        WantedMotion::After(protocol) => cycle::search(&free, vec![given(protocol)?]),
+        WantedMotion::After(SystemProtocol::Squeal) => search_cycle(&free, usual_starts(&free)),
+        WantedMotion::After(protocol) => search_cycle(&free, vec![given(protocol)?]),
         WantedMotion::Near { state, .. } => {
-            cycle::search(&free, vec![given(&SystemProtocol::From(state.clone()))?])
+            search_cycle(&free, vec![given(&SystemProtocol::From(state.clone()))?])
         }
         WantedMotion::Base { .. } => {
             let first = given(&SystemProtocol::Study)?;
-            let mut starts = cycle::usual_starts(&free);
+            let mut starts = usual_starts(&free);
             starts.retain(|other| other.1 != first.1);
             starts.insert(0, first);
-            cycle::search(&free, starts)
+            search_cycle(&free, starts)
         }
     };
     let found =

@@ -1,13 +1,12 @@
 //! The answer of `orbit` of a system in sentences, JSON and a dataset.
 
-use quell_dynamics::motion::orbit::MotionOrbit;
+use quell_dynamics::motion::orbit::{MotionOrbit, without_cycle};
 use quell_dynamics::motion::{ContactPhase, RecordedEvent};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::simulation::EventKind;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
-use super::cycle::without_cycle;
 use super::orbit::{FoundBy, FoundMotion, OrbitOfSystem};
 use super::simulate::beyond_laws;
 use super::start::{state_names, state_quantity};

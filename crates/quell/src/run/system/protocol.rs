@@ -1,9 +1,8 @@
 //! Initial-condition protocols of systems.
 
-use quell_dynamics::motion::orbit::sliding_state;
+use quell_dynamics::motion::orbit::{sliding_state, squealing_state};
 use quell_model::System;
 
-use super::cycle::squealing_state;
 use super::start::{StateNumbers, named, read_state, start_in_words, start_with};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::run::protocol::Protocol;

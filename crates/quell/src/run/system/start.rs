@@ -1,11 +1,10 @@
 //! Where a run of a system begins: the one place that decides it, for every verb.
 
 use quell_dynamics::motion::MotionStart;
-use quell_dynamics::motion::orbit::sliding_state;
+use quell_dynamics::motion::orbit::{base_state, sliding_state, squealing_state};
 use quell_model::units::{Quantity, measure};
 use quell_model::{Contact, System};
 
-use super::cycle::{base_state, squealing_state};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::quantity;
 use crate::study::{SystemStart, SystemStudy, SystemUnits, suggest};

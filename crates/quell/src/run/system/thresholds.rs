@@ -2,7 +2,8 @@
 //! gains or loses stability, and those at which runs from given starts change.
 
 use quell_dynamics::motion::orbit::{
-    MotionThresholds as Local, NoMotionOrbit, base_motion, motion_thresholds,
+    BASE_STEPS, MotionThresholds as Local, NoMotionOrbit, RunSwitches, VariedRun, base_motion,
+    motion_thresholds, values_tried,
 };
 use quell_dynamics::orbit::threshold::BranchEnding;
 use quell_dynamics::response::BAND_END;
@@ -10,17 +11,20 @@ use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
 use quell_model::System;
 use quell_model::profile::Wave;
+use rayon::prelude::*;
 use serde_json::Value as Json;
 
-use super::cycle::BASE_STEPS;
 use super::protocol::SystemProtocol;
 use super::start::{StateNumbers, start_with};
-use super::switches::{RunSwitches, VariedRun, run_switches};
 use super::tracked::{TrackRequest, understood};
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::effort::STEPS_OF_A_SEARCH;
 use crate::run::thresholds::{ThresholdsRequest, can_ramp};
 use crate::study::SystemStudy;
+
+/// Equal steps between the values at which runs are tried.
+pub const STEPS_TRIED: u32 = 20;
 
 /// Minimum number of continuation steps over the range.
 const STEPS: u32 = 40;
@@ -128,8 +132,10 @@ pub fn run(
         && request.near.is_none()
         && at(&[to]).is_ok_and(|system| base_motion(&system, BASE_STEPS).is_ok());
     let runs = request.protocols.iter().map(|protocol| {
-        let run = VariedRun { study, protocol, ramp: request.ramp, at: &at };
-        (protocol.clone(), run_switches(&run, request.window))
+        let start = |system: &System| protocol.state(study, system).map_err(|why| why_of(&why));
+        let run =
+            VariedRun { start: &start, ramp: request.ramp, at: &at, most_steps: STEPS_OF_A_SEARCH };
+        (protocol.clone(), side_by_side(&run, request.window))
     });
     let runs = runs.collect();
     Ok(MotionThresholdsFound {
@@ -139,6 +145,25 @@ pub fn run(
         runs,
         in_band: reaches_the_band(study.system()),
     })
+}
+
+/// The changes of a run over a window, with the runs at its values side by side.
+fn side_by_side(run: &VariedRun<'_>, window: (f64, f64)) -> RunSwitches {
+    let values: Vec<f64> = values_tried(window, STEPS_TRIED).collect();
+    let outcomes = values.into_par_iter().map(|value| (value, run.outcome(value))).collect();
+    RunSwitches::of(outcomes, |pairs| pairs.par_iter().map(|[a, b]| run.change(*a, *b)).collect())
+}
+
+/// The reason of a failure.
+fn why_of(why: &Failure) -> String {
+    match why {
+        Failure::Failed { why, .. } => why.clone(),
+        Failure::Wrong(complaints) => complaints
+            .iter()
+            .map(|complaint| complaint.allowed.clone())
+            .collect::<Vec<_>>()
+            .join("; "),
+    }
 }
 
 /// Whether a dither is not fast in comparison with the fastest growing motion.

@@ -1,7 +1,8 @@
 //! The answer of `thresholds` of a dithered system in sentences and JSON.
 
-use quell_dynamics::motion::orbit::MOST_PERIODS;
-use quell_dynamics::motion::orbit::{MotionThreshold, MotionThresholds as Local};
+use quell_dynamics::motion::orbit::{
+    MOST_PERIODS, MotionThreshold, MotionThresholds as Local, RunOutcome, RunSwitches,
+};
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind};
 use quell_model::units::Quantity;
@@ -10,8 +11,8 @@ use serde_json::Value as Json;
 use super::curves::{kind_in_words, put_contacts};
 use super::in_units;
 use super::start::{state_names, state_quantity};
-use super::switches::{RunOutcome, RunSwitches, STEPS_TRIED};
 use super::thresholds::MotionThresholdsFound;
+use super::thresholds::STEPS_TRIED;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::criticality;

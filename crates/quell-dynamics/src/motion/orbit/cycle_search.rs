@@ -1,8 +1,9 @@
 //! Limit cycles of systems without dither, and what was tried to find one.
 
-use quell_dynamics::motion::orbit::{MotionOrbit, base_motion, free_cycle, sliding_state};
-use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::System;
+
+use super::{MotionOrbit, base_motion, free_cycle, sliding_state};
+use crate::orbit::OrbitVerdict;
 
 /// Velocities of kicked starts, over that of the surface: at 1 the contact moves with it.
 const KICKS: [f64; 3] = [1.0, 0.5, 2.0];
@@ -17,7 +18,7 @@ const DISTURBANCES: u64 = 3;
 const DISTURBED: f64 = 1e-2;
 
 /// Steps in which the base response is continued from steady sliding.
-pub(crate) const BASE_STEPS: u32 = 8;
+pub const BASE_STEPS: u32 = 8;
 
 /// A start from which no limit cycle was reached.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +43,7 @@ pub type NamedStart = (String, Vec<f64>);
 
 /// The limit cycle that a run from the first successful start reaches. A cycle that is not stable, on which only symmetric
 /// runs end, is kept for the case that no other is found, neither from the other starts nor from small disturbances of it.
-pub fn search(system: &System, starts: Vec<NamedStart>) -> CycleSearch {
+pub fn search_cycle(system: &System, starts: Vec<NamedStart>) -> CycleSearch {
     let mut search = CycleSearch { found: None, tried: Vec::new() };
     for start in starts {
         if search.is_stable_from(system, start) {
@@ -96,7 +97,7 @@ fn disturbed(state: &[f64], number: u64) -> Vec<f64> {
 }
 
 /// Steady sliding with velocities towards those of the surfaces; empty without steady sliding.
-pub fn kicked(system: &System) -> Vec<NamedStart> {
+fn kicked(system: &System) -> Vec<NamedStart> {
     let kick = |factor: f64| {
         let start = format!("from steady sliding kicked by {factor} times the surface velocity");
         Some((start, kicked_by(system, factor)?))
@@ -105,7 +106,7 @@ pub fn kicked(system: &System) -> Vec<NamedStart> {
 }
 
 /// Steady sliding with this share of the velocities of the surfaces; `None` without steady sliding.
-pub(super) fn kicked_by(system: &System, factor: f64) -> Option<Vec<f64>> {
+pub fn kicked_by(system: &System, factor: f64) -> Option<Vec<f64>> {
     let mut state = sliding_state(system).ok()?;
     let size = system.structure.size();
     let offset = if system.structure.mechanical().is_some() { size } else { 0 };
@@ -134,7 +135,7 @@ pub fn usual_starts(system: &System) -> Vec<NamedStart> {
 /// What was tried.
 pub fn squealing_state(system: &System) -> Result<Vec<f64>, String> {
     let system = system.undithered();
-    let search = search(&system, usual_starts(&system));
+    let search = search_cycle(&system, usual_starts(&system));
     match search.found {
         Some((cycle, _)) if cycle.verdict() == OrbitVerdict::Stable => Ok(cycle.state),
         Some((cycle, _)) => {

@@ -5,18 +5,12 @@
 //! continued; where it loses its stability, and runs on both sides confirm it, is the value. Elsewhere, at the border of a basin
 //! of attraction, the interval is halved.
 
-use quell_dynamics::motion::orbit::{NoMotionOrbit, motion_thresholds, ramped_motion, settled};
-use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::orbit::threshold::ThresholdKind;
 use quell_model::System;
-use rayon::prelude::*;
 
-use super::protocol::SystemProtocol;
-use crate::complaint::Failure;
-use crate::study::SystemStudy;
-
-/// Equal steps between the values tried; two changes between neighbouring values that cancel are missed.
-pub const STEPS_TRIED: u32 = 20;
+use super::{NoMotionOrbit, motion_thresholds, ramped_motion, settled};
+use crate::orbit::OrbitVerdict;
+use crate::orbit::threshold::ThresholdKind;
+use crate::simulation::within;
 
 /// Relative width of the interval at which halving ends.
 const CLOSENESS: f64 = 1e-5;
@@ -75,24 +69,28 @@ pub struct RunSwitches {
     pub unknown: Vec<(f64, String)>,
 }
 
+/// The state at t = 0 from which a run of a system starts, or why there is none.
+pub type StartOfRun<'a> = dyn Fn(&System) -> Result<Vec<f64>, String> + Sync + 'a;
+
 /// A run over a parameter.
+#[derive(Clone, Copy)]
 pub struct VariedRun<'a> {
-    /// The study.
-    pub study: &'a SystemStudy,
     /// Its start.
-    pub protocol: &'a SystemProtocol,
+    pub start: &'a StartOfRun<'a>,
     /// Time over which its dither is ramped up; 0 switches it on at once.
     pub ramp: f64,
     /// The system at a value of the parameter.
     pub at: &'a (dyn Fn(&[f64]) -> Result<System, String> + Sync),
+    /// Most integration steps at one value.
+    pub most_steps: u64,
 }
 
 impl VariedRun<'_> {
     /// The outcome at one value.
-    fn outcome(&self, value: f64) -> RunOutcome {
+    pub fn outcome(&self, value: f64) -> RunOutcome {
         let settle = || -> Result<RunOutcome, String> {
             let system = (self.at)(&[value])?;
-            let start = self.protocol.state(self.study, &system).map_err(|why| why_of(&why))?;
+            let start = (self.start)(&system)?;
             // Without dither there is nothing to ramp up.
             let start = match ramped_motion(&system, &start, self.ramp) {
                 Err(NoMotionOrbit::NoDither) => start,
@@ -107,11 +105,11 @@ impl VariedRun<'_> {
                 Err(why) => Err(why.to_string()),
             }
         };
-        settle().unwrap_or_else(RunOutcome::Unknown)
+        within(self.most_steps, settle).unwrap_or_else(RunOutcome::Unknown)
     }
 
     /// The change between two values, in ascending order, with different outcomes.
-    fn change(
+    pub fn change(
         &self,
         (low, below): (f64, &RunOutcome),
         (high, above): (f64, &RunOutcome),
@@ -174,38 +172,38 @@ impl VariedRun<'_> {
     }
 }
 
-/// The reason of a failure.
-fn why_of(why: &Failure) -> String {
-    match why {
-        Failure::Failed { why, .. } => why.clone(),
-        Failure::Wrong(complaints) => complaints
-            .iter()
-            .map(|complaint| complaint.allowed.clone())
-            .collect::<Vec<_>>()
-            .join("; "),
-    }
+/// The values at equal steps of a window, both ends included.
+pub fn values_tried((from, to): (f64, f64), steps: u32) -> impl Iterator<Item = f64> {
+    (0..=steps).map(move |k| {
+        if k == steps { to } else { from + (to - from) * f64::from(k) / f64::from(steps) }
+    })
 }
 
-/// The changes of a run over a window of a parameter.
-pub fn run_switches(run: &VariedRun<'_>, (from, to): (f64, f64)) -> RunSwitches {
-    let value = |k: u32| match k {
-        STEPS_TRIED => to,
-        k => from + (to - from) * f64::from(k) / f64::from(STEPS_TRIED),
-    };
-    let outcomes: Vec<(f64, RunOutcome)> =
-        (0..=STEPS_TRIED).into_par_iter().map(|k| (value(k), run.outcome(value(k)))).collect();
-    let unknown = outcomes.iter().filter_map(|(value, outcome)| match outcome {
-        RunOutcome::Unknown(why) => Some((*value, why.clone())),
-        _ => None,
-    });
-    let unknown = unknown.collect();
-    let first = outcomes[0].1.clone();
-    let known: Vec<&(f64, RunOutcome)> =
-        outcomes.iter().filter(|(_, outcome)| outcome.is_in_step().is_some()).collect();
-    let pairs = known.par_windows(2);
-    let changes = pairs
-        .filter(|pair| pair[0].1.is_in_step() != pair[1].1.is_in_step())
-        .map(|pair| run.change((pair[0].0, &pair[0].1), (pair[1].0, &pair[1].1)))
-        .collect();
-    RunSwitches { first, changes, unknown }
+/// A value with its outcome.
+pub type TriedValue<'a> = (f64, &'a RunOutcome);
+
+impl RunSwitches {
+    /// From the outcomes at ascending values; `change` finds the changes between the pairs of neighbouring values that differ.
+    pub fn of(
+        outcomes: Vec<(f64, RunOutcome)>,
+        change: impl FnOnce(&[[TriedValue<'_>; 2]]) -> Vec<RunSwitch>,
+    ) -> Self {
+        let unknown = outcomes.iter().filter_map(|(value, outcome)| match outcome {
+            RunOutcome::Unknown(why) => Some((*value, why.clone())),
+            _ => None,
+        });
+        let unknown = unknown.collect();
+        let first = outcomes.first().map(|(_, outcome)| outcome.clone());
+        let known: Vec<TriedValue<'_>> = outcomes
+            .iter()
+            .filter(|(_, outcome)| outcome.is_in_step().is_some())
+            .map(|(value, outcome)| (*value, outcome))
+            .collect();
+        let differ =
+            known.windows(2).filter(|pair| pair[0].1.is_in_step() != pair[1].1.is_in_step());
+        let pairs: Vec<[TriedValue<'_>; 2]> = differ.map(|pair| [pair[0], pair[1]]).collect();
+        let changes = change(&pairs);
+        let first = first.unwrap_or_else(|| RunOutcome::Unknown("no value was tried".to_owned()));
+        Self { first, changes, unknown }
+    }
 }
