@@ -255,11 +255,22 @@ fn ended(mut child: Child) -> (Option<i32>, Duration) {
     }
 }
 
+/// The binary with the default action of every signal, where the shell of the tests ignores some (`nohup`).
+fn with_signals(place: &Place, arguments: &[&str]) -> Command {
+    if cfg!(not(target_os = "linux")) {
+        return place.command(arguments);
+    }
+    let mut command = Command::new("env");
+    command.args(["--default-signal", env!("CARGO_BIN_EXE_quell")]).args(arguments);
+    command.current_dir(&place.folder).stdin(Stdio::null());
+    command
+}
+
 #[test]
 fn signals_end_every_verb() {
     let place = Place::with("signals", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
     let begin = |arguments: &[&str]| {
-        let mut command = place.command_with_signals(arguments);
+        let mut command = with_signals(&place, arguments);
         let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
         let child = child.expect("quell runs");
         std::thread::sleep(Duration::from_millis(700));

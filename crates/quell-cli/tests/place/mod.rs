@@ -39,20 +39,6 @@ impl Place {
         command
     }
 
-    /// The same command with the default action of every signal, where the shell of the tests ignores some (`nohup`).
-    #[cfg(target_os = "linux")]
-    pub(crate) fn command_with_signals(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new("env");
-        command.args(["--default-signal", env!("CARGO_BIN_EXE_quell")]).args(arguments);
-        command.current_dir(&self.folder).stdin(Stdio::null());
-        command
-    }
-
-    #[cfg(not(target_os = "linux"))]
-    pub(crate) fn command_with_signals(&self, arguments: &[&str]) -> Command {
-        self.command(arguments)
-    }
-
     /// Runs a verb with `--json` and returns the object and the exit status. Errors are reported in the object, and standard
     /// error is empty then; an answer may be accompanied by warnings.
     pub(crate) fn json(&self, arguments: &[&str]) -> (Json, i32) {

@@ -315,9 +315,12 @@ pub(crate) fn exact_of_system(
     let (found, cut_short) = within(STEPS_OF_AN_ALTERNATIVE, || {
         (motion_thresholds(at, range, STEPS, None), is_used_up())
     });
-    let found = found.map_err(|why| match cut_short {
-        true => TOO_SENSITIVE.to_owned(),
-        false => format!("no base response at the beginning of the search: {why}"),
+    let found = found.map_err(|why| {
+        if cut_short {
+            TOO_SENSITIVE.to_owned()
+        } else {
+            format!("no base response at the beginning of the search: {why}")
+        }
     })?;
     let changes = found.thresholds.iter().map(|threshold| (threshold.value, threshold.becomes));
     least_stable(changes, (found.ending, cut_short), range.1 / averaged)

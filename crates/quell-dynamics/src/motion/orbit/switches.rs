@@ -185,7 +185,7 @@ pub type TriedValue<'a> = (f64, &'a RunOutcome);
 impl RunSwitches {
     /// From the outcomes at ascending values; `change` finds the changes between the pairs of neighbouring values that differ.
     pub fn of(
-        outcomes: Vec<(f64, RunOutcome)>,
+        outcomes: &[(f64, RunOutcome)],
         change: impl FnOnce(&[[TriedValue<'_>; 2]]) -> Vec<RunSwitch>,
     ) -> Self {
         let unknown = outcomes.iter().filter_map(|(value, outcome)| match outcome {

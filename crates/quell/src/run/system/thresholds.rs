@@ -2,8 +2,8 @@
 //! gains or loses stability, and those at which runs from given starts change.
 
 use quell_dynamics::motion::orbit::{
-    BASE_STEPS, MotionThresholds as Local, NoMotionOrbit, RunSwitches, VariedRun, base_motion,
-    motion_thresholds, values_tried,
+    BASE_STEPS, MotionThresholds as Local, NoMotionOrbit, RunOutcome, RunSwitches, VariedRun,
+    base_motion, motion_thresholds, values_tried,
 };
 use quell_dynamics::orbit::threshold::BranchEnding;
 use quell_dynamics::response::BAND_END;
@@ -150,8 +150,9 @@ pub fn run(
 /// The changes of a run over a window, with the runs at its values side by side.
 fn side_by_side(run: &VariedRun<'_>, window: (f64, f64)) -> RunSwitches {
     let values: Vec<f64> = values_tried(window, STEPS_TRIED).collect();
-    let outcomes = values.into_par_iter().map(|value| (value, run.outcome(value))).collect();
-    RunSwitches::of(outcomes, |pairs| pairs.par_iter().map(|[a, b]| run.change(*a, *b)).collect())
+    let outcomes: Vec<(f64, RunOutcome)> =
+        values.into_par_iter().map(|value| (value, run.outcome(value))).collect();
+    RunSwitches::of(&outcomes, |pairs| pairs.par_iter().map(|[a, b]| run.change(*a, *b)).collect())
 }
 
 /// The reason of a failure.
