@@ -294,8 +294,9 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         } else {
             let width = (far.parameter() - near.parameter()).abs() + 1e-12;
             let error = width * (self.follow.to - self.follow.from).abs();
-            let kind = BifurcationKind::Border;
-            out.push(self.special_point(kind, &near, error, &before, Some(&far)));
+            // As the beginning of the piece beyond, whose direction rounding hides so near the border.
+            let (kind, after) = (BifurcationKind::Border, on_from(&far, next));
+            out.push(self.special_point(kind, &near, error, &before, Some(&after)));
             // What changes between the border and the end of the step is on the piece beyond.
             self.thresholds(&far, next, out);
         }
