@@ -3,7 +3,7 @@
 use quell_design::actuator::{Actuator, ActuatorLimit, PiezoStack};
 use quell_design::least_dither::{
     BeltPlant, DesignObjective, DesignProblem, DesignStart, Designed, LimitedQuantity, NoDesign,
-    OperatingPoint, Plant, design,
+    OperatingPoint, Plant, covered, design,
 };
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 
@@ -159,7 +159,7 @@ fn a_bounded_amplitude_covers_a_part_of_the_box() {
     let Designed { answer, .. } = design(whole);
     let infeasible = answer.expect_err("the amplitude is bounded");
     assert!(matches!(infeasible.why, NoDesign::NeverQuiet { .. }), "{infeasible:?}");
-    let covered = infeasible.covered.expect("a part");
+    let covered = covered(whole).expect("a part");
     assert_eq!((covered.ends.0, covered.amplitude), (0.02, 1.0));
     assert!((covered.ends.1 / 0.10081636800765753 - 1.0).abs() < 1e-6, "{covered:?}");
 }

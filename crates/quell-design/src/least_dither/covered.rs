@@ -24,8 +24,11 @@ pub struct CoveredBox {
     pub others: Vec<f64>,
 }
 
-/// The largest part of a box of one coordinate.
-pub(super) fn covered(problem: DesignProblem<'_>) -> Result<CoveredBox, String> {
+/// The largest part of a box of one coordinate for which one dither suffices.
+///
+/// # Errors
+/// A box of another number of coordinates, or no dither that is quiet in a part of it.
+pub fn covered(problem: DesignProblem<'_>) -> Result<CoveredBox, String> {
     let [(low, high)] = problem.over else {
         return Err(match problem.over.len() {
             0 => "the study has one operating point",

@@ -1,6 +1,5 @@
 //! The least dither by exact thresholds, near that of averaging, and its verification.
 
-use super::covered::{CoveredBox, covered};
 use super::exact_box::{ExactBox, WINDOW};
 use super::no_design::NoDesign;
 use super::search::{AveragedSearch, DesignBasin, DesignPoint, Judged};
@@ -46,15 +45,13 @@ impl FeasibleDesign {
     }
 }
 
-/// Why there is no dither, and how far one reaches.
+/// Why there is no dither.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InfeasibleDesign {
     /// The dither that comes nearest, if one is quiet everywhere without the limits.
     pub nearest: Option<DesignPoint>,
     /// Why no dither is allowed.
     pub why: NoDesign,
-    /// The largest part of the box for which one dither suffices.
-    pub covered: Result<CoveredBox, String>,
 }
 
 /// The answer about one waveform.
@@ -93,7 +90,7 @@ pub fn design(problem: DesignProblem<'_>) -> Designed {
             Some((nearest, why)) => (Some(nearest), why),
             None => nearest(&searched),
         };
-        InfeasibleDesign { nearest, why, covered: covered(problem) }
+        InfeasibleDesign { nearest, why }
     });
     let mut tried = searched.tried;
     tried.sort_by(|a, b| {

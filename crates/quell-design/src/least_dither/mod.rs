@@ -28,7 +28,7 @@ mod worst_point;
 pub use belt::{BeltPlant, amplitude_branch_of_belt, averaged_quiet_of_belt};
 pub use branch::{AmplitudeBranch, QuietChange};
 pub use confident::{LeastOfSample, LeastQuantile, SampledLeast, SampledQuiet};
-pub use covered::CoveredBox;
+pub use covered::{CoveredBox, covered};
 pub use disc::{DiscAtPoint, DiscPlant};
 pub use exact::{Designed, FeasibleDesign, InfeasibleDesign, design};
 pub use no_design::NoDesign;

@@ -20,6 +20,7 @@ pub(super) fn define(definitions: &mut Map<String, Json>) {
         (SystemTable::Envelope, &[]),
         (SystemTable::Design, &["minimise", "vary", "from", "to"]),
         (SystemTable::DesignLimits, &[]),
+        (SystemTable::DitherPlace, &[]),
         (SystemTable::Actuator, &["kind"]),
     ] {
         definitions.insert(name(which).to_owned(), table(which, required));
@@ -50,6 +51,7 @@ fn name(which: SystemTable) -> &'static str {
         SystemTable::Envelope => "system_envelope",
         SystemTable::Design => "system_design",
         SystemTable::DesignLimits => "system_limits",
+        SystemTable::DitherPlace => "dither_place",
         SystemTable::Actuator => "system_actuator",
         SystemTable::Named => "parameters",
     }
@@ -81,6 +83,7 @@ fn table(which: SystemTable, required: &[&str]) -> Json {
         SystemTable::Envelope => "share of the amplitude over time",
         SystemTable::Design => Section::Design.about(),
         SystemTable::DesignLimits => Section::DesignLimits.about(),
+        SystemTable::DitherPlace => "where a dither acts: at, or contact and direction",
         SystemTable::Actuator => Section::Actuator.about(),
         _ => "a friction contact",
     };
@@ -134,6 +137,9 @@ fn property(key: &SystemKey) -> Json {
         SystemRole::Text => json!({ "type": "string" }),
         SystemRole::Flag => json!({ "type": "boolean" }),
         SystemRole::Table(inner) => reference(inner),
+        SystemRole::List(inner) => {
+            json!({ "type": "array", "items": reference(inner), "minItems": 1 })
+        }
         SystemRole::Tables(inner) => {
             let one = reference(inner);
             json!({ "anyOf": [one, { "type": "array", "items": one }] })

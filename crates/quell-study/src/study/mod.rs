@@ -44,7 +44,7 @@ mod waveform;
 
 pub use belt::{BeltSetup, BeltStudy, Measured};
 pub use change::Change;
-pub use design::{Confidence, Design, DesignRange};
+pub use design::{BurstNumber, Confidence, Design, DesignRange, DitherPlace};
 pub use disc::{DiscSetup, DiscStudy};
 pub use dither_size::GivenSize;
 pub use kind::{Kind, Study};

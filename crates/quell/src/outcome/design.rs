@@ -10,8 +10,7 @@ use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::design::LeastDitherFound;
-use crate::run::waveforms::label;
+use crate::run::design::{DesignedDither, LeastDitherFound};
 use crate::study::{BeltSetup, BeltStudy, DiscSetup, DiscStudy, SystemSetup, SystemStudy};
 
 impl Presented<BeltSetup> for LeastDitherFound {
@@ -91,28 +90,29 @@ impl Presented<DiscSetup> for LeastDitherFound {
 fn table(found: &LeastDitherFound) -> String {
     let mut text = String::new();
     let numbers: Vec<_> = [&found.amplitude].into_iter().chain(&found.others).collect();
-    let _ = write!(text, "  {:<12}  {:<10}", "waveform", "method");
+    let labels: Vec<String> = found.tried.iter().map(DesignedDither::label).collect();
+    let width = labels.iter().map(|label| label.chars().count()).max().unwrap_or(0).max(12);
+    let _ = write!(text, "  {:<width$}  {:<10}", "waveform", "method");
     for number in &numbers {
         let _ = write!(text, "  {:>24}", number.path);
     }
     text.push('\n');
     let mut line = |waveform: &str, method: &str, values: &[f64]| {
-        let _ = write!(text, "  {waveform:<12}  {method:<10}");
+        let _ = write!(text, "  {waveform:<width$}  {method:<10}");
         for (number, value) in numbers.iter().zip(values) {
             let _ = write!(text, "  {:>24}", figure(value * number.per_unit));
         }
         text.push('\n');
     };
-    for (waveform, designed) in &found.waveforms {
-        let name = label(waveform);
-        match &designed.answer {
+    for (tried, name) in found.tried.iter().zip(&labels) {
+        match &tried.designed.answer {
             Ok(found) => {
                 let row = |amplitude: f64, others: &[f64]| [&[amplitude], others].concat();
                 let (critical, averaged) = (&found.critical, &found.averaged);
-                line(&name, "exact", &row(critical.amplitude, &critical.others));
-                line(&name, "averaging", &row(averaged.amplitude, &averaged.others));
+                line(name, "exact", &row(critical.amplitude, &critical.others));
+                line(name, "averaging", &row(averaged.amplitude, &averaged.others));
             }
-            Err(_) => line(&name, "none", &[]),
+            Err(_) => line(name, "none", &[]),
         }
     }
     text

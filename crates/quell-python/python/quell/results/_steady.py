@@ -227,6 +227,8 @@ class Design(_columns.DesignColumns, Result):
     """Whether one dither is quiet in the whole box and keeps every limit; ``None`` where the search failed on the way."""
     waveform: str
     """Its waveform."""
+    place: str | None
+    """Where it acts; ``None`` without ``places`` in ``[design]``."""
     minimise: str
     """What is to be small."""
     critical: dict[str, float] | None
@@ -265,7 +267,8 @@ class Design(_columns.DesignColumns, Result):
     basins: list[dict[str, Any]]
     """The local minima that were found by averaging: ``parameters`` and ``objective``."""
     waveforms: list[dict[str, Any]]
-    """The answer of each waveform: ``waveform``, ``feasible``, ``objective``."""
+    """The answer of each dither that was tried: ``waveform``, of a burst ``on`` and ``off``, ``place``, ``feasible``, ``critical``,
+    ``objective``."""
     covered: dict[str, list[float]] | None
     """Where no dither is allowed: the largest part of the box that one dither serves."""
     response_rms: float | None

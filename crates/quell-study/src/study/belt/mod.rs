@@ -113,8 +113,11 @@ impl StudyKind for BeltSetup {
         let solver = solver::read(reader, document);
         let band = band::read(reader, document);
         let first = dithers.as_deref().and_then(<[Dither]>::first);
-        let context =
-            DesignContext { waveform: first.map(|dither| &dither.waveform), system: None };
+        let context = DesignContext {
+            waveform: first.map(|dither| &dither.waveform),
+            system: None,
+            places: &[],
+        };
         let design = design::read(reader, document, context);
         let known = given.known.and_then(|setup| setup.actuator.as_ref());
         let context = ActuatorContext { folder: given.folder, known, system: None };

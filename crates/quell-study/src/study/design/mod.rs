@@ -1,5 +1,7 @@
 //! `[design]`: the least dither over a box of operating points.
 
+mod tried;
+
 use quell_design::least_dither::{DesignObjective, DesignStart, LimitedQuantity};
 use quell_model::Waveform;
 use quell_model::parameter::Bounds;
@@ -11,6 +13,9 @@ use super::reader::{Found, Reader};
 use super::system::{CourseNumbers, resolve_in};
 use super::vocabulary::{self, Choice, Section, join};
 use crate::complaint::{Complaint, Fault};
+use tried::ChosenPeriods;
+
+pub use tried::{BurstNumber, DitherPlace};
 
 /// A number of the study with a range, in the unit of its key.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,8 +35,12 @@ pub struct Design {
     pub minimise: DesignObjective,
     /// The numbers to choose.
     pub vary: Vec<DesignRange>,
-    /// The waveforms that are tried in turn.
+    /// The waveforms that are tried in turn, bursts of every chosen number of periods among them.
     pub waveforms: Vec<Waveform>,
+    /// The numbers of bursts that are chosen, with their paths.
+    pub periods: Vec<(String, BurstNumber)>,
+    /// The places of the dither that are tried in turn; empty for the study's own.
+    pub places: Vec<DitherPlace>,
     /// The runs that must end quiet.
     pub start: DesignStart,
     /// The box of operating points; empty for the study's own.
@@ -60,6 +69,9 @@ const DEFAULT_SAMPLES: (f64, f64) = (400.0, 100_000.0);
 /// Seed by default, as that of `quell probability`.
 const DEFAULT_SEED: f64 = 1.0;
 
+/// The key of the places that are tried.
+pub(super) const PLACES: &str = "places";
+
 /// The study whose dither is designed.
 #[derive(Clone, Copy)]
 pub(super) struct DesignContext<'a> {
@@ -67,6 +79,8 @@ pub(super) struct DesignContext<'a> {
     pub(super) waveform: Option<&'a Waveform>,
     /// Of a system its document and its numbers.
     pub(super) system: Option<(&'a Table, CourseNumbers<'a>)>,
+    /// The places of the dither that are tried.
+    pub(super) places: &'a [DitherPlace],
 }
 
 impl DesignContext<'_> {
@@ -99,7 +113,12 @@ pub(super) fn read(
     let Some(node) = root.get("design") else { return Some(None) };
     let table = reader.table("design", node)?;
     let before = reader.complaints_so_far();
-    reader.unknown_keys(table, Section::Design, "design", &["limits"]);
+    reader.unknown_keys(table, Section::Design, "design", &["limits", PLACES]);
+    if let Some(node) = table.get(PLACES).filter(|_| context.system.is_none()) {
+        let allowed = "omitted: only in a system is there a choice of places; dither.direction says where the dither of a belt acts";
+        let (key, null) = (join("design", PLACES), Json::Null);
+        reader.complain(Complaint::new(Fault::Conflict, key, node.origin, null, allowed));
+    }
     let minimise =
         reader.needed_choice(table, "design", node.origin, "minimise", Choice::Objective);
     let start = match table.get("start") {
@@ -108,7 +127,16 @@ pub(super) fn read(
     };
     let vary = varied(reader, table, node, context);
     let over = operating_points(reader, table, context);
-    let waveforms = waveforms(reader, table, context.waveform);
+    let own = context.waveform;
+    let waveforms = tried::waveforms(reader, table, own);
+    let (vary, periods) = vary.unzip();
+    let waveforms = match (waveforms, &periods) {
+        (Some(waveforms), Some(periods)) => {
+            let around = (context.places.len(), node.origin);
+            tried::with_periods(reader, waveforms, periods, around)
+        }
+        _ => None,
+    };
     let limits = limits(reader, table, context);
     let confidence = confidence(reader, table);
     if let (Some(vary), Some(over)) = (&vary, &over)
@@ -127,6 +155,8 @@ pub(super) fn read(
         minimise,
         vary: vary?,
         waveforms: waveforms?,
+        periods: periods?.into_iter().map(|known| (known.path, known.number)).collect(),
+        places: context.places.to_vec(),
         start,
         over: over?,
         limits: limits?,
@@ -135,13 +165,13 @@ pub(super) fn read(
     (reader.complaints_so_far() == before).then_some(Some(design))
 }
 
-/// `vary`, `from` and `to`: lists of one length.
+/// `vary`, `from` and `to`, lists of one length: numbers, and numbers of periods of bursts.
 fn varied(
     reader: &mut Reader,
     table: &Table,
     header: &Node,
     context: DesignContext<'_>,
-) -> Option<Vec<DesignRange>> {
+) -> Option<(Vec<DesignRange>, Vec<ChosenPeriods>)> {
     let mut list = |name: &str, what: &str| -> Option<Vec<Node>> {
         let key = join("design", name);
         let Some(node) = table.get(name) else {
@@ -177,14 +207,30 @@ fn varied(
         return None;
     }
     let mut ranges: Vec<Option<DesignRange>> = Vec::new();
+    let mut periods: Vec<Option<ChosenPeriods>> = Vec::new();
     for (place, ((path, from), to)) in paths.iter().zip(&from).zip(&to).enumerate() {
         let key = format!("design.vary[{place}]");
-        let path =
-            reader.text(&key, path).and_then(|text| named(reader, &key, path, &text, context));
         let keys = [format!("design.from[{place}]"), format!("design.to[{place}]")];
-        ranges.push(range(reader, path, [&keys[0], &keys[1]], [from, to]));
+        let (keys, ends) = ([keys[0].as_str(), keys[1].as_str()], [from, to]);
+        let Some(text) = reader.text(&key, path) else {
+            ranges.push(None);
+            continue;
+        };
+        if let Some((_, number)) = tried::of_burst(&text) {
+            periods.push(tried::periods(reader, (&text, path), number, keys, ends));
+            continue;
+        }
+        let named = named(reader, &key, path, &text, context);
+        ranges.push(range(reader, named, keys, ends));
     }
-    ranges.into_iter().collect()
+    let ranges: Vec<DesignRange> = ranges.into_iter().collect::<Option<_>>()?;
+    let periods: Vec<ChosenPeriods> = periods.into_iter().collect::<Option<_>>()?;
+    let is_amplitude = |range: &&DesignRange| {
+        range.path.rsplit_once('.').is_some_and(|(_, key)| key.starts_with("amplitude"))
+    };
+    let amplitude = ranges.iter().find(is_amplitude).map(|range| range.path.as_str());
+    tried::check_periods(reader, &periods, amplitude)?;
+    Some((ranges, periods))
 }
 
 /// `over`: ranges by path.
@@ -275,44 +321,6 @@ fn range(
         return None;
     }
     Some(DesignRange { path: named?.0, from, to })
-}
-
-/// The waveforms that are tried in turn: named ones, and that of the dither.
-fn waveforms(reader: &mut Reader, table: &Table, own: Option<&Waveform>) -> Option<Vec<Waveform>> {
-    let Some(node) = table.get("waveforms") else {
-        return Some(own.into_iter().cloned().collect());
-    };
-    let Value::List(list) = &node.value else {
-        reader.wrong(
-            "design.waveforms",
-            node,
-            format!("an array of waveforms; got {}", node.kind()),
-        );
-        return None;
-    };
-    let mut found: Vec<Option<Waveform>> = Vec::new();
-    for (place, node) in list.iter().enumerate() {
-        let key = format!("design.waveforms[{place}]");
-        let Some(name) = reader.choice(&key, node, Choice::Waveform) else {
-            found.push(None);
-            continue;
-        };
-        let plain = Waveform::NAMED.iter().find(|known| known.name() == name);
-        let known = plain.or_else(|| own.filter(|own| own.name() == name));
-        if known.is_none() {
-            reader.wrong(
-                &key,
-                node,
-                "\"sine\", \"triangle\", \"square\", or the waveform of the study's dither",
-            );
-        }
-        found.push(known.cloned());
-    }
-    if found.is_empty() {
-        reader.wrong("design.waveforms", node, "an array of at least one waveform");
-        return None;
-    }
-    found.into_iter().collect()
 }
 
 /// `confidence`, with `samples` and `seed`, which belong to it: `Some(None)` without it, `None` if it is invalid.

@@ -106,7 +106,8 @@ impl StudyKind for DiscSetup {
         let read = read.flatten();
         let law = law::read(reader, document, read.as_ref());
         let waveform = dither.as_ref().map(|(_, shape)| &shape.waveform);
-        let design = design::read(reader, document, DesignContext { waveform, system: None });
+        let design =
+            design::read(reader, document, DesignContext { waveform, system: None, places: &[] });
         let (body, (dither, shape), law, design) = (read?, dither?, law?, design?);
         let shaken = body.loads.iter().find_map(|load| load.slip_ratio);
         if let Some(ratio) = shaken.filter(|_| !matches!(dither, DiscDither::Tangential { .. })) {

@@ -11,12 +11,13 @@ use quell_model::units::measure;
 use quell_model::{Contact, Waveform};
 
 use super::contact::listed;
-use super::keys::SystemTable;
+use super::keys::{SystemTable, system_keys};
 use super::numbers::{CourseNumbers, Numbers, WantedNumber, missing, unknown_keys};
 use super::rows::RowBasis;
 use super::units::SystemUnits;
 use crate::complaint::{Complaint, Fault};
 use crate::study::course::{Course, CoursePlace, CourseUnits};
+use crate::study::design::{DitherPlace, PLACES};
 use crate::study::dither_size::{self, SizedAmplitude};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
@@ -65,6 +66,94 @@ pub(super) fn read(
         stays_pressed(reader, &tables, &inputs, contacts);
     }
     whole.zip(sizes.into_iter().collect())
+}
+
+/// The places of `[design]`, of which each says where the dither acts as its own table would; `None` if one is wrong.
+pub(super) fn places(
+    reader: &mut Reader,
+    document: &Table,
+    context: DitherContext<'_>,
+) -> Option<Vec<DitherPlace>> {
+    let Some(design) = document.get("design").and_then(Node::table) else {
+        return Some(Vec::new());
+    };
+    let is_list = |node: &&Node| matches!(&node.value, Value::List(list) if !list.is_empty());
+    if let Some(node) = design.get(PLACES).filter(|node| !is_list(node)) {
+        let allowed = format!(
+            "an array of at least one place, such as [{{ at = {{ x = 1.0 }} }}]; got {}",
+            node.kind()
+        );
+        reader.wrong("design.places", node, allowed);
+        return None;
+    }
+    let before = reader.complaints_so_far();
+    let listed = listed(reader, design, "design", PLACES);
+    let places = listed.into_iter().map(|(prefix, node, table)| {
+        unknown_keys(reader, table, &prefix, SystemTable::DitherPlace);
+        target(reader, &prefix, node, table, context)?;
+        Some(DitherPlace { name: place_in_words(table), keys: table.clone() })
+    });
+    let places: Option<Vec<DitherPlace>> = places.collect();
+    places.filter(|_| reader.complaints_so_far() == before)
+}
+
+/// Where a dither acts, in words: the entries of its row, or its contact.
+fn place_in_words(table: &Table) -> String {
+    let Some(at) = table.get("at") else {
+        let words = |key: &str| match table.get(key).map(|node| &node.value) {
+            Some(Value::Text(word)) => word.clone(),
+            _ => String::new(),
+        };
+        return format!("{} ({})", words("contact"), words("direction"));
+    };
+    let mut entries = Vec::new();
+    entries_in_words(at, "", &mut entries);
+    let alone = entries.len() == 1;
+    let words = entries.into_iter().map(|(name, factor)| {
+        if name.is_empty() {
+            factor
+        } else if factor == "1" || (alone && !factor.starts_with('-')) {
+            name
+        } else {
+            format!("{factor} {name}")
+        }
+    });
+    words.collect::<Vec<_>>().join(" + ")
+}
+
+/// The entries of a row with their factors.
+fn entries_in_words(node: &Node, name: &str, entries: &mut Vec<(String, String)>) {
+    match &node.value {
+        Value::Table(table) => {
+            for (inner, node) in table.iter() {
+                let dot = if name.is_empty() { "" } else { "." };
+                entries_in_words(node, &format!("{name}{dot}{inner}"), entries);
+            }
+        }
+        Value::Number(factor) => entries.push((name.to_owned(), factor.to_string())),
+        Value::Text(formula) => entries.push((name.to_owned(), format!("({formula})"))),
+        _ => entries.push((name.to_owned(), node.given().to_string())),
+    }
+}
+
+/// The table of a dither, counted from 0.
+pub(super) fn table_mut(document: &mut Table, dither: usize) -> Option<&mut Table> {
+    let node = document.get_mut("dither")?;
+    match &mut node.value {
+        Value::List(list) => list.get_mut(dither).and_then(Node::table_mut),
+        Value::Table(table) if dither == 0 => Some(table),
+        _ => None,
+    }
+}
+
+/// Lets a dither act at a place.
+pub(super) fn put_at(table: &mut Table, place: &DitherPlace) {
+    for key in system_keys(SystemTable::DitherPlace) {
+        table.remove(key.name);
+    }
+    for (name, node) in place.keys.iter() {
+        table.set(name, node.clone());
+    }
 }
 
 fn one(

@@ -13,6 +13,7 @@ use quell_model::parameter::system::{
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE, Parameter};
 use quell_model::units::Quantity;
 
+use crate::study::design::PLACES;
 use crate::study::dither_size::parameter_of;
 use crate::study::document::Table;
 use crate::study::vocabulary::{
@@ -71,6 +72,8 @@ pub enum SystemTable {
     Design,
     /// `[design.limits]`.
     DesignLimits,
+    /// `[[design.places]]`.
+    DitherPlace,
     /// `[actuator]`.
     Actuator,
     /// `[parameters]` or the constants of a formula: names that the study chooses.
@@ -110,6 +113,8 @@ pub enum SystemRole {
     Table(SystemTable),
     /// A table or a list of tables.
     Tables(SystemTable),
+    /// A list of tables that is set as a whole.
+    List(SystemTable),
 }
 
 /// A key of a study of a system.
@@ -204,6 +209,7 @@ pub fn system_keys(table: SystemTable) -> &'static [SystemKey] {
         SystemTable::Envelope => &ENVELOPE_KEYS,
         SystemTable::Design => &DESIGN_KEYS,
         SystemTable::DesignLimits => &LIMIT_KEYS,
+        SystemTable::DitherPlace => &DITHER[..PLACE_KEYS],
         SystemTable::Actuator => &ACTUATOR_KEYS,
         SystemTable::Friction | SystemTable::Named => &[],
     }
@@ -238,7 +244,12 @@ fn design() -> Vec<SystemKey> {
         key(known.name, role, known.about)
     });
     let limits = SystemRole::Table(SystemTable::DesignLimits);
-    keys.chain([key("limits", limits, Section::DesignLimits.about())]).collect()
+    let places = key(
+        PLACES,
+        SystemRole::List(SystemTable::DitherPlace),
+        "places that are tried in turn, each by the keys of a dither that say where it acts [default: its own]",
+    );
+    keys.chain([key("limits", limits, Section::DesignLimits.about()), places]).collect()
 }
 
 static DESIGN_KEYS: LazyLock<Vec<SystemKey>> = LazyLock::new(design);
@@ -381,6 +392,9 @@ const fn size(place: usize) -> SystemKey {
     let size = DITHER_SIZES[place];
     key(size.key, SystemRole::Size(size), size.about)
 }
+
+/// The first keys of a dither, which say where it acts.
+const PLACE_KEYS: usize = 4;
 
 const DITHER: &[SystemKey] = &[
     key("at", SystemRole::Row(None), "row of the force over the coordinates"),

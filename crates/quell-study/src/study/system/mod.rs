@@ -47,7 +47,7 @@ use quell_model::parameter::DITHER_AMPLITUDE;
 use super::StudyOf;
 use super::actuator::GivenActuator;
 use super::belt::BeltStudy;
-use super::design::Design;
+use super::design::{Design, DitherPlace, PLACES};
 use super::dither_size::GivenSize;
 use super::document::{Node, Table, Value};
 use super::reader::{CourseFile, Reader};
@@ -227,6 +227,23 @@ impl SystemStudy {
             return belt.number(path).map(|_| unit().unwrap_or("1"));
         }
         path::measured_in(&self.source.document, path)
+    }
+
+    /// The study with a dither, counted from 0, at one of the places of its design, which is its only one.
+    ///
+    /// # Errors
+    /// All complaints about the changed study.
+    pub fn at_place(&self, dither: usize, place: &DitherPlace) -> Result<Self, Complaints> {
+        let mut document = self.source.document.clone();
+        if let Some(design) = document.get_mut("design").and_then(Node::table_mut) {
+            design.remove(PLACES);
+        }
+        if let Some(table) = dither::table_mut(&mut document, dither) {
+            dither::put_at(table, place);
+        }
+        let mut changes = self.source.changes.clone();
+        changes.push(format!("dither at {}", place.name));
+        self.check_again(document, changes)
     }
 
     /// The system with these numbers set in order as by `--set`: that of [`StudyOf::at`], without text or files being read.

@@ -81,9 +81,11 @@ pub(super) fn study(
     let mut files = WaveFiles::new(given.folder, known);
     let dithers = dither::read(reader, document, context, &mut files);
     let (inputs, sizes) = dithers.unzip();
+    let places = dither::places(reader, document, context);
     let context = DesignContext {
         waveform: inputs.as_deref().and_then(|inputs| designed_wave(document, inputs)),
         system: Some((document, CourseNumbers(&numbers))),
+        places: places.as_deref().unwrap_or(&[]),
     };
     let design = design::read(reader, document, context);
     let known = given.known.and_then(|setup| setup.actuator.as_ref());
@@ -116,7 +118,7 @@ pub(super) fn study(
         waves: files.into_found().into(),
         response,
         courses: reader.take_files(),
-        design: design?,
+        design: design.filter(|_| places.is_some())?,
         actuator: actuator?,
         sizes: sizes.into(),
         time: None,

@@ -11,7 +11,7 @@ use quell_model::parameter::design::LIMITS;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::found::LeastDitherFound;
+use super::found::{DesignedDither, LeastDitherFound};
 use super::study_with_design::StudyWithDesign;
 use crate::contact_state::averages_are_a_start;
 use crate::fields::Fields;
@@ -45,32 +45,47 @@ pub(super) fn quantity_of_limit(study: &dyn StudyWithDesign, limited: LimitedQua
 }
 
 impl LeastDitherFound {
-    /// The waveform of the answer.
-    pub fn waveform(&self) -> &Waveform {
-        &self.waveforms[self.best].0
+    /// The dither of the answer.
+    pub fn dither(&self) -> &DesignedDither {
+        &self.tried[self.best]
     }
 
-    /// The answer of that waveform.
+    /// Its waveform.
+    pub fn waveform(&self) -> &Waveform {
+        &self.dither().waveform
+    }
+
+    /// The answer of that dither.
     pub fn answer(&self) -> &Designed {
-        &self.waveforms[self.best].1
+        &self.dither().designed
     }
 
     /// The other design variables of the answer, or of the dither that reaches furthest.
     pub fn chosen(&self) -> Option<Vec<f64>> {
         match &self.answer().answer {
             Ok(found) => Some(found.critical.others.clone()),
-            Err(none) => none.covered.as_ref().ok().map(|part| part.others.clone()),
+            Err(_) => self.covered.as_ref().ok().map(|part| part.others.clone()),
         }
     }
 
-    /// A dither by the paths of the study.
+    /// A dither of the waveform of the answer by the paths of the study.
     pub(super) fn by_path(&self, amplitude: f64, others: &[f64]) -> Json {
+        self.with_waveform_by_path(self.waveform(), amplitude, others)
+    }
+
+    /// A dither by the paths of the study.
+    fn with_waveform_by_path(&self, waveform: &Waveform, amplitude: f64, others: &[f64]) -> Json {
+        let burst = if let Waveform::Burst(burst) = waveform { Some(burst) } else { None };
+        let periods = self
+            .periods
+            .iter()
+            .filter_map(|(path, number)| Some((path.clone(), Json::from(number.of(burst?)))));
         let all = [&self.amplitude].into_iter().chain(&self.others);
         let values = [amplitude].into_iter().chain(others.iter().copied());
         let values = all
             .zip(values)
             .map(|(number, value)| (number.path.clone(), Json::from(value * number.per_unit)));
-        values.collect::<serde_json::Map<_, _>>().into()
+        values.chain(periods).collect::<serde_json::Map<_, _>>().into()
     }
 
     /// An operating point by the paths of the study.
@@ -102,6 +117,10 @@ impl LeastDitherFound {
     /// The answer in a few sentences.
     pub fn sentence(&self, study: &dyn StudyWithDesign) -> String {
         let waveform = label(self.waveform());
+        let place = match &self.dither().place {
+            Some(place) => format!(" at {place}"),
+            None => String::new(),
+        };
         let force = |value: f64| study.in_words(study.quantity_of_amplitude(), value);
         let chosen = |others: &[f64]| self.chosen_in_words(others);
         match &self.answer().answer {
@@ -133,7 +152,7 @@ impl LeastDitherFound {
                     )
                 });
                 format!(
-                    "The least dither that is quiet in the whole range is a {waveform} of amplitude {}{}{decides}{binds}. At {} it is \
+                    "The least dither that is quiet in the whole range is a {waveform}{place} of amplitude {}{}{decides}{binds}. At {} it is \
                      verified by exact responses at {} operating points: the largest multiplier is {}.{drive}{confident}{loss}{follows}{depends}",
                     force(critical.amplitude),
                     chosen(&critical.others),
@@ -143,11 +162,11 @@ impl LeastDitherFound {
                 )
             }
             Err(none) => {
-                let covered = none.covered.as_ref().map_or(String::new(), |part| {
+                let covered = self.covered.as_ref().map_or(String::new(), |part| {
                     let path = self.over.first().map_or("", |number| number.path.as_str());
                     let per_unit = self.over.first().map_or(1.0, |number| number.per_unit);
                     format!(
-                        " One {waveform} of amplitude {}{} suffices for {path} from {} to {}.",
+                        " One {waveform}{place} of amplitude {}{} suffices for {path} from {} to {}.",
                         force(part.amplitude),
                         chosen(&part.others),
                         digits(part.ends.0 * per_unit),
@@ -212,12 +231,12 @@ impl LeastDitherFound {
     /// Warnings: waveforms without an answer, and minima that were searched.
     pub fn warnings(&self, study: &dyn StudyWithDesign) -> Vec<String> {
         let mut warnings = Vec::new();
-        for (waveform, designed) in &self.waveforms {
-            if let (Err(none), true) = (&designed.answer, self.waveforms.len() > 1) {
+        for tried in &self.tried {
+            if let (Err(none), true) = (&tried.designed.answer, self.tried.len() > 1) {
                 let none_known = if none.why.is_known() { "no allowed dither" } else { "unknown" };
                 warnings.push(format!(
                     "{}: {none_known}: {}",
-                    label(waveform),
+                    tried.label(),
                     self.why(study, none)
                 ));
             }
@@ -244,7 +263,7 @@ impl LeastDitherFound {
         warnings.extend(self.without_state.first().map(|because| averages_are_a_start(because)));
         warnings.extend(self.warnings_about_drive(study));
         warnings.extend(self.warnings_about_samples());
-        warnings.extend(self.warnings_about_laws(study));
+        warnings.extend(self.validity.clone());
         warnings.extend(study.warnings_about_design());
         warnings
     }
@@ -257,6 +276,13 @@ impl LeastDitherFound {
         fields.plain("ok", true).plain("sentence", self.sentence(study));
         self.put_whether_feasible(&mut fields, study, self.answer());
         fields.plain("waveform", self.waveform().name()).plain("minimise", minimise.name());
+        if self.dither().place.is_none() {
+            fields.unknown(
+                "place",
+                "design.places is not given: the dither acts where the study says",
+            );
+        }
+        self.put_place(&mut fields, self.dither());
         match &self.answer().answer {
             Ok(found) => self.put_feasible(&mut fields, study, found, minimise),
             Err(none) => self.put_infeasible(&mut fields, study, none),
@@ -268,10 +294,21 @@ impl LeastDitherFound {
             inner
         });
         fields.list("basins", basins.collect::<Vec<_>>());
-        let rows = self.waveforms.iter().map(|(waveform, designed)| {
+        let rows = self.tried.iter().map(|tried| {
+            let (waveform, designed) = (&tried.waveform, &tried.designed);
             let mut inner = study.fields();
             inner.plain("waveform", waveform.name());
+            if let Waveform::Burst(burst) = waveform {
+                inner.plain("on", burst.on()).plain("off", burst.off());
+            }
+            self.put_place(&mut inner, tried);
             self.put_whether_feasible(&mut inner, study, designed);
+            if let Ok(DesignPoint { amplitude, others, .. }) =
+                designed.answer.as_ref().map(|found| &found.critical)
+            {
+                let critical = self.with_waveform_by_path(waveform, *amplitude, others);
+                inner.plain("critical", critical);
+            }
             let objective = match &designed.answer {
                 Ok(found) => found.critical.objective.clone(),
                 Err(none) => Err(self.why(study, none)),
@@ -282,6 +319,13 @@ impl LeastDitherFound {
         fields.list("waveforms", rows.collect::<Vec<_>>());
         fields.plain("warnings", self.warnings(study));
         fields.finish()
+    }
+
+    /// Adds `place` where several were tried.
+    fn put_place(&self, fields: &mut Fields, tried: &DesignedDither) {
+        if let Some(place) = &tried.place {
+            fields.plain("place", place.as_str());
+        }
     }
 
     /// Adds `feasible`: null where the search failed on the way.
@@ -393,7 +437,7 @@ impl LeastDitherFound {
         {
             fields.plain("worst", self.point_by_path(point));
         }
-        match &none.covered {
+        match &self.covered {
             Ok(part) => {
                 let number = self.over.first();
                 let (path, per_unit) =

@@ -5,7 +5,7 @@ use quell_design::least_dither::{
 };
 use quell_model::Waveform;
 
-use super::found::{DesignNumber, DesignNumbers, LeastDitherFound};
+use super::found::{DesignNumber, DesignNumbers, LeastDitherFound, TriedDither};
 use super::least::{asked, least_dither, least_dither_of_systems, without_amplitude};
 use super::waveform::with_waveform;
 use crate::complaint::{Complaint, Failure, Origin};
@@ -41,27 +41,29 @@ pub fn run(study: &BeltStudy) -> Result<LeastDitherFound, Failure> {
         let (over, others) = (over_paths.clone(), other_paths.clone());
         Ok(BeltPlant { belt, over, others, start: asked.start })
     };
-    let plants: Vec<(Waveform, BeltPlant)> = asked
-        .waveforms
-        .iter()
-        .map(|waveform| Ok((waveform.clone(), plant(waveform)?)))
-        .collect::<Result<_, Failure>>()?;
+    let tried = |waveform: &Waveform| -> Result<TriedDither<'_, BeltPlant>, Failure> {
+        let (waveform, plant) = (waveform.clone(), plant(waveform)?);
+        Ok(TriedDither { waveform, place: None, study, plant })
+    };
+    let tried: Vec<TriedDither<'_, BeltPlant>> =
+        asked.waveforms.iter().map(tried).collect::<Result<_, Failure>>()?;
     let only = |numbers: Vec<(String, DesignNumber)>| -> Vec<DesignNumber> {
         numbers.into_iter().map(|(_, number)| number).collect()
     };
     let numbers =
         DesignNumbers { amplitude: amplitude.clone(), others: only(others), over: only(over) };
     let samples = |waveform: usize, values: &[(&str, f64)], others: &[f64]| {
-        sampled(study, &plants[waveform].1, &numbers, values, others)
+        sampled(study, &tried[waveform].plant, &numbers, values, others)
     };
     if !belt.has_contact_state() {
-        return least_dither(study, asked, &numbers, &plants, Ok(&samples));
+        return least_dither(study, asked, &numbers, &tried, Ok(&samples));
     }
-    let systems: Vec<(Waveform, Box<SystemAtPoint<'_>>)> = plants
+    let systems: Vec<TriedDither<'_, Box<SystemAtPoint<'_>>>> = tried
         .iter()
-        .map(|(waveform, plant)| {
+        .map(|TriedDither { waveform, plant, .. }| {
             let at = move |point: OperatingPoint<'_>, value: f64| plant.system(point, value);
-            (waveform.clone(), Box::new(at) as Box<SystemAtPoint<'_>>)
+            let (waveform, plant) = (waveform.clone(), Box::new(at) as Box<SystemAtPoint<'_>>);
+            TriedDither { waveform, place: None, study, plant }
         })
         .collect();
     least_dither_of_systems(study, asked, &numbers, &systems, (0, &[1.0]), &samples)

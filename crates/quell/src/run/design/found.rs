@@ -1,10 +1,14 @@
 //! What a design finds, in numbers of the equations.
 
-use quell_design::least_dither::{DesignPoint, Designed, LimitedQuantity, ScheduledDither};
+use quell_design::least_dither::{
+    CoveredBox, DesignPoint, Designed, LimitedQuantity, ScheduledDither,
+};
 use quell_dynamics::orbit::threshold::ThresholdKind;
 use quell_model::Waveform;
 
-use crate::study::Confidence;
+use super::study_with_design::StudyWithDesign;
+use crate::run::waveforms::label;
+use crate::study::{BurstNumber, Confidence};
 
 /// Share of a limit up to which it is kept at the amplitude of samples: the choice of the other design variables ends within this.
 const KEPT: f64 = 1.002;
@@ -29,13 +33,19 @@ pub struct LeastDitherFound {
     pub others: Vec<DesignNumber>,
     /// The box of operating points.
     pub over: Vec<DesignNumber>,
-    /// The answer of each waveform, in the order of the study.
-    pub waveforms: Vec<(Waveform, Designed)>,
-    /// The waveform of the answer: the best feasible one, or the first.
+    /// The answer of each dither that was tried, in the order of the study: every waveform at the first place, then at the next.
+    pub tried: Vec<DesignedDither>,
+    /// The dither of the answer: the best feasible one, or the first.
     pub best: usize,
+    /// The numbers of bursts that are chosen, with their paths.
+    pub periods: Vec<(String, BurstNumber)>,
+    /// Where no dither is allowed: the largest part of the box for which the one that comes nearest suffices.
+    pub covered: Result<CoveredBox, String>,
     /// The exact least dither at single operating points of a box of one coordinate: a schedule in place of one dither; or why it has
     /// no points.
     pub schedule: Result<Vec<ScheduledDither>, String>,
+    /// Warnings where the dither of the answer takes the slip out of the range of a law, or is not fast.
+    pub validity: Vec<String>,
     /// Why the averages, which do not know the states of contacts, differ from those with them at the least dither.
     pub without_state: Vec<String>,
     /// For a disc whose box is a range of speeds, the exact thresholds in amplitude at speeds of the range, with the dither of the
@@ -45,6 +55,36 @@ pub struct LeastDitherFound {
     pub sensitivity: Result<DesignSensitivity, String>,
     /// The dither that is quiet in the share of random samples that is asked for, or why it is unknown.
     pub confident: Result<ConfidentDither, String>,
+}
+
+/// A dither that was tried.
+#[derive(Clone, Debug)]
+pub struct DesignedDither {
+    /// Its waveform.
+    pub waveform: Waveform,
+    /// Where it acts, if the design tries several places.
+    pub place: Option<String>,
+    /// The answer.
+    pub designed: Designed,
+}
+
+impl DesignedDither {
+    /// Its waveform and its place in words.
+    pub fn label(&self) -> String {
+        let waveform = label(&self.waveform);
+        match &self.place {
+            Some(place) => format!("{waveform} at {place}"),
+            None => waveform,
+        }
+    }
+}
+
+/// A dither that is tried: its waveform, its place, the study with it at that place, and how the structure answers.
+pub(crate) struct TriedDither<'a, P> {
+    pub(crate) waveform: Waveform,
+    pub(crate) place: Option<String>,
+    pub(crate) study: &'a dyn StudyWithDesign,
+    pub(crate) plant: P,
 }
 
 impl DesignNumber {

@@ -3,15 +3,14 @@
 use quell_design::actuator::Actuator;
 use quell_design::least_dither::{
     DesignProblem, DesignStart, Designed, LimitedQuantity, OperatingPoint, Plant, ScheduledDither,
-    SystemAtPoint, SystemPlant, design,
+    SystemAtPoint, SystemPlant, covered, design,
 };
 use quell_dynamics::simulation::within;
 use quell_linear::averaging::DitheredSystem;
-use quell_model::Waveform;
 use rayon::prelude::*;
 use serde_json::Value as Json;
 
-use super::found::{DesignNumber, DesignNumbers, LeastDitherFound};
+use super::found::{DesignNumber, DesignNumbers, DesignedDither, LeastDitherFound, TriedDither};
 use super::sampling::{SampleOf, sampling};
 use super::study_with_design::StudyWithDesign;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
@@ -47,8 +46,8 @@ pub(crate) fn without_amplitude(asked: &Design, allowed: String) -> Failure {
     Complaint::new(Fault::Value, "design.vary", Origin::Whole, given, allowed).into()
 }
 
-/// The least dither of the waveforms of a study, each with its system; `input` is that of the dither, `observe` the row over the
-/// coordinates whose response is reported.
+/// The least of the dithers of a study, each with its system; `input` is that of the dither, `observe` the row over the coordinates whose
+/// response is reported.
 ///
 /// # Errors
 /// A complaint about uncertain numbers that the design gives.
@@ -56,18 +55,19 @@ pub(crate) fn least_dither_of_systems(
     study: &dyn StudyWithDesign,
     asked: &Design,
     numbers: &DesignNumbers,
-    systems: &[(Waveform, Box<SystemAtPoint<'_>>)],
+    systems: &[TriedDither<'_, Box<SystemAtPoint<'_>>>],
     (input, observe): (usize, &[f64]),
     samples: &SampleOf<'_>,
 ) -> Result<LeastDitherFound, Failure> {
-    let plants: Vec<(Waveform, SystemPlant<'_>)> = systems
-        .iter()
-        .map(|(waveform, at)| {
-            (waveform.clone(), SystemPlant { at: at.as_ref(), input, observe, start: asked.start })
-        })
-        .collect();
-    let found = least_dither(study, asked, numbers, &plants, Ok(samples))?;
-    let without_state = without_state(&found, systems[found.best].1.as_ref());
+    let tried = systems.iter().map(|tried| TriedDither {
+        waveform: tried.waveform.clone(),
+        place: tried.place.clone(),
+        study: tried.study,
+        plant: SystemPlant { at: tried.plant.as_ref(), input, observe, start: asked.start },
+    });
+    let tried: Vec<TriedDither<'_, SystemPlant<'_>>> = tried.collect();
+    let found = least_dither(study, asked, numbers, &tried, Ok(samples))?;
+    let without_state = without_state(&found, systems[found.best].plant.as_ref());
     Ok(LeastDitherFound { without_state, ..found })
 }
 
@@ -83,8 +83,7 @@ fn without_state(found: &LeastDitherFound, at: &SystemAtPoint<'_>) -> Vec<String
     average.map(|average| averaged_without_states(&system, &average.contacts)).unwrap_or_default()
 }
 
-/// The least dither of the waveforms of a study, each with its structure; `samples` are those of its uncertain numbers, or why it has
-/// none.
+/// The least of the dithers of a study, each with its structure; `samples` are those of its uncertain numbers, or why it has none.
 ///
 /// # Errors
 /// A complaint about uncertain numbers that the design gives.
@@ -92,7 +91,7 @@ pub(crate) fn least_dither<P: Plant + Sync>(
     study: &dyn StudyWithDesign,
     asked: &Design,
     numbers: &DesignNumbers,
-    plants: &[(Waveform, P)],
+    tried: &[TriedDither<'_, P>],
     samples: Result<&SampleOf<'_>, &'static str>,
 ) -> Result<LeastDitherFound, Failure> {
     let sampling = sampling(study, asked, numbers)?;
@@ -115,35 +114,42 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         actuator,
         start: asked.start,
     };
-    let designed = plants.par_iter().map(|(waveform, plant)| {
-        (waveform.clone(), within(STEPS_OF_MANY_SEARCHES, || design(problem(plant))))
+    let designed = tried.par_iter().map(|tried| DesignedDither {
+        waveform: tried.waveform.clone(),
+        place: tried.place.clone(),
+        designed: within(STEPS_OF_MANY_SEARCHES, || design(problem(&tried.plant))),
     });
-    let waveforms: Vec<(Waveform, Designed)> = designed.collect();
+    let designed: Vec<DesignedDither> = designed.collect();
     let value = |designed: &Designed| match &designed.answer {
         Ok(found) => found.critical.objective.clone().unwrap_or(f64::INFINITY),
         Err(_) => f64::INFINITY,
     };
-    let best = (0..waveforms.len())
-        .min_by(|a, b| value(&waveforms[*a].1).total_cmp(&value(&waveforms[*b].1)))
+    let best = (0..designed.len())
+        .min_by(|a, b| value(&designed[*a].designed).total_cmp(&value(&designed[*b].designed)))
         .unwrap_or(0);
-    let schedule = match (plants.get(best), box_ranges.as_slice(), &waveforms[best].1.answer) {
+    let answer = &designed[best].designed.answer;
+    let schedule = match (tried.get(best), box_ranges.as_slice(), answer) {
         _ if asked.start != DesignStart::Local => {
             Err("runs from a start are judged only where they decide".to_owned())
         }
-        (Some((_, plant)), [range], Ok(found)) => {
-            Ok(schedule(problem(plant), *range, &found.critical.others))
+        (Some(tried), [range], Ok(found)) => {
+            Ok(schedule(problem(&tried.plant), *range, &found.critical.others))
         }
         (_, [_], _) => Err("no dither is allowed".to_owned()),
         _ => Err("the box of operating points has not exactly one coordinate".to_owned()),
     };
+    let covered = match (tried.get(best), answer) {
+        (Some(tried), Err(_)) => within(STEPS_OF_MANY_SEARCHES, || covered(problem(&tried.plant))),
+        _ => Err("one dither suffices for the whole range".to_owned()),
+    };
     let (without_state, tongues) = (Vec::new(), Vec::new());
     let sensitivity = Err("no dither is allowed".to_owned());
-    let confident = match (sampling, samples, plants.get(best), &waveforms[best].1.answer) {
+    let confident = match (sampling, samples, tried.get(best), answer) {
         (Err(why), ..) => Err(why),
         (Ok(_), Err(why), ..) => Err(why.to_owned()),
-        (Ok(sampling), Ok(samples), Some((_, plant)), Ok(found)) => {
+        (Ok(sampling), Ok(samples), Some(tried), Ok(found)) => {
             let sample = |values: &[(&str, f64)], others: &[f64]| samples(best, values, others);
-            sampling.confident(&problem(plant), &found.critical, &sample)
+            sampling.confident(&problem(&tried.plant), &found.critical, &sample)
         }
         _ => Err("no dither is allowed".to_owned()),
     };
@@ -151,16 +157,21 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         amplitude,
         others,
         over,
-        waveforms,
+        tried: designed,
         best,
+        periods: asked.periods.clone(),
+        covered,
         schedule,
+        validity: Vec::new(),
         without_state,
         tongues,
         sensitivity,
         confident,
     };
-    let sensitivity = found.sensitivity_of(study);
-    Ok(LeastDitherFound { sensitivity, ..found })
+    // The derivatives and the laws are those of the dither at its place.
+    let study = tried.get(best).map_or(study, |tried| tried.study);
+    let (sensitivity, validity) = (found.sensitivity_of(study), found.validity(study));
+    Ok(LeastDitherFound { sensitivity, validity, ..found })
 }
 
 /// The exact least dithers along a box of one coordinate.

@@ -24,10 +24,11 @@ mod waveform;
 
 pub(crate) use answer::quantity_of;
 pub use belt::run;
-pub(crate) use found::DesignNumbers;
 pub use found::{
-    AmplitudeRate, ConfidentDither, DesignNumber, DesignSensitivity, LeastDitherFound,
+    AmplitudeRate, ConfidentDither, DesignNumber, DesignSensitivity, DesignedDither,
+    LeastDitherFound,
 };
+pub(crate) use found::{DesignNumbers, TriedDither};
 pub(crate) use least::{asked, least_dither, least_dither_of_systems, without_amplitude};
 pub use study_with_design::{FrequencyScale, StudyWithDesign};
 pub(crate) use waveform::system_with_waveform;

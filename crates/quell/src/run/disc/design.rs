@@ -12,7 +12,8 @@ use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::run::design::{
-    DesignNumber, DesignNumbers, LeastDitherFound, asked, least_dither, without_amplitude,
+    DesignNumber, DesignNumbers, LeastDitherFound, TriedDither, asked, least_dither,
+    without_amplitude,
 };
 use crate::study::{Design, DesignRange, DiscStudy};
 
@@ -56,9 +57,12 @@ pub fn run(study: &DiscStudy) -> Result<LeastDitherFound, Failure> {
         })
         .collect();
     let speed = over.iter().position(|number| number.parameter == Some(DISC_SPEED.path));
-    let plants: Vec<(Waveform, DiscPlant<'_>)> = discs
+    let tried: Vec<TriedDither<'_, DiscPlant<'_>>> = discs
         .iter()
-        .map(|(waveform, at)| ((*waveform).clone(), DiscPlant { at: at.as_ref(), speed }))
+        .map(|(waveform, at)| {
+            let plant = DiscPlant { at: at.as_ref(), speed };
+            TriedDither { waveform: (*waveform).clone(), place: None, study, plant }
+        })
         .collect();
     let only = |numbers: &[DiscNumber]| numbers.iter().map(|known| known.number.clone()).collect();
     let numbers = DesignNumbers {
@@ -67,10 +71,10 @@ pub fn run(study: &DiscStudy) -> Result<LeastDitherFound, Failure> {
         over: only(&over),
     };
     let none = "design.confidence is for belts and systems";
-    let mut found = least_dither(study, asked, &numbers, &plants, Err(none))?;
+    let mut found = least_dither(study, asked, &numbers, &tried, Err(none))?;
     if let (Some(_), [range]) = (speed, found.over.as_slice()) {
         let chosen = found.chosen().unwrap_or_else(|| middles(&found.others));
-        let plant = &plants[found.best].1;
+        let plant = &tried[found.best].plant;
         found.tongues = tongues(plant, range.range, &chosen, found.amplitude.range);
     }
     Ok(found)

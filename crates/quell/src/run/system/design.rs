@@ -1,15 +1,17 @@
 //! `design` of a system: the least amplitude of one of its dithers that is quiet over a box of operating points, under limits.
 
+use std::borrow::Cow;
+
 use quell_design::least_dither::{OperatingPoint, Plant, SampledQuiet, SystemAtPoint, SystemPlant};
 use quell_model::{System, Waveform};
 
 use super::has_equations;
 use crate::complaint::{Complaint, Failure, Origin};
 use crate::run::design::{
-    DesignNumber, DesignNumbers, LeastDitherFound, asked, least_dither_of_systems,
+    DesignNumber, DesignNumbers, LeastDitherFound, TriedDither, asked, least_dither_of_systems,
     system_with_waveform, without_amplitude,
 };
-use crate::study::{DesignRange, SystemStudy};
+use crate::study::{Design, DesignRange, SystemStudy};
 
 /// The least dither of a system.
 ///
@@ -25,24 +27,38 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         return Err(without_amplitude(asked, allowed.to_owned()));
     };
     let input = study.dither_of(&amplitude.path).unwrap_or(0);
-    accepted(study, "vary", &asked.vary)?;
-    accepted(study, "over", &asked.over)?;
-    let at = |waveform: &Waveform, at: OperatingPoint<'_>, value: f64| -> Result<System, String> {
-        let over = asked.over.iter().map(|range| range.path.as_str()).zip(at.point.iter().copied());
-        let other = others.iter().map(|range| range.path.as_str()).zip(at.others.iter().copied());
+    let studies = at_places(study, asked, input)?;
+    let over_paths = asked.over.iter().map(|range| range.path.as_str());
+    let other_paths = others.iter().map(|range| range.path.as_str());
+    let paths: Vec<&str> = over_paths.chain(other_paths).collect();
+    let (paths, amplitude_path) = (&paths, amplitude.path.as_str());
+    let system_of = |study: &SystemStudy,
+                     waveform: &Waveform,
+                     fixed: &[(String, f64)],
+                     (at, value): (OperatingPoint<'_>, f64)|
+     -> Result<System, String> {
+        let fixed = fixed.iter().map(|(path, value)| (path.as_str(), *value));
+        let chosen = paths.iter().copied().zip(at.point.iter().chain(at.others).copied());
         let numbers: Vec<(&str, f64)> =
-            over.chain(other).chain([(amplitude.path.as_str(), value)]).collect();
+            fixed.chain(chosen).chain([(amplitude_path, value)]).collect();
         let system = study.system_at(&numbers).map_err(|why| why.to_string())?;
         Ok(system_with_waveform(system, input, waveform))
     };
-    let systems: Vec<(Waveform, Box<SystemAtPoint<'_>>)> = asked
-        .waveforms
-        .iter()
-        .map(|waveform| {
-            let system = move |point: OperatingPoint<'_>, value: f64| at(waveform, point, value);
-            (waveform.clone(), Box::new(system) as Box<SystemAtPoint<'_>>)
-        })
-        .collect();
+    let system_of = &system_of;
+    let mut systems: Vec<TriedDither<'_, Box<SystemAtPoint<'_>>>> = Vec::new();
+    for (place, study) in &studies {
+        for waveform in &asked.waveforms {
+            let system = move |point: OperatingPoint<'_>, value: f64| {
+                system_of(study, waveform, &[], (point, value))
+            };
+            systems.push(TriedDither {
+                waveform: waveform.clone(),
+                place: place.clone(),
+                study: study.as_ref(),
+                plant: Box::new(system) as Box<SystemAtPoint<'_>>,
+            });
+        }
+    }
     // The values of a path are those of the study: the equations are in its units.
     let number = |range: &DesignRange| DesignNumber {
         path: range.path.clone(),
@@ -54,19 +70,14 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         others: others.iter().map(|range| number(range)).collect(),
         over: asked.over.iter().map(number).collect(),
     };
-    let paths: Vec<&str> =
-        asked.over.iter().chain(others.iter().copied()).map(|range| range.path.as_str()).collect();
-    let samples = |waveform: usize, values: &[(&str, f64)], others: &[f64]| {
-        let waveform = asked.waveforms[waveform].clone();
+    let samples = |tried: usize, values: &[(&str, f64)], others: &[f64]| {
+        let study = studies[tried / asked.waveforms.len()].1.as_ref();
+        let waveform = asked.waveforms[tried % asked.waveforms.len()].clone();
         let fixed: Vec<(String, f64)> =
             values.iter().map(|(path, value)| ((*path).to_owned(), *value)).collect();
-        let (paths, own, path) = (paths.clone(), others.to_vec(), amplitude.path.as_str());
-        let system = move |at: OperatingPoint<'_>, value: f64| -> Result<System, String> {
-            let fixed = fixed.iter().map(|(path, value)| (path.as_str(), *value));
-            let chosen = paths.iter().copied().zip(at.point.iter().chain(at.others).copied());
-            let numbers: Vec<(&str, f64)> = fixed.chain(chosen).chain([(path, value)]).collect();
-            let system = study.system_at(&numbers).map_err(|why| why.to_string())?;
-            Ok(system_with_waveform(system, input, &waveform))
+        let own = others.to_vec();
+        let system = move |at: OperatingPoint<'_>, value: f64| {
+            system_of(study, &waveform, &fixed, (at, value))
         };
         // A sample that is no valid study must not be one whose dither is too small.
         let at = |others: &[f64]| {
@@ -88,8 +99,34 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
     least_dither_of_systems(study, asked, &numbers, &systems, (input, &observe), &samples)
 }
 
+/// The study with the dither at every place that is tried, or as it is.
+fn at_places<'s>(
+    study: &'s SystemStudy,
+    asked: &Design,
+    input: usize,
+) -> Result<Vec<(Option<String>, Cow<'s, SystemStudy>)>, Failure> {
+    let mut studies = Vec::new();
+    for place in &asked.places {
+        let at = study.at_place(input, place)?;
+        studies.push((Some(place.name.clone()), Cow::Owned(at)));
+    }
+    if studies.is_empty() {
+        studies.push((None, Cow::Borrowed(study)));
+    }
+    for (place, study) in &studies {
+        accepted(study, place.as_deref(), ("vary", &asked.vary))?;
+        accepted(study, place.as_deref(), ("over", &asked.over))?;
+    }
+    Ok(studies)
+}
+
 /// Rejects ranges whose ends give no valid study.
-fn accepted(study: &SystemStudy, key: &str, ranges: &[DesignRange]) -> Result<(), Failure> {
+fn accepted(
+    study: &SystemStudy,
+    place: Option<&str>,
+    (key, ranges): (&str, &[DesignRange]),
+) -> Result<(), Failure> {
+    let at = place.map_or(String::new(), |place| format!(" at {place}"));
     let mut wrong: Vec<Complaint> = Vec::new();
     for range in ranges {
         for value in [range.from, range.to] {
@@ -97,7 +134,7 @@ fn accepted(study: &SystemStudy, key: &str, ranges: &[DesignRange]) -> Result<()
             wrong.extend(refused.into_iter().flatten().map(|complaint| Complaint {
                 key: format!("design.{key}"),
                 origin: Origin::Whole,
-                allowed: format!("{}: {}", range.path, complaint.allowed),
+                allowed: format!("{}{at}: {}", range.path, complaint.allowed),
                 ..complaint
             }));
         }

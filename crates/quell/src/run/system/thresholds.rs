@@ -168,7 +168,7 @@ fn why_of(why: &Failure) -> String {
 }
 
 /// Whether a dither is not fast in comparison with the fastest growing motion.
-fn reaches_the_band(system: &System) -> bool {
+pub(crate) fn reaches_the_band(system: &System) -> bool {
     let free = system.undithered();
     let Ok(linear) = Linearised::new(&free) else { return false };
     let Ok(growth) = spectrum::growth(&linear, &linear.friction()) else { return false };
