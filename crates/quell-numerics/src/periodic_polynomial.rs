@@ -44,18 +44,23 @@ pub struct MonotonePart<'a> {
 }
 
 /// The value of a polynomial, coefficients from the constant upwards.
+///
+/// Without fused multiply-add, which is a call of a library on a processor that may lack it.
 pub fn value_of(coefficients: &[f64], x: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum: f64, c| sum.mul_add(x, *c))
+    coefficients.iter().rev().fold(0.0, |sum: f64, c| sum * x + c)
 }
 
 /// The slope of a polynomial.
 pub fn slope_of(coefficients: &[f64], x: f64) -> f64 {
-    let (mut slope, mut factor) = (0.0_f64, coefficients.len() as f64);
-    for c in coefficients.iter().skip(1).rev() {
-        factor -= 1.0;
-        slope = slope.mul_add(x, factor * c);
-    }
-    slope
+    value_and_slope_of(coefficients, x).1
+}
+
+/// Both.
+fn value_and_slope_of(coefficients: &[f64], x: f64) -> (f64, f64) {
+    coefficients
+        .iter()
+        .rev()
+        .fold((0.0, 0.0), |(value, slope): (f64, f64), c| (value * x + c, slope * x + value))
 }
 
 impl PeriodicPolynomial {
@@ -119,7 +124,7 @@ impl PeriodicPolynomial {
         let wrapped = if wrapped == self.period { 0.0 } else { wrapped };
         let place = self.starts.partition_point(|start| *start <= wrapped) - 1;
         let (own, since) = (self.of(place), wrapped - self.starts[place]);
-        (value_of(own, since), slope_of(own, since))
+        value_and_slope_of(own, since)
     }
 
     /// Mean over a period of the product with a function on the same intervals.

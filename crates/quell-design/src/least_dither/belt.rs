@@ -6,7 +6,8 @@ use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
 use quell_dynamics::simulation::Start;
 use quell_dynamics::start::{InitialState, NoSquealingStart};
 use quell_linear::averaging::{
-    AveragedVerdict, AveragingError, AveragingOptions, Becomes, criterion, critical_amplitudes,
+    AveragedVerdict, AveragingError, AveragingOptions, Becomes, criterion,
+    critical_amplitudes_up_to,
 };
 use quell_linear::driven_point::DrivenPoint;
 use quell_linear::linear_cost::linear_cost;
@@ -150,7 +151,7 @@ pub fn averaged_quiet_of_belt(
     // A belt without dither has no amplitude to set.
     let without = belt.with(&belt.dither_path(0, "amplitude"), 0.0);
     let without = criterion(without.as_ref().unwrap_or(belt), options)?;
-    let changes: Vec<_> = critical_amplitudes(belt, options)?
+    let changes: Vec<_> = critical_amplitudes_up_to(belt, options, range.1)?
         .iter()
         .map(|critical| AveragedChange {
             amplitude: critical.amplitude,

@@ -62,11 +62,24 @@ pub fn critical_amplitudes(
     belt: &Belt,
     options: AveragingOptions,
 ) -> Result<Vec<CriticalAmplitude>, AveragingError> {
+    critical_amplitudes_up_to(belt, options, f64::INFINITY)
+}
+
+/// Those up to an amplitude D = αR.
+///
+/// # Errors
+/// As for [`critical_amplitudes`].
+pub fn critical_amplitudes_up_to(
+    belt: &Belt,
+    options: AveragingOptions,
+    largest: f64,
+) -> Result<Vec<CriticalAmplitude>, AveragingError> {
     let Some(first) = belt.dithers().first() else {
         return Ok(Vec::new());
     };
     let mut probe = Probe { belt, options, dithers: belt.dithers().to_vec() };
-    let corners = probe.corners()?;
+    let largest = largest / first.frequency_ratio;
+    let mut corners = probe.corners()?;
     let scale = corners
         .iter()
         .fold(belt.friction().velocity_scale().max(belt.belt_velocity()), |m, c| m.max(*c));
@@ -74,6 +87,9 @@ pub fn critical_amplitudes(
     points.extend(probe.noise_points()?);
     points.sort_unstable_by(f64::total_cmp);
     points.dedup();
+    // Two points beyond it, so that a dip just below it is seen.
+    points.truncate(points.partition_point(|point| *point <= largest) + 2);
+    corners.retain(|corner| points.last().is_some_and(|last| corner <= last));
     let changes = sign_changes(|alpha| probe.criterion(alpha), &points, &corners)?;
     let others: f64 = belt.dithers()[1..]
         .iter()

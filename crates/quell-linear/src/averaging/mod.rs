@@ -75,7 +75,9 @@ mod wave;
 
 pub use averaged_law::AveragedLaw;
 pub use criterion::{AveragedVerdict, Criterion, UndecidedBecause, criterion};
-pub use critical_amplitudes::{Becomes, CriticalAmplitude, critical_amplitudes};
+pub use critical_amplitudes::{
+    Becomes, CriticalAmplitude, critical_amplitudes, critical_amplitudes_up_to,
+};
 pub use describing::{DescribedCycle, DescribingFunction, EquivalentGain};
 pub(crate) use dithers::commensurate_groups;
 pub use dithers::{AveragingOptions, FastResponse, MAX_HARMONIC, NormalOrder, fast_wave};
