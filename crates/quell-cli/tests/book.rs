@@ -75,9 +75,20 @@ fn commands(block: &Block) -> Vec<String> {
     joined.lines().filter(|line| line.starts_with("quell ")).map(str::to_owned).collect()
 }
 
+/// The arguments of a command; those between single quotes may have spaces.
+fn arguments(command: &str) -> Vec<String> {
+    let parts = command.split('\'').enumerate();
+    let words = parts.flat_map(|(number, part)| {
+        let is_quoted = number % 2 == 1;
+        let plain = part.split_whitespace().filter(move |_| !is_quoted);
+        plain.chain(is_quoted.then_some(part)).map(str::to_owned).collect::<Vec<_>>()
+    });
+    words.skip(1).collect()
+}
+
 /// Runs a command in `folder` and returns its standard output.
 fn run(command: &str, folder: &Path, page: &Path) -> String {
-    let words: Vec<&str> = command.split_whitespace().skip(1).collect();
+    let words: Vec<String> = arguments(command);
     let output = Command::new(env!("CARGO_BIN_EXE_quell"))
         .args(&words)
         .current_dir(folder)
