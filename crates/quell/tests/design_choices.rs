@@ -78,9 +78,9 @@ fn a_place_may_be_the_load_of_a_contact() {
     assert_eq!(found["critical"], facts(&two_masses(&written, AMPLITUDE))["critical"]);
     // A prescribed load must stay positive, and the complaint names the place.
     let several = "places = [{ contact = \"guide\", direction = \"normal\" }]";
-    let told = complaint(&two_masses(&written, &format!("{AMPLITUDE}\n{several}")));
-    assert!(told.contains("dither.amplitude at guide (normal)"), "{told}");
-    assert!(told.contains("a prescribed load must stay positive"), "{told}");
+    let text = complaint(&two_masses(&written, &format!("{AMPLITUDE}\n{several}")));
+    assert!(text.contains("dither.amplitude at guide (normal)"), "{text}");
+    assert!(text.contains("a prescribed load must stay positive"), "{text}");
 }
 
 #[test]
@@ -119,14 +119,14 @@ fn without_a_pause_a_burst_is_its_carrier() {
     let rows = found["waveforms"].as_array().expect("a list");
     let labels: Vec<&str> = rows.iter().filter_map(|row| row["waveform"].as_str()).collect();
     assert_eq!(labels, ["sine", "burst", "burst"]);
-    // A burst that repeats at 10/7 ω₀ is in the band of the vibration, which a reader is told.
+    // A burst that repeats at 10/7 ω₀ is in the band of the vibration, and a warning says so.
     let alone = "[design]\nminimise = \"amplitude\"\nvary = [\"dither.amplitude\"]\nfrom = [0.01]\nto = [20.0]\n";
     let longer = text.replace("on = 3\noff = 2", "on = 4\noff = 3");
     let slow = facts(&format!("{longer}{alone}"));
-    let told = |found: &Json| {
+    let warns = |found: &Json| {
         found["warnings"].to_string().contains("burst 4 : 3 repeats at or below 1.9 times")
     };
-    assert!(told(&slow) && !told(&found), "{}", slow["warnings"]);
+    assert!(warns(&slow) && !warns(&found), "{}", slow["warnings"]);
 }
 
 #[test]
@@ -158,8 +158,8 @@ fn wrong_choices_are_refused_with_their_keys() {
             "only bursts have it",
         ),
     ] {
-        let told = complaint(&two_masses(&at, &design));
-        assert!(told.contains(key) && told.contains(says), "{design}: {told}");
+        let text = complaint(&two_masses(&at, &design));
+        assert!(text.contains(key) && text.contains(says), "{design}: {text}");
     }
     let burst = format!(
         "{BELT}waveform = \"burst\"\ncarrier = \"sine\"\non = 3\noff = 2\n[design]\nminimise = \"amplitude\"\n"
@@ -201,7 +201,7 @@ fn wrong_choices_are_refused_with_their_keys() {
             "only in a system",
         ),
     ] {
-        let told = complaint(&format!("{burst}{design}\n"));
-        assert!(told.contains(key) && told.contains(says), "{design}: {told}");
+        let text = complaint(&format!("{burst}{design}\n"));
+        assert!(text.contains(key) && text.contains(says), "{design}: {text}");
     }
 }

@@ -495,7 +495,7 @@ amplitude = 1.0
 frequency_ratio = 10.0
 "#;
 
-/// A threshold that follows a border within one step is found, whatever the window. At D = 1 the multipliers are those of central
+/// A threshold that follows a border within one step is found, in every window. At D = 1 the multipliers are those of central
 /// differences of plain Runge–Kutta runs with the events of the law, 0.88325 ± 0.63560 i.
 #[test]
 fn thresholds_just_beyond_a_border_do_not_depend_on_the_window() {

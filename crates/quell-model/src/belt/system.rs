@@ -11,14 +11,14 @@ use crate::system::{Contact, Input, InputTarget, MassMatrix, Mechanical, System}
 use crate::units::{Quantity, Scales};
 
 /// The values of one unit of the numbers of the equations.
-struct Unit {
+struct UnitValues {
     mass: f64,
     force: f64,
     velocity: f64,
     time: f64,
 }
 
-impl Unit {
+impl UnitValues {
     const SCALED: Self = Self { mass: 1.0, force: 1.0, velocity: 1.0, time: 1.0 };
 
     fn in_si(scales: &Scales) -> Self {
@@ -35,7 +35,7 @@ impl Unit {
 impl Belt {
     /// One coordinate of unit mass and stiffness; its contact is loaded by F, and normal dither has no reaction (4.1).
     pub(super) fn scaled_system(&self) -> System {
-        self.system_of(&Unit::SCALED, self.friction.clone())
+        self.system_of(&UnitValues::SCALED, self.friction.clone())
     }
 
     /// The system of a belt with mass and stiffness in SI: kilogram, metre, second and newton, frequencies angular. `None` without
@@ -45,7 +45,7 @@ impl Belt {
     /// A law whose numbers are out of their bounds in metres per second.
     pub fn system_in_si(&self) -> Option<Result<System, InvalidValues>> {
         let scales = self.scales?;
-        let unit = Unit::in_si(&scales);
+        let unit = UnitValues::in_si(&scales);
         let Surroundings { normal_load, slip } = self.surroundings();
         // F is a length over 1/ω₀ here, so that a law without a velocity of its own is counted in a velocity.
         let around =
@@ -54,7 +54,7 @@ impl Belt {
         Some(friction.map(|friction| self.system_of(&unit, friction)))
     }
 
-    fn system_of(&self, unit: &Unit, friction: Friction) -> System {
+    fn system_of(&self, unit: &UnitValues, friction: Friction) -> System {
         let one = |value: f64| Matrix::from_fn(1, 1, |_, _| value);
         let force = |profile: &Profile| profile.scaled(unit.force).in_time_unit(unit.time);
         let mass = match unit.mass {

@@ -54,8 +54,8 @@ pub use steady::{not_periodic, varies_in_time};
 pub use study_kind::{Given, StudyKind, not_available};
 pub use sweep::{Axis, AxisTarget, Sweep};
 pub use system::{
-    DescribedSystem, FrequencyResponse, ScaledTime, SystemAddress, SystemSetup, SystemStart,
-    SystemStudy, SystemUnits,
+    DescribedSystem, FrequencyResponse, NumberedStudy, ScaledTime, SystemAddress, SystemOrigin,
+    SystemSetup, SystemStart, SystemStudy, SystemUnits,
 };
 pub(crate) use uncertainty::DISTRIBUTIONS;
 pub use uncertainty::Uncertainty;

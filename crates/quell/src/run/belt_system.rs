@@ -18,7 +18,8 @@ use super::thresholds::ThresholdsRequest;
 use crate::complaint::Failure;
 use crate::contact_state::passivity;
 use crate::study::{
-    BeltStudy, DescribedSystem, Study, SystemStart, SystemStudy, SystemUnits, not_periodic,
+    BeltStudy, DescribedSystem, Study, SystemOrigin, SystemStart, SystemStudy, SystemUnits,
+    not_periodic,
 };
 
 /// The system of a belt whose contact has a state of its own, in SI where the study is, otherwise in the numbers of the equations;
@@ -58,7 +59,7 @@ pub(crate) fn described(study: &BeltStudy) -> Result<SystemStudy, Failure> {
         initial,
         warnings: passivity(study.belt()).into_iter().collect(),
         time: None,
-        belt: Some(study.clone()),
+        origin: Some(SystemOrigin::of(study.clone())),
     }))
 }
 

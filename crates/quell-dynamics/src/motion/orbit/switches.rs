@@ -69,7 +69,7 @@ pub struct RunSwitches {
     pub unknown: Vec<(f64, String)>,
 }
 
-/// The state at t = 0 from which a run of a system starts, or why there is none.
+/// The state at t = 0 from which a run of a system starts, or why it is unknown.
 pub type StartOfRun<'a> = dyn Fn(&System) -> Result<Vec<f64>, String> + Sync + 'a;
 
 /// A run over a parameter.

@@ -4,6 +4,7 @@ mod band;
 mod dither;
 pub(in crate::study) mod friction;
 mod number;
+mod origin;
 mod solver;
 mod table;
 

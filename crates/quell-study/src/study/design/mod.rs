@@ -10,7 +10,7 @@ use serde_json::Value as Json;
 
 use super::document::{Node, Table, Value};
 use super::reader::{Found, Reader};
-use super::system::{CourseNumbers, resolve_in};
+use super::system::{CourseNumbers, PLACES, resolve_in};
 use super::vocabulary::{self, Choice, Section, join};
 use crate::complaint::{Complaint, Fault};
 use tried::ChosenPeriods;
@@ -68,9 +68,6 @@ const DEFAULT_SAMPLES: (f64, f64) = (400.0, 100_000.0);
 
 /// Seed by default, as that of `quell probability`.
 const DEFAULT_SEED: f64 = 1.0;
-
-/// The key of the places that are tried.
-pub(super) const PLACES: &str = "places";
 
 /// The study whose dither is designed.
 #[derive(Clone, Copy)]

@@ -81,7 +81,7 @@ pub(super) fn periods(
     keys: [&str; 2],
     nodes: [&Node; 2],
 ) -> Option<ChosenPeriods> {
-    let least: u32 = if number == BurstNumber::On { 1 } else { 0 };
+    let least = u32::from(number == BurstNumber::On);
     let most = u32::try_from(MOST_TRIED).unwrap_or(u32::MAX);
     let mut end = |place: usize| {
         let node: &Node = nodes[place];

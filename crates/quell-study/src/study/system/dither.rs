@@ -11,13 +11,13 @@ use quell_model::units::measure;
 use quell_model::{Contact, Waveform};
 
 use super::contact::listed;
-use super::keys::{SystemTable, system_keys};
+use super::keys::{PLACES, SystemTable, system_keys};
 use super::numbers::{CourseNumbers, Numbers, WantedNumber, missing, unknown_keys};
 use super::rows::RowBasis;
 use super::units::SystemUnits;
 use crate::complaint::{Complaint, Fault};
 use crate::study::course::{Course, CoursePlace, CourseUnits};
-use crate::study::design::{DitherPlace, PLACES};
+use crate::study::design::DitherPlace;
 use crate::study::dither_size::{self, SizedAmplitude};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;

@@ -13,7 +13,6 @@ use quell_model::parameter::system::{
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE, Parameter};
 use quell_model::units::Quantity;
 
-use crate::study::design::PLACES;
 use crate::study::dither_size::parameter_of;
 use crate::study::document::Table;
 use crate::study::vocabulary::{
@@ -24,6 +23,9 @@ use crate::study::vocabulary::{
 pub(in crate::study) fn is_described(document: &Table) -> bool {
     document.has("system")
 }
+
+/// The key of the places that a design tries.
+pub(in crate::study) const PLACES: &str = "places";
 
 /// The tables of other kinds, which exclude `[system]`.
 pub(in crate::study) const OTHER_KINDS: &[&str] = &["belt", "disc"];

@@ -19,6 +19,7 @@ mod modes;
 mod modes_file;
 mod names;
 mod numbers;
+mod origin;
 mod parameters;
 pub(in crate::study) mod path;
 mod plausible;
@@ -36,7 +37,6 @@ use crate::study::wave_file::WaveFile;
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::study::vocabulary::resolve;
 use crate::study::vocabulary::size::{
     DITHER_SIZES, SignalMeasure, SizeKey, SizedSignal, measure_of,
 };
@@ -46,8 +46,7 @@ use quell_model::parameter::DITHER_AMPLITUDE;
 
 use super::StudyOf;
 use super::actuator::GivenActuator;
-use super::belt::BeltStudy;
-use super::design::{Design, DitherPlace, PLACES};
+use super::design::{Design, DitherPlace};
 use super::dither_size::GivenSize;
 use super::document::{Node, Table, Value};
 use super::reader::{CourseFile, Reader};
@@ -56,7 +55,9 @@ use crate::complaint::{Complaint, Complaints, Origin};
 
 pub use frequency_response::FrequencyResponse;
 pub use initial::SystemStart;
+pub(in crate::study) use keys::PLACES;
 pub(in crate::study) use numbers::CourseNumbers;
+pub use origin::{NumberedStudy, SystemOrigin};
 pub use path::{SystemAddress, resolve_in};
 pub use setup::{DescribedSystem, ScaledTime, SystemSetup};
 pub use units::SystemUnits;
@@ -164,9 +165,14 @@ impl SystemStudy {
         self.kind().observe.clone()
     }
 
-    /// The study of a belt whose numbers, under their own keys, are the parameters of this system.
-    pub fn belt(&self) -> Option<&BeltStudy> {
-        self.kind().belt.as_deref()
+    /// The study of another kind whose numbers, under their own keys, are the parameters of this system.
+    pub fn origin(&self) -> Option<&dyn NumberedStudy> {
+        self.kind().origin.as_ref().map(SystemOrigin::study)
+    }
+
+    /// That study, if it is of this kind.
+    pub fn origin_of_kind<S: NumberedStudy>(&self) -> Option<&S> {
+        self.kind().origin.as_ref().and_then(SystemOrigin::of_kind)
     }
 
     /// The design that the study requests.
@@ -192,8 +198,8 @@ impl SystemStudy {
     /// The number at a path, such as `contact.pad.friction.coefficient`, its formula evaluated: in the units of the file, or
     /// in SI for a path that ends in a twin. `None` where the study has no such number.
     pub fn number(&self, path: &str) -> Option<f64> {
-        if let Some(belt) = self.belt() {
-            return belt.number(path);
+        if let Some(origin) = self.origin() {
+            return origin.number(path);
         }
         self.amplitude_at(path)
             .or_else(|| path::number(&self.source.document, &self.kind().numbers, path))
@@ -222,9 +228,8 @@ impl SystemStudy {
 
     /// The unit of the number at a path, `1` for a ratio; `None` without a unit and where the study has no such number.
     pub fn unit_of(&self, path: &str) -> Option<&'static str> {
-        if let Some(belt) = self.belt() {
-            let unit = || resolve(path).ok().and_then(|address| address.key.measured_in());
-            return belt.number(path).map(|_| unit().unwrap_or("1"));
+        if let Some(origin) = self.origin() {
+            return origin.number(path).map(|_| origin.unit_of(path));
         }
         path::measured_in(&self.source.document, path)
     }
@@ -251,9 +256,8 @@ impl SystemStudy {
     /// # Errors
     /// All complaints about the changed study.
     pub fn system_at(&self, numbers: &[(&str, f64)]) -> Result<System, Complaints> {
-        if let Some(belt) = self.belt() {
-            let set = |study: BeltStudy, (path, value): &(&str, f64)| study.with(path, *value);
-            return numbers.iter().try_fold(belt.clone(), set)?.system();
+        if let Some(origin) = self.origin() {
+            return origin.system_with(numbers);
         }
         let mut document = self.source.document.clone();
         for apart in ["sweep", "design", "uncertainty"] {

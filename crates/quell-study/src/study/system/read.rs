@@ -122,7 +122,7 @@ pub(super) fn study(
         actuator: actuator?,
         sizes: sizes.into(),
         time: None,
-        belt: None,
+        origin: None,
     })
 }
 

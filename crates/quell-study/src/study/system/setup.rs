@@ -9,9 +9,9 @@ use super::initial::SystemStart;
 use super::matrix_file::MatrixFile;
 use super::modes_file::ModeList;
 use super::numbers::Numbers;
+use super::origin::SystemOrigin;
 use super::units::SystemUnits;
 use crate::study::actuator::GivenActuator;
-use crate::study::belt::BeltStudy;
 use crate::study::belt::friction::Measured;
 use crate::study::design::Design;
 use crate::study::dither_size::GivenSize;
@@ -45,8 +45,8 @@ pub struct SystemSetup {
     pub(super) sizes: Arc<[GivenSize]>,
     /// Time of numbers without units in seconds; `None` where the study does not determine it.
     pub(super) time: Option<ScaledTime>,
-    /// The study whose numbers are the parameters, where the system is that of a belt.
-    pub(super) belt: Option<Arc<BeltStudy>>,
+    /// The study of another kind whose numbers are the parameters.
+    pub(super) origin: Option<SystemOrigin>,
 }
 
 /// The unit of time of a study whose other numbers have no units.
@@ -73,13 +73,13 @@ pub struct DescribedSystem {
     pub warnings: Vec<String>,
     /// Its unit of time, if it is known.
     pub time: Option<ScaledTime>,
-    /// The study of a belt whose numbers are the parameters of the system.
-    pub belt: Option<BeltStudy>,
+    /// The study of another kind whose numbers are the parameters of the system.
+    pub origin: Option<SystemOrigin>,
 }
 
 impl From<DescribedSystem> for SystemSetup {
     fn from(described: DescribedSystem) -> Self {
-        let DescribedSystem { system, units, observe, initial, warnings, time, belt } = described;
+        let DescribedSystem { system, units, observe, initial, warnings, time, origin } = described;
         Self {
             system: Arc::new(system),
             observe,
@@ -96,7 +96,7 @@ impl From<DescribedSystem> for SystemSetup {
             actuator: None,
             sizes: Arc::default(),
             time,
-            belt: belt.map(Arc::new),
+            origin,
         }
     }
 }

@@ -276,13 +276,13 @@ impl LeastDitherFound {
         fields.plain("ok", true).plain("sentence", self.sentence(study));
         self.put_whether_feasible(&mut fields, study, self.answer());
         fields.plain("waveform", self.waveform().name()).plain("minimise", minimise.name());
-        if self.dither().place.is_none() {
-            fields.unknown(
+        match &self.dither().place {
+            Some(place) => fields.plain("place", place.as_str()),
+            None => fields.unknown(
                 "place",
                 "design.places is not given: the dither acts where the study says",
-            );
-        }
-        self.put_place(&mut fields, self.dither());
+            ),
+        };
         match &self.answer().answer {
             Ok(found) => self.put_feasible(&mut fields, study, found, minimise),
             Err(none) => self.put_infeasible(&mut fields, study, none),
@@ -301,7 +301,9 @@ impl LeastDitherFound {
             if let Waveform::Burst(burst) = waveform {
                 inner.plain("on", burst.on()).plain("off", burst.off());
             }
-            self.put_place(&mut inner, tried);
+            if let Some(place) = &tried.place {
+                inner.plain("place", place.as_str());
+            }
             self.put_whether_feasible(&mut inner, study, designed);
             if let Ok(DesignPoint { amplitude, others, .. }) =
                 designed.answer.as_ref().map(|found| &found.critical)
@@ -319,13 +321,6 @@ impl LeastDitherFound {
         fields.list("waveforms", rows.collect::<Vec<_>>());
         fields.plain("warnings", self.warnings(study));
         fields.finish()
-    }
-
-    /// Adds `place` where several were tried.
-    fn put_place(&self, fields: &mut Fields, tried: &DesignedDither) {
-        if let Some(place) = &tried.place {
-            fields.plain("place", place.as_str());
-        }
     }
 
     /// Adds `feasible`: null where the search failed on the way.

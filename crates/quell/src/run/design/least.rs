@@ -171,7 +171,7 @@ pub(crate) fn least_dither<P: Plant + Sync>(
     // The derivatives and the laws are those of the dither at its place.
     let study = tried.get(best).map_or(study, |tried| tried.study);
     let (sensitivity, validity) = (found.sensitivity_of(study), found.validity(study));
-    Ok(LeastDitherFound { sensitivity, validity, ..found })
+    Ok(LeastDitherFound { validity, sensitivity, ..found })
 }
 
 /// The exact least dithers along a box of one coordinate.

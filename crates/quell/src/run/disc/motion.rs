@@ -78,7 +78,7 @@ fn described(study: &DiscStudy, system: System, initial: SystemStart) -> SystemS
         initial,
         warnings: study.warnings().to_vec(),
         time,
-        belt: None,
+        origin: None,
     })
 }
 

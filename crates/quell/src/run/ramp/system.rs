@@ -16,8 +16,7 @@ use crate::run::system::simulate::{self, MotionRequest, natural_period};
 use crate::run::system::thresholds::{self, MotionThresholdsRequest, is_dithered_within};
 use crate::run::system::tracked;
 use crate::run::thresholds::side;
-use crate::run::varied::key_of;
-use crate::study::{Study, SystemStudy};
+use crate::study::{BeltStudy, Study, SystemStudy};
 
 /// Runs the ramp of a system from t = 0 to the last knot.
 ///
@@ -62,9 +61,9 @@ fn courses(study: &SystemStudy) -> Vec<RampCourse> {
         ];
         for (profile, parameter, words) in given {
             found.extend(profile.and_then(Profile::knots).map(|knots| RampCourse {
-                path: study.belt().map_or_else(
+                path: study.origin().map_or_else(
                     || format!("contact.{name}.{}", parameter.key()),
-                    |belt| key_of(belt, parameter.path),
+                    |origin| origin.key_of(parameter.path),
                 ),
                 words,
                 quantity: parameter.quantity,
@@ -76,7 +75,7 @@ fn courses(study: &SystemStudy) -> Vec<RampCourse> {
     let count = system.inputs.len();
     let amplitude = |index: usize| {
         let path = indexed("dither", index, count, "amplitude");
-        study.belt().map_or_else(|| path.clone(), |belt| key_of(belt, &path))
+        study.origin().map_or_else(|| path.clone(), |origin| origin.key_of(&path))
     };
     for (index, input) in system.inputs.iter().enumerate() {
         let Some(wave) = input.profile.waves().first() else { continue };
@@ -109,7 +108,7 @@ fn oscillates(study: &SystemStudy) -> bool {
 
 /// The steady system of a time.
 fn steady_at(study: &SystemStudy, time: f64) -> Result<SystemStudy, Failure> {
-    match study.belt() {
+    match study.origin_of_kind::<BeltStudy>() {
         Some(belt) => {
             let per_second = belt.scales().map_or(1.0, |scales| scales.angular_frequency());
             belt_system::described(&Study::from(belt).at_time(per_second * time)?.belt()?)

@@ -99,12 +99,15 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
     least_dither_of_systems(study, asked, &numbers, &systems, (input, &observe), &samples)
 }
 
+/// The study with the dither at a place, and its name; without a name as it is.
+type StudyAtPlace<'s> = (Option<String>, Cow<'s, SystemStudy>);
+
 /// The study with the dither at every place that is tried, or as it is.
 fn at_places<'s>(
     study: &'s SystemStudy,
     asked: &Design,
     input: usize,
-) -> Result<Vec<(Option<String>, Cow<'s, SystemStudy>)>, Failure> {
+) -> Result<Vec<StudyAtPlace<'s>>, Failure> {
     let mut studies = Vec::new();
     for place in &asked.places {
         let at = study.at_place(input, place)?;

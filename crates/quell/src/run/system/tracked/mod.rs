@@ -19,7 +19,6 @@ use super::validity::ContactRanges;
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
 use crate::contact_state::refused_of_system;
-use crate::run::varied::key_of;
 use crate::study::SystemStudy;
 
 /// Values of the parameter at which eigenvalues are computed at least.
@@ -261,9 +260,9 @@ fn extend(
 
 /// The path of the study that is closest to a wrong one.
 fn nearest(study: &SystemStudy, path: &str) -> Option<String> {
-    if let Some(belt) = study.belt() {
-        let key = key_of(belt, path);
-        return belt.number(&key).map(|_| key);
+    if let Some(origin) = study.origin() {
+        let key = origin.key_of(path);
+        return origin.number(&key).map(|_| key);
     }
     let complaints = study.with(path, 0.0).err()?;
     complaints.iter().find_map(|complaint| complaint.suggestion.clone())
@@ -278,8 +277,8 @@ pub(super) fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<
     for ((option, from, to), path, window) in [Some(first), along].into_iter().flatten() {
         if study.number(path).is_none() {
             let contact = study.system().contacts.first().map_or("NAME", |contact| &contact.name);
-            let allowed = if let Some(belt) = study.belt() {
-                let example = key_of(belt, BELT_VELOCITY.path);
+            let allowed = if let Some(origin) = study.origin() {
+                let example = origin.key_of(BELT_VELOCITY.path);
                 format!("the path of a number of the study, such as {example}")
             } else {
                 format!(

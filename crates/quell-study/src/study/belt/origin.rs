@@ -1,0 +1,28 @@
+//! A belt as the origin of a system: its numbers keep their keys.
+
+use quell_model::System;
+
+use super::BeltStudy;
+use crate::complaint::Complaints;
+use crate::study::system::NumberedStudy;
+use crate::study::vocabulary::{in_system, resolve};
+
+impl NumberedStudy for BeltStudy {
+    fn number(&self, path: &str) -> Option<f64> {
+        Self::number(self, path)
+    }
+
+    fn unit_of(&self, path: &str) -> &'static str {
+        let unit = resolve(path).ok().and_then(|address| address.key.measured_in());
+        unit.unwrap_or("1")
+    }
+
+    fn key_of(&self, path: &str) -> String {
+        in_system(path, self.scales().is_some())
+    }
+
+    fn system_with(&self, numbers: &[(&str, f64)]) -> Result<System, Complaints> {
+        let set = |study: Self, (path, value): &(&str, f64)| study.with(path, *value);
+        numbers.iter().try_fold(self.clone(), set)?.system()
+    }
+}
