@@ -82,7 +82,7 @@ impl Belt {
     }
 
     /// The same belt with an elastic slider of the tangential stiffness k_t/k > 0 at the contact
-    /// ([`Contact::tangential_stiffness`]); `None` for a rigid contact.
+    /// ([`Contact::tangential_stiffness`](crate::system::Contact::tangential_stiffness)); `None` for a rigid contact.
     ///
     /// # Errors
     /// A stiffness that is not finite and positive; a law with a state of its own, whose bristles are elastic themselves.
