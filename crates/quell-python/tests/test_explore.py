@@ -22,7 +22,7 @@ import pytest
 from conftest import STUDIES, command
 
 import quell
-from quell.explore import _answers, _maps, _numbers, _other_law, _questions, _reading, _share, _sound, _state, _zoo
+from quell.explore import _answers, _maps, _measured, _numbers, _other_law, _questions, _reading, _share, _sound, _state, _zoo
 from quell.explore._lanes import Event, Here, Lane, Process
 
 BELT = STUDIES / "stribeck-belt.toml"
@@ -257,7 +257,8 @@ def test_answers_are_those_of_the_verbs(name: str) -> None:
 def test_questions_of_a_study_are_those_of_its_tables() -> None:
     study = of("actuator.toml")
     assert _questions.asked(study) == ["design", "actuator"]
-    assert _questions.asked(of("probability.toml"))[-1] == "probability" and _questions.asked(of("stribeck-belt.toml")) == []
+    assert _questions.asked(of("probability.toml")) == ["probability", "atlas"]
+    assert _questions.asked(of("pin-on-disc.toml")) == []
     found = _questions.actuator(study)
     assert found["sentence"] == study.actuator().facts["sentence"] and found["picture"].lstrip().startswith(("<svg", "<?xml"))
 
@@ -651,3 +652,24 @@ def test_every_waveform_is_drawn(waveform: str) -> None:
     assert state.set({"dither.waveform": waveform}), state.complaints
     assert _answers.averaged(state.study)["laws"][0]["velocity"].size > 10
     assert np.ptp(_answers.trajectory(state.study, None)["x"]) > 0.0
+
+
+def test_measured_files_are_set_against_a_study() -> None:
+    study = of("measured-belt.toml")
+    squeal, quenched = ((STUDIES / f"synthetic-{name}.csv").read_bytes() for name in ("squeal", "quenched"))
+    found = _measured.compare(study, squeal, quenched)
+    direct = study.compare(STUDIES / "synthetic-squeal.csv", after=STUDIES / "synthetic-quenched.csv")
+    assert found["sentence"] == direct.facts["sentence"] and "<svg" in found["picture"]
+    assert _measured.compare(study, quenched)["sentence"] != found["sentence"]
+    friction = (STUDIES / "synthetic-friction.csv").read_bytes()
+    laws = _measured.fit(study, friction)
+    assert "decreasing" in laws["picture"] and "[friction]" in laws["picture"] and laws["warnings"]
+    with pytest.raises(quell.QuellError, match="slip_velocity"):
+        _measured.fit(study, b"a,b\n1,2\n")
+
+
+def test_the_atlas_is_asked_of_belts_that_it_has() -> None:
+    study = of("how-much-dither.toml")
+    assert _questions.asked(study)[-1:] == ["atlas"]
+    assert _questions.atlas(study)["sentence"] == study.atlas().facts["sentence"]
+    assert "atlas" not in _questions.asked(of("two-mass-drive.toml"))

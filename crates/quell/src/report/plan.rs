@@ -11,7 +11,7 @@ use crate::run::disc::resonances::ResonancesRequest;
 use crate::run::orbit::Wanted;
 use crate::run::probability::ProbabilityRequest;
 use crate::run::thresholds::{ThresholdsRequest, path_in_words};
-use crate::study::{BeltStudy, Kind, Study, SystemStart, SystemStudy};
+use crate::study::{BeltStudy, DiscStudy, Kind, Study, SystemStart, SystemStudy};
 use crate::sweep::Running;
 use crate::words::{digits, start_in_words};
 
@@ -56,21 +56,7 @@ const BRANCH: &str = "the base response, continued from steady sliding";
 pub(super) fn planned(study: &Study) -> Vec<ReportStep> {
     match study.kind() {
         Kind::Belt(setup) => of_belt(&study.narrowed(setup.as_ref())),
-        Kind::Disc(_) => vec![
-            ReportStep::new(
-                "stability",
-                "Stability of steady sliding",
-                SMALL,
-                ReportedVerb::Stability,
-            ),
-            ReportStep::new("modes", "Natural frequencies", NO_START, ReportedVerb::Modes),
-            ReportStep::new(
-                "resonances",
-                "Speeds at which waves meet",
-                SMALL,
-                ReportedVerb::Resonances,
-            ),
-        ],
+        Kind::Disc(setup) => of_disc(&study.narrowed(setup.as_ref())),
         Kind::System(setup) => of_system(&study.narrowed(setup.as_ref())),
     }
 }
@@ -115,6 +101,28 @@ fn of_belt(study: &BeltStudy) -> Vec<ReportStep> {
         probability: study.uncertainty().is_some(),
     }));
     steps.push(ReportStep::new("friction", "Friction law", NO_START, ReportedVerb::Friction));
+    steps
+}
+
+fn of_disc(study: &DiscStudy) -> Vec<ReportStep> {
+    let mut steps = vec![
+        ReportStep::new("stability", "Stability of steady sliding", SMALL, ReportedVerb::Stability),
+        ReportStep::new("modes", "Natural frequencies", NO_START, ReportedVerb::Modes),
+        ReportStep::new(
+            "resonances",
+            "Speeds at which waves meet",
+            SMALL,
+            ReportedVerb::Resonances,
+        ),
+    ];
+    let dithered = study.disc().dither().frequency_ratio().is_some();
+    // The exponents of small motions decide about a disc.
+    let asked = questions(Questions {
+        design: dithered && study.design().is_some(),
+        actuator: false,
+        probability: study.uncertainty().is_some(),
+    });
+    steps.extend(asked.map(|step| ReportStep { start: SMALL.to_owned(), ..step }));
     steps
 }
 

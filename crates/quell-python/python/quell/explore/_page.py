@@ -11,12 +11,12 @@ import panel as pn
 from .._errors import QuellError
 from .._study import Study
 from .._tables import Number
-from . import _questions, _zoo
+from . import _measured, _questions, _zoo
 from ._controls import Controls
 from ._files import Downloads
 from ._lanes import Event, Here, Lane, Process
 from ._numbers import Knob, kept, knobs, within
-from ._panes import EigenPane, LawPane, MotionPane, QuestionPane, SoundPane, SpectrumPane, Verdict, headed, words
+from ._panes import EigenPane, LawPane, MeasuredPane, MotionPane, QuestionPane, SoundPane, SpectrumPane, Verdict, headed, words
 from ._plane_panes import ACROSS, BasinsPane, PlanePane, preferred
 from ._share import commands, python, toml
 from ._state import State
@@ -61,6 +61,11 @@ class Page:
             "design": QuestionPane("Least dither", "design", "exact"),
             "actuator": QuestionPane("What the actuator can give", "actuator", "averaged"),
             "probability": QuestionPane("How probable the vibration is", "probability", "averaged"),
+            "atlas": QuestionPane("Thresholds among those of all belts", "atlas", "exact"),
+        }
+        self.measured = {
+            "compare": MeasuredPane("Compared with a measurement", "compare", ("record or spectrum", "the same under dither (optional)")),
+            "fit": MeasuredPane("Laws fitted to measured friction", "fit", ("slip velocity and friction",)),
         }
         self.controls = Controls(state.study, self.change, self.choose_law)
         self.downloads = Downloads(lambda: self.state.study)
@@ -85,6 +90,8 @@ class Page:
         self.sound.button.on_click(lambda event: self.request_sound())
         for name, pane in self.questions.items():
             pane.button.on_click(lambda event, name=name: self.request_question(name))
+        for name, measured in self.measured.items():
+            measured.button.on_click(lambda event, name=name: self.request_measured(name))
         self.undo = pn.widgets.Button(label="undo", width=90, css_classes=["quell-undo"])
         self.redo = pn.widgets.Button(label="redo", width=90, css_classes=["quell-redo"])
         self.undo.on_click(lambda event: self._went(self.state.undo()))
@@ -147,7 +154,8 @@ class Page:
         panes += [self.questions[name].view for name in _questions.asked(study)]
         if self._draw is not None:
             panes.append(self._sketch())
-        self.right[:] = [*panes, self.sound.view]
+        measured = [pane.view for name, pane in self.measured.items() if kind in _measured.KINDS[name]]
+        self.right[:] = [*panes, self.sound.view, *measured]
 
     def _sketch(self) -> Any:
         fitting = "svg { max-width: 100%; height: auto; }"
@@ -217,7 +225,7 @@ class Page:
 
     def dim(self) -> None:
         """Dims every answer: the numbers that the sliders show are not valid."""
-        for pane in (self.motion, self.spectrum, self.law, self.plane, self.basins, self.eigen, self.sound, *self.questions.values()):
+        for pane in (self.motion, self.spectrum, self.law, self.plane, self.basins, self.eigen, self.sound, *self.asking()):
             pane.dim(True)
         self.verdict.dim()
 
@@ -251,7 +259,7 @@ class Page:
                 self.request_eigenvalues()
             self._draw_sketch(study)
             self.sound.dim(True)
-            for pane in self.questions.values():
+            for pane in self.asking():
                 pane.dim(True)
             self._share()
 
@@ -301,6 +309,21 @@ class Page:
         """Asks what a table of the study asks."""
         self.maps.submit(name, self.state.study)
 
+    def request_measured(self, name: str) -> None:
+        """Asks what a measured file says, if one was chosen."""
+        pane = self.measured[name]
+        contents = pane.contents()
+        if not contents:
+            pane.sentence.object = words("choose a CSV file first", TEXT, STICK)
+        elif max(map(len, contents)) > _measured.LARGEST:
+            pane.sentence.object = words(f"a file may have at most {_measured.LARGEST >> 20} MiB", TEXT, STICK)
+        else:
+            self.maps.submit(name, self.state.study, *contents)
+
+    def asking(self) -> list[QuestionPane]:
+        """The panes that answer on request."""
+        return [*self.questions.values(), *self.measured.values()]
+
     def _draw_sketch(self, study: Study) -> None:
         """Draws the mechanism, where this version of Quell can."""
         if self._draw is None:
@@ -345,6 +368,7 @@ class Page:
             "eigenvalues": self.eigen,
             "sound": self.sound,
             **self.questions,
+            **self.measured,
         }[name]
         pane.state(event)
         if name == "averaged" and event.kind in ("done", "failed"):

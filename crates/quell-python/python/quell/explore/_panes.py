@@ -207,6 +207,25 @@ class QuestionPane(Pane):
         self.sentence.object = words("\n".join([answer["sentence"], *answer["warnings"]]), TEXT - 1)
 
 
+class MeasuredPane(QuestionPane):
+    """The answer about a file that the user measured; it begins when the file is there."""
+
+    def __init__(self, title: str, name: str, labels: tuple[str, ...]) -> None:
+        super().__init__(title, name, "exact")
+        self.files = [pn.widgets.FileInput(accept=".csv", multiple=False, margin=MARGIN) for _ in labels]
+        rows = [pn.Row(paragraph_of(label, 210), file) for label, file in zip(labels, self.files, strict=True)]
+        self.view[1:1] = rows
+
+    def contents(self) -> tuple[bytes, ...]:
+        """The files that were chosen, in their order."""
+        return tuple(file.value for file in self.files if file.value)
+
+
+def paragraph_of(text: str, width: int) -> Any:
+    """A piece of text."""
+    return pn.pane.HTML(words(text), width=width, margin=MARGIN)
+
+
 def difference(levels: dict[str, float], slow: dict[str, float]) -> str:
     """The difference of two sounds in words: of their whole levels, and of those below 1.9 ω₀."""
     if "without dither" not in levels:

@@ -6,7 +6,8 @@ from collections.abc import Callable
 
 from ._answers import averaged, response, trajectory
 from ._maps import basins, curves, eigenvalues, plane
-from ._questions import actuator, design, probability
+from ._measured import compare, fit
+from ._questions import actuator, atlas, design, probability
 from ._reading import Answer
 from ._sound import sound
 
@@ -22,6 +23,9 @@ TASKS: dict[str, Callable[..., Answer]] = {
     "design": design,
     "actuator": actuator,
     "probability": probability,
+    "atlas": atlas,
+    "compare": compare,
+    "fit": fit,
 }
 """Every answer by name."""
 
