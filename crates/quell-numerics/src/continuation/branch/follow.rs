@@ -43,6 +43,7 @@ pub fn follow<F: PeriodMap>(
     let mut length = options.longest;
     // Whether the search beyond the obstacle that stopped the steps was already made.
     let mut searched_beyond = false;
+    let mut leaps = 0;
     let end = loop {
         let at = run.value(here.unknowns[n]);
         let towards_end = if here.tangent[n] > 0.0 { 1.0 } else { 0.0 };
@@ -108,13 +109,19 @@ pub fn follow<F: PeriodMap>(
             }
             StepOutcome::Failed if length > options.shortest => length *= 0.4,
             StepOutcome::Failed => {
-                if searched_beyond {
-                    break End::Lost { at };
-                }
-                let over = match run.onto_smoother_piece(&here, &mut special_points) {
-                    Some(next) => Some((next, 100.0 * options.shortest)),
-                    None => over_a_corner(&run, &here, &mut special_points),
+                let joined = if searched_beyond {
+                    None
+                } else {
+                    let smoother = run.onto_smoother_piece(&here, &mut special_points);
+                    let smoother = smoother.map(|next| (next, 100.0 * options.shortest));
+                    smoother.or_else(|| over_a_corner(&run, &here, &mut special_points))
                 };
+                let over = joined.or_else(|| {
+                    leaps += 1;
+                    let may_leap = leaps <= MOST_LEAPS;
+                    let out = &mut special_points;
+                    may_leap.then(|| over_a_steep_beginning(&run, &here, out)).flatten()
+                });
                 let Some((next, step_length)) = over else { break End::Lost { at } };
                 searched_beyond = true;
                 length = step_length;
@@ -143,6 +150,38 @@ fn over_a_corner<F: PeriodMap>(
         here,
         Some(&next),
     ));
+    Some((next, step_length))
+}
+
+/// Relative distances in the parameter at which the branch is sought beyond a steep beginning.
+const LEAPS: [f64; 6] = [1e-5, 1e-4, 5e-4, 1e-3, 3e-3, 1e-2];
+
+/// Such leaps along one branch.
+const MOST_LEAPS: usize = 8;
+
+/// Largest distance of the states of a leap, over the scale of the states.
+const LARGEST_LEAP: f64 = 0.02;
+
+/// The point a little beyond a border at which the branch begins like a square root, and the distance to it. There the derivative
+/// of the map changes over distances below those at which it is known, so that no step follows. An elastic slider begins to adhere so.
+fn over_a_steep_beginning<F: PeriodMap>(
+    run: &ContinuationRun<'_, F>,
+    here: &BranchSolution<F::Signature>,
+    out: &mut Vec<SpecialPoint<F::Signature>>,
+) -> Option<(BranchSolution<F::Signature>, f64)> {
+    let Follow { from, to, shortest, .. } = run.follow;
+    let (share, towards) = (here.parameter(), here.tangent.last()?.signum());
+    let (state, at) = run.unscaled(&here.unknowns);
+    let n = state.len();
+    let next = LEAPS.into_iter().find_map(|leap| {
+        let far = share + towards * leap * at.abs() / (to - from).abs();
+        let next = run.standing(&state, far, towards).filter(|_| (0.0..=1.0).contains(&far))?;
+        let is_near = distance(&next.unknowns[..n], &here.unknowns[..n]) <= LARGEST_LEAP;
+        is_near.then_some(next)
+    })?;
+    let step_length = distance(&next.unknowns, &here.unknowns).max(10.0 * shortest);
+    let error = (next.parameter() - share).abs() * (to - from).abs();
+    out.push(run.special_point(BifurcationKind::Border, here, error, here, Some(&next)));
     Some((next, step_length))
 }
 
