@@ -11,6 +11,7 @@ use quell_dynamics::motion::orbit::family::SystemAt;
 use quell_dynamics::motion::orbit::motion_thresholds;
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::orbit::threshold::{BranchEnding, NoThresholds, local};
+use quell_dynamics::response::BAND_END;
 use quell_dynamics::simulation::{is_used_up, within};
 use quell_linear::averaging::{
     AveragedVerdict, AveragingOptions, Becomes, criterion, critical_amplitudes,
@@ -262,8 +263,19 @@ fn least(belt: &Belt, dither: &Dither) -> Result<LeastDither, String> {
     })
 }
 
+/// Why a waveform that repeats in the band of the vibration has no exact amplitude: the base response may be stable, but it is no quench.
+pub(crate) fn in_the_band() -> String {
+    format!(
+        "it repeats at or below {BAND_END} times the frequency of the vibration, so that the motion in step with it is a slow vibration \
+         itself"
+    )
+}
+
 /// The least amplitude from which the base response is stable, near the averaged one.
 fn exact(belt: &Belt, averaged: f64) -> Result<f64, String> {
+    if belt.dithers().first().is_some_and(|first| first.repetition_ratio() <= BAND_END) {
+        return Err(in_the_band());
+    }
     let path = belt.dither_path(0, "amplitude");
     let range = searched(averaged, |amplitude| belt.with(&path, amplitude).is_ok())?;
     if belt.has_contact_state() {

@@ -13,6 +13,7 @@ use crate::picture;
 use crate::plot::Figure;
 use crate::run::system::waveforms::{COLUMNS, SystemWaveforms};
 use crate::study::{SystemSetup, SystemStudy};
+use quell_model::units::Quantity;
 
 impl Presented<SystemSetup> for SystemWaveforms {
     const TITLED: bool = true;
@@ -33,7 +34,9 @@ impl Presented<SystemSetup> for SystemWaveforms {
                 study.units().unit(*quantity).map_or(String::new(), |unit| format!("/{unit}"));
             let _ = write!(text, "  {:>14}", format!("{words}{unit}"));
         }
-        text.push('\n');
+        let unit =
+            study.units().unit(Quantity::Force).map_or(String::new(), |unit| format!("/{unit}"));
+        let _ = writeln!(text, "  {:>14}", format!("exact{unit}"));
         for row in &self.rows {
             let _ = write!(text, "  {:<width$}  {:>10}", row.label(), figure(row.duty_cycle));
             for column in &COLUMNS {
@@ -44,7 +47,8 @@ impl Presented<SystemSetup> for SystemWaveforms {
                     .map_or_else(|_| "none".to_owned(), |value| format!("{}{mark}", figure(value)));
                 let _ = write!(text, "  {cell:>14}");
             }
-            text.push('\n');
+            let exact = row.exact.as_ref().map_or("none".to_owned(), |value| figure(*value));
+            let _ = writeln!(text, "  {exact:>14}");
         }
         text.push_str("  * smallest. Power, stroke (peak to peak) and velocity of the driven point of the sliding structure.\n");
         let notes = self.rows.iter().flat_map(|row| {
@@ -56,14 +60,10 @@ impl Presented<SystemSetup> for SystemWaveforms {
                     let until = least
                         .until
                         .map(|until| format!("unstable again from {} on", figure(until)));
-                    least
-                        .stroke
-                        .as_ref()
-                        .err()
-                        .map(|why| of(why))
-                        .into_iter()
-                        .chain(until.map(|why| of(&why)))
-                        .collect()
+                    let exact = row.exact.as_ref().err();
+                    let exact = exact.map(|why| of(&format!("no exact amplitude: {why}")));
+                    let stroke = least.stroke.as_ref().err().map(|why| of(why));
+                    stroke.into_iter().chain(exact).chain(until.map(|why| of(&why))).collect()
                 }
             }
         });

@@ -263,7 +263,8 @@ impl LeastDitherFound {
         warnings.extend(self.without_state.first().map(|because| averages_are_a_start(because)));
         warnings.extend(self.warnings_about_drive(study));
         warnings.extend(self.warnings_about_samples());
-        warnings.extend(self.validity.clone());
+        warnings.extend(self.beyond_laws.clone());
+        warnings.extend(self.warnings_about_slow_ones());
         warnings.extend(study.warnings_about_design());
         warnings
     }

@@ -44,8 +44,8 @@ pub struct LeastDitherFound {
     /// The exact least dither at single operating points of a box of one coordinate: a schedule in place of one dither; or why it has
     /// no points.
     pub schedule: Result<Vec<ScheduledDither>, String>,
-    /// Warnings where the dither of the answer takes the slip out of the range of a law, or is not fast.
-    pub validity: Vec<String>,
+    /// Warnings where the dither of the answer takes the slip out of the range of a law.
+    pub beyond_laws: Vec<String>,
     /// Why the averages, which do not know the states of contacts, differ from those with them at the least dither.
     pub without_state: Vec<String>,
     /// For a disc whose box is a range of speeds, the exact thresholds in amplitude at speeds of the range, with the dither of the
@@ -64,6 +64,8 @@ pub struct DesignedDither {
     pub waveform: Waveform,
     /// Where it acts, if the design tries several places.
     pub place: Option<String>,
+    /// Whether its least dither repeats in the band of the vibration, so that the motion in step with it vibrates slowly.
+    pub is_slow: bool,
     /// The answer.
     pub designed: Designed,
 }

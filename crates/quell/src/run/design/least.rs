@@ -2,7 +2,7 @@
 
 use quell_design::actuator::Actuator;
 use quell_design::least_dither::{
-    DesignProblem, DesignStart, Designed, LimitedQuantity, OperatingPoint, Plant, ScheduledDither,
+    DesignProblem, DesignStart, LimitedQuantity, OperatingPoint, Plant, ScheduledDither,
     SystemAtPoint, SystemPlant, covered, design,
 };
 use quell_dynamics::simulation::within;
@@ -114,18 +114,23 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         actuator,
         start: asked.start,
     };
-    let designed = tried.par_iter().map(|tried| DesignedDither {
-        waveform: tried.waveform.clone(),
-        place: tried.place.clone(),
-        designed: within(STEPS_OF_MANY_SEARCHES, || design(problem(&tried.plant))),
+    let designed = tried.par_iter().map(|tried| {
+        let designed = within(STEPS_OF_MANY_SEARCHES, || design(problem(&tried.plant)));
+        let waveform = tried.waveform.clone();
+        let is_slow = numbers.is_slow(&designed, &waveform, tried.study);
+        DesignedDither { waveform, place: tried.place.clone(), is_slow, designed }
     });
     let designed: Vec<DesignedDither> = designed.collect();
-    let value = |designed: &Designed| match &designed.answer {
-        Ok(found) => found.critical.objective.clone().unwrap_or(f64::INFINITY),
-        Err(_) => f64::INFINITY,
+    // A slow one is only chosen where no other is allowed.
+    let value = |tried: &DesignedDither| match &tried.designed.answer {
+        Ok(found) => (tried.is_slow, found.critical.objective.clone().unwrap_or(f64::INFINITY)),
+        Err(_) => (true, f64::INFINITY),
     };
     let best = (0..designed.len())
-        .min_by(|a, b| value(&designed[*a].designed).total_cmp(&value(&designed[*b].designed)))
+        .min_by(|a, b| {
+            let (a, b) = (value(&designed[*a]), value(&designed[*b]));
+            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        })
         .unwrap_or(0);
     let answer = &designed[best].designed.answer;
     let schedule = match (tried.get(best), box_ranges.as_slice(), answer) {
@@ -162,7 +167,7 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         periods: asked.periods.clone(),
         covered,
         schedule,
-        validity: Vec::new(),
+        beyond_laws: Vec::new(),
         without_state,
         tongues,
         sensitivity,
@@ -170,8 +175,12 @@ pub(crate) fn least_dither<P: Plant + Sync>(
     };
     // The derivatives and the laws are those of the dither at its place.
     let study = tried.get(best).map_or(study, |tried| tried.study);
-    let (sensitivity, validity) = (found.sensitivity_of(study), found.validity(study));
-    Ok(LeastDitherFound { validity, sensitivity, ..found })
+    let beyond_laws = match &found.answer().answer {
+        Ok(feasible) => numbers.beyond_laws(feasible, found.waveform(), study),
+        Err(_) => Vec::new(),
+    };
+    let sensitivity = found.sensitivity_of(study);
+    Ok(LeastDitherFound { beyond_laws, sensitivity, ..found })
 }
 
 /// The exact least dithers along a box of one coordinate.

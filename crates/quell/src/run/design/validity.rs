@@ -1,46 +1,84 @@
 //! Where the least dither leaves the range of a friction law, or is not fast.
 
+use quell_design::least_dither::{Designed, FeasibleDesign};
 use quell_dynamics::response::BAND_END;
+use quell_model::Waveform;
 
-use super::found::{DesignNumber, LeastDitherFound};
+use super::found::{DesignNumber, DesignNumbers, DesignedDither, LeastDitherFound};
 use super::study_with_design::StudyWithDesign;
 use crate::run::system::thresholds::reaches_the_band;
 use crate::run::waveforms::label;
 
-impl LeastDitherFound {
-    /// Warnings where the dither of the answer takes the slip out of the range of a law, at a corner of the box or the point that decides,
-    /// and where it is not fast.
-    pub(super) fn validity(&self, study: &dyn StudyWithDesign) -> Vec<String> {
-        let Ok(found) = &self.answer().answer else { return Vec::new() };
+impl DesignNumbers {
+    /// Corners of the box and the operating point that decides, the fastest first, as a rule.
+    fn points(&self, found: &FeasibleDesign) -> Vec<Vec<f64>> {
         let mut points: Vec<Vec<f64>> = vec![Vec::new()];
         for number in &self.over {
-            // The fastest first, as a rule.
             let ends = [number.range.1, number.range.0];
             let longer = |point: &Vec<f64>| ends.map(|end| [point.as_slice(), &[end]].concat());
             points = points.iter().flat_map(longer).collect();
         }
         points.extend(found.critical.worst.clone());
-        let amplitude = [(&self.amplitude, found.verified_amplitude)];
+        points
+    }
+
+    /// The verified dither at an operating point, as numbers of the study.
+    fn verified<'n>(&'n self, found: &FeasibleDesign, point: &[f64]) -> Vec<(&'n str, f64)> {
         let others = self.others.iter().zip(found.critical.others.iter().copied());
-        let numbers_at = |point: &Vec<f64>| -> Vec<(&str, f64)> {
-            let at = self.over.iter().zip(point.iter().copied());
-            others.clone().chain(at).chain(amplitude).map(in_units).collect()
-        };
-        let warned =
-            points.iter().map(|point| study.beyond_laws(self.waveform(), &numbers_at(point)));
-        let of_laws = warned.into_iter().find(|warnings| !warnings.is_empty()).unwrap_or_default();
-        let is_slow = |point: &Vec<f64>| {
-            let system = study.system_with(self.waveform(), &numbers_at(point));
+        let at = self.over.iter().zip(point.iter().copied());
+        let amplitude = [(&self.amplitude, found.verified_amplitude)];
+        others.chain(at).chain(amplitude).map(in_units).collect()
+    }
+
+    /// Whether the least dither repeats in the band of the vibration.
+    pub(super) fn is_slow(
+        &self,
+        designed: &Designed,
+        waveform: &Waveform,
+        study: &dyn StudyWithDesign,
+    ) -> bool {
+        let Ok(found) = &designed.answer else { return false };
+        let reaches = |point: &Vec<f64>| {
+            let system = study.system_with(waveform, &self.verified(found, point));
             system.is_ok_and(|system| reaches_the_band(&system))
         };
-        let slow = points.iter().any(is_slow).then(|| {
-            format!(
-                "the {} repeats at or below {BAND_END} times the frequency of the vibration: quiet means that the motion is in step with it, \
-                 and that motion vibrates slowly; response_rms and response_peak give it",
+        self.points(found).iter().any(reaches)
+    }
+
+    /// Warnings where the dither takes the slip out of the range of a law.
+    pub(super) fn beyond_laws(
+        &self,
+        found: &FeasibleDesign,
+        waveform: &Waveform,
+        study: &dyn StudyWithDesign,
+    ) -> Vec<String> {
+        let points = self.points(found);
+        let warned =
+            points.iter().map(|point| study.beyond_laws(waveform, &self.verified(found, point)));
+        warned.into_iter().find(|warnings| !warnings.is_empty()).unwrap_or_default()
+    }
+}
+
+impl LeastDitherFound {
+    /// Warnings about dithers that are not fast: the one of the answer, and those that are not called least.
+    pub(super) fn warnings_about_slow_ones(&self) -> Vec<String> {
+        let band = format!("at or below {BAND_END} times the frequency of the vibration");
+        if self.dither().is_slow {
+            return vec![format!(
+                "the {} repeats {band}: quiet means that the motion is in step with it, and that motion vibrates slowly; response_rms \
+                 and response_peak give it",
                 label(self.waveform())
-            )
-        });
-        of_laws.into_iter().chain(slow).collect()
+            )];
+        }
+        let slow = self.tried.iter().filter(|tried| tried.is_slow);
+        let slow: Vec<String> = slow.map(DesignedDither::label).collect();
+        if slow.is_empty() {
+            return Vec::new();
+        }
+        vec![format!(
+            "not called least: {}, which would repeat {band}: the motion in step with such a dither vibrates slowly itself",
+            slow.join(", ")
+        )]
     }
 }
 

@@ -10,18 +10,21 @@ use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::spectrum;
 use quell_model::profile::{Profile, Wave};
 use quell_model::units::Quantity;
-use quell_model::{Contact, System, Waveform};
+use quell_model::{System, Waveform};
 use rayon::prelude::*;
 use serde_json::Value as Json;
 
 use super::modes::natural;
 use super::stability::FAR;
+use super::thresholds::reaches_the_band;
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::{averaged_without_states, averages_are_a_start, passivity_of_system};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
-use crate::run::waveforms::{Candidates, duty_cycle, exact_of_system, label, searched};
+use crate::run::waveforms::{
+    Candidates, duty_cycle, exact_of_system, in_the_band, label, searched,
+};
 use crate::study::SystemStudy;
 use crate::words::digits;
 
@@ -58,7 +61,7 @@ pub struct SystemWaveform {
     pub slow: bool,
     /// The least dither by averaging, or why no amplitude is known.
     pub averaged: Result<LeastInput, String>,
-    /// The exact least amplitude of a system with the state of a contact, which averaging does not know; or why it is unknown.
+    /// The exact least amplitude, near that of averaging, or why it is unknown.
     pub exact: Result<f64, String>,
 }
 
@@ -128,14 +131,14 @@ fn acting(system: &System, wave: &Wave) -> System {
     changed
 }
 
-/// The exact least amplitude of a system with the state of a contact.
+/// The exact least amplitude of a system, near the averaged one.
 fn exact(
     averaged: &Result<LeastInput, String>,
     acting: &(dyn Fn(f64) -> System + Sync),
 ) -> Result<f64, String> {
     let averaged = averaged.as_ref().map_err(Clone::clone)?.amplitude;
-    if !acting(averaged).contacts.iter().any(Contact::has_state) {
-        return Err("thresholds computes exact amplitudes of a system".to_owned());
+    if reaches_the_band(&acting(averaged)) {
+        return Err(in_the_band());
     }
     let range = searched(averaged, |_| true)?;
     let at = |values: &[f64]| -> Result<System, String> { Ok(acting(values[0])) };
@@ -202,25 +205,36 @@ impl SystemWaveforms {
 
     /// The result in one sentence.
     pub fn sentence(&self, study: &SystemStudy) -> String {
-        let Some(best) = self.best(&COLUMNS[0]) else {
-            let why = self.rows.iter().find_map(|row| row.averaged.as_ref().err());
-            return format!(
-                "By averaging no waveform quenches: {}.",
-                why.map_or(
-                    "all that have an amplitude repeat too slowly for averaging",
-                    String::as_str
-                )
-            );
-        };
         let unit =
             study.units().unit(Quantity::Force).map_or(String::new(), |unit| format!(" {unit}"));
-        let value = best.value(&COLUMNS[0]).map_or(String::new(), digits);
-        format!(
-            "By averaging, of the {} waveforms that repeat fast enough a {} stabilises steady sliding with the least amplitude, \
-             {value}{unit}.",
-            self.rows.iter().filter(|row| !row.slow).count(),
-            best.label()
-        )
+        let averaged = if let Some(best) = self.best(&COLUMNS[0]) {
+            let value = best.value(&COLUMNS[0]).map_or(String::new(), digits);
+            format!(
+                "By averaging, of the {} waveforms that repeat fast enough a {} stabilises steady sliding with the least amplitude, \
+                 {value}{unit}.",
+                self.rows.iter().filter(|row| !row.slow).count(),
+                best.label()
+            )
+        } else if self.rows.iter().any(|row| row.averaged.is_ok()) {
+            format!(
+                "Every waveform that quenches by averaging repeats at less than {FAR} times the highest eigenfrequency of the sliding \
+                 structure, too slowly for averaging to rank them."
+            )
+        } else {
+            let why = self.rows.iter().find_map(|row| row.averaged.as_ref().err());
+            format!(
+                "By averaging no waveform quenches: {}.",
+                why.map_or("none was tried", String::as_str)
+            )
+        };
+        let exact = self.rows.iter().filter_map(|row| Some((row, *row.exact.as_ref().ok()?)));
+        let least = exact.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(String::new(), |(row, value)| {
+            let (label, value) = (row.label(), digits(value));
+            format!(
+                " Exactly, at the study's frequency, the least amplitude is that of a {label}, {value}{unit}."
+            )
+        });
+        averaged + &least
     }
 
     /// As JSON.
@@ -313,6 +327,8 @@ impl SystemWaveforms {
             let unit = study.units().unit(column.2).unwrap_or("1");
             dataset = dataset.with(Array::new(column.0, unit, values.collect()));
         }
-        dataset
+        let exact = self.rows.iter().map(|row| *row.exact.as_ref().unwrap_or(&f64::NAN));
+        let unit = study.units().unit(Quantity::Force).unwrap_or("1");
+        dataset.with(Array::new("exact_amplitude", unit, exact.collect()))
     }
 }
