@@ -9,12 +9,13 @@ use quell_dynamics::simulation::{
     Event, EventKind, EventRecorder, FinalState, LargestSlip, Sample, Sampler,
 };
 use quell_model::Dither;
+use quell_model::Parametrisation;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::belt_start::begin;
 use super::failed;
-use super::manoeuvre::{self, Manoeuvre, SampledMotion};
+use super::manoeuvre::{Manoeuvre, SampledMotion};
 use super::sample_times;
 use super::sound_tap::{SoundTap, fastest_dither, plan};
 use crate::complaint::Failure;
@@ -159,10 +160,8 @@ fn manoeuvre(study: &BeltStudy, trace: &Sampler) -> Manoeuvre {
     let start = trace.samples.first().map_or(0.0, |sample| sample.time);
     let step = trace.step();
     let displacement: Vec<f64> = trace.samples.iter().map(|sample| sample.displacement).collect();
-    let envelopes = study.belt().dithers().iter().filter_map(|dither| dither.envelope.as_ref());
-    let onset = envelopes.filter_map(manoeuvre::onset).reduce(f64::min);
     let motion = SampledMotion { start, step, displacement: &displacement };
-    Manoeuvre::of(motion, NATURAL_PERIOD, slowest_repetition(study), onset)
+    Manoeuvre::in_system(motion, NATURAL_PERIOD, slowest_repetition(study), &study.belt().system())
 }
 
 /// The longest period of a dither that acts.

@@ -21,7 +21,7 @@ use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::passivity_of_system;
 use crate::fields::Fields;
 use crate::range;
-use crate::run::manoeuvre::{self, Manoeuvre, SampledMotion};
+use crate::run::manoeuvre::{Manoeuvre, SampledMotion};
 use crate::run::sample_times;
 use crate::sound::{Sound, SoundOptions};
 use crate::study::{SystemStudy, SystemUnits};
@@ -202,14 +202,12 @@ fn manoeuvre(study: &SystemStudy, traced: TracedRow, start: f64) -> Option<Manoe
     let meter = meter?;
     let motion = SampledMotion { start, step, displacement: &meter.samples };
     let waves = || study.system().waves().filter(|wave| wave.amplitude != 0.0);
-    let onset =
-        waves().filter_map(|wave| manoeuvre::onset(wave.envelope.as_ref()?)).reduce(f64::min);
     let slowest = waves().map(Wave::repetition).reduce(f64::min);
-    Some(Manoeuvre::of(
+    Some(Manoeuvre::in_system(
         motion,
         natural_period(study, (start, start + meter.samples.len() as f64 * step)),
         slowest.map(|rate| TAU / rate),
-        onset,
+        study.system(),
     ))
 }
 

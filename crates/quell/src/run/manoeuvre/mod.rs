@@ -1,8 +1,13 @@
 //! What a run under a varying drive, load or dither does: when it vibrates, how soon the dither quenches it, and its spectrogram.
 
-use quell_model::profile::Knots;
+mod quench;
+mod spectrogram;
+
+pub use quench::{OnPhase, Quench, Surroundings};
+pub use spectrogram::Spectrogram;
+
+use quell_model::System;
 use quell_model::units::Quantity;
-use quell_numerics::spectrum::Spectrum;
 
 use crate::fields::Fields;
 use crate::words::plural;
@@ -25,13 +30,6 @@ const MOST_INTERVALS: usize = 4;
 
 /// Windows per natural period in which vibration is measured.
 const WINDOWS_PER_PERIOD: usize = 4;
-
-/// Natural periods in a window of the spectrogram.
-const PERIODS_PER_WINDOW: f64 = 6.0;
-
-/// Largest numbers of columns and rows of a spectrogram.
-const MOST_COLUMNS: usize = 240;
-const MOST_ROWS: usize = 160;
 
 /// A displacement at equal steps.
 #[derive(Clone, Copy, Debug)]
@@ -60,32 +58,37 @@ pub struct VibrationInterval {
 pub struct Manoeuvre {
     /// The intervals of vibration, in order.
     pub vibration: Vec<VibrationInterval>,
-    /// When the first dither is switched on, if one is.
-    pub onset: Option<f64>,
-    /// Time from there until the vibration has ended for the rest of the run; why it is unknown.
-    pub time_to_quench: Result<f64, &'static str>,
-    /// Largest vibration after the onset over the vibration at the onset, minus 1; why it is unknown.
-    pub overshoot: Result<f64, &'static str>,
+    /// What the dither does each time it is switched on.
+    pub quenches: Vec<Quench>,
     /// Beginning and end of the run.
     pub whole: (f64, f64),
 }
 
 impl Manoeuvre {
-    /// Of a displacement; `period` is the natural period, `fast` that of a dither, whose motion is no vibration, `onset` the time
-    /// at which the dither is switched on.
+    /// Of a displacement of a system, whose drives, loads and dither vary.
+    pub fn in_system(
+        motion: SampledMotion<'_>,
+        period: f64,
+        fast: Option<f64>,
+        system: &System,
+    ) -> Self {
+        let changes = |from: f64, to: f64| quench::changes_of(system, from, to);
+        let (phases, rest) = (quench::phases_of(system), quench::rest_of(system));
+        Self::of(motion, period, fast, &Surroundings { phases, rest, changes: &changes })
+    }
+
+    /// Of a displacement; `period` is the natural period, `fast` that of a dither, whose motion is no vibration.
     pub fn of(
         motion: SampledMotion<'_>,
         period: f64,
         fast: Option<f64>,
-        onset: Option<f64>,
+        surroundings: &Surroundings<'_>,
     ) -> Self {
-        let slow = without_fast(motion, period, fast);
-        let motion = SampledMotion {
-            displacement: slow.as_deref().unwrap_or(motion.displacement),
-            ..motion
-        };
         let SampledMotion { start, step, displacement } = motion;
         let end = start + step * displacement.len().saturating_sub(1) as f64;
+        let slow = without_fast(motion, period, fast);
+        let motion = slow.as_ref().map_or(motion, SlowMotion::sampled);
+        let SampledMotion { displacement, .. } = motion;
         let levels = levels(motion, period);
         let largest = levels.iter().fold(0.0, |most: f64, (_, level)| most.max(*level));
         let reach = displacement.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -94,8 +97,8 @@ impl Manoeuvre {
         } else {
             Vec::new()
         };
-        let (time_to_quench, overshoot) = quenching(&vibration, &levels, onset, end);
-        Self { vibration, onset, time_to_quench, overshoot, whole: (start, end) }
+        let quenches = surroundings.quenches(&vibration, &levels, (end, period));
+        Self { vibration, quenches, whole: (start, end) }
     }
 }
 
@@ -131,8 +134,22 @@ fn intervals(
     vibration
 }
 
+/// A displacement without the motion under a fast dither.
+struct SlowMotion {
+    start: f64,
+    step: f64,
+    displacement: Vec<f64>,
+}
+
+impl SlowMotion {
+    fn sampled(&self) -> SampledMotion<'_> {
+        let Self { start, step, displacement } = self;
+        SampledMotion { start: *start, step: *step, displacement }
+    }
+}
+
 /// The displacement without the motion under a fast dither; `None` without one.
-fn without_fast(motion: SampledMotion<'_>, period: f64, fast: Option<f64>) -> Option<Vec<f64>> {
+fn without_fast(motion: SampledMotion<'_>, period: f64, fast: Option<f64>) -> Option<SlowMotion> {
     fast.filter(|fast| *fast < FAST * period).map(|fast| averaged(motion, fast))
 }
 
@@ -143,19 +160,19 @@ pub(crate) fn vibration_levels(
     fast: Option<f64>,
 ) -> Vec<(f64, f64)> {
     let slow = without_fast(motion, period, fast);
-    let displacement = slow.as_deref().unwrap_or(motion.displacement);
-    levels(SampledMotion { displacement, ..motion }, period)
+    levels(slow.as_ref().map_or(motion, SlowMotion::sampled), period)
 }
 
-/// The displacement averaged over a fast period about each sample; over less at the ends.
-fn averaged(motion: SampledMotion<'_>, period: f64) -> Vec<f64> {
-    let SampledMotion { step, displacement, .. } = motion;
+/// The displacement averaged over a fast period about each sample that has half of one on both sides: over less a part of the fast
+/// motion would remain.
+fn averaged(motion: SampledMotion<'_>, period: f64) -> SlowMotion {
+    let SampledMotion { start, step, displacement } = motion;
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "a count of samples"
     )]
-    let half = (0.5 * period / step).round() as usize;
+    let half = ((0.5 * period / step).round() as usize).max(1);
     let mut sums = Vec::with_capacity(displacement.len() + 1);
     sums.push(0.0);
     let mut sum = 0.0;
@@ -163,15 +180,18 @@ fn averaged(motion: SampledMotion<'_>, period: f64) -> Vec<f64> {
         sum += value;
         sums.push(sum);
     }
-    (0..displacement.len())
-        .map(|at| {
-            let half = half.min(at).min(displacement.len() - 1 - at);
-            // The samples at both ends of a whole period count half.
-            let inner = sums[at + half] - sums[at - half]
-                + 0.5 * (displacement[at + half] - displacement[at - half]);
-            if half == 0 { displacement[at] } else { inner / (2 * half) as f64 }
-        })
-        .collect()
+    let inner = half..displacement.len().saturating_sub(half);
+    let mean = |at: usize| {
+        // The samples at both ends of a whole period count half.
+        let whole = sums[at + half] - sums[at - half]
+            + 0.5 * (displacement[at + half] - displacement[at - half]);
+        whole / (2 * half) as f64
+    };
+    SlowMotion {
+        start: step.mul_add(half as f64, start),
+        step,
+        displacement: inner.map(mean).collect(),
+    }
 }
 
 impl Manoeuvre {
@@ -199,10 +219,19 @@ impl Manoeuvre {
         } else {
             format!("{what} vibrates {listed}{more}.")
         };
-        let quench = self.time_to_quench.ok().map(|time| {
-            format!(" The vibration ends {} after the dither is switched on.", moment(time))
+        let known = self.quenches.iter().filter_map(|quench| Some((quench, quench.time.ok()?)));
+        let known: Vec<(&Quench, f64)> = known.collect();
+        let several = self.quenches.len() > 1;
+        let each = known.iter().take(MOST_INTERVALS).map(|(quench, time)| {
+            let at =
+                if several { format!(" at {}", moment(quench.on.from)) } else { String::new() };
+            let beside = if quench.alone { "" } else { ", while drive or load change too" };
+            format!("{} after the dither is switched on{at}{beside}", moment(*time))
         });
-        format!("{vibrates}{}", quench.unwrap_or_default())
+        let each = each.collect::<Vec<_>>().join(", and ");
+        let quench =
+            if each.is_empty() { String::new() } else { format!(" The vibration ends {each}.") };
+        format!("{vibrates}{quench}")
     }
 
     /// When the run vibrates, as fields; `empty` makes fields in the units of the study.
@@ -217,11 +246,25 @@ impl Manoeuvre {
             inner
         });
         fields.list("vibration", intervals.collect::<Vec<_>>());
-        let onset = self.onset.ok_or_else(|| "no dither is switched on during the run".to_owned());
+        let none = || "no dither is switched on during the run".to_owned();
+        let first = self.quenches.first().ok_or_else(none);
+        let of = |value: fn(&Quench) -> Result<f64, &'static str>| {
+            first.clone().and_then(|quench| value(quench).map_err(str::to_owned))
+        };
         fields
-            .known("dither_onset", Quantity::Time, onset)
-            .known("time_to_quench", Quantity::Time, self.time_to_quench.map_err(str::to_owned))
-            .known("overshoot", Quantity::Ratio, self.overshoot.map_err(str::to_owned));
+            .known("dither_onset", Quantity::Time, of(|quench| Ok(quench.on.from)))
+            .known("time_to_quench", Quantity::Time, of(|quench| quench.time))
+            .known("overshoot", Quantity::Ratio, of(|quench| quench.overshoot));
+        let quenches = self.quenches.iter().map(|quench| {
+            let mut inner = empty();
+            inner
+                .number("dither_onset", Quantity::Time, quench.on.from)
+                .known("time_to_quench", Quantity::Time, quench.time.map_err(str::to_owned))
+                .known("overshoot", Quantity::Ratio, quench.overshoot.map_err(str::to_owned))
+                .plain("alone", quench.alone);
+            inner
+        });
+        fields.list("quenches", quenches.collect::<Vec<_>>());
         fields
     }
 }
@@ -253,110 +296,9 @@ fn levels(motion: SampledMotion<'_>, period: f64) -> Vec<(f64, f64)> {
         .collect()
 }
 
-type Known = Result<f64, &'static str>;
-
-fn quenching(
-    vibration: &[VibrationInterval],
-    levels: &[(f64, f64)],
-    onset: Option<f64>,
-    end: f64,
-) -> (Known, Known) {
-    let Some(onset) = onset else {
-        let why = "no dither is switched on during the run";
-        return (Err(why), Err(why));
-    };
-    let at_onset = vibration.iter().any(|interval| interval.from <= onset && onset <= interval.to);
-    if !at_onset {
-        let why = "nothing vibrates when the dither is switched on";
-        return (Err(why), Err(why));
-    }
-    let last = vibration.last().map_or(onset, |interval| interval.to);
-    let quench =
-        if last >= end { Err("it still vibrates at the end of the run") } else { Ok(last - onset) };
-    let level_at = levels.iter().take_while(|(time, _)| *time <= onset).last();
-    let after = levels.iter().filter(|(time, _)| *time > onset);
-    let most = after.fold(0.0, |most: f64, (_, level)| most.max(*level));
-    let overshoot = level_at.map_or(Err("the dither is on from the start"), |(_, level)| {
-        Ok((most / level - 1.0).max(0.0))
-    });
-    (quench, overshoot)
-}
-
-/// When an envelope first rises from zero, or from its least share.
-pub fn onset(envelope: &Knots) -> Option<f64> {
-    let values = envelope.values();
-    let rise = (1..values.len()).find(|place| values[*place].abs() > values[place - 1].abs())?;
-    Some(envelope.times()[rise - 1])
-}
-
-/// Spectral amplitude over time and angular frequency.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Spectrogram {
-    /// Middles of the windows.
-    pub times: Vec<f64>,
-    /// Angular frequencies.
-    pub frequencies: Vec<f64>,
-    /// Amplitudes, row by row: those of the lowest frequency first.
-    pub amplitudes: Vec<f64>,
-}
-
-impl Spectrogram {
-    /// Of a displacement up to an angular frequency; `None` if the run is shorter than a window.
-    pub fn of(motion: SampledMotion<'_>, period: f64, highest: f64) -> Option<Self> {
-        let SampledMotion { start, step, displacement } = motion;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a count of samples"
-        )]
-        let length = (PERIODS_PER_WINDOW * period / step).round() as usize;
-        if length < 16 || displacement.len() < 2 * length {
-            return None;
-        }
-        let free = displacement.len() - length;
-        let hop = (length / 8).max(free / MOST_COLUMNS).max(1);
-        let (mut times, mut columns) = (Vec::new(), Vec::new());
-        let mut frequencies = Vec::new();
-        // Lines of the spectrum in one row; all windows have the same lines.
-        let mut each = 1;
-        for first in (0..=free).step_by(hop) {
-            let spectrum = Spectrum::of(&displacement[first..first + length], step).ok()?;
-            if frequencies.is_empty() {
-                let shown =
-                    spectrum.frequencies().take_while(|frequency| *frequency <= highest).count();
-                each = shown.div_ceil(MOST_ROWS).max(1);
-                frequencies = (0..shown / each)
-                    .map(|row| spectrum.frequency(row * each + each / 2))
-                    .collect();
-            }
-            let rows = spectrum.amplitudes().chunks(each).take(frequencies.len());
-            columns.push(
-                rows.map(|row| row.iter().fold(0.0, |most: f64, a| most.max(*a)))
-                    .collect::<Vec<f64>>(),
-            );
-            times.push(step.mul_add(first as f64 + 0.5 * length as f64, start));
-        }
-        let amplitudes = (0..frequencies.len())
-            .flat_map(|row| columns.iter().map(move |column| column[row]))
-            .collect();
-        (times.len() > 1 && frequencies.len() > 1).then_some(Self {
-            times,
-            frequencies,
-            amplitudes,
-        })
-    }
-
-    /// The largest amplitude.
-    pub fn largest(&self) -> f64 {
-        self.amplitudes.iter().fold(0.0, |most: f64, a| most.max(*a))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::f64::consts::TAU;
-
-    use quell_model::profile::KnotShape;
 
     use super::*;
 
@@ -364,6 +306,15 @@ mod tests {
 
     fn motion(value: impl Fn(f64) -> f64) -> Vec<f64> {
         (0..15_000).map(|sample| value(STEP * f64::from(sample))).collect()
+    }
+
+    fn on(from: f64) -> Surroundings<'static> {
+        let on = OnPhase { from, to: f64::INFINITY };
+        Surroundings { phases: vec![on], rest: f64::INFINITY, changes: &|_, _| false }
+    }
+
+    fn off() -> Surroundings<'static> {
+        Surroundings { phases: Vec::new(), ..on(0.0) }
     }
 
     fn sampled(displacement: &[f64]) -> SampledMotion<'_> {
@@ -381,20 +332,20 @@ mod tests {
             };
             0.01 * time + amplitude * time.sin()
         });
-        let found = Manoeuvre::of(sampled(&displacement), TAU, None, Some(110.0));
+        let found = Manoeuvre::of(sampled(&displacement), TAU, None, &on(110.0));
         assert_eq!(found.vibration.len(), 1);
         let only = found.vibration[0];
         assert!((only.from - 50.0).abs() < TAU && (only.to - 150.0).abs() < TAU, "{only:?}");
         assert!((only.level - 1.5).abs() < 0.05, "{only:?}");
-        assert!((found.time_to_quench.expect("quenched") - 40.0).abs() < TAU);
-        assert!((found.overshoot.expect("known") - 0.5).abs() < 0.1);
+        assert!((found.quenches[0].time.expect("quenched") - 40.0).abs() < TAU);
+        assert!((found.quenches[0].overshoot.expect("known") - 0.5).abs() < 0.1);
         let quiet = motion(|time| 0.3 + 1e-7 * time.sin());
-        let found = Manoeuvre::of(sampled(&quiet), TAU, None, None);
-        assert!(found.vibration.is_empty() && found.time_to_quench.is_err());
-        let on = motion(f64::sin);
-        let found = Manoeuvre::of(sampled(&on), TAU, None, Some(20.0));
+        let found = Manoeuvre::of(sampled(&quiet), TAU, None, &off());
+        assert!(found.vibration.is_empty() && found.quenches.is_empty());
+        let always = motion(f64::sin);
+        let found = Manoeuvre::of(sampled(&always), TAU, None, &on(20.0));
         assert_eq!((found.vibration[0].from, found.vibration[0].to), found.whole);
-        assert!(found.time_to_quench.is_err());
+        assert!(found.quenches[0].time.is_err());
     }
 
     /// A dither that moves the mass fast is no vibration.
@@ -402,10 +353,22 @@ mod tests {
     fn the_fast_motion_under_dither_does_not_count() {
         let displacement =
             motion(|time| if time < 100.0 { time.sin() } else { 0.3 * (10.0 * time).sin() });
-        let found = |fast| Manoeuvre::of(sampled(&displacement), TAU, fast, Some(90.0));
-        assert!(found(None).time_to_quench.is_err());
-        let quench = found(Some(TAU / 10.0)).time_to_quench.expect("quenched");
+        let found = |fast| Manoeuvre::of(sampled(&displacement), TAU, fast, &on(90.0));
+        assert!(found(None).quenches[0].time.is_err());
+        let quench = found(Some(TAU / 10.0)).quenches[0].time.expect("quenched");
         assert!((quench - 10.0).abs() < TAU, "{quench}");
+    }
+
+    /// The fast motion remains nowhere, also where the run ends within one of its periods.
+    #[test]
+    fn the_ends_of_a_run_are_no_vibration() {
+        let displacement =
+            motion(|time| if time < 100.0 { time.sin() } else { 3.0 * (10.0 * time).sin() });
+        for beyond in 0..32 {
+            let cut = &displacement[..displacement.len() - beyond];
+            let found = Manoeuvre::of(sampled(cut), TAU, Some(TAU / 10.0), &off());
+            assert_eq!(found.vibration.len(), 1, "{beyond}: {:?}", found.vibration);
+        }
     }
 
     /// Slips of one natural period with rests of `rest` natural periods between them, ten times.
@@ -415,42 +378,12 @@ mod tests {
             let slips = whole < 10.0 * repeat && whole.rem_euclid(repeat) < 1.0;
             if slips { time.sin() } else { 0.0 }
         });
-        Manoeuvre::of(sampled(&displacement), TAU, None, None).vibration.len()
+        Manoeuvre::of(sampled(&displacement), TAU, None, &off()).vibration.len()
     }
 
     #[test]
     fn short_rests_belong_to_a_vibration() {
         assert_eq!(with_rests(3.0), 1);
         assert!(with_rests(9.0) > 4);
-    }
-
-    #[test]
-    fn a_chirp_moves_through_the_spectrogram() {
-        let displacement = motion(|time| (time + 0.005 * time * time).sin());
-        let found = Spectrogram::of(sampled(&displacement), TAU, 6.0).expect("a spectrogram");
-        let columns = found.times.len();
-        for (column, time) in found.times.iter().enumerate() {
-            let at = |row: usize| found.amplitudes[row * columns + column];
-            let peak = (0..found.frequencies.len())
-                .max_by(|a, b| at(*a).total_cmp(&at(*b)))
-                .expect("rows");
-            let exact = 1.0 + 0.01 * time;
-            assert!(
-                (found.frequencies[peak] - exact).abs() < 0.12,
-                "{time}: {}",
-                found.frequencies[peak]
-            );
-            assert!(at(peak) > 0.7 && at(peak) < 1.05);
-        }
-    }
-
-    #[test]
-    fn the_onset_is_where_the_share_begins_to_rise() {
-        let knots = |times: &[f64], values: &[f64]| {
-            Knots::new(times.to_vec(), values.to_vec(), KnotShape::Linear).expect("valid")
-        };
-        assert_eq!(onset(&knots(&[0.0, 5.0, 9.0], &[0.0, 0.0, 1.0])), Some(5.0));
-        assert_eq!(onset(&knots(&[3.0, 3.0], &[0.0, 1.0])), Some(3.0));
-        assert_eq!(onset(&knots(&[0.0, 5.0], &[1.0, 0.0])), None);
     }
 }
