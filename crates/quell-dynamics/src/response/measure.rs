@@ -138,14 +138,22 @@ impl Compared {
         Ok(self.dithered.lines.whole / self.undithered.lines.whole)
     }
 
-    /// Whether M of the halves of the dithered record agree.
+    /// Whether M of the halves of the dithered record agree, and the run has left its first stick.
     pub fn settled(&self) -> bool {
         self.dithered.record().is_settled(self.undithered.lines.whole)
+            && !self.still_sticks(&self.dithered)
     }
 
-    /// Whether M of the halves of the undithered record agree.
+    /// Whether M of the halves of the undithered record agree, and the run has left its first stick.
     pub fn undithered_settled(&self) -> bool {
         self.undithered.record().is_settled(self.undithered.lines.whole)
+            && !self.still_sticks(&self.undithered)
+    }
+
+    /// Whether a moving belt still carries the mass along in its first stick: no motion on it sticks for ever.
+    fn still_sticks(&self, measured: &MeasuredRecord) -> bool {
+        let moves = self.vibrates != Err(Undefined::UnditheredAtRest);
+        moves && measured.events == 0 && measured.stick_fraction > 0.5
     }
 }
 

@@ -1,13 +1,16 @@
 //! `response`: the steady response, the effect of the dither and its cost.
 
+use std::f64::consts::TAU;
+
 use quell_dynamics::attractor::Reached;
+use quell_dynamics::orbit::cycle::{FreeEnd, free_end};
 use quell_dynamics::response::{
     BAND_END, Effect, RunEnding, SettledRecord, SteadyResponse, Uncertain, respond,
     respond_with_state, samples_per_slow_period, stroke_is_measured,
 };
 use quell_dynamics::simulation::{Sample, Start, within};
 use quell_model::units::Quantity;
-use quell_model::{Dither, Waveform};
+use quell_model::{Belt, Dither, Waveform};
 use serde_json::Value as Json;
 
 use super::belt_start::begin;
@@ -19,7 +22,7 @@ use crate::dataset::Dataset;
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::fields::Fields;
 use crate::range::SlipMet;
-use crate::study::BeltStudy;
+use crate::study::{BeltStudy, Solver};
 use crate::words::{capital, in_words, start_in_words};
 
 /// Largest number of samples of a record: with the undithered record and both spectra about a gigabyte. With more, a fast
@@ -37,6 +40,8 @@ pub struct MeasuredResponse {
     moves: bool,
     /// The slip reached by both runs.
     pub slip: SlipMet,
+    /// The period of the limit cycle without dither, if the run is shorter.
+    longer_cycle: Option<f64>,
 }
 
 /// Measures the steady response of a study.
@@ -61,7 +66,25 @@ pub fn run(study: &BeltStudy) -> Result<MeasuredResponse, Failure> {
     let mut slip = SlipMet::of_velocities(belt, samples.map(|sample| sample.velocity));
     slip.add_start(belt, start);
     slip.add_start(&belt.undithered(), start);
-    Ok(MeasuredResponse { start, response, moves, slip })
+    let longer_cycle = longer_cycle(belt, start, solver);
+    Ok(MeasuredResponse { start, response, moves, slip, longer_cycle })
+}
+
+/// The period of the limit cycle on which the undithered run ends, if the run is settled or recorded for less: on a slow belt a stick
+/// may last as long as that.
+fn longer_cycle(belt: &Belt, start: Start, solver: &Solver) -> Option<f64> {
+    let length = solver.settle.min(TAU * f64::from(solver.record_periods));
+    let law = belt.friction();
+    let most = law.static_coefficient().max(law.coefficient(0.0)) * belt.normal_load();
+    // The force of the spring changes by twice the largest friction in the longest stick.
+    let is_slow = belt.belt_velocity() > 0.0 && 2.0 * most / belt.belt_velocity() > length - TAU;
+    if !is_slow || belt.has_contact_state() {
+        return None;
+    }
+    match free_end(&belt.undithered(), start) {
+        Ok(FreeEnd::Cycle(cycle)) => Some(cycle.period).filter(|period| *period > length),
+        _ => None,
+    }
 }
 
 /// Rejects a record that would not fit into memory: fast dithers are sampled several times per period.
@@ -282,14 +305,23 @@ impl MeasuredResponse {
         let mut warn = |which: &str, settled: bool| {
             if !settled {
                 warnings.push(format!(
-                    "the {which} response has not settled after {time} = {settle}: the amplitudes of the two \
-                     halves of the record differ; raise solver.settle or solver.record_periods"
+                    "the {which} response has not settled after {time} = {settle}: the amplitudes of the two halves of the record differ, or \
+                     the mass is still in its first stick; raise solver.settle or solver.record_periods"
                 ));
             }
         };
         warn("dithered", self.response.settled);
         // A run that decays to zero need not settle: E is then undefined, with a reason.
         warn("undithered", self.response.undithered_settled || self.response.efficiency.is_err());
+        warnings.extend(self.longer_cycle.map(|period| {
+            let record = TAU * f64::from(study.solver().record_periods);
+            let [period, record] =
+                [period, record].map(|length| in_words(study, Quantity::Time, length));
+            format!(
+                "the vibration without dither repeats after {time} = {period}, but the run settles for {settle} and is recorded for \
+                 {record}: M₀, E and the friction without dither are those of a part of it; raise solver.settle and solver.record_periods"
+            )
+        }));
         warnings
     }
 
