@@ -37,6 +37,10 @@ impl Presented<BeltSetup> for Ramp {
             let name = format!("exact: {} above", threshold.becomes);
             table.number(&name, self.ramped.quantity, threshold.value);
         }
+        if let Some((begins, ends)) = self.limits() {
+            table.number("vibration counts from", Quantity::Displacement, begins);
+            table.number("  and until below", Quantity::Displacement, ends);
+        }
         table.text()
     }
 
@@ -72,6 +76,10 @@ impl Presented<SystemSetup> for Ramp {
         for threshold in self.thresholds.iter().flatten() {
             let name = format!("exact: {} above", threshold.becomes);
             table.word(&name, &with(self.ramped.quantity, threshold.value));
+        }
+        if let Some((begins, ends)) = self.limits() {
+            table.word("vibration counts from", &with(Quantity::Displacement, begins));
+            table.word("  and until below", &with(Quantity::Displacement, ends));
         }
         table.text()
     }

@@ -109,19 +109,12 @@ pub fn follow<F: PeriodMap>(
             }
             StepOutcome::Failed if length > options.shortest => length *= 0.4,
             StepOutcome::Failed => {
-                let joined = if searched_beyond {
-                    None
-                } else {
-                    let smoother = run.onto_smoother_piece(&here, &mut special_points);
-                    let smoother = smoother.map(|next| (next, 100.0 * options.shortest));
-                    smoother.or_else(|| over_a_corner(&run, &here, &mut special_points))
-                };
-                let over = joined.or_else(|| {
-                    leaps += 1;
-                    let may_leap = leaps <= MOST_LEAPS;
-                    let out = &mut special_points;
-                    may_leap.then(|| over_a_steep_beginning(&run, &here, out)).flatten()
-                });
+                let over = over_an_obstacle(
+                    &run,
+                    &here,
+                    (searched_beyond, &mut leaps),
+                    &mut special_points,
+                );
                 let Some((next, step_length)) = over else { break End::Lost { at } };
                 searched_beyond = true;
                 length = step_length;
@@ -132,6 +125,24 @@ pub fn follow<F: PeriodMap>(
         }
     };
     Ok(FixedPointBranch { points, special_points, end })
+}
+
+/// The point beyond what stopped the steps, and the distance to it. A smoother piece and a corner are sought once.
+fn over_an_obstacle<F: PeriodMap>(
+    run: &ContinuationRun<'_, F>,
+    here: &BranchSolution<F::Signature>,
+    (searched_beyond, leaps): (bool, &mut usize),
+    out: &mut Vec<SpecialPoint<F::Signature>>,
+) -> Option<(BranchSolution<F::Signature>, f64)> {
+    if !searched_beyond {
+        let smoother = run.onto_smoother_piece(here, out);
+        let smoother = smoother.map(|next| (next, 100.0 * run.follow.shortest));
+        if let Some(joined) = smoother.or_else(|| over_a_corner(run, here, out)) {
+            return Some(joined);
+        }
+    }
+    *leaps += 1;
+    (*leaps <= MOST_LEAPS).then(|| over_a_steep_beginning(run, here, out)).flatten()
 }
 
 /// The point beyond a corner that no step can follow, and the distance to it, if the branch continues there.

@@ -58,6 +58,8 @@ pub struct VibrationInterval {
 pub struct Manoeuvre {
     /// The intervals of vibration, in order.
     pub vibration: Vec<VibrationInterval>,
+    /// The levels above which vibration begins and below which it has ended, shares of the largest one; `None` without vibration.
+    pub limits: Option<(f64, f64)>,
     /// What the dither does each time it is switched on.
     pub quenches: Vec<Quench>,
     /// Beginning and end of the run.
@@ -92,21 +94,18 @@ impl Manoeuvre {
         let levels = levels(motion, period);
         let largest = levels.iter().fold(0.0, |most: f64, (_, level)| most.max(*level));
         let reach = displacement.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let vibration = if largest > LEAST * reach {
-            intervals(&levels, largest, (start, end), period)
-        } else {
-            Vec::new()
-        };
+        let limits = (largest > LEAST * reach).then_some((BEGINS * largest, ENDS * largest));
+        let vibration =
+            limits.map_or_else(Vec::new, |limits| intervals(&levels, limits, (start, end), period));
         let quenches = surroundings.quenches(&vibration, &levels, (end, period));
-        Self { vibration, quenches, whole: (start, end) }
+        Self { vibration, limits, quenches, whole: (start, end) }
     }
 }
 
-/// The intervals in which the level rises above [`BEGINS`] of the largest one, until it falls below [`ENDS`] of it for longer than a
-/// [`PAUSE`].
+/// The intervals in which the level rises above the first limit, until it falls below the second one for longer than a [`PAUSE`].
 fn intervals(
     levels: &[(f64, f64)],
-    largest: f64,
+    (begins, ends): (f64, f64),
     (start, end): (f64, f64),
     period: f64,
 ) -> Vec<VibrationInterval> {
@@ -114,8 +113,8 @@ fn intervals(
     let mut going = false;
     for (time, level) in levels {
         if going {
-            going = *level > ENDS * largest;
-        } else if *level > BEGINS * largest {
+            going = *level > ends;
+        } else if *level > begins {
             going = true;
             let resumes = vibration.last().is_some_and(|last| time - last.to < PAUSE * period);
             let from = if vibration.is_empty() && *time <= start + period { start } else { *time };
@@ -246,6 +245,14 @@ impl Manoeuvre {
             inner
         });
         fields.list("vibration", intervals.collect::<Vec<_>>());
+        let limit = |of: fn((f64, f64)) -> f64| {
+            self.limits.map(of).ok_or_else(|| "nothing vibrates".to_owned())
+        };
+        fields.known("begins_above", Quantity::Displacement, limit(|limits| limits.0)).known(
+            "ends_below",
+            Quantity::Displacement,
+            limit(|limits| limits.1),
+        );
         let none = || "no dither is switched on during the run".to_owned();
         let first = self.quenches.first().ok_or_else(none);
         let of = |value: fn(&Quench) -> Result<f64, &'static str>| {

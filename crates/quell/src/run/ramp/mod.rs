@@ -208,6 +208,11 @@ pub struct Ramp {
 }
 
 impl Ramp {
+    /// The levels from which vibration counts, and below which it has ended.
+    pub(crate) fn limits(&self) -> Option<(f64, f64)> {
+        self.manoeuvre.as_ref().and_then(|manoeuvre| manoeuvre.limits)
+    }
+
     fn new(
         what: &'static str,
         ramped: RampCourse,
