@@ -1,0 +1,134 @@
+//! Verbs that could contradict each other about one study, found by readers from outside.
+
+use quell::Study;
+use quell::kind::verbs;
+use quell::run::thresholds::ThresholdsRequest;
+use serde_json::Value as Json;
+
+fn study(text: &str) -> Study {
+    Study::parse(text, &[]).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
+}
+
+fn number(value: &Json) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("no number: {value}"))
+}
+
+/// A slider that begins to adhere at 308.01 N, where its response begins like a square root. Plain Runge–Kutta runs of a reader vibrate
+/// slowly at 330 N and not from 340 N on.
+const SLIDER: &str = r#"
+[belt]
+mass_kg = 0.5
+natural_frequency_hz = 100.0
+damping_ratio = 0.005
+normal_force_n = 200.0
+belt_velocity_m_per_s = 0.1
+tangential_stiffness_n_per_m = 5e6
+[friction]
+law = "stribeck"
+static_coefficient = 0.4
+minimum_coefficient = 0.2857
+reference_velocity_m_per_s = 0.3
+[dither]
+direction = "tangential"
+waveform = "sine"
+amplitude_n = 400.0
+frequency_hz = 1000.0
+[design]
+minimise = "amplitude"
+vary = ["dither.amplitude_n"]
+from = [10.0]
+to = [2000.0]
+"#;
+
+#[test]
+fn designs_waveforms_and_thresholds_of_a_slider_agree() {
+    let study = study(SLIDER);
+    let verbs = verbs(&study);
+    let thresholds = |from: f64, to: f64| {
+        let parameter = "dither.amplitude_n".to_owned();
+        let request = ThresholdsRequest { parameter, from, to, ..ThresholdsRequest::default() };
+        verbs.thresholds(request).expect("thresholds").facts()
+    };
+    let values: Vec<f64> = [(10.0, 2000.0), (306.0, 340.0), (320.0, 350.0)]
+        .map(|(from, to)| number(&thresholds(from, to)["local"][0]["value"]))
+        .to_vec();
+    for value in &values {
+        assert!((value / 333.7607 - 1.0).abs() < 1e-6, "{values:?}");
+    }
+    let near = thresholds(306.0, 310.0);
+    assert_eq!(near["covered"], true, "{near}");
+    let design = verbs.design().expect("a design").facts();
+    let least = number(&design["critical"]["dither.amplitude_n"]);
+    assert!((least / values[0] - 1.0).abs() < 1e-6, "{least}");
+    let rows = verbs.waveforms().expect("waveforms").facts();
+    let sine = number(&rows["waveforms"][0]["exact_amplitude_n"]);
+    assert!((sine / values[0] - 1.0).abs() < 1e-6, "{sine}");
+}
+
+const BELT: &str = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.1\n[friction]\nlaw = \"stribeck\"\n\
+                    static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\n\
+                    direction = \"tangential\"\nwaveform = \"sine\"\namplitude = 1.0\nfrequency_ratio = 10.0\n";
+
+/// A burst 5 : 3 at R = 10 repeats at 1.25 ω₀: in step with it the mass vibrates slowly.
+#[test]
+fn a_waveform_in_the_band_of_the_vibration_has_no_exact_amplitude() {
+    let found = verbs(&study(BELT)).waveforms().expect("waveforms").facts();
+    let rows = found["waveforms"].as_array().expect("rows");
+    let row = |label: &str| rows.iter().find(|row| row["label"] == label).expect("a row");
+    let slow = row("burst 5 : 3");
+    assert!(slow["exact_amplitude"].is_null(), "{slow}");
+    let why = found["why"].as_object().expect("reasons");
+    let reasons = why.iter().filter(|(path, why)| {
+        path.ends_with(".exact_amplitude") && why.to_string().contains("1.9 times")
+    });
+    assert_eq!(reasons.count(), 4, "{why:?}");
+    assert!(number(&row("burst 1 : 3")["exact_amplitude"]) > 1.0);
+    let sentence = found["sentence"].as_str().expect("a sentence");
+    assert!(sentence.contains("the least amplitude is that of a square"), "{sentence}");
+    let burst = BELT.replace("\"sine\"", "\"burst\"\ncarrier = \"sine\"\non = 5\noff = 3");
+    let response = verbs(&study(&burst)).response().expect("a response").facts();
+    assert_ne!(response["effect"], "quenches", "{response}");
+}
+
+/// The exact amplitudes of a system are its thresholds, whatever the ranking by averaging.
+#[test]
+fn the_exact_amplitude_of_a_system_is_its_threshold() {
+    let text = "[system]\ncoordinates = [\"motor\", \"carriage\"]\nmass = [1.0, 1.0]\n\
+                damping = [[0.02, -0.01], [-0.01, 0.02]]\nstiffness = [[2.0, -1.0], [-1.0, 1.0]]\n[[contact]]\n\
+                name = \"guide\"\ntangent = { carriage = 1.0 }\nnormal_load = 1.0\nbelt_velocity = 0.05\n\
+                [contact.friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\n\
+                reference_velocity = 0.2\n[[dither]]\nat = { carriage = 1.0 }\nwaveform = \"sine\"\namplitude = 0.5\n\
+                frequency = 10.0\n";
+    let study = study(text);
+    let found = verbs(&study).waveforms().expect("waveforms").facts();
+    let exact = number(&found["waveforms"][0]["exact_amplitude"]);
+    let request = ThresholdsRequest {
+        parameter: "dither.amplitude".to_owned(),
+        from: 0.9 * exact,
+        to: 1.1 * exact,
+        ..ThresholdsRequest::default()
+    };
+    let thresholds = verbs(&study).thresholds(request).expect("thresholds").facts();
+    let value = number(&thresholds["local"][0]["value"]);
+    assert!((value / exact - 1.0).abs() < 1e-6, "{value} {exact}");
+    let sentence = found["sentence"].as_str().expect("a sentence");
+    assert!(!sentence.contains("no waveform quenches"), "{sentence}");
+}
+
+/// On a very slow belt the run without dither is in its first stick until τ = 4000: M₀ is that of the spring that is drawn out.
+#[test]
+fn a_run_in_its_first_stick_has_not_settled() {
+    let slow = BELT.replace("belt_velocity = 0.1", "belt_velocity = 1e-4");
+    let found = verbs(&study(&slow)).response().expect("a response").facts();
+    assert_eq!(found["undithered_settled"], false);
+    assert!(found["warnings"].to_string().contains("still in its first stick"), "{found}");
+    // With a kinetic coefficient far below the static one the limit cycle itself is longer than the record.
+    let coulomb = "law = \"coulomb\"\ncoefficient = 0.2\nstatic_coefficient = 0.4\n[solver]\nsettle = 9000.0\nrecord_periods = 100\n";
+    let law = "law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n";
+    let found = verbs(&study(&slow.replace(law, coulomb))).response().expect("a response").facts();
+    assert!(
+        found["warnings"].to_string().contains("repeats after τ = 3971.95"),
+        "{}",
+        found["warnings"]
+    );
+}
