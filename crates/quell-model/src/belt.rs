@@ -102,6 +102,11 @@ impl Belt {
         self.tangential_stiffness
     }
 
+    /// The displacement μ_s F/k_t by which an elastic contact of this stiffness bends before it slides.
+    pub fn breakaway(&self, stiffness: f64) -> f64 {
+        self.friction.static_coefficient() * self.normal_load / stiffness
+    }
+
     /// Whether friction has a state of its own: an elastic slider, or a law with one ([`Friction::bristles`]).
     pub fn has_contact_state(&self) -> bool {
         self.tangential_stiffness.is_some() || self.friction.bristles().is_some()
@@ -299,13 +304,16 @@ impl Belt {
     }
 
     /// The largest force that the dithers of one direction can reach together: ΣD max|g|, of the normal ones −ΣD min g, by which
-    /// they can reduce the load. It is ΣD for the waveforms of the dissertation.
+    /// they can reduce the load; of a dither with an envelope with its largest share. It is ΣD for the waveforms of the dissertation.
     pub fn total_amplitude(&self, direction: Direction) -> f64 {
         let most = |dither: &Dither| match direction {
             Direction::Tangential => dither.waveform.peak(),
             Direction::Normal => -dither.waveform.range().0,
         };
-        self.dithers_along(direction).map(|dither| most(dither) * dither.amplitude).sum()
+        let share = |dither: &Dither| dither.envelope.as_ref().map_or(1.0, |knots| knots.range().1);
+        self.dithers_along(direction)
+            .map(|dither| most(dither) * share(dither) * dither.amplitude)
+            .sum()
     }
 
     /// The same belt without dither.

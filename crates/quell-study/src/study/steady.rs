@@ -261,8 +261,9 @@ pub fn not_periodic(verb: &str, key: impl Into<String>) -> Complaint {
 
 /// The complaint about a question that only a steady study answers.
 pub fn varies_in_time(verb: &str, table: &'static str) -> Complaint {
+    let window = if verb == "response" { "--window for a part of the run, " } else { "" };
     let allowed = format!(
-        "left out for {verb}, which is about a steady drive, load and dither: give --at-time for the values of one moment, or \
+        "left out for {verb}, which is about a steady drive, load and dither: give {window}--at-time for the values of one moment, or \
          use simulate"
     );
     Complaint::new(Fault::Conflict, table, Origin::Whole, Json::Null, allowed)

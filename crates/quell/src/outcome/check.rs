@@ -89,6 +89,10 @@ fn table_of_belt(study: &BeltStudy) -> String {
     for (label, words) in law::words(study) {
         table.word(&label, &words);
     }
+    if let Some(stiffness) = belt.tangential_stiffness() {
+        table.number("tangential stiffness k_t", Quantity::Stiffness, stiffness);
+        table.number("  breakaway", Quantity::Displacement, belt.breakaway(stiffness));
+    }
     for (place, dither) in belt.dithers().iter().enumerate() {
         table.word("dither", &format!("{} {}", dither.direction.name(), dither.waveform.name()));
         table.number("  amplitude D", Quantity::Force, dither.amplitude);

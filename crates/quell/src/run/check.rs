@@ -48,6 +48,15 @@ impl Check<'_> {
                 .number(&format!("least_{}", parameter.key()), parameter.quantity, least)
                 .number(&format!("largest_{}", parameter.key()), parameter.quantity, largest);
         }
+        let none = "a rigid contact: belt.tangential_stiffness is not given";
+        let stiffness = belt.tangential_stiffness();
+        inner
+            .known("tangential_stiffness", Quantity::Stiffness, stiffness.ok_or(none.to_owned()))
+            .known(
+                "breakaway",
+                Quantity::Displacement,
+                stiffness.map(|own| belt.breakaway(own)).ok_or(none.to_owned()),
+            );
         fields.nested("belt", inner);
         let inner = law::fields(study);
         fields.nested("friction", inner);

@@ -173,6 +173,10 @@ const MOST_LEAPS: usize = 8;
 /// Largest distance of the states of a leap, over the scale of the states.
 const LARGEST_LEAP: f64 = 0.02;
 
+/// How much longer a second leap is, and the largest share of its distance that the first one may have: a square root gives 0.35, and a
+/// motion that jumps at the border, which is another one, nearly 1.
+const TENDING: (f64, f64) = (8.0, 0.6);
+
 /// The point a little beyond a border at which the branch begins like a square root, and the distance to it. There the derivative
 /// of the map changes over distances below those at which it is known, so that no step follows. An elastic slider begins to adhere so.
 fn over_a_steep_beginning<F: PeriodMap>(
@@ -184,11 +188,15 @@ fn over_a_steep_beginning<F: PeriodMap>(
     let (share, towards) = (here.parameter(), here.tangent.last()?.signum());
     let (state, at) = run.unscaled(&here.unknowns);
     let n = state.len();
-    let next = LEAPS.into_iter().find_map(|leap| {
+    let at_leap = |leap: f64, state: &[f64]| {
         let far = share + towards * leap * at.abs() / (to - from).abs();
-        let next = run.standing(&state, far, towards).filter(|_| (0.0..=1.0).contains(&far))?;
-        let is_near = distance(&next.unknowns[..n], &here.unknowns[..n]) <= LARGEST_LEAP;
-        is_near.then_some(next)
+        let next = run.standing(state, far, towards).filter(|_| (0.0..=1.0).contains(&far))?;
+        Some((distance(&next.unknowns[..n], &here.unknowns[..n]), next))
+    };
+    let next = LEAPS.into_iter().find_map(|leap| {
+        let (near, next) = at_leap(leap, &state)?;
+        let (beyond, _) = at_leap(TENDING.0 * leap, &run.unscaled(&next.unknowns).0)?;
+        (beyond <= LARGEST_LEAP && near <= TENDING.1 * beyond).then_some(next)
     })?;
     let step_length = distance(&next.unknowns, &here.unknowns).max(10.0 * shortest);
     let error = (next.parameter() - share).abs() * (to - from).abs();

@@ -75,8 +75,13 @@ pub(in crate::run) fn hysteresis_sentence(
     value: impl Fn(f64) -> String,
 ) -> String {
     if !ranges.is_empty() {
-        let parts =
-            ranges.iter().map(|(from, to)| format!("from {} to {}", value(*from), value(*to)));
+        let parts = ranges.iter().map(|(from, to)| {
+            if from == to {
+                format!("at {}", value(*from))
+            } else {
+                format!("from {} to {}", value(*from), value(*to))
+            }
+        });
         let parts = parts.collect::<Vec<_>>().join(" and ");
         return format!("The two directions differ {parts}, where {noun} coexist.");
     }

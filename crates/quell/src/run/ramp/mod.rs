@@ -67,7 +67,14 @@ impl RampCourse {
         match found.pop() {
             Some(only) if count == 1 && !oscillates && !only.knots.is_constant() => Ok(only),
             _ => {
-                let allowed = "given for a study in which one drive, load or envelope changes by knots and nothing else varies";
+                let varies = match count {
+                    0 => "nothing does in this one".to_owned(),
+                    1 => "in this one it is constant, or an oscillation takes part".to_owned(),
+                    count => format!("{count} of them do in this one"),
+                };
+                let allowed = format!(
+                    "given for a study in which one drive, load or envelope changes by knots and nothing else varies; {varies}"
+                );
                 let origin = Origin::Argument("--ramp");
                 Err(Box::new(Complaint::new(
                     Fault::Conflict,

@@ -20,8 +20,8 @@ use crate::sweep::Running;
 /// Relative difference of size beyond which the two directions show different motions.
 const APART: f64 = 0.02;
 
-/// The same where a motion is not periodic: a record shows only a part of it.
-const APART_IN_RECORDS: f64 = 0.2;
+/// The same where a motion is not periodic: a record shows only a part of it, whose size varies from record to record.
+const APART_IN_RECORDS: f64 = 0.5;
 
 /// The motion at one value.
 #[derive(Clone, Debug, PartialEq)]
