@@ -14,7 +14,7 @@ use quell_linear::averaging::{
 };
 use quell_linear::linear_cost::linear_cost;
 use quell_model::profile::{Profile, Wave};
-use quell_model::{Belt, Direction, Dither, System};
+use quell_model::{Belt, Direction, Dither, Parametrisation, System};
 
 use crate::least_dither::{
     AmplitudeBranch, QuietAmplitudes, QuietChange, amplitude_branch_of_belt,
@@ -140,10 +140,19 @@ pub fn quench_of_belt(belt: &Belt) -> Result<Quench<AveragingError>, NoQuench<Av
     // The amplitude of the study must not make a belt invalid.
     let belt = &belt.with(&path, 0.0).map_err(|_| NoQuench::NoBaseResponse)?;
     let limit = limit_of_belt(belt, first)?;
-    let branch = amplitude_branch_of_belt(belt, (0.0, limit), STEPS).map_err(|why| match why {
-        NoThresholds::Start(NoOrbit::Stalled(_)) => NoQuench::Stalled,
-        _ => NoQuench::NoBaseResponse,
-    })?;
+    let branch = if belt.has_contact_state() {
+        // The engine for belts has no place for the state.
+        let at = |amplitude: f64| {
+            let belt = belt.with(&path, amplitude).map_err(|why| why.to_string())?;
+            Ok(belt.system())
+        };
+        amplitude_branch_of_system(&at, (0.0, limit), STEPS).map_err(no_branch)?
+    } else {
+        amplitude_branch_of_belt(belt, (0.0, limit), STEPS).map_err(|why| match why {
+            NoThresholds::Start(NoOrbit::Stalled(_)) => NoQuench::Stalled,
+            _ => NoQuench::NoBaseResponse,
+        })?
+    };
     let fast = belt.dithers().iter().all(|dither| dither.lowest_ratio() > 1.0);
     let averaged = if fast {
         averaged_quiet_of_belt(belt, (0.0, limit))
@@ -184,13 +193,18 @@ pub fn quench_of_system(
     let limit = limit_of_system(system, input)?;
     let at = |amplitude: f64| Ok(with_amplitude(system, input, amplitude));
     let branch = amplitude_branch_of_system(&at, (0.0, limit), STEPS);
-    let branch = branch.map_err(|why| match why {
+    let branch = branch.map_err(no_branch)?;
+    let averaged = averaged_quiet_of_system(system, input, (0.0, limit));
+    Ok(Quench { branch, averaged })
+}
+
+/// Why a system has no branch over the amplitude.
+fn no_branch<E>(why: NoMotionOrbit) -> NoQuench<E> {
+    match why {
         NoMotionOrbit::NoSliding(_) => NoQuench::NoSteadySliding,
         NoMotionOrbit::Immobile(_) => NoQuench::Stalled,
         _ => NoQuench::NoBaseResponse,
-    })?;
-    let averaged = averaged_quiet_of_system(system, input, (0.0, limit));
-    Ok(Quench { branch, averaged })
+    }
 }
 
 fn limit_of_system(system: &System, input: usize) -> Result<f64, NoQuench<NoAverage>> {

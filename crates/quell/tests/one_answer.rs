@@ -3,6 +3,8 @@
 use quell::Study;
 use quell::kind::verbs;
 use quell::run::thresholds::ThresholdsRequest;
+use quell_design::quench::quench_of_belt;
+use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 fn study(text: &str) -> Study {
@@ -63,6 +65,12 @@ fn designs_waveforms_and_thresholds_of_a_slider_agree() {
     let rows = verbs.waveforms().expect("waveforms").facts();
     let sine = number(&rows["waveforms"][0]["exact_amplitude_n"]);
     assert!((sine / values[0] - 1.0).abs() < 1e-6, "{sine}");
+    // The quantity of maps.
+    let belt = study.belt().expect("a belt");
+    let scales = belt.scales().expect("in SI");
+    let quench = quench_of_belt(belt.belt()).expect("a branch");
+    let least = quench.least().expect("a quench").amplitude * scales.si_per_unit(Quantity::Force);
+    assert!((least / values[0] - 1.0).abs() < 1e-6, "{least}");
 }
 
 const BELT: &str = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.1\n[friction]\nlaw = \"stribeck\"\n\
