@@ -353,10 +353,14 @@ class CheckColumns:
 
     belt_belt_velocity: float
     belt_belt_velocity_m_per_s: float
+    belt_breakaway: float
+    belt_breakaway_m: float
     belt_damping_ratio: float
     belt_damping_ratio_n_s_per_m: float
     belt_normal_load: float
     belt_normal_load_n: float
+    belt_tangential_stiffness: float
+    belt_tangential_stiffness_n_per_m: float
     contact_law_belt_velocity: npt.NDArray[np.float64]
     contact_law_belt_velocity_unit: npt.NDArray[np.str_]
     contact_law_law: npt.NDArray[np.str_]
@@ -921,8 +925,12 @@ class RampColumns:
     displacement: npt.NDArray[np.float64]
     largest_m_per_s: float
     least_m_per_s: float
+    manoeuvre_begins_above: float
+    manoeuvre_begins_above_m: float
     manoeuvre_dither_onset: float
     manoeuvre_dither_onset_s: float
+    manoeuvre_ends_below: float
+    manoeuvre_ends_below_m: float
     manoeuvre_overshoot: float
     manoeuvre_time_to_quench: float
     manoeuvre_time_to_quench_s: float
@@ -1158,8 +1166,14 @@ class SimulationColumns:
     growth_observed_per_s: float | None
     leading_frequency_hz: float
     leading_growth_rate_per_s: float
+    manoeuvre_begins_above: float
     manoeuvre_dither_onset: float
+    manoeuvre_ends_below: float
     manoeuvre_overshoot: float
+    manoeuvre_quench_alone: npt.NDArray[Any]
+    manoeuvre_quench_dither_onset: npt.NDArray[np.float64]
+    manoeuvre_quench_overshoot: npt.NDArray[np.float64]
+    manoeuvre_quench_time_to_quench: npt.NDArray[np.float64]
     manoeuvre_time_to_quench: float
     manoeuvre_vibration_amplitude: npt.NDArray[np.float64]
     manoeuvre_vibration_from: npt.NDArray[np.float64]
