@@ -146,7 +146,7 @@ pub fn quench_of_belt(belt: &Belt) -> Result<Quench<AveragingError>, NoQuench<Av
             let belt = belt.with(&path, amplitude).map_err(|why| why.to_string())?;
             Ok(belt.system())
         };
-        amplitude_branch_of_system(&at, (0.0, limit), STEPS).map_err(no_branch)?
+        amplitude_branch_of_system(&at, (0.0, limit), STEPS).map_err(|why| no_branch(&why))?
     } else {
         amplitude_branch_of_belt(belt, (0.0, limit), STEPS).map_err(|why| match why {
             NoThresholds::Start(NoOrbit::Stalled(_)) => NoQuench::Stalled,
@@ -193,13 +193,13 @@ pub fn quench_of_system(
     let limit = limit_of_system(system, input)?;
     let at = |amplitude: f64| Ok(with_amplitude(system, input, amplitude));
     let branch = amplitude_branch_of_system(&at, (0.0, limit), STEPS);
-    let branch = branch.map_err(no_branch)?;
+    let branch = branch.map_err(|why| no_branch(&why))?;
     let averaged = averaged_quiet_of_system(system, input, (0.0, limit));
     Ok(Quench { branch, averaged })
 }
 
 /// Why a system has no branch over the amplitude.
-fn no_branch<E>(why: NoMotionOrbit) -> NoQuench<E> {
+fn no_branch<E>(why: &NoMotionOrbit) -> NoQuench<E> {
     match why {
         NoMotionOrbit::NoSliding(_) => NoQuench::NoSteadySliding,
         NoMotionOrbit::Immobile(_) => NoQuench::Stalled,

@@ -98,7 +98,7 @@ fn a_waveform_in_the_band_of_the_vibration_has_no_exact_amplitude() {
     assert_ne!(response["effect"], "quenches", "{response}");
 }
 
-/// The exact amplitudes of a system are its thresholds, whatever the ranking by averaging.
+/// The exact amplitudes of a system are its thresholds, also where averaging ranks none.
 #[test]
 fn the_exact_amplitude_of_a_system_is_its_threshold() {
     let text = "[system]\ncoordinates = [\"motor\", \"carriage\"]\nmass = [1.0, 1.0]\n\

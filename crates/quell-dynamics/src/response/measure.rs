@@ -150,7 +150,7 @@ impl Compared {
             && !self.still_sticks(&self.undithered)
     }
 
-    /// Whether a moving belt still carries the mass along in its first stick: no motion on it sticks for ever.
+    /// Whether a moving belt still carries the mass along in its first stick: no motion on it sticks indefinitely.
     fn still_sticks(&self, measured: &MeasuredRecord) -> bool {
         let moves = self.vibrates != Err(Undefined::UnditheredAtRest);
         moves && measured.events == 0 && measured.stick_fraction > 0.5

@@ -1,9 +1,11 @@
 //! What a run under a varying drive, load or dither does: when it vibrates, how soon the dither quenches it, and its spectrogram.
 
+mod interval;
 mod quench;
 mod spectrogram;
 
-pub use quench::{OnPhase, Quench, Surroundings};
+pub use interval::VibrationInterval;
+pub use quench::{DitherSwitching, OnPhase, RunConditions};
 pub use spectrogram::Spectrogram;
 
 use quell_model::System;
@@ -42,17 +44,6 @@ pub struct SampledMotion<'a> {
     pub displacement: &'a [f64],
 }
 
-/// An interval of vibration.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VibrationInterval {
-    /// Its beginning; the start of the run if it vibrates there already.
-    pub from: f64,
-    /// Its end; the end of the run if it still vibrates there.
-    pub to: f64,
-    /// Largest vibration in it: half of the peak-to-peak displacement within one natural period, without its drift.
-    pub level: f64,
-}
-
 /// When a run vibrates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Manoeuvre {
@@ -61,7 +52,7 @@ pub struct Manoeuvre {
     /// The levels above which vibration begins and below which it has ended, shares of the largest one; `None` without vibration.
     pub limits: Option<(f64, f64)>,
     /// What the dither does each time it is switched on.
-    pub quenches: Vec<Quench>,
+    pub quenches: Vec<DitherSwitching>,
     /// Beginning and end of the run.
     pub whole: (f64, f64),
 }
@@ -76,7 +67,7 @@ impl Manoeuvre {
     ) -> Self {
         let changes = |from: f64, to: f64| quench::changes_of(system, from, to);
         let (phases, rest) = (quench::phases_of(system), quench::rest_of(system));
-        Self::of(motion, period, fast, &Surroundings { phases, rest, changes: &changes })
+        Self::of(motion, period, fast, &RunConditions { phases, rest, changes: &changes })
     }
 
     /// Of a displacement; `period` is the natural period, `fast` that of a dither, whose motion is no vibration.
@@ -84,7 +75,7 @@ impl Manoeuvre {
         motion: SampledMotion<'_>,
         period: f64,
         fast: Option<f64>,
-        surroundings: &Surroundings<'_>,
+        conditions: &RunConditions<'_>,
     ) -> Self {
         let SampledMotion { start, step, displacement } = motion;
         let end = start + step * displacement.len().saturating_sub(1) as f64;
@@ -97,7 +88,7 @@ impl Manoeuvre {
         let limits = (largest > LEAST * reach).then_some((BEGINS * largest, ENDS * largest));
         let vibration =
             limits.map_or_else(Vec::new, |limits| intervals(&levels, limits, (start, end), period));
-        let quenches = surroundings.quenches(&vibration, &levels, (end, period));
+        let quenches = conditions.quenches(&vibration, &levels, (end, period));
         Self { vibration, limits, quenches, whole: (start, end) }
     }
 }
@@ -219,7 +210,7 @@ impl Manoeuvre {
             format!("{what} vibrates {listed}{more}.")
         };
         let known = self.quenches.iter().filter_map(|quench| Some((quench, quench.time.ok()?)));
-        let known: Vec<(&Quench, f64)> = known.collect();
+        let known: Vec<(&DitherSwitching, f64)> = known.collect();
         let several = self.quenches.len() > 1;
         let each = known.iter().take(MOST_INTERVALS).map(|(quench, time)| {
             let at =
@@ -255,7 +246,7 @@ impl Manoeuvre {
         );
         let none = || "no dither is switched on during the run".to_owned();
         let first = self.quenches.first().ok_or_else(none);
-        let of = |value: fn(&Quench) -> Result<f64, &'static str>| {
+        let of = |value: fn(&DitherSwitching) -> Result<f64, &'static str>| {
             first.clone().and_then(|quench| value(quench).map_err(str::to_owned))
         };
         fields
@@ -315,13 +306,13 @@ mod tests {
         (0..15_000).map(|sample| value(STEP * f64::from(sample))).collect()
     }
 
-    fn on(from: f64) -> Surroundings<'static> {
+    fn on(from: f64) -> RunConditions<'static> {
         let on = OnPhase { from, to: f64::INFINITY };
-        Surroundings { phases: vec![on], rest: f64::INFINITY, changes: &|_, _| false }
+        RunConditions { phases: vec![on], rest: f64::INFINITY, changes: &|_, _| false }
     }
 
-    fn off() -> Surroundings<'static> {
-        Surroundings { phases: Vec::new(), ..on(0.0) }
+    fn off() -> RunConditions<'static> {
+        RunConditions { phases: Vec::new(), ..on(0.0) }
     }
 
     fn sampled(displacement: &[f64]) -> SampledMotion<'_> {

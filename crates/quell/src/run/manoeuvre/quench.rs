@@ -3,7 +3,7 @@
 use quell_model::System;
 use quell_model::profile::{Knots, Profile};
 
-use super::VibrationInterval;
+use super::interval::VibrationInterval;
 
 /// Share of the range of an envelope below which the dither is off.
 const OFF: f64 = 1e-3;
@@ -24,7 +24,7 @@ pub struct OnPhase {
 }
 
 /// What changes around a run.
-pub struct Surroundings<'a> {
+pub struct RunConditions<'a> {
     /// When the first dither that is switched on is on.
     pub phases: Vec<OnPhase>,
     /// The time from which every surface is at rest; infinite if one moves.
@@ -38,7 +38,7 @@ type Known = Result<f64, &'static str>;
 
 /// What the dither does when it is switched on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Quench {
+pub struct DitherSwitching {
     /// When it is on.
     pub on: OnPhase,
     /// Time from there until the vibration has ended for as long as the dither is on; or why it is unknown.
@@ -49,7 +49,7 @@ pub struct Quench {
     pub alone: bool,
 }
 
-impl Surroundings<'_> {
+impl RunConditions<'_> {
     /// What the dither does in each of its phases, of the vibration up to the end of a run; times of intervals are known to about a
     /// `period`.
     pub(super) fn quenches(
@@ -57,7 +57,7 @@ impl Surroundings<'_> {
         vibration: &[VibrationInterval],
         levels: &[(f64, f64)],
         (end, period): (f64, f64),
-    ) -> Vec<Quench> {
+    ) -> Vec<DitherSwitching> {
         let phases = self.phases.iter().filter(|on| on.from < end);
         phases.map(|on| self.quench(*on, vibration, levels, (end, period))).collect()
     }
@@ -68,12 +68,12 @@ impl Surroundings<'_> {
         vibration: &[VibrationInterval],
         levels: &[(f64, f64)],
         (end, period): (f64, f64),
-    ) -> Quench {
+    ) -> DitherSwitching {
         let at_onset =
             vibration.iter().any(|interval| interval.from <= on.from && on.from <= interval.to);
         if !at_onset {
             let why = "nothing vibrates when the dither is switched on";
-            return Quench { on, time: Err(why), overshoot: Err(why), alone: true };
+            return DitherSwitching { on, time: Err(why), overshoot: Err(why), alone: true };
         }
         let off = on.to.min(end);
         // One that begins as the dither is switched off begins after it.
@@ -97,7 +97,7 @@ impl Surroundings<'_> {
         let overshoot = level_at.map_or(Err("the dither is on from the start"), |(_, level)| {
             Ok((most / level - 1.0).max(0.0))
         });
-        Quench { on, time, overshoot, alone }
+        DitherSwitching { on, time, overshoot, alone }
     }
 }
 
@@ -200,7 +200,7 @@ mod tests {
     fn each_phase_has_its_own_time() {
         let found = vibration(&[(0.0, 1.2), (2.5, 5.4), (8.0, 9.0)]);
         let phases = vec![on(1.0, 2.0), on(5.0, 7.0), on(8.5, f64::INFINITY)];
-        let steady = Surroundings { phases, rest: f64::INFINITY, changes: &|from, _| from > 8.0 };
+        let steady = RunConditions { phases, rest: f64::INFINITY, changes: &|from, _| from > 8.0 };
         let times: Vec<Known> = steady
             .quenches(&found, &[(0.0, 1.0)], (10.0, 0.1))
             .iter()
@@ -213,16 +213,19 @@ mod tests {
             steady.quenches(&found, &[], (10.0, 0.1)).iter().map(|quench| quench.alone).collect();
         assert_eq!(alone, [true, true, false]);
         // A vibration that lasts until the dither is off, and one that ends on a surface at rest.
-        let long = Surroundings {
+        let long = RunConditions {
             phases: vec![on(1.0, 1.1)],
-            ..Surroundings { phases: Vec::new(), rest: f64::INFINITY, changes: &|_, _| false }
+            ..RunConditions { phases: Vec::new(), rest: f64::INFINITY, changes: &|_, _| false }
         };
         assert_eq!(
             long.quenches(&found, &[], (10.0, 0.0))[0].time,
             Err("it still vibrates when the dither is switched off")
         );
-        let stops =
-            Surroundings { phases: vec![on(8.5, f64::INFINITY)], rest: 8.8, changes: &|_, _| true };
+        let stops = RunConditions {
+            phases: vec![on(8.5, f64::INFINITY)],
+            rest: 8.8,
+            changes: &|_, _| true,
+        };
         assert!(stops.quenches(&found, &[], (10.0, 0.1))[0].time.is_err());
     }
 }
