@@ -132,3 +132,40 @@ fn designs_for_runs_agree_with_the_thresholds_of_runs() {
         assert!((least / last - 1.0).abs() < 2e-5, "{start}: {least} and {last}");
     }
 }
+
+/// Two limits that leave a narrow range of frequencies, between the points of the grid, and a range of amplitudes that ends between the
+/// averaged and the exact least one: the answer is that of a wider range.
+#[test]
+fn narrow_choices_are_found() {
+    let design = |to: f64, limits: &str| {
+        facts(&format!(
+            "{BELT}[design]\nminimise = \"amplitude\"\nvary = [\"dither.amplitude\", \"dither.frequency_ratio\"]\n\
+             from = [0.01, 2.0]\nto = [{to}, 20.0]\n[design.over]\n\"belt.belt_velocity\" = [0.05, 0.2]\n\
+             [design.limits]\nstroke = 0.04\n{limits}"
+        ))
+    };
+    let amplitude = |found: &Json| found["critical"]["dither.amplitude"].as_f64();
+    let wide = amplitude(&design(20.0, "")).expect("feasible");
+    for found in [design(20.0, "amplitude = 1.31\n"), design(1.31, ""), design(1.302, "")] {
+        let least = amplitude(&found).unwrap_or_else(|| panic!("{found}"));
+        assert!((least / wide - 1.0).abs() < 1e-4, "{least} {wide}");
+    }
+    let too_small = design(20.0, "amplitude = 1.29\n");
+    assert_eq!(too_small["feasible"], false, "{too_small}");
+}
+
+/// The largest amplitude of the range is the least stroke: more force at a higher frequency needs less of it.
+#[test]
+fn the_end_of_the_range_of_amplitudes_may_be_the_answer() {
+    let found = facts(&format!(
+        "{BELT}[design]\nminimise = \"stroke\"\nvary = [\"dither.amplitude\", \"dither.frequency_ratio\"]\n\
+         from = [0.01, 2.0]\nto = [2.0, 20.0]\n[design.over]\n\"belt.belt_velocity\" = [0.05, 0.2]\n"
+    ));
+    let critical = &found["critical"];
+    assert!(
+        (critical["dither.amplitude"].as_f64().expect("feasible") - 2.0).abs() < 1e-3,
+        "{found}"
+    );
+    assert!(critical["dither.frequency_ratio"].as_f64().expect("a number") > 12.0, "{found}");
+    assert!(found["binding"].to_string().contains("amplitude"), "{found}");
+}

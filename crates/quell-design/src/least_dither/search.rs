@@ -31,6 +31,9 @@ pub(super) enum Judged {
 /// example of the book differs by 2 % there. A choice that is off by more is not followed; one that is let in is judged exactly later.
 const ESTIMATE: f64 = 0.05;
 
+/// Use of a limit up to which choices between the points of the grid are sought that keep it.
+const NEAREST: f64 = 1.5;
+
 /// Local minima that are refined.
 const BASINS: usize = 4;
 
@@ -348,19 +351,38 @@ impl DesignProblem<'_> {
         }
         for start in self.local_minima(&choices, &values) {
             let Ok(point) = self.averaged_point(&choices[start], coarse.clone()) else { continue };
-            let refined = self.refined(point, &mut done.tried);
-            // Every point of the box, not only the coarse ones.
-            let mut points = self.points();
-            points.extend(refined.decisive.iter().cloned());
-            match self.averaged_point(&refined.others, points) {
-                Ok(point) if point.may_be_allowed().is_some() => done.found.push(point),
-                Ok(point) => done.tried.push(point),
-                Err(why) => done.refused.push((refined.others, why)),
+            self.refine_from(point, &mut done);
+        }
+        if done.found.is_empty() {
+            for point in nearest_choices(&done.tried) {
+                let within = self.within_limits(point, &mut done.tried);
+                if within.may_be_allowed().is_some() {
+                    self.refine_from(within, &mut done);
+                }
             }
         }
         let value = |point: &DesignPoint| point.may_be_allowed().unwrap_or(f64::INFINITY);
         done.found.sort_by(|a, b| value(a).total_cmp(&value(b)));
         done
+    }
+
+    /// Refines an allowed choice and judges it at every point of the box, not only the coarse ones.
+    fn refine_from(&self, point: DesignPoint, done: &mut AveragedSearch) {
+        let refined = self.refined(point, &mut done.tried);
+        let mut points = self.points();
+        points.extend(refined.decisive.iter().cloned());
+        match self.averaged_point(&refined.others, points) {
+            Ok(point) if point.may_be_allowed().is_some() => done.found.push(point),
+            Ok(point) => done.tried.push(point),
+            Err(why) => done.refused.push((refined.others, why)),
+        }
+    }
+
+    /// The choice near one that exceeds a limit at which the tightest limit is used least, up to the first that keeps every limit: the
+    /// choices that two limits leave may lie between two points of the grid.
+    fn within_limits(&self, point: DesignPoint, tried: &mut Vec<DesignPoint>) -> DesignPoint {
+        let used = |point: &DesignPoint| point.use_of_limits();
+        self.pattern(point, tried, &used, &|best| best.may_be_allowed().is_some())
     }
 
     /// The choices on the grid that are better than their neighbours, the best first. Where neighbours are equal, as they are where
@@ -391,12 +413,24 @@ impl DesignProblem<'_> {
         minima.into_iter().map(|(place, _)| place).collect()
     }
 
-    /// A local minimum by pattern search on the allowed side of the limits.
-    fn refined(&self, mut best: DesignPoint, tried: &mut Vec<DesignPoint>) -> DesignPoint {
+    /// A local minimum of the objective on the allowed side of the limits.
+    fn refined(&self, best: DesignPoint, tried: &mut Vec<DesignPoint>) -> DesignPoint {
+        let objective = |point: &DesignPoint| point.may_be_allowed().unwrap_or(f64::INFINITY);
+        self.pattern(best, tried, &objective, &|_| false)
+    }
+
+    /// A local minimum of a measure by pattern search, up to the first choice that is enough.
+    fn pattern(
+        &self,
+        mut best: DesignPoint,
+        tried: &mut Vec<DesignPoint>,
+        measure: &dyn Fn(&DesignPoint) -> f64,
+        is_enough: &dyn Fn(&DesignPoint) -> bool,
+    ) -> DesignPoint {
         let count = GRID.get(self.others.len()).copied().unwrap_or(2);
         let mut step = 1.0 / (count - 1) as f64;
         let closeness = if self.judges_by_responses() { CLOSENESS_OF_RESPONSES } else { CLOSENESS };
-        while step > closeness {
+        while step > closeness && !is_enough(&best) {
             let mut moved = false;
             for (coordinate, (low, high)) in self.others.iter().enumerate() {
                 for sign in [1.0, -1.0] {
@@ -410,9 +444,7 @@ impl DesignProblem<'_> {
                     let mut points = best.decisive.clone();
                     points.extend(grid(self.over, [1, 2, 2, 2], false));
                     let Ok(next) = self.averaged_point(&others, points) else { continue };
-                    let allowed = next.may_be_allowed();
-                    let better =
-                        allowed.zip(best.may_be_allowed()).is_some_and(|(new, old)| new < old);
+                    let better = measure(&next) < measure(&best);
                     tried.push(next.clone());
                     if better {
                         (best, moved) = (next, true);
@@ -426,6 +458,16 @@ impl DesignProblem<'_> {
         }
         best
     }
+}
+
+/// The choices whose tightest limit is exceeded least, the best first.
+fn nearest_choices(tried: &[DesignPoint]) -> Vec<DesignPoint> {
+    let mut known: Vec<&DesignPoint> = tried
+        .iter()
+        .filter(|point| point.objective.is_ok() && point.use_of_limits() < NEAREST)
+        .collect();
+    known.sort_by(|a, b| a.use_of_limits().total_cmp(&b.use_of_limits()));
+    known.into_iter().take(BASINS).cloned().collect()
 }
 
 /// Places in a run of equal values that are tried in turn, as shares of its length: exact responses may reject some of them.

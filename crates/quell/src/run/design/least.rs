@@ -2,7 +2,7 @@
 
 use quell_design::actuator::Actuator;
 use quell_design::least_dither::{
-    DesignProblem, DesignStart, LimitedQuantity, OperatingPoint, Plant, ScheduledDither,
+    DesignProblem, DesignStart, Designed, LimitedQuantity, OperatingPoint, Plant, ScheduledDither,
     SystemAtPoint, SystemPlant, covered, design,
 };
 use quell_dynamics::simulation::within;
@@ -18,6 +18,9 @@ use crate::contact_state::averaged_without_states;
 use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::run::evenly;
 use crate::study::Design;
+
+/// How far beyond the range of amplitudes a search looks for exact thresholds whose averages are in it.
+const WIDER: f64 = 1.5;
 
 /// Points of the schedule over a box of one coordinate.
 const SCHEDULE: usize = 33;
@@ -115,7 +118,7 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         start: asked.start,
     };
     let designed = tried.par_iter().map(|tried| {
-        let designed = within(STEPS_OF_MANY_SEARCHES, || design(problem(&tried.plant)));
+        let designed = within(STEPS_OF_MANY_SEARCHES, || within_range(problem(&tried.plant)));
         let waveform = tried.waveform.clone();
         let is_slow = numbers.is_slow(&designed, &waveform, tried.study);
         DesignedDither { waveform, place: tried.place.clone(), is_slow, designed }
@@ -181,6 +184,32 @@ pub(crate) fn least_dither<P: Plant + Sync>(
     };
     let sensitivity = found.sensitivity_of(study);
     Ok(LeastDitherFound { beyond_laws, sensitivity, ..found })
+}
+
+/// The least dither of a problem. Where none is found although other variables are chosen, the end of the range of amplitudes is taken as a
+/// limit that they must keep: averaging may choose a dither whose exact amplitude is a little beyond it.
+fn within_range(problem: DesignProblem<'_>) -> Designed {
+    let found = design(problem);
+    let (from, to) = problem.amplitude;
+    let is_limited = problem
+        .limits
+        .iter()
+        .any(|(quantity, limit)| *quantity == LimitedQuantity::Amplitude && *limit <= to);
+    if found.answer.is_ok() || problem.others.is_empty() || is_limited {
+        return found;
+    }
+    let mut limits = problem.limits.to_vec();
+    limits.push((LimitedQuantity::Amplitude, to));
+    let wider = DesignProblem { amplitude: (from, WIDER * to), limits: &limits, ..problem };
+    let others: Vec<f64> = problem.others.iter().map(|(low, _)| *low).collect();
+    let point: Vec<f64> = problem.over.iter().map(|(low, _)| *low).collect();
+    let at = OperatingPoint { point: &point, others: &others };
+    // More normal dither may pull a contact apart.
+    if problem.plant.averaged_loss(at, WIDER * to).is_err() {
+        return found;
+    }
+    let again = design(wider);
+    if again.answer.is_ok() { again } else { found }
 }
 
 /// The exact least dithers along a box of one coordinate.
