@@ -76,6 +76,13 @@ fn a_place_may_be_the_load_of_a_contact() {
     assert_eq!(found["waveforms"][1]["place"], "guide (tangential)");
     let written = format!("contact = \"guide\"\ndirection = \"tangential\"\n{SINE}");
     assert_eq!(found["critical"], facts(&two_masses(&written, AMPLITUDE))["critical"]);
+    // A name says the factors.
+    let rows = "places = [{ at = { carriage = 2.0 } }, { at = { motor = 1.0, carriage = -0.5 } }]";
+    let study = two_masses(&written, &format!("{AMPLITUDE}\n{rows}"));
+    let study = Study::parse(&study, &[]).expect("valid").system().expect("a system");
+    let names: Vec<&str> =
+        study.design().expect("a design").places.iter().map(|place| place.name.as_str()).collect();
+    assert_eq!(names, ["2 carriage", "motor − 0.5 carriage"]);
     // A prescribed load must stay positive, and the complaint names the place.
     let several = "places = [{ contact = \"guide\", direction = \"normal\" }]";
     let text = complaint(&two_masses(&written, &format!("{AMPLITUDE}\n{several}")));
@@ -134,6 +141,13 @@ fn wrong_choices_are_refused_with_their_keys() {
     let at = format!("at = {{ motor = 1.0 }}\n{SINE}");
     for (design, key, says) in [
         (format!("{AMPLITUDE}\nplaces = []"), "design.places", "at least one place"),
+        (
+            format!(
+                "{AMPLITUDE}\nplaces = [{{ at = {{ motor = 1.0 }} }}, {{ at = {{ motor = 1 }} }}]"
+            ),
+            "design.places",
+            "motor is given twice",
+        ),
         (
             format!("{AMPLITUDE}\nplaces = [{{ at = {{ engine = 1.0 }} }}]"),
             "design.places",

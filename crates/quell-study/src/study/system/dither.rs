@@ -94,6 +94,13 @@ pub(super) fn places(
         Some(DitherPlace { name: place_in_words(table), keys: table.clone() })
     });
     let places: Option<Vec<DitherPlace>> = places.collect();
+    if let (Some(known), Some(node)) = (&places, design.get(PLACES))
+        && let Some(twice) = (1..known.len())
+            .find(|own| known[..*own].iter().any(|one| one.name == known[*own].name))
+    {
+        let allowed = format!("each place once; {} is given twice", known[twice].name);
+        reader.wrong("design.places", node, allowed);
+    }
     places.filter(|_| reader.complaints_so_far() == before)
 }
 
@@ -108,17 +115,19 @@ fn place_in_words(table: &Table) -> String {
     };
     let mut entries = Vec::new();
     entries_in_words(at, "", &mut entries);
-    let alone = entries.len() == 1;
-    let words = entries.into_iter().map(|(name, factor)| {
-        if name.is_empty() {
-            factor
-        } else if factor == "1" || (alone && !factor.starts_with('-')) {
-            name
-        } else {
-            format!("{factor} {name}")
-        }
-    });
-    words.collect::<Vec<_>>().join(" + ")
+    let mut words = String::new();
+    for (name, factor) in entries {
+        let (sign, size) = match factor.strip_prefix('-') {
+            Some(size) => ("− ", size),
+            None if words.is_empty() => ("", factor.as_str()),
+            None => ("+ ", factor.as_str()),
+        };
+        let space = if words.is_empty() { "" } else { " " };
+        let times =
+            if size == "1" && !name.is_empty() { String::new() } else { format!("{size} ") };
+        words.push_str(format!("{space}{sign}{times}{name}").trim_end());
+    }
+    words
 }
 
 /// The entries of a row with their factors.

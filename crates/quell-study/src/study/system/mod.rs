@@ -234,11 +234,17 @@ impl SystemStudy {
         path::measured_in(&self.source.document, path)
     }
 
-    /// The study with a dither, counted from 0, at one of the places of its design, which is its only one.
+    /// The study with a dither, counted from 0, at one of the places of its design, which is its only one, with this amplitude: its own may be
+    /// too large for the place.
     ///
     /// # Errors
     /// All complaints about the changed study.
-    pub fn at_place(&self, dither: usize, place: &DitherPlace) -> Result<Self, Complaints> {
+    pub fn at_place(
+        &self,
+        dither: usize,
+        place: &DitherPlace,
+        (path, amplitude): (&str, f64),
+    ) -> Result<Self, Complaints> {
         let mut document = self.source.document.clone();
         if let Some(design) = document.get_mut("design").and_then(Node::table_mut) {
             design.remove(PLACES);
@@ -246,6 +252,8 @@ impl SystemStudy {
         if let Some(table) = dither::table_mut(&mut document, dither) {
             dither::put_at(table, place);
         }
+        let node = Node { value: Value::Number(amplitude), origin: Origin::Whole };
+        set(&mut document, path, &node)?;
         let mut changes = self.source.changes.clone();
         changes.push(format!("dither at {}", place.name));
         self.check_again(document, changes)

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use quell_design::least_dither::{
-    DesignObjective, DesignPoint, Designed, FeasibleDesign, InfeasibleDesign, LimitedQuantity,
-    MARGIN, NoDesign, ResponseSize,
+    DesignObjective, DesignPoint, DesignStart, Designed, FeasibleDesign, InfeasibleDesign,
+    LimitedQuantity, MARGIN, NoDesign, ResponseSize,
 };
 use quell_model::Waveform;
 use quell_model::parameter::design::LIMITS;
@@ -16,7 +16,7 @@ use super::study_with_design::StudyWithDesign;
 use crate::contact_state::averages_are_a_start;
 use crate::fields::Fields;
 use crate::run::waveforms::label;
-use crate::words::digits;
+use crate::words::{digits, plural};
 
 /// A limit binds if at least this share of it is used.
 const BINDS: f64 = 0.9999;
@@ -143,6 +143,11 @@ impl LeastDitherFound {
                 let depends = self.sensitivity_in_words();
                 let confident = self.confident_in_words(study);
                 let largest = found.largest_multiplier();
+                let by = match study.asked().map_or(DesignStart::Local, |asked| asked.start) {
+                    DesignStart::Local => "small motions about exact responses",
+                    DesignStart::Rest => "exact responses and runs from rest",
+                    DesignStart::Squeal => "exact responses and runs from squeal",
+                };
                 let loss = found.friction_loss.as_ref().map_or(String::new(), |(loss, point)| {
                     let change = if *loss < 0.0 { "gains" } else { "loses" };
                     format!(
@@ -153,11 +158,12 @@ impl LeastDitherFound {
                 });
                 format!(
                     "The least dither that is quiet in the whole range is a {waveform}{place} of amplitude {}{}{decides}{binds}. At {} it is \
-                     verified by exact responses at {} operating points: the largest multiplier is {}.{drive}{confident}{loss}{follows}{depends}",
+                     verified by {by} at {} operating point{}: the largest multiplier is {}.{drive}{confident}{loss}{follows}{depends}",
                     force(critical.amplitude),
                     chosen(&critical.others),
                     force(found.verified_amplitude),
                     found.verified.len(),
+                    plural(found.verified.len() as u64),
                     digits(largest)
                 )
             }

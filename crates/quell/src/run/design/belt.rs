@@ -126,12 +126,7 @@ fn numbers(
 ) -> Result<Vec<(String, DesignNumber)>, Failure> {
     let mut found = Vec::new();
     let mut wrong: Vec<Complaint> = Vec::new();
-    let placed = |complaint: Complaint, path: &str| Complaint {
-        key: format!("design.{key}"),
-        origin: Origin::Whole,
-        allowed: format!("{path}: {}", complaint.allowed),
-        ..complaint
-    };
+    let placed = |complaint: Complaint, path: &str| at_end(complaint, key, path);
     for range in ranges {
         let named = match Named::new(study, "[design]", &range.path) {
             Ok(named) => named,
@@ -152,6 +147,20 @@ fn numbers(
         found.push((named.path.clone(), number));
     }
     if wrong.is_empty() { Ok(found) } else { Err(wrong.into()) }
+}
+
+/// The complaint about an end of a range of `[design]`.
+pub(crate) fn at_end(complaint: Complaint, key: &str, path: &str) -> Complaint {
+    let Complaint { key: own, value, allowed, .. } = &complaint;
+    let allowed =
+        format!("ranges of valid studies; at an end of {path}, {own} = {value} must be {allowed}");
+    Complaint {
+        key: format!("design.{key}"),
+        origin: Origin::Whole,
+        value: path.into(),
+        allowed,
+        ..complaint
+    }
 }
 
 fn failed(why: String) -> Failure {

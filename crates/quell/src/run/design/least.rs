@@ -45,7 +45,9 @@ pub(crate) fn asked(study: &dyn StudyWithDesign, has_dither: bool) -> Result<&De
 
 /// The complaint about `vary` without the amplitude of one dither.
 pub(crate) fn without_amplitude(asked: &Design, allowed: String) -> Failure {
-    let given: Vec<&str> = asked.vary.iter().map(|range| range.path.as_str()).collect();
+    let numbers = asked.vary.iter().map(|range| range.path.as_str());
+    let periods = asked.periods.iter().map(|(path, _)| path.as_str());
+    let given: Vec<&str> = numbers.chain(periods).collect();
     Complaint::new(Fault::Value, "design.vary", Origin::Whole, given, allowed).into()
 }
 

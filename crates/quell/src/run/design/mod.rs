@@ -23,6 +23,7 @@ mod validity;
 mod waveform;
 
 pub(crate) use answer::quantity_of;
+pub(crate) use belt::at_end;
 pub use belt::run;
 pub use found::{
     AmplitudeRate, ConfidentDither, DesignNumber, DesignSensitivity, DesignedDither,

@@ -12,7 +12,7 @@ use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::run::design::{
-    DesignNumber, DesignNumbers, LeastDitherFound, TriedDither, asked, least_dither,
+    DesignNumber, DesignNumbers, LeastDitherFound, TriedDither, asked, at_end, least_dither,
     without_amplitude,
 };
 use crate::study::{Design, DesignRange, DiscStudy};
@@ -211,12 +211,9 @@ fn accepted(study: &DiscStudy, key: &str, ranges: &[DesignRange]) -> Result<(), 
     for range in ranges {
         for value in [range.from, range.to] {
             let refused = study.at([(range.path.as_str(), value)]).err();
-            wrong.extend(refused.into_iter().flatten().map(|complaint| Complaint {
-                key: format!("design.{key}"),
-                origin: Origin::Whole,
-                allowed: format!("{}: {}", range.path, complaint.allowed),
-                ..complaint
-            }));
+            wrong.extend(
+                refused.into_iter().flatten().map(|complaint| at_end(complaint, key, &range.path)),
+            );
         }
     }
     if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }

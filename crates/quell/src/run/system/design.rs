@@ -6,10 +6,10 @@ use quell_design::least_dither::{OperatingPoint, Plant, SampledQuiet, SystemAtPo
 use quell_model::{System, Waveform};
 
 use super::has_equations;
-use crate::complaint::{Complaint, Failure, Origin};
+use crate::complaint::{Complaint, Failure};
 use crate::run::design::{
-    DesignNumber, DesignNumbers, LeastDitherFound, TriedDither, asked, least_dither_of_systems,
-    system_with_waveform, without_amplitude,
+    DesignNumber, DesignNumbers, LeastDitherFound, TriedDither, asked, at_end,
+    least_dither_of_systems, system_with_waveform, without_amplitude,
 };
 use crate::study::{Design, DesignRange, SystemStudy};
 
@@ -27,7 +27,7 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         return Err(without_amplitude(asked, allowed.to_owned()));
     };
     let input = study.dither_of(&amplitude.path).unwrap_or(0);
-    let studies = at_places(study, asked, input)?;
+    let studies = at_places(study, asked, (input, (amplitude.path.as_str(), amplitude.from)))?;
     let over_paths = asked.over.iter().map(|range| range.path.as_str());
     let other_paths = others.iter().map(|range| range.path.as_str());
     let paths: Vec<&str> = over_paths.chain(other_paths).collect();
@@ -106,11 +106,11 @@ type StudyAtPlace<'s> = (Option<String>, Cow<'s, SystemStudy>);
 fn at_places<'s>(
     study: &'s SystemStudy,
     asked: &Design,
-    input: usize,
+    (input, amplitude): (usize, (&str, f64)),
 ) -> Result<Vec<StudyAtPlace<'s>>, Failure> {
     let mut studies = Vec::new();
     for place in &asked.places {
-        let at = study.at_place(input, place)?;
+        let at = study.at_place(input, place, amplitude)?;
         studies.push((Some(place.name.clone()), Cow::Owned(at)));
     }
     if studies.is_empty() {
@@ -134,12 +134,10 @@ fn accepted(
     for range in ranges {
         for value in [range.from, range.to] {
             let refused = study.system_at(&[(range.path.as_str(), value)]).err();
-            wrong.extend(refused.into_iter().flatten().map(|complaint| Complaint {
-                key: format!("design.{key}"),
-                origin: Origin::Whole,
-                allowed: format!("{}{at}: {}", range.path, complaint.allowed),
-                ..complaint
-            }));
+            let path = format!("{}{at}", range.path);
+            wrong.extend(
+                refused.into_iter().flatten().map(|complaint| at_end(complaint, key, &path)),
+            );
         }
     }
     if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
