@@ -1,10 +1,14 @@
 //! `design` of a belt: units, complaints with their keys, and several waveforms.
 
+mod designs;
+
+use quell::Study;
 use quell::kind::verbs;
 use quell::run::protocol::Protocol;
 use quell::run::thresholds::ThresholdsRequest;
-use quell::{Failure, Study};
 use serde_json::Value as Json;
+
+use designs::{complaint, facts};
 
 const BELT: &str = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.1\n[friction]\nlaw = \"stribeck\"\n\
                     static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\n\
@@ -12,22 +16,6 @@ const BELT: &str = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_veloc
 
 const DESIGN: &str = "[design]\nminimise = \"amplitude\"\nvary = [\"dither.amplitude\"]\nfrom = [0.01]\nto = [20.0]\n\
                       waveforms = [\"sine\", \"triangle\", \"square\"]\n[design.over]\n\"belt.belt_velocity\" = [0.05, 0.15]\n";
-
-fn facts(text: &str) -> Json {
-    let study = Study::parse(text, &[]).expect("a study");
-    verbs(&study).design().expect("an answer").facts()
-}
-
-fn keys_of_complaints(text: &str) -> String {
-    match Study::parse(text, &[]) {
-        Err(complaints) => complaints.to_string(),
-        Ok(study) => match verbs(&study).design() {
-            Err(Failure::Wrong(complaints)) => complaints.to_string(),
-            Err(other) => other.to_string(),
-            Ok(_) => panic!("accepted: {text}"),
-        },
-    }
-}
 
 /// An independent program: 0.9486004564844978 for the square wave, which needs least.
 #[test]
@@ -75,8 +63,7 @@ fn a_study_in_si_has_the_same_answer() {
 
 #[test]
 fn wrong_designs_are_refused_with_their_keys() {
-    let with =
-        |from: &str, to: &str| keys_of_complaints(&format!("{BELT}{DESIGN}").replace(from, to));
+    let with = |from: &str, to: &str| complaint(&format!("{BELT}{DESIGN}").replace(from, to));
     for (from, to, key) in [
         ("minimise = \"amplitude\"", "minimise = \"amplitud\"", "design.minimise"),
         ("to = [20.0]", "to = [0.001]", "design.to[0]"),
@@ -102,10 +89,9 @@ fn wrong_designs_are_refused_with_their_keys() {
         let said = with(from, to);
         assert!(said.contains(key), "{to}: {said}");
     }
-    assert!(keys_of_complaints(BELT).contains("design"));
+    assert!(complaint(BELT).contains("design"));
     let without = BELT.split("[dither]").next().expect("a part");
-    let said =
-        keys_of_complaints(&format!("{without}{}", DESIGN.replace("\"sine\", \"triangle\", ", "")));
+    let said = complaint(&format!("{without}{}", DESIGN.replace("\"sine\", \"triangle\", ", "")));
     assert!(said.contains("dither"), "{said}");
 }
 

@@ -1,9 +1,12 @@
 //! What a design tries in turn: places of the dither, and bursts of several numbers of periods. Each choice is the design of a study that
 //! is written with it.
 
-use quell::kind::verbs;
-use quell::{Failure, Study};
+mod designs;
+
+use quell::Study;
 use serde_json::Value as Json;
+
+use designs::{complaint, facts};
 
 /// A motor that drives a carriage with friction, dithered at one of them.
 fn two_masses(dither: &str, design: &str) -> String {
@@ -22,22 +25,6 @@ const BELT: &str = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_veloc
 
 const SINE: &str = "waveform = \"sine\"";
 const AMPLITUDE: &str = "vary = [\"dither.amplitude\"]\nfrom = [0.01]\nto = [400.0]";
-
-fn facts(text: &str) -> Json {
-    let study = Study::parse(text, &[]).unwrap_or_else(|errors| panic!("{errors}\n{text}"));
-    verbs(&study).design().unwrap_or_else(|why| panic!("{why}")).facts()
-}
-
-fn complaint(text: &str) -> String {
-    match Study::parse(text, &[]) {
-        Err(complaints) => complaints.to_string(),
-        Ok(study) => match verbs(&study).design() {
-            Err(Failure::Wrong(complaints)) => complaints.to_string(),
-            Err(other) => other.to_string(),
-            Ok(_) => panic!("accepted: {text}"),
-        },
-    }
-}
 
 #[test]
 fn each_place_is_the_study_with_the_dither_there() {

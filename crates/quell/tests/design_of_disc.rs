@@ -1,8 +1,12 @@
 //! `design` of a disc: its answer as JSON, speeds and frequencies in SI, other waveforms, and refusals.
 
+mod designs;
+
+use quell::Study;
 use quell::kind::verbs;
-use quell::{Failure, Study};
 use serde_json::Value as Json;
+
+use designs::{complaint, facts};
 
 /// A friction just above that of a backward wave, which normal dither of this frequency quenches.
 const DISC: &str = "[disc]\ninner_radius_ratio = 0.5\npoisson_ratio = 0.3\nradial_modes = 1\nnodal_diameters = 2\n\
@@ -13,22 +17,6 @@ const NORMAL: &str = "[dither]\ndirection = \"normal\"\namplitude = 1.0\nfrequen
 
 const DESIGN: &str = "[design]\nminimise = \"amplitude\"\nvary = [\"dither.amplitude\"]\nfrom = [0.0]\nto = [1.0]\n\
                       [design.over]\n\"disc.load.speed\" = [0.695, 0.705]\n";
-
-fn facts(text: &str) -> Json {
-    let study = Study::parse(text, &[]).unwrap_or_else(|errors| panic!("{errors}\n{text}"));
-    verbs(&study).design().unwrap_or_else(|why| panic!("{why}")).facts()
-}
-
-fn complaint(text: &str) -> String {
-    match Study::parse(text, &[]) {
-        Err(complaints) => complaints.to_string(),
-        Ok(study) => match verbs(&study).design() {
-            Err(Failure::Wrong(complaints)) => complaints.to_string(),
-            Err(other) => other.to_string(),
-            Ok(_) => panic!("accepted: {text}"),
-        },
-    }
-}
 
 fn number(value: &Json) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("no number: {value}"))

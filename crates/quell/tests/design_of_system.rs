@@ -1,8 +1,12 @@
 //! `design` of a system: the belt written as a system against independent numbers, dither on one of two masses, and refusals.
 
+mod designs;
+
+use quell::Study;
 use quell::kind::verbs;
-use quell::{Failure, Study};
 use serde_json::Value as Json;
+
+use designs::{complaint, facts};
 
 /// The belt with ζ = 0.005 and F = 1 as a system of one mass.
 const BELT: &str = "[system]\ncoordinates = [\"x\"]\nmass = [1.0]\ndamping = [0.01]\nstiffness = [1.0]\n[[contact]]\n\
@@ -17,22 +21,6 @@ fn design(vary: &str, over: &str, limits: &str) -> String {
 }
 
 const AMPLITUDE: &str = "vary = [\"dither.amplitude\"]\nfrom = [0.01]\nto = [20.0]";
-
-fn facts(text: &str) -> Json {
-    let study = Study::parse(text, &[]).unwrap_or_else(|errors| panic!("{errors}\n{text}"));
-    verbs(&study).design().unwrap_or_else(|why| panic!("{why}")).facts()
-}
-
-fn complaint(text: &str) -> String {
-    match Study::parse(text, &[]) {
-        Err(complaints) => complaints.to_string(),
-        Ok(study) => match verbs(&study).design() {
-            Err(Failure::Wrong(complaints)) => complaints.to_string(),
-            Err(other) => other.to_string(),
-            Ok(_) => panic!("accepted: {text}"),
-        },
-    }
-}
 
 fn number(value: &Json) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("no number: {value}"))
