@@ -229,7 +229,7 @@ fn runs_from_rest_have_both_thresholds_in_any_window() {
 #[test]
 fn a_lost_branch_does_not_discard_other_results() {
     const OWN: &str = "studies/own-friction-law.toml";
-    // Within 5·10⁻⁶ of the amplitude at which the response begins to reverse its slip, like a square root, no step follows it.
+    // Within 5·10⁻⁶ of the amplitude at which the response begins to reverse its slip no step follows it.
     let found = thresholds(OWN, "dither.amplitude", ["0.8", "1.13807"], &["--from-rest"]);
     assert_eq!(found["covered"], false);
     let wide = thresholds(OWN, "dither.amplitude", ["0.8", "2"], &[]);

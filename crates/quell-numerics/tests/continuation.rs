@@ -195,6 +195,51 @@ fn a_branch_followed_only_forwards_ends_where_the_whole_one_turns_back() {
     }
 }
 
+/// The fixed point p below p = 0.5 and p + `jump` above it, with different signatures.
+struct Jump {
+    jump: f64,
+}
+
+impl PeriodMap for Jump {
+    type Signature = bool;
+    type Error = ();
+
+    fn dimension(&self) -> usize {
+        1
+    }
+
+    fn scale(&self) -> f64 {
+        1.0
+    }
+
+    fn image(
+        &self,
+        state: &[f64],
+        parameters: &[f64],
+        _: Option<&bool>,
+    ) -> Result<Image<bool>, ()> {
+        let is_above = parameters[0] > 0.5;
+        let fixed = parameters[0] + if is_above { self.jump } else { 0.0 };
+        Ok(Image {
+            state: vec![0.5 * (state[0] + fixed)],
+            derivative: Matrix::from_fn(1, 1, |_, _| 0.5),
+            distance: f64::INFINITY,
+            signature: is_above,
+        })
+    }
+}
+
+/// Jumps above a fiftieth of the window, within which a corner is sought: one below and one above the largest leap.
+#[test]
+fn a_motion_that_jumps_is_not_the_continuation_of_a_branch() {
+    for jump in [0.012, 0.1] {
+        let window = Follow::window(0.1, 0.6, 20);
+        let branch = follow(&Jump { jump }, &[0.2], 0.2, true, window).expect("a branch");
+        let End::Lost { at } = branch.end else { panic!("{jump}: {:?}", branch.end) };
+        near(at, 0.5, 1e-6);
+    }
+}
+
 #[test]
 fn delayed_logistic_map_has_its_neimark_sacker_bifurcation() {
     let window = Follow::window(1.2, 3.0, 30);

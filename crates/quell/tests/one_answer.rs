@@ -15,8 +15,8 @@ fn number(value: &Json) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("no number: {value}"))
 }
 
-/// A slider that begins to adhere at 308.01 N, where its response begins like a square root. Plain Runge–Kutta runs of a reader vibrate
-/// slowly at 330 N and not from 340 N on.
+/// A slider that begins to adhere at 308.01 N, next to which no step of a continuation follows its response. Plain Runge–Kutta runs of a
+/// reader vibrate slowly at 330 N and not from 340 N on.
 const SLIDER: &str = r#"
 [belt]
 mass_kg = 0.5

@@ -164,21 +164,25 @@ fn over_a_corner<F: PeriodMap>(
     Some((next, step_length))
 }
 
-/// Relative distances in the parameter at which the branch is sought beyond a steep beginning.
+/// Relative distances in the parameter at which the branch is sought beyond a border; between, no solution is known. The cases that were
+/// met, an elastic slider and two laws whose static level is above μ(0⁺), were found at 10⁻⁴. With larger ones more of the branch
+/// would stay unknown, with smaller ones Newton's method fails as the steps did.
 const LEAPS: [f64; 6] = [1e-5, 1e-4, 5e-4, 1e-3, 3e-3, 1e-2];
 
-/// Such leaps along one branch.
+/// Such leaps along one branch, so that a branch that no step follows ends.
 const MOST_LEAPS: usize = 8;
 
-/// Largest distance of the states of a leap, over the scale of the states.
+/// Largest distance of the states of the longer leap, over the scale of the states: fifty times that of the cases above. With a larger
+/// one another branch could be taken for the continuation.
 const LARGEST_LEAP: f64 = 0.02;
 
-/// How much longer a second leap is, and the largest share of its distance that the first one may have: a square root gives 0.35, and a
-/// motion that jumps at the border, which is another one, nearly 1.
+/// How much longer a second leap is, and the largest share of its distance that the first one may have. A smooth branch gives 0.125 (the
+/// cases above 0.11 to 0.14), one that begins like a square root 0.35. A motion that jumps at the border, which is another one, gives more,
+/// unless it jumps by less than ten times what it moves in the first leap.
 const TENDING: (f64, f64) = (8.0, 0.6);
 
-/// The point a little beyond a border at which the branch begins like a square root, and the distance to it. There the derivative
-/// of the map changes over distances below those at which it is known, so that no step follows. An elastic slider begins to adhere so.
+/// The point a little beyond a border next to which no step follows the branch, and the distance to it: the derivative of the map
+/// changes there over distances below those at which it is known. An elastic slider begins to adhere so.
 fn over_a_steep_beginning<F: PeriodMap>(
     run: &ContinuationRun<'_, F>,
     here: &BranchSolution<F::Signature>,
