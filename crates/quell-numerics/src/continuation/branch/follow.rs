@@ -167,7 +167,7 @@ fn over_a_corner<F: PeriodMap>(
 /// Relative distances in the parameter at which the branch is sought beyond a border; between, no solution is known. The cases that were
 /// met, an elastic slider and two laws whose static level is above μ(0⁺), were found at 10⁻⁴. With larger ones more of the branch
 /// would stay unknown, with smaller ones Newton's method fails as the steps did.
-const LEAPS: [f64; 6] = [1e-5, 1e-4, 5e-4, 1e-3, 3e-3, 1e-2];
+const LEAPS: [f64; 3] = [1e-5, 1e-4, 5e-4];
 
 /// Such leaps along one branch, so that a branch that no step follows ends.
 const MOST_LEAPS: usize = 8;
@@ -178,8 +178,8 @@ const LARGEST_LEAP: f64 = 0.02;
 
 /// How much longer a second leap is, and the largest share of its distance that the first one may have. A smooth branch gives 0.125 (the
 /// cases above 0.11 to 0.14), one that begins like a square root 0.35. A motion that jumps at the border, which is another one, gives more,
-/// unless it jumps by less than ten times what it moves in the first leap.
-const TENDING: (f64, f64) = (8.0, 0.6);
+/// unless it jumps by less than three times what it moves in the first leap.
+const TENDING: (f64, f64) = (8.0, 0.36);
 
 /// The point a little beyond a border next to which no step follows the branch, and the distance to it: the derivative of the map
 /// changes there over distances below those at which it is known. An elastic slider begins to adhere so.
@@ -198,7 +198,8 @@ fn over_a_steep_beginning<F: PeriodMap>(
         Some((distance(&next.unknowns[..n], &here.unknowns[..n]), next))
     };
     let next = LEAPS.into_iter().find_map(|leap| {
-        let (near, next) = at_leap(leap, &state)?;
+        // At the parameter 0 a relative distance leads nowhere.
+        let (near, next) = at_leap(leap, &state).filter(|(near, _)| *near > 0.0)?;
         let (beyond, _) = at_leap(TENDING.0 * leap, &run.unscaled(&next.unknowns).0)?;
         (beyond <= LARGEST_LEAP && near <= TENDING.1 * beyond).then_some(next)
     })?;
