@@ -33,13 +33,13 @@ static CHECKED: AtomicBool = AtomicBool::new(false);
 
 /// Installs the signal handlers.
 pub(crate) fn handle() {
-    block_file_size_signal();
+    catch_file_size_signal();
     // Under nohup, a hang-up must not end the process. Without a handler, signals have their default action, which does not
     // lose finished chunks either.
     if hangups_are_ignored() {
         return;
     }
-    let _ = ctrlc::set_handler(|| {
+    on_signals(|| {
         if STOP.swap(true, Ordering::Relaxed) || !CHECKED.load(Ordering::Relaxed) {
             end();
         }
@@ -51,6 +51,21 @@ pub(crate) fn handle() {
             end();
         });
     });
+}
+
+/// Acts on SIGINT, SIGTERM and SIGHUP, in a thread. If no handler can be installed, signals keep their default action.
+#[cfg(unix)]
+fn on_signals(act: impl Fn() + Send + 'static) {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+    if let Ok(mut signals) = Signals::new([SIGHUP, SIGINT, SIGTERM]) {
+        let _ = thread::Builder::new().spawn(move || signals.forever().for_each(|_| act()));
+    }
+}
+
+#[cfg(not(unix))]
+fn on_signals(act: impl Fn() + Send + 'static) {
+    let _ = ctrlc::set_handler(act);
 }
 
 /// The flag that is set by a signal, for a verb that stops when it is set.
@@ -72,16 +87,14 @@ fn end() -> ! {
     process::exit(INTERRUPTED);
 }
 
-/// Blocks SIGXFSZ in this thread and all later ones. If a file exceeds the limit (`ulimit -f`), the write then fails with an
-/// error, instead of the signal ending the process during the write.
+/// Catches SIGXFSZ. If a file exceeds the limit (`ulimit -f`), the write then fails with an error, instead of the signal ending the
+/// process during the write.
 #[cfg(unix)]
-fn block_file_size_signal() {
-    use nix::sys::signal::{SigSet, Signal};
-    let mut signals = SigSet::empty();
-    signals.add(Signal::SIGXFSZ);
-    // If it cannot be blocked, the signal keeps its default action.
-    let _ = signals.thread_block();
+fn catch_file_size_signal() {
+    let reached = std::sync::Arc::new(AtomicBool::new(false));
+    // If it cannot be caught, the signal keeps its default action.
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, reached);
 }
 
 #[cfg(not(unix))]
-fn block_file_size_signal() {}
+fn catch_file_size_signal() {}

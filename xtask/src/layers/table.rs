@@ -99,7 +99,7 @@ pub(crate) const CONFINED: &[Confined] = &[
     confined("resvg",      &["quell-plot"],         false, "pictures are drawn by one crate"),
     confined("svg2pdf",    &["quell-plot"],         false, "pictures are drawn by one crate"),
     confined("rustix",     &["quell", "quell-study"], false, "untrusted files are opened by two crates: studies and stores"),
-    confined("nix",        &["quell-cli"],          false, "signals are handled by the program that owns the process"),
+    confined("signal-hook", &["quell-cli"],         false, "signals are handled by the program that owns the process"),
     confined("clap",       &["quell-cli"],          false, "arguments are parsed by the command line alone"),
     confined("indicatif",  &["quell-cli"],          false, "progress bars are shown by the command line alone"),
     confined("pyo3",       &["quell-python"],       false, "the core does not depend on its bindings"),

@@ -212,9 +212,10 @@ class MeasuredPane(QuestionPane):
 
     def __init__(self, title: str, name: str, labels: tuple[str, ...]) -> None:
         super().__init__(title, name, "exact")
-        self.files = [pn.widgets.FileInput(accept=".csv", multiple=False, margin=MARGIN) for _ in labels]
-        rows = [pn.Row(paragraph_of(label, 210), file) for label, file in zip(labels, self.files, strict=True)]
-        self.view[1:1] = rows
+        self.files = [pn.widgets.FileInput(accept=".csv", multiple=False, width=WIDTH, margin=MARGIN) for _ in labels]
+        # A name above its file: beside it, the row would be wider than a pane.
+        rows = [(paragraph_of(label, WIDTH), file) for label, file in zip(labels, self.files, strict=True)]
+        self.view[1:1] = [one for row in rows for one in row]
 
     def contents(self) -> tuple[bytes, ...]:
         """The files that were chosen, in their order."""
