@@ -213,7 +213,7 @@ class MeasuredPane(QuestionPane):
     def __init__(self, title: str, name: str, labels: tuple[str, ...]) -> None:
         super().__init__(title, name, "exact")
         self.files = [pn.widgets.FileInput(accept=".csv", multiple=False, width=WIDTH, margin=MARGIN) for _ in labels]
-        # A name above its file: beside it, the row would be wider than a pane.
+        # A name is above its file: a row of both would be wider than a pane.
         rows = [(paragraph_of(label, WIDTH), file) for label, file in zip(labels, self.files, strict=True)]
         self.view[1:1] = [one for row in rows for one in row]
 
