@@ -10,3 +10,4 @@ pub mod least_dither;
 pub mod probability;
 pub mod quench;
 pub mod substitute;
+pub mod tasks;

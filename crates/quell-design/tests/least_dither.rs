@@ -5,6 +5,7 @@ use quell_design::least_dither::{
     BeltPlant, DesignObjective, DesignProblem, DesignStart, Designed, LimitedQuantity, NoDesign,
     OperatingPoint, Plant, covered, design,
 };
+use quell_design::tasks::InTurn;
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 
 const BELT_VELOCITY: &str = "belt.belt_velocity";
@@ -45,6 +46,7 @@ fn problem<'a>(
         limits,
         actuator: None,
         start: DesignStart::Local,
+        tasks: &InTurn,
     }
 }
 

@@ -4,6 +4,7 @@ use quell_design::least_dither::{
     DesignObjective, DesignProblem, DesignStart, Designed, DiscPlant, NoDesign, OperatingPoint,
     Plant, covered, design,
 };
+use quell_design::tasks::InTurn;
 use quell_disc::dithered;
 use quell_disc::plate::{ModeSet, Plate as DiscPlate, Reference};
 use quell_model::disc::{DiscDither, Load};
@@ -60,6 +61,7 @@ fn problem<'a>(
         limits: &[],
         actuator: None,
         start: DesignStart::Local,
+        tasks: &InTurn,
     }
 }
 

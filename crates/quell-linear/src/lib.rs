@@ -12,6 +12,7 @@
 //! * [`averaging`]: effective friction under fast dither, stability of steady sliding, critical amplitudes, of one mass.
 
 pub mod averaging;
+pub mod critical_slopes;
 pub mod criticality;
 pub mod driven_point;
 pub mod eigenvalues;

@@ -162,6 +162,7 @@ pub mod kind;
 mod noise;
 pub mod outcome;
 pub mod output;
+mod parallel;
 pub mod picture;
 mod range;
 mod removed_mean;

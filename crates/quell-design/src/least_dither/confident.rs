@@ -64,7 +64,8 @@ impl DesignProblem<'_> {
     ) -> Result<LeastOfSample, NoLeast> {
         let quiet = |point: &[f64]| (sample.averaged)(point, self.amplitude);
         let (step, closeness) = STEPS;
-        let search = BoxSearch { ranges: self.over, from: self.amplitude.0, step, closeness };
+        let Self { over: ranges, amplitude: (from, _), tasks, .. } = *self;
+        let search = BoxSearch { ranges, from, step, closeness, tasks };
         least_of_box(search, self.points_near(design), &quiet).map(LeastOfSample)
     }
 

@@ -2,8 +2,9 @@
 
 use super::quiet::QuietAmplitudes;
 use super::search::{DesignPoint, box_points};
-use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
+use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, judged, least_from};
 use super::{DesignProblem, DesignStart};
+use crate::tasks::Tasks;
 
 /// Window of exact thresholds about the amplitude of averaging, as factors.
 pub(super) const WINDOW: (f64, f64) = (0.85, 1.15);
@@ -19,7 +20,8 @@ const CLOSENESS_OF_RUNS: f64 = 1e-3;
 const BELOW: f64 = 1e-12;
 
 /// The quiet amplitudes of an operating point in a range, or why they are unknown.
-pub(super) type QuietSet<'a> = dyn Fn(&[f64], (f64, f64)) -> Result<QuietAmplitudes, String> + 'a;
+pub(super) type QuietSet<'a> =
+    dyn Fn(&[f64], (f64, f64)) -> Result<QuietAmplitudes, String> + Sync + 'a;
 
 /// A box of operating points with the amplitudes that are allowed.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +34,8 @@ pub(super) struct ExactBox<'a> {
     pub(super) start: DesignStart,
     /// Last step over the box, as a share of its ranges.
     pub(super) closeness: f64,
+    /// Who judges points.
+    pub(super) tasks: &'a dyn Tasks,
 }
 
 /// What is known of the least amplitude at a neighbouring choice, or by averaging.
@@ -57,8 +61,8 @@ impl<'a> ExactBox<'a> {
             DesignStart::Local => CLOSENESS,
             DesignStart::Rest | DesignStart::Squeal => CLOSENESS_OF_RUNS,
         };
-        let DesignProblem { over, amplitude, start, .. } = *problem;
-        Self { over, amplitude, start, closeness }
+        let DesignProblem { over, amplitude, start, tasks, .. } = *problem;
+        Self { over, amplitude, start, closeness, tasks }
     }
 
     /// The points that decide at a neighbouring choice, and points on both sides of each: an exact tip may end before that of averaging.
@@ -103,16 +107,16 @@ impl<'a> ExactBox<'a> {
             // Averaging has shown that smaller amplitudes are loud somewhere: the search begins at the loud sets that end near its
             // amplitude.
             let mut begin = lower;
-            for (point, near) in points.iter().zip(near.into_iter().cycle()) {
-                let set =
-                    quiet(point).map_err(|why| NoLeast::Failed { point: point.clone(), why })?;
+            let known = judged(self.tasks, points, &quiet)?;
+            for ((_, set), near) in known.iter().zip(near.into_iter().cycle()) {
                 let ends = set.intervals().iter().map(|(low, _)| *low).filter(|low| *low > lower);
                 let nearest = ends.min_by(|a, b| (a - near).abs().total_cmp(&(b - near).abs()));
                 begin = begin.max(nearest.map_or(lower, |end| end * (1.0 - BELOW)));
             }
             let (step, closeness) = (FIRST_STEP, self.closeness);
-            let search = BoxSearch { ranges: self.over, from: begin, step, closeness };
-            least_of_box(search, points, &quiet)
+            let Self { over: ranges, tasks, .. } = *self;
+            let search = BoxSearch { ranges, from: begin, step, closeness, tasks };
+            least_from(search, known, &quiet)
         };
         let lower = lowest.clamp(from, upper);
         let about = Some(near.amplitude.max(lower));

@@ -45,6 +45,7 @@ pub use verified::VerifiedPoint;
 pub use worst_point::NoLeast;
 
 use crate::actuator::{Actuator, ActuatorDemand, ActuatorLimit};
+use crate::tasks::Tasks;
 
 /// Share of the least amplitude by which the verified dither exceeds it.
 pub const MARGIN: f64 = 1e-3;
@@ -338,4 +339,6 @@ pub struct DesignProblem<'a> {
     pub actuator: Option<&'a Actuator>,
     /// The runs that must end quiet.
     pub start: DesignStart,
+    /// Who runs what is independent of one another: choices of the design variables, and operating points.
+    pub tasks: &'a dyn Tasks,
 }

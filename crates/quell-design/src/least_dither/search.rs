@@ -5,6 +5,7 @@
 
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
 use crate::actuator::{ActuatorDemand, ActuatorLimit};
+use crate::tasks::answers;
 
 use super::{DesignObjective, DesignProblem, LimitedQuantity, MARGIN, OperatingPoint};
 
@@ -83,6 +84,15 @@ pub(super) struct AveragedSearch {
     pub(super) refused: Vec<(Vec<f64>, NoLeast)>,
 }
 
+impl AveragedSearch {
+    /// Adds what another part of the search found.
+    fn add(&mut self, other: Self) {
+        self.found.extend(other.found);
+        self.tried.extend(other.tried);
+        self.refused.extend(other.refused);
+    }
+}
+
 impl DesignPoint {
     /// How far the tightest limit is used; infinite where a limit cannot be judged.
     pub fn use_of_limits(&self) -> f64 {
@@ -148,14 +158,12 @@ impl DesignProblem<'_> {
     fn largest(
         &self,
         worst: Option<&Vec<f64>>,
-        value: impl Fn(&[f64]) -> Result<f64, String>,
+        value: impl Fn(&[f64]) -> Result<f64, String> + Sync,
     ) -> Result<f64, String> {
-        let corners = grid(self.over, [1, 2, 2, 2], false);
-        let mut largest = f64::NEG_INFINITY;
-        for point in corners.iter().chain(worst) {
-            largest = largest.max(value(point)?);
-        }
-        Ok(largest)
+        let mut points = grid(self.over, [1, 2, 2, 2], false);
+        points.extend(worst.cloned());
+        let values = answers(self.tasks, &points, |point| value(point));
+        values.into_iter().try_fold(f64::NEG_INFINITY, |largest, value| Ok(largest.max(value?)))
     }
 
     /// How far a limit of the response is used on exact base responses, those of the verified dither.
@@ -168,10 +176,11 @@ impl DesignProblem<'_> {
     ) -> Option<Result<f64, String>> {
         let of = quantity.of_response()?;
         let verified = amplitude * (1.0 + MARGIN);
-        let largest = points.iter().try_fold(0.0, |most: f64, point| {
-            let size = self.plant.exact_response(OperatingPoint { point, others }, verified)?;
-            Ok(most.max(of(size) / limit))
+        let sizes = answers(self.tasks, points, |point| {
+            self.plant.exact_response(OperatingPoint { point, others }, verified)
         });
+        let largest =
+            sizes.into_iter().try_fold(0.0, |most: f64, size| Ok(most.max(of(size?) / limit)));
         Some(largest)
     }
 
@@ -319,7 +328,8 @@ impl DesignProblem<'_> {
         let special = self.plant.special_points(self.over, others, to);
         let mut points = points;
         points.extend(special.map_err(|why| NoLeast::Failed { point: Vec::new(), why })?);
-        let search = BoxSearch { ranges: self.over, from, step: 0.0625, closeness: BOX_CLOSENESS };
+        let Self { over: ranges, tasks, .. } = *self;
+        let search = BoxSearch { ranges, from, step: 0.0625, closeness: BOX_CLOSENESS, tasks };
         let quiet =
             |point: &[f64]| self.plant.averaged(OperatingPoint { point, others }, (from, to));
         Ok(self.priced(others, least_of_box(search, points, &quiet)?, Judged::ByAveraging))
@@ -340,26 +350,35 @@ impl DesignProblem<'_> {
         }
         let coarse = grid(self.over, COARSE, false);
         let choices = grid(self.others, GRID, true);
+        let points =
+            answers(self.tasks, &choices, |choice| self.averaged_point(choice, coarse.clone()));
         let mut values = Vec::new();
-        for choice in &choices {
-            let point = self.averaged_point(choice, coarse.clone());
+        for (choice, point) in choices.iter().zip(points) {
             values.push(point.as_ref().ok().and_then(DesignPoint::may_be_allowed));
             match point {
                 Ok(point) => done.tried.push(point),
                 Err(why) => done.refused.push((choice.clone(), why)),
             }
         }
-        for start in self.local_minima(&choices, &values) {
-            let Ok(point) = self.averaged_point(&choices[start], coarse.clone()) else { continue };
-            self.refine_from(point, &mut done);
-        }
-        if done.found.is_empty() {
-            for point in nearest_choices(&done.tried) {
-                let within = self.within_limits(point, &mut done.tried);
-                if within.may_be_allowed().is_some() {
-                    self.refine_from(within, &mut done);
-                }
+        let starts = self.local_minima(&choices, &values);
+        let refined = answers(self.tasks, &starts, |start| {
+            let mut own = AveragedSearch::default();
+            if let Ok(point) = self.averaged_point(&choices[*start], coarse.clone()) {
+                self.refine_from(point, &mut own);
             }
+            own
+        });
+        refined.into_iter().for_each(|own| done.add(own));
+        if done.found.is_empty() {
+            let refined = answers(self.tasks, &nearest_choices(&done.tried), |point| {
+                let mut own = AveragedSearch::default();
+                let within = self.within_limits(point.clone(), &mut own.tried);
+                if within.may_be_allowed().is_some() {
+                    self.refine_from(within, &mut own);
+                }
+                own
+            });
+            refined.into_iter().for_each(|own| done.add(own));
         }
         let value = |point: &DesignPoint| point.may_be_allowed().unwrap_or(f64::INFINITY);
         done.found.sort_by(|a, b| value(a).total_cmp(&value(b)));

@@ -8,6 +8,7 @@ use super::{
     DesignObjective, DesignProblem, DesignStart, ExactVerdict, LimitedQuantity, MARGIN,
     OperatingPoint, ResponseSize,
 };
+use crate::tasks::answers;
 
 /// Share of a limit of the response up to which it is kept: the method that follows a limit ends within this of it.
 const RESPONSE_KEPT: f64 = 1.0 + 1e-6;
@@ -38,9 +39,12 @@ impl DesignProblem<'_> {
             points.extend(self.points());
             let mut verified = Vec::new();
             let mut failing = Vec::new();
-            for point in points {
-                let at = OperatingPoint { point: &point, others: &critical.others };
-                match self.plant.verdict(at, amplitude) {
+            let verdicts = answers(self.tasks, &points, |point| {
+                let at = OperatingPoint { point, others: &critical.others };
+                self.plant.verdict(at, amplitude)
+            });
+            for (point, verdict) in points.into_iter().zip(verdicts) {
+                match verdict {
                     Ok(verdict) if verdict.quiet => {
                         let ExactVerdict { multiplier, growth_rate, .. } = verdict;
                         verified.push(VerifiedPoint { point, multiplier, growth_rate });
@@ -81,9 +85,12 @@ impl DesignProblem<'_> {
         points.sort_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
         points.dedup();
         let mut first: Option<f64> = None;
-        for point in points {
-            let at = OperatingPoint { point: &point, others: &critical.others };
-            let quiet = self.plant.exact(at, (verified, to.max(verified)))?;
+        let sets = answers(self.tasks, &points, |point| {
+            let at = OperatingPoint { point, others: &critical.others };
+            self.plant.exact(at, (verified, to.max(verified)))
+        });
+        for quiet in sets {
+            let quiet = quiet?;
             let interval = quiet.intervals().iter().find(|(low, _)| *low <= verified);
             let end = interval.map_or(verified, |(_, high)| *high);
             if end < to {
@@ -110,9 +117,12 @@ impl DesignProblem<'_> {
             points
         };
         let mut largest: Option<(f64, Vec<f64>)> = None;
-        for point in points {
-            let at = OperatingPoint { point: &point, others: &critical.others };
-            let loss = self.plant.exact_loss(at, amplitude)?;
+        let losses = answers(self.tasks, &points, |point| {
+            let at = OperatingPoint { point, others: &critical.others };
+            self.plant.exact_loss(at, amplitude)
+        });
+        for (point, loss) in points.into_iter().zip(losses) {
+            let loss = loss?;
             if largest.as_ref().is_none_or(|(most, _)| loss > *most) {
                 largest = Some((loss, point));
             }
@@ -129,10 +139,13 @@ impl DesignProblem<'_> {
     /// limit is on it.
     pub(super) fn exact_response(&self, critical: &DesignPoint) -> Result<ResponseSize, String> {
         let mut largest = ResponseSize { rms: 0.0, peak: 0.0 };
-        for point in self.points_of_response(critical) {
-            let at = OperatingPoint { point: &point, others: &critical.others };
-            let amplitude = critical.amplitude * (1.0 + MARGIN);
-            largest = largest.or_larger(self.plant.exact_response(at, amplitude)?);
+        let points = self.points_of_response(critical);
+        let sizes = answers(self.tasks, &points, |point| {
+            let at = OperatingPoint { point, others: &critical.others };
+            self.plant.exact_response(at, critical.amplitude * (1.0 + MARGIN))
+        });
+        for size in sizes {
+            largest = largest.or_larger(size?);
         }
         Ok(largest)
     }
@@ -152,10 +165,11 @@ impl DesignProblem<'_> {
     pub(super) fn beyond_response(&self, critical: &DesignPoint) -> Option<Vec<f64>> {
         self.response_limits().next()?;
         let points = self.points_of_response(critical);
-        let used = points.into_iter().filter_map(|point| {
-            let used = self.response_used(critical, &point).1;
-            (used > RESPONSE_KEPT).then_some((used, point))
-        });
+        let shares = answers(self.tasks, &points, |point| self.response_used(critical, point).1);
+        let used = points
+            .into_iter()
+            .zip(shares)
+            .filter_map(|(point, used)| (used > RESPONSE_KEPT).then_some((used, point)));
         used.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point)
     }
 

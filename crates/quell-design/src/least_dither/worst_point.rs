@@ -7,6 +7,7 @@
 //! its way: the search goes on from the top, until no known set is loud there.
 
 use super::quiet::{QuietAmplitudes, least_of_all};
+use crate::tasks::{Tasks, answers};
 
 /// Loud sets that are climbed at most.
 const ROUNDS: usize = 24;
@@ -22,7 +23,15 @@ pub(super) struct BoxSearch<'a> {
     pub(super) step: f64,
     /// Step at which it ends, the same way.
     pub(super) closeness: f64,
+    /// Who judges points that are known at the beginning.
+    pub(super) tasks: &'a dyn Tasks,
 }
+
+/// An operating point with its quiet amplitudes.
+pub(super) type JudgedPoint = (Vec<f64>, QuietAmplitudes);
+
+/// The quiet amplitudes of an operating point, or why they are unknown.
+pub(super) type QuietAt<'a> = dyn Fn(&[f64]) -> Result<QuietAmplitudes, String> + Sync + 'a;
 
 /// The least amplitude of a box.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,18 +61,35 @@ pub enum NoLeast {
     },
 }
 
+/// The quiet amplitudes of every one of some points.
+pub(super) fn judged(
+    tasks: &dyn Tasks,
+    points: Vec<Vec<f64>>,
+    quiet: &QuietAt<'_>,
+) -> Result<Vec<JudgedPoint>, NoLeast> {
+    let sets = answers(tasks, &points, |point| quiet(point));
+    let judged = points.into_iter().zip(sets).map(|(point, set)| match set {
+        Ok(set) => Ok((point, set)),
+        Err(why) => Err(NoLeast::Failed { point, why }),
+    });
+    judged.collect()
+}
+
 /// The least amplitude that is quiet at every point, starting from the sets of some points.
 pub(super) fn least_of_box(
     search: BoxSearch<'_>,
     points: Vec<Vec<f64>>,
-    quiet: &dyn Fn(&[f64]) -> Result<QuietAmplitudes, String>,
+    quiet: &QuietAt<'_>,
 ) -> Result<LeastOfBox, NoLeast> {
-    let failed = |point: &[f64], why| NoLeast::Failed { point: point.to_vec(), why };
-    let mut known: Vec<(Vec<f64>, QuietAmplitudes)> = Vec::new();
-    for point in points {
-        let set = quiet(&point).map_err(|why| failed(&point, why))?;
-        known.push((point, set));
-    }
+    least_from(search, judged(search.tasks, points, quiet)?, quiet)
+}
+
+/// The same, starting from points whose sets are known.
+pub(super) fn least_from(
+    search: BoxSearch<'_>,
+    mut known: Vec<JudgedPoint>,
+    quiet: &QuietAt<'_>,
+) -> Result<LeastOfBox, NoLeast> {
     let mut decisive: Vec<Vec<f64>> = Vec::new();
     let mut from = search.from;
     for _ in 0..ROUNDS {
@@ -94,9 +120,9 @@ struct Climbed {
 /// Moves a point to where the least quiet amplitude from `amplitude` on is largest.
 fn climbed(
     search: BoxSearch<'_>,
-    (mut point, mut set): (Vec<f64>, QuietAmplitudes),
+    (mut point, mut set): JudgedPoint,
     mut amplitude: f64,
-    quiet: &dyn Fn(&[f64]) -> Result<QuietAmplitudes, String>,
+    quiet: &QuietAt<'_>,
 ) -> Result<Climbed, NoLeast> {
     let mut step = search.step;
     while step > search.closeness {
@@ -130,11 +156,12 @@ fn climbed(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tasks::InTurn;
 
     const RANGES: [(f64, f64); 1] = [(0.0, 1.0)];
 
     fn search(ranges: &[(f64, f64)]) -> BoxSearch<'_> {
-        BoxSearch { ranges, from: 0.0, step: 0.125, closeness: 1e-9 }
+        BoxSearch { ranges, from: 0.0, step: 0.125, closeness: 1e-9, tasks: &InTurn }
     }
 
     fn grid(count: u32) -> Vec<Vec<f64>> {

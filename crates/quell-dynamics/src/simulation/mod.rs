@@ -68,6 +68,6 @@ pub use simulate::{DEFAULT_TOLERANCE, simulate, simulate_many, simulate_many_wit
 pub(crate) use slip_continuation::continue_slip;
 pub use state::{FinalState, Stalled, Start};
 pub(crate) use step_budget::StepBudget;
-pub use step_budget::{MOST_STEPS, is_used_up, within};
+pub use step_budget::{MOST_STEPS, apart, count_taken, is_used_up, left, within};
 pub use taylor::ORDER;
 pub(crate) use taylor::{RECIPROCALS, Series};

@@ -65,6 +65,35 @@ pub fn within<T>(steps: u64, work: impl FnOnce() -> T) -> T {
     work()
 }
 
+/// Calls `work` with a limit of its own and returns also the steps that it took: a part of a request that runs on any thread, within
+/// whatever that thread is waiting for. Neither limits the other.
+pub fn apart<T>(steps: u64, work: impl FnOnce() -> T) -> (T, u64) {
+    /// Restores the remaining steps of the thread, also if the work panics.
+    struct Meanwhile(u64);
+    impl Drop for Meanwhile {
+        fn drop(&mut self) {
+            LEFT.with(|left| left.set(self.0));
+        }
+    }
+    let _meanwhile = Meanwhile(LEFT.with(Cell::get));
+    LEFT.with(|left| left.set(steps));
+    let done = work();
+    // Without a limit nothing is counted.
+    let left = LEFT.with(Cell::get);
+    (done, steps - left.min(steps))
+}
+
+/// Steps that the request of this thread may still take; the largest number without a limit.
+pub fn left() -> u64 {
+    LEFT.with(Cell::get)
+}
+
+/// Counts steps that parts of the request of this thread took on other threads.
+pub fn count_taken(steps: u64) {
+    // Where they are used up, the next run ends.
+    let _ = charge(steps);
+}
+
 /// Whether the request of this thread has used up its steps: what it found is not the end of what it searched for.
 pub fn is_used_up() -> bool {
     LEFT.with(Cell::get) == 0
@@ -186,6 +215,13 @@ mod tests {
         let used_up = within(100, || [run(60), run(40)].map(|_| is_used_up()));
         assert_eq!((used_up, is_used_up()), ([true, true], false));
         assert_eq!(within(100, || [within(10, || run(20)), run(80)]), [Ok(()); 2]);
+        // Parts on other threads, within another request.
+        let parts = within(100, || {
+            let ((), taken) = within(1, || apart(left().max(100), || run(60).expect("of its own")));
+            count_taken(taken);
+            (taken, left())
+        });
+        assert_eq!(parts, (60, 40));
         // Runs without steps are limited too.
         let begun = within(STEPS_PER_START * 3, || {
             (0..9).take_while(|_| StepBudget::begin().is_ok()).count()

@@ -119,9 +119,8 @@ fn locate<E>(
     b: f64,
     becomes_positive: bool,
 ) -> Result<SignChange, E> {
-    let root = try_find_root(&mut *f, a, b, Closeness::default())?;
-    let location = root.map_or(a.midpoint(b), |root| root.location);
-    let error = root.map_or(b - a, |root| root.width.max(4.0 * f64::EPSILON * location.abs()));
+    let root = located(f, a, b, becomes_positive)?;
+    let location = root.location;
     // Near a root the difference of the values decreases with the distance, near a branch point only close to the root;
     // across a jump it never does.
     let mut crossing = CrossingKind::Jump;
@@ -135,7 +134,20 @@ fn locate<E>(
             break;
         }
     }
-    Ok(SignChange { location, error, crossing, becomes_positive })
+    Ok(SignChange { crossing, ..root })
+}
+
+/// The root between `a` and `b`, where the signs differ, whether or not it is a jump.
+pub(super) fn located<E>(
+    f: &mut impl FnMut(f64) -> Result<f64, E>,
+    a: f64,
+    b: f64,
+    becomes_positive: bool,
+) -> Result<SignChange, E> {
+    let root = try_find_root(&mut *f, a, b, Closeness::default())?;
+    let location = root.map_or(a.midpoint(b), |root| root.location);
+    let error = root.map_or(b - a, |root| root.width.max(4.0 * f64::EPSILON * location.abs()));
+    Ok(SignChange { location, error, crossing: CrossingKind::Root, becomes_positive })
 }
 
 /// The next of a sequence of points that grow by a factor. The smallest numbers are unchanged by the factor; for them, the next

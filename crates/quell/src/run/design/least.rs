@@ -5,7 +5,7 @@ use quell_design::least_dither::{
     DesignProblem, DesignStart, Designed, LimitedQuantity, OperatingPoint, Plant, ScheduledDither,
     SystemAtPoint, SystemPlant, covered, design,
 };
-use quell_dynamics::simulation::within;
+use quell_dynamics::simulation::{apart, within};
 use quell_linear::averaging::DitheredSystem;
 use rayon::prelude::*;
 use serde_json::Value as Json;
@@ -16,6 +16,7 @@ use super::study_with_design::StudyWithDesign;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::averaged_without_states;
 use crate::effort::STEPS_OF_MANY_SEARCHES;
+use crate::parallel::InParallel;
 use crate::run::evenly;
 use crate::study::Design;
 
@@ -118,9 +119,10 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         limits: &limits,
         actuator,
         start: asked.start,
+        tasks: &InParallel,
     };
     let designed = tried.par_iter().map(|tried| {
-        let designed = within(STEPS_OF_MANY_SEARCHES, || within_range(problem(&tried.plant)));
+        let (designed, _) = apart(STEPS_OF_MANY_SEARCHES, || within_range(problem(&tried.plant)));
         let waveform = tried.waveform.clone();
         let is_slow = numbers.is_slow(&designed, &waveform, tried.study);
         DesignedDither { waveform, place: tried.place.clone(), is_slow, designed }
@@ -216,6 +218,6 @@ fn within_range(problem: DesignProblem<'_>) -> Designed {
 
 /// The exact least dithers along a box of one coordinate.
 fn schedule(problem: DesignProblem<'_>, range: (f64, f64), others: &[f64]) -> Vec<ScheduledDither> {
-    let at = |point: f64| within(STEPS_OF_MANY_SEARCHES, || problem.scheduled(&[point], others));
+    let at = |point: f64| apart(STEPS_OF_MANY_SEARCHES, || problem.scheduled(&[point], others)).0;
     evenly(range, SCHEDULE).into_par_iter().map(at).collect()
 }

@@ -4,6 +4,7 @@ use quell_design::least_dither::{
     DesignPoint, DesignProblem, DesignStart, LeastOfSample, LimitedQuantity, NoDesign, NoLeast,
     SampledLeast, SampledQuiet, ScaledPlant, design,
 };
+use quell_design::tasks::InTurn;
 use quell_dynamics::simulation::within;
 use rayon::prelude::*;
 use serde_json::Value as Json;
@@ -140,6 +141,8 @@ impl DrawnSamples<'_> {
         design: &DesignPoint,
         sample: &SampleAtPoint<'_, '_>,
     ) -> Result<Quantile, String> {
+        // The samples themselves are judged in parallel.
+        let problem = &DesignProblem { tasks: &InTurn, ..*problem };
         let Confidence { share, samples, seed } = self.confidence;
         let paths: Vec<&str> = self.uncertainty.paths().collect();
         let joint = self.uncertainty.joint();
