@@ -65,8 +65,8 @@ pub fn within<T>(steps: u64, work: impl FnOnce() -> T) -> T {
     work()
 }
 
-/// Calls `work` with a limit of its own and returns also the steps that it took: a part of a request that runs on any thread, within
-/// whatever that thread is waiting for. Neither limits the other.
+/// Calls `work` with a limit of its own and returns also the steps that it took: a part of a request that runs on any thread, also on one
+/// that waits for a part of another request. Neither limits the other.
 pub fn apart<T>(steps: u64, work: impl FnOnce() -> T) -> (T, u64) {
     /// Restores the remaining steps of the thread, also if the work panics.
     struct Meanwhile(u64);
