@@ -100,7 +100,7 @@ const SLOW: &[&str] = &[
     "a_million_random_steps_close_the_balance_of_work",
     "every_entry_is_made",
     "runs_from_rest_have_both_thresholds_in_any_window",
-    "studies_commands_and_answers_are_true",
+    "studies_commands_answers_and_pictures_are_true",
     "the_reader_of_stores_detects_damage",
     "the_reader_of_studies_rejects_with_complaints",
     "thresholds_answer_with_the_number",

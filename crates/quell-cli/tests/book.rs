@@ -123,12 +123,7 @@ fn with_friction(study: &str, friction: &str) -> String {
     format!("{before}{friction}\n[{after}")
 }
 
-/// Processes a page and returns it with the actual outputs.
-fn page(path: &Path) -> String {
-    page_in(path, &workplace())
-}
-
-/// Processes a page in a folder, in which the files of its commands are left.
+/// Processes a page in a folder, in which the files of its commands are left, and returns it with the actual outputs.
 fn page_in(path: &Path, folder: &tempfile::TempDir) -> String {
     let text = fs::read_to_string(path).expect("a page");
     let mut answer: Option<String> = None;
@@ -212,35 +207,71 @@ fn answers_differ_in_their_last_digits_only() {
     assert!(!alike("E 0.2584", "E 0.2585") && !alike("stable", "unstable") && !alike("a", "a b"));
 }
 
+/// Every answer shown is the one that its command gives, and every picture next to a page is the one that a command of the page draws,
+/// `--plot NAME.svg`. `QUELL_BLESS=1` writes them.
 #[test]
-fn studies_commands_and_answers_are_true() {
-    let bless = std::env::var_os("QUELL_BLESS").is_some();
+fn studies_commands_answers_and_pictures_are_true() {
     let pages = pages();
     assert!(pages.len() > 15);
-    // Whoever is free takes the next page: some take a hundred times as long as others.
+    // Each thread takes the next page when it is free: some pages take a hundred times as long as others.
     let next = AtomicUsize::new(0);
-    let wrong: Vec<String> = std::thread::scope(|scope| {
+    let done: Vec<(usize, Vec<String>)> = std::thread::scope(|scope| {
         let reader = || {
-            let mut wrong = Vec::new();
+            let (mut count, mut wrong) = (0, Vec::new());
             while let Some(path) = pages.get(next.fetch_add(1, Ordering::Relaxed)) {
-                let (before, now) = (fs::read_to_string(path).expect("a page"), page(path));
+                let folder = workplace();
+                let (before, now) =
+                    (fs::read_to_string(path).expect("a page"), page_in(path, &folder));
                 if !alike(&before, &now) {
-                    if bless {
+                    if blesses() {
                         fs::write(path, now).expect("written");
                     } else {
                         wrong.push(path.display().to_string());
                     }
                 }
+                let (pictures, others) = pictures_of(path, &before, &folder);
+                count += pictures;
+                wrong.extend(others);
             }
-            wrong
+            (count, wrong)
         };
         let readers = [(); 2].map(|()| scope.spawn(reader));
-        readers.into_iter().flat_map(|reader| reader.join().expect("a reader")).collect()
+        readers.into_iter().map(|reader| reader.join().expect("a reader")).collect()
     });
+    let wrong: Vec<&String> = done.iter().flat_map(|(_, wrong)| wrong).collect();
     assert!(
         wrong.is_empty(),
         "answers differ: {wrong:?}; QUELL_BLESS=1 writes the present ones into the pages"
     );
+    assert!(done.iter().map(|(count, _)| count).sum::<usize>() > 4);
+}
+
+fn blesses() -> bool {
+    std::env::var_os("QUELL_BLESS").is_some()
+}
+
+/// The number of pictures next to a page, and those that are not what its commands drew in a folder.
+fn pictures_of(path: &Path, text: &str, folder: &tempfile::TempDir) -> (usize, Vec<String>) {
+    let links = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+    let own = |link: &&str| {
+        Path::new(link).extension().is_some_and(|end| end == "svg") && !link.contains(['/', ':'])
+    };
+    let (mut count, mut wrong) = (0, Vec::new());
+    for link in links.filter(own) {
+        count += 1;
+        let kept = path.with_file_name(link);
+        let Ok(now) = fs::read_to_string(folder.path().join(link)) else {
+            wrong.push(format!("{}: no command draws {link}", path.display()));
+            continue;
+        };
+        if blesses() {
+            fs::write(&kept, &now).expect("written");
+        }
+        if !fs::read_to_string(&kept).is_ok_and(|before| same_drawing(&now, &before)) {
+            wrong.push(kept.display().to_string());
+        }
+    }
+    (count, wrong)
 }
 
 /// The numbers in the tags of a drawing, and everything else (texts and embedded pictures) unchanged.
@@ -281,7 +312,6 @@ fn texts_of_a_drawing_are_compared_exactly() {
 /// `QUELL_BLESS=1` writes them.
 #[test]
 fn pictures_are_those_of_reproduce() {
-    let bless = std::env::var_os("QUELL_BLESS").is_some();
     let mut count = 0;
     let mut made: Vec<PathBuf> = Vec::new();
     for page in pages() {
@@ -298,7 +328,7 @@ fn pictures_are_those_of_reproduce() {
                 continue;
             }
             let now = entry.product().expect("made").figure.expect("a picture").to_svg();
-            if bless {
+            if blesses() {
                 fs::write(&path, &now).expect("written");
             }
             let before = fs::read_to_string(&path).expect("QUELL_BLESS=1 writes it");
@@ -318,44 +348,6 @@ fn same_drawing(one: &str, other: &str) -> bool {
     let ((words, numbers), (others, old)) = (drawing(one), drawing(other));
     let close = numbers.iter().zip(&old).all(|(a, b)| (a - b).abs() <= 0.02);
     words == others && numbers.len() == old.len() && close
-}
-
-/// Every picture that is next to its page is the one that a command of the page draws, `--plot NAME.svg`.
-/// `QUELL_BLESS=1` writes them.
-#[test]
-fn pictures_beside_pages_are_those_of_their_commands() {
-    let bless = std::env::var_os("QUELL_BLESS").is_some();
-    let mut count = 0;
-    for path in pages() {
-        let text = fs::read_to_string(&path).expect("a page");
-        let links = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
-        let own = |link: &&str| {
-            Path::new(link).extension().is_some_and(|end| end == "svg")
-                && !link.contains(['/', ':'])
-        };
-        let links: Vec<&str> = links.filter(own).collect();
-        if links.is_empty() {
-            continue;
-        }
-        let folder = workplace();
-        page_in(&path, &folder);
-        for link in links {
-            let now = fs::read_to_string(folder.path().join(link));
-            let now = now.unwrap_or_else(|_| panic!("{}: no command draws {link}", path.display()));
-            let kept = path.with_file_name(link);
-            if bless {
-                fs::write(&kept, &now).expect("written");
-            }
-            let before = fs::read_to_string(&kept).expect("QUELL_BLESS=1 writes it");
-            assert!(
-                same_drawing(&now, &before),
-                "{}: QUELL_BLESS=1 writes the present picture",
-                kept.display()
-            );
-            count += 1;
-        }
-    }
-    assert!(count > 4, "{count}");
 }
 
 /// Every link to a file is valid, and every page is in the table of contents.

@@ -1,7 +1,7 @@
 //! Independent tasks of a question. This crate starts no threads: who asks decides whether tasks run in turn or in parallel.
 
 use std::fmt::Debug;
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 
 /// Who runs independent tasks.
 pub trait Tasks: Debug + Sync {
@@ -28,9 +28,9 @@ pub(crate) fn answers<I: Sync, T: Send>(
     let found: Mutex<Vec<(usize, T)>> = Mutex::new(Vec::with_capacity(items.len()));
     tasks.run(items.len(), &|index| {
         let one = answer(&items[index]);
-        found.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push((index, one));
+        found.lock().unwrap_or_else(PoisonError::into_inner).push((index, one));
     });
-    let mut found = found.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let mut found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
     found.sort_unstable_by_key(|(index, _)| *index);
     found.into_iter().map(|(_, one)| one).collect()
 }

@@ -113,7 +113,7 @@ fn a_planted_law_is_found_from_exact_points() {
             assert!(close, "{} {}: {}", found.name(), parameter.key(), fitted.value);
         }
         assert!(found.residual() < 1e-14);
-        assert!(diagnose(&found, &points).is_empty(), "{:?}", diagnose(&found, &points));
+        assert_eq!(diagnose(&found, &points), [FitFinding::Exact]);
     }
 }
 
@@ -293,6 +293,19 @@ fn what_the_points_cannot_determine_is_found() {
     // The cubic is not intended beyond √3 of its reference velocity.
     let cubic = fit(&model(LawKind::Stribeck), &wild).expect("a fit");
     assert!(cubic.upper_limit().is_some());
+}
+
+/// Points on a line, which the law with a viscous part meets with both levels equal: nothing depends on the velocity between them.
+#[test]
+fn a_velocity_between_equal_levels_has_no_error() {
+    let line: Vec<FitPoint> = [2.0, 3.0, 4.0, 5.0, 6.0].map(|v| point(v, 0.298 + 0.001 * v)).into();
+    let found = fit(&model(LawKind::StribeckExponential), &line).expect("a fit");
+    assert!(found.is_exact(), "{found:?}");
+    let reference = found.parameters.iter().find(|one| one.parameter.key() == "reference_velocity");
+    let certainty = &reference.expect("a reference velocity").certainty;
+    assert!(matches!(certainty, Certainty::Undetermined(_)), "{certainty:?}");
+    let findings = diagnose(&found, &line);
+    assert!(findings.contains(&FitFinding::Exact), "{findings:?}");
 }
 
 #[test]

@@ -42,7 +42,7 @@ mod _quell {
     #[pymodule_export]
     use crate::verbs::atlas::atlas_tables;
     #[pymodule_export]
-    use crate::verbs::fit::{fit, fit_decay};
+    use crate::verbs::fit::{fit_decay, fit_laws};
     #[pymodule_export]
     use crate::verbs::new::new;
     #[pymodule_export]

@@ -224,6 +224,7 @@ CALLS: dict[str, Callable[[], results.Result]] = {
     "actuator of a system": lambda: study("drive with a motor").actuator(),
     "probability": lambda: quell.Study.from_toml(STUDIES / "probability.toml").probability(samples=200),
     "probability in SI": lambda: probability_in_si().probability(samples=100),
+    "fit of laws": lambda: quell.fit_laws(STUDIES / "synthetic-friction.csv"),
     "free decay": lambda: quell.fit_decay(STUDIES / "synthetic-decay.csv"),
     "fit of a record": lambda: quell.Study.from_toml(STUDIES / "measured-belt.toml").fit_record(
         STUDIES / "synthetic-squeal.csv", free=["friction.static_coefficient", "record.shift"], fix="dither.amplitude_n=0"),

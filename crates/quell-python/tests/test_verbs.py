@@ -41,6 +41,7 @@ BESIDE = {
     "quell.sweep",
     "quell.quantities",
     "quell.fit_decay",
+    "quell.fit_laws",
     "quell.from_abaqus",
     "quell.from_nastran",
     "quell.from_universal_file",
@@ -173,6 +174,10 @@ def test_the_schema_is_the_same(cli: Any) -> None:
 def test_a_fit_is_the_same(cli: Any) -> None:
     data = str(STUDIES / "synthetic-friction.csv")
     assert quell.fit(data, law=["stribeck", "coulomb"]) == cli("fit", data, "--law", "stribeck", "--law", "coulomb")
+    found = quell.fit_laws(data, law=["stribeck", "coulomb"])
+    assert found.facts == quell.fit(data, law=["stribeck", "coulomb"])
+    assert found.study is None and found.tables["friction"].startswith("[friction]")
+    assert len(found["points_point_residual"]) == found.n and len(found.plot().axes) >= 1
     with pytest.raises(quell.StudyError, match="stribeck"):
         quell.fit(data, law="stribek")
     with pytest.raises(quell.StudyError, match="gain"):

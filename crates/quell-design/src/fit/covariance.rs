@@ -10,6 +10,7 @@ use quell_numerics::symmetric::{SymmetricMatrix, pencil_eigenvalues};
 use super::model::{Estimate, FitModel, Influence};
 use super::projection::{FitSamples, Position};
 use super::search::{FitMinimum, interior, linear_columns};
+use super::statistics::ROUNDING;
 
 /// What is known of the value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,17 +87,19 @@ pub(super) fn covariance(
     };
     let mut estimated: Vec<Estimated> =
         interior(current).map(|place| Estimated { place, tied: tied(place) }).collect();
+    let size = norm(&samples.weighted(&samples.coefficients));
     for place in model.free() {
         let searched = matches!(model.influence(place), Influence::Velocity | Influence::Exponent);
         if searched && !found.at_limit.contains(&place) {
-            columns.push(samples.weighted(&gradient[place]));
-            estimated.push(Estimated { place, tied: None });
+            let column = samples.weighted(&gradient[place]);
+            // Where both levels have the same value but for rounding, no friction depends on the velocity between them.
+            if norm(&column) * found.values[place].abs() > ROUNDING * size {
+                columns.push(column);
+                estimated.push(Estimated { place, tied: None });
+            }
         }
     }
-    let norms: Vec<f64> = columns
-        .iter()
-        .map(|column| column.iter().map(|entry| entry * entry).sum::<f64>().sqrt())
-        .collect();
+    let norms: Vec<f64> = columns.iter().map(|column| norm(column)).collect();
     let visible: Vec<usize> =
         (0..columns.len()).filter(|k| norms[*k].is_finite() && norms[*k] > 0.0).collect();
     let product = |i: usize, j: usize| {
@@ -134,6 +137,10 @@ pub(super) fn covariance(
     let parameters = model.kind().parameters();
     let order = estimated.iter().map(|own| parameters[own.place]).collect();
     (Covariance { order, matrix, condition, estimated }, certainties)
+}
+
+fn norm(column: &[f64]) -> f64 {
+    column.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
 
 /// Ratio of the extreme eigenvalues of a symmetric matrix; `None` if it is not positive definite or empty.

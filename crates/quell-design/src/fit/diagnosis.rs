@@ -5,8 +5,8 @@ use quell_model::parameter::{
     COEFFICIENT, MINIMUM_COEFFICIENT, REFERENCE_VELOCITY, STATIC_COEFFICIENT,
 };
 
-use super::statistics::{robust_deviation, runs};
-use super::{Certainty, FitPoint, LawFit, ROUNDING};
+use super::statistics::{ROUNDING, robust_deviation, runs};
+use super::{Certainty, FitPoint, LawFit};
 
 /// Residuals above this multiple of the robust standard deviation are outliers.
 const OUTLIER: f64 = 4.0;
@@ -47,6 +47,8 @@ pub enum FitFinding {
         /// The reason.
         why: String,
     },
+    /// The law passes through every point: there is no scatter from which errors would follow.
+    Exact,
     /// Two estimates are almost perfectly correlated.
     Correlated {
         /// Keys of the parameters.
@@ -110,6 +112,9 @@ pub enum FitFinding {
 /// The findings of a fit to these points, the most serious first.
 pub fn diagnose(fit: &LawFit, points: &[FitPoint]) -> Vec<FitFinding> {
     let mut findings = errors(fit);
+    // Measurements with given standard deviations have errors whether or not they scatter.
+    let scatter = points.iter().all(|point| point.standard_deviation == 1.0);
+    findings.extend((fit.is_exact() && scatter).then_some(FitFinding::Exact));
     findings.extend(extrapolations(fit, points));
     findings.extend(beyond_range(fit, points));
     findings.extend(residuals(fit, points));

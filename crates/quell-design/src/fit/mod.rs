@@ -26,10 +26,8 @@ pub use covariance::{Certainty, Covariance};
 pub use diagnosis::{FitFinding, diagnose};
 pub use model::{Estimate, FitModel};
 pub use point::FitPoint;
+use statistics::ROUNDING;
 pub use statistics::{runs, student_quantile};
-
-/// Residuals up to this part of the largest coefficient are rounding.
-const ROUNDING: f64 = 1e-12;
 
 /// Why a law cannot be fitted.
 #[derive(Clone, Debug, PartialEq)]

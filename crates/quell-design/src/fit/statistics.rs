@@ -1,5 +1,8 @@
 //! Quantiles and tests of residuals.
 
+/// Residuals up to this part of the largest coefficient are rounding.
+pub(super) const ROUNDING: f64 = 1e-12;
+
 /// The t with P(|T| ≤ t) = `probability` for Student's distribution with ν ≥ 1 degrees of freedom.
 ///
 /// Bisection of the finite series of the distribution (Abramowitz and Stegun 1964, eqs. 26.7.3 and 26.7.4), to rounding.

@@ -85,11 +85,13 @@ pub(super) struct AveragedSearch {
 }
 
 impl AveragedSearch {
-    /// Adds what another part of the search found.
-    fn add(&mut self, other: Self) {
-        self.found.extend(other.found);
-        self.tried.extend(other.tried);
-        self.refused.extend(other.refused);
+    /// Adds what other parts of the search found, in their order.
+    fn extend(&mut self, parts: Vec<Self>) {
+        for part in parts {
+            self.found.extend(part.found);
+            self.tried.extend(part.tried);
+            self.refused.extend(part.refused);
+        }
     }
 }
 
@@ -368,7 +370,7 @@ impl DesignProblem<'_> {
             }
             own
         });
-        refined.into_iter().for_each(|own| done.add(own));
+        done.extend(refined);
         if done.found.is_empty() {
             let refined = answers(self.tasks, &nearest_choices(&done.tried), |point| {
                 let mut own = AveragedSearch::default();
@@ -378,7 +380,7 @@ impl DesignProblem<'_> {
                 }
                 own
             });
-            refined.into_iter().for_each(|own| done.add(own));
+            done.extend(refined);
         }
         let value = |point: &DesignPoint| point.may_be_allowed().unwrap_or(f64::INFINITY);
         done.found.sort_by(|a, b| value(a).total_cmp(&value(b)));

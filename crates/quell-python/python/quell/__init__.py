@@ -96,6 +96,7 @@ __all__ = [
     "quantities",
     "fit",
     "fit_decay",
+    "fit_laws",
     "reproduce",
     "results",
     "schema",
@@ -172,7 +173,7 @@ def fit(
         CSV file with ``slip_velocity`` (or ``slip_velocity_m_per_s``) and ``coefficient``, or ``friction_force`` and ``normal_load``; with
         ``decay`` and ``record`` with ``time`` (or ``time_s``) and ``displacement``, ``velocity`` or ``acceleration``.
     law :
-        Names of laws, or "all" [default: "all"].
+        Names of laws, or "all" [default: "all"]: :func:`fit_laws` returns their fit with arrays and a picture.
     free :
         Parameters to estimate that are otherwise fixed, such as "exponent"; with ``record`` numbers of the study.
     fix :
@@ -213,10 +214,47 @@ def fit(
     for name, value in alone.items():
         if value is not None:
             arguments.wrong.append(complaint(name, str(value), "given with decay or record", "conflict"))
+    arguments.done()
+    return fit_laws(data, law=law, free=free, fix=fix).facts
+
+
+@keywords
+def fit_laws(
+    data: str | os.PathLike[str],
+    *,
+    law: str | list[str] | None = None,
+    free: str | list[str] | None = None,
+    fix: str | list[str] | None = None,
+) -> results.LawFit:
+    """Fits friction laws to measured coefficients, with standard errors, and compares them.
+
+    Parameters
+    ----------
+    data :
+        CSV file with ``slip_velocity`` (or ``slip_velocity_m_per_s``) and ``coefficient``, or ``friction_force`` and ``normal_load``.
+    law :
+        Names of laws, or "all" [default: "all"].
+    free :
+        Parameters to estimate that are otherwise fixed, such as "exponent".
+    fix :
+        Parameters to fix, such as "static_coefficient=0.4".
+
+    Returns
+    -------
+    quell.results.LawFit
+        Estimates with standard errors and covariance, the comparison of the laws, the fitted curve with its band, and the residuals.
+
+    Examples
+    --------
+    >>> found = quell.fit_laws("friction.csv")
+    >>> found.plot()
+    >>> print(found.tables["friction"])
+    """
+    arguments = Arguments()
     place = arguments.path("data", data)
     laws, freed, fixed = (names_of(arguments, name, it) for name, it in (("law", law), ("free", free), ("fix", fix)))
     arguments.done()
-    return _quell.fit(str(place), laws, freed, fixed)
+    return results.LawFit(None, _quell.fit_laws(str(place), laws, freed, fixed))
 
 
 @keywords

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use pyo3::prelude::*;
-use quell::outcome::Outcome;
 use quell::record::RecordRequest;
 use quell::run::decay::DecayRequest;
 use quell::run::fit::FitRequest;
@@ -14,22 +13,21 @@ use quell::{Failure, Study};
 use super::compare::{RecordTexts, time_of};
 use super::map::{Counter, Watched};
 use crate::answer::NativeAnswer;
-use crate::{call, convert};
+use crate::call;
 
-/// Fits laws to a file. Returns the object of the command line.
+/// Fits laws to a file.
 #[pyfunction]
-pub(crate) fn fit(
+pub(crate) fn fit_laws(
     py: Python<'_>,
     data: PathBuf,
     law: Vec<String>,
     free: Vec<String>,
     fix: Vec<String>,
-) -> PyResult<Py<PyAny>> {
-    let object = call::run(py, move || {
+) -> PyResult<NativeAnswer> {
+    call::run(py, move || {
         let request = FitRequest::new(&law, &free, &fix)?;
-        Ok(quell::run::fit::run(&data, &request)?.json())
-    })?;
-    convert::to_python(py, &object)
+        Ok(NativeAnswer::new(Box::new(quell::run::fit::run(&data, &request)?)))
+    })
 }
 
 /// Fits a free decay to a file.

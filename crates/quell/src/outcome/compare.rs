@@ -137,15 +137,13 @@ impl ComparedStudy {
 
 fn sentence(done: &Comparison) -> String {
     let before = &done.before;
-    let level = decibels(before.rms[0] / before.rms[1]);
     let matched = before.lines.iter().filter(|line| line.difference().is_ok()).count();
     let first = format!(
-        "{} lines of the {} are in both spectra{}, and the measured level is {} {} that of the study.",
+        "{} lines of the {} are in both spectra{}, and {}.",
         matched,
         before.quantity.name(),
         if done.after.is_some() { " before the dither" } else { "" },
-        in_decibels(level.abs()),
-        if level >= 0.0 { "above" } else { "below" }
+        levels_compared(before.rms)
     );
     let Some(found) = done.reduction() else { return first };
     let slow = done.slow_reduction().map_or_else(String::new, |slow| {
@@ -160,6 +158,20 @@ fn sentence(done: &Comparison) -> String {
         in_decibels(found.measured),
         in_decibels(found.predicted)
     )
+}
+
+/// How far a measured root mean square is above a computed one.
+fn levels_compared([measured, computed]: [f64; 2]) -> String {
+    match (measured > 0.0, computed > 0.0) {
+        (true, true) => {
+            let level = decibels(measured / computed);
+            let side = if level >= 0.0 { "above" } else { "below" };
+            format!("the measured level is {} {side} that of the study", in_decibels(level.abs()))
+        }
+        (false, true) => "nothing vibrates in the measured record".to_owned(),
+        (true, false) => "nothing vibrates in the study".to_owned(),
+        (false, false) => "nothing vibrates in the measured record or in the study".to_owned(),
+    }
 }
 
 /// A level, or null where nothing vibrates.
@@ -284,11 +296,11 @@ fn table(record: &ComparedRecord) -> String {
     }
     let _ = writeln!(
         text,
-        "  {:>14}{:>14.2}{:>14.2}{:>14.2}",
+        "  {:>14}{:>14}{:>14}{:>14}",
         "rms",
-        decibels(record.rms[0]),
-        decibels(record.rms[1]),
-        decibels(record.rms[0] / record.rms[1])
+        shown(Some(decibels(record.rms[0])).filter(|level| level.is_finite())),
+        shown(Some(decibels(record.rms[1])).filter(|level| level.is_finite())),
+        shown(Some(decibels(record.rms[0] / record.rms[1])).filter(|level| level.is_finite()))
     );
     text
 }

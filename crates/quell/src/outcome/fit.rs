@@ -217,6 +217,11 @@ fn in_words(done: &FrictionFit, finding: &FitFinding) -> String {
         FitFinding::WithoutError { key, why } => format!(
             "{key} has no standard error: {why}. Choose a law with fewer parameters, or fix it with --fix {key}=VALUE"
         ),
+        FitFinding::Exact => {
+            "the law passes through every point, which then say nothing about errors: those given are 0. Give more points, or \
+             standard deviations of the points"
+                .to_owned()
+        }
         FitFinding::Correlated { keys: [first, second], correlation } => format!(
             "{first} and {second} are determined only in combination (correlation {correlation:.4}): fix one of them, or \
              measure over a wider range of slip velocities"

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use quell_dynamics::response::SteadyFriction;
+use quell_linear::averaging::SlopeSide;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -13,7 +14,7 @@ use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
 use crate::quantity;
-use crate::run::friction::FrictionCurve;
+use crate::run::friction::{FrictionCurve, FrictionPoint};
 use crate::run::law;
 use crate::study::{BeltSetup, BeltStudy};
 
@@ -91,8 +92,26 @@ fn table(study: &BeltStudy, curve: &FrictionCurve) -> String {
         }
         text.push('\n');
     }
+    text.push_str(&one_sided(curve.points.iter().step_by(stride), |v| figure(v * per_unit)));
     text.push_str(&reasons(curve, |v| figure(v * per_unit)));
     text
+}
+
+/// At which of the slip velocities the slope has two values, and which of them is given.
+pub(super) fn one_sided<'a>(
+    points: impl Iterator<Item = &'a FrictionPoint>,
+    shown: impl Fn(f64) -> String,
+) -> String {
+    let outer = points
+        .filter(|point| point.effective.as_ref().is_ok_and(|found| found.side == SlopeSide::Outer));
+    let places: Vec<String> = outer.map(|point| shown(point.slip_velocity)).collect();
+    if places.is_empty() {
+        return String::new();
+    }
+    format!(
+        "  at v_r = {} the largest fast velocity equals the slip velocity and the slope jumps: it is that for larger |v_r|\n",
+        places.join(" and ")
+    )
 }
 
 /// The columns of the measured friction.

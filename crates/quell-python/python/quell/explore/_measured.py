@@ -6,7 +6,7 @@ import html
 import tempfile
 from pathlib import Path
 
-from .. import fit as fit_laws
+from .. import fit_laws
 from .._study import Study
 from ._questions import shown
 from ._reading import Answer
@@ -35,14 +35,19 @@ def fit(study: Study, content: bytes) -> Answer:
         place = Path(folder) / "friction.csv"
         place.write_bytes(content)
         found = fit_laws(place)
+        answer = shown(found)
     rows = "".join(
-        f"<tr><td>{html.escape(str(it['law']))}</td><td>{it['aic']:.5g}</td><td>{it['weight']:.3g}</td></tr>"
-        for it in found["comparison"]
-        if it.get("aic") is not None
+        f"<tr><td>{html.escape(str(it['law']))}</td><td>{number(it.get('aic'), 5)}</td><td>{number(it.get('weight'), 3)}</td></tr>"
+        for it in found.comparison
     )
-    tables = "\n".join(str(text) for text in found["study"].values() if text)
-    picture = (
+    tables = "\n".join(str(text) for text in found.tables.values() if text)
+    answer["picture"] += (
         f'<table class="quell-laws"><tr><th>law</th><th>AIC</th><th>Akaike weight</th></tr>{rows}</table>'
         f'<pre style="user-select:all;white-space:pre-wrap">{html.escape(tables)}</pre>'
     )
-    return {"sentence": found["sentence"], "picture": picture, "warnings": list(found["warnings"])}
+    return answer
+
+
+def number(value: float | None, digits: int) -> str:
+    """A number of a table; a dash for an unknown one."""
+    return "—" if value is None else f"{value:.{digits}g}"

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from .._dataset import Arrays, Variable
 from .._result import Result
-from ._measured import Comparison, Decay, RecordFit
+from ._measured import Comparison, Decay, LawFit, RecordFit
 from ._motion import Attractor, NoiseResponse, Orbit, Response, Simulation, Window
 from ._steady import Actuator, Atlas, AtlasTables, Check, Citations, ContactFriction, ContactGains, DescribingFunction, Design, ExactStability, FrictionCurve, Modes, Probability, Resonances, Stability, TrackedStability, Waveforms
 from ._sweeps import Basins, Bifurcation, Map, Ramp, Shard, ThresholdCurves, Thresholds
@@ -38,6 +38,7 @@ __all__ = [
     "Design",
     "ExactStability",
     "FrictionCurve",
+    "LawFit",
     "Map",
     "Modes",
     "NoiseResponse",

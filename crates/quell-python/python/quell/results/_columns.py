@@ -712,6 +712,38 @@ class FrictionCurveColumns:
     slip_velocity_m_per_s: list[float | None]
 
 
+class LawFitColumns:
+    """Of :class:`quell.results.LawFit`."""
+
+    coefficient: npt.NDArray[np.float64]
+    coefficient_high: npt.NDArray[np.float64]
+    coefficient_low: npt.NDArray[np.float64]
+    comparison_aic: npt.NDArray[np.float64]
+    comparison_difference: npt.NDArray[np.float64]
+    comparison_law: npt.NDArray[np.str_]
+    comparison_p: npt.NDArray[Any]
+    comparison_residual: npt.NDArray[np.float64]
+    comparison_rss: npt.NDArray[np.float64]
+    comparison_weight: npt.NDArray[np.float64]
+    covariance_matrix_value: npt.NDArray[np.float64]
+    covariance_order_value: npt.NDArray[np.str_]
+    line: npt.NDArray[np.float64]
+    parameters_minimum_coefficient_fixed: Any
+    parameters_minimum_coefficient_standard_error: float
+    parameters_minimum_coefficient_value: float
+    parameters_reference_velocity_fixed: Any
+    parameters_reference_velocity_standard_error: float
+    parameters_reference_velocity_value: float
+    parameters_static_coefficient_fixed: Any
+    parameters_static_coefficient_standard_error: float
+    parameters_static_coefficient_value: float
+    points_point_coefficient: npt.NDArray[np.float64]
+    points_point_deviation: npt.NDArray[np.float64]
+    points_point_residual: npt.NDArray[np.float64]
+    points_point_velocity: npt.NDArray[np.float64]
+    slip_velocity: npt.NDArray[np.float64]
+
+
 class MapColumns:
     """Of :class:`quell.results.Map`."""
 

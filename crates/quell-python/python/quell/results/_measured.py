@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from .._quell import NativeAnswer
     from .._study import Study
 
-__all__ = ["Comparison", "Decay", "RecordFit"]
+__all__ = ["Comparison", "Decay", "LawFit", "RecordFit"]
 
 
 class Decay(_columns.DecayColumns, Result):
@@ -53,6 +53,59 @@ class Decay(_columns.DecayColumns, Result):
 
     def __init__(self, study: Study | None, native: NativeAnswer | None) -> None:
         super().__init__(study, native)  # type: ignore[arg-type]
+
+
+class LawFit(_columns.LawFitColumns, Result):
+    """Friction laws from measured friction; arrays over the points and over a grid of slip speeds. It has no study."""
+
+    verb = "fit_laws"
+    law: str
+    """The law with the least AIC."""
+    parameters: dict[str, dict[str, float | bool | None]]
+    """``value``, ``standard_error`` and ``fixed`` by name."""
+    covariance: dict[str, list[Any]]
+    """``order``, the names, and ``matrix``, row by row."""
+    condition: float | None
+    """Condition of the information matrix."""
+    residual: float
+    """Residual standard deviation, in units of the given standard deviations if the points have them."""
+    rss: float
+    """Sum of squares of the residuals."""
+    p: int
+    """Number of estimated parameters."""
+    n: int
+    """Number of points."""
+    aic: float | None
+    """Akaike's information criterion."""
+    confidence: float
+    """Confidence of the band about the curve."""
+    quantile: float
+    """Student's quantile of that confidence."""
+    file: str
+    """The file."""
+    columns: list[str]
+    """Its columns."""
+    weighted: bool
+    """Whether the points have standard deviations."""
+    sign: str
+    """How the signs of slip and friction were read."""
+    at_rest: list[int]
+    """Lines of the file without slip, which are left out."""
+    not_determinable: list[str]
+    """What steady sliding does not determine."""
+    comparison: list[dict[str, Any]]
+    """Every law by ascending AIC."""
+    left_out: list[dict[str, str]]
+    """Laws that could not be fitted, and why."""
+
+    def __init__(self, study: Study | None, native: NativeAnswer | None) -> None:
+        super().__init__(study, native)  # type: ignore[arg-type]
+
+    @property
+    def tables(self) -> dict[str, str]:
+        """Tables to paste into a study: ``friction`` and ``uncertainty``, the fact ``study``."""
+        found: dict[str, str] = self.facts["study"]
+        return found
 
 
 class RecordFit(_columns.RecordFitColumns, Result):

@@ -8,6 +8,7 @@ use serde_json::Value as Json;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::outcome::Presented;
+use crate::outcome::friction::one_sided;
 use crate::outcome::table::figure;
 use crate::picture;
 use crate::plot::Figure;
@@ -46,6 +47,7 @@ impl Presented<SystemSetup> for SystemFriction {
                 let v = figure(point.slip_velocity);
                 let _ = writeln!(text, "  {v:>14}  {law:>14}  {mean:>14}  {slope:>14}");
             }
+            text.push_str(&one_sided(points.iter().step_by(stride), figure));
             let mut reasons: Vec<&String> =
                 points.iter().filter_map(|point| point.effective.as_ref().err()).collect();
             reasons.dedup();

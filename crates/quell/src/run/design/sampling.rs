@@ -146,12 +146,69 @@ impl DrawnSamples<'_> {
         let Confidence { share, samples, seed } = self.confidence;
         let paths: Vec<&str> = self.uncertainty.paths().collect();
         let joint = self.uncertainty.joint();
-        let judged = |number: u64| {
-            let values = joint.sample(seed, number).first;
+        let drawn = |number: usize| {
+            let values = joint.sample(seed, number as u64).first;
             let numbers: Vec<(&str, f64)> = paths.iter().copied().zip(values).collect();
             sample(&numbers, &design.others)
         };
-        let averaged = |number: u64| match judged(number) {
+        let samples = AveragedSamples::judged(samples, problem, design, &drawn)?;
+        let (known, unknown) = samples.exactly(problem, share, &drawn);
+        let quantile = known.quantile(share).ok_or("there are no samples")?;
+        let never = samples.never();
+        if !quantile.value.is_finite() {
+            return Err(format!(
+                "no amplitude of the range is known to be quiet in {} of {} samples{}",
+                never + unknown.len(),
+                samples.valid.len(),
+                unknown.first().map_or(String::new(), |why| format!("; the first: {why}"))
+            ));
+        }
+        let loud = |place: &usize| {
+            samples.least(*place) < quantile.interval.0
+                && !known.contains(*place)
+                && drawn(samples.valid[*place]).is_ok_and(|sample| {
+                    !problem.is_quiet_by_averaging(&sample, design, quantile.value)
+                })
+        };
+        let loud_again = (0..samples.valid.len()).into_par_iter().filter(loud).count();
+        let counted = |whys: Vec<String>| (whys.len(), whys.into_iter().next());
+        Ok(Quantile {
+            amplitude: quantile.value,
+            interval: quantile.interval,
+            exact: known.known(),
+            never,
+            loud_again,
+            unknown: counted(unknown),
+            invalid: counted(samples.reasons(|sample| match sample {
+                Averaged::Invalid(why) => Some(why),
+                _ => None,
+            })),
+        })
+    }
+}
+
+/// A sample by its number.
+type SampleByNumber<'a, 's> = dyn Fn(usize) -> Result<SampledQuiet<'s>, String> + Sync + 'a;
+
+/// Samples judged by averaging.
+struct AveragedSamples {
+    all: Vec<Averaged>,
+    /// The numbers of those that are valid studies.
+    valid: Vec<usize>,
+}
+
+impl AveragedSamples {
+    /// Judges samples, in parallel.
+    ///
+    /// # Errors
+    /// That none is a valid study.
+    fn judged(
+        count: usize,
+        problem: &DesignProblem<'_>,
+        design: &DesignPoint,
+        drawn: &SampleByNumber<'_, '_>,
+    ) -> Result<Self, String> {
+        let averaged = |number: usize| match drawn(number) {
             Err(why) => Averaged::Invalid(why),
             Ok(sample) => match problem.averaged_least_of(&sample, design) {
                 Ok(least) => Averaged::Least(least),
@@ -159,37 +216,53 @@ impl DrawnSamples<'_> {
                 Err(NoLeast::Failed { why, .. }) => Averaged::Unknown(why),
             },
         };
-        let all: Vec<Averaged> = (0..samples as u64).into_par_iter().map(averaged).collect();
-        let why_first = |whys: &[&String]| (whys.len(), whys.first().map(|why| (*why).clone()));
-        let of = |sample: &Averaged| match sample {
+        let all: Vec<Averaged> = (0..count).into_par_iter().map(averaged).collect();
+        let is_valid = |number: &usize| !matches!(all[*number], Averaged::Invalid(_));
+        let valid: Vec<usize> = (0..count).filter(is_valid).collect();
+        match all.first() {
+            Some(Averaged::Invalid(why)) if valid.is_empty() => {
+                Err(format!("no sample is a valid study: {why}"))
+            }
+            _ => Ok(Self { all, valid }),
+        }
+    }
+
+    /// The least amplitude of a valid sample by averaging.
+    fn least(&self, place: usize) -> f64 {
+        match &self.all[self.valid[place]] {
             Averaged::Least(least) => least.amplitude(),
             _ => f64::INFINITY,
-        };
-        let invalid: Vec<&String> = all
-            .iter()
-            .filter_map(|sample| if let Averaged::Invalid(why) = sample { Some(why) } else { None })
-            .collect();
-        let mut unknown: Vec<String> = all
-            .iter()
-            .filter_map(
-                |sample| if let Averaged::Unknown(why) = sample { Some(why.clone()) } else { None },
-            )
-            .collect();
-        let valid: Vec<usize> =
-            (0..all.len()).filter(|number| !matches!(all[*number], Averaged::Invalid(_))).collect();
-        if valid.is_empty() {
-            return Err(format!(
-                "no sample is a valid study: {}",
-                invalid.first().map_or("", |why| why.as_str())
-            ));
         }
-        let mut known = SampledLeast::new(valid.iter().map(|number| of(&all[*number])).collect());
+    }
+
+    /// Samples in which no amplitude is quiet by averaging.
+    fn never(&self) -> usize {
+        self.all.iter().filter(|sample| matches!(sample, Averaged::Never)).count()
+    }
+
+    fn reasons(&self, why: impl Fn(&Averaged) -> Option<&String>) -> Vec<String> {
+        self.all.iter().filter_map(|sample| why(sample).cloned()).collect()
+    }
+
+    /// The least amplitudes, exact where they decide about a quantile, and why amplitudes are unknown.
+    fn exactly(
+        &self,
+        problem: &DesignProblem<'_>,
+        share: f64,
+        drawn: &SampleByNumber<'_, '_>,
+    ) -> (SampledLeast, Vec<String>) {
+        let mut unknown = self.reasons(|sample| match sample {
+            Averaged::Unknown(why) => Some(why),
+            _ => None,
+        });
+        let least = |place: usize| self.least(place);
+        let mut known = SampledLeast::new((0..self.valid.len()).map(least).collect());
         let exactly = |place: usize| -> (usize, Result<f64, NoLeast>) {
-            let Averaged::Least(least) = &all[valid[place]] else {
+            let Averaged::Least(least) = &self.all[self.valid[place]] else {
                 return (place, Ok(f64::INFINITY));
             };
             let failed = |why| NoLeast::Failed { point: Vec::new(), why };
-            let found = judged(valid[place] as u64).map_err(failed).and_then(|sample| {
+            let found = drawn(self.valid[place]).map_err(failed).and_then(|sample| {
                 within(STEPS_OF_MANY_SEARCHES, || problem.exact_least_of(&sample, least))
             });
             (place, found)
@@ -197,7 +270,7 @@ impl DrawnSamples<'_> {
         loop {
             let needed = known.needed(share);
             if needed.is_empty() {
-                break;
+                return (known, unknown);
             }
             let found: Vec<_> = needed.into_par_iter().map(exactly).collect();
             for (place, exact) in found {
@@ -210,35 +283,6 @@ impl DrawnSamples<'_> {
                 known.add(place, exact);
             }
         }
-        let quantile = known.quantile(share).ok_or("there are no samples")?;
-        let never = all.iter().filter(|sample| matches!(sample, Averaged::Never)).count();
-        if !quantile.value.is_finite() {
-            return Err(format!(
-                "no amplitude of the range is known to be quiet in {} of {} samples{}",
-                never + unknown.len(),
-                valid.len(),
-                unknown.first().map_or(String::new(), |why| format!("; the first: {why}"))
-            ));
-        }
-        let loud = |place: &usize| {
-            let below = of(&all[valid[*place]]) < quantile.interval.0;
-            below
-                && !known.contains(*place)
-                && judged(valid[*place] as u64).is_ok_and(|sample| {
-                    !problem.is_quiet_by_averaging(&sample, design, quantile.value)
-                })
-        };
-        let loud_again = (0..valid.len()).into_par_iter().filter(loud).count();
-        let unknown: Vec<&String> = unknown.iter().collect();
-        Ok(Quantile {
-            amplitude: quantile.value,
-            interval: quantile.interval,
-            exact: known.known(),
-            never,
-            loud_again,
-            unknown: why_first(&unknown),
-            invalid: why_first(&invalid),
-        })
     }
 }
 
