@@ -460,7 +460,8 @@ fn needed(parameter: Parameter) -> bool {
         "belt.tangential_stiffness",
         "solver",
         "dither.phase",
-        "design.limits",
+        // Those that are required are listed with the table.
+        "design",
         "actuator",
     ];
     !optional.iter().any(|path| parameter.path.starts_with(path))
@@ -590,6 +591,15 @@ mod tests {
             Json::Object(object) => object.values().for_each(|inner| walk(inner, root)),
             Json::Array(list) => list.iter().for_each(|inner| walk(inner, root)),
             _ => {}
+        }
+    }
+
+    #[test]
+    fn a_design_needs_no_more_than_its_question() {
+        let schema = schema();
+        for name in ["design_scaled", "design_si", "system_design"] {
+            let required = &schema["$defs"][name]["required"];
+            assert_eq!(*required, json!(["minimise", "vary", "from", "to"]), "{name}");
         }
     }
 

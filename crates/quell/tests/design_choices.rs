@@ -206,3 +206,24 @@ fn wrong_choices_are_refused_with_their_keys() {
         assert!(text.contains(key) && text.contains(says), "{design}: {text}");
     }
 }
+
+/// Friction falls with the amplitude and rises again: where the least quiet amplitude loses too much, a larger one may lose less. The
+/// answer names it, and does not deny that it exists.
+#[test]
+fn a_larger_amplitude_may_keep_a_limit_that_the_least_exceeds() {
+    let text = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.1\n[friction]\nlaw = \"stribeck\"\n\
+                static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\ndirection = \"tangential\"\n\
+                waveform = \"sine\"\namplitude = 1.0\nfrequency_ratio = 20.0\n[design]\nminimise = \"amplitude\"\n\
+                vary = [\"dither.amplitude\"]\nfrom = [0.01]\nto = [20.0]\n[design.over]\n\"belt.belt_velocity\" = [0.05, 0.2]\n\
+                [design.limits]\nstroke = 0.04\nfriction_loss = 0.82\n";
+    let found = facts(text);
+    assert_eq!(found["feasible"], false);
+    assert_eq!(found["covered"]["belt.belt_velocity"], serde_json::json!([0.05, 0.2]));
+    let sentence = found["sentence"].as_str().expect("a sentence");
+    assert!(sentence.starts_with("No dither that has the least quiet amplitude"), "{sentence}");
+    assert!(sentence.contains("A larger amplitude does"), "{sentence}");
+    let larger = found["parameters"]["dither.amplitude"].as_f64().expect("an amplitude");
+    let from_there = facts(&text.replace("from = [0.01]", &format!("from = [{larger}]")));
+    assert_eq!(from_there["feasible"], true, "{from_there}");
+    assert!(from_there["friction_loss"].as_f64().expect("a loss") < 0.82);
+}

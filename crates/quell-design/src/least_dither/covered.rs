@@ -4,6 +4,7 @@
 
 use super::search::grid;
 use super::{DesignProblem, LimitedQuantity, OperatingPoint};
+use crate::tasks::answers;
 
 /// Points of the box along its coordinate, amplitudes that are tried, and choices of each other design variable.
 const POINTS: usize = 65;
@@ -22,6 +23,15 @@ pub struct CoveredBox {
     pub amplitude: f64,
     /// Values of the other design variables.
     pub others: Vec<f64>,
+    /// Why it is unknown, below and above these ends, whether the dither is quiet; `None` where it is not, or where the box ends.
+    pub unknown_beyond: [Option<String>; 2],
+}
+
+impl CoveredBox {
+    /// Whether it is the whole box.
+    pub fn is_whole(&self, (low, high): (f64, f64)) -> bool {
+        self.ends.0 <= low && self.ends.1 >= high
+    }
 }
 
 /// The largest part of a box of one coordinate for which one dither suffices.
@@ -106,10 +116,10 @@ impl DesignProblem<'_> {
         })
     }
 
-    /// Whether a dither is quiet and allowed at a point, exactly.
-    fn serves(&self, point: f64, others: &[f64], amplitude: f64) -> bool {
+    /// Whether a dither is quiet and allowed at a point, exactly; or why it is unknown whether it is quiet.
+    fn serves(&self, point: f64, others: &[f64], amplitude: f64) -> Result<bool, String> {
         let at = OperatingPoint { point: &[point], others };
-        let quiet = self.plant.verdict(at, amplitude).is_ok_and(|verdict| verdict.quiet);
+        let quiet = self.plant.verdict(at, amplitude)?.quiet;
         let others_kept = || {
             self.limits.iter().all(|(quantity, limit)| match quantity {
                 LimitedQuantity::FrictionLoss => {
@@ -123,7 +133,7 @@ impl DesignProblem<'_> {
                 _ => self.keeps_averaged_limits(at.point[0], others, amplitude),
             })
         };
-        quiet && others_kept()
+        Ok(quiet && others_kept())
     }
 
     /// Whether a dither keeps the limits that are judged without trajectories.
@@ -151,26 +161,28 @@ impl DesignProblem<'_> {
         let mut points: Vec<f64> =
             points.iter().copied().chain(loud.into_iter().flatten()).collect();
         points.sort_by(f64::total_cmp);
-        let served: Vec<bool> =
-            points.iter().map(|point| self.serves(*point, &others, amplitude)).collect();
+        let serves = |point: f64| self.serves(point, &others, amplitude);
+        let served: Vec<bool> = answers(self.tasks, &points, |point| serves(*point) == Ok(true));
         let (first, last) = longest_run(points.len(), |place| served[place])
             .ok_or("by exact responses the dither of averaging is quiet nowhere in the box")?;
         let end = |inside: f64, outside: Option<&f64>| {
-            let Some(&outside) = outside else { return inside };
+            let Some(&outside) = outside else { return (inside, None) };
             let (mut inside, mut outside) = (inside, outside);
             while (outside - inside).abs() > CLOSENESS * (points[points.len() - 1] - points[0]) {
                 let middle = f64::midpoint(inside, outside);
-                if self.serves(middle, &others, amplitude) {
+                if serves(middle) == Ok(true) {
                     inside = middle;
                 } else {
                     outside = middle;
                 }
             }
-            inside
+            (inside, serves(outside).err())
         };
         let below = first.checked_sub(1).and_then(|place| points.get(place));
-        let ends = (end(points[first], below), end(points[last], points.get(last + 1)));
-        Ok(CoveredBox { ends, amplitude, others })
+        let (low, unknown_below) = end(points[first], below);
+        let (high, unknown_above) = end(points[last], points.get(last + 1));
+        let unknown_beyond = [unknown_below, unknown_above];
+        Ok(CoveredBox { ends: (low, high), amplitude, others, unknown_beyond })
     }
 }
 

@@ -176,7 +176,8 @@ impl<K: StudyKind> StudyOf<K> {
         document.remove("uncertainty");
         let mut changes = self.source.changes.clone();
         for (path, value) in numbers {
-            let change = Change::number(path, value, Origin::Argument("[[sweep]]"));
+            let change =
+                Change::number(path, value, Origin::Argument("a point of a sweep or a sample"));
             change.apply(&mut document)?;
             changes.push(change.to_string());
         }

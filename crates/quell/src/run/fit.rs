@@ -346,7 +346,10 @@ impl FrictionFit {
             fit.parameter(parameter.path).map_or(0.0, |fitted| fitted.value)
         };
         let covariance = &fit.covariance;
-        let uncertainty = match &covariance.order[..] {
+        // Points without scatter give no uncertainty that a study could take.
+        let has_errors = (0..covariance.order.len()).all(|row| covariance.matrix[row][row] > 0.0);
+        let order = if has_errors { &covariance.order[..] } else { &[] };
+        let uncertainty = match order {
             [] => String::new(),
             [only] => format!(
                 "[uncertainty]\n\"{}\" = {{ normal = [{:?}, {:?}] }}\n",

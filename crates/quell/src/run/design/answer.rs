@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use quell_design::least_dither::{
-    DesignObjective, DesignPoint, DesignStart, Designed, FeasibleDesign, InfeasibleDesign,
-    LimitedQuantity, MARGIN, NoDesign, ResponseSize,
+    CoveredBox, DesignObjective, DesignPoint, DesignStart, Designed, FeasibleDesign,
+    InfeasibleDesign, LimitedQuantity, MARGIN, NoDesign, ResponseSize,
 };
 use quell_model::Waveform;
 use quell_model::parameter::design::LIMITS;
@@ -114,6 +114,40 @@ impl LeastDitherFound {
         })
     }
 
+    /// Whether a dither that is not the least serves the whole box.
+    fn is_covered_whole(&self) -> bool {
+        let range = self.over.first().map(|number| number.range);
+        let covered = self.covered.as_ref().ok().zip(range);
+        covered.is_some_and(|(part, range)| part.is_whole(range))
+    }
+
+    /// The part of the box that one dither serves, in words.
+    fn covered_in_words(&self, part: &CoveredBox, one: &str) -> String {
+        let Some(number) = self.over.first() else { return String::new() };
+        if self.is_covered_whole() {
+            return format!(
+                " A larger amplitude does: a {one} is quiet and keeps them in the whole range; a smaller one may do so too."
+            );
+        }
+        let [low, high] = [part.ends.0, part.ends.1].map(|end| digits(end * number.per_unit));
+        let sides = [("below", &low), ("above", &high)].into_iter().zip(&part.unknown_beyond);
+        let unknown: Vec<String> = sides
+            .filter_map(|((side, end), why)| {
+                // The reason without its advice, which is for one response.
+                let why = why.as_ref()?.split(';').next()?;
+                Some(format!("{side} {end} ({why})"))
+            })
+            .collect();
+        if unknown.is_empty() {
+            return format!(" One {one} suffices for {} from {low} to {high}.", number.path);
+        }
+        format!(
+            " One {one} suffices for {} at least from {low} to {high}; it is unknown {}.",
+            number.path,
+            unknown.join(" and ")
+        )
+    }
+
     /// The answer in a few sentences.
     pub fn sentence(&self, study: &dyn StudyWithDesign) -> String {
         let waveform = label(self.waveform());
@@ -169,18 +203,19 @@ impl LeastDitherFound {
             }
             Err(none) => {
                 let covered = self.covered.as_ref().map_or(String::new(), |part| {
-                    let path = self.over.first().map_or("", |number| number.path.as_str());
-                    let per_unit = self.over.first().map_or(1.0, |number| number.per_unit);
-                    format!(
-                        " One {waveform}{place} of amplitude {}{} suffices for {path} from {} to {}.",
+                    let one = format!(
+                        "{waveform}{place} of amplitude {}{}",
                         force(part.amplitude),
-                        chosen(&part.others),
-                        digits(part.ends.0 * per_unit),
-                        digits(part.ends.1 * per_unit)
-                    )
+                        chosen(&part.others)
+                    );
+                    self.covered_in_words(part, &one)
                 });
                 let why = self.why(study, none);
-                if none.why.is_known() {
+                if self.is_covered_whole() {
+                    format!(
+                        "No dither that has the least quiet amplitude of its choice keeps every limit: {why}.{covered}"
+                    )
+                } else if none.why.is_known() {
                     format!("No allowed dither is quiet in the whole range: {why}.{covered}")
                 } else {
                     format!(
@@ -195,7 +230,7 @@ impl LeastDitherFound {
     fn why(&self, study: &dyn StudyWithDesign, none: &InfeasibleDesign) -> String {
         match &none.why {
             NoDesign::NeverQuiet { point } => format!(
-                "no amplitude from {} to {} of those that the other operating points need is quiet{}",
+                "no amplitude from {} to {} that is quiet at the other operating points is also quiet{}",
                 study.in_words(study.quantity_of_amplitude(), self.amplitude.range.0),
                 study.in_words(study.quantity_of_amplitude(), self.amplitude.range.1),
                 self.point_in_words(point)

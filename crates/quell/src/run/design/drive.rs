@@ -1,28 +1,49 @@
 //! What the verified dither of a design demands of the actuator.
 
-use quell_design::actuator::ActuatorDemand;
+use quell_design::actuator::{ActuatorDemand, SignalSize};
+use quell_model::units::Quantity;
 
 use super::found::LeastDitherFound;
 use super::study_with_design::StudyWithDesign;
 use crate::fields::Fields;
 use crate::run::actuator::{demand_fields, warning_about_samples, warnings_about_actuator};
-use crate::words::digits;
+use crate::words::{digits, listed};
 
 /// A demand with its operating point, or why it is unknown.
 type Drive<'a> = Result<&'a (ActuatorDemand, Vec<f64>), &'a String>;
 
 impl LeastDitherFound {
-    /// The most used limit in words; empty without an actuator.
+    /// The share of every limit in words, the most used first, and what an order needs; empty without an actuator.
     pub(super) fn drive_in_words(&self, study: &dyn StudyWithDesign, drive: Drive<'_>) -> String {
         let (Some(_), Ok((demand, point))) = (study.actuator(), drive) else {
             return String::new();
         };
-        let Ok((limit, used)) = demand.tightest() else { return String::new() };
+        let mut used: Vec<(f64, &str)> = demand
+            .limits
+            .iter()
+            .filter_map(|known| Some((*known.used.as_ref().ok()?, known.limit.path())))
+            .collect();
+        if used.is_empty() {
+            return String::new();
+        }
+        used.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let shares: Vec<String> = used
+            .iter()
+            .map(|(used, path)| format!("{} % of {path}", digits(100.0 * used)))
+            .collect();
+        let peaks = [(Quantity::Voltage, &demand.voltage), (Quantity::Current, &demand.current)];
+        // In volts and amperes also without units of the study.
+        let peak = |(quantity, size): (Quantity, &Result<SignalSize, String>)| {
+            Some(format!("{} {}", digits(size.as_ref().ok()?.peak), quantity.scaled_unit()))
+        };
+        let mut needs: Vec<String> = peaks.into_iter().filter_map(peak).collect();
+        let stroke = study.in_words(Quantity::Displacement, demand.displacement.peak_to_peak);
+        needs.push(format!("{stroke} peak to peak"));
         format!(
-            " It uses {} % of {}{}.",
-            digits(100.0 * used),
-            limit.path(),
-            self.point_in_words(point)
+            " It uses {}{}: {} at most.",
+            listed(&shares),
+            self.point_in_words(point),
+            listed(&needs)
         )
     }
 

@@ -76,10 +76,10 @@ impl VibrationProbability {
             None => String::new(),
         };
         let enough = self.thresholds.quantile(0.95).map_or(String::new(), |amplitude| {
-            let rounded = digits(amplitude).parse().unwrap_or(amplitude);
+            // Not with the few digits of a probability: rounded down, it would be loud.
             format!(
                 " An amplitude of {} is quiet in 95 % of the samples.",
-                study.force_in_words(rounded)
+                study.force_in_words(amplitude)
             )
         });
         format!(
