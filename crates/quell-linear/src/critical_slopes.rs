@@ -26,10 +26,11 @@ use crate::growth::Verdict;
 use crate::linearised::{FrictionSlopes, LinearContact, Linearised};
 use crate::spectrum::growth;
 
-/// Distance of a candidate from the imaginary axis over its modulus. Rounding moves a double zero by the square root of 10⁻¹⁶.
+/// Distance of a candidate from the imaginary axis over its modulus. Rounding moves a double zero by the square root of 10⁻¹⁶; the rest
+/// is a margin, for a candidate too many changes nothing, and one that is missed would join two intervals of different verdicts.
 const NEAR_THE_AXIS: f64 = 1e-5;
 
-/// Slopes closer than this share of the largest are one.
+/// Slopes closer than this share of the largest are one: some hundred roundings, within which the eigenvalues decide nothing.
 const SAME: f64 = 1e-13;
 
 /// The slopes T_γ at which small motions may change their verdict, and the verdict between them.

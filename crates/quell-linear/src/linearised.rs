@@ -262,7 +262,7 @@ impl Linearised {
             let SteadyContact { line, normal_load, friction, factor, .. } = contact.steady;
             FrictionSlopes {
                 force: factor * friction,
-                by_velocity: factor * (line.slope * normal_load + line.slope_constant),
+                by_velocity: factor * line.slope_under(normal_load),
                 by_load: factor * line.coefficient,
                 bristles: contact.bristles,
             }

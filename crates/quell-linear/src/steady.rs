@@ -83,6 +83,11 @@ pub struct FrictionLine {
 }
 
 impl FrictionLine {
+    /// ∂T/∂γ under a normal load.
+    pub fn slope_under(&self, normal_load: f64) -> f64 {
+        self.slope * normal_load + self.slope_constant
+    }
+
     /// The friction of a contact without dither, at the mean velocity of its surface.
     ///
     /// # Errors

@@ -112,9 +112,8 @@ pub enum FitFinding {
 /// The findings of a fit to these points, the most serious first.
 pub fn diagnose(fit: &LawFit, points: &[FitPoint]) -> Vec<FitFinding> {
     let mut findings = errors(fit);
-    // Measurements with given standard deviations have errors whether or not they scatter.
-    let scatter = points.iter().all(|point| point.standard_deviation == 1.0);
-    findings.extend((fit.is_exact() && scatter).then_some(FitFinding::Exact));
+    // Given standard deviations are relative weights: without scatter errors are 0 with them too.
+    findings.extend(fit.is_exact().then_some(FitFinding::Exact));
     findings.extend(extrapolations(fit, points));
     findings.extend(beyond_range(fit, points));
     findings.extend(residuals(fit, points));

@@ -194,7 +194,7 @@ impl FastInputs {
                     normal_load,
                     effective_coefficient: line.coefficient,
                     ratchet_force: line.constant,
-                    slope_by_velocity: factor * (line.slope * normal_load + line.slope_constant),
+                    slope_by_velocity: factor * line.slope_under(normal_load),
                 })
             })
             .collect()

@@ -19,10 +19,12 @@ use crate::growth::{Verdict, verdicts_around};
 /// Relative distance beyond a change at which contacts are examined: just past a jump.
 const BEYOND_A_CHANGE: f64 = 1e-10;
 
-/// Relative distances within which a change that follows from the slope is located by growth rates.
+/// Relative distances within which a change that follows from the slope is located by growth rates: from a hundred roundings of the
+/// slope to one millionth. A change that growth rates do not see so near is not believed, and the growth rate is followed.
 const WITHIN: [f64; 4] = [1e-12, 1e-10, 1e-8, 1e-6];
 
-/// One in this many amplitudes is judged by growth rates where changes follow from the slope.
+/// One in this many amplitudes is judged by growth rates too, some ten in all: where the two verdicts differ, critical slopes are missing.
+/// A choice of effort. Missing slopes whose whole interval lies between two of these amplitudes are not noticed.
 const JUDGED: usize = 24;
 
 /// An amplitude at which the averaged verdict changes.
@@ -102,8 +104,7 @@ impl DitheredSystem<'_> {
         let contact = &self.sliding().contacts()[0].steady;
         let distance = |amplitude: f64| -> Result<f64, NoAverage> {
             let line = self.fast().lines(self.system(), Some((input, amplitude)))?[0];
-            let slope = line.slope * contact.normal_load + line.slope_constant;
-            Ok(critical.distance(contact.factor * slope))
+            Ok(critical.distance(contact.factor * line.slope_under(contact.normal_load)))
         };
         let growth = |amplitude: f64| self.growth_at(input, amplitude);
         for amplitude in points.iter().copied().step_by(JUDGED) {

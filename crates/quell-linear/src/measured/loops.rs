@@ -79,8 +79,7 @@ fn contact_law(
     let s = Complex64::new(0.0, frequency);
     let spring = s * contact.normal_damping + contact.normal_stiffness;
     let SteadyContact { line, normal_load, friction, factor, tilt } = *steady;
-    let by_velocity =
-        if sliding { factor * (line.slope * normal_load + line.slope_constant) } else { 0.0 };
+    let by_velocity = if sliding { factor * line.slope_under(normal_load) } else { 0.0 };
     let along = [-s * by_velocity, spring * (factor * line.coefficient), Complex64::ZERO];
     let turned = Complex64::new(factor * friction, 0.0);
     let across = [along[0] * tilt, along[1] * tilt - spring, turned];

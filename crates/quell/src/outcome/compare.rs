@@ -294,13 +294,14 @@ fn table(record: &ComparedRecord) -> String {
             shown(ComparedLine::difference(line).ok())
         );
     }
+    let level = |ratio: f64| shown(Some(decibels(ratio)).filter(|level| level.is_finite()));
     let _ = writeln!(
         text,
         "  {:>14}{:>14}{:>14}{:>14}",
         "rms",
-        shown(Some(decibels(record.rms[0])).filter(|level| level.is_finite())),
-        shown(Some(decibels(record.rms[1])).filter(|level| level.is_finite())),
-        shown(Some(decibels(record.rms[0] / record.rms[1])).filter(|level| level.is_finite()))
+        level(record.rms[0]),
+        level(record.rms[1]),
+        level(record.rms[0] / record.rms[1])
     );
     text
 }

@@ -218,8 +218,8 @@ fn in_words(done: &FrictionFit, finding: &FitFinding) -> String {
             "{key} has no standard error: {why}. Choose a law with fewer parameters, or fix it with --fix {key}=VALUE"
         ),
         FitFinding::Exact => {
-            "the law passes through every point, which then say nothing about errors: those given are 0. Give more points, or \
-             standard deviations of the points"
+            "the law passes through every point, which then say nothing about errors: those given are 0. Give points as measured, \
+             with their scatter"
                 .to_owned()
         }
         FitFinding::Correlated { keys: [first, second], correlation } => format!(

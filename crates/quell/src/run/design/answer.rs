@@ -121,10 +121,10 @@ impl LeastDitherFound {
         covered.is_some_and(|(part, range)| part.is_whole(range))
     }
 
-    /// The part of the box that one dither serves, in words.
-    fn covered_in_words(&self, part: &CoveredBox, one: &str) -> String {
+    /// The part of the box that one dither serves, in words; `is_above_least` of one that serves it all, and is not the least.
+    fn covered_in_words(&self, part: &CoveredBox, one: &str, is_above_least: bool) -> String {
         let Some(number) = self.over.first() else { return String::new() };
-        if self.is_covered_whole() {
+        if is_above_least {
             return format!(
                 " A larger amplitude does: a {one} is quiet and keeps them in the whole range; a smaller one may do so too."
             );
@@ -202,16 +202,19 @@ impl LeastDitherFound {
                 )
             }
             Err(none) => {
+                // The least amplitude exceeds a limit that a larger one keeps.
+                let is_above_least =
+                    matches!(none.why, NoDesign::Limit { .. }) && self.is_covered_whole();
                 let covered = self.covered.as_ref().map_or(String::new(), |part| {
                     let one = format!(
                         "{waveform}{place} of amplitude {}{}",
                         force(part.amplitude),
                         chosen(&part.others)
                     );
-                    self.covered_in_words(part, &one)
+                    self.covered_in_words(part, &one, is_above_least)
                 });
                 let why = self.why(study, none);
-                if self.is_covered_whole() {
+                if is_above_least {
                     format!(
                         "No dither that has the least quiet amplitude of its choice keeps every limit: {why}.{covered}"
                     )

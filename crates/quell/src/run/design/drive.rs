@@ -39,8 +39,9 @@ impl LeastDitherFound {
         let mut needs: Vec<String> = peaks.into_iter().filter_map(peak).collect();
         let stroke = study.in_words(Quantity::Displacement, demand.displacement.peak_to_peak);
         needs.push(format!("{stroke} peak to peak"));
+        // Of the operating point where a limit is used most; elsewhere another quantity may be larger.
         format!(
-            " It uses {}{}: {} at most.",
+            " It uses {}{}, where it takes {}.",
             listed(&shares),
             self.point_in_words(point),
             listed(&needs)
