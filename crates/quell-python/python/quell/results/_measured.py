@@ -14,77 +14,67 @@ if TYPE_CHECKING:
 __all__ = ["Comparison", "Decay", "LawFit", "RecordFit"]
 
 
-class Decay(_columns.DecayColumns, Result):
-    """Natural frequency, damping and friction from a free decay; arrays over the samples (n,). It has no study."""
+class _Estimates(Result):
+    """What every fit says."""
 
-    verb = "fit_decay"
-    law: str
-    """The law with the least AIC: "viscous", "coulomb" or "viscous-coulomb"."""
     parameters: dict[str, dict[str, float | bool | None]]
-    """``value``, ``standard_error`` and ``fixed`` by name."""
+    """``value``, ``standard_error`` and ``fixed`` by name, or by path of a study."""
     covariance: dict[str, list[Any]]
-    """``order``, the names, and ``matrix``, row by row."""
+    """``order``, the names or paths, and ``matrix``, row by row."""
     condition: float | None
     """Condition of the information matrix."""
     residual: float
-    """Residual standard deviation."""
+    """Residual standard deviation; where the file gives standard deviations, in units of them."""
     rss: float
     """Sum of squares of the residuals."""
     p: int
-    """Number of estimated parameters."""
+    """Number of estimated numbers."""
     n: int
-    """Number of samples."""
+    """Number of points or samples."""
     aic: float | None
     """Akaike's information criterion."""
-    converged: bool
-    """Whether the search has converged."""
     file: str
     """The file."""
     columns: list[str]
     """Its columns."""
-    recorded_quantity: str
-    """What the record shows."""
+
+
+class _ComparedLaws(_Estimates):
+    """What fits of several laws say; they have no study."""
+
+    law: str
+    """The law with the least AIC."""
     comparison: list[dict[str, Any]]
     """Every law by ascending AIC."""
-    not_determinable: list[str]
-    """What no free decay determines."""
-    tables: dict[str, str]
-    """Tables to paste into a study: ``belt`` and ``uncertainty``."""
 
     def __init__(self, study: Study | None, native: NativeAnswer | None) -> None:
         super().__init__(study, native)  # type: ignore[arg-type]
 
 
-class LawFit(_columns.LawFitColumns, Result):
+class Decay(_columns.DecayColumns, _ComparedLaws):
+    """Natural frequency, damping and friction from a free decay; arrays over the samples (n,). It has no study."""
+
+    verb = "fit_decay"
+    law: str
+    """The law with the least AIC: "viscous", "coulomb" or "viscous-coulomb"."""
+    converged: bool
+    """Whether the search has converged."""
+    recorded_quantity: str
+    """What the record shows."""
+    not_determinable: list[str]
+    """What no free decay determines."""
+    tables: dict[str, str]
+    """Tables to paste into a study: ``belt`` and ``uncertainty``."""
+
+
+class LawFit(_columns.LawFitColumns, _ComparedLaws):
     """Friction laws from measured friction; arrays over the points and over a grid of slip speeds. It has no study."""
 
     verb = "fit_laws"
-    law: str
-    """The law with the least AIC."""
-    parameters: dict[str, dict[str, float | bool | None]]
-    """``value``, ``standard_error`` and ``fixed`` by name."""
-    covariance: dict[str, list[Any]]
-    """``order``, the names, and ``matrix``, row by row."""
-    condition: float | None
-    """Condition of the information matrix."""
-    residual: float
-    """Residual standard deviation, in units of the given standard deviations if the points have them."""
-    rss: float
-    """Sum of squares of the residuals."""
-    p: int
-    """Number of estimated parameters."""
-    n: int
-    """Number of points."""
-    aic: float | None
-    """Akaike's information criterion."""
     confidence: float
     """Confidence of the band about the curve."""
     quantile: float
     """Student's quantile of that confidence."""
-    file: str
-    """The file."""
-    columns: list[str]
-    """Its columns."""
     weighted: bool
     """Whether the points have standard deviations."""
     sign: str
@@ -93,13 +83,8 @@ class LawFit(_columns.LawFitColumns, Result):
     """Lines of the file without slip, which are left out."""
     not_determinable: list[str]
     """What steady sliding does not determine."""
-    comparison: list[dict[str, Any]]
-    """Every law by ascending AIC."""
     left_out: list[dict[str, str]]
     """Laws that could not be fitted, and why."""
-
-    def __init__(self, study: Study | None, native: NativeAnswer | None) -> None:
-        super().__init__(study, native)  # type: ignore[arg-type]
 
     @property
     def tables(self) -> dict[str, str]:
@@ -108,36 +93,16 @@ class LawFit(_columns.LawFitColumns, Result):
         return found
 
 
-class RecordFit(_columns.RecordFitColumns, Result):
+class RecordFit(_columns.RecordFitColumns, _Estimates):
     """Numbers of a study from a measured record; arrays over the samples (n,)."""
 
     verb = "fit_record"
-    parameters: dict[str, dict[str, float | bool | None]]
-    """``value``, ``standard_error`` and ``fixed`` by path."""
-    covariance: dict[str, list[Any]]
-    """``order``, the paths, and ``matrix``, row by row."""
-    condition: float | None
-    """Condition of the information matrix."""
-    residual: float
-    """Residual standard deviation."""
-    rss: float
-    """Sum of squares of the residuals."""
-    p: int
-    """Number of estimated numbers."""
-    n: int
-    """Number of samples."""
-    aic: float | None
-    """Akaike's information criterion."""
     converged: bool
     """Whether the search has converged."""
     derivatives: str
     """How derivatives are computed."""
     starts: int
     """Number of starts of the search."""
-    file: str
-    """The file."""
-    columns: list[str]
-    """Its columns."""
     recorded_quantity: str
     """What the record shows."""
     shift_from: str | None
