@@ -18,7 +18,7 @@ def main() -> None:
     with SLURMCluster(cores=16, processes=1, memory="16GB", walltime="02:00:00") as cluster:
         cluster.scale(jobs=100)
         with Client(cluster) as client:
-            done = quell.sweep(study, "efficiency", store=STORE, client=client, resume=True)
+            done = quell.sweep(study, "residual-vibration", store=STORE, client=client, resume=True)
             done.save("how-much-dither.svg")
 
 

@@ -70,10 +70,10 @@ def maps(program: str) -> None:
         here, there = [], []
         for turn in range(5):
             begun = time.process_time()
-            study.map("efficiency", store=Path(folder, f"p{turn}.zarr"))
+            study.map("residual-vibration", store=Path(folder, f"p{turn}.zarr"))
             here.append(time.process_time() - begun)
             begun = children()
-            command = [program, "map", str(path), "--quantity", "efficiency", "--save", f"{folder}/c{turn}.zarr", "--json"]
+            command = [program, "map", str(path), "--quantity", "residual-vibration", "--save", f"{folder}/c{turn}.zarr", "--json"]
             subprocess.run([*command, *sets], check=True, stdout=subprocess.DEVNULL)
             there.append(children() - begun)
     print(f"  1600 points: Python {min(here):.2f} s, command line {min(there):.2f} s of CPU, ratio {min(here) / min(there):.3f}")

@@ -27,7 +27,7 @@ BELT = quell.Belt(
 )
 CHEAP = ("growth", BELT.sweeping([quell.Axis("dither.amplitude", 0.05, 1.0, 700), quell.Axis("belt.belt_velocity", 0.02, 0.4, 700)]))
 DEAR = (
-    "efficiency",
+    "residual-vibration",
     BELT.set({"solver.settle": 1200.0}).sweeping(
         [quell.Axis("dither.amplitude", 0.05, 1.0, 36), quell.Axis("belt.belt_velocity", 0.02, 0.4, 36)]
     ),

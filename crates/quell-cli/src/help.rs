@@ -185,7 +185,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
         &[(
             "map",
             &[
-                "quell map map.toml --quantity efficiency --save map.zarr",
+                "quell map map.toml --quantity residual-vibration --save map.zarr",
                 "quell map disc-dither.toml --quantity growth",
             ],
         )],

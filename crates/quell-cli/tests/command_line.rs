@@ -434,7 +434,7 @@ fn fields_have_documented_names() {
         "amplitude",
         "amplitude_m",
         "stick_fraction",
-        "efficiency",
+        "residual_vibration",
         "undithered_amplitude",
         "mean_friction",
         "mean_friction_n",
@@ -456,7 +456,10 @@ fn fields_have_documented_names() {
     }
     // Steady sliding far above the velocity scale: no vibration to compare with.
     let undefined = place.good(&["response", "study.toml", "--set", "belt.belt_velocity=0.5"]);
-    assert!(undefined["efficiency"].is_null() && undefined["why"]["efficiency"].is_string());
+    assert!(
+        undefined["residual_vibration"].is_null()
+            && undefined["why"]["residual_vibration"].is_string()
+    );
     let normal = place.good(&["response", "study.toml", "--set", "dither.direction=normal"]);
     assert!(normal["dither_power"].is_null() && normal["why"]["dither_power"].is_string());
 }
@@ -528,11 +531,11 @@ fn dither_past_its_threshold_quenches() {
         "--set",
         "solver.settle=600",
     ]);
-    let ratio = quenched["efficiency"].as_f64().expect("a number");
+    let ratio = quenched["residual_vibration"].as_f64().expect("a number");
     assert!(ratio < 0.01, "{ratio}");
     assert!(quenched["sentence"].as_str().is_some_and(|sentence| sentence.contains("quenches")));
     let weak = place.good(&["response", "study.toml", "--set", "dither.amplitude=0.3"]);
-    let ratio = weak["efficiency"].as_f64().expect("a number");
+    let ratio = weak["residual_vibration"].as_f64().expect("a number");
     assert!(ratio > 0.1 && ratio < 1.0, "{ratio}");
 }
 

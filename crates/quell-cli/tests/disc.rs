@@ -225,7 +225,7 @@ fn maps_of_a_disc_are_saved_and_drawn() {
     assert_eq!(map["axes"][1]["values"].as_array().expect("values").len(), 6);
     assert!(map["axes"][0]["values"].as_array().expect("values").len() > 40);
     assert!(map["growth"][0][0].is_number() && map["growth_verdict_status"].is_array());
-    let errors = place.refused(&["map", "map.toml", "--quantity", "efficiency"]);
+    let errors = place.refused(&["map", "map.toml", "--quantity", "residual-vibration"]);
     assert!(errors[0]["allowed"].as_str().expect("text").contains("growth"), "{errors:?}");
     let store = ["map", "map.toml", "--quantity", "growth", "--save", "map.zarr"];
     let first = good(&place, &store[..4]);

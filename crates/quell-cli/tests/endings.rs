@@ -115,7 +115,7 @@ fn a_slow_dither_is_judged_as_for_the_belt() {
     );
     let (system, belt) = (answer(&system, &["response"]), answer(&belt, &["response"]));
     assert_eq!(system["effect"], belt["effect"], "{}", system["sentence"]);
-    let (one, other) = (number(&system["efficiency"]), number(&belt["efficiency"]));
+    let (one, other) = (number(&system["residual_vibration"]), number(&belt["residual_vibration"]));
     assert!((one - other).abs() < 0.01, "{one} {other}");
     assert!(number(&system["band_end"]) > 0.88, "the vibration is at 0.88");
     // The mean friction is compared with that of the undithered run, and with steady sliding under its own name.

@@ -293,7 +293,7 @@ fn signals_end_every_verb() {
         "map",
         "study.toml",
         "--quantity",
-        "efficiency",
+        "residual-vibration",
         "--set",
         "solver.settle=1e8",
         "--save",

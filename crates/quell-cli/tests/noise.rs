@@ -115,10 +115,10 @@ fn runs_and_averages_have_answers() {
     let found = place.good(&["response", "noise.toml", "--seeds", "3", "--plot", "seeds.svg"]);
     assert_eq!(found["runs"], 3);
     assert_eq!(found["seeds"], serde_json::json!([1, 2, 3]));
-    assert_eq!(found["efficiency"].as_array().expect("E").len(), 3);
+    assert_eq!(found["residual_vibration"].as_array().expect("E").len(), 3);
     assert!(found["cost"]["stroke"].is_null());
     let again = place.good(&["response", "noise.toml", "--seeds", "3"]);
-    assert_eq!(again["efficiency"], found["efficiency"]);
+    assert_eq!(again["residual_vibration"], found["residual_vibration"]);
     assert_eq!(place.good(&["response", "noise.toml"])["runs"], 16);
 }
 

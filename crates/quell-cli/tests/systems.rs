@@ -284,7 +284,7 @@ fn a_belt_as_a_system_has_the_response_of_the_belt() {
     for amplitude in ["dither.amplitude=0.4", "dither.amplitude=0.52"] {
         let (belt, system) = with(amplitude, 60.0);
         assert_eq!(system["effect"], belt["effect"], "{amplitude}");
-        for key in ["amplitude", "undithered_amplitude", "efficiency"] {
+        for key in ["amplitude", "undithered_amplitude", "residual_vibration"] {
             // The grids of samples differ, and the window weighs their ends.
             close(&system[key], belt[key].as_f64().expect("a number"), 1e-5);
         }
@@ -379,7 +379,7 @@ fn verbs_agree_about_where_a_run_ends() {
             assert_eq!(orbit["verdict"], verdict, "{study} {amplitude}");
             let response = answer(&["response", study, "--set", &set]);
             let at = format!("{study} {amplitude}: {}", response["sentence"]);
-            let rest = response["efficiency"].as_f64().expect("a ratio");
+            let rest = response["residual_vibration"].as_f64().expect("a ratio");
             if verdict == "stable" {
                 assert_eq!(response["settled_on"], "orbit", "{at}");
                 assert_eq!(response["effect"], "quenches", "{at}");

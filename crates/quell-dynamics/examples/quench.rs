@@ -41,7 +41,7 @@ pub(crate) fn answer() -> Result<String, Box<dyn Error>> {
         let belt =
             belt.with("dither.amplitude", amplitude).map_err(|error| format!("{error:?}"))?;
         let response = respond(&belt, Start::REST, &Solver::default())?;
-        let left = response.efficiency?;
+        let left = response.residual_vibration?;
         writeln!(text, "from rest, D = {amplitude}: {:.1} % of the squeal is left", 100.0 * left)?;
     }
     Ok(text)

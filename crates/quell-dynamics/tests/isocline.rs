@@ -1,6 +1,6 @@
 //! The amplitude at which E = 5 %, against `reference/quench_thresholds.json`.
 
-use quell_dynamics::response::{Solver, amplitude_at_efficiency};
+use quell_dynamics::response::{Solver, amplitude_at_residual_vibration};
 use quell_dynamics::simulation::Start;
 use quell_model::{LawKind, Waveform};
 use quell_zoo::BeltExt;
@@ -11,7 +11,7 @@ use serde_json::Value;
 const REFERENCE: &str = include_str!("../../../reference/quench_thresholds.json");
 
 #[test]
-fn efficiency_falls_through_five_per_cent_at_the_reference_amplitude() {
+fn residual_vibration_falls_through_five_per_cent_at_the_reference_amplitude() {
     let reference: Value = serde_json::from_str(REFERENCE).expect("reference file");
     let cases = reference["cases"].as_array().expect("cases");
     let number = |case: &Value, key: &str| case[key].as_f64().expect("a number");
@@ -32,7 +32,7 @@ fn efficiency_falls_through_five_per_cent_at_the_reference_amplitude() {
             tangential(waveform.expect("a waveform"), average, number(case, "frequency_ratio"));
         let belt = dissertation(law).at_speed(number(case, "belt_velocity")).with_dither(dither);
         let range = 0.7 * average..=1.15 * average;
-        let found = amplitude_at_efficiency(&belt, Start::REST, &solver, 0.05, range, 1e-3);
+        let found = amplitude_at_residual_vibration(&belt, Start::REST, &solver, 0.05, range, 1e-3);
         let found = found.unwrap_or_else(|| panic!("no crossing: {case}"));
         let deviation = (found / expected - 1.0).abs();
         worst = worst.max(deviation);

@@ -152,9 +152,9 @@ fn every_effect_is_recognised() {
         let found = respond(&belt, start, &solver).expect("no stall");
         assert_eq!(found.effect, effect, "{:?} {:?}", belt.dithers(), found.ending);
         let quiet = matches!(effect, Effect::Causes | Effect::Quiet);
-        assert_eq!(found.efficiency.is_err(), quiet);
+        assert_eq!(found.residual_vibration.is_err(), quiet);
         if quiet {
-            assert_eq!(found.efficiency, Err(Undefined::UnditheredSettles));
+            assert_eq!(found.residual_vibration, Err(Undefined::UnditheredSettles));
         }
     }
 }

@@ -83,8 +83,9 @@ fn efficiency_needs_the_mean_removed() {
         sampler.samples.iter().map(|sample| sample.displacement).collect()
     };
     let (with, without) = (record(&dithered), record(&dithered.undithered()));
-    let efficiency = |removed: bool| largest(&with, 0.1, removed) / largest(&without, 0.1, removed);
-    let (printed, right) = (efficiency(false), efficiency(true));
+    let residual_vibration =
+        |removed: bool| largest(&with, 0.1, removed) / largest(&without, 0.1, removed);
+    let (printed, right) = (residual_vibration(false), residual_vibration(true));
     assert!(printed > 1.0, "{printed}");
     assert!((right - 0.127).abs() < 0.01, "{right}");
 }

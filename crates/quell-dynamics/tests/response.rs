@@ -21,10 +21,10 @@ fn dither_reduces_the_squeal_of_figure_2_3() {
     // Claims table: E = 0.4999, 0.2589, 0.0000 at D = 0.3, 0.4, 0.5; M₀ = 0.128794, fundamental
     // 0.654435. The claims were measured on a longer record with
     // finer zero padding; the lines of the declared record lie up to 1 % below a peak.
-    for (amplitude, efficiency) in [(0.3, 0.4999), (0.4, 0.2589), (0.5, 0.0)] {
+    for (amplitude, residual_vibration) in [(0.3, 0.4999), (0.4, 0.2589), (0.5, 0.0)] {
         let response = response(&stribeck_under(Waveform::Sine, amplitude));
-        let measured = response.efficiency.expect("defined");
-        assert!((measured - efficiency).abs() < 5e-3, "D = {amplitude}: {measured}");
+        let measured = response.residual_vibration.expect("defined");
+        assert!((measured - residual_vibration).abs() < 5e-3, "D = {amplitude}: {measured}");
         assert!((response.undithered_amplitude - 0.128_794).abs() < 1e-4);
         assert!(response.undithered_settled);
     }
@@ -36,11 +36,11 @@ fn dither_reduces_the_squeal_of_figure_2_3() {
     // table has 51.3 %); a record that is not a multiple of the period is off by at most one stick phase.
     let cut = 4.9 / plain.record.length();
     assert!((plain.stick_fraction - 0.509_99).abs() < cut, "{}", plain.stick_fraction);
-    assert_eq!(plain.efficiency, Ok(1.0));
+    assert_eq!(plain.residual_vibration, Ok(1.0));
 }
 
 #[test]
-fn efficiency_is_five_per_cent_at_the_reference_amplitude() {
+fn residual_vibration_is_five_per_cent_at_the_reference_amplitude() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reference/quench_thresholds.json");
     let text = std::fs::read_to_string(path).expect("reference/quench_thresholds.json");
     let reference: serde_json::Value = serde_json::from_str(&text).expect("JSON");
@@ -51,23 +51,24 @@ fn efficiency_is_five_per_cent_at_the_reference_amplitude() {
         let threshold = case["D_E5"][0].as_f64().expect("number");
         let law = LawKind::from_name(name("law")).expect("law");
         let waveform = Waveform::from_name(name("waveform")).expect("waveform");
-        let efficiency = |amplitude: f64| {
+        let residual_vibration = |amplitude: f64| {
             let dither = tangential(waveform.clone(), amplitude, number("frequency_ratio"));
             let belt = dissertation(law).at_speed(number("belt_velocity")).with_dither(dither);
-            response(&belt).efficiency.expect("defined")
+            response(&belt).residual_vibration.expect("defined")
         };
         // E falls through 5 % within 1 % of the reference amplitude.
-        let (below, above) = (efficiency(0.99 * threshold), efficiency(1.01 * threshold));
+        let (below, above) =
+            (residual_vibration(0.99 * threshold), residual_vibration(1.01 * threshold));
         assert!(below > 0.05 && above < 0.05, "{case}: {below} … {above}");
     }
 }
 
 #[test]
-fn efficiency_is_undefined_where_the_undithered_belt_settles() {
+fn residual_vibration_is_undefined_where_the_undithered_belt_settles() {
     let fast = belt::decreasing().with_dither(sine(4.0, 10.0));
-    assert_eq!(response(&fast).efficiency, Err(Undefined::UnditheredSettles));
+    assert_eq!(response(&fast).residual_vibration, Err(Undefined::UnditheredSettles));
     let stopped = belt::decreasing().at_speed(0.0);
-    assert_eq!(response(&stopped).efficiency, Err(Undefined::UnditheredAtRest));
+    assert_eq!(response(&stopped).residual_vibration, Err(Undefined::UnditheredAtRest));
 }
 
 #[test]

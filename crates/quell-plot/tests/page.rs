@@ -37,7 +37,7 @@ fn map() -> Panel {
     let shading = Shading::new(Palette::Pale).range(0.0, 100.0);
     let colours = Heatmap::new(field.clone(), Colouring::Shaded(shading));
     Panel::new(PlotAxis::new("frequency ratio").symbol("R"), PlotAxis::new("amplitude").symbol("D"))
-        .with(colours.bar(PlotAxis::new("efficiency").unit("%")))
+        .with(colours.bar(PlotAxis::new("residual_vibration").unit("%")))
         .with(Contours::new(field, [5.0, 50.0, 95.0]).unit("%"))
         .legend(Legend::Above)
 }

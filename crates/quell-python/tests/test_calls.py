@@ -73,12 +73,12 @@ def test_ctrl_c_stops_a_map_and_keeps_what_is_done(tmp_path: Any) -> None:
     study = quell.Belt(**BELT, dither=DITHER, solver=quell.Solver(settle=300.0, record_periods=20), axes=axes)
     store = tmp_path / "m.zarr"
     seen: list[tuple[int, int]] = []
-    interrupted(lambda: study.map("efficiency", store=store, progress=lambda *it: seen.append(it)))
+    interrupted(lambda: study.map("residual-vibration", store=store, progress=lambda *it: seen.append(it)))
     with pytest.raises(quell.StudyError, match="resume=True continues it"):
-        study.map("efficiency", store=store)
+        study.map("residual-vibration", store=store)
     small = study.sweeping({"dither.amplitude": [0.1, 0.4]})
     with pytest.raises(quell.StudyError, match="another map"):
-        small.map("efficiency", store=store, resume=True)
+        small.map("residual-vibration", store=store, resume=True)
     assert seen and seen[-1][1] == 1600
 
 
@@ -201,8 +201,8 @@ WRONG: list[tuple[str, str, Any]] = [
     ("until", "raise transpose", lambda belt, disc: belt.simulate(1e9, sound=True)),
     ("transpose", "a factor above 0", lambda belt, disc: belt.simulate(1.0, transpose=-1)),
     ("gain", "", lambda belt, disc: belt.simulate(1.0, gain="loud")),
-    ("quantity", "efficiency", lambda belt, disc: belt.map("eficiency", {"dither.amplitude": [0.1]})),
-    ("[[sweep]]", 'axes={"dither.amplitude"', lambda belt, disc: belt.map("efficiency")),
+    ("quantity", "residual-vibration", lambda belt, disc: belt.map("residual-vibratoin", {"dither.amplitude": [0.1]})),
+    ("[[sweep]]", 'axes={"dither.amplitude"', lambda belt, disc: belt.map("residual-vibration")),
     ("clear", "clear and frequency must be given together", lambda belt, disc: disc.resonances(clear=(0.2, 0.6))),
     ("clear", "damped", lambda belt, disc: disc.set(TANGENTIAL).resonances(clear=(0.1, 1.0), frequency=(2.0, 6.0))),
     ("out", "", lambda belt, disc: quell.reproduce("2.2", out=__file__)),

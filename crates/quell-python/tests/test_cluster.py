@@ -51,11 +51,11 @@ def test_a_killed_worker_s_chunk_is_redone(client: Any, tmp_path: Path) -> None:
             killed.set()
             os.kill(processes[0], signal.SIGKILL)
 
-    there = quell.sweep(STUDY, ["efficiency", "stick-fraction"], store=tmp_path / "there.zarr", client=client, progress=progress)
+    there = quell.sweep(STUDY, ["residual-vibration", "stick-fraction"], store=tmp_path / "there.zarr", client=client, progress=progress)
     assert killed.is_set()
-    here = STUDY.map(["efficiency", "stick-fraction"], store=tmp_path / "here.zarr")
+    here = STUDY.map(["residual-vibration", "stick-fraction"], store=tmp_path / "here.zarr")
     assert here.dataset.drop_attrs().identical(there.dataset.drop_attrs())
-    assert there.shape == [30, 30] and np.isfinite(there["efficiency"].values).any()
+    assert there.shape == [30, 30] and np.isfinite(there["residual_vibration"].values).any()
     one, other = bytes_of(tmp_path / "here.zarr"), bytes_of(tmp_path / "there.zarr")
     assert len(one) > 20 and one == other
 
@@ -72,13 +72,13 @@ def test_a_store_goes_on_where_it_stopped(client: Any, tmp_path: Path) -> None:
 
 def test_what_is_wrong_is_said_before_anything_runs(client: Any, tmp_path: Path) -> None:
     with pytest.raises(quell.StudyError, match="store"):
-        quell.sweep(STUDY, "efficiency", client=client)
-    with pytest.raises(quell.StudyError, match="efficiency"):
+        quell.sweep(STUDY, "residual-vibration", client=client)
+    with pytest.raises(quell.StudyError, match="residual-vibration"):
         quell.sweep(STUDY, "efficency", store=tmp_path / "m.zarr", client=client)
     with pytest.raises(quell.StudyError, match="client"):
-        quell.sweep(STUDY, "efficiency", store=tmp_path / "m.zarr", client=3)
+        quell.sweep(STUDY, "residual-vibration", store=tmp_path / "m.zarr", client=3)
     with pytest.raises(quell.StudyError, match="shard"):
-        STUDY.map("efficiency", store=tmp_path / "m.zarr", shard="4/3")
+        STUDY.map("residual-vibration", store=tmp_path / "m.zarr", shard="4/3")
     assert not list(tmp_path.iterdir())
 
 

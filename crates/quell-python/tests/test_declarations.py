@@ -109,8 +109,8 @@ def test_facts_come_before_arrays_and_every_name_is_an_entry() -> None:
 
 def test_misspelt_names_are_answered_with_the_nearest() -> None:
     response = gallery.result("response")
-    with pytest.raises(AttributeError, match="Response has no eficiency; did you mean efficiency?"):
-        _ = response.eficiency  # type: ignore[attr-defined]
+    with pytest.raises(AttributeError, match="Response has no residual_vibratoin; did you mean residual_vibration?"):
+        _ = response.residual_vibratoin  # type: ignore[attr-defined]
     with pytest.raises(KeyError, match="did you mean spectrum_amplitude?"):
         _ = response["spectrum_amplitud"]
     with pytest.raises(AttributeError, match="did you mean spectrum_amplitude?"):
@@ -122,4 +122,4 @@ def test_misspelt_names_are_answered_with_the_nearest() -> None:
 
 def test_names_are_completed() -> None:
     response = gallery.result("response")
-    assert {"efficiency", "time", "plot"} <= set(dir(response)) and "time" in response._ipython_key_completions_()
+    assert {"residual_vibration", "time", "plot"} <= set(dir(response)) and "time" in response._ipython_key_completions_()

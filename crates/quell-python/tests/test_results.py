@@ -87,7 +87,7 @@ def test_arrays_have_dimensions_units_and_provenance(belt: quell.Belt) -> None:
     assert run["event_time"].dims == ("event",) and set(run["event_kind"].values) <= {"stick", "release", "reversal"}
     response = belt.response()
     dataset = response.dataset
-    assert float(dataset["efficiency"]) == response.efficiency
+    assert float(dataset["residual_vibration"]) == response.residual_vibration
     assert dataset["displacement"].dims == ("time",) and dataset["spectrum_amplitude"].dims == ("frequency",)
     assert dataset["peak_frequency"].attrs["scaling"] == "ω₀"
     for name, variable in dataset.variables.items():
@@ -95,27 +95,27 @@ def test_arrays_have_dimensions_units_and_provenance(belt: quell.Belt) -> None:
 
 
 def test_maps_are_arrays_over_their_axes(belt: quell.Belt, tmp_path: Any) -> None:
-    done = belt.map("efficiency", {"dither.amplitude": np.linspace(0.1, 0.8, 5), "belt.belt_velocity": [0.05, 0.3]},
+    done = belt.map("residual-vibration", {"dither.amplitude": np.linspace(0.1, 0.8, 5), "belt.belt_velocity": [0.05, 0.3]},
                     store=tmp_path / "m.zarr")
     dataset = done.dataset
-    assert dataset["efficiency"].dims == ("dither_amplitude", "belt_velocity")
-    assert dataset["efficiency"].shape == (5, 2) == tuple(done.shape)
+    assert dataset["residual_vibration"].dims == ("dither_amplitude", "belt_velocity")
+    assert dataset["residual_vibration"].shape == (5, 2) == tuple(done.shape)
     stored = xarray.open_zarr(tmp_path / "m.zarr", consolidated=False, mask_and_scale=False)
     assert set(stored.data_vars) <= set(dataset.data_vars)
     for name in stored.data_vars:
         assert stored[name].dims == dataset[name].dims
         assert stored[name].values.tobytes() == dataset[name].values.tobytes(), name
-    assert "efficiency" in done and len(done) == len(list(done))
-    assert belt.map("efficiency", {"dither.amplitude": [0.1]}).dataset["efficiency"].dims == ("dither_amplitude",)
+    assert "residual_vibration" in done and len(done) == len(list(done))
+    assert belt.map("residual-vibration", {"dither.amplitude": [0.1]}).dataset["residual_vibration"].dims == ("dither_amplitude",)
     single = belt.set({"dither.amplitude": 0.1, "belt.belt_velocity": 0.3}).response()
-    assert float(done["efficiency"][0, 1]) == single.efficiency or single.efficiency is None
+    assert float(done["residual_vibration"][0, 1]) == single.residual_vibration or single.residual_vibration is None
 
 
 def test_what_is_unknown_is_none_and_says_why(belt: quell.Belt) -> None:
     quiet = belt.set({"belt.damping_ratio": 0.5}).response()
-    assert quiet.efficiency is None and "vibration" in quiet.why["efficiency"]
-    assert np.isnan(quiet.dataset["efficiency"]) and quiet.dataset["efficiency"].attrs["why"]
-    with pytest.raises(AttributeError, match="efficency.*its facts are.*efficiency"):
+    assert quiet.residual_vibration is None and "vibration" in quiet.why["residual_vibration"]
+    assert np.isnan(quiet.dataset["residual_vibration"]) and quiet.dataset["residual_vibration"].attrs["why"]
+    with pytest.raises(AttributeError, match="efficency.*its facts are.*residual_vibration"):
         _ = quiet.efficency
 
 

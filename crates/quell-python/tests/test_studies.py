@@ -318,7 +318,7 @@ def test_axes_of_a_map_take_the_place_of_the_study_s_own() -> None:
         belt.sweeping({"dither.amplitude": [0.1, -0.2], "belt.belt_velcity": np.linspace(0, 1, 3)})
     assert {error["key"] for error in caught.value.errors} >= {"sweep[1].parameter"}
     with pytest.raises(quell.StudyError, match="axes"):
-        belt.map("efficiency", 3)  # type: ignore[arg-type]
+        belt.map("residual-vibration", 3)  # type: ignore[arg-type]
 
 
 def test_a_verb_about_the_other_kind_of_study_says_so(belt: quell.Belt, disc: quell.Disc) -> None:

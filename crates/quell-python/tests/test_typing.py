@@ -25,23 +25,23 @@ import quell
 belt = quell.Belt(damping_ratio=0.1, normal_load=1, belt_velocity=0.1,
     friction=quell.Stribeck(static_coefficient=0.4, minimum_coefficient=0.3, reference_velocity=0.2),
     dither=[quell.Dither("normal", "square", amplitude=0.1, frequency_ratio=10)], initial=(0.1, 0))
-efficiency: float | None = belt.response().efficiency
+residual_vibration: float | None = belt.response().residual_vibration
 amplitude: float = belt.response().amplitude
 faster: quell.Belt = belt.set({"belt.belt_velocity": 0.2})
 again: quell.Study = quell.Study.from_toml("x.toml")
-shape: list[int] = belt.map("efficiency", {"dither.amplitude": [0.1, 0.2]}).shape
+shape: list[int] = belt.map("residual-vibration", {"dither.amplitude": [0.1, 0.2]}).shape
 time: npt.NDArray[np.float64] = belt.simulate(5).time
 first: float = belt.thresholds("dither.amplitude", 0.3, 0.6).from_
 in_si: float | None = belt.response().amplitude_m
 values: npt.NDArray[np.float64] = belt.thresholds("dither.amplitude", 0.3, 0.6).local_value
 shown: list[str] = list(belt.response())
-residual: npt.NDArray[Any] = belt.map("efficiency").efficiency
+residual: npt.NDArray[Any] = belt.map("residual-vibration").residual_vibration
 heavy: quell.Belt = quell.Belt(mass_kg=pint.UnitRegistry().Quantity(2000, "gram"))
 velocity: float | None = heavy.belt_velocity_m_per_s
 last: quell.results.Simulation = belt.simulate(5).continued(10, t_eval=[6, 7])
 coefficient: float = belt.friction.static_coefficient
 amplitude_of_dither = quell.Dither(amplitude=0.1).amplitude
-left: list[int] = belt.map("efficiency", store="m.zarr", shard="1/2").left_shards
+left: list[int] = belt.map("residual-vibration", store="m.zarr", shard="1/2").left_shards
 """
 
 BAD = """

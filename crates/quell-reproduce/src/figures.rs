@@ -2,7 +2,7 @@
 
 use super::entry::CatalogueEntry;
 use super::{
-    disc, effective_friction, efficiency_map, laws, measured_friction, responses, sections,
+    disc, effective_friction, laws, measured_friction, residual_map, responses, sections,
     stability_map, waveforms,
 };
 
@@ -41,12 +41,12 @@ pub(super) const FIGURES: &[CatalogueEntry] = &[
     figure!(
         "2.8",
         "residual vibration, Stribeck law, four belt velocities",
-        efficiency_map::velocities
+        residual_map::velocities
     ),
     figure!(
         "2.9",
         "residual vibration, decreasing law, four belt velocities",
-        efficiency_map::velocities
+        residual_map::velocities
     ),
     figure!("2.10", "responses and sections, decreasing law, sine, v₀ = 1", sections::figure),
     figure!("2.11", "responses and sections, decreasing law, sine, v₀ = 1.5", sections::figure),
@@ -62,12 +62,8 @@ pub(super) const FIGURES: &[CatalogueEntry] = &[
     figure!("3.7", "responses, Stribeck law, sinusoidal tangential dither", responses::figure),
     figure!("3.8", "responses, Stribeck law, triangular tangential dither", responses::figure),
     figure!("3.9", "responses, Stribeck law, square tangential dither", responses::figure),
-    figure!("3.10", "residual vibration, Stribeck law, three waveforms", efficiency_map::waveforms),
-    figure!(
-        "3.11",
-        "residual vibration, decreasing law, three waveforms",
-        efficiency_map::waveforms
-    ),
+    figure!("3.10", "residual vibration, Stribeck law, three waveforms", residual_map::waveforms),
+    figure!("3.11", "residual vibration, decreasing law, three waveforms", residual_map::waveforms),
     figure!("3.12", "responses and sections, decreasing law, triangle", sections::figure),
     figure!("3.13", "responses and sections, decreasing law, square", sections::figure),
     figure!("4.2", "Stribeck and decreasing friction law", laws::figure),
@@ -77,8 +73,8 @@ pub(super) const FIGURES: &[CatalogueEntry] = &[
     figure!("4.6", "effective friction from simulation, decreasing law", measured_friction::figure),
     figure!("4.7", "stability maps, Stribeck law, normal dither", stability_map::three),
     figure!("4.8", "stability maps, decreasing law, normal dither", stability_map::three),
-    figure!("4.9", "residual vibration, Stribeck law, normal dither", efficiency_map::single),
-    figure!("4.10", "residual vibration, decreasing law, normal dither", efficiency_map::single),
+    figure!("4.9", "residual vibration, Stribeck law, normal dither", residual_map::single),
+    figure!("4.10", "residual vibration, decreasing law, normal dither", residual_map::single),
     figure!(
         "4.11",
         "responses and sections, normal dither, square and sine",

@@ -10,7 +10,7 @@
 //! | `amplitude_columns`, `shared` | measurements needed by several entries, made once |
 //! | `product`, `write` | figures, data tables, and their files |
 //! | `laws`, `waveforms`, `effective_friction`, `stability_map` | figures of friction laws, waveforms and averaging |
-//! | `responses`, `sections`, `efficiency_map`, `measured_friction` | figures of simulated responses |
+//! | `responses`, `sections`, `residual_map`, `measured_friction` | figures of simulated responses |
 //! | `caption` | names and numbers in captions |
 //! | `disc` | tables and figures of chapter 5 |
 //! | `printed_formulas` | formulas as printed in the dissertation, correct or not |
@@ -37,7 +37,6 @@ mod claim;
 pub mod claims;
 mod disc;
 mod effective_friction;
-mod efficiency_map;
 mod entry;
 mod failure;
 mod figures;
@@ -46,6 +45,7 @@ mod measured_friction;
 mod printed_formulas;
 mod product;
 mod report;
+mod residual_map;
 mod responses;
 mod sections;
 mod shared;

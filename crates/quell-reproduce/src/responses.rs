@@ -127,11 +127,11 @@ fn histories_of(
 ) -> [Panel; 2] {
     let belt = case.study.belt();
     let symbol = if belt.dithers()[0].direction == Direction::Normal { "D_N" } else { "D_T" };
-    let efficiency = match &case.response.efficiency {
+    let residual_vibration = match &case.response.residual_vibration {
         Ok(ratio) => format!(", $E$ = {ratio:.2}"),
         Err(_) => String::new(),
     };
-    let title = format!("({name}) ${symbol}$ = {}{efficiency}", case.amplitude);
+    let title = format!("({name}) ${symbol}$ = {}{residual_vibration}", case.amplitude);
     let pair = |value: fn(&Sample) -> f64| {
         let curve = |role, samples: &[Sample]| {
             Polyline::new(role, samples.iter().map(|s| (s.time, value(s))).collect::<Vec<_>>())

@@ -323,15 +323,15 @@ mod tests {
         let mut fields = Fields::new(Some(scales));
         fields.number("time", Quantity::Time, 30.0).number("stick_fraction", Quantity::Ratio, 0.5);
         let mut inner = Fields::new(Some(scales));
-        inner.known("efficiency", Quantity::Ratio, Err("nothing to quench".into()));
+        inner.known("residual_vibration", Quantity::Ratio, Err("nothing to quench".into()));
         fields.list("points", [inner]);
         let json = fields.finish();
         assert_eq!(json["time"], 30.0);
         assert_eq!(json["time_s"], 3.0);
         assert_eq!(json["units"]["time_s"], "s");
         assert_eq!(json["units"]["stick_fraction"], "1");
-        assert!(json["points"][0]["efficiency"].is_null());
-        assert_eq!(json["why"]["points[0].efficiency"], "nothing to quench");
+        assert!(json["points"][0]["residual_vibration"].is_null());
+        assert_eq!(json["why"]["points[0].residual_vibration"], "nothing to quench");
         assert!(json.get("stick_fraction_1").is_none());
     }
 

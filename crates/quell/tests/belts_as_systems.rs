@@ -176,7 +176,7 @@ fn the_share_of_seeds() {
         close(rates[0], rates[1], 1e-3, "averaged growth rate");
         let costs = [&one, &other].map(|found| found.costs[0].clone().expect("a cost"));
         close(costs[0].power, costs[1].power, 1e-12, "power");
-        let of = |found: &noise_response::NoiseResponse| found.efficiencies().expect("E");
+        let of = |found: &noise_response::NoiseResponse| found.residual_vibrations().expect("E");
         // Records of different sampling and bands: of a quiet run a few percent of E, which stick–slip repeats.
         for (one, other) in of(&one).iter().zip(of(&other)) {
             close(*one, other, 0.05, "E");

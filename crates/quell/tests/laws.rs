@@ -307,7 +307,7 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     // A map point has its value, and a status that reports the range.
     let axes = "[[sweep]]\nparameter = \"dither.amplitude\"\nvalues = [0.5, 3.0]\n";
     let swept = study(&format!("{CUBIC}{axes}"));
-    for name in ["efficiency", "mean-friction", "verdict", "criterion-sharper"] {
+    for name in ["residual-vibration", "mean-friction", "verdict", "criterion-sharper"] {
         let quantity = MapQuantity::named(name, "--quantity").expect("a quantity");
         let plan = Plan::new(&swept, &[quantity]).expect("axes");
         let found = map::run(plan, None, running).expect("a map");

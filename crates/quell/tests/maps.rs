@@ -30,7 +30,7 @@ fn plane(
     MappedQuantity {
         values: values.collect(),
         axes: vec![axis("frequency ratio", "R", ratio), axis("dither amplitude", "D", amplitude)],
-        quantity: PlotAxis::new("efficiency").symbol("E"),
+        quantity: PlotAxis::new("residual_vibration").symbol("E"),
         kind,
         reasons: vec!["$E$ undefined".into(), "not settled".into()],
         zero: None,
@@ -59,8 +59,8 @@ fn strokes(svg: &str, colour: &str, width: &str) -> Vec<String> {
 }
 
 #[test]
-fn isolines_of_an_efficiency_carry_their_per_cent() {
-    let svg = svg(&plane(60, MapKind::Efficiency, |r, d| Ok(quench(r, d))));
+fn isolines_of_an_residual_vibration_carry_their_per_cent() {
+    let svg = svg(&plane(60, MapKind::ResidualVibration, |r, d| Ok(quench(r, d))));
     for level in ["5", "20", "50", "80", "95"] {
         assert!(svg.contains(&format!(">{level}\u{202f}%<")), "{level} per cent has no number");
     }
@@ -71,10 +71,10 @@ fn isolines_of_an_efficiency_carry_their_per_cent() {
 #[test]
 fn reasons_that_occur_are_in_the_legend() {
     let undefined = |r: f64, d: f64| if r < 3.0 { Err(0) } else { Ok(quench(r, d)) };
-    let one = svg(&plane(40, MapKind::Efficiency, undefined));
+    let one = svg(&plane(40, MapKind::ResidualVibration, undefined));
     assert!(one.contains(" undefined") && !one.contains("not settled"));
     assert!(one.contains("<pattern "));
-    let none = svg(&plane(40, MapKind::Efficiency, |r, d| Ok(quench(r, d))));
+    let none = svg(&plane(40, MapKind::ResidualVibration, |r, d| Ok(quench(r, d))));
     assert!(!none.contains(" undefined") && !none.contains("<pattern "));
     let unnamed = svg(&plane(40, stable_or_not(), |r, _| if r < 3.0 { Err(7) } else { Ok(1.0) }));
     assert!(unnamed.contains("no value"));
@@ -153,7 +153,7 @@ fn a_sweep_is_open_and_hatched_where_nothing_is_known() {
     let given = MappedQuantity {
         axes: vec![axis("dither amplitude", "D", even(0.0, 1.0, 90))],
         values,
-        ..plane(2, MapKind::Efficiency, |_, _| Ok(0.0))
+        ..plane(2, MapKind::ResidualVibration, |_, _| Ok(0.0))
     };
     let svg = svg(&given);
     let curve = strokes(&svg, "#000000", "1.4");
@@ -180,7 +180,7 @@ fn outcomes_over_one_axis_are_strips() {
 
 #[test]
 fn a_third_axis_gives_a_panel_for_each_of_its_values() {
-    let flat = plane(12, MapKind::Efficiency, |r, d| Ok(quench(r, d)));
+    let flat = plane(12, MapKind::ResidualVibration, |r, d| Ok(quench(r, d)));
     let mut given = flat.clone();
     given.axes.insert(0, axis("belt velocity", "v_0", vec![0.05, 0.1, 0.2]));
     given.values = [0.5, 1.0, 1.5]
@@ -198,7 +198,7 @@ fn a_third_axis_gives_a_panel_for_each_of_its_values() {
 
 #[test]
 fn invalid_maps_are_refused() {
-    let good = || plane(5, MapKind::Efficiency, |r, d| Ok(quench(r, d)));
+    let good = || plane(5, MapKind::ResidualVibration, |r, d| Ok(quench(r, d)));
     let mut doubled = good();
     doubled.axes[0].values[1] = doubled.axes[0].values[0];
     let mut short = good();
@@ -222,7 +222,7 @@ type Value = fn(f64, f64) -> Result<f64, usize>;
 #[test]
 fn odd_maps_are_pictures_too() {
     let kinds = [
-        MapKind::Efficiency,
+        MapKind::ResidualVibration,
         MapKind::Growth(Spread::SignedLog(1e-6)),
         MapKind::Number(Spread::Log),
         MapKind::Number(Spread::Linear),
@@ -257,6 +257,6 @@ fn a_large_map_is_a_small_file() {
         |r, d| noise(r, d).map(|value: f64| (200.0 * value).floor()),
     ));
     assert!(worst.len() < 400_000, "{} bytes of noise", worst.len());
-    let usual = svg(&plane(200, MapKind::Efficiency, smooth));
+    let usual = svg(&plane(200, MapKind::ResidualVibration, smooth));
     assert!(usual.len() < 200_000, "{} bytes", usual.len());
 }

@@ -96,7 +96,7 @@ fn points_of_systems_are_the_answers_of_the_verbs() {
         "peak-to-peak",
         "stick-fraction",
         "effect",
-        "efficiency",
+        "residual-vibration",
         "amplitude",
         "undithered-amplitude",
     ];
@@ -132,7 +132,7 @@ fn points_of_systems_are_the_answers_of_the_verbs() {
                 assert_same(&found, "stick_fraction", point, &end["contacts"][0]["stick_fraction"]);
             }
             let response = one.response().expect("a response").json();
-            for fact in ["effect", "efficiency", "amplitude", "undithered_amplitude"] {
+            for fact in ["effect", "residual_vibration", "amplitude", "undithered_amplitude"] {
                 assert_same(&found, fact, point, &response[fact]);
             }
         }
@@ -146,7 +146,7 @@ fn points_of_systems_are_the_answers_of_the_verbs() {
 fn points_of_belts_are_the_answers_of_the_verbs() {
     let of_response = [
         "effect",
-        "efficiency",
+        "residual-vibration",
         "amplitude",
         "undithered_amplitude",
         "stick_fraction",

@@ -218,7 +218,7 @@ fn the_share_of_seeds_that_quench() {
     let weak = response(&with_noise(0.05, BAND), 3);
     assert_eq!(weak.quiet().expect("a share").starts, 0);
     let third = response(&with_noise(3.0, &format!("{BAND}\nseed = 3")), 1);
-    let [all, one] = [&strong, &third].map(|found| found.efficiencies().expect("E"));
+    let [all, one] = [&strong, &third].map(|found| found.residual_vibrations().expect("E"));
     assert_eq!(all[2].to_bits(), one[0].to_bits());
     // The cost is the sum over the lines.
     let cost = strong.costs[0].clone().expect("a cost");

@@ -166,7 +166,7 @@ fn a_burst_without_pause_has_the_answers_of_its_carrier() {
             .map(|study| verbs(study).thresholds(request.clone()).expect("thresholds").json());
         assert_eq!(thresholds[0], thresholds[1], "{carrier}");
         let maps = belts.each_ref().map(|study| {
-            let asked = MapQuantity::named("efficiency", "--quantity").expect("a quantity");
+            let asked = MapQuantity::named("residual-vibration", "--quantity").expect("a quantity");
             let plan = Plan::new(study, &[asked]).expect("a plan");
             let points = plan.compute_points(0..plan.grid().len());
             points.iter().map(|array| format!("{array:?}")).collect::<Vec<_>>()

@@ -9,7 +9,7 @@ use crate::place::{Place, SMALL, STUDY, same};
 #[test]
 fn a_point_of_a_map_has_the_same_bits_as_a_single_computation() {
     let place = Place::new("alone");
-    let quantities = "efficiency,amplitude,stick-fraction,mean-friction,dither-power,criterion,\
+    let quantities = "residual_vibration,amplitude,stick-fraction,mean-friction,dither-power,criterion,\
                       growth,critical-amplitude,verdict";
     let map = place.good(&["map", "small.toml", "--quantity", quantities]);
     let (first, second) = (&map["axes"][0]["values"], &map["axes"][1]["values"]);
@@ -22,9 +22,13 @@ fn a_point_of_a_map_has_the_same_bits_as_a_single_computation() {
             let alone =
                 |verb: &str| place.good(&[verb, "study.toml", "--set", &set[0], "--set", &set[1]]);
             let (steady, averaged) = (alone("response"), alone("stability"));
-            for name in
-                ["efficiency", "amplitude", "stick_fraction", "mean_friction", "dither_power"]
-            {
+            for name in [
+                "residual_vibration",
+                "amplitude",
+                "stick_fraction",
+                "mean_friction",
+                "dither_power",
+            ] {
                 assert_eq!(map[name][i][j], steady[name], "{name} {set:?}");
             }
             assert_eq!(map["criterion"][i][j], averaged["criterion"]);
@@ -34,12 +38,14 @@ fn a_point_of_a_map_has_the_same_bits_as_a_single_computation() {
             let lowest = critical.first().map_or(&Json::Null, |first| &first["amplitude_ratio"]);
             assert_eq!(&map["critical_amplitude"][i][j], lowest);
             // The undithered belt at v₀ = 0.5 settles to sliding: E is reported as unknown.
-            let known = map["efficiency_status"][i][j] == "known";
-            assert_eq!(known, map["efficiency"][i][j].is_number());
+            let known = map["residual_vibration_status"][i][j] == "known";
+            assert_eq!(known, map["residual_vibration"][i][j].is_number());
         }
     }
-    assert_eq!(map["efficiency_status"][0][3], "undithered_settles");
-    assert!(map["why"]["efficiency"].as_str().is_some_and(|why| why.contains("without dither")));
+    assert_eq!(map["residual_vibration_status"][0][3], "undithered_settles");
+    assert!(
+        map["why"]["residual_vibration"].as_str().is_some_and(|why| why.contains("without dither"))
+    );
 }
 
 #[test]
@@ -51,7 +57,7 @@ fn any_number_of_threads_writes_the_same_bytes() {
             "map",
             "small.toml",
             "--quantity",
-            "efficiency",
+            "residual-vibration",
             "--threads",
             threads,
             "--save",
@@ -71,7 +77,7 @@ fn a_store_describes_itself() {
         "--set",
         set,
         "--quantity",
-        "efficiency,verdict",
+        "residual_vibration,verdict",
         "--save",
         "m.zarr",
     ]);
@@ -89,8 +95,8 @@ fn a_store_describes_itself() {
     let expected = [
         "dither_amplitude",
         "belt_velocity",
-        "efficiency",
-        "efficiency_status",
+        "residual_vibration",
+        "residual_vibration_status",
         "verdict",
         "verdict_status",
         "settled",
@@ -101,15 +107,18 @@ fn a_store_describes_itself() {
         // The consolidated metadata equal those of the array.
         assert_eq!(described, &read(&format!("{name}/zarr.json")));
     }
-    let efficiency = &arrays["efficiency"];
+    let residual_vibration = &arrays["residual_vibration"];
     assert_eq!(
-        efficiency["dimension_names"],
+        residual_vibration["dimension_names"],
         serde_json::json!(["dither_amplitude", "belt_velocity"])
     );
-    assert_eq!(efficiency["attributes"]["ancillary_variables"], "efficiency_status");
-    assert_eq!(efficiency["attributes"]["units"], "dimensionless");
-    assert_eq!(efficiency["fill_value"], "NaN");
-    let status = &arrays["efficiency_status"];
+    assert_eq!(
+        residual_vibration["attributes"]["ancillary_variables"],
+        "residual_vibration_status"
+    );
+    assert_eq!(residual_vibration["attributes"]["units"], "dimensionless");
+    assert_eq!(residual_vibration["fill_value"], "NaN");
+    let status = &arrays["residual_vibration_status"];
     assert_eq!(status["fill_value"], 255);
     let values = status["attributes"]["flag_values"].as_array().expect("codes");
     let meanings = status["attributes"]["flag_meanings"].as_str().expect("words");
@@ -120,18 +129,24 @@ fn a_store_describes_itself() {
 #[test]
 fn a_table_has_one_row_per_point() {
     let place = Place::new("table");
-    let map =
-        place.good(&["map", "small.toml", "--quantity", "efficiency,verdict", "--save", "m.csv"]);
+    let map = place.good(&[
+        "map",
+        "small.toml",
+        "--quantity",
+        "residual-vibration,verdict",
+        "--save",
+        "m.csv",
+    ]);
     assert_eq!(map["saved"][0], "m.csv");
     let text = fs::read_to_string(place.folder.join("m.csv")).expect("a table");
     let rows: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
     assert_eq!(
         rows[0],
-        "dither_amplitude,belt_velocity,efficiency,efficiency_status,verdict,verdict_status,settled,settled_status"
+        "dither_amplitude,belt_velocity,residual_vibration,residual_vibration_status,verdict,verdict_status,settled,settled_status"
     );
     assert_eq!(rows.len(), 13);
-    let efficiency = &map["efficiency"][1][2];
-    assert!(rows[7].starts_with(&format!("0.5,0.15,{efficiency},known,")), "{}", rows[7]);
+    let residual_vibration = &map["residual_vibration"][1][2];
+    assert!(rows[7].starts_with(&format!("0.5,0.15,{residual_vibration},known,")), "{}", rows[7]);
     assert!(rows[4].starts_with("0.1,0.5,,undithered_settles,"), "{}", rows[4]);
     assert!(text.contains("# units: dither_amplitude [dimensionless], "));
     assert!(text.contains("# scaling: dither_amplitude [length (force/k)], "));
@@ -213,7 +228,7 @@ fn a_map_over_one_axis_is_drawn_and_missing_requirements_are_reported() {
     let one: &[&str] =
         &["--set", "sweep[0].parameter=dither.amplitude", "--set", "sweep[0].values=[0, 0.3, 0.6]"];
     let mut arguments =
-        vec!["map", "study.toml", "--quantity", "efficiency,verdict", "--plot", "m.svg"];
+        vec!["map", "study.toml", "--quantity", "residual-vibration,verdict", "--plot", "m.svg"];
     arguments.extend(one);
     assert_eq!(place.good(&arguments)["plotted"], "m.svg");
     let svg = fs::read_to_string(place.folder.join("m.svg")).expect("a picture");
@@ -224,7 +239,7 @@ fn a_map_over_one_axis_is_drawn_and_missing_requirements_are_reported() {
 fn invalid_requests_are_rejected_at_once() {
     let place = Place::new("refused");
     let cases: &[(&[&str], &str)] = &[
-        (&["map", "study.toml", "--quantity", "efficiency"], "[[sweep]]"),
+        (&["map", "study.toml", "--quantity", "residual-vibration"], "[[sweep]]"),
         (&["map", "small.toml"], "--quantity"),
         (&["map", "small.toml", "--quantity", "eficiency"], "--quantity"),
         (&["map", "small.toml", "--quantity", "verdict", "--resume"], "--resume"),
@@ -246,7 +261,7 @@ fn invalid_requests_are_rejected_at_once() {
         let errors = place.refused(arguments);
         assert!(errors.iter().any(|error| error["key"] == *key), "{arguments:?}: {errors:?}");
     }
-    let printed = place.printed(&["map", "study.toml", "--quantity", "efficiency"]);
+    let printed = place.printed(&["map", "study.toml", "--quantity", "residual-vibration"]);
     assert!(printed.errors.contains("    parameter = \"dither.amplitude\""), "{}", printed.errors);
 }
 

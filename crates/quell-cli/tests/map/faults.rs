@@ -27,7 +27,7 @@ const LARGE: &str = "[[sweep]]\nparameter = \"dither.amplitude\"\nfrom = 0.05\nt
 
 /// Arguments of the large map.
 const ASK: &[&str] =
-    &["map", "large.toml", "--quantity", "efficiency,verdict", "--threads", "1", "--save"];
+    &["map", "large.toml", "--quantity", "residual-vibration,verdict", "--threads", "1", "--save"];
 
 pub(crate) fn large(name: &str) -> Place {
     let place = Place::new(name);
@@ -164,11 +164,11 @@ fn damaged_chunks_are_found_and_recomputed() {
         let chunks = reference.keys().filter(|name| name.starts_with(&format!("{array}/c/")));
         at(chunks.clone().nth(number).expect("chunks enough"))
     };
-    let cut = chunk("efficiency", 0);
+    let cut = chunk("residual_vibration", 0);
     let length = fs::metadata(&cut).expect("a chunk").len();
     let file = OpenOptions::new().write(true).open(&cut).expect("a chunk");
     file.set_len(length - 5).expect("cut short");
-    let changed = chunk("efficiency_status", 1);
+    let changed = chunk("residual_vibration_status", 1);
     let mut bytes = fs::read(&changed).expect("a chunk");
     bytes[0] ^= 1;
     fs::write(&changed, bytes).expect("changed");
@@ -192,7 +192,7 @@ fn a_store_of_another_study_is_rejected_and_left_unchanged() {
     let ask = |quantity, more: &[&'static str]| {
         [&["map", "small.toml", "--quantity", quantity, "--save", "m.zarr"], more].concat()
     };
-    place.good(&ask("efficiency", &[]));
+    place.good(&ask("residual-vibration", &[]));
     let reference = place.store("m.zarr");
     let refused = |arguments: &[&str], word: &str| {
         let printed = place.printed(arguments);
@@ -200,7 +200,7 @@ fn a_store_of_another_study_is_rejected_and_left_unchanged() {
         assert!(printed.errors.contains(word), "{arguments:?}: {printed:?}");
         same(&place.store("m.zarr"), &reference);
     };
-    refused(&ask("efficiency", &[]), "already exists");
+    refused(&ask("residual-vibration", &[]), "already exists");
     refused(&ask("verdict", &["--resume"]), "the quantities are verdict");
     for (from, to, word) in [
         ("= 0.005", "= 0.0051", "belt.damping_ratio is 0.0051 here and 0.005 in the store"),
@@ -211,21 +211,21 @@ fn a_store_of_another_study_is_rejected_and_left_unchanged() {
     ] {
         assert!(small.contains(from));
         place.write("small.toml", small.replace(from, to));
-        refused(&ask("efficiency", &["--resume"]), word);
+        refused(&ask("residual-vibration", &["--resume"]), word);
     }
     // Changes that do not affect any number are allowed: comments, the title, a value that an axis replaces.
     let edited = small
         .replace("Stribeck belt", "The same belt")
         .replace("amplitude = 0.4\n", "amplitude = 0.7 # an axis\n");
     place.write("small.toml", edited);
-    assert_eq!(place.good(&ask("efficiency", &["--resume"]))["resumed_points"], 12);
+    assert_eq!(place.good(&ask("residual-vibration", &["--resume"]))["resumed_points"], 12);
     same(&place.store("m.zarr"), &reference);
     // Another version of Quell may give other bits.
     let identity = place.folder.join("m.zarr/.quell/map.json");
     let text = fs::read_to_string(&identity).expect("what the store is of");
     let version = concat!("\"", env!("CARGO_PKG_VERSION"), "\"");
     fs::write(&identity, text.replacen(version, "\"0.0.9\"", 1)).expect("another version");
-    let printed = place.printed(&ask("efficiency", &["--resume"]));
+    let printed = place.printed(&ask("residual-vibration", &["--resume"]));
     assert_eq!(printed.status, Some(2));
     assert!(printed.errors.contains("bits may differ"), "{printed:?}");
 }

@@ -84,7 +84,7 @@ fn a_shard_reports_the_remaining_chunks_and_a_later_run_computes_them() {
     let all = printed["map_chunks"].as_u64().expect("a count");
     assert_eq!(printed["left_chunks"], all - own);
     // Running the same shard again finds its chunks; a truncated one is recomputed.
-    let path = place.folder.join("left.zarr/efficiency/c");
+    let path = place.folder.join("left.zarr/residual_vibration/c");
     let first = fs::read_dir(&path).expect("chunks").next().expect("a chunk").expect("a chunk");
     let chunk = fs::read_dir(first.path()).expect("chunks").next().expect("a chunk").expect("one");
     fs::write(chunk.path(), "short").expect("cut short");

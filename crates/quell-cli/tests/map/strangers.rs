@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 
 use crate::place::{Place, ProcessOutput, files, same};
 
-const ASK: [&str; 6] = ["map", "small.toml", "--quantity", "efficiency", "--save", "m.zarr"];
+const ASK: [&str; 6] =
+    ["map", "small.toml", "--quantity", "residual-vibration", "--save", "m.zarr"];
 
 /// Arguments that open a store again.
 const AGAIN: [&[&str]; 2] = [&["--resume"], &["--shard", "1/1"]];
@@ -78,11 +79,11 @@ fn links_in_a_store_are_not_followed() {
         ".quell/map.json",
         ".quell/new",
         "zarr.json",
-        "efficiency",
-        "efficiency/zarr.json",
-        "efficiency/c",
-        "efficiency/c/0",
-        "efficiency/c/0/0",
+        "residual_vibration",
+        "residual_vibration/zarr.json",
+        "residual_vibration/c",
+        "residual_vibration/c/0",
+        "residual_vibration/c/0/0",
         "dither_amplitude/c",
     ] {
         restore(&place, &store);
@@ -136,12 +137,12 @@ type Changed<'c> = &'c dyn Fn(&[u8]) -> Vec<u8>;
 fn metadata_are_verified() {
     let (place, store) = whole("metadata");
     let changes: [(&str, Changed<'_>); 6] = [
-        ("efficiency/zarr.json", &|bytes| {
+        ("residual_vibration/zarr.json", &|bytes| {
             let text = String::from_utf8_lossy(bytes);
             assert!(text.contains("little"));
             text.replace("little", "big").into_bytes()
         }),
-        ("efficiency_status/zarr.json", &|_| Vec::new()),
+        ("residual_vibration_status/zarr.json", &|_| Vec::new()),
         ("zarr.json", &|_| Vec::new()),
         ("zarr.json", &|bytes| {
             String::from_utf8_lossy(bytes).replace("Stribeck", "Coulomb").into_bytes()
@@ -170,12 +171,12 @@ fn metadata_are_verified() {
 fn pipes_and_folders_in_place_of_files_are_rejected() {
     let (place, store) = whole("pipes");
     for name in [
-        "efficiency/c/0/0",
+        "residual_vibration/c/0/0",
         ".quell/done/0.0.json",
         ".quell/map.json",
         ".quell/lock",
         ".quell/unfinished/half",
-        "efficiency/zarr.json",
+        "residual_vibration/zarr.json",
         "zarr.json",
     ] {
         for kind in ["pipe", "folder"] {

@@ -181,7 +181,7 @@ pub fn effect(belt: &Belt, compared: &Compared, ending: RunEnding) -> Effect {
     if belt.dithers().iter().all(|dither| dither.amplitude == 0.0) {
         return Effect::Unknown(Uncertain::NoDither);
     }
-    let quiet_without = match compared.efficiency() {
+    let quiet_without = match compared.residual_vibration() {
         Err(Undefined::UnditheredSettles | Undefined::UnditheredAtRest) => true,
         Err(why) => return Effect::Unknown(Uncertain::Undithered(why)),
         Ok(_) => false,

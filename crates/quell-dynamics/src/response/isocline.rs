@@ -1,4 +1,4 @@
-//! The dither amplitude at which the efficiency falls below a level, at one frequency ratio.
+//! The dither amplitude at which the residual vibration E falls below a level, at one frequency ratio.
 //!
 //! A row of amplitudes is measured side by side; the last interval of the row in which E falls through the level is
 //! subdivided by the next row. E is measured: a crossing is found only to the accuracy with
@@ -18,7 +18,7 @@ const ROW: u32 = 16;
 /// Largest amplitude D in `amplitudes` of the first dither at which E falls through `level` with
 /// growing D, to `closeness` relative to D; `None` if it does not fall through there, or where E
 /// is undefined or a run stops.
-pub fn amplitude_at_efficiency(
+pub fn amplitude_at_residual_vibration(
     belt: &Belt,
     start: Start,
     solver: &Solver,
@@ -37,14 +37,16 @@ pub fn amplitude_at_efficiency(
                 Some(ResponseCase { belt, start })
             })
             .collect();
-        let efficiencies: Option<Vec<f64>> = compare_many(&cases?, solver, Observables::default())
-            .into_iter()
-            .map(|compared| compared.ok()?.efficiency().ok())
-            .collect();
-        let efficiencies = efficiencies?;
-        let last = efficiencies.windows(2).rposition(|pair| pair[0] > level && pair[1] <= level)?;
+        let residual_vibrations: Option<Vec<f64>> =
+            compare_many(&cases?, solver, Observables::default())
+                .into_iter()
+                .map(|compared| compared.ok()?.residual_vibration().ok())
+                .collect();
+        let residual_vibrations = residual_vibrations?;
+        let last =
+            residual_vibrations.windows(2).rposition(|pair| pair[0] > level && pair[1] <= level)?;
         (from, to) = (row[last], row[last + 1]);
-        if efficiencies[last] == efficiencies[last + 1] {
+        if residual_vibrations[last] == residual_vibrations[last + 1] {
             break;
         }
     }

@@ -133,7 +133,7 @@ impl Compared {
     ///
     /// # Errors
     /// Why E is undefined.
-    pub fn efficiency(&self) -> Result<f64, Undefined> {
+    pub fn residual_vibration(&self) -> Result<f64, Undefined> {
         self.vibrates?;
         Ok(self.dithered.lines.whole / self.undithered.lines.whole)
     }

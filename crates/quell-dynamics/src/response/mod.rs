@@ -1,4 +1,4 @@
-//! The steady response: settled record, spectrum, efficiency E, and the cost of the dither.
+//! The steady response: settled record, spectrum, residual vibration E (the efficiency metric of the dissertation), and the cost of the dither.
 //!
 //! The record is defined here, because the dissertation specifies none and E depends on it: `settle`
 //! is discarded, then an integral number of slow periods 2π is kept, the mean removed, a
@@ -36,7 +36,7 @@ pub use effect::{Effect, QUENCHED, RunEnding, Uncertain, Vibrations, effect};
 pub use effective::{
     SteadyFriction, WindowMean, measured_effective_friction, steady_effective_friction,
 };
-pub use isocline::amplitude_at_efficiency;
+pub use isocline::amplitude_at_residual_vibration;
 pub use measure::{
     Compared, MeasuredRecord, Observables, ResponseCase, Undefined, compare_many, measure_many,
 };

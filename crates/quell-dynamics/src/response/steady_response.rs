@@ -32,7 +32,7 @@ pub struct SteadyResponse {
     /// Where the dithered run settles.
     pub ending: RunEnding,
     /// E = M₁/M₀ (2.27), the residual vibration.
-    pub efficiency: Result<f64, Undefined>,
+    pub residual_vibration: Result<f64, Undefined>,
     /// M of the undithered run from the same state.
     pub undithered_amplitude: f64,
     /// Whether M of the two halves of the record agree, and no decaying vibration remains in it.
@@ -138,7 +138,7 @@ impl SteadyResponse {
             amplitude: dithered.lines.whole,
             peaks: record.spectrum.peaks(PEAK_FLOOR),
             stick_fraction: dithered.stick_fraction,
-            efficiency: compared.efficiency(),
+            residual_vibration: compared.residual_vibration(),
             undithered_amplitude: undithered.lines.whole,
             settled: compared.settled() && !still_decays(effect, compared),
             undithered_settled: compared.undithered_settled(),

@@ -137,7 +137,7 @@ pub struct SystemResponse {
     /// The effect of the dither.
     pub effect: Effect,
     /// E = M₁/M₀, the residual vibration, or why it is undefined.
-    pub efficiency: Result<f64, Undefined>,
+    pub residual_vibration: Result<f64, Undefined>,
     /// Friction of every contact in steady sliding without dither, if that exists.
     pub steady_friction: Option<Vec<f64>>,
 }
@@ -239,7 +239,7 @@ impl<'a> UnditheredResponse<'a> {
         };
         let steady = SteadySliding::new(&self.still).ok();
         Ok(SystemResponse {
-            efficiency: vibrates.map(|()| with.whole() / without.whole()),
+            residual_vibration: vibrates.map(|()| with.whole() / without.whole()),
             band_end,
             steady_friction: steady
                 .map(|steady| steady.contacts.iter().map(|contact| contact.friction).collect()),

@@ -170,7 +170,7 @@ impl Spectrum {
     }
 
     /// The largest line with `low < ω ≤ high`, on the frequency grid (without interpolation), as compared in the
-    /// efficiency E = M₁/M₀ of (2.27). `None` if no line lies there.
+    /// residual vibration E = M₁/M₀ of (2.27). `None` if no line lies there.
     #[must_use]
     pub fn largest_line(&self, low: f64, high: f64) -> Option<Peak> {
         let mut best: Option<Peak> = None;

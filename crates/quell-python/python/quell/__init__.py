@@ -10,7 +10,7 @@
         dither=quell.Dither("tangential", "sine", amplitude=0.4, frequency_ratio=10.0),
     )
     response = belt.response()
-    print(response.sentence, response.efficiency)
+    print(response.sentence, response.residual_vibration)
     response.plot()
 
 Studies are made by :class:`Belt`, :class:`Disc`, :class:`System` or :meth:`Study.from_toml`, and from files of other programs by
@@ -361,7 +361,7 @@ def sweep(
 ) -> results.Map:
     """Computes quantities over the axes of a study; see :meth:`Study.map` for the other arguments.
 
-    ``quell.sweep(study, "efficiency", store="map.zarr", client=client)`` runs on the cluster of a
+    ``quell.sweep(study, "residual-vibration", store="map.zarr", client=client)`` runs on the cluster of a
     ``dask.distributed`` client, with the same bits as a local run.
     """
     done: results.Map = study.map(quantity, axes, **how)

@@ -42,8 +42,8 @@ def _check_page(width: object, caption: object) -> None:
 class Result:
     """The result of a verb for a study.
 
-    Facts and arrays are attributes and entries: ``response.efficiency``, ``response["efficiency"]``,
-    ``"efficiency" in response``, ``list(response)``. An attribute is a method or property of the class if it has one of that
+    Facts and arrays are attributes and entries: ``response.residual_vibration``, ``response["residual_vibration"]``,
+    ``"residual_vibration" in response``, ``list(response)``. An attribute is a method or property of the class if it has one of that
     name, else the fact, else the array, as NumPy values in the units of the study; an array never replaces a fact that the class
     documents. An entry is the variable of :attr:`dataset`, with its unit, else the fact.
     """

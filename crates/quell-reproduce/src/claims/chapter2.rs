@@ -57,13 +57,13 @@ pub(super) fn source(name: &str) -> Result<EntrySource, Failure> {
 }
 
 /// E of each column, where it is defined.
-pub(super) fn efficiencies(cases: &[ResponseColumn]) -> Vec<f64> {
-    cases.iter().filter_map(|case| case.response.efficiency.ok()).collect()
+pub(super) fn residual_vibrations(cases: &[ResponseColumn]) -> Vec<f64> {
+    cases.iter().filter_map(|case| case.response.residual_vibration.ok()).collect()
 }
 
 /// Whether E is between suppression and no effect.
-pub(super) fn partial(efficiency: f64) -> bool {
-    (SUPPRESSED..1.0).contains(&efficiency)
+pub(super) fn partial(residual_vibration: f64) -> bool {
+    (SUPPRESSED..1.0).contains(&residual_vibration)
 }
 
 /// Critical amplitudes by averaging, with αG or the exact fast motion.
@@ -160,7 +160,7 @@ pub(super) fn friction_laws(sheet: &mut ClaimSheet) -> Result<(), Failure> {
 /// Figure 2.3.
 pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let cases = cases(&source("2.3")?)?;
-    let found = efficiencies(&cases);
+    let found = residual_vibrations(&cases);
     let dithered = fundamental(&cases[0].response.record.spectrum);
     sheet
         .number(
@@ -232,7 +232,7 @@ pub(super) fn forced_response(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         let belt = belt(LawKind::Stribeck, LIGHT, 0.05, dither)?;
         let response = respond(&belt, Start::REST, &Solver::default())
             .map_err(|error| failed("claims", &error))?;
-        response.efficiency.map_err(|error| failed("claims", &error))
+        response.residual_vibration.map_err(|error| failed("claims", &error))
     };
     let found = ratios.map(respond_at).into_iter().collect::<Result<Vec<f64>, Failure>>()?;
     let holds = found.windows(2).all(|pair| pair[1] < pair[0]);

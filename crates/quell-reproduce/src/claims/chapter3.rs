@@ -13,7 +13,7 @@ use super::super::failure::failed;
 use super::super::printed_formulas::{self, LawNumbers};
 use super::super::responses::{cases, fundamental};
 use super::chapter2::{
-    LIGHT, SUPPRESSED, belt, critical, efficiencies, law, partial, record_line, source,
+    LIGHT, SUPPRESSED, belt, critical, law, partial, record_line, residual_vibrations, source,
 };
 use super::sheet::{ClaimSheet, digits, list, shares};
 use quell::complaint::Failure;
@@ -250,7 +250,7 @@ pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         .collect::<Result<Vec<_>, Failure>>()?;
     let (mut frequencies, mut belts) = (Vec::new(), Vec::new());
     for (name, cases) in &figures {
-        let found = efficiencies(cases);
+        let found = residual_vibrations(cases);
         let amplitudes: Vec<f64> = cases.iter().map(|case| case.amplitude).collect();
         let statement = format!("partial control at D_T = {}, {}", amplitudes[0], amplitudes[1]);
         let holds = found[..2].iter().all(|e| partial(*e));
@@ -286,7 +286,7 @@ pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     // At the amplitude common to the three figures.
     let at = |figure: usize| {
         let case = figures[figure].1.iter().find(|case| case.amplitude == 0.4);
-        case.and_then(|case| case.response.efficiency.ok())
+        case.and_then(|case| case.response.residual_vibration.ok())
     };
     let found: Vec<f64> = [2, 0, 1].into_iter().filter_map(at).collect();
     sheet.statement(

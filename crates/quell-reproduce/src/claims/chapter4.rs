@@ -11,7 +11,9 @@ use super::super::failure::failed;
 use super::super::measured_friction::{self, FrictionPanel, TOLERANCE, averaged_at, interpolated};
 use super::super::printed_formulas::{self, LawNumbers};
 use super::super::responses::{ResponseColumn, cases};
-use super::chapter2::{LIGHT, SUPPRESSED, belt, critical, efficiencies, law, partial, source};
+use super::chapter2::{
+    LIGHT, SUPPRESSED, belt, critical, law, partial, residual_vibrations, source,
+};
 use super::chapter3::lost_brace;
 use super::record::largest_line;
 use super::sheet::{ClaimSheet, USUAL_LIMIT, digits, list, shares};
@@ -22,7 +24,7 @@ const NUMBERS: LawNumbers = LawNumbers::DISSERTATION;
 /// Figures 4.3 and 4.4.
 pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let columns = cases(&source("4.3")?)?;
-    let found = efficiencies(&columns);
+    let found = residual_vibrations(&columns);
     sheet.statement(
         [
             "4.3-never-suppressed",
@@ -56,7 +58,7 @@ pub(super) fn responses(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     sheet
         .number_within(0.2, words, "0.5", &[1.0 - with / without])
         .note("the undithered vibration lies between two lines of such a record, which lowers its largest line");
-    let found = efficiencies(&cases(&source("4.4")?)?);
+    let found = residual_vibrations(&cases(&source("4.4")?)?);
     let words = [
         "4.4-partial",
         "Figure 4.4(a), (b)",

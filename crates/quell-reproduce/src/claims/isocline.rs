@@ -5,7 +5,7 @@
 //! R → ∞; the ratio D(5 %)/(α*R) measures by how much.
 
 use quell_dynamics::response::{
-    Observables, ResponseCase, Solver, amplitude_at_efficiency, compare_many,
+    Observables, ResponseCase, Solver, amplitude_at_residual_vibration, compare_many,
 };
 use quell_dynamics::simulation::Start;
 use quell_linear::averaging::{Becomes, FastResponse};
@@ -66,9 +66,16 @@ fn ratios(direction: Direction, points: &[IsolinePoint]) -> Result<Vec<f64>, Fai
                 Direction::Normal => 0.999 * belt.normal_load(),
             };
             let range = 0.7 * amplitude..=most.min(1.15 * amplitude);
-            amplitude_at_efficiency(&belt, Start::REST, &solver, SUPPRESSED, range, CLOSENESS)
-                .map(|found| found / amplitude)
-                .ok_or_else(|| missing("no crossing of 5 %"))
+            amplitude_at_residual_vibration(
+                &belt,
+                Start::REST,
+                &solver,
+                SUPPRESSED,
+                range,
+                CLOSENESS,
+            )
+            .map(|found| found / amplitude)
+            .ok_or_else(|| missing("no crossing of 5 %"))
         })
         .collect()
 }
@@ -177,7 +184,7 @@ const CONTOURS: [ContourFigure; 4] = [
 ];
 
 /// E at pairs of D and R; v₀ = 0.05, a sine.
-fn efficiencies_at(contours: &ContourFigure, points: &[[f64; 2]]) -> Result<Vec<f64>, Failure> {
+fn residuals_at(contours: &ContourFigure, points: &[[f64; 2]]) -> Result<Vec<f64>, Failure> {
     let solver = Solver { settle: SETTLE, ..Solver::default() };
     let cases = points
         .iter()
@@ -191,7 +198,7 @@ fn efficiencies_at(contours: &ContourFigure, points: &[[f64; 2]]) -> Result<Vec<
         .into_iter()
         .map(|compared| {
             let compared = compared.map_err(|error| failed("claims", &error))?;
-            compared.efficiency().map_err(|error| failed("claims", &error))
+            compared.residual_vibration().map_err(|error| failed("claims", &error))
         })
         .collect()
 }
@@ -210,7 +217,7 @@ pub(super) fn trends(sheet: &mut ClaimSheet) -> Result<(), Failure> {
             ("amplitude", "at constant R, E decreases as D is increased", over_amplitudes),
             ("ratio", "at constant D, E decreases as R is decreased", over_ratios),
         ] {
-            let found = efficiencies_at(contours, &points)?;
+            let found = residuals_at(contours, &points)?;
             let at: Vec<String> = points.iter().map(|[d, r]| format!("({d}, {r})")).collect();
             sheet
                 .statement(
@@ -292,7 +299,8 @@ fn deviation(contours: &ContourFigure, level: f64) -> Result<f64, Failure> {
             Direction::Normal => 0.999 * belt.normal_load(),
         };
         let range = 0.1 * threshold..=most.min(1.15 * threshold);
-        let found = amplitude_at_efficiency(&belt, Start::REST, &solver, level, range, CLOSENESS);
+        let found =
+            amplitude_at_residual_vibration(&belt, Start::REST, &solver, level, range, CLOSENESS);
         points.extend(found.map(|amplitude| (ratio, amplitude)));
     }
     if points.len() < 3 {

@@ -47,7 +47,7 @@ fn table(study: &BeltStudy, done: &MeasuredResponse) -> String {
     table.known(
         "residual vibration E",
         Quantity::Ratio,
-        response.efficiency.map_err(|why| why.to_string()),
+        response.residual_vibration.map_err(|why| why.to_string()),
     );
     table.number("amplitude M", Quantity::Displacement, response.amplitude);
     table.number("undithered amplitude M₀", Quantity::Displacement, response.undithered_amplitude);

@@ -1,6 +1,6 @@
 //! Pictures of maps: one quantity over one axis, over two axes, or over two axes for each value of the others.
 //!
-//! Two axes give a map: an efficiency as labelled contour lines over light colours, a growth rate in pale blue (decay) and
+//! Two axes give a map: a residual vibration as labelled contour lines over light colours, a growth rate in pale blue (decay) and
 //! darker red (growth) with the zero contour, an outcome in flat colours, and any other number in colours with contour lines at
 //! round values. One axis gives a curve with gaps where the value is unknown. Points without a value are hatched, with the reason in
 //! the legend. Theoretical curves are drawn on top.
@@ -14,12 +14,12 @@ use crate::plot::{
     Spread, Tint,
 };
 
-/// Contour levels of an efficiency by which maps are read (per cent): quenched, halved, without effect.
-const EFFICIENCY_LEVELS: &[f64] = &[5.0, 50.0, 95.0];
+/// Contour levels of a residual vibration by which maps are read (per cent): quenched, halved, without effect.
+const RESIDUAL_LEVELS: &[f64] = &[5.0, 50.0, 95.0];
 /// Contour levels between them (per cent).
-const EFFICIENCY_BETWEEN: &[f64] = &[20.0, 80.0];
+const RESIDUAL_BETWEEN: &[f64] = &[20.0, 80.0];
 /// Widths of these contours (pixels).
-const EFFICIENCY_WIDTHS: (f64, f64) = (1.3, 0.6);
+const RESIDUAL_WIDTHS: (f64, f64) = (1.3, 0.6);
 /// Approximate number of round contour levels of a number.
 const LEVELS: usize = 7;
 /// Width of the contour of zero growth, which is wider than other contour lines (pixels).
@@ -44,7 +44,7 @@ pub struct MapAxis {
 #[derive(Debug, Clone, PartialEq)]
 pub enum MapKind {
     /// A fraction of one: contours at 5, 50 and 95 per cent, and thinner ones at 20 and 80 per cent.
-    Efficiency,
+    ResidualVibration,
     /// A rate whose sign determines stability: colours centred on zero with the given spread, and the zero contour.
     Growth(Spread),
     /// The index (0, 1, …) of an outcome in this list of words.
@@ -59,7 +59,7 @@ pub struct MappedQuantity {
     /// The axes, slowest first. The second to last is drawn from left to right and the last one upwards; each combination of
     /// the values of the other axes has its own panel. A single axis is drawn from left to right.
     pub axes: Vec<MapAxis>,
-    /// Name, symbol and unit of the quantity (no unit for an efficiency, which is drawn in per cent).
+    /// Name, symbol and unit of the quantity (no unit for a residual vibration, which is drawn in per cent).
     pub quantity: PlotAxis,
     /// Kind of its numbers.
     pub kind: MapKind,
@@ -190,13 +190,13 @@ fn plane(
     }
     let panel = Panel::new(x.axis.clone(), y.axis.clone()).with(grid);
     let panel = match &map.kind {
-        MapKind::Efficiency => {
+        MapKind::ResidualVibration => {
             let contours = |levels: &[f64], width: f64| {
                 Contours::new(field.clone(), levels.iter().copied()).unit("%").width(width)
             };
             panel
-                .with(contours(EFFICIENCY_LEVELS, EFFICIENCY_WIDTHS.0))
-                .with(contours(EFFICIENCY_BETWEEN, EFFICIENCY_WIDTHS.1))
+                .with(contours(RESIDUAL_LEVELS, RESIDUAL_WIDTHS.0))
+                .with(contours(RESIDUAL_BETWEEN, RESIDUAL_WIDTHS.1))
         }
         MapKind::Growth(_) => {
             let label = format!("zero {}", map.quantity.name);
@@ -222,11 +222,11 @@ fn plane(
 
 /// Factor by which a number is multiplied for display.
 fn shown_scale(map: &MappedQuantity) -> f64 {
-    if map.kind == MapKind::Efficiency { 100.0 } else { 1.0 }
+    if map.kind == MapKind::ResidualVibration { 100.0 } else { 1.0 }
 }
 
 fn shown_quantity(map: &MappedQuantity) -> PlotAxis {
-    if map.kind == MapKind::Efficiency {
+    if map.kind == MapKind::ResidualVibration {
         map.quantity.clone().unit("%")
     } else {
         map.quantity.clone()
@@ -241,7 +241,7 @@ fn colouring(map: &MappedQuantity) -> Colouring {
         .map(|value| (value, value))
         .reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)));
     let shading = match &map.kind {
-        MapKind::Efficiency => Shading::new(Palette::Pale).range(0.0, 100.0),
+        MapKind::ResidualVibration => Shading::new(Palette::Pale).range(0.0, 100.0),
         MapKind::Growth(spread) => {
             let shading = Shading::new(Palette::Sign).spread(*spread).signs("decay", "growth");
             range.map_or(shading.clone(), |(least, most)| shading.range(least, most))

@@ -17,14 +17,14 @@ pub(crate) fn of_system(study: &SystemStudy, done: &NoiseResponse) -> Figure {
 
 /// E of the runs against the share of runs that do not exceed it.
 fn figure(done: &NoiseResponse) -> Figure {
-    let mut each = done.efficiencies().unwrap_or_default();
+    let mut each = done.residual_vibrations().unwrap_or_default();
     each.sort_by(f64::total_cmp);
     let count = each.len().max(1) as f64;
     let mut points = vec![(0.0, 0.0)];
-    for (place, efficiency) in each.iter().enumerate() {
+    for (place, residual_vibration) in each.iter().enumerate() {
         points.extend([
-            (*efficiency, place as f64 / count),
-            (*efficiency, (place + 1) as f64 / count),
+            (*residual_vibration, place as f64 / count),
+            (*residual_vibration, (place + 1) as f64 / count),
         ]);
     }
     let vertical = PlotAxis::new("share of runs").between(0.0, 1.0);

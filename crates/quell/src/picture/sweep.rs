@@ -104,7 +104,9 @@ fn picture(done: &FinishedMap, entry: &VariableArrays, over: &[Layer]) -> Mapped
         VariableKind::DiscRate if variable.symbol.starts_with("Re") => {
             MapKind::Growth(Spread::SignedLog(1e-5))
         }
-        VariableKind::Number(_) if variable.name == "efficiency" => MapKind::Efficiency,
+        VariableKind::Number(_) if variable.name == "residual_vibration" => {
+            MapKind::ResidualVibration
+        }
         VariableKind::SystemRate if variable.symbol.starts_with("Re") => {
             MapKind::Growth(Spread::Linear)
         }
@@ -114,7 +116,7 @@ fn picture(done: &FinishedMap, entry: &VariableArrays, over: &[Layer]) -> Mapped
         | VariableKind::Number(_) => MapKind::Number(Spread::Linear),
     };
     let name = match kind {
-        MapKind::Efficiency => "residual vibration",
+        MapKind::ResidualVibration => "residual vibration",
         _ => short_name(variable.about),
     };
     MappedQuantity {

@@ -38,8 +38,8 @@ impl EffectWords<'_> {
 }
 
 /// The residual vibration in words, with its level; empty if it is undefined.
-pub(crate) fn residual_in_words(efficiency: Option<f64>, band: &str) -> String {
-    let Some(ratio) = efficiency else { return String::new() };
+pub(crate) fn residual_in_words(residual_vibration: Option<f64>, band: &str) -> String {
+    let Some(ratio) = residual_vibration else { return String::new() };
     let level = match level_of(ratio) {
         Some(level) if level < -MOST_DECIBELS => format!(" (below −{MOST_DECIBELS} dB)"),
         Some(level) => format!(" ({level:.1} dB)"),

@@ -108,12 +108,13 @@ impl MeasuredResponse {
         let response = &self.response;
         let from = start_in_words(study);
         if study.belt().dithers().iter().all(|dither| dither.amplitude == 0.0) {
-            return match &response.efficiency {
+            return match &response.residual_vibration {
                 Ok(_) => format!("Without dither, started {from}, the belt keeps vibrating."),
                 Err(why) => format!("The study has no dither. {}.", capital(&why.to_string())),
             };
         }
-        let residual = residual_in_words(response.efficiency.ok(), &format!("{BAND_END} ω₀"));
+        let residual =
+            residual_in_words(response.residual_vibration.ok(), &format!("{BAND_END} ω₀"));
         let amplitude = in_words(study, Quantity::Displacement, response.amplitude);
         let what = EffectWords {
             body: "the belt",
@@ -186,7 +187,7 @@ impl MeasuredResponse {
     /// Whether both runs have settled, as far as E requires: a run that decays to zero need not settle.
     pub fn settled(&self) -> bool {
         let response = &self.response;
-        response.settled && (response.undithered_settled || response.efficiency.is_err())
+        response.settled && (response.undithered_settled || response.residual_vibration.is_err())
     }
 
     /// Relative loss of friction, 1 − ⟨f⟩/(μ(v₀)F), compared with undithered steady sliding; negative for a gain.
@@ -218,7 +219,7 @@ impl MeasuredResponse {
 
     /// 20 lg E, in dB; `None` if E is undefined or zero.
     pub fn level(&self) -> Option<f64> {
-        self.response.efficiency.ok().and_then(level_of)
+        self.response.residual_vibration.ok().and_then(level_of)
     }
 
     /// The levels in the frequency band of the study.
@@ -312,7 +313,10 @@ impl MeasuredResponse {
         };
         warn("dithered", self.response.settled);
         // A run that decays to zero need not settle: E is then undefined, with a reason.
-        warn("undithered", self.response.undithered_settled || self.response.efficiency.is_err());
+        warn(
+            "undithered",
+            self.response.undithered_settled || self.response.residual_vibration.is_err(),
+        );
         warnings.extend(self.longer_cycle.map(|period| {
             let record = TAU * f64::from(study.solver().record_periods);
             let [period, record] =
@@ -360,14 +364,14 @@ impl MeasuredResponse {
         fields
             .known("stick_fraction", Quantity::Ratio, self.stick_fraction(study))
             .known(
-                "efficiency",
+                "residual_vibration",
                 Quantity::Ratio,
-                response.efficiency.map_err(|why| why.to_string()),
+                response.residual_vibration.map_err(|why| why.to_string()),
             )
             .known(
                 "level_db",
                 Quantity::Ratio,
-                self.level().ok_or_else(|| match response.efficiency {
+                self.level().ok_or_else(|| match response.residual_vibration {
                     Ok(_) => "E is zero, which has no level in decibels".to_owned(),
                     Err(why) => why.to_string(),
                 }),

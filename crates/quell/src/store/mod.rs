@@ -3,8 +3,8 @@
 //! ```text
 //! map.zarr/zarr.json                    group: study, sources, consolidated metadata; written last of the frame
 //!          dither_amplitude/…           coordinates, one array per axis
-//!          efficiency/c/0/1             values, chunk by chunk
-//!          efficiency_status/c/0/1      status codes of these values
+//!          residual_vibration/c/0/1             values, chunk by chunk
+//!          residual_vibration_status/c/0/1      status codes of these values
 //!          .quell/map.json              identity of the map; written first
 //!          .quell/done/0.1.json         completion record of a chunk; written after the chunk's files
 //!          .quell/unfinished/           files that are not complete yet

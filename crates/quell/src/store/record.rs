@@ -69,10 +69,13 @@ mod tests {
     #[test]
     fn a_record_reads_back_and_a_truncated_one_is_rejected() {
         let mut record = Record::default();
-        record.add("efficiency/c/0/1", Seal::of(b"987654321"));
-        record.add("efficiency_status/c/0/1", Seal::of(b""));
+        record.add("residual_vibration/c/0/1", Seal::of(b"987654321"));
+        record.add("residual_vibration_status/c/0/1", Seal::of(b""));
         // The check value of CRC-32C.
-        assert_eq!(record.seal("efficiency/c/0/1").map(|seal| seal.checksum), Some(0xe306_9283));
+        assert_eq!(
+            record.seal("residual_vibration/c/0/1").map(|seal| seal.checksum),
+            Some(0xe306_9283)
+        );
         let text = record.text();
         assert_eq!(Record::parse(&text), Some(record));
         for length in 0..text.len() - 2 {

@@ -58,7 +58,7 @@ const OF_RESPONSE: &[Status] = &[Status::Stalled, Status::NoSquealingStart];
 const OF_STICK: &[Status] = &[Status::Stalled, Status::NoSquealingStart, Status::NeverSticks];
 
 /// Statuses of E other than known.
-const OF_EFFICIENCY: &[Status] = &[
+const OF_RESIDUAL_VIBRATION: &[Status] = &[
     Status::Stalled,
     Status::NoSquealingStart,
     Status::UnditheredSettles,
@@ -137,8 +137,8 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
     belt("effect", "effect of the dither on the vibration: quenches, reduces, increases, causes, or quiet with and without it", Computation::ResponseWithEffect, &[
         variable(("effect", ""), "effect of the dither", EFFECTS, OF_EFFECT, effect),
     ]),
-    belt("efficiency", "residual vibration E = M₁/M₀ (2.27), the share that remains under dither; 0 if quenched", Computation::Response, &[
-        variable(("efficiency", "E"), "residual vibration E = M₁/M₀", RATIO, OF_EFFICIENCY, |r| steady(r)?.efficiency.map_err(Status::from)),
+    belt("residual-vibration", "residual vibration E = M₁/M₀ (2.27), the dissertation's efficiency metric: the share that remains under dither; 0 if quenched", Computation::Response, &[
+        variable(("residual_vibration", "E"), "residual vibration E = M₁/M₀", RATIO, OF_RESIDUAL_VIBRATION, |r| steady(r)?.residual_vibration.map_err(Status::from)),
     ]),
     belt("amplitude", "largest spectral amplitude M of the displacement below 1.9 ω₀", Computation::Response, &[
         variable(("amplitude", "M"), "spectral amplitude of the slow vibration", LENGTH, OF_RESPONSE, |r| Ok(steady(r)?.amplitude)),

@@ -103,7 +103,7 @@ impl Computation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ResponseNumbers {
     /// E = M₁/M₀ (2.27), dimensionless.
-    pub efficiency: Result<f64, Undefined>,
+    pub residual_vibration: Result<f64, Undefined>,
     /// M, the largest spectral amplitude with 0 < ω ≤ 1.9: a length.
     pub amplitude: f64,
     /// M of the undithered run: a length.
@@ -127,13 +127,14 @@ pub struct ResponseNumbers {
 impl From<&Compared> for ResponseNumbers {
     fn from(compared: &Compared) -> Self {
         let dithered = &compared.dithered;
-        let efficiency = compared.efficiency();
+        let residual_vibration = compared.residual_vibration();
         Self {
-            efficiency,
+            residual_vibration,
             amplitude: dithered.lines.whole,
             undithered_amplitude: compared.undithered.lines.whole,
             stick_fraction: Ok(dithered.stick_fraction),
-            settled: compared.settled() && (compared.undithered_settled() || efficiency.is_err()),
+            settled: compared.settled()
+                && (compared.undithered_settled() || residual_vibration.is_err()),
             mean_friction: dithered.mean_friction,
             dither_power: dithered.dither_power,
             dither_stroke: dithered.dither_stroke,
@@ -196,7 +197,7 @@ pub struct SystemEndPoint {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SystemResponsePoint {
     /// Residual vibration E.
-    pub efficiency: Result<f64, Undefined>,
+    pub residual_vibration: Result<f64, Undefined>,
     /// The effect of the dither.
     pub effect: Effect,
     /// Spectral amplitude of the slow vibration.
@@ -396,7 +397,7 @@ fn with_state(study: &BeltStudy, dither_cost: bool) -> Result<Responded, Status>
     let response = &found.response;
     let cost = |cost: Option<f64>| cost.filter(|_| dither_cost);
     let numbers = ResponseNumbers {
-        efficiency: response.efficiency,
+        residual_vibration: response.residual_vibration,
         amplitude: response.amplitude,
         undithered_amplitude: response.undithered_amplitude,
         stick_fraction: found.stick_fraction(study).map_err(|_| Status::NeverSticks),

@@ -127,11 +127,16 @@ mod tests {
     #[test]
     fn a_point_has_the_same_bits_beside_any_others() {
         let study = BeltStudy::parse(TEXT, &[]).expect("valid");
-        let asked: Vec<&MapQuantity> =
-            ["efficiency", "growth", "critical-amplitude", "dither-stroke", "verdict-sharper"]
-                .iter()
-                .map(|name| MapQuantity::named(name, "--quantity").expect("a quantity"))
-                .collect();
+        let asked: Vec<&MapQuantity> = [
+            "residual-vibration",
+            "growth",
+            "critical-amplitude",
+            "dither-stroke",
+            "verdict-sharper",
+        ]
+        .iter()
+        .map(|name| MapQuantity::named(name, "--quantity").expect("a quantity"))
+        .collect();
         let plan = Plan::new(&study, &asked).expect("two axes");
         assert_eq!(plan.quantities().last().map(|last| last.name), Some(SETTLED_NAME));
         let all = plan.compute_points(0..plan.grid().len());

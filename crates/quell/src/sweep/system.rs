@@ -210,7 +210,7 @@ fn steady_response(study: &SystemStudy) -> Result<SystemResponsePoint, Status> {
     let response = &found.response;
     let records = [&response.dithered, &response.undithered].map(|record| &record.whole);
     Ok(SystemResponsePoint {
-        efficiency: response.efficiency,
+        residual_vibration: response.residual_vibration,
         effect: response.effect,
         amplitude: response.dithered.lines.whole,
         undithered_amplitude: response.undithered.lines.whole,
@@ -294,7 +294,7 @@ const OF_STICK: &[Status] =
 const OF_RESPONSE: &[Status] = &[Status::Stalled, Status::OnlyMeasured];
 
 /// Statuses of E other than known.
-const OF_EFFICIENCY: &[Status] = &[
+const OF_RESIDUAL_VIBRATION: &[Status] = &[
     Status::Stalled,
     Status::UnditheredSettles,
     Status::UnditheredAtRest,
@@ -374,8 +374,8 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
     system("effect", "effect of the dither on the vibration: quenches, reduces, increases, causes, or quiet with and without it", Computation::SystemResponse, &[
         variable(("effect", ""), "effect of the dither", EFFECTS, OF_EFFECT, effect),
     ]),
-    system("efficiency", "residual vibration E = M₁/M₀, the share that remains under dither; 0 if quenched", Computation::SystemResponse, &[
-        variable(("efficiency", "E"), "residual vibration E = M₁/M₀", RATIO, OF_EFFICIENCY, |r| responded(r)?.efficiency.map_err(Status::from)),
+    system("residual-vibration", "residual vibration E = M₁/M₀, the share that remains under dither; 0 if quenched", Computation::SystemResponse, &[
+        variable(("residual_vibration", "E"), "residual vibration E = M₁/M₀", RATIO, OF_RESIDUAL_VIBRATION, |r| responded(r)?.residual_vibration.map_err(Status::from)),
     ]),
     system("amplitude", "largest spectral amplitude M of the observed displacement below the dither", Computation::SystemResponse, &[
         variable(("amplitude", "M"), "spectral amplitude of the slow vibration", LENGTH, OF_RESPONSE, |r| Ok(responded(r)?.amplitude)),

@@ -132,13 +132,13 @@ class NoiseResponse(_columns.NoiseResponseColumns, Result):
     """Largest growth rate of small slow motions, averaged over the Gaussian distribution of the noise."""
     seeds: list[int]
     """Seed of the first noise in each run."""
-    efficiency: list[float]
+    residual_vibration: list[float]
     """Residual vibration E (2.27) of each run."""
-    efficiency_least: float | None
+    residual_vibration_least: float | None
     """Least E."""
-    efficiency_median: float | None
+    residual_vibration_median: float | None
     """Median of E."""
-    efficiency_largest: float | None
+    residual_vibration_largest: float | None
     """Largest E."""
     amplitude: list[float]
     """Largest spectral amplitude of each run in the band of slow vibration: of a belt with 0 < ω ≤ 1.9 ω₀, of a system below the
@@ -179,7 +179,7 @@ class Response(_columns.ResponseColumns, Result):
     """Largest spectral amplitude with 0 < ω ≤ 1.9 ω₀: a length."""
     undithered_amplitude: float
     """The same without dither."""
-    efficiency: float | None
+    residual_vibration: float | None
     """Residual vibration E = amplitude / undithered amplitude (2.27)."""
     level_db: float | None
     """20 lg E, in dB."""
@@ -240,7 +240,7 @@ class Response(_columns.ResponseColumns, Result):
     near_tangential_releases: int
     """System: number of releases that barely crossed the stiction threshold."""
     band_end: float
-    """System: upper end of the band of ``amplitude`` and ``efficiency``, an angular frequency below the lowest dither."""
+    """System: upper end of the band of ``amplitude`` and ``residual_vibration``, an angular frequency below the lowest dither."""
     contacts: list[dict[str, Any]]
     """System: ``name``, ``stick_fraction``, ``open_fraction``, ``mean_friction``, ``mean_normal``, ``friction_power`` and
     ``friction_loss`` of every contact."""

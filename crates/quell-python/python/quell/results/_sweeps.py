@@ -229,7 +229,7 @@ class Map(_columns.MapColumns, Result, Mapping[str, Any]):
     __hash__ = None  # type: ignore[assignment]
 
     def words(self, name: str) -> npt.NDArray[np.str_]:
-        """The words of a variable with coded values, such as "verdict" or "efficiency_status"."""
+        """The words of a variable with coded values, such as "verdict" or "residual_vibration_status"."""
         return self.arrays[name].words()
 
 

@@ -44,7 +44,7 @@ pub fn of_belt(study: &BeltStudy, seeds: Option<usize>) -> Result<NoiseResponse,
         let first = case.belt.dithers().iter().find_map(|dither| dither.waveform.noise());
         NoisyRun {
             seed: first.map_or(0, Noise::seed),
-            efficiency: run.efficiency().map_err(|why| why.to_string()),
+            residual_vibration: run.residual_vibration().map_err(|why| why.to_string()),
             amplitude: run.dithered.lines.whole,
             settled: run.settled(),
             contacts: vec![NoisyContact {

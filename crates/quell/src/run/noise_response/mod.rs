@@ -50,7 +50,7 @@ pub struct NoisyRun {
     /// The seed of its first noise.
     pub seed: u64,
     /// E, or why it is undefined.
-    pub efficiency: Result<f64, String>,
+    pub residual_vibration: Result<f64, String>,
     /// M, the largest spectral amplitude in the band of slow vibration.
     pub amplitude: f64,
     /// Whether M of the halves of the record agree.
@@ -128,8 +128,8 @@ impl NoiseResponse {
     ///
     /// # Errors
     /// Why E is undefined.
-    pub fn efficiencies(&self) -> Result<Vec<f64>, String> {
-        self.runs.iter().map(|run| run.efficiency.clone()).collect()
+    pub fn residual_vibrations(&self) -> Result<Vec<f64>, String> {
+        self.runs.iter().map(|run| run.residual_vibration.clone()).collect()
     }
 
     /// The share of quiet runs.
@@ -137,8 +137,11 @@ impl NoiseResponse {
     /// # Errors
     /// Why E is undefined.
     pub fn quiet(&self) -> Result<Share, String> {
-        let inside: Vec<bool> =
-            self.efficiencies()?.iter().map(|efficiency| *efficiency < QUIET).collect();
+        let inside: Vec<bool> = self
+            .residual_vibrations()?
+            .iter()
+            .map(|residual_vibration| *residual_vibration < QUIET)
+            .collect();
         Ok(Share::of(StartLayout::Sample { count: self.runs.len(), seed: 0 }, &inside))
     }
 
@@ -160,7 +163,7 @@ impl NoiseResponse {
     pub fn sentence(&self, in_words: impl Fn(Quantity, f64) -> String) -> String {
         let count = self.runs.len();
         let runs = format!("{count} run{} with different seeds", plural(count));
-        let result = match (&self.quiet(), &self.efficiencies()) {
+        let result = match (&self.quiet(), &self.residual_vibrations()) {
             (Ok(share), Ok(each)) => {
                 let [least, median, largest] = spread(each)
                     .unwrap_or([0.0; 3])
@@ -188,9 +191,11 @@ impl NoiseResponse {
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = self.warnings.clone();
         let unsettled = self.runs.iter().filter(|run| !run.settled).count();
-        let near = self.efficiencies().map_or(0, |each| {
+        let near = self.residual_vibrations().map_or(0, |each| {
             each.iter()
-                .filter(|efficiency| (0.5 * QUIET..2.0 * QUIET).contains(*efficiency))
+                .filter(|residual_vibration| {
+                    (0.5 * QUIET..2.0 * QUIET).contains(*residual_vibration)
+                })
                 .count()
         });
         if near > 0 {
@@ -220,19 +225,19 @@ impl NoiseResponse {
             .plain("interval", "Wilson, 95 %")
             .rate("averaged_growth_rate", self.averaged.clone())
             .plain("seeds", self.seeds());
-        let each = self.efficiencies();
+        let each = self.residual_vibrations();
         match &each {
-            Ok(each) => fields.numbers("efficiency", Quantity::Ratio, each),
-            Err(why) => fields.unknown("efficiency", why.as_str()),
+            Ok(each) => fields.numbers("residual_vibration", Quantity::Ratio, each),
+            Err(why) => fields.unknown("residual_vibration", why.as_str()),
         };
         let of = |place: usize| {
             let spread = each.as_ref().map_err(Clone::clone).map(|each| spread(each));
             spread.and_then(|found| found.map(|all| all[place]).ok_or_else(|| "no run".to_owned()))
         };
         fields
-            .known("efficiency_least", Quantity::Ratio, of(0))
-            .known("efficiency_median", Quantity::Ratio, of(1))
-            .known("efficiency_largest", Quantity::Ratio, of(2))
+            .known("residual_vibration_least", Quantity::Ratio, of(0))
+            .known("residual_vibration_median", Quantity::Ratio, of(1))
+            .known("residual_vibration_largest", Quantity::Ratio, of(2))
             .numbers("amplitude", Quantity::Displacement, &self.column(|run| run.amplitude))
             .number("undithered_amplitude", Quantity::Displacement, self.undithered_amplitude)
             .number("settle", Quantity::Time, self.settle)
@@ -298,11 +303,12 @@ impl NoiseResponse {
     /// Adds the runs to a dataset; contacts have their names where there are several.
     pub(crate) fn columns(&self, dataset: Dataset) -> Dataset {
         let seeds = self.runs.iter().map(|run| run.seed as f64).collect();
-        let efficiency = self.column(|run| *run.efficiency.as_ref().unwrap_or(&f64::NAN));
+        let residual_vibration =
+            self.column(|run| *run.residual_vibration.as_ref().unwrap_or(&f64::NAN));
         let mut dataset = dataset
             .fact(format!("start: {}", self.start))
             .with_axis(Array::new("seed", "1", seeds))
-            .array("efficiency", Quantity::Ratio, efficiency)
+            .array("residual_vibration", Quantity::Ratio, residual_vibration)
             .array("amplitude", Quantity::Displacement, self.column(|run| run.amplitude));
         for (contact, name) in self.contacts.iter().enumerate() {
             let of = match self.contacts.len() {
@@ -329,7 +335,7 @@ impl NoiseResponse {
             Err(why) => row("runs without stick–slip", format!("unknown: {why}")),
         }
         if let Some([least, median, largest]) =
-            self.efficiencies().ok().and_then(|each| spread(&each))
+            self.residual_vibrations().ok().and_then(|each| spread(&each))
         {
             row("residual vibration E, median", digits(median));
             row("  least", digits(least));

@@ -69,7 +69,7 @@ fn run_of(system: &System, response: &SystemResponse) -> (NoisyRun, Vec<f64>) {
     });
     let run = NoisyRun {
         seed,
-        efficiency: response.efficiency.map_err(undefined),
+        residual_vibration: response.residual_vibration.map_err(undefined),
         amplitude: record.lines.whole,
         settled: response.vibrations.dithered.is_settled(response.vibrations.undithered.whole()),
         contacts: contacts.collect(),

@@ -131,7 +131,7 @@ impl SettledSystem {
     fn undithered_settled(&self) -> bool {
         self.response.vibrations.undithered.is_steady()
             && self.response.undithered.ending != SystemEnding::Drift
-            || self.response.efficiency == Err(Undefined::UnditheredSettles)
+            || self.response.residual_vibration == Err(Undefined::UnditheredSettles)
     }
 
     /// The effect of the dither and its cost.
@@ -140,7 +140,7 @@ impl SettledSystem {
         let (units, from) = (study.units(), start_in_words(study, &Vec::new()));
         let amplitude = in_units(units, Quantity::Displacement, response.dithered.lines.whole);
         if !self.has_dither() {
-            return match response.efficiency {
+            return match response.residual_vibration {
                 Ok(_) => format!(
                     "Started {from}, without dither, the system keeps vibrating with an amplitude of {amplitude}."
                 ),
@@ -159,7 +159,7 @@ impl SettledSystem {
                 body: "the system",
                 band: &band,
                 amplitude: &amplitude,
-                residual: &residual_in_words(response.efficiency.ok(), &band),
+                residual: &residual_in_words(response.residual_vibration.ok(), &band),
             }
             .sentence(effect),
         };
@@ -262,13 +262,13 @@ impl SettledSystem {
             Effect::Unknown(why) => fields.plain("effect", "unknown").why("effect", uncertain(why)),
             effect => fields.plain("effect", effect.name()),
         };
-        let efficiency = response.efficiency.map_err(undefined);
-        let level = efficiency.clone().and_then(|ratio| {
+        let residual_vibration = response.residual_vibration.map_err(undefined);
+        let level = residual_vibration.clone().and_then(|ratio| {
             level_of(ratio).ok_or_else(|| "E is zero, which has no level in decibels".to_owned())
         });
         let (with, without) = (&response.dithered, &response.undithered);
         put_record(&mut fields, "", with);
-        fields.known("efficiency", Quantity::Ratio, efficiency).known(
+        fields.known("residual_vibration", Quantity::Ratio, residual_vibration).known(
             "level_db",
             Quantity::Ratio,
             level,

@@ -66,7 +66,7 @@ fn read_at_most(file: File, most: u64, name: &str) -> io::Result<Vec<u8>> {
 }
 
 impl Folder {
-    /// The folder and the last name of a key such as `efficiency/c/0/1`; missing folders are created.
+    /// The folder and the last name of a key such as `residual_vibration/c/0/1`; missing folders are created.
     pub(super) fn made_for<'k>(&self, key: &'k str) -> io::Result<(Self, &'k str)> {
         self.reached(key, Self::made)
     }

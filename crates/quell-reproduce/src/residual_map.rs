@@ -76,7 +76,7 @@ fn figure(source: &EntrySource, cases: &[MapPanel], columns: usize) -> Result<Pr
             ("belt_velocity", "length (velocity/ω0)"),
             ("frequency_ratio", "1"),
             ("amplitude", "length (force/k)"),
-            ("efficiency", "1"),
+            ("residual_vibration", "1"),
             ("status", "1"),
         ],
     );
@@ -92,7 +92,7 @@ fn figure(source: &EntrySource, cases: &[MapPanel], columns: usize) -> Result<Pr
     let (mut panels, mut studies) = (Vec::new(), Vec::new());
     for (index, case) in cases.iter().enumerate() {
         let study = study_of(source, &first, case)?;
-        let done = efficiency(source, &study)?;
+        let done = residual_vibration(source, &study)?;
         let name = letter(index).to_string();
         record(&mut data, &name, case, &done);
         let lines = boundary(&done, &name, &mut edges);
@@ -152,8 +152,8 @@ fn study_of(
 }
 
 /// E over the study's axes.
-fn efficiency(source: &EntrySource, study: &BeltStudy) -> Result<FinishedMap, Failure> {
-    let quantity = MapQuantity::named("efficiency", "reproduce")?;
+fn residual_vibration(source: &EntrySource, study: &BeltStudy) -> Result<FinishedMap, Failure> {
+    let quantity = MapQuantity::named("residual-vibration", "reproduce")?;
     let plan = Plan::new(study, &[quantity])?;
     let axes: Vec<&str> = plan.grid().axes().iter().map(|axis| axis.path.as_str()).collect();
     if axes != ["dither.frequency_ratio", "dither.amplitude"] {
@@ -240,7 +240,7 @@ fn panel(
             })
             .collect(),
         quantity: PlotAxis::new("residual vibration").symbol("E"),
-        kind: MapKind::Efficiency,
+        kind: MapKind::ResidualVibration,
         values: (0..grid.len()).map(value).collect(),
         reasons: unknown.iter().map(|status| status.about().to_owned()).collect(),
         zero: None,
