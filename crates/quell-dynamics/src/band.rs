@@ -1,5 +1,20 @@
 //! The band of slow vibration, which contains the self-excited vibration and over which E is measured.
 
+use quell_linear::linearised::Linearised;
+use quell_linear::spectrum::{SmallMotion, spectrum};
+use quell_model::System;
+
 /// Upper end of the band, in ω₀ (2.27). Self-excited vibration is at about the natural frequency, 1, and the band ends below
 /// its second harmonic. Lower, vibration would be missed; higher, a slow dither's own response would count as slow vibration.
 pub const BAND_END: f64 = 1.9;
+
+/// Angular frequency of the vibration of a system about steady sliding without dither: of the small motions that oscillate, that which
+/// grows fastest or decays slowest; without steady sliding, of the structure without its contacts. `None` where nothing oscillates.
+pub fn vibration_frequency(system: &System) -> Option<f64> {
+    let free = system.undithered();
+    let bare = || Linearised::new(&System { contacts: Vec::new(), ..free.clone() });
+    let linear = Linearised::new(&free).or_else(|_| bare()).ok()?;
+    let found = spectrum(&linear, &linear.friction()).ok()?;
+    // The fastest growing one is the first.
+    found.motions.iter().map(SmallMotion::frequency).find(|frequency| *frequency > 0.0)
+}

@@ -8,7 +8,9 @@ use quell_dynamics::motion::{
 };
 use quell_dynamics::simulation::EventKind;
 use quell_model::profile::{KnotShape, Knots, Profile};
+use quell_model::system::{MassMatrix, Mechanical};
 use quell_model::{Belt, Direction, Dither, LawKind, Parametrisation, System, Waveform};
+use quell_numerics::matrix::Matrix;
 
 fn dithered(direction: Direction, amplitude: f64, frequency_ratio: f64, phase: f64) -> Dither {
     Dither {
@@ -135,6 +137,32 @@ fn a_run_continues_from_the_state_of_its_contacts() {
         let sticks = phases.contains(&ContactPhase::Stick);
         assert_eq!(sticks, law != LawKind::Lugre, "{law:?}: {phases:?}");
         assert!(phases.iter().any(|phase| matches!(phase, ContactPhase::Slip(_))));
+    }
+}
+
+/// A run that is cut where the load jumps, up or down, goes on as the run without a break: T does not jump up, and a slider that slides
+/// goes on to slide under a smaller load, also if its static level there is above T.
+#[test]
+fn a_run_continues_from_a_jump_of_its_load() {
+    for law in [[0.3, 0.3, 0.0], [0.3, 0.4, 0.0]] {
+        for amplitude in [0.1, 0.4] {
+            let normal = Dither {
+                waveform: Waveform::Square,
+                ..dithered(Direction::Normal, amplitude, 5.0, 0.0)
+            };
+            let system = slider((0.02, 0.1), LawKind::Coulomb, &law, Some(15.0), vec![normal]);
+            let motion = Motion::new(&system).expect("a motion");
+            let whole = run(&system, [0.1, -0.2], 9.0).0;
+            for jump in 1..14 {
+                let cut = run(&system, [0.1, -0.2], f64::from(jump) * PI / 5.0).0;
+                let end = motion.run(&cut.restart(), 9.0, MOTION_TOLERANCE, &mut ());
+                let end = end.expect("an end");
+                for (found, expected) in end.state.iter().zip(&whole.state) {
+                    let off = (found - expected).abs();
+                    assert!(off < 1e-9, "{law:?} {amplitude} {jump}: {found} {expected}");
+                }
+            }
+        }
     }
 }
 
@@ -266,6 +294,52 @@ fn stiff_bristles_have_the_mean_friction_of_a_rigid_contact() {
         (off[0] / off[1] - 10.0).abs() < 0.1 && (off[1] / off[2] - 10.0).abs() < 0.1,
         "{off:?}"
     );
+}
+
+/// At a slip of 100 the bristles are 10⁷ times as fast as the dither. They are at their level g sgn γ but for its changes: the mean is that
+/// of g + σ₂γ, and the part by which they lag behind it is a 10⁻⁷ of it.
+#[test]
+fn the_mean_of_stiff_bristles_in_fast_slip_ends() {
+    for (stiffness, velocity) in [(1e3, 100.0), (1e5, 100.0), (1e7, 1.0), (1e9, 1e4)] {
+        let law = LawKind::Lugre.build(&[0.3, 0.4, 0.05, stiffness, 2.0, 0.02]).expect("a law");
+        let dither = dithered(Direction::Tangential, 5.0, 10.0, 0.3);
+        let belt = Belt::new(0.01, 1.0, 0.1, law, vec![dither]).expect("a belt");
+        let found = mean_friction(&belt, velocity).expect("a mean");
+        let expected = 0.3 + 0.02 * velocity;
+        let off = (found.coefficient - expected).abs();
+        assert!(off < 1e-9 * expected, "{stiffness} {velocity}: {off:e}");
+        assert!((found.slope - 0.02).abs() < 1e-8, "{}", found.slope);
+    }
+}
+
+/// An open contact has no state: bristles and sliders land with zero, regardless of what they carried when they opened.
+#[test]
+fn contacts_land_without_deflection() {
+    for (law, values, stiffness) in [
+        (LawKind::Lugre, vec![0.3, 0.4, 0.05, 100.0, 2.0, 0.02], None),
+        (LawKind::Coulomb, vec![0.3, 0.3, 0.0], Some(20.0)),
+    ] {
+        let mut system = slider((0.01, 0.1), law, &values, stiffness, Vec::new());
+        let rows = Matrix::identity(2);
+        let names = vec!["x".to_owned(), "y".to_owned()];
+        let mass = MassMatrix::dense(rows.clone());
+        system.structure = Mechanical::new(names, mass, Matrix::zeros(2, 2), rows).into();
+        let contact = &mut system.contacts[0];
+        contact.tangent = Some(vec![1.0, 0.0]);
+        contact.normal = Some(vec![0.0, 1.0]);
+        contact.normal_stiffness = 2.0;
+        let motion = Motion::new(&system).expect("a motion");
+        let state = motion.relaxed(&[0.0, 1.5, 0.0, 0.0]);
+        let mut events = MotionRecorder::default();
+        let start = MotionStart { time: 0.0, state };
+        motion.run(&start, 30.0, MOTION_TOLERANCE, &mut events).expect("an end");
+        let carried = |kind| {
+            let of_kind = events.events.iter().filter(move |event| event.kind == kind);
+            of_kind.map(|event| event.state[4]).collect::<Vec<f64>>()
+        };
+        let landings = carried(EventKind::Landing);
+        assert!(landings.len() > 3 && landings.iter().all(|own| *own == 0.0), "{landings:?}");
+    }
 }
 
 /// A soft slider that slips slowly is released once in several periods of the dither: its mean is that of all of them, as plain steps of

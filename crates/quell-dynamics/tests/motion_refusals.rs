@@ -137,3 +137,31 @@ fn fast_accumulation_is_one_moment_and_the_run_goes_on_in_stick() {
     let slips = motion.run(&start, before, MOTION_TOLERANCE, &mut ()).expect("slips");
     assert!(slips.contacts.iter().any(|contact| contact.phase != ContactPhase::Stick));
 }
+
+/// The limits on the steps of belts are those of systems: damping makes a step short, but no period.
+#[test]
+fn runs_that_would_not_end_are_stopped() {
+    let push = Input {
+        target: InputTarget::Force(vec![1.0]),
+        profile: Profile::constant(0.0).with(Wave {
+            waveform: Waveform::Sine,
+            amplitude: 1.5,
+            frequency: 0.9,
+            phase: 0.0,
+            envelope: None,
+        }),
+    };
+    let one = |value: f64| Matrix::from_fn(1, 1, |_, _| value);
+    for (damping, until, why) in
+        [(3e7, 100.0, "hundred thousand steps"), (0.02, 1e12, "as much work")]
+    {
+        let mut system = mass(vec![contact("rub", Some(vec![1.0]))], vec![push.clone()]);
+        let names = vec!["x".to_owned()];
+        system.structure =
+            Mechanical::new(names, MassMatrix::identity(1), one(damping), one(1.0)).into();
+        let motion = Motion::new(&system).expect("a motion");
+        let start = MotionStart { time: 0.0, state: vec![0.0, 0.0] };
+        let stopped = motion.run(&start, until, MOTION_TOLERANCE, &mut ()).expect_err("stopped");
+        assert!(stopped.to_string().contains(why), "{stopped}");
+    }
+}

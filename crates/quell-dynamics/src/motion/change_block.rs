@@ -91,7 +91,7 @@ pub(super) fn times(matrix: &StateMatrix, change: &[ColumnBlock], out: &mut [Col
                 add(out, -damping[i], &velocities[i]);
             }
         }
-        StateMatrix::Small(columns) => {
+        StateMatrix::Small(columns) | StateMatrix::Dense(columns) => {
             out.fill(ZERO);
             for (column, entry) in columns.chunks(change.len()).zip(change) {
                 for (out, value) in out.iter_mut().zip(column) {

@@ -83,7 +83,7 @@ impl<'a> MotionRun<'a> {
         let clock = Clock::at(start.time);
         let forcings = Forcings::of(system, clock);
         let waves = forcings.highest_rate();
-        let fastest = equations.rate.max(waves);
+        let fastest = equations.rates.of_all.max(waves);
         let mut series = StepSeries::new(equations, &forcings, clock);
         series.set_start(&start.state);
         Self {
@@ -98,7 +98,8 @@ impl<'a> MotionRun<'a> {
             tolerance,
             longest: if waves > 0.0 { 0.5 * ORDER as f64 / waves } else { f64::INFINITY },
             time_scale: 1.0 / fastest,
-            budget: StepBudget::new(start.time, until, fastest),
+            budget: StepBudget::new(start.time, until, equations.rates.of_oscillations.max(waves))
+                .of_work(equations.matrix.work()),
             idle: 0,
             next_break: forcings.next_break(),
             last_break: f64::NEG_INFINITY,
@@ -373,6 +374,7 @@ impl<'a> MotionRun<'a> {
         let _ = self.budget.spend(self.steps);
         self.refresh()?;
         self.expand(self.longest, self.time_scale);
+        self.keep_carried();
         let bristle = |contact: usize| {
             let own = self.equations.contacts[contact].own?;
             own.is_bristle().then(|| self.series.start()[own.place])

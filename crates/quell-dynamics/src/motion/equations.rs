@@ -14,49 +14,13 @@ use quell_model::profile::Profile;
 use quell_model::system::{Contact, InputTarget, Mechanical, Structure};
 use quell_numerics::matrix::Matrix;
 
-use super::own_state::{OwnState, OwnStateKind};
+use super::contact_equation::ContactEquation;
+use super::own_state::OwnState;
+use super::rates::{self, FastestRates};
 use super::rows::{RowEntries, StateMatrix, StateRow};
 use super::speed_terms::SpeedMatrices;
 use super::stopped::Immobile;
 use crate::simulation::{Clock, Forcing};
-
-/// A contact as the engine needs it, with rows of type `R` and numbers of type `V`.
-#[derive(Clone, Debug)]
-pub(super) struct ContactEquation<R = RowEntries, V = f64> {
-    /// Row t of the slip velocity γ = v − tᵀx.
-    pub(super) tangent: R,
-    /// Row r of the load: k nᵀ over displacements and d nᵀ over velocities.
-    pub(super) approach: R,
-    /// Row s of the tilt.
-    pub(super) slope: R,
-    /// Columns g and h.
-    pub(super) along: R,
-    pub(super) across: R,
-    /// N₀.
-    pub(super) normal_load: V,
-    /// Velocity that scales slip for the law.
-    pub(super) scale: V,
-    pub(super) inverse_scale: V,
-    /// μ_s and μ(0⁺).
-    pub(super) static_coefficient: V,
-    pub(super) sliding_coefficient: V,
-    /// Its own number of the state: none in lanes.
-    pub(super) own: Option<OwnState>,
-}
-
-impl<R: StateRow, V> ContactEquation<R, V> {
-    /// Whether the load depends on the motion, so that the contact can open.
-    #[inline(always)]
-    pub(super) fn is_compliant(&self) -> bool {
-        !self.approach.is_empty()
-    }
-
-    /// Whether the contact has a tangent, so that it can stick.
-    #[inline(always)]
-    pub(super) fn can_stick(&self) -> bool {
-        !self.tangent.is_empty()
-    }
-}
 
 impl ContactEquation {
     /// Whether the load is that of the study at any time, given its forcing, and acts on friction alone.
@@ -81,8 +45,8 @@ pub(super) struct MotionEquations {
     /// What a speed over time adds to the matrix.
     pub(super) by_speed: Option<SpeedMatrices>,
     pub(super) contacts: Vec<ContactEquation>,
-    /// Estimate of the fastest rate of the closed structure.
-    pub(super) rate: f64,
+    /// Of the structure closed by its contacts.
+    pub(super) rates: FastestRates,
     /// t_cᵀg_d and t_cᵀh_d.
     pub(super) coupling: Matrix,
     pub(super) follower: Matrix,
@@ -241,12 +205,12 @@ impl MotionEquations {
         let coupling = product(|contact| &contact.along);
         let follower = product(|contact| &contact.across);
         let by_speed = system.structure.mechanical().and_then(SpeedMatrices::of).transpose()?;
-        let closed = adhering(&matrix, &contacts);
+        let closed = rates::adhering(&matrix, &contacts);
         let closed = match &by_speed {
             Some(given) => given.largest(&closed),
             None => closed,
         };
-        let rate = fastest_rate(&closed, &contacts);
+        let rates = FastestRates::of(&system.structure, closed, &contacts);
         let follows = contacts.iter().any(|contact| !contact.slope.is_empty());
         let matrix = StateMatrix::of(&matrix);
         Ok(Self {
@@ -257,7 +221,7 @@ impl MotionEquations {
             pushes,
             by_speed,
             contacts,
-            rate,
+            rates,
             coupling,
             follower,
             follows,
@@ -277,30 +241,6 @@ fn places_of_states(
         size += usize::from(equation.own.is_some());
     }
     size
-}
-
-/// The state matrix with elastic sliders that adhere and bristles near rest, for an estimate of its fastest rate.
-fn adhering(matrix: &Matrix, contacts: &[ContactEquation]) -> Matrix {
-    let (size, mut closed) = (matrix.rows(), matrix.clone());
-    for contact in contacts {
-        let Some(own) = contact.own else { continue };
-        let (along, tangent) = (contact.along.dense(size), contact.tangent.dense(size));
-        // T = s x_own + d γ, and the rate of x_own is r γ.
-        let (share, damping, rate) = match own.kind {
-            OwnStateKind::Elastic { stiffness } => (1.0, 0.0, stiffness),
-            OwnStateKind::Bristles { stiffness, damping, viscous } => {
-                (contact.normal_load * stiffness, contact.normal_load * (damping + viscous), 1.0)
-            }
-        };
-        for i in 0..size {
-            closed[(i, own.place)] += along[i] * share;
-            closed[(own.place, i)] -= rate * tangent[i];
-            for j in 0..size {
-                closed[(i, j)] -= along[i] * damping * tangent[j];
-            }
-        }
-    }
-    closed
 }
 
 /// A square matrix with rows and columns of zeros up to `size`.
@@ -363,36 +303,4 @@ fn state_matrix(structure: &Structure) -> Result<Matrix, Immobile> {
         (false, true) => -stiffness[(i - n, j)],
         (false, false) => -damping[(i - n, j - n)],
     }))
-}
-
-/// ‖A⁴‖^(1/4) of the structure with the springs of its contacts: an estimate of its fastest rate, which scales time alone.
-fn fastest_rate(matrix: &Matrix, contacts: &[ContactEquation]) -> f64 {
-    let size = matrix.rows();
-    let mut closed = matrix.clone();
-    for contact in contacts {
-        let (across, approach) = (contact.across.dense(size), contact.approach.dense(size));
-        for i in 0..size {
-            for j in 0..size {
-                closed[(i, j)] -= across[i] * approach[j];
-            }
-        }
-    }
-    // Applied to a vector of ones with the signs of no cancellation: |A| instead of A.
-    let mut vector = vec![1.0; size];
-    let (mut sum, mut count) = (0.0, 0);
-    for pass in 0..8 {
-        let next: Vec<f64> = (0..size)
-            .map(|i| closed.row(i).iter().zip(&vector).map(|(a, x)| (a * x).abs()).sum())
-            .collect();
-        let largest = next.iter().fold(0.0, |m: f64, x| m.max(*x));
-        if largest == 0.0 || !largest.is_finite() {
-            break;
-        }
-        if pass >= 4 {
-            sum += libm::log(largest);
-            count += 1;
-        }
-        vector = next.iter().map(|x| x / largest).collect();
-    }
-    if count == 0 { 1.0 } else { libm::exp(sum / f64::from(count)) }
 }

@@ -4,9 +4,10 @@ use quell_numerics::lane::{Lane, horner, partial_product};
 use quell_numerics::polynomial::side_by_side::proof_of_no_root;
 use quell_numerics::polynomial::{derivative, first_crossing_after, value};
 
+use super::contact_equation::ContactEquation;
 use super::contact_masks::ContactMasks;
 use super::contact_series::{ContactSeries, SeriesOf};
-use super::equations::{ContactEquation, MotionEquations};
+use super::equations::MotionEquations;
 use super::observer::Trigger;
 use super::own_friction::own_speed;
 use super::own_state::{OwnState, OwnStateKind};
@@ -155,10 +156,8 @@ impl<'a> Guards<'a> {
                 };
                 own_speed(series, stiffness, margin);
                 let sign = f64::from(direction);
-                let carried = series.own.as_ref().map_or(0.0, |own| own.carried);
-                let rise = sign * (series.friction[0] - carried);
                 let mut zeros = elastic.speed_zeros;
-                if !elastic.is_released && rise > JUMPED_UP * series.friction[0].abs() {
+                if carried_through_jump(&self.now[contact], series).is_some() {
                     // Its load has jumped: T cannot follow, and it adheres at once.
                     (margin[0], zeros) = (-sign, 0);
                 }
@@ -241,28 +240,44 @@ fn beyond_static_bound<'m>(
     series: &ContactSeries,
     margin: &'m mut Series,
 ) -> Guard<'m> {
-    let (side, branch) = (f64::from(elastic.beyond), f64::from(elastic.branch));
     if place == 1 {
-        for (k, margin) in margin.iter_mut().enumerate() {
-            let level = branch * partial_product(&series.coefficient, &series.pressed, k, 0, k);
-            *margin = f64::mul_add(-side, series.friction[k], level);
-        }
+        *margin = level_margin(elastic, series);
         let mut zeros = elastic.margin_zeros[0];
-        if branch * series.slip[0] < 0.0 {
+        if f64::from(elastic.branch) * series.slip[0] < 0.0 {
             // The surface has reversed at once: the law goes on along its other branch.
             (margin[0], zeros) = (-1.0, 0);
         }
         let what = Trigger::Margin(contact, elastic.beyond);
         return Guard { what, series: margin, sign: 1.0, zeros };
     }
-    *margin = margin_above(equation.static_coefficient, side, series);
+    *margin = margin_above(equation.static_coefficient, f64::from(elastic.beyond), series);
     let what = Trigger::Margin(contact, -elastic.beyond);
     Guard { what, series: margin, sign: -1.0, zeros: elastic.margin_zeros[1] }
 }
 
+/// T that an elastic slider carries through a jump of its load, which has raised its sliding level; `None` where it slides on.
+pub(super) fn carried_through_jump(now: &ContactNow, series: &ContactSeries) -> Option<f64> {
+    let (OwnNow::Elastic(elastic), ContactPhase::Slip(direction)) = (now.own, now.phase) else {
+        return None;
+    };
+    let carried = series.own.as_ref().map_or(0.0, |own| own.carried);
+    let rise = f64::from(direction) * (series.friction[0] - carried);
+    let has_jumped = !elastic.is_released && rise > JUMPED_UP * series.friction[0].abs();
+    has_jumped.then_some(carried)
+}
+
+/// The margin μ(|γ|)N ∓ T of an elastic slider that adheres beyond its static bound.
+pub(super) fn level_margin(elastic: ElasticNow, series: &ContactSeries) -> Series {
+    let (side, branch) = (f64::from(elastic.beyond), f64::from(elastic.branch));
+    std::array::from_fn(|k| {
+        let level = branch * partial_product(&series.coefficient, &series.pressed, k, 0, k);
+        f64::mul_add(-side, series.friction[k], level)
+    })
+}
+
 /// The margin μ_s N ∓ T of a sticking contact on one side.
 #[inline(always)]
-fn margin_above<V: Lane>(level: V, side: V, series: &ContactSeries<V>) -> SeriesOf<V> {
+pub(super) fn margin_above<V: Lane>(level: V, side: V, series: &ContactSeries<V>) -> SeriesOf<V> {
     let mut margin = [V::splat(0.0); ORDER + 1];
     let sides = series.pressed.iter().zip(&series.friction);
     for (margin, (pressed, force)) in margin.iter_mut().zip(sides) {

@@ -13,10 +13,11 @@
 //!
 //! | file | contents |
 //! |---|---|
-//! | `equations`, `rows` | a system as the engine needs it |
+//! | `equations`, `contact_equation`, `rows`, `rates` | a system as the engine needs it |
 //! | `variation`, `change_series` | small changes of the initial state |
 //! | `series`, `contact_series`, `step_recurrence`, `expansion`, `stuck` | the Taylor series of a step |
 //! | `own_state`, `own_friction`, `own_events` | contacts with a state of their own: elastic sliders and bristles |
+//! | `departure` | how a number that is zero leaves zero |
 //! | `contact_masks` | what each contact does during a step, in every lane |
 //! | `change_block`, `law_along_slip` | several changes side by side, and the slope of a law along a slip |
 //! | `guards`, `selection` | what ends a step, and what follows |
@@ -29,9 +30,11 @@
 
 mod change_block;
 mod change_series;
+mod contact_equation;
 mod contact_masks;
 mod contact_meter;
 mod contact_series;
+mod departure;
 mod engine;
 mod equations;
 mod expansion;
@@ -47,6 +50,7 @@ mod own_events;
 mod own_friction;
 mod own_state;
 mod phase;
+mod rates;
 mod reading_sampler;
 mod row_meter;
 mod rows;
@@ -166,7 +170,7 @@ impl<'s> Motion<'s> {
 
     /// Time scale of the system: the reciprocal of its fastest rate.
     pub fn time_scale(&self) -> f64 {
-        1.0 / self.equations.rate
+        1.0 / self.equations.rates.of_all
     }
 
     /// Integrates from `start` to t = `until` and passes every segment and event to `observer`.

@@ -5,14 +5,15 @@
 
 use quell_model::Friction;
 use quell_model::friction::SlidingLaw;
-use quell_numerics::lane::partial_product;
 
+use super::departure::Departure;
 use super::engine::{MotionProgress, MotionRun};
+use super::guards::{carried_through_jump, level_margin, margin_above};
 use super::own_friction::own_speed;
 use super::own_state::{OwnState, OwnStateKind};
 use super::phase::{ContactNow, ContactPhase, ElasticNow, OwnNow};
 use super::stopped::MotionStopped;
-use crate::simulation::ORDER;
+use crate::simulation::{ORDER, Series};
 
 /// Forces within this share of a level are at it: they are ends of steps, accurate to their tolerance.
 const AT_LEVEL: f64 = 1e-11;
@@ -20,12 +21,6 @@ const AT_LEVEL: f64 = 1e-11;
 /// Forces within this share of the sliding level are near it: a guess of a periodic motion that slides misses the level by the square of
 /// its error.
 const NEAR_LEVEL: f64 = 1e-2;
-
-/// Rates below this share of their terms are zero to rounding.
-const ZERO_RATE: f64 = 1e-9;
-
-/// Terms of a slip velocity below this share of the largest are rounding where a run begins.
-const NO_TERM: f64 = 1e-12;
 
 impl MotionRun<'_> {
     /// The state of a contact, and its number; `None` of a rigid one.
@@ -96,10 +91,13 @@ impl MotionRun<'_> {
             self.set_elastic(contact, ContactPhase::Slip(direction), slip, |_| {});
         } else if is_at(level) {
             self.set_elastic(contact, ContactPhase::Slip(direction), slip, |_| {});
-            let (speed, _) = self.own_speed_now(contact)?;
-            if f64::from(direction) * speed <= 0.0 {
+            self.leave_zero(contact, 0)?;
+            let leaves = self.own_speed_leaves(contact)?;
+            if leaves.sign == direction {
+                self.note_speed_zeros(contact, leaves.zeros);
+            } else {
                 self.series_start(contact, force);
-                self.adhere(contact, direction, None)?;
+                self.adhere(contact, direction)?;
             }
         }
         let adheres_below = match self.now[contact].own {
@@ -166,31 +164,28 @@ impl MotionRun<'_> {
         if self.now[contact].slip_zeros == 0 {
             return Ok(());
         }
-        self.look_ahead()?;
-        let slip = &self.series.contacts[contact].slip;
-        let mut terms = *slip;
-        let mut scale = 1.0;
-        for term in &mut terms {
-            *term *= scale;
-            scale *= self.time_scale;
-        }
-        let largest = terms.iter().fold(0.0, |most: f64, term| most.max(term.abs()));
-        let first = (1..=ORDER).find(|k| terms[*k].abs() > NO_TERM * largest);
-        if let Some(first) = first {
-            let direction = if terms[first] < 0.0 { -1 } else { 1 };
-            let now = self.now_in(contact, ContactPhase::Slip(direction));
-            self.now[contact] = ContactNow { slip_zeros: first, ..now };
+        let leaves = self.slip_leaves(contact, 1)?;
+        if leaves.sign != 0 {
+            self.slip_after(contact, leaves);
         }
         Ok(())
     }
 
+    /// Bristles slip on from a zero of γ.
+    fn slip_after(&mut self, contact: usize, Departure { zeros, sign }: Departure) {
+        let load_zeros = self.now[contact].load_zeros;
+        let now = self.now_in(contact, ContactPhase::Slip(sign));
+        self.now[contact] = ContactNow { slip_zeros: zeros, load_zeros, ..now };
+    }
+
     /// The slip of a contact with a state of its own has ended: its own speed, or of bristles γ, has reached zero.
     pub(super) fn own_slip_ends(&mut self, contact: usize, is_immediate: bool) -> MotionProgress {
-        let ContactNow { load_zeros, slip_zeros, .. } = self.now[contact];
+        let load_zeros = self.now[contact].load_zeros;
         let ContactPhase::Slip(direction) = self.now[contact].phase else { return Ok(()) };
         let OwnNow::Elastic(elastic) = self.now[contact].own else {
-            let now = self.now_in(contact, ContactPhase::Slip(-direction));
-            self.now[contact] = ContactNow { slip_zeros: 1, load_zeros, ..now };
+            let leaves = self.slip_leaves(contact, 1)?;
+            let reversed = Departure { zeros: 1, sign: -direction };
+            self.slip_after(contact, if leaves.sign == 0 { reversed } else { leaves });
             return Ok(());
         };
         if is_immediate && !elastic.is_released {
@@ -200,15 +195,14 @@ impl MotionRun<'_> {
                 self.series_start(contact, carried);
             }
         }
-        let turned_to = (slip_zeros > 0).then_some(elastic.branch);
-        self.adhere(contact, direction, turned_to)?;
+        self.adhere(contact, direction)?;
         self.now[contact].load_zeros = load_zeros;
         Ok(())
     }
 
-    /// An elastic slider adheres from here; `direction` is the side on which T may be at a bound, `turned_to` the sign that γ is about to
-    /// have where it is zero now. T of a spring does not jump up: beyond its static bound it adheres on while the sliding level is higher.
-    fn adhere(&mut self, contact: usize, direction: i8, turned_to: Option<i8>) -> MotionProgress {
+    /// An elastic slider adheres from here; `direction` is the side on which T may be at a bound. T of a spring does not jump up: beyond
+    /// its static bound it adheres on while the sliding level is higher.
+    fn adhere(&mut self, contact: usize, direction: i8) -> MotionProgress {
         let slip = self.slip(contact).0;
         let pressed = self.load(contact) * self.factor(contact);
         let bound = self.equations.contacts[contact].static_coefficient * pressed;
@@ -220,17 +214,15 @@ impl MotionRun<'_> {
         if is_at(bound) {
             let margin = self.bound_margin(contact, direction)?;
             zeros = margin.zeros;
-            if !margin.falls {
+            if margin.sign >= 0 {
                 self.note_zeros(contact, usize::from(direction < 0), zeros);
                 return Ok(());
             }
         } else if force <= bound {
             return Ok(());
         }
-        self.set_elastic(contact, ContactPhase::Stick, slip, |own| {
-            (own.beyond, own.branch) = (direction, turned_to.unwrap_or(0));
-        });
-        self.now[contact].slip_zeros = usize::from(turned_to.is_some());
+        self.set_elastic(contact, ContactPhase::Stick, slip, |own| own.beyond = direction);
+        self.leave_zero(contact, 0)?;
         self.note_zeros(contact, 1, zeros);
         if is_at(level) {
             let zeros = self.level_margin(contact)?.zeros;
@@ -264,6 +256,7 @@ impl MotionRun<'_> {
         }
         if level - force > AT_LEVEL * level {
             self.set_elastic(contact, ContactPhase::Stick, slip, |own| own.beyond = side);
+            self.leave_zero(contact, 0)?;
             if beyond == 0 && (bound - force).abs() <= AT_LEVEL * bound {
                 let zeros = self.bound_margin(contact, side)?.zeros;
                 self.note_zeros(contact, 1, zeros);
@@ -274,29 +267,22 @@ impl MotionRun<'_> {
         let released = |own: &mut ElasticNow| own.is_released = true;
         self.set_elastic(contact, ContactPhase::Slip(direction), slip, released);
         self.now[contact].load_zeros = load_zeros;
-        let (speed, terms) = self.own_speed_now(contact)?;
-        if speed.abs() <= ZERO_RATE * terms
-            && let OwnNow::Elastic(own) = &mut self.now[contact].own
-        {
-            own.speed_zeros = 1;
-        }
+        self.leave_zero(contact, 0)?;
+        let zeros = self.own_speed_leaves(contact)?.zeros;
+        self.note_speed_zeros(contact, zeros);
         Ok(())
     }
 
     /// γ of an elastic slider that slides has changed its sign: |γ| has a kink there, at which its own speed jumps. Under a law that rises
     /// with |γ| the slip ends there.
     pub(super) fn own_turn(&mut self, contact: usize) -> MotionProgress {
-        let now = &mut self.now[contact];
-        let (OwnNow::Elastic(own), ContactPhase::Slip(direction)) = (&mut now.own, now.phase)
-        else {
-            return Ok(());
-        };
-        own.branch = -own.branch;
-        now.slip_zeros = 1;
-        let (speed, terms) = self.own_speed_now(contact)?;
-        if f64::from(direction) * speed < -ZERO_RATE * terms {
+        let ContactPhase::Slip(direction) = self.now[contact].phase else { return Ok(()) };
+        self.leave_zero(contact, 1)?;
+        let leaves = self.own_speed_leaves(contact)?;
+        if leaves.sign == -direction {
             return self.own_slip_ends(contact, false);
         }
+        self.note_speed_zeros(contact, leaves.zeros);
         Ok(())
     }
 
@@ -329,6 +315,16 @@ impl MotionRun<'_> {
             self.set_elastic(contact, ContactPhase::Stick, slip, |_| {});
         }
         Ok(())
+    }
+
+    /// At the end of a run at a jump of a load, T is what an elastic slider carries through the jump: from there the next run decides.
+    pub(super) fn keep_carried(&mut self) {
+        for contact in 0..self.now.len() {
+            let series = &self.series.contacts[contact];
+            if let Some(carried) = carried_through_jump(&self.now[contact], series) {
+                self.series_start(contact, carried);
+            }
+        }
     }
 
     /// Sets what an elastic slider does.
@@ -366,63 +362,79 @@ impl MotionRun<'_> {
         Ok(())
     }
 
-    /// The own speed of an elastic slider that slides, and the size of its terms.
-    fn own_speed_now(&mut self, contact: usize) -> Result<(f64, f64), MotionStopped> {
+    /// How γ leaves zero, if it is zero to rounding; its first `known` terms are zero.
+    fn slip_leaves(&mut self, contact: usize, known: usize) -> Result<Departure, MotionStopped> {
         self.look_ahead()?;
-        let Some(OwnState { kind: OwnStateKind::Elastic { stiffness }, .. }) =
-            self.equations.contacts[contact].own
-        else {
-            return Ok((0.0, 0.0));
-        };
+        let size = if known == 0 { self.slip(contact).1 } else { 0.0 };
+        let slip = &self.series.contacts[contact].slip;
+        Ok(Departure::of(slip, known, size, self.time_scale))
+    }
+
+    /// An elastic slider whose law is evaluated, and whose γ is zero to rounding, takes the branch of the sign that γ is about to have.
+    fn leave_zero(&mut self, contact: usize, known: usize) -> MotionProgress {
+        let Departure { zeros, sign } = self.slip_leaves(contact, known)?;
+        let now = &mut self.now[contact];
+        if let OwnNow::Elastic(own) = &mut now.own
+            && zeros > 0
+            && sign != 0
+        {
+            own.branch = sign;
+            now.slip_zeros = zeros;
+        }
+        Ok(())
+    }
+
+    /// k_t; 0 of bristles and of rigid contacts.
+    fn spring(&self, contact: usize) -> f64 {
+        match self.equations.contacts[contact].own {
+            Some(OwnState { kind: OwnStateKind::Elastic { stiffness }, .. }) => stiffness,
+            _ => 0.0,
+        }
+    }
+
+    /// How the own speed of an elastic slider that slides leaves zero, if it is zero to rounding.
+    fn own_speed_leaves(&mut self, contact: usize) -> Result<Departure, MotionStopped> {
+        self.look_ahead()?;
+        let stiffness = self.spring(contact);
         let series = &self.series.contacts[contact];
         let mut speed = [0.0; ORDER + 1];
         own_speed(series, stiffness, &mut speed);
-        let spring = (series.friction[1] / stiffness).abs();
-        Ok((speed[0], self.slip(contact).1 + spring))
+        let size = self.slip(contact).1 + (series.friction[1] / stiffness).abs();
+        // The last term is beyond the order of the step.
+        Ok(Departure::of(&speed[..ORDER], 0, size, self.time_scale))
     }
 
-    /// The start of the static bound minus T on one side, of a slider that adheres: it falls at the rate k_t γ − μ_s Ṅ.
-    fn bound_margin(
-        &mut self,
-        contact: usize,
-        direction: i8,
-    ) -> Result<MarginStart, MotionStopped> {
+    /// How the static bound minus T on one side leaves zero, of a slider that adheres: it falls at the rate k_t γ − μ_s Ṅ.
+    fn bound_margin(&mut self, contact: usize, direction: i8) -> Result<Departure, MotionStopped> {
         self.look_ahead()?;
         let level = self.equations.contacts[contact].static_coefficient;
-        let pressed = &self.series.contacts[contact].pressed;
-        let rises = [level * pressed[1], level * pressed[2]];
-        Ok(self.margin_start(contact, direction, rises))
+        let series = &self.series.contacts[contact];
+        let margin = margin_above(level, f64::from(direction), series);
+        Ok(self.margin_leaves(contact, &margin, level * series.pressed[1]))
     }
 
     /// The same of the sliding level, of a slider that adheres beyond its static bound.
-    fn level_margin(&mut self, contact: usize) -> Result<MarginStart, MotionStopped> {
+    fn level_margin(&mut self, contact: usize) -> Result<Departure, MotionStopped> {
         self.look_ahead()?;
         let OwnNow::Elastic(own) = self.now[contact].own else {
-            return Ok(MarginStart { zeros: 1, falls: false });
+            return Ok(Departure { zeros: 1, sign: 1 });
         };
         let series = &self.series.contacts[contact];
-        let term = |k| {
-            f64::from(own.branch) * partial_product(&series.coefficient, &series.pressed, k, 0, k)
-        };
-        Ok(self.margin_start(contact, own.beyond, [term(1), term(2)]))
+        let margin = level_margin(own, series);
+        let rise = f64::mul_add(f64::from(own.beyond), series.friction[1], margin[1]);
+        Ok(self.margin_leaves(contact, &margin, rise))
     }
 
-    /// From the first two terms of a level on the step that is expanded, where the margin is zero now.
-    fn margin_start(&self, contact: usize, direction: i8, rises: [f64; 2]) -> MarginStart {
-        let size = self.slip(contact).1;
-        let friction = &self.series.contacts[contact].friction;
-        let per_slip = match self.equations.contacts[contact].own {
-            Some(OwnState { kind: OwnStateKind::Elastic { stiffness }, .. }) => stiffness,
-            _ => 0.0,
-        };
-        let side = f64::from(direction);
-        let falls = [1, 2].map(|k| f64::mul_add(side, friction[k], -rises[k - 1]));
-        let terms = rises[0].abs() + per_slip * size;
-        if falls[0].abs() <= ZERO_RATE * terms {
-            // Its own speed is zero.
-            MarginStart { zeros: 2, falls: falls[1] > 0.0 }
-        } else {
-            MarginStart { zeros: 1, falls: falls[0] > 0.0 }
+    /// How a margin that is zero leaves zero; `rise` is the rate of its level, the other part of its own rate.
+    fn margin_leaves(&self, contact: usize, margin: &Series, rise: f64) -> Departure {
+        let size = f64::mul_add(self.spring(contact), self.slip(contact).1, rise.abs());
+        Departure::of(margin, 1, size, self.time_scale)
+    }
+
+    /// Notes the multiplicity of the zero of the own speed of an elastic slider that slides.
+    fn note_speed_zeros(&mut self, contact: usize, zeros: usize) {
+        if let OwnNow::Elastic(own) = &mut self.now[contact].own {
+            own.speed_zeros = zeros;
         }
     }
 
@@ -432,15 +444,6 @@ impl MotionRun<'_> {
             own.margin_zeros[place] = zeros;
         }
     }
-}
-
-/// A margin of an elastic slider that begins at zero.
-#[derive(Clone, Copy, Debug)]
-struct MarginStart {
-    /// Multiplicity of the zero.
-    zeros: usize,
-    /// Whether the margin is negative right after it.
-    falls: bool,
 }
 
 /// g at a slip velocity.

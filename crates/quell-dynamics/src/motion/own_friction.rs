@@ -6,9 +6,9 @@
 use quell_model::friction::{BranchSeries, FrictionSeries};
 use quell_numerics::lane::{Lane, partial_product};
 
+use super::contact_equation::ContactEquation;
 use super::contact_masks::ContactMasks;
 use super::contact_series::{ContactSeries, SeriesOf};
-use super::equations::ContactEquation;
 use super::own_state::{OwnState, OwnStateKind};
 use super::rows::{StateRow, StateStorage};
 use crate::simulation::ORDER;

@@ -1,11 +1,13 @@
 //! Contacts with a state of their own, one number each, which follows the states of the structure.
 //!
-//! * An elastic slider has the state T. It adheres, Ṫ = k_t γ, while |T| < μ_s N; it slides at T = sμ(|γ|)N, s = ±1, and adheres
-//!   again where its own speed γ − Ṫ/k_t reaches zero: γ alone does not end a slip under a load that varies. The force of a spring does
-//!   not jump up: where the law rises above its static level (a viscous part), |T| < max(μ_s, μ(|γ|))N bounds adhesion. An adhering
+//! * An elastic slider has the state T. It adheres, Ṫ = k_t γ, while |T| < max(μ_s, μ(|γ|))N; it slides at T = sμ(|γ|)N, s = ±1, and
+//!   adheres again where its own speed γ − Ṫ/k_t reaches zero: γ alone does not end a slip under a load that varies. The level μ(|γ|)
+//!   counts where the law rises above its static level (a viscous part), because the force of a spring does not jump up. An adhering
 //!   slider is a spring; only a rigid contact is held by a force that is sought. Jenkins (1962), Iwan (1966).
 //! * Bristles have the state z: ż = γ − σ₀|γ|z/g(γ), T = N(σ₀z + σ₁ż + σ₂γ). They never stick; each sign change of γ is an event,
 //!   because |γ| has a kink there. Canudas de Wit et al. (1995).
+//!
+//! An open contact has neither T nor z: it lands with both at zero.
 //!
 //! In both, T of one order follows from γ and N of that order, so that the series of a step stays explicit. In a slip the number of an
 //! elastic slider has no rate of its own: its series is that of T.

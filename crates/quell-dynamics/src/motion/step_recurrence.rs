@@ -8,9 +8,9 @@ use quell_model::friction::{BranchSeries, FrictionConstants, FrictionSeries};
 use quell_numerics::lane::{Lane, partial_product};
 use quell_numerics::polynomial::step_length;
 
+use super::contact_equation::ContactEquation;
 use super::contact_masks::{ContactMasks, chosen};
 use super::contact_series::{ContactSeries, SeriesOf};
-use super::equations::ContactEquation;
 use super::own_friction;
 use super::own_state::OwnStateKind;
 use super::rows::{StateRow, StateStorage};

@@ -8,8 +8,9 @@
 use quell_numerics::lane::Lane;
 use quell_numerics::matrix::Matrix;
 
+use super::contact_equation::ContactEquation;
 use super::contact_series::ContactSeries;
-use super::equations::{ContactEquation, MotionEquations};
+use super::equations::MotionEquations;
 use super::phase::ContactNow;
 use super::rows::{StateRow, StateStorage};
 

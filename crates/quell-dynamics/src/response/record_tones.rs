@@ -1,4 +1,4 @@
-//! The lines of a record in the band of slow vibration, without the tones of the dithers.
+//! The lines of a record in the band of slow vibration, without the tones of dithers above it.
 
 use quell_model::System;
 use quell_model::profile::Wave;
@@ -6,12 +6,13 @@ use quell_numerics::matrix::Matrix;
 use quell_numerics::spectrum::Spectrum;
 use quell_numerics::spectrum::low_band::LargestLines;
 
-/// M of a record and of its halves, without the tones of the dithers. The lines of noise are many and close to each other: they stay,
-/// and what the window spreads of each beyond four lines is small.
+/// M of a record and of its halves, without the tones of dithers above the band, which the window spreads. A tone in the band is a slow
+/// vibration. The lines of noise are many and close to each other: they stay, and what the window spreads of each beyond four lines is
+/// small.
 pub(super) fn lines_of(samples: &[f64], system: &System, step: f64, band_end: f64) -> LargestLines {
     let mut rest = samples.to_vec();
     let tones = system.waves().filter(|wave| wave.amplitude != 0.0 && wave.waveform.is_periodic());
-    for frequency in tones.map(Wave::repetition) {
+    for frequency in tones.map(Wave::repetition).filter(|frequency| *frequency > band_end) {
         subtract_tone(&mut rest, frequency * step);
     }
     let largest = |samples: &[f64]| {

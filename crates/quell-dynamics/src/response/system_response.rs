@@ -3,10 +3,11 @@
 //! Where a run ends on a stable periodic motion, the record begins on it, and means over time are those of one period exactly
 //! ([`SystemEnding`]). Where no such motion is found, the record of the run itself is judged, after the settling time.
 //!
-//! The band of slow vibration ends below the lowest dither frequency, if the strongest line without dither lies below it too; otherwise
-//! it contains that line, as for a belt whose dither is slower than its vibration ([`RecordGrid::band_end`]). M is the largest spectral amplitude in it, as for a belt,
-//! and the same rules decide the effect ([`Vibrations`]). The tones of the dithers are subtracted first: near the end of the band
-//! the window would spread them into it.
+//! The band of slow vibration ends below the lowest dither frequency. If that is not above 1.9 times the frequency of the vibration, the band
+//! ends there, as for a belt ([`RecordGrid::band_end`]). The vibration is the strongest line without dither; where none remains, the
+//! least damped motion of the sliding structure. M is the largest spectral amplitude in the band, as for a belt, and the same rules decide
+//! the effect ([`Vibrations`]). The tones of dithers above the band are subtracted first: near its end the window would spread them
+//! into it. What a dither in the band moves is vibration.
 //!
 //! An undithered run on no known motion keeps vibrating if its record does not decay, or shows a vibration while steady sliding is
 //! unstable.
@@ -25,6 +26,7 @@ use super::measure::Undefined;
 use super::record_lines::RecordLines;
 use super::record_tones::{lines_of, spectrum_of};
 use super::system_ending::{SystemEnding, cannot_settle};
+use crate::band::{BAND_END, vibration_frequency};
 use crate::motion::{
     ContactMeans, ContactMeter, Immobile, InputCost, InputMeter, MOTION_TOLERANCE, Motion,
     MotionEnd, MotionObserver, MotionSegment, MotionStart, MotionStopped, NoPower, RowMeter,
@@ -45,9 +47,6 @@ const LEAST_SAMPLES: f64 = 256.0;
 /// Lines of the unpadded record, or of its halves, between the line of a dither and the end of the band: the window spreads a
 /// tone over two on each side.
 const WINDOW_REACH: f64 = 4.0;
-
-/// Upper end of a band that contains a self-excited vibration, over its frequency: below the second harmonic (2.27).
-const OF_VIBRATION: f64 = 1.9;
 
 /// How a response is measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -289,8 +288,8 @@ impl RecordGrid {
         Ok(Self { step, count })
     }
 
-    /// Upper end of the band of slow vibration: below the lowest dither frequency, or 1.9 times the frequency of the strongest line
-    /// without dither where that is not below the dither, reduced to end below a dither above that line.
+    /// Upper end of the band of slow vibration: below the lowest dither frequency, or 1.9 times the frequency of the vibration where
+    /// a dither is not faster than that, reduced to end below faster dithers.
     fn band_end(
         &self,
         system: &System,
@@ -306,12 +305,13 @@ impl RecordGrid {
         // Above the Nyquist frequency there are no lines.
         let nyquist = 0.5 * TAU / self.step;
         let below_dither = (slowest - reach).min(nyquist);
-        let vibration = undithered.strongest_line();
-        let end = match vibration.filter(|frequency| *frequency > below_dither) {
+        let vibration = undithered.strongest_line().or_else(|| vibration_frequency(system));
+        let end_of_band = vibration.map(|frequency| BAND_END * frequency);
+        let end = match end_of_band.filter(|end| slowest <= *end) {
             None => below_dither,
-            Some(vibration) => {
-                let above = lowest().filter(|f| f - reach > vibration);
-                above.map(|f| f - reach).fold((OF_VIBRATION * vibration).min(nyquist), f64::min)
+            Some(end) => {
+                let above = lowest().filter(|f| *f > end);
+                above.map(|f| f - reach).fold(end.min(nyquist), f64::min)
             }
         };
         if end <= 2.0 * TAU / plan.length {

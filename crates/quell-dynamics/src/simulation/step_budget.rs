@@ -6,7 +6,8 @@
 //!
 //! * [`MOST_CHECKS`] checks within one period of the fastest oscillation end a run: an ordinary run takes three steps per
 //!   period, and a few more for each event.
-//! * After [`STEPS_TO_PROJECT`] steps, a run that would take more than [`MOST_STEPS`] at its rate so far is stopped.
+//! * After [`STEPS_TO_PROJECT`] steps, a run that would take more than [`MOST_STEPS`] at its rate so far is stopped. A step of a large
+//!   system counts as many steps of one mass as it takes their time.
 //! * All runs of one request ([`within`]) together take at most the number of steps that the request allows.
 //!
 //! The counts depend on the run alone, except for the last one: it decides only how soon a request is abandoned.
@@ -34,8 +35,9 @@ const TOO_STIFF: &str = "a hundred thousand steps did not cover one period of it
                          damping, the friction or the dither is too large compared with the other forces";
 
 /// Why a run that is too long was stopped.
-const TOO_LONG: &str = "it would take more than 2 000 000 000 steps: the requested time, or a period of \
-                        the dither, is too long compared with the fastest oscillation";
+const TOO_LONG: &str = "it would take more than 2 000 000 000 steps of one mass, or as much work: the requested time, or a period of \
+                        the dither, is too long compared with the fastest oscillation; a large model takes fewer and shorter steps \
+                        when it is reduced to its lowest modes";
 
 /// Why a request was abandoned.
 const TOO_MUCH: &str = "the steps allowed for one request are used up: its runs neither settle nor end, or a \
@@ -107,6 +109,8 @@ pub(crate) struct StepBudget {
     until: f64,
     /// Period of the fastest oscillation.
     period: f64,
+    /// Time of a step over that of one mass.
+    work: f64,
     /// Steps at the last check.
     steps: u64,
     /// Start of the current window of one period, and the number of checks in it.
@@ -117,7 +121,13 @@ pub(crate) struct StepBudget {
 impl StepBudget {
     /// For a run whose fastest oscillation has this frequency ratio.
     pub(crate) fn new(from: f64, until: f64, fastest: f64) -> Self {
-        Self { from, until, period: TAU / fastest.max(1.0), steps: 0, window: from, checks: 0 }
+        let period = TAU / fastest.max(1.0);
+        Self { from, until, period, work: 1.0, steps: 0, window: from, checks: 0 }
+    }
+
+    /// The same for steps that take this many times as long as those of one mass.
+    pub(crate) fn of_work(self, work: f64) -> Self {
+        Self { work, ..self }
     }
 
     /// Whether a check is due after this number of steps.
@@ -141,8 +151,9 @@ impl StepBudget {
                 return Err(TOO_STIFF);
             }
         }
-        if steps >= STEPS_TO_PROJECT {
-            let whole = steps as f64 * ((self.until - self.from) / (time - self.from));
+        let work = steps as f64 * self.work;
+        if work >= STEPS_TO_PROJECT as f64 {
+            let whole = work * ((self.until - self.from) / (time - self.from));
             // The projection is infinite where no time has passed.
             if whole.is_nan() || whole > MOST_STEPS as f64 {
                 return Err(TOO_LONG);
@@ -199,6 +210,9 @@ mod tests {
             length = length.and_then(|()| long.check(steps, steps as f64 * 0.2));
         }
         assert_eq!((stiffness, length), (Err(TOO_STIFF), Err(TOO_LONG)));
+        // A step of thousands of numbers takes as long as thousands of a few.
+        let mut large = StepBudget::new(0.0, 1e6, 10.0).of_work(1e4);
+        assert_eq!(large.check(CHECK_INTERVAL, CHECK_INTERVAL as f64 * 0.2), Err(TOO_LONG));
     }
 
     #[test]

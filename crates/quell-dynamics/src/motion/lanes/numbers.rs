@@ -3,10 +3,10 @@
 use quell_model::friction::{Friction, FrictionConstants};
 use quell_numerics::lane::Lane;
 
+use super::super::contact_equation::ContactEquation;
 use super::super::contact_masks::ContactMasks;
 use super::super::contact_series::ContactSeries;
 use super::super::engine::{MotionRun, StepRoom};
-use super::super::equations::ContactEquation;
 use super::super::guards::proof_of_no_event;
 use super::super::phase::{ContactNow, ContactPhase};
 use super::super::rows::{LaneEntries, LaneStates};

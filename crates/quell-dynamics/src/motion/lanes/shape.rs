@@ -3,7 +3,8 @@
 use quell_model::friction::Friction;
 
 use super::super::Motion;
-use super::super::equations::{ContactEquation, Forcings, MotionEquations};
+use super::super::contact_equation::ContactEquation;
+use super::super::equations::{Forcings, MotionEquations};
 use super::super::rows::StateRow;
 use super::super::step_recurrence::FEW_CONTACTS;
 use super::forcings::Varying;

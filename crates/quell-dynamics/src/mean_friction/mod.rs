@@ -2,24 +2,30 @@
 //!
 //! Averaging of a law of the slip velocity is a mean over the phase of the dither. With a state the friction of one moment depends on
 //! the moments before, so that the mean is that of a periodic motion: γ = V − αG(Rτ) and N = F + D_N g_N(R_Nτ) are prescribed, as
-//! in the limit of high frequency, and the state of the contact follows them. It is computed by the event-exact engine on a structure
-//! that the contact does not move, ẋ = D g(Rτ).
+//! in the limit of high frequency, and the state of the contact follows them.
 //!
-//! * Bristles: ż is linear in z under a prescribed slip, so that two periods give the periodic state exactly.
-//! * Elastic sliders: a slider that slides forgets its state. From its bound in the direction of V the run is periodic after the
+//! * Bristles: ż is linear in z under a prescribed slip, so that two periods give the periodic state exactly. A method for stiff
+//!   equations computes them (`bristles`), because fast slip makes them far faster than the dither.
+//! * Elastic sliders: computed by the event-exact engine on a structure that the contact does not move, ẋ = D g(Rτ). A slider that slides forgets its state. From its bound in the direction of V the run is periodic after the
 //!   periods that it takes to slide. At V = 0 a slider that does not slide in both directions keeps any state: no mean.
 //!
 //! Accuracy: that of the steps, about 10⁻¹² of μ_s, and the last change of an elastic slider from period to period. Slopes are
 //! differences of fourth order, with the difference to those of twice the step as their error.
 
+mod bristles;
+
 use std::collections::VecDeque;
+use std::f64::consts::TAU;
 use std::fmt;
 
 use quell_linear::averaging::{Effective, SlopeSide};
+use quell_model::friction::{Bristles, SlidingLaw};
 use quell_model::profile::Profile;
 use quell_model::system::{Contact, Input, InputTarget, StateSpace, Structure, System};
-use quell_model::{Belt, Direction, Parametrisation};
+use quell_model::{Belt, Direction, Friction, Parametrisation};
 use quell_numerics::matrix::Matrix;
+
+use bristles::Bristled;
 
 use crate::motion::{ContactMeter, MOTION_TOLERANCE, Motion, MotionStart, MotionStopped};
 use crate::orbit::{NoOrbit, common_period};
@@ -40,6 +46,12 @@ const STEP: f64 = 1e-3;
 /// Share of its state that bristles keep over a period above which the periodic state is not known.
 const KEPT: f64 = 1.0 - 1e-9;
 
+/// Steps of bristles in a cycle of the fastest oscillation of the dither, before any is halved.
+const STEPS: f64 = 16.0;
+
+/// Most steps of bristles over a period, a second of computation. Ordinary periods take some hundreds for each of their cycles.
+const MOST_STEPS: u32 = 1 << 21;
+
 /// Why a contact with a state has no mean friction.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoMeanFriction {
@@ -51,6 +63,8 @@ pub enum NoMeanFriction {
     Immobile(String),
     /// The contact keeps the state with which it began.
     History,
+    /// A period of the dither has too many cycles.
+    TooLong,
     /// No periodic motion was found.
     NotPeriodic {
         /// Number of periods computed.
@@ -67,6 +81,9 @@ impl fmt::Display for NoMeanFriction {
             Self::History => f.write_str(
                 "the contact keeps the state with which it began, so that the mean depends on its history: without a mean slip it \
                  slides in one direction at most",
+            ),
+            Self::TooLong => f.write_str(
+                "a common period of the dithers takes too many steps: it has too many of their cycles",
             ),
             Self::NotPeriodic { periods } => {
                 write!(
@@ -123,12 +140,16 @@ fn coefficient_at(belt: &Belt, slip_velocity: f64) -> Result<[f64; 2], NoMeanFri
         Err(_) if belt.fast_velocity() == 0.0 => 1.0,
         Err(why) => return Err(NoMeanFriction::NoPeriod(why)),
     };
+    if let (Some(bristles), Friction::Lugre(law)) = (belt.friction().bristles(), belt.friction()) {
+        let steady = law.level();
+        let level_at = |speed: f64| steady.coefficient(speed);
+        let mean = of_bristles(belt, (slip_velocity, period), bristles, &level_at)?;
+        return Ok([mean, 1e-12 * level]);
+    }
     let system = prescribed(belt, slip_velocity);
     let motion = Motion::new(&system).map_err(|why| NoMeanFriction::Immobile(why.to_string()))?;
-    let run = Prescribed { motion: &motion, period, load: belt.normal_load(), fast: fast(belt) };
-    if belt.friction().bristles().is_some() {
-        return Ok([run.of_bristles()?, 1e-12 * level]);
-    }
+    let run =
+        Prescribed { motion: &motion, period, load: belt.normal_load(), fast: fast_at(belt, 0.0) };
     let bound = level * belt.normal_load_at(0.0);
     let mean = run.of_slider(bound.copysign(slip_velocity), level)?;
     if slip_velocity == 0.0 {
@@ -140,11 +161,53 @@ fn coefficient_at(belt: &Belt, slip_velocity: f64) -> Result<[f64; 2], NoMeanFri
     Ok([mean, 2.0 * PERIODIC * level])
 }
 
-/// The fast velocity at τ = 0: Σ αG(φ) of the tangential dithers.
-fn fast(belt: &Belt) -> f64 {
+/// The fast velocity Σ αG(Rτ + φ) of the tangential dithers.
+fn fast_at(belt: &Belt, time: f64) -> f64 {
     belt.dithers_along(Direction::Tangential)
-        .map(|dither| dither.amplitude_ratio() * dither.waveform.integral(dither.phase))
+        .map(|dither| {
+            let phase = dither.frequency_ratio.mul_add(time, dither.phase);
+            dither.amplitude_ratio() * dither.waveform.integral(phase)
+        })
         .sum()
+}
+
+/// The mean of T/F of bristles: z after a period is a z + b.
+fn of_bristles(
+    belt: &Belt,
+    (slip_velocity, period): (f64, f64),
+    Bristles { stiffness, damping, viscous }: Bristles,
+    level: &dyn Fn(f64) -> f64,
+) -> Result<f64, NoMeanFriction> {
+    let slip = |time: f64| slip_velocity - fast_at(belt, time);
+    let load = |time: f64| belt.normal_load_at(time) / belt.normal_load();
+    let most = belt.friction().static_coefficient();
+    let reached = slip_velocity.abs() + belt.fast_velocity();
+    let sizes = [most / stiffness, (damping + viscous).mul_add(reached, most)];
+    let driven = Bristled { slip: &slip, load: &load, level, stiffness, damping, viscous, sizes };
+    let fastest = belt.dithers().iter().fold(0.0, |rate: f64, dither| {
+        let pieces = dither.waveform.breaks().len() as f64;
+        rate.max(dither.resolved_ratio()).max(dither.repetition_ratio() * pieces / STEPS)
+    });
+    let wanted = STEPS * (period * fastest / TAU).max(1.0);
+    let mut steps = 1_u32;
+    while f64::from(steps) < wanted && steps < MOST_STEPS {
+        steps *= 2;
+    }
+    let over = |deflection: f64| {
+        let found = driven.over(deflection, period, steps, MOST_STEPS);
+        found.ok_or(NoMeanFriction::TooLong)
+    };
+    let (constant, _) = over(0.0)?;
+    if constant == 0.0 {
+        return Ok(over(0.0)?.1);
+    }
+    let kept = (over(constant)?.0 - constant) / constant;
+    if kept.is_nan() || kept >= KEPT {
+        return Err(NoMeanFriction::History);
+    }
+    let periodic = constant / (1.0 - kept);
+    // One more period removes what the difference has lost to rounding.
+    Ok(over(over(periodic)?.0)?.1)
 }
 
 /// The contact of a belt on a velocity that the dither alone moves.
@@ -184,22 +247,6 @@ impl Prescribed<'_> {
         let end = self.motion.run(&start, self.period, MOTION_TOLERANCE, &mut meter)?;
         let mean = meter.means().and_then(|means| Some(means.first()?.friction / self.load));
         Ok((end.state[1], mean.unwrap_or(0.0)))
-    }
-
-    /// Bristles: z after a period is a z + b.
-    fn of_bristles(&self) -> Result<f64, NoMeanFriction> {
-        let (constant, _) = self.over(0.0)?;
-        if constant == 0.0 {
-            return Ok(self.over(0.0)?.1);
-        }
-        let (after, _) = self.over(constant)?;
-        let kept = (after - constant) / constant;
-        if kept.is_nan() || kept >= KEPT {
-            return Err(NoMeanFriction::History);
-        }
-        let periodic = constant / (1.0 - kept);
-        // One more period removes what the difference has lost to rounding.
-        Ok(self.over(self.over(periodic)?.0)?.1)
     }
 
     /// An elastic slider: period by period from a state at its bound, until it repeats itself after one or several periods.
