@@ -104,6 +104,9 @@ pub(crate) struct PlotArguments {
     /// Draws the caption below the picture [default: only in the answer]
     #[arg(long, requires = "plot")]
     caption: bool,
+    /// Leaves the title above the picture out
+    #[arg(long, requires = "plot")]
+    no_title: bool,
 }
 
 impl PlotArguments {
@@ -115,7 +118,11 @@ impl PlotArguments {
     /// Checks that the picture can be written and does not replace one of the inputs.
     pub(crate) fn prepare(&self, inputs: &Inputs) -> Result<Plot, Failure> {
         let width = self.width.as_deref().map(|text| PictureWidth::parse(text, "--width"));
-        let page = PicturePage { width: width.transpose()?, caption: self.caption };
+        let page = PicturePage {
+            width: width.transpose()?,
+            caption: self.caption,
+            without_title: self.no_title,
+        };
         let prepare = |path| Output::prepare(path, "--plot", EXTENSIONS, inputs);
         let output = self.plot.as_deref().map(prepare);
         Ok(Plot { output: output.transpose()?, page })

@@ -7,16 +7,17 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Command, CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{ArgMatches, Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 use quell::{Complaint, Failure, Fault, Origin};
 use serde_json::Value as Json;
 
+use crate::answer::Answer;
 use crate::verbs::{
     actuator, atlas, attractor, basins, bifurcation, check, cite, compare, completions, design,
     fit, friction, map, modes, new, orbit, probability, report, reproduce, resonances, response,
     schema, simulate, sketch, stability, thresholds, waveforms,
 };
-use crate::{answer, help};
+use crate::{answer, help, interrupt, progress};
 
 /// Finds the dither that silences friction-induced vibration, and quantifies its confidence
 #[derive(Debug, Parser)]
@@ -73,42 +74,55 @@ pub(crate) fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         .take_while(|argument| *argument != "--")
         .any(|argument| argument == "--json");
     let parsed = command().try_get_matches_from(&arguments);
-    let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
-        Ok(cli) => cli,
+    let named = |matches: ArgMatches| {
+        let name = matches.subcommand_name().unwrap_or_default().to_owned();
+        Cli::from_arg_matches(&matches).map(|cli| (name, cli))
+    };
+    let (name, cli) = match parsed.and_then(named) {
+        Ok(named) => named,
         Err(error) => return usage_error(&error, json),
     };
-    let outcome = match &cli.verb {
-        Verb::New(arguments) => new::run(arguments),
-        Verb::Completions(arguments) => completions::run(arguments, &mut command()),
-        Verb::Check(arguments) => check::run(arguments),
-        Verb::Schema(arguments) => Ok(schema::run(arguments)),
-        Verb::Sketch(arguments) => sketch::run(arguments),
-        Verb::Report(arguments) => report::run(arguments),
-        Verb::Cite(arguments) => cite::run(arguments),
-        Verb::Fit(arguments) => fit::run(arguments),
-        Verb::Compare(arguments) => compare::run(arguments),
-        Verb::Friction(arguments) => friction::run(arguments),
-        Verb::Stability(arguments) => stability::run(arguments),
-        Verb::Simulate(arguments) => simulate::run(arguments),
-        Verb::Response(arguments) => response::run(arguments),
-        Verb::Orbit(arguments) => orbit::run(arguments),
-        Verb::Attractor(arguments) => attractor::run(arguments),
-        Verb::Thresholds(arguments) => thresholds::run(arguments),
-        Verb::Atlas(arguments) => atlas::run(arguments),
-        Verb::Waveforms(arguments) => waveforms::run(arguments),
-        Verb::Design(arguments) => design::run(arguments),
-        Verb::Actuator(arguments) => actuator::run(arguments),
-        Verb::Probability(arguments) => probability::run(arguments),
-        Verb::Bifurcation(arguments) => bifurcation::run(arguments),
-        Verb::Basins(arguments) => basins::run(arguments),
-        Verb::Map(arguments) => map::run(arguments),
-        Verb::Modes(arguments) => modes::run(arguments),
-        Verb::Resonances(arguments) => resonances::run(arguments),
-        Verb::Reproduce(arguments) => reproduce::run(arguments),
-    };
-    match outcome {
+    match progress::during(&name, || cli.verb.run()) {
         Ok(answer) => answer.show(),
-        Err(failure) => answer::refuse(&failure, json),
+        Err(failure) => {
+            let status = answer::refuse(&failure, json);
+            if interrupt::is_stopping() { ExitCode::from(interrupt::INTERRUPTED) } else { status }
+        }
+    }
+}
+
+impl Verb {
+    /// The answer of the verb.
+    fn run(&self) -> Result<Answer, Failure> {
+        match self {
+            Self::New(arguments) => new::run(arguments),
+            Self::Completions(arguments) => completions::run(arguments, &mut command()),
+            Self::Check(arguments) => check::run(arguments),
+            Self::Schema(arguments) => Ok(schema::run(arguments)),
+            Self::Sketch(arguments) => sketch::run(arguments),
+            Self::Report(arguments) => report::run(arguments),
+            Self::Cite(arguments) => cite::run(arguments),
+            Self::Fit(arguments) => fit::run(arguments),
+            Self::Compare(arguments) => compare::run(arguments),
+            Self::Friction(arguments) => friction::run(arguments),
+            Self::Stability(arguments) => stability::run(arguments),
+            Self::Simulate(arguments) => simulate::run(arguments),
+            Self::Response(arguments) => response::run(arguments),
+            Self::Orbit(arguments) => orbit::run(arguments),
+            Self::Attractor(arguments) => attractor::run(arguments),
+            Self::Thresholds(arguments) => thresholds::run(arguments),
+            Self::Atlas(arguments) => atlas::run(arguments),
+            Self::Waveforms(arguments) => waveforms::run(arguments),
+            Self::Design(arguments) => design::run(arguments),
+            Self::Actuator(arguments) => actuator::run(arguments),
+            Self::Probability(arguments) => probability::run(arguments),
+            Self::Bifurcation(arguments) => bifurcation::run(arguments),
+            Self::Basins(arguments) => basins::run(arguments),
+            Self::Map(arguments) => map::run(arguments),
+            Self::Modes(arguments) => modes::run(arguments),
+            Self::Resonances(arguments) => resonances::run(arguments),
+            Self::Reproduce(arguments) => reproduce::run(arguments),
+        }
     }
 }
 

@@ -1,14 +1,15 @@
 //! Signals: Ctrl-C ends the process, and exceeding a file size limit is an ordinary error.
 //!
 //! A verb that can stop without losing finished work is asked to do so by the first Ctrl-C. If it does not stop within
-//! [`PATIENCE`], or after a second Ctrl-C, the process exits. Any other verb exits immediately. In all cases a file that is
-//! being written is completed first.
+//! [`PATIENCE`], or after a second Ctrl-C, the process ends. Any other verb ends immediately. In all cases a file that is being
+//! written is completed first, what was kept is reported on standard error, the exit status is [`INTERRUPTED`], and no more
+//! than three seconds pass.
 //!
-//! SIGTERM and SIGHUP are handled like Ctrl-C.
+//! SIGTERM and SIGHUP are handled like Ctrl-C; a hang-up that is ignored when the process starts (`nohup`) stays ignored.
 
-use std::fs;
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
@@ -17,13 +18,13 @@ use quell::output;
 use crate::answer;
 
 /// Exit status of an interrupted process: 128 plus the number of SIGINT, as in shells.
-const INTERRUPTED: i32 = 130;
+pub(crate) const INTERRUPTED: u8 = 130;
 
 /// Time that a verb has to stop after the first signal.
-const PATIENCE: Duration = Duration::from_secs(10);
+const PATIENCE: Duration = Duration::from_millis(1500);
 
 /// Time to complete a file that is being written.
-const LAST_FILE: Duration = Duration::from_secs(2);
+const LAST_FILE: Duration = Duration::from_millis(1200);
 
 /// Set by the first signal.
 static STOP: AtomicBool = AtomicBool::new(false);
@@ -31,25 +32,27 @@ static STOP: AtomicBool = AtomicBool::new(false);
 /// Whether the verb checks [`STOP`].
 static CHECKED: AtomicBool = AtomicBool::new(false);
 
+/// What a verb keeps if it ends before it has stopped by itself.
+type LastWords = Box<dyn Fn() -> String + Send>;
+
+/// The last words of the verb; `None` where nothing is kept.
+static LAST_WORDS: Mutex<Option<LastWords>> = Mutex::new(None);
+
 /// Installs the signal handlers.
 pub(crate) fn handle() {
     catch_file_size_signal();
-    // Under nohup, a hang-up must not end the process. Without a handler, signals have their default action, which does not
-    // lose finished chunks either.
-    if hangups_are_ignored() {
-        return;
-    }
     on_signals(|| {
         if STOP.swap(true, Ordering::Relaxed) || !CHECKED.load(Ordering::Relaxed) {
             end();
         }
-        answer::print_error(
-            "\nstopping after the work in progress; press Ctrl-C again to stop immediately\n",
-        );
+        // First the deadline: writing the message may block.
         let _ = thread::Builder::new().spawn(|| {
             thread::sleep(PATIENCE);
             end();
         });
+        answer::print_error(
+            "\nstopping after the work in progress; press Ctrl-C again to stop immediately\n",
+        );
     });
 }
 
@@ -58,7 +61,9 @@ pub(crate) fn handle() {
 fn on_signals(act: impl Fn() + Send + 'static) {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
-    if let Ok(mut signals) = Signals::new([SIGHUP, SIGINT, SIGTERM]) {
+    let ends =
+        if hangups_are_ignored() { vec![SIGINT, SIGTERM] } else { vec![SIGINT, SIGTERM, SIGHUP] };
+    if let Ok(mut signals) = Signals::new(ends) {
         let _ = thread::Builder::new().spawn(move || signals.forever().for_each(|_| act()));
     }
 }
@@ -74,9 +79,20 @@ pub(crate) fn flag() -> &'static AtomicBool {
     &STOP
 }
 
+/// Whether a signal has asked the process to end.
+pub(crate) fn is_stopping() -> bool {
+    STOP.load(Ordering::Relaxed)
+}
+
+/// Reports by these words what is kept if the process ends before the verb has stopped by itself.
+pub(crate) fn keeping(words: impl Fn() -> String + Send + 'static) {
+    *LAST_WORDS.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(words));
+}
+
 /// Whether the process was started with SIGHUP, signal 1, ignored; false on systems that do not provide this information.
+#[cfg(unix)]
 fn hangups_are_ignored() -> bool {
-    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     let mask = ignored.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok());
     mask.is_some_and(|mask| mask & 1 == 1)
@@ -84,7 +100,15 @@ fn hangups_are_ignored() -> bool {
 
 fn end() -> ! {
     output::close(LAST_FILE);
-    process::exit(INTERRUPTED);
+    // A thread that writes the message may hold standard error indefinitely: the process ends without it then.
+    let _ = thread::Builder::new().spawn(|| {
+        thread::sleep(Duration::from_millis(200));
+        process::exit(i32::from(INTERRUPTED));
+    });
+    let words = LAST_WORDS.lock().unwrap_or_else(PoisonError::into_inner);
+    let words = words.as_ref().map_or_else(|| "no results were kept".to_owned(), |words| words());
+    answer::print_error(&format!("\nstopped; {words}\n"));
+    process::exit(i32::from(INTERRUPTED));
 }
 
 /// Catches SIGXFSZ. If a file exceeds the limit (`ulimit -f`), the write then fails with an error, instead of the signal ending the

@@ -1,6 +1,11 @@
-//! Progress bars of maps and reproductions, on standard error if that is a terminal.
+//! Progress on standard error if that is a terminal: bars of work in many parts, and the elapsed time of any other verb that
+//! takes longer than [`SHORT`].
 
+use std::path::Path;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -8,6 +13,7 @@ use quell::sweep::Progress;
 use quell_reproduce::EntryProgress;
 
 use crate::answer::print_error;
+use crate::interrupt;
 
 /// Template of the bar of a computation.
 const TEMPLATE: &str =
@@ -19,6 +25,45 @@ const ANSWERS: &str = "{bar:32} {pos}/{len} answers  {elapsed} elapsed";
 /// Template of the bar of a reproduction.
 const ENTRIES: &str = "{bar:32} {pos}/{len}  {elapsed} elapsed  {msg}";
 
+/// Template of a verb without a bar of its own.
+const WAITING: &str = "{spinner} {msg}  {elapsed} elapsed; Ctrl-C stops it";
+
+/// A verb that takes longer shows the elapsed time.
+const SHORT: Duration = Duration::from_secs(2);
+
+/// Interval of drawing.
+const TICK: Duration = Duration::from_millis(500);
+
+/// Whether a verb shows a bar of its own.
+static HAS_BAR: AtomicBool = AtomicBool::new(false);
+
+/// Does the work of a verb. The elapsed time is shown after [`SHORT`], unless the verb shows a bar of its own.
+pub(crate) fn during<T>(verb: &str, work: impl FnOnce() -> T) -> T {
+    let shown = bar(None, WAITING).with_message(verb.to_owned());
+    if shown.is_hidden() {
+        return work();
+    }
+    let (ended, end) = channel::<()>();
+    // Without a thread nothing is shown.
+    let shows = thread::Builder::new().spawn(move || {
+        let mut pause = SHORT;
+        while end.recv_timeout(pause) == Err(RecvTimeoutError::Timeout)
+            && !HAS_BAR.load(Ordering::Relaxed)
+        {
+            shown.tick();
+            pause = TICK;
+        }
+        shown.finish_and_clear();
+    });
+    let done = work();
+    drop(ended);
+    if let Ok(shows) = shows {
+        // A panic of that thread concerns the display alone.
+        let _ = shows.join();
+    }
+    done
+}
+
 /// The bar of a computation.
 #[derive(Debug)]
 pub(crate) struct Bar {
@@ -28,18 +73,29 @@ pub(crate) struct Bar {
 impl Bar {
     /// A bar that is not shown yet; it is never shown if standard error is not a terminal.
     pub(crate) fn new() -> Self {
-        Self { bar: bar(0, TEMPLATE) }
+        Self { bar: bar(Some(0), TEMPLATE) }
+    }
+
+    /// Reports the finished points, which are kept in a store, if the process ends before the work has stopped; `how` says how to
+    /// continue it.
+    pub(crate) fn keeps(&self, path: &Path, how: &'static str) {
+        let (bar, path) = (self.bar.clone(), path.display().to_string());
+        interrupt::keeping(move || {
+            let (kept, all) = (bar.position(), bar.length().unwrap_or_default());
+            let left = all.saturating_sub(kept);
+            format!("{kept} of {all} points kept in {path}, {left} left: {how}")
+        });
     }
 
     /// The same over the answers of a report.
     pub(crate) fn of_answers() -> Self {
-        Self { bar: bar(0, ANSWERS) }
+        Self { bar: bar(Some(0), ANSWERS) }
     }
 }
 
 /// A progress bar, which `indicatif` hides if standard error is not a terminal.
-fn bar(length: u64, template: &str) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr());
+fn bar(length: Option<u64>, template: &str) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::stderr());
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
@@ -48,11 +104,12 @@ fn bar(length: u64, template: &str) -> ProgressBar {
 
 impl Progress for Bar {
     fn begin(&self, points: usize, there: usize) {
+        HAS_BAR.store(true, Ordering::Relaxed);
         self.bar.set_length(points as u64);
         self.bar.set_position(there as u64);
         // The rate counts points computed now, not those already in the store.
         self.bar.reset_eta();
-        self.bar.enable_steady_tick(Duration::from_millis(500));
+        self.bar.enable_steady_tick(TICK);
     }
 
     fn advance(&self, points: usize) {
@@ -75,8 +132,9 @@ pub(crate) struct Entries {
 impl Entries {
     /// A bar over `count` entries.
     pub(crate) fn new(count: usize) -> Self {
-        let bar = bar(count as u64, ENTRIES);
-        bar.enable_steady_tick(Duration::from_millis(500));
+        let bar = bar(Some(count as u64), ENTRIES);
+        HAS_BAR.store(true, Ordering::Relaxed);
+        bar.enable_steady_tick(TICK);
         Self { bar, in_progress: Mutex::default() }
     }
 

@@ -5,6 +5,7 @@
 mod place;
 
 use std::fs;
+use std::io::Read;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -285,25 +286,89 @@ fn signals_end_every_verb() {
         signal(&child, name);
         let (status, after) = ended(child);
         assert_eq!(status, Some(130), "{arguments:?}");
-        assert!(after < Duration::from_secs(5), "{arguments:?}: {after:?}");
+        assert!(after < Duration::from_secs(3), "{arguments:?}: {after:?}");
     }
     assert_eq!(place.files(), ["data.csv", "study.toml"]);
-    // A verb that can is asked to stop first, and is ended immediately after the second signal.
-    let long = [
-        "map",
-        "study.toml",
-        "--quantity",
-        "residual-vibration",
-        "--set",
-        "solver.settle=1e8",
-        "--save",
-        "m.zarr",
-    ];
-    let child = begin(&long);
-    signal(&child, "-INT");
-    std::thread::sleep(Duration::from_millis(200));
-    signal(&child, "-INT");
+    // A verb that can is asked to stop first, and is ended at its deadline or by the second signal.
+    for signals in [1, 2] {
+        let store = format!("m{signals}.zarr");
+        let mut child = begin(&[ENDLESS_MAP, &["--save", &store]].concat());
+        for _ in 0..signals {
+            signal(&child, "-INT");
+            std::thread::sleep(Duration::from_millis(200));
+        }
+        let mut errors = child.stderr.take().expect("piped");
+        let (status, after) = ended(child);
+        assert_eq!(status, Some(130));
+        assert!(after < Duration::from_secs(3), "{after:?}");
+        let mut printed = String::new();
+        errors.read_to_string(&mut printed).expect("UTF-8");
+        let kept = format!("stopped; 0 of 3 points kept in {store}, 3 left: the same command");
+        assert!(printed.contains(&kept), "{printed}");
+    }
+}
+
+/// A map whose first point takes hours.
+const ENDLESS_MAP: &[&str] =
+    &["map", "study.toml", "--quantity", "residual-vibration", "--set", "solver.settle=1e8"];
+
+/// Under `nohup` only the hang-up is ignored: the signal by which a scheduler ends a job ends a map with its message.
+#[test]
+fn under_nohup_a_map_ends_with_its_message() {
+    let place = Place::with("nohup", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
+    let mut command = Command::new("nohup");
+    command.arg(env!("CARGO_BIN_EXE_quell")).args(ENDLESS_MAP).args(["--save", "m.zarr"]);
+    command.current_dir(&place.folder).stdin(Stdio::null());
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+    let mut child = child.expect("nohup runs");
+    std::thread::sleep(Duration::from_millis(700));
+    signal(&child, "-HUP");
+    std::thread::sleep(Duration::from_millis(300));
+    assert!(child.try_wait().expect("it is ours").is_none(), "a hang-up is ignored");
+    signal(&child, "-TERM");
+    let mut errors = child.stderr.take().expect("piped");
     let (status, after) = ended(child);
     assert_eq!(status, Some(130));
-    assert!(after < Duration::from_secs(5), "{after:?}");
+    assert!(after < Duration::from_secs(3), "{after:?}");
+    let mut printed = String::new();
+    errors.read_to_string(&mut printed).expect("UTF-8");
+    assert!(printed.contains("points kept in m.zarr") && printed.contains("--resume"), "{printed}");
+}
+
+/// A name that ends in a slash names a folder, regardless of its extension.
+#[test]
+fn an_output_that_names_a_folder_is_rejected_before_the_work() {
+    let place = Place::with("folder", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
+    for (verb, option, name) in [
+        (&["friction"][..], "--plot", "x.svg/"),
+        (&["friction"], "--save", "x.csv/"),
+        (&["friction"], "--save", "x.csv/."),
+        (&["map", "--quantity", "growth"], "--save", "x.csv/"),
+        (&["sketch"], "--out", "x.svg/"),
+        (&["report"], "--out", "x.html//"),
+    ] {
+        let ask = [&verb[..1], &["study.toml"], &verb[1..], &[option, name]].concat();
+        let errors = place.refused(&ask);
+        assert!(
+            errors[0]["message"].as_str().is_some_and(|why| why.contains("folder")),
+            "{errors:?}"
+        );
+    }
+}
+
+/// `script` of util-linux gives a process a terminal; where it is missing, nothing is tested.
+#[test]
+fn a_verb_of_more_than_two_seconds_shows_the_elapsed_time_on_a_terminal() {
+    let place = Place::with("elapsed", &[("study.toml", MEASURED), ("data.csv", SAMPLES)]);
+    let quell = env!("CARGO_BIN_EXE_quell");
+    let line = format!(
+        "timeout --foreground -s INT 4 {quell} response study.toml --set solver.settle=1e8"
+    );
+    let mut command = Command::new("script");
+    command.args(["-qec", &line, "/dev/null"]).env("TERM", "xterm");
+    let done = command.current_dir(&place.folder).stdin(Stdio::null()).output();
+    let Ok(done) = done else { return };
+    let printed = String::from_utf8_lossy(&done.stdout);
+    assert!(printed.contains("response") && printed.contains("elapsed"), "{printed}");
+    assert!(printed.contains("stopped; no results were kept"), "{printed}");
 }

@@ -71,6 +71,9 @@ impl Output {
             let given = path.display().to_string();
             Box::new(Complaint::new(Fault::Path, option, Origin::Argument(option), given, allowed))
         };
+        if names_a_folder(path) {
+            return Err(complaint("a file, not a folder: without / at its end".to_owned()));
+        }
         let special = fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
         let extension =
             path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
@@ -197,6 +200,13 @@ impl Output {
             }
         }
     }
+}
+
+/// Whether a path can name nothing but a folder: `x.svg/` and `x.svg/.`, whose last part has the extension of a file.
+fn names_a_folder(path: &Path) -> bool {
+    let text = path.to_string_lossy();
+    let text = text.strip_suffix('.').unwrap_or(&text);
+    text.ends_with(std::path::is_separator)
 }
 
 /// Gives a new, still empty file the permissions of the file that it will replace, if any.

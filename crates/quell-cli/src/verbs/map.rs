@@ -56,7 +56,7 @@ fn quantities() -> String {
             let _ = writeln!(text, "  {:<20}  {}", quantity.name, quantity.about);
         }
     }
-    text + "\nExit status: 0 done, 2 invalid input, 1 failed or stopped, 130 interrupted."
+    text + "\nExit status: 0 done, 2 invalid input, 1 failed, 130 interrupted."
 }
 
 /// Where the map is saved.
@@ -100,6 +100,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         Keep::Table(_) | Keep::Nowhere => None,
     };
     let bar = Bar::new();
+    if let Keep::Zarr(path) = &keep {
+        bar.keeps(path, "the same command with --resume continues");
+    }
     let running = Running { threads, stop: interrupt::flag(), progress: &bar };
     let done = map(plan, store.as_ref(), running)?;
     let mut object = done.json();

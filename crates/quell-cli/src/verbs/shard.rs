@@ -30,6 +30,7 @@ pub(super) fn run(
 ) -> Result<Answer, Failure> {
     let shared = Shared::open(path, plan)?;
     let bar = Bar::new();
+    bar.keeps(path, "the same command continues");
     let running = Running { threads, stop: interrupt::flag(), progress: &bar };
     let done = shared.compute_shard(shard, running)?;
     Ok(Answer::new(json, &done.json(path), || text(&done, path)))

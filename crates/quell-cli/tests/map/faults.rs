@@ -116,7 +116,7 @@ fn a_run_stopped_by_ctrl_c_reports_the_remaining_chunks_and_resumes() {
     wait_for("a chunk", || place.records("stopped.zarr") > 0);
     signal(&child, "-INT");
     let printed = ProcessOutput::of(&child.wait_with_output().expect("it ends"));
-    assert_eq!(printed.status, Some(1), "{printed:?}");
+    assert_eq!(printed.status, Some(130), "{printed:?}");
     assert!(
         printed.errors.contains(" left: ") && printed.errors.contains("--resume"),
         "{}",
