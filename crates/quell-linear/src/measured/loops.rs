@@ -19,6 +19,12 @@ const MOST_STEPS: usize = 50;
 /// Largest turn of the determinant between two neighbouring frequencies, radians: beyond, the band is too coarse.
 const LARGEST_TURN: f64 = 1.6;
 
+/// Turn of the determinant, radians, beyond which it is followed between two measured frequencies, where it may pass close to zero.
+const SMALL_TURN: f64 = 0.3;
+
+/// Halvings of an interval between two measured frequencies.
+const HALVINGS: u32 = 24;
+
 /// Largest distance of the turns from a whole number of motions that the end of the band may leave.
 const OPEN_END: f64 = 0.35;
 
@@ -288,8 +294,8 @@ pub(super) fn turns(
         eliminate(matrix, vec![Complex64::ZERO; size]).0
     };
     let mut last = determinant(0.0);
-    let (mut angle, mut closest, mut distance) = (last.arg(), 0.0, modulus(last));
-    let start = angle;
+    let start = last.arg();
+    let mut path = DeterminantPath { angle: start, closest: 0.0, distance: modulus(last) };
     let mut direct = driving_points(system, receptance, 0.0);
     for pair in receptance.frequencies().windows(2) {
         // A resonance between two frequencies turns the response of a point to a force at that point by half a turn.
@@ -302,16 +308,12 @@ pub(super) fn turns(
         }
         direct = here;
         let next = determinant(pair[1]);
-        let turn = (next / last).arg();
-        if turn.abs() > LARGEST_TURN || !turn.is_finite() {
+        if !path.follow(&determinant, [(pair[0], last), (pair[1], next)], HALVINGS) {
             return Err(NoTurns::TooCoarse { frequency: pair[0] });
-        }
-        angle += turn;
-        if modulus(next) < distance {
-            (closest, distance) = (pair[1], modulus(next));
         }
         last = next;
     }
+    let DeterminantPath { angle, closest, distance } = path;
     // det → 1 for ω → ∞: what is left of the last angle belongs to the part beyond the band.
     let half_turns = (start - angle) / std::f64::consts::PI;
     let whole = half_turns.round();
@@ -325,4 +327,37 @@ pub(super) fn turns(
     )]
     let unstable = whole.max(0.0) as usize;
     Ok(Turns { unstable, half_turns, closest, distance })
+}
+
+/// The determinant followed along the band.
+struct DeterminantPath {
+    /// Its angle, continuous.
+    angle: f64,
+    /// The angular frequency at which it was smallest.
+    closest: f64,
+    /// Its magnitude there.
+    distance: f64,
+}
+
+impl DeterminantPath {
+    /// Follows the determinant from one frequency to the next, by halves where it turns far; `false` where it still does.
+    fn follow(
+        &mut self,
+        determinant: &impl Fn(f64) -> Complex64,
+        [from, to]: [(f64, Complex64); 2],
+        halvings: u32,
+    ) -> bool {
+        let turn = (to.1 / from.1).arg();
+        if turn.abs() > SMALL_TURN && halvings > 0 {
+            let middle = 0.5 * (from.0 + to.0);
+            let middle = (middle, determinant(middle));
+            return self.follow(determinant, [from, middle], halvings - 1)
+                && self.follow(determinant, [middle, to], halvings - 1);
+        }
+        if modulus(to.1) < self.distance {
+            (self.closest, self.distance) = (to.0, modulus(to.1));
+        }
+        self.angle += turn;
+        turn.abs() <= LARGEST_TURN
+    }
 }

@@ -99,6 +99,23 @@ impl<'a> MeasuredSystem<'a> {
         Ok(MeasuredSliding { turns, contacts, dithered })
     }
 
+    /// The error of interpolation between the measured frequencies of each critical amplitude of an input: how far it is from that by
+    /// every second frequency. Of a rational function through smooth values this is more than its error. `None` where every second
+    /// frequency does not decide, or finds other changes.
+    pub fn interpolation_errors(&self, input: usize, found: &[CriticalInput]) -> Vec<Option<f64>> {
+        let receptance = self.receptance.every_second();
+        let coarse = MeasuredSystem::new(self.system, &receptance)
+            .and_then(|prepared| prepared.critical_amplitudes(input))
+            .unwrap_or_default();
+        let same = coarse.len() == found.len()
+            && coarse.iter().zip(found).all(|(a, b)| a.becomes == b.becomes);
+        found
+            .iter()
+            .enumerate()
+            .map(|(k, own)| same.then(|| (own.amplitude - coarse[k].amplitude).abs()))
+            .collect()
+    }
+
     /// Every amplitude of an input at which the averaged verdict changes, ascending.
     ///
     /// # Errors

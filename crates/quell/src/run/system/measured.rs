@@ -19,13 +19,27 @@ use crate::words::plural;
 /// Why a growth rate is null.
 const NO_RATE: &str = "a measured frequency response gives a verdict by the generalised Nyquist criterion, but no growth rate";
 
+/// Why the error of a critical amplitude is null.
+const UNCHECKED: &str = "the error of interpolation between the measured frequencies is unknown: every second of them does not decide";
+
 /// Stability of a measured structure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredStability {
     /// Sliding under the dither of the study, or without dither.
     pub sliding: MeasuredSliding,
-    /// Sliding without dither, and critical amplitudes of the first one; `None` without dither.
-    pub dither: Option<(MeasuredSliding, Result<Vec<CriticalInput>, String>)>,
+    /// What the dither does; `None` without dither.
+    pub dither: Option<MeasuredDither>,
+}
+
+/// The dither of a measured structure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredDither {
+    /// Sliding without it.
+    pub undithered: MeasuredSliding,
+    /// Critical amplitudes of the first one.
+    pub critical: Result<Vec<CriticalInput>, String>,
+    /// The error of each by interpolation between the measured frequencies; `None` where it is unknown.
+    pub interpolation: Vec<Option<f64>>,
 }
 
 /// The receptance of a study.
@@ -55,7 +69,9 @@ pub fn run(
     }
     let sliding = prepared.average(None).map_err(no_verdict)?;
     let critical = prepared.critical_amplitudes(0).map_err(|why| why.to_string());
-    Ok(MeasuredStability { sliding, dither: Some((undithered, critical)) })
+    let interpolation = prepared.interpolation_errors(0, critical.as_deref().unwrap_or_default());
+    let dither = MeasuredDither { undithered, critical, interpolation };
+    Ok(MeasuredStability { sliding, dither: Some(dither) })
 }
 
 impl MeasuredStability {
@@ -122,7 +138,7 @@ impl MeasuredStability {
                 let why = "the study has no dither";
                 fields.unknown("undithered", why).unknown("critical_amplitudes", why);
             }
-            Some((undithered, critical)) => {
+            Some(MeasuredDither { undithered, critical, interpolation }) => {
                 let mut inner = Fields::of_system(units);
                 let verdict: Verdict = undithered.verdict();
                 inner
@@ -130,7 +146,10 @@ impl MeasuredStability {
                     .rate("growth_rate", Err(NO_RATE.to_owned()))
                     .number("frequency", Quantity::FrequencyRatio, undithered.turns.closest);
                 fields.nested("undithered", inner);
-                put_critical(&mut fields, units, critical);
+                put_critical(&mut fields, units, critical, |index, found| {
+                    let between = interpolation.get(index).copied().flatten();
+                    between.map(|error| error + found.error).ok_or_else(|| UNCHECKED.to_owned())
+                });
             }
         }
         fields.plain("warnings", self.warnings(study));

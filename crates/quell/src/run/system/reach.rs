@@ -108,10 +108,12 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Fa
         let allowed = "two positive numbers, the second above the first";
         return Err(Complaint::option("--frequency", given, allowed).into());
     }
-    let frequencies: Vec<f64> = (0..POINTS)
-        .map(|k| from * libm::exp(libm::log(to / from) * k as f64 / (POINTS - 1) as f64))
-        .collect();
+    // The quotient of the ends may overflow, their logarithms do not.
+    let (first, last) = (libm::log(from), libm::log(to));
+    let at = |k: usize| libm::exp(first + (last - first) * k as f64 / (POINTS - 1) as f64);
+    let frequencies: Vec<f64> = (0..POINTS).map(|k| at(k).clamp(from, to)).collect();
     let undamped = undamped(&linear);
+    let heaviest = linear.matrices().map_or(1.0, |matrices| matrices.mass.largest());
     let mut pairs = Vec::new();
     for (dither, input) in system.inputs.iter().enumerate() {
         let slips = |frequency: f64| -> Option<Vec<f64>> {
@@ -119,6 +121,16 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Fa
             Some(found.contacts.iter().map(|contact| modulus(contact.slip)).collect())
         };
         let table: Vec<Option<Vec<f64>>> = frequencies.iter().map(|w| slips(*w)).collect();
+        let known = |frequency: f64, row: &Option<Vec<f64>>| {
+            (frequency * frequency * heaviest).is_finite()
+                && row.iter().flatten().all(|slip| !slip.is_nan())
+        };
+        let rows = frequencies.iter().zip(&table);
+        let within: Vec<f64> =
+            rows.filter(|(w, row)| known(**w, row)).map(|(frequency, _)| *frequency).collect();
+        if within.len() < frequencies.len() {
+            return Err(beyond_range((from, to), &within));
+        }
         for contact in 0..system.contacts.len() {
             let at =
                 |frequency: f64| slips(frequency).map_or(f64::INFINITY, |found| found[contact]);
@@ -131,6 +143,20 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Fa
         }
     }
     Ok(Reaches { frequencies, pairs })
+}
+
+/// The complaint about a range of frequencies at some of which the equations of the structure overflow.
+/// `within` has those at which they do not.
+fn beyond_range((from, to): (f64, f64), within: &[f64]) -> Failure {
+    let allowed = match (within.first(), within.last()) {
+        (Some(first), Some(last)) => format!(
+            "a range between the angular frequencies {} and {}: beyond them the equations of the structure overflow",
+            digits(*first),
+            digits(*last)
+        ),
+        _ => "a range in which the equations of the structure do not overflow".to_owned(),
+    };
+    Complaint::option("--frequency", format!("{from}:{to}"), allowed).into()
 }
 
 /// Angular frequencies of the motions without damping, with the friction that a harmonic response carries along.
