@@ -1,6 +1,6 @@
 //! Errors in the input, and how a task can fail.
 
-use std::fmt;
+use std::fmt::{self, Write as _};
 use std::ops::Deref;
 
 use serde_json::{Value, json};
@@ -139,8 +139,21 @@ impl Complaint {
     }
 }
 
+/// In words, control characters of keys and values escaped: a terminal would obey them.
 impl fmt::Display for Complaint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut words = String::new();
+        self.write(&mut words)?;
+        words.chars().try_for_each(|c| match c {
+            '\n' | '\t' => f.write_char(c),
+            c if c.is_control() => write!(f, "{}", c.escape_unicode()),
+            c => f.write_char(c),
+        })
+    }
+}
+
+impl Complaint {
+    fn write(&self, f: &mut String) -> fmt::Result {
         match self.origin {
             Origin::Line(line) => write!(f, "line {line}: ")?,
             Origin::Argument(option) if option != self.key && self.fault != Fault::Usage => {

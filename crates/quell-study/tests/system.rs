@@ -373,3 +373,39 @@ fn other_kinds_refuse_the_tables_of_a_system() {
     assert_eq!((both[0].key.as_str(), both[0].fault), ("belt", Fault::Conflict));
     assert!(Study::parse(belt, &[]).expect("a belt").system().is_err());
 }
+
+/// Terminals obey control characters, and no XML contains them: every text and key of a study is without.
+#[test]
+fn control_characters_are_refused() {
+    for (from, to, key) in [
+        ("\"two coordinates\"", "\"two \\u001b[31mcoordinates\"", "title"),
+        ("\"two coordinates\"", "\"two \\u009bcoordinates\"", "title"),
+        ("\"two coordinates\"", "\"two \\uffffcoordinates\"", "title"),
+        ("name = \"pad\"", "name = \"pad\\u0007\"", "contact[0].name"),
+        ("waveform = \"sine\"", "waveform = \"sine\\u0000\"", "dither[0].waveform"),
+    ] {
+        let complaints = refused(&with(from, to));
+        let own = complaints.iter().find(|own| own.key == key && own.allowed.contains("control"));
+        let own = own.unwrap_or_else(|| panic!("{to}: {complaints}"));
+        assert!(own.origin.line().is_some(), "{own}");
+    }
+    // A key that no table has is named with its characters escaped.
+    let complaints =
+        refused(&with("normal_load = 1.5", "normal_load = 1.5\n\"\\u001b[2J\" = 1")).to_string();
+    assert!(complaints.contains("\\u{1b}[2J"), "{complaints}");
+    assert!(!complaints.contains(|c: char| c.is_control() && c != '\n'), "{complaints:?}");
+    let change = Change::parse("title=\"a\\u001bb\"", "--set").expect("a change");
+    assert!(Study::parse(TEXT, &[change]).is_err());
+}
+
+/// A contact without a tangent may have a negative coefficient, whose meaning every verb says.
+#[test]
+fn a_negative_coefficient_is_said() {
+    let text = "[system]\ncoordinates = [\"z\"]\nmass = [1]\nstiffness = [[2]]\n[[contact]]\nname = \"load\"\n\
+                normal = { z = 1 }\nslope = { z = 0.5 }\nnormal_load = 1\nnormal_stiffness = 1\nbelt_velocity = 1.5\n\
+                [contact.friction]\nlaw = \"coulomb\"\ncoefficient = -0.4\n";
+    let said = study(text);
+    let [warning] = said.warnings() else { panic!("{:?}", said.warnings()) };
+    assert!(warning.contains("contact load is negative"), "{warning}");
+    assert!(study(&text.replace("-0.4", "0.4")).warnings().is_empty());
+}

@@ -41,11 +41,18 @@ pub(crate) fn checksum(values: &[f64]) -> u64 {
     })
 }
 
-/// Checks that no two columns have one name: which of them is meant would be a guess. Empty names may repeat.
+/// Checks that no two columns have one name: which of them is meant would be a guess, and that none has a control character. Empty
+/// names may repeat.
 ///
 /// # Errors
-/// The places of two that have. Names are not shown: the file may be any.
+/// The places of columns that have. Names are not shown: the file may be any.
 pub(crate) fn distinct(names: &[&str]) -> Result<(), String> {
+    if let Some(place) = names.iter().position(|name| name.contains(char::is_control)) {
+        return Err(format!(
+            "a CSV file with columns whose names have no control characters; that of column {} has",
+            place + 1
+        ));
+    }
     let named = names.iter().enumerate().filter(|(_, name)| !name.is_empty());
     for (place, name) in named {
         if let Some(before) = names[..place].iter().position(|known| known == name) {

@@ -121,13 +121,48 @@ impl Table {
         Json::Object(self.iter().map(|(name, node)| (name.to_owned(), node.json())).collect())
     }
 
+    /// Complains of each text and key with a control character: terminals obey them, and no XML may contain them. Texts may have
+    /// tabs and line breaks. `path` is that of the table, empty or with a dot at its end.
+    pub fn unprintable(&self, path: &str, complaints: &mut Vec<Complaint>) {
+        for (key, node) in self.iter() {
+            let path = format!("{path}{key}");
+            if key.contains(is_unprintable) || key.contains(['\n', '\r', '\t']) {
+                let allowed = "a key without control characters";
+                complaints.push(Complaint::new(Fault::Value, &path, node.origin, key, allowed));
+            }
+            node.unprintable(&path, complaints);
+        }
+    }
+
     /// Whether a key exists.
     pub fn has(&self, key: &str) -> bool {
         self.get(key).is_some()
     }
 }
 
+/// Whether a character is for control, or no character of XML.
+fn is_unprintable(c: char) -> bool {
+    (c.is_control() && !['\n', '\r', '\t'].contains(&c)) || ['\u{fffe}', '\u{ffff}'].contains(&c)
+}
+
 impl Node {
+    fn unprintable(&self, path: &str, complaints: &mut Vec<Complaint>) {
+        match &self.value {
+            Value::Text(text) if text.contains(is_unprintable) => {
+                let shown: String = text.chars().take(80).collect();
+                let allowed = "text without control characters";
+                complaints.push(Complaint::new(Fault::Value, path, self.origin, shown, allowed));
+            }
+            Value::Table(table) => table.unprintable(&format!("{path}."), complaints),
+            Value::List(list) => {
+                for (index, node) in list.iter().enumerate() {
+                    node.unprintable(&format!("{path}[{index}]"), complaints);
+                }
+            }
+            Value::Text(_) | Value::Number(_) | Value::Flag(_) | Value::Date(_) => {}
+        }
+    }
+
     fn from_toml(value: &Spanned<DeValue<'_>>, lines: &Lines) -> Self {
         let origin = Origin::Line(lines.at(value.span().start));
         let value = match value.get_ref() {

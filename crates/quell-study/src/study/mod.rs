@@ -30,6 +30,7 @@ pub mod document;
 mod file;
 mod kind;
 mod measures;
+pub mod plausible;
 mod reader;
 mod root;
 mod steady;
@@ -92,6 +93,20 @@ struct DocumentOrigin {
     changes: Vec<String>,
 }
 
+/// Largest number of changes that a title names.
+const CHANGES_IN_TITLE: usize = 3;
+
+/// A title without the number of a figure or table of the dissertation: "Figure 2.4: effective friction" is "Effective friction".
+fn without_figure(title: &str) -> String {
+    let rest = ["Figure ", "Table "].iter().find_map(|kind| {
+        let (number, rest) = title.strip_prefix(kind)?.split_once(": ")?;
+        number.chars().all(|letter| letter.is_ascii_digit() || letter == '.').then_some(rest)
+    });
+    let Some(rest) = rest else { return title.to_owned() };
+    let mut letters = rest.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 impl<K: StudyKind> StudyOf<K> {
     /// Reads and checks a study file (`-` is standard input) after changing it.
     ///
@@ -117,11 +132,12 @@ impl<K: StudyKind> StudyOf<K> {
     /// All errors together, those of the changes and those of the check.
     pub fn parse_in(text: &str, changes: &[Change], folder: &Path) -> Result<Self, Complaints> {
         let mut document = Table::parse(text)?;
-        let refused: Vec<Complaint> = changes
+        let mut refused: Vec<Complaint> = changes
             .iter()
             .filter_map(|change| change.apply(&mut document).err())
             .map(|complaint| *complaint)
             .collect();
+        document.unprintable("", &mut refused);
         measures::resolve(&mut document);
         let from = DocumentOrigin {
             text: text.into(),
@@ -309,6 +325,30 @@ impl<K> StudyOf<K> {
     /// Title, if the file gives one.
     pub fn title(&self) -> Option<&str> {
         self.source.title.as_deref()
+    }
+
+    /// Title of a picture: that of the file, unless changes make it another study. Then it names the changes and no figure of the
+    /// dissertation; a title that is changed itself stays as it is given.
+    pub fn picture_title(&self) -> Option<String> {
+        let title = self.title()?;
+        let changes = self.changes();
+        if changes.iter().any(|change| change.starts_with("title=")) {
+            return Some(title.to_owned());
+        }
+        // Axes and solvers change no study.
+        let mut named = changes
+            .iter()
+            .filter(|change| !change.starts_with("sweep") && !change.starts_with("solver."))
+            .map(|change| change.replacen('=', " = ", 1).replace('"', ""));
+        let mut words: Vec<String> = named.by_ref().take(CHANGES_IN_TITLE).collect();
+        if words.is_empty() {
+            return Some(title.to_owned());
+        }
+        let others = named.count();
+        if others > 0 {
+            words.push(format!("{others} more"));
+        }
+        Some(format!("{}; changed: {}", without_figure(title), words.join(", ")))
     }
 
     /// The axes of a map, in order.

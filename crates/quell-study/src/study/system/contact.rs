@@ -72,22 +72,43 @@ pub(super) fn listed<'t>(
     found
 }
 
-/// Reads every contact, with the samples of measured laws; `None` if one is wrong.
+/// A contact as it was read.
+pub(super) struct ReadContact {
+    pub(super) contact: Contact,
+    /// The samples of a measured law.
+    pub(super) measured: Option<Measured>,
+    /// Whether its friction coefficient was negative.
+    pub(super) reversed: bool,
+}
+
+impl ReadContact {
+    /// The warning about a negative coefficient.
+    pub(super) fn warning(&self) -> Option<String> {
+        self.reversed.then(|| {
+            format!(
+                "The friction coefficient of contact {} is negative: it is read as that of a surface that moves in the other direction.",
+                self.contact.name
+            )
+        })
+    }
+}
+
+/// Reads every contact; `None` if one is wrong.
 pub(super) fn read(
     reader: &mut Reader,
     document: &Table,
     context: ContactContext<'_>,
-) -> Option<Vec<(Contact, Option<Measured>)>> {
+) -> Option<Vec<ReadContact>> {
     let tables = listed(reader, document, "", "contact");
     let mut names: Vec<String> = Vec::new();
-    let contacts: Vec<Option<(Contact, Option<Measured>)>> = tables
+    let contacts: Vec<Option<ReadContact>> = tables
         .into_iter()
         .enumerate()
         .map(|(index, (prefix, node, table))| {
             let name = name(reader, table, &prefix, index, &mut names);
-            one(reader, table, node, &prefix, index, context).map(|(contact, measured)| {
-                (Contact { name: name.unwrap_or_default(), ..contact }, measured)
-            })
+            let read = one(reader, table, node, &prefix, index, context)?;
+            let contact = Contact { name: name.unwrap_or_default(), ..read.contact };
+            Some(ReadContact { contact, ..read })
         })
         .collect();
     contacts.into_iter().collect()
@@ -143,7 +164,7 @@ fn one(
     prefix: &str,
     index: usize,
     context: ContactContext<'_>,
-) -> Option<(Contact, Option<Measured>)> {
+) -> Option<ReadContact> {
     unknown_keys(reader, table, prefix, SystemTable::Contact);
     let ContactContext { numbers, first_order, .. } = context;
     let before = reader.complaints_so_far();
@@ -195,7 +216,7 @@ fn one(
         tangential_stiffness,
         varying_load: (load != Profile::constant(steady)).then_some(load),
     };
-    Some((contact, measured))
+    Some(ReadContact { contact, measured, reversed })
 }
 
 /// Load and surface velocity of a contact, constant or over time; `None` if wrong.

@@ -22,7 +22,6 @@ mod numbers;
 mod origin;
 mod parameters;
 pub(in crate::study) mod path;
-mod plausible;
 mod read;
 mod rows;
 mod setup;

@@ -7,7 +7,7 @@ use quell_model::system::Input;
 use quell_model::{Contact, System, Waveform};
 use serde_json::Value as Json;
 
-use super::contact::{self, ContactContext};
+use super::contact::{self, ContactContext, ReadContact};
 use super::dither::{self, DitherContext};
 use super::frequency_response::{self, FrequencyResponse};
 use super::keys::{OTHER_KINDS, SystemTable};
@@ -19,11 +19,12 @@ use super::path::amplitude_of;
 use super::setup::SystemSetup;
 use super::structure::{self, ReadStructure};
 use super::units::SystemUnits;
-use super::{initial, parameters, plausible, sized, unused};
+use super::{initial, parameters, sized, unused};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::actuator::{self, ActuatorContext, GivenActuator};
 use crate::study::design::{self, DesignContext};
 use crate::study::document::{Table, Value};
+use crate::study::plausible;
 use crate::study::reader::Reader;
 use crate::study::study_kind::Given;
 use crate::study::vocabulary::Choice;
@@ -61,9 +62,12 @@ pub(super) fn study(
         known,
     };
     let contacts = contact::read(reader, document, context);
+    let of_contacts = contacts.iter().flatten().filter_map(ReadContact::warning);
+    let of_contacts: Vec<String> = of_contacts.collect();
     let (contacts, measured): (Option<Vec<Contact>>, Vec<_>) = match contacts {
         Some(read) => {
-            let (contacts, measured): (Vec<_>, Vec<_>) = read.into_iter().unzip();
+            let parts = read.into_iter().map(|read| (read.contact, read.measured));
+            let (contacts, measured): (Vec<_>, Vec<_>) = parts.unzip();
             (Some(contacts), measured)
         }
         None => (None, Vec::new()),
@@ -105,7 +109,8 @@ pub(super) fn study(
         frequency_response::check_pairs(reader, node, response, contacts, inputs);
     }
     let known = KnownSystem { system: &system, measured: response.is_some() };
-    let warnings = warnings(document, table, &numbers, known);
+    let mut warnings = warnings(document, table, &numbers, known);
+    warnings.extend(of_contacts);
     Some(SystemSetup {
         system,
         observe,
