@@ -3,6 +3,9 @@
 //! The covariance is s²(JᵀJ)⁻¹ with s² = RSS/(n − p). The columns of J are scaled to length 1 first, so that the eigenvalues of JᵀJ do
 //! not depend on units: 1 each if the parameters are independent. An eigenvector of an eigenvalue near 0 is a combination of parameters
 //! that hardly changes the values.
+//!
+//! A standard error is that of a model which describes the data. Where the model leaves more than half of their variance, no parameter has
+//! one.
 
 use quell_numerics::damped_least_squares::DampedMinimum;
 use quell_numerics::matrix::Matrix;
@@ -19,6 +22,13 @@ const NAMED: f64 = 0.1;
 
 /// Share in an undetermined combination above which a parameter has no standard error: rounding of the eigenvectors is far below.
 const INVOLVED: f64 = 1e-4;
+
+/// Share of the variance of the data below which a model does not explain them.
+const EXPLAINS: f64 = 0.5;
+
+/// Why parameters have no standard errors where the model does not explain the data.
+pub const NOT_EXPLAINED: &str =
+    "the model does not explain the record: a standard error is that of a model that does";
 
 /// A combination of parameters that the data hardly determine.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,6 +60,9 @@ pub struct Estimates {
     pub free: usize,
     /// Sum of squares of the residuals.
     pub rss: f64,
+    /// Share of the variance of the data that the model explains, 1 − RSS/Σ(y − ȳ)²: negative where a horizontal line fits better;
+    /// `None` of data that do not vary.
+    pub explained: Option<f64>,
 }
 
 /// Which parameters are estimated, and which are fixed.
@@ -62,8 +75,8 @@ pub enum Freedom {
 }
 
 impl Estimates {
-    /// From a minimum of `count` data.
-    pub fn of(found: &DampedMinimum, freedom: &[Freedom]) -> Self {
+    /// From a minimum over data.
+    pub fn of(found: &DampedMinimum, data: &[f64], freedom: &[Freedom]) -> Self {
         let count = found.values.len();
         let free = freedom.iter().filter(|one| **one == Freedom::Free).count();
         let norms: Vec<f64> = found
@@ -99,9 +112,22 @@ impl Estimates {
             count,
             free,
             rss: found.rss,
+            explained: explained(data, found.rss),
         };
         estimates.resolve(&pairs, &visible, &norms);
+        if !estimates.explain() {
+            estimates.order.clear();
+            estimates.covariance.clear();
+            for error in estimates.errors.iter_mut().filter(|error| error.is_ok()) {
+                *error = Err(NOT_EXPLAINED.to_owned());
+            }
+        }
         estimates
+    }
+
+    /// Whether the model explains the data: at least half of their variance, if they vary.
+    pub fn explain(&self) -> bool {
+        self.explained.is_none_or(|share| share >= EXPLAINS)
     }
 
     /// Covariance and weak combinations from the eigenpairs of the scaled information.
@@ -164,6 +190,13 @@ impl Estimates {
     }
 }
 
+/// 1 − RSS/Σ(y − ȳ)².
+fn explained(data: &[f64], rss: f64) -> Option<f64> {
+    let mean = data.iter().sum::<f64>() / data.len() as f64;
+    let total: f64 = data.iter().map(|value| (value - mean) * (value - mean)).sum();
+    (total > 0.0).then(|| 1.0 - rss / total)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -184,7 +217,11 @@ mod tests {
     fn errors_of_a_line_are_the_textbook_ones() {
         // y = a + b x on x = 0 … 8 with s = 1: σ_b² = 1/Σ(x − x̄)² = 1/60, σ_a² = 1/9 + x̄²/60.
         let x: Vec<f64> = (0..9).map(f64::from).collect();
-        let found = Estimates::of(&minimum(vec![vec![1.0; 9], x]), &[Freedom::Free, Freedom::Free]);
+        // Of the variance of the data, 60 · 9, the residuals of 7 leave little.
+        let data: Vec<f64> = x.iter().map(|x| 3.0 * x).collect();
+        let line = minimum(vec![vec![1.0; 9], x]);
+        let found = Estimates::of(&line, &data, &[Freedom::Free, Freedom::Free]);
+        assert!((found.explained.expect("they vary") - (1.0 - 7.0 / 540.0)).abs() < 1e-14);
         let error = |place: usize| found.errors[place].clone().expect("determined");
         assert!((error(1) - (1.0_f64 / 60.0).sqrt()).abs() < 1e-14);
         assert!((error(0) - (1.0 / 9.0 + 16.0 / 60.0_f64).sqrt()).abs() < 1e-13);
@@ -197,12 +234,28 @@ mod tests {
         let x: Vec<f64> = (0..9).map(f64::from).collect();
         let twice = x.iter().map(|x| 2.0 * x).collect();
         let columns = vec![vec![1.0; 9], x, twice];
-        let found =
-            Estimates::of(&minimum(columns), &[Freedom::Free, Freedom::Free, Freedom::Free]);
+        let data: Vec<f64> = (0..9).map(f64::from).collect();
+        let found = Estimates::of(&minimum(columns), &data, &[const { Freedom::Free }; 3]);
         assert!(found.errors[0].is_ok() && found.errors[1].is_err() && found.errors[2].is_err());
         let places: Vec<usize> = found.weak[0].shares.iter().map(|(place, _)| *place).collect();
         assert!(places.len() == 2 && places.contains(&1) && places.contains(&2));
         assert_eq!(found.order, [0]);
         assert_eq!(found.condition, None);
+    }
+
+    #[test]
+    fn a_model_that_a_horizontal_line_beats_has_no_standard_errors() {
+        let x: Vec<f64> = (0..9).map(f64::from).collect();
+        let line = minimum(vec![vec![1.0; 9], x]);
+        let flat: Vec<f64> = (0..9).map(|k| f64::from(k % 2)).collect();
+        let found = Estimates::of(&line, &flat, &[Freedom::Free, Freedom::Free]);
+        // Σ(y − ȳ)² is 20/9, and the residuals are 7.
+        assert!((found.explained.expect("they vary") - (1.0 - 63.0 / 20.0)).abs() < 1e-14);
+        assert!(!found.explain() && found.order.is_empty() && found.covariance.is_empty());
+        assert_eq!(found.errors, vec![Err(NOT_EXPLAINED.to_owned()); 2]);
+        assert_eq!(
+            Estimates::of(&line, &[1.0; 9], &[Freedom::Free, Freedom::Free]).explained,
+            None
+        );
     }
 }

@@ -161,7 +161,7 @@ fn a_bounded_amplitude_covers_a_part_of_the_box() {
     let Designed { answer, .. } = design(whole);
     let infeasible = answer.expect_err("the amplitude is bounded");
     assert!(matches!(infeasible.why, NoDesign::NeverQuiet { .. }), "{infeasible:?}");
-    let covered = covered(whole).expect("a part");
+    let covered = covered(whole, &infeasible).expect("a part");
     assert_eq!((covered.ends.0, covered.amplitude), (0.02, 1.0));
     assert!((covered.ends.1 / 0.10081636800765753 - 1.0).abs() < 1e-6, "{covered:?}");
 }

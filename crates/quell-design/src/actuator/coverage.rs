@@ -95,6 +95,22 @@ pub struct SufficientBand {
     pub best: ActuatorAtFrequency,
 }
 
+/// Width of a band, relative to its frequency, below which it is narrow: frequencies of a structure are hardly known more closely, and
+/// they change with temperature and wear.
+const NARROW: f64 = 0.02;
+
+impl SufficientBand {
+    /// Its width, relative to its lower end.
+    pub fn width(&self) -> f64 {
+        self.ends.1 / self.ends.0 - 1.0
+    }
+
+    /// Whether it is too narrow to rely on.
+    pub fn is_narrow(&self) -> bool {
+        self.width() < NARROW
+    }
+}
+
 /// A frequency at which little dither quenches, because the structure amplifies it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DitherResonance {
@@ -138,19 +154,32 @@ pub fn coverage(samples: Vec<ActuatorAtFrequency>, at: &AtFrequency<'_>) -> Actu
     let dips = extremes(&points, &level, -1.0, at);
     insert(&mut points, peaks, |_| true);
     insert(&mut points, dips, |_| true);
+    let dips_of_need = extremes(&points, &need, -1.0, at);
+    insert(&mut points, dips_of_need.clone(), |_| true);
     let binding = bands(&points, ActuatorAtFrequency::limit, at);
     let binding: Vec<BindingBand> =
         binding.into_iter().map(|(ends, limit)| BindingBand { ends, limit }).collect();
     let quenching = bands(&points, ActuatorAtFrequency::suffices, at);
-    let quenching = quenching.into_iter().filter(|(_, suffices)| *suffices);
-    let sufficient = quenching.map(|(ends, _)| SufficientBand {
+    let quenching: Vec<(f64, f64)> =
+        quenching.into_iter().filter(|(_, suffices)| *suffices).map(|(ends, _)| ends).collect();
+    // The margin may be largest where a limit takes over, or where the margin begins or ceases to be known.
+    let known = bands(&points, |point| point.level().is_some(), at);
+    let ends = binding.iter().map(|band| band.ends);
+    let ends = ends.chain(quenching.iter().copied()).chain(known.into_iter().map(|(ends, _)| ends));
+    let ends: Vec<ActuatorAtFrequency> = ends
+        .flat_map(|(from, to)| [from, to, to * (1.0 - f64::EPSILON)])
+        .filter(|end| (points[0].frequency..=points[points.len() - 1].frequency).contains(end))
+        .map(at)
+        .collect();
+    insert(&mut points, ends, |_| true);
+    let sufficient = quenching.into_iter().map(|ends| SufficientBand {
         ends,
         best: best(&points, ends).unwrap_or_else(|| at(ends.0)),
     });
     let sufficient = sufficient.collect();
     let whole = (f64::NEG_INFINITY, f64::INFINITY);
     let best = best(&points, whole);
-    let resonances = resonances(&points, at);
+    let resonances = resonances(&points, &dips_of_need, at);
     ActuatorCoverage { points, binding, sufficient, best, resonances }
 }
 
@@ -270,17 +299,18 @@ fn best(points: &[ActuatorAtFrequency], (low, high): (f64, f64)) -> Option<Actua
     known.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(point, _)| point.clone())
 }
 
+/// The logarithm of the requirement, if it is finite.
+fn need(point: &ActuatorAtFrequency) -> Option<f64> {
+    let needed = point.needed.as_ref().ok().map(|needed| libm::log(*needed));
+    needed.filter(|level| level.is_finite())
+}
+
 /// The local minima of the requirement, and whether the margin gains there.
-fn resonances(points: &[ActuatorAtFrequency], at: &AtFrequency<'_>) -> Vec<DitherResonance> {
-    let need = |point: &ActuatorAtFrequency| {
-        point
-            .needed
-            .as_ref()
-            .ok()
-            .map(|needed| libm::log(*needed))
-            .filter(|level| level.is_finite())
-    };
-    let dips = extremes(points, &need, -1.0, at);
+fn resonances(
+    points: &[ActuatorAtFrequency],
+    dips: &[ActuatorAtFrequency],
+    at: &AtFrequency<'_>,
+) -> Vec<DitherResonance> {
     let peaks = extremes(points, &need, 1.0, at);
     let known: Vec<&ActuatorAtFrequency> =
         points.iter().filter(|point| need(point).is_some()).collect();
@@ -360,7 +390,8 @@ mod tests {
         let [band] = &found.sufficient[..] else { panic!("one band: {:?}", found.sufficient) };
         close(band.ends.0, 1.7);
         close(band.ends.1, (2.34_f64 / 0.2).sqrt());
-        assert!(found.best.is_some_and(|best| (best.frequency - 1.7).abs() < 0.1));
+        // The margin falls with the frequency, so that it is largest where it begins to be known, between two samples.
+        assert!(found.best.is_some_and(|best| (best.frequency / 1.7 - 1.0).abs() < 1e-12));
     }
 
     /// Between two samples a third limit binds, and the margin falls below 1, over less than the distance of the samples.

@@ -125,7 +125,7 @@ pub fn fit_decay(
         }
     }
     let found = best.ok_or(NoDecay::Constant)?;
-    let estimates = Estimates::of(&found, &freedom);
+    let estimates = Estimates::of(&found, data, &freedom);
     let deviations = deviations(&estimates, &found.columns);
     Ok(DecayFit { law, estimates, values: found.values, deviations, converged: found.converged })
 }

@@ -3,6 +3,7 @@
 use quell_dynamics::attractor::{Reached, SWITCH_CLOSENESS, switches};
 use quell_dynamics::orbit::threshold::{NoThresholds, local};
 use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
+use quell_dynamics::response::BAND_END;
 use quell_dynamics::simulation::Start;
 use quell_dynamics::start::{InitialState, NoSquealingStart};
 use quell_linear::averaging::{
@@ -11,7 +12,7 @@ use quell_linear::averaging::{
 };
 use quell_linear::driven_point::DrivenPoint;
 use quell_linear::linear_cost::linear_cost;
-use quell_model::{Belt, Direction, Parametrisation, System};
+use quell_model::{Belt, Direction, Dither, Parametrisation, System};
 
 use super::branch::AmplitudeBranch;
 use super::quiet::AveragedChange;
@@ -147,20 +148,26 @@ pub fn averaged_quiet_of_belt(
     belt: &Belt,
     range: (f64, f64),
 ) -> Result<QuietAmplitudes, AveragingError> {
+    let (quiet_without, changes) = averaged_changes(belt, range.1)?;
+    Ok(QuietAmplitudes::by_averaging(range, quiet_without, &changes))
+}
+
+/// Whether a belt is quiet without its first dither by finite-R averaging, and the changes up to an amplitude.
+fn averaged_changes(
+    belt: &Belt,
+    largest: f64,
+) -> Result<(bool, Vec<AveragedChange>), AveragingError> {
     let options = AveragingOptions::FINITE_R;
     // A belt without dither has no amplitude to set.
     let without = belt.with(&belt.dither_path(0, "amplitude"), 0.0);
     let without = criterion(without.as_ref().unwrap_or(belt), options)?;
-    let changes: Vec<_> = critical_amplitudes_up_to(belt, options, range.1)?
-        .iter()
-        .map(|critical| AveragedChange {
-            amplitude: critical.amplitude,
-            becomes_quiet: critical.becomes == Becomes::Stable,
-            holds: critical.contact_stays_closed,
-        })
-        .collect();
-    let quiet_without = without.verdict == AveragedVerdict::Stable;
-    Ok(QuietAmplitudes::by_averaging(range, quiet_without, &changes))
+    let changes = critical_amplitudes_up_to(belt, options, largest)?;
+    let changes = changes.iter().map(|critical| AveragedChange {
+        amplitude: critical.amplitude,
+        becomes_quiet: critical.becomes == Becomes::Stable,
+        fails: (!critical.contact_stays_closed).then_some("the contact opens"),
+    });
+    Ok((without.verdict == AveragedVerdict::Stable, changes.collect()))
 }
 
 impl Plant for BeltPlant {
@@ -172,9 +179,10 @@ impl Plant for BeltPlant {
         averaged_quiet_of_belt(&self.at(at)?, range).map_err(|why| why.to_string())
     }
 
-    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<Option<f64>, String> {
-        let every = averaged_quiet_of_belt(&self.at(at)?, (0.0, f64::INFINITY));
-        Ok(every.map_err(|why| why.to_string())?.least_from(0.0))
+    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<f64, String> {
+        let found = averaged_changes(&self.at(at)?, f64::INFINITY);
+        let (quiet_without, changes) = found.map_err(|why| why.to_string())?;
+        QuietAmplitudes::least_by_averaging(quiet_without, &changes)
     }
 
     fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {
@@ -202,7 +210,7 @@ impl Plant for BeltPlant {
     fn price(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<DitherPrice, String> {
         let belt = self.at(at)?;
         let first = belt.dithers().first().ok_or("the study has no dither")?;
-        let acting = quell_model::Dither { amplitude, ..first.clone() };
+        let acting = Dither { amplitude, ..first.clone() };
         let cost = linear_cost(&acting, belt.damping_ratio()).map_err(|why| why.to_string())?;
         Ok(DitherPrice { stroke: cost.stroke, velocity: cost.velocity, power: cost.power })
     }
@@ -239,6 +247,13 @@ impl Plant for BeltPlant {
         amplitude: f64,
     ) -> Result<ResponseSize, String> {
         linear_response(&self.system(at, amplitude)?, 0, &DISPLACEMENT)
+    }
+
+    fn slowness(&self, at: OperatingPoint<'_>) -> Result<f64, String> {
+        let belt = self.at(at)?;
+        let slowest =
+            belt.dithers().iter().map(Dither::repetition_ratio).fold(f64::INFINITY, f64::min);
+        Ok(BAND_END / slowest)
     }
 
     fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {

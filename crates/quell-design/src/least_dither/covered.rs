@@ -1,8 +1,17 @@
-//! How far one dither reaches where none serves the whole box: the largest part of the box in which it is quiet and keeps the limits.
+//! How far one dither reaches where none serves the whole box: the largest connected part of the box in which it is quiet and keeps the
+//! limits.
 //!
-//! Averaging finds the dither and the part of a grid over the box; for a box of one coordinate its ends are then exact.
+//! Averaging ranks dithers by the length of that part: on a grid over the box first, then with ends of their own, so that the best
+//! amplitude does not depend on the points of the grid. Exact responses then decide ([`super::served_part`]).
 
+use quell_numerics::roots::{Closeness, minimise};
+
+use super::covered_box::{CoveredBox, Tried, longest_run};
+use super::exact::InfeasibleDesign;
+use super::no_design::NoDesign;
+use super::quiet::QuietAmplitudes;
 use super::search::grid;
+use super::served_part::ServedPart;
 use super::{DesignProblem, LimitedQuantity, OperatingPoint};
 use crate::tasks::answers;
 
@@ -11,35 +20,18 @@ const POINTS: usize = 65;
 const AMPLITUDES: usize = 65;
 const CHOICES: [usize; 4] = [1, 13, 5, 3];
 
-/// Closeness of the ends, as a share of the range.
-const CLOSENESS: f64 = 1e-7;
+/// Halvings of the distance of two points at an end of the part by averaging.
+const HALVINGS: usize = 30;
 
-/// The part of a box that one dither serves.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CoveredBox {
-    /// Both ends of the coordinate of the box.
-    pub ends: (f64, f64),
-    /// The amplitude.
-    pub amplitude: f64,
-    /// Values of the other design variables.
-    pub others: Vec<f64>,
-    /// Why it is unknown, below and above these ends, whether the dither is quiet; `None` where it is not, or where the box ends.
-    pub unknown_beyond: [Option<String>; 2],
-}
+/// Choices of the dither that exact responses judge, those of averaging.
+const JUDGED: usize = 2;
 
-impl CoveredBox {
-    /// Whether it is the whole box.
-    pub fn is_whole(&self, (low, high): (f64, f64)) -> bool {
-        self.ends.0 <= low && self.ends.1 >= high
-    }
-}
-
-/// The largest part of a box of one coordinate for which one dither suffices.
+/// The largest part of a box of one coordinate for which one dither suffices, where `none` serves the whole box.
 ///
 /// # Errors
 /// A box of another number of coordinates, or no dither that is quiet in a part of it.
-pub fn covered(problem: DesignProblem<'_>) -> Result<CoveredBox, String> {
-    let [(low, high)] = problem.over else {
+pub fn covered(problem: DesignProblem<'_>, none: &InfeasibleDesign) -> Result<CoveredBox, String> {
+    let [range] = problem.over else {
         return Err(match problem.over.len() {
             0 => "the study has one operating point",
             _ => "only for a box of one coordinate is the largest part searched",
@@ -47,171 +39,144 @@ pub fn covered(problem: DesignProblem<'_>) -> Result<CoveredBox, String> {
         .to_owned());
     };
     let points: Vec<f64> =
-        grid(&[(*low, *high)], [1, POINTS, 2, 2], false).into_iter().flatten().collect();
-    let mut best: Option<(f64, f64, Vec<f64>)> = None;
-    for others in grid(problem.others, CHOICES, true) {
-        for (amplitude, length) in problem.lengths(&others, &points) {
-            if best.as_ref().is_none_or(|(most, ..)| length > *most) {
-                best = Some((length, amplitude, others.clone()));
-            }
+        grid(&[*range], [1, POINTS, 2, 2], false).into_iter().flatten().collect();
+    let lines = grid(problem.others, CHOICES, true).into_iter();
+    let lines = lines.map(|others| AveragedLine::new(problem, others, &points));
+    let mut ranked: Vec<_> = lines.filter_map(|line| Some((line.best()?, line))).collect();
+    ranked.sort_by(|a, b| b.0.length.total_cmp(&a.0.length));
+    ranked.truncate(JUDGED);
+    let nearest = none.nearest.as_ref();
+    let of_nearest = nearest.map(|point| Tried {
+        amplitude: problem.verified_amplitude(point.amplitude),
+        others: point.others.clone(),
+    });
+    // Points at which the search found a dither loud, or beyond a limit.
+    let decisive = nearest.iter().flat_map(|point| point.worst.iter().chain(&point.decisive));
+    let failed = match &none.why {
+        NoDesign::NeverQuiet { point } | NoDesign::Failed { point, .. } => Some(point),
+        NoDesign::Limit { point, .. } | NoDesign::Unlimited { point, .. } => point.as_ref(),
+    };
+    let seeds: Vec<f64> =
+        points.iter().copied().chain(decisive.chain(failed).flatten().copied()).collect();
+    let mut best: Option<CoveredBox> = None;
+    let tried = ranked.into_iter().map(|(best, line)| line.refined(best)).chain(of_nearest);
+    for tried in tried {
+        let part = ServedPart::new(problem, &tried).largest(*range, &seeds)?;
+        let longer = |known: &CoveredBox, part: &CoveredBox| part.length() > known.length();
+        if let Some(part) = part
+            && best.as_ref().is_none_or(|known| longer(known, &part))
+        {
+            best = Some(part);
         }
     }
-    let (length, amplitude, others) = best.ok_or("no dither is quiet anywhere in the box")?;
-    if length == 0.0 {
-        return Err("no dither is quiet in a part of the box".to_owned());
-    }
-    problem.exact_part(&points, amplitude, others)
+    best.ok_or_else(|| {
+        "no dither that was judged by exact responses is quiet and keeps every limit in a part of the range".to_owned()
+    })
 }
 
-impl DesignProblem<'_> {
-    /// Amplitudes with the length of the largest part of the box in which each is quiet and allowed, by averaging.
-    fn lengths(&self, others: &[f64], points: &[f64]) -> Vec<(f64, f64)> {
-        let (from, to) = self.amplitude;
-        let sets: Vec<_> = points
-            .iter()
-            .map(|point| {
-                self.plant.averaged(OperatingPoint { point: &[*point], others }, (from, to))
-            })
-            .collect();
-        let mut amplitudes: Vec<f64> =
-            grid(&[(from, to)], [1, AMPLITUDES, 2, 2], true).into_iter().flatten().collect();
-        // The ends of quiet sets are where the part changes.
-        amplitudes.extend(sets.iter().flatten().flat_map(|set| {
-            set.intervals().iter().map(|(low, _)| low * (1.0 + 1e-9)).filter(|low| *low <= to)
-        }));
-        let length = |amplitude: f64| {
-            let serves = |place: usize| {
-                sets[place].as_ref().is_ok_and(|set| set.contains(amplitude))
-                    && self.keeps_limits(points[place], others, amplitude)
-            };
-            let run = longest_run(points.len(), serves);
-            (amplitude, run.map_or(0.0, |(first, last)| points[last] - points[first]))
-        };
-        amplitudes.into_iter().map(length).collect()
+/// The quiet amplitudes by averaging at points of the box, for one choice of the other design variables.
+struct AveragedLine<'a> {
+    problem: DesignProblem<'a>,
+    others: Vec<f64>,
+    points: &'a [f64],
+    sets: Vec<Result<QuietAmplitudes, String>>,
+}
+
+/// An amplitude with the length of its part of the box, and the amplitudes next to it that were tried.
+#[derive(Clone, Copy)]
+struct LengthOfAmplitude {
+    length: f64,
+    amplitude: f64,
+    between: (f64, f64),
+}
+
+impl<'a> AveragedLine<'a> {
+    fn new(problem: DesignProblem<'a>, others: Vec<f64>, points: &'a [f64]) -> Self {
+        let mut line = Self { problem, others, points, sets: Vec::new() };
+        line.sets = answers(problem.tasks, points, |point| line.quiet_at(*point));
+        line
     }
 
-    /// Whether a dither keeps every limit at a point, by averaging.
-    fn keeps_limits(&self, point: f64, others: &[f64], amplitude: f64) -> bool {
-        let at = OperatingPoint { point: &[point], others };
-        let price = || self.plant.price(at, amplitude);
-        self.limits.iter().all(|(quantity, limit)| {
-            let value = match quantity {
-                LimitedQuantity::Amplitude => Ok(amplitude),
-                LimitedQuantity::Stroke => price().map(|price| price.stroke),
-                LimitedQuantity::Velocity => price().map(|price| price.velocity),
-                LimitedQuantity::Power => price().map(|price| price.power),
-                // Where averaging is near enough; `serves` judges exactly.
-                LimitedQuantity::FrictionLoss => self.plant.averaged_loss(at, amplitude),
-                LimitedQuantity::Actuator(limit) => self.share_of_actuator(*limit, at, amplitude),
-                LimitedQuantity::ResponseRms | LimitedQuantity::ResponsePeak => {
-                    let size = self.plant.averaged_response(at, amplitude);
-                    size.map(|size| quantity.of_response().map_or(0.0, |of| of(size)))
-                }
-                LimitedQuantity::MinimumNormalLoad => {
-                    let load = self.plant.minimum_normal_load(at, amplitude);
-                    return load.is_ok_and(|load| load >= *limit);
-                }
-            };
-            value.is_ok_and(|value| value <= *limit)
+    fn quiet_at(&self, point: f64) -> Result<QuietAmplitudes, String> {
+        let at = OperatingPoint { point: &[point], others: &self.others };
+        self.problem.plant.averaged(at, self.problem.amplitude)
+    }
+
+    /// Whether an amplitude is quiet and allowed at a point, whose quiet amplitudes are known.
+    fn serves(
+        &self,
+        set: &Result<QuietAmplitudes, String>,
+        (point, amplitude): (f64, f64),
+    ) -> bool {
+        let at = OperatingPoint { point: &[point], others: &self.others };
+        let keeps = |limited: &(LimitedQuantity, f64)| {
+            self.problem.used_by_averaging(*limited, at, amplitude).is_ok_and(|used| used <= 1.0)
+        };
+        set.as_ref().is_ok_and(|set| set.contains(amplitude))
+            && self.problem.limits.iter().all(keeps)
+    }
+
+    /// The places of the points of the largest part that an amplitude serves.
+    fn longest(&self, amplitude: f64) -> Option<(usize, usize)> {
+        longest_run(self.points, |place| {
+            self.serves(&self.sets[place], (self.points[place], amplitude))
         })
     }
 
-    /// Whether a dither is quiet and allowed at a point, exactly; or why it is unknown whether it is quiet.
-    fn serves(&self, point: f64, others: &[f64], amplitude: f64) -> Result<bool, String> {
-        let at = OperatingPoint { point: &[point], others };
-        let quiet = self.plant.verdict(at, amplitude)?.quiet;
-        let others_kept = || {
-            self.limits.iter().all(|(quantity, limit)| match quantity {
-                LimitedQuantity::FrictionLoss => {
-                    self.plant.exact_loss(at, amplitude).is_ok_and(|loss| loss <= *limit)
-                }
-                LimitedQuantity::ResponseRms | LimitedQuantity::ResponsePeak => {
-                    let size = self.plant.exact_response(at, amplitude);
-                    let value = size.map(|size| quantity.of_response().map_or(0.0, |of| of(size)));
-                    value.is_ok_and(|value| value <= *limit)
-                }
-                _ => self.keeps_averaged_limits(at.point[0], others, amplitude),
-            })
-        };
-        Ok(quiet && others_kept())
+    /// The amplitude whose part of the points is largest; `None` where no amplitude is quiet and allowed at a point.
+    fn best(&self) -> Option<LengthOfAmplitude> {
+        let (from, to) = self.problem.amplitude;
+        let mut amplitudes: Vec<f64> =
+            grid(&[(from, to)], [1, AMPLITUDES, 2, 2], true).into_iter().flatten().collect();
+        // The ends of quiet sets are where the part changes.
+        amplitudes.extend(self.sets.iter().flatten().flat_map(|set| {
+            set.intervals().iter().map(|(low, _)| low * (1.0 + 1e-9)).filter(|low| *low <= to)
+        }));
+        amplitudes.sort_by(f64::total_cmp);
+        amplitudes.dedup();
+        let lengths = answers(self.problem.tasks, &amplitudes, |amplitude| {
+            let (first, last) = self.longest(*amplitude)?;
+            Some(self.points[last] - self.points[first])
+        });
+        let length = lengths.iter().flatten().copied().max_by(f64::total_cmp)?;
+        // Amplitudes that reach the same points reach differently far between them.
+        let first = lengths.iter().position(|known| *known == Some(length))?;
+        let equal = lengths[first..].iter().take_while(|known| **known == Some(length)).count();
+        let last = amplitudes.len() - 1;
+        let between = (amplitudes[first.saturating_sub(1)], amplitudes[(first + equal).min(last)]);
+        Some(LengthOfAmplitude { length, amplitude: amplitudes[first], between })
     }
 
-    /// Whether a dither keeps the limits that are judged without trajectories.
-    fn keeps_averaged_limits(&self, point: f64, others: &[f64], amplitude: f64) -> bool {
-        let limits: Vec<_> = self
-            .limits
-            .iter()
-            .copied()
-            .filter(|(quantity, _)| {
-                *quantity != LimitedQuantity::FrictionLoss && quantity.of_response().is_none()
-            })
-            .collect();
-        DesignProblem { limits: &limits, ..*self }.keeps_limits(point, others, amplitude)
-    }
-
-    /// The longest part that a dither serves exactly, its ends by bisection.
-    fn exact_part(
-        &self,
-        points: &[f64],
-        amplitude: f64,
-        others: Vec<f64>,
-    ) -> Result<CoveredBox, String> {
-        // Points between those of the grid at which the dither is loud.
-        let loud = self.plant.loud_points(self.over, &others, amplitude)?;
-        let mut points: Vec<f64> =
-            points.iter().copied().chain(loud.into_iter().flatten()).collect();
-        points.sort_by(f64::total_cmp);
-        let serves = |point: f64| self.serves(point, &others, amplitude);
-        let served: Vec<bool> = answers(self.tasks, &points, |point| serves(*point) == Ok(true));
-        let (first, last) = longest_run(points.len(), |place| served[place])
-            .ok_or("by exact responses the dither of averaging is quiet nowhere in the box")?;
-        let end = |inside: f64, outside: Option<&f64>| {
-            let Some(&outside) = outside else { return (inside, None) };
-            let (mut inside, mut outside) = (inside, outside);
-            while (outside - inside).abs() > CLOSENESS * (points[points.len() - 1] - points[0]) {
+    /// The length of the part that an amplitude serves, with ends between the points.
+    fn length(&self, amplitude: f64) -> f64 {
+        let Some((first, last)) = self.longest(amplitude) else { return 0.0 };
+        let end = |inside: usize, outside: Option<&f64>| {
+            let mut inside = self.points[inside];
+            let Some(mut outside) = outside.copied() else { return inside };
+            for _ in 0..HALVINGS {
                 let middle = f64::midpoint(inside, outside);
-                if serves(middle) == Ok(true) {
-                    inside = middle;
-                } else {
-                    outside = middle;
-                }
+                let is_served = self.serves(&self.quiet_at(middle), (middle, amplitude));
+                *(if is_served { &mut inside } else { &mut outside }) = middle;
             }
-            (inside, serves(outside).err())
+            inside
         };
-        let below = first.checked_sub(1).and_then(|place| points.get(place));
-        let (low, unknown_below) = end(points[first], below);
-        let (high, unknown_above) = end(points[last], points.get(last + 1));
-        let unknown_beyond = [unknown_below, unknown_above];
-        Ok(CoveredBox { ends: (low, high), amplitude, others, unknown_beyond })
+        let below = first.checked_sub(1).and_then(|place| self.points.get(place));
+        end(last, self.points.get(last + 1)) - end(first, below)
     }
-}
 
-/// The longest run of numbers below `count` that pass: its first and last.
-fn longest_run(count: usize, passes: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
-    let mut longest: Option<(usize, usize)> = None;
-    let mut since = None;
-    for place in 0..=count {
-        if place < count && passes(place) {
-            since = since.or(Some(place));
-        } else if let Some(first) = since.take() {
-            let last = place - 1;
-            if longest.is_none_or(|(from, to)| last - first > to - from) {
-                longest = Some((first, last));
+    /// The dither whose part is largest among the amplitudes between those that were tried.
+    fn refined(self, best: LengthOfAmplitude) -> Tried {
+        let (low, high) = best.between;
+        let found = minimise(|value| -self.length(value), low, high, Closeness::default());
+        let inside = found.ok().map(|found| (-found.value, found.location));
+        let known = [best.amplitude, high].map(|amplitude| (self.length(amplitude), amplitude));
+        // Of amplitudes that reach equally far the first, which was tried.
+        let mut longest = known[0];
+        for tried in known[1..].iter().copied().chain(inside) {
+            if tried.0 > longest.0 {
+                longest = tried;
             }
         }
-    }
-    longest
-}
-
-#[cfg(test)]
-mod tests {
-    use super::longest_run;
-
-    #[test]
-    fn the_longest_run_is_found() {
-        let passing = |list: &'static [bool]| longest_run(list.len(), |place| list[place]);
-        assert_eq!(passing(&[true, false, true, true, false]), Some((2, 3)));
-        assert_eq!(passing(&[true, true]), Some((0, 1)));
-        assert_eq!(passing(&[false]), None);
+        Tried { amplitude: longest.1, others: self.others }
     }
 }

@@ -90,7 +90,7 @@ impl DiscPlant<'_> {
         for order in [Order::First, Order::Second] {
             let waves = waves.clone().with_order(order);
             let all = waves.undithered(from..=to).into_iter().chain(waves.dithered(from..=to));
-            for resonance in all.filter(Resonance::can_be_unstable) {
+            for resonance in all.filter(Resonance::pair_can_be_unstable) {
                 match resonance.tongue {
                     Tongue::Absent => {}
                     Tongue::Between { peak_speed, .. } => {
@@ -177,7 +177,7 @@ impl Plant for DiscPlant<'_> {
         })
     }
 
-    fn least_averaged(&self, _: OperatingPoint<'_>) -> Result<Option<f64>, String> {
+    fn least_averaged(&self, _: OperatingPoint<'_>) -> Result<f64, String> {
         Err("the amplitudes of a disc are judged up to a largest one: its waves grow again at larger ones".to_owned())
     }
 
@@ -197,6 +197,11 @@ impl Plant for DiscPlant<'_> {
     fn exact_loss(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {
         // The flat disc slides steadily under every dither: the mean is that of the factor on friction.
         self.averaged_loss(at, amplitude)
+    }
+
+    /// The dither of a disc moves nothing.
+    fn slowness(&self, _: OperatingPoint<'_>) -> Result<f64, String> {
+        Ok(0.0)
     }
 
     fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {

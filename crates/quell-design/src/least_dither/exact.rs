@@ -4,7 +4,7 @@ use super::exact_box::{ExactBox, WINDOW};
 use super::no_design::NoDesign;
 use super::search::{AveragedSearch, DesignBasin, DesignPoint, Judged};
 use super::verified::VerifiedPoint;
-use super::{DesignProblem, LimitedQuantity, MARGIN, OperatingPoint, ResponseSize};
+use super::{DesignProblem, KEPT, LimitedQuantity, MARGIN, OperatingPoint, ResponseSize};
 use crate::actuator::ActuatorDemand;
 
 /// A limit binds by averaging if at least this share of it is used.
@@ -39,6 +39,15 @@ pub struct FeasibleDesign {
 }
 
 impl FeasibleDesign {
+    /// The share by which the verified amplitude exceeds the least one: [`MARGIN`], or less where the range of amplitudes ends.
+    pub fn margin(&self) -> f64 {
+        let least = self.critical.amplitude;
+        match self.verified_amplitude {
+            verified if verified < least * (1.0 + MARGIN) => verified / least - 1.0,
+            _ => MARGIN,
+        }
+    }
+
     /// The largest multiplier at the points at which the dither was verified.
     pub fn largest_multiplier(&self) -> f64 {
         self.verified.iter().map(|at| at.multiplier).fold(0.0, f64::max)
@@ -134,7 +143,7 @@ fn exceeded(point: &DesignPoint) -> NoDesign {
         }
     }
     match (worst, &point.objective) {
-        (Some((quantity, used)), _) if used > 1.0 => {
+        (Some((quantity, used)), _) if used > KEPT => {
             NoDesign::Limit { quantity, used, point: point.worst.clone() }
         }
         (_, Err(why)) => {
@@ -148,7 +157,7 @@ impl DesignProblem<'_> {
     /// The exact least dither near that of averaging.
     fn feasible(&self, averaged: &DesignPoint) -> Result<FeasibleDesign, NoDesign> {
         let mut critical = self.exact_point(&averaged.others, averaged)?;
-        if averaged.use_of_limits() >= BINDS || critical.use_of_limits() > 1.0 {
+        if averaged.use_of_limits() >= BINDS || critical.use_of_limits() > KEPT {
             critical = self.at_the_limit(critical)?;
         } else if !self.others.is_empty() {
             critical = self.at_the_minimum(critical);
@@ -157,35 +166,24 @@ impl DesignProblem<'_> {
         let mut response = self.exact_response(&critical);
         for _ in 0..RESPONSE_ROUNDS {
             // Where a limit is exceeded at a point of the box that was not judged on the way, it is judged from there on.
-            let Some(point) = self.beyond_response(&critical) else { break };
+            let Some(NoDesign::Limit { point: Some(point), .. }) =
+                self.exceeded_by_responses(&critical)
+            else {
+                break;
+            };
             critical.decisive.push(point);
             critical = self.at_the_limit(critical)?;
             (critical, verified) = self.verified(critical)?;
             response = self.exact_response(&critical);
         }
-        if critical.use_of_limits() > 1.0 + SECANT.1 * 10.0 {
+        if critical.use_of_limits() > KEPT {
             return Err(exceeded(&critical));
         }
-        if let Some(point) = self.beyond_response(&critical) {
-            return Err(self.response_exceeded(&critical, point));
+        if let Some(why) = self.exceeded_by_responses(&critical) {
+            return Err(why);
         }
-        let verified_amplitude = critical.amplitude * (1.0 + MARGIN);
+        let verified_amplitude = self.verified_amplitude(critical.amplitude);
         let friction_loss = self.exact_loss(&critical, verified_amplitude);
-        let limit =
-            self.limits.iter().find(|(quantity, _)| *quantity == LimitedQuantity::FrictionLoss);
-        if let Some((quantity, limit)) = limit {
-            match &friction_loss {
-                Ok((loss, point)) if loss / limit > 1.0 => {
-                    let (quantity, used, point) = (*quantity, loss / limit, Some(point.clone()));
-                    return Err(NoDesign::Limit { quantity, used, point });
-                }
-                Ok(_) => {}
-                Err(why) => {
-                    let point = critical.worst.clone().unwrap_or_default();
-                    return Err(NoDesign::Failed { point, why: why.clone() });
-                }
-            }
-        }
         let loud_from = self.loud_from(&critical, verified_amplitude);
         let worst = critical.worst.as_ref();
         let drive = self.largest_demand(&critical.others, verified_amplitude, worst);

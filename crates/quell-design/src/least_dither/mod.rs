@@ -8,9 +8,11 @@
 //! loud points form narrow tongues names the points that a grid would miss, and searches between points before an answer is accepted.
 
 mod belt;
+mod between_points;
 mod branch;
 mod confident;
 mod covered;
+mod covered_box;
 mod disc;
 mod exact;
 mod exact_box;
@@ -21,6 +23,7 @@ mod scaled;
 mod schedule;
 mod search;
 mod sensitivity;
+mod served_part;
 mod system;
 mod verified;
 mod worst_point;
@@ -28,7 +31,8 @@ mod worst_point;
 pub use belt::{BeltPlant, amplitude_branch_of_belt, averaged_quiet_of_belt};
 pub use branch::{AmplitudeBranch, QuietChange};
 pub use confident::{LeastOfSample, LeastQuantile, SampledLeast, SampledQuiet};
-pub use covered::{CoveredBox, covered};
+pub use covered::covered;
+pub use covered_box::{BeyondCovered, CoveredBox};
 pub use disc::{DiscAtPoint, DiscPlant};
 pub use exact::{Designed, FeasibleDesign, InfeasibleDesign, design};
 pub use no_design::NoDesign;
@@ -47,8 +51,11 @@ pub use worst_point::NoLeast;
 use crate::actuator::{Actuator, ActuatorDemand, ActuatorLimit};
 use crate::tasks::Tasks;
 
-/// Share of the least amplitude by which the verified dither exceeds it.
+/// Share of the least amplitude by which the verified dither exceeds it, where the range of amplitudes does not end before.
 pub const MARGIN: f64 = 1e-3;
+
+/// Share of a limit up to which it is kept: the search along a limit ends within this of it.
+pub const KEPT: f64 = 1.0 + 1e-6;
 
 /// What is to be small.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,6 +110,9 @@ pub enum LimitedQuantity {
     ResponsePeak,
     /// A limit of the actuator: its share that is used, at most 1.
     Actuator(ActuatorLimit),
+    /// The upper end of the band of the vibration, over the frequency at which the dither repeats: a dither in the band vibrates slowly
+    /// itself.
+    Band,
 }
 
 impl LimitedQuantity {
@@ -130,7 +140,13 @@ impl LimitedQuantity {
             Self::ResponseRms => "response_rms",
             Self::ResponsePeak => "response_peak",
             Self::Actuator(limit) => limit.path(),
+            Self::Band => "band",
         }
+    }
+
+    /// Whether it limits what only exact responses decide: their size, or the friction that is lost on them.
+    pub(crate) fn is_of_exact_response(self) -> bool {
+        self == Self::FrictionLoss || self.of_response().is_some()
     }
 
     /// The size of a response that it limits; `None` for other quantities.
@@ -211,11 +227,11 @@ pub trait Plant {
         range: (f64, f64),
     ) -> Result<QuietAmplitudes, String>;
 
-    /// The least amplitude that is quiet by averaging at a finite frequency ratio; `None` where no amplitude is.
+    /// The least amplitude that is quiet by averaging at a finite frequency ratio.
     ///
     /// # Errors
-    /// Why there is no answer.
-    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<Option<f64>, String>;
+    /// Why no amplitude is, or why there is no answer.
+    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<f64, String>;
 
     /// The amplitudes in a range that are quiet by exact thresholds.
     ///
@@ -271,6 +287,13 @@ pub trait Plant {
     ) -> Result<ResponseSize, String> {
         self.exact_response(at, amplitude)
     }
+
+    /// The upper end of the band of slow vibration over the frequency at which the dither repeats: 1 or more where it is in the band, 0
+    /// where no frequency of a dither is too slow.
+    ///
+    /// # Errors
+    /// Why it is unknown.
+    fn slowness(&self, at: OperatingPoint<'_>) -> Result<f64, String>;
 
     /// The smallest normal load under the dither.
     ///
@@ -341,4 +364,18 @@ pub struct DesignProblem<'a> {
     pub start: DesignStart,
     /// Who runs what is independent of one another: choices of the design variables, and operating points.
     pub tasks: &'a dyn Tasks,
+}
+
+impl DesignProblem<'_> {
+    /// The largest amplitude that the range and the limits on the amplitude allow.
+    fn largest_amplitude(&self) -> f64 {
+        let limits =
+            self.limits.iter().filter(|(quantity, _)| *quantity == LimitedQuantity::Amplitude);
+        limits.fold(self.amplitude.1, |largest, (_, limit)| largest.min(*limit))
+    }
+
+    /// The amplitude at which a least one is verified: [`MARGIN`] above it, but not above the largest that is allowed.
+    pub(super) fn verified_amplitude(&self, least: f64) -> f64 {
+        (least * (1.0 + MARGIN)).min(self.largest_amplitude().max(least))
+    }
 }

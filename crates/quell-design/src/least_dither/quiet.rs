@@ -6,8 +6,8 @@ pub(super) struct AveragedChange {
     pub(super) amplitude: f64,
     /// Whether larger amplitudes are quiet.
     pub(super) becomes_quiet: bool,
-    /// Whether averaging describes the contacts there.
-    pub(super) holds: bool,
+    /// Why averaging does not describe the contacts there, if it does not.
+    pub(super) fails: Option<&'static str>,
 }
 
 /// Amplitudes at which a structure is quiet: disjoint intervals in ascending order, within the range that was searched.
@@ -56,15 +56,33 @@ impl QuietAmplitudes {
         quiet_without: bool,
         changes: &[AveragedChange],
     ) -> Self {
-        let end = changes.iter().find(|change| !change.holds);
+        let end = changes.iter().find(|change| change.fails.is_some());
         let end = end.map(|change| (change.amplitude, false));
-        let valid = changes.iter().filter(|change| change.holds);
+        let valid = changes.iter().filter(|change| change.fails.is_none());
         let valid = valid.map(|change| (change.amplitude, change.becomes_quiet));
         let whole = Self::of_changes((0.0, to), quiet_without, valid.chain(end));
         let inside =
             whole.intervals().iter().flat_map(|(low, high)| [(*low, true), (*high, false)]);
         let inside = inside.filter(|(at, quiet)| *quiet || *at < to);
         Self::of_changes((from, to), false, inside)
+    }
+
+    /// The least amplitude that is quiet by averaging.
+    ///
+    /// # Errors
+    /// Why no amplitude is.
+    pub(super) fn least_by_averaging(
+        quiet_without: bool,
+        changes: &[AveragedChange],
+    ) -> Result<f64, String> {
+        let every = Self::by_averaging((0.0, f64::INFINITY), quiet_without, changes);
+        every.least_from(0.0).ok_or_else(|| {
+            let end = changes.iter().find_map(|change| change.fails);
+            end.map_or_else(
+                || "no amplitude of this frequency quenches by averaging".to_owned(),
+                |fails| format!("no amplitude quenches by averaging before {fails}"),
+            )
+        })
     }
 
     /// The same amplitudes in another unit, of which one is `factor` of the present one.

@@ -22,7 +22,7 @@ impl Plant for ScaledPlant<'_> {
         self.plant.averaged(at, range)
     }
 
-    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<Option<f64>, String> {
+    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<f64, String> {
         self.plant.least_averaged(at)
     }
 
@@ -60,6 +60,10 @@ impl Plant for ScaledPlant<'_> {
         amplitude: f64,
     ) -> Result<ResponseSize, String> {
         self.plant.averaged_response(at, self.factor * amplitude)
+    }
+
+    fn slowness(&self, at: OperatingPoint<'_>) -> Result<f64, String> {
+        self.plant.slowness(at)
     }
 
     fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {

@@ -1,6 +1,6 @@
 //! The exact least amplitude at single operating points: what a dither that follows the operating point needs.
 
-use super::{DesignObjective, DesignProblem, MARGIN, OperatingPoint};
+use super::{DesignObjective, DesignProblem, OperatingPoint};
 
 /// Window about the amplitude of averaging in which the exact one is sought first, as factors.
 const WINDOW: (f64, f64) = (0.85, 1.15);
@@ -52,7 +52,9 @@ impl DesignProblem<'_> {
             DesignObjective::Stroke => price().map(|price| price.stroke),
             DesignObjective::Velocity => price().map(|price| price.velocity),
             DesignObjective::Power => price().map(|price| price.power),
-            DesignObjective::FrictionLoss => self.plant.exact_loss(at, amplitude * (1.0 + MARGIN)),
+            DesignObjective::FrictionLoss => {
+                self.plant.exact_loss(at, self.verified_amplitude(amplitude))
+            }
         }
     }
 }

@@ -7,7 +7,7 @@ use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
 use crate::actuator::{ActuatorDemand, ActuatorLimit};
 use crate::tasks::answers;
 
-use super::{DesignObjective, DesignProblem, LimitedQuantity, MARGIN, OperatingPoint};
+use super::{DesignObjective, DesignProblem, KEPT, LimitedQuantity, OperatingPoint};
 
 /// Points of the grid along each design variable, by their number.
 const GRID: [usize; 4] = [1, 49, 13, 6];
@@ -31,6 +31,13 @@ pub(super) enum Judged {
 /// Share by which the estimate of a limited response or loss of friction, at the amplitude of averaging, may be wrong: the loss of the
 /// example of the book differs by 2 % there. A choice that is off by more is not followed; one that is let in is judged exactly later.
 const ESTIMATE: f64 = 0.05;
+
+/// Share of the least amplitude that a limit on the amplitude leaves at least for the margin of the verified dither, which ends at that
+/// limit. A smaller one leaves a dither that is verified where it begins to be quiet, and fails by rounding.
+const LEAST_MARGIN: f64 = 1e-4;
+
+/// Ratio to the end of the band of the vibration from which a dither is outside of it.
+const BEYOND_BAND: f64 = 1.001;
 
 /// Use of a limit up to which choices between the points of the grid are sought that keep it.
 const NEAREST: f64 = 1.5;
@@ -104,15 +111,13 @@ impl DesignPoint {
 
     /// The objective where every limit is kept.
     pub(super) fn allowed(&self) -> Option<f64> {
-        self.objective.as_ref().ok().copied().filter(|_| self.use_of_limits() <= 1.0)
+        self.objective.as_ref().ok().copied().filter(|_| self.use_of_limits() <= KEPT)
     }
 
     /// The objective where every limit may be kept: those whose use is an estimate may be exceeded by its error.
     fn may_be_allowed(&self) -> Option<f64> {
         let kept = |(quantity, used): &(LimitedQuantity, Result<f64, String>)| {
-            let estimated =
-                quantity.of_response().is_some() || *quantity == LimitedQuantity::FrictionLoss;
-            let most = if estimated { 1.0 + ESTIMATE } else { 1.0 };
+            let most = if quantity.is_of_exact_response() { 1.0 + ESTIMATE } else { 1.0 };
             used.as_ref().is_ok_and(|used| *used <= most)
         };
         self.objective.as_ref().ok().copied().filter(|_| self.used.iter().all(kept))
@@ -176,51 +181,73 @@ impl DesignProblem<'_> {
         amplitude: f64,
         points: &[Vec<f64>],
     ) -> Option<Result<f64, String>> {
-        let of = quantity.of_response()?;
-        let verified = amplitude * (1.0 + MARGIN);
-        let sizes = answers(self.tasks, points, |point| {
-            self.plant.exact_response(OperatingPoint { point, others }, verified)
+        if !quantity.is_of_exact_response() {
+            return None;
+        }
+        let verified = self.verified_amplitude(amplitude);
+        let shares = answers(self.tasks, points, |point| {
+            self.used_exactly_at((quantity, limit), OperatingPoint { point, others }, verified)
         });
-        let largest =
-            sizes.into_iter().try_fold(0.0, |most: f64, size| Ok(most.max(of(size?) / limit)));
-        Some(largest)
+        Some(shares.into_iter().try_fold(0.0, |most: f64, used| Ok(most.max(used?))))
     }
 
-    /// How far a limit is used at an amplitude.
-    fn used(
+    /// How far a limit on exact responses is used by a dither at one operating point.
+    pub(super) fn used_exactly_at(
         &self,
         (quantity, limit): (LimitedQuantity, f64),
+        at: OperatingPoint<'_>,
+        amplitude: f64,
+    ) -> Result<f64, String> {
+        let value = match quantity.of_response() {
+            Some(of) => of(self.plant.exact_response(at, amplitude)?),
+            None => self.plant.exact_loss(at, amplitude)?,
+        };
+        Ok(value.max(0.0) / limit)
+    }
+
+    /// How far a limit is used at an amplitude, at the corners of the box and the point that decides. The loss of friction is that of
+    /// exact responses: averaging, which is off by several per cent near a graze, is no estimate of it.
+    fn used(
+        &self,
+        limited: (LimitedQuantity, f64),
         others: &[f64],
         amplitude: f64,
         worst: Option<&Vec<f64>>,
     ) -> Result<f64, String> {
-        let price = |of: fn(super::DitherPrice) -> f64| {
-            self.largest(worst, |point| {
-                self.plant.price(OperatingPoint { point, others }, amplitude).map(of)
-            })
-        };
+        self.largest(worst, |point| {
+            let at = OperatingPoint { point, others };
+            match limited.0 {
+                LimitedQuantity::FrictionLoss => {
+                    self.used_exactly_at(limited, at, self.verified_amplitude(amplitude))
+                }
+                _ => self.used_by_averaging(limited, at, amplitude),
+            }
+        })
+    }
+
+    /// How far a limit is used by a dither at one operating point, without trajectories.
+    pub(super) fn used_by_averaging(
+        &self,
+        (quantity, limit): (LimitedQuantity, f64),
+        at: OperatingPoint<'_>,
+        amplitude: f64,
+    ) -> Result<f64, String> {
+        let price = || self.plant.price(at, amplitude);
         let value = match quantity {
-            LimitedQuantity::Amplitude => amplitude,
-            LimitedQuantity::Stroke => price(|price| price.stroke)?,
-            LimitedQuantity::Velocity => price(|price| price.velocity)?,
-            LimitedQuantity::Power => price(|price| price.power)?,
-            LimitedQuantity::FrictionLoss => self.largest_loss(others, amplitude, worst)?,
-            LimitedQuantity::Actuator(limit) => self.largest(worst, |point| {
-                self.share_of_actuator(limit, OperatingPoint { point, others }, amplitude)
-            })?,
+            LimitedQuantity::Amplitude => amplitude * (1.0 + LEAST_MARGIN),
+            LimitedQuantity::Stroke => price()?.stroke,
+            LimitedQuantity::Velocity => price()?.velocity,
+            LimitedQuantity::Power => price()?.power,
+            LimitedQuantity::FrictionLoss => self.plant.averaged_loss(at, amplitude)?,
+            LimitedQuantity::Actuator(limit) => self.share_of_actuator(limit, at, amplitude)?,
+            // The end of the band belongs to it.
+            LimitedQuantity::Band => self.plant.slowness(at)? * BEYOND_BAND,
             LimitedQuantity::ResponseRms | LimitedQuantity::ResponsePeak => {
-                let of = quantity.of_response().unwrap_or(|_| 0.0);
-                self.largest(worst, |point| {
-                    let at = OperatingPoint { point, others };
-                    self.plant.averaged_response(at, amplitude).map(of)
-                })?
+                let size = self.plant.averaged_response(at, amplitude)?;
+                quantity.of_response().map_or(0.0, |of| of(size))
             }
             LimitedQuantity::MinimumNormalLoad => {
-                let left = -self.largest(worst, |point| {
-                    self.plant
-                        .minimum_normal_load(OperatingPoint { point, others }, amplitude)
-                        .map(|load| -load)
-                })?;
+                let left = self.plant.minimum_normal_load(at, amplitude)?;
                 return Ok(if left > 0.0 { limit / left } else { f64::INFINITY });
             }
         };
@@ -277,7 +304,7 @@ impl DesignProblem<'_> {
         amplitude: f64,
         worst: Option<&Vec<f64>>,
     ) -> Result<f64, String> {
-        let verified = amplitude * (1.0 + MARGIN);
+        let verified = self.verified_amplitude(amplitude);
         self.largest(worst, |point| {
             self.plant.exact_loss(OperatingPoint { point, others }, verified)
         })

@@ -6,6 +6,7 @@ use quell_dynamics::motion::orbit::{
     squealing_state, values_tried,
 };
 use quell_dynamics::orbit::OrbitVerdict;
+use quell_dynamics::response::{BAND_END, vibration_frequency};
 use quell_linear::averaging::{Becomes, DitheredSystem, NoAverage};
 use quell_linear::driven_point::DrivenPoint;
 use quell_linear::growth::Verdict;
@@ -206,19 +207,29 @@ pub fn averaged_quiet_of_system(
     input: usize,
     range: (f64, f64),
 ) -> Result<QuietAmplitudes, NoAverage> {
+    let (quiet_without, changes) = averaged_changes(system, input)?;
+    Ok(QuietAmplitudes::by_averaging(range, quiet_without, &changes))
+}
+
+/// Whether a system is quiet without one of its dithers by averaging, and the changes over the amplitude of that dither.
+fn averaged_changes(
+    system: &System,
+    input: usize,
+) -> Result<(bool, Vec<AveragedChange>), NoAverage> {
     let prepared = DitheredSystem::new(system)?;
     let without = prepared.average_with(Some((input, 0.0)))?;
     let without = without.growth().map_err(NoAverage::Eigenvalues)?.verdict();
-    let changes: Vec<_> = prepared
-        .critical_amplitudes(input)?
-        .iter()
-        .map(|critical| AveragedChange {
-            amplitude: critical.amplitude,
-            becomes_quiet: critical.becomes == Becomes::Stable,
-            holds: critical.contacts_stay_closed && critical.within_laws,
-        })
-        .collect();
-    Ok(QuietAmplitudes::by_averaging(range, without == Verdict::Stable, &changes))
+    let changes = prepared.critical_amplitudes(input)?;
+    let changes = changes.iter().map(|critical| AveragedChange {
+        amplitude: critical.amplitude,
+        becomes_quiet: critical.becomes == Becomes::Stable,
+        fails: match (critical.contacts_stay_closed, critical.within_laws) {
+            (true, true) => None,
+            (true, false) => Some("the slip leaves the range of a friction law"),
+            (false, _) => Some("a contact opens"),
+        },
+    });
+    Ok((without == Verdict::Stable, changes.collect()))
 }
 
 impl Plant for SystemPlant<'_> {
@@ -231,10 +242,10 @@ impl Plant for SystemPlant<'_> {
         averaged_quiet_of_system(&system, self.input, range).map_err(in_words)
     }
 
-    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<Option<f64>, String> {
+    fn least_averaged(&self, at: OperatingPoint<'_>) -> Result<f64, String> {
         let system = (self.at)(at, 1.0)?;
-        let every = averaged_quiet_of_system(&system, self.input, (0.0, f64::INFINITY));
-        Ok(every.map_err(in_words)?.least_from(0.0))
+        let (quiet_without, changes) = averaged_changes(&system, self.input).map_err(in_words)?;
+        QuietAmplitudes::least_by_averaging(quiet_without, &changes)
     }
 
     fn exact(&self, at: OperatingPoint<'_>, range: (f64, f64)) -> Result<QuietAmplitudes, String> {
@@ -299,6 +310,12 @@ impl Plant for SystemPlant<'_> {
         amplitude: f64,
     ) -> Result<ResponseSize, String> {
         linear_response(&(self.at)(at, amplitude)?, self.input, self.observe)
+    }
+
+    fn slowness(&self, at: OperatingPoint<'_>) -> Result<f64, String> {
+        let system = (self.at)(at, 1.0)?;
+        let slowest = system.waves().map(Wave::repetition).fold(f64::INFINITY, f64::min);
+        Ok(vibration_frequency(&system).map_or(0.0, |vibration| BAND_END * vibration / slowest))
     }
 
     fn minimum_normal_load(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<f64, String> {

@@ -2,16 +2,14 @@
 
 use std::cmp::Ordering;
 
+use super::between_points::Towards;
 use super::no_design::NoDesign;
 use super::search::{DesignPoint, grid};
 use super::{
-    DesignObjective, DesignProblem, DesignStart, ExactVerdict, LimitedQuantity, MARGIN,
+    DesignObjective, DesignProblem, DesignStart, ExactVerdict, KEPT, LimitedQuantity,
     OperatingPoint, ResponseSize,
 };
 use crate::tasks::answers;
-
-/// Share of a limit of the response up to which it is kept: the method that follows a limit ends within this of it.
-const RESPONSE_KEPT: f64 = 1.0 + 1e-6;
 
 /// Rounds in which points that fail the verification are added to those that decide.
 const ROUNDS: usize = 4;
@@ -34,9 +32,13 @@ impl DesignProblem<'_> {
         mut critical: DesignPoint,
     ) -> Result<(DesignPoint, Vec<VerifiedPoint>), NoDesign> {
         for _ in 0..ROUNDS {
-            let amplitude = critical.amplitude * (1.0 + MARGIN);
+            let amplitude = self.verified_amplitude(critical.amplitude);
             let mut points: Vec<Vec<f64>> = critical.worst.iter().cloned().collect();
             points.extend(self.points());
+            let line = self.line(&points);
+            let dips =
+                self.averaged_extremes(&line, (&critical.others, amplitude), &[Towards::Loud]);
+            points.extend(dips.into_iter().map(|point| vec![point]));
             let mut verified = Vec::new();
             let mut failing = Vec::new();
             let verdicts = answers(self.tasks, &points, |point| {
@@ -130,9 +132,9 @@ impl DesignProblem<'_> {
         largest.ok_or_else(|| "the box has no points".to_owned())
     }
 
-    /// The limits of the response.
-    fn response_limits(&self) -> impl Iterator<Item = (LimitedQuantity, f64)> {
-        self.limits.iter().copied().filter(|(quantity, _)| quantity.of_response().is_some())
+    /// The limits that exact responses decide.
+    fn limits_of_responses(&self) -> impl Iterator<Item = (LimitedQuantity, f64)> {
+        self.limits.iter().copied().filter(|(quantity, _)| quantity.is_of_exact_response())
     }
 
     /// The largest size of the observed response in the box on the exact responses of the verified dither: at every point where a
@@ -142,7 +144,7 @@ impl DesignProblem<'_> {
         let points = self.points_of_response(critical);
         let sizes = answers(self.tasks, &points, |point| {
             let at = OperatingPoint { point, others: &critical.others };
-            self.plant.exact_response(at, critical.amplitude * (1.0 + MARGIN))
+            self.plant.exact_response(at, self.verified_amplitude(critical.amplitude))
         });
         for size in sizes {
             largest = largest.or_larger(size?);
@@ -151,7 +153,7 @@ impl DesignProblem<'_> {
     }
 
     fn points_of_response(&self, critical: &DesignPoint) -> Vec<Vec<f64>> {
-        let is_limited = self.response_limits().next().is_some();
+        let is_limited = self.limits_of_responses().next().is_some();
         let mut points =
             if is_limited { self.points() } else { grid(self.over, [1, 2, 2, 2], false) };
         points.extend(critical.worst.clone());
@@ -161,32 +163,28 @@ impl DesignProblem<'_> {
         points
     }
 
-    /// The operating point at which a limit of the response is exceeded most by the verified dither; `None` where every limit is kept.
-    pub(super) fn beyond_response(&self, critical: &DesignPoint) -> Option<Vec<f64>> {
-        self.response_limits().next()?;
-        let points = self.points_of_response(critical);
-        let shares = answers(self.tasks, &points, |point| self.response_used(critical, point).1);
-        let used = points
-            .into_iter()
-            .zip(shares)
-            .filter_map(|(point, used)| (used > RESPONSE_KEPT).then_some((used, point)));
-        used.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point)
-    }
-
-    /// The limit of the response that is used most at a point, and its share; a response that is unknown uses none.
-    fn response_used(&self, critical: &DesignPoint, point: &[f64]) -> (LimitedQuantity, f64) {
-        let at = OperatingPoint { point, others: &critical.others };
-        let size = self.plant.exact_response(at, critical.amplitude * (1.0 + MARGIN));
-        let used = self.response_limits().map(|(quantity, limit)| {
-            let value = size.as_ref().ok().zip(quantity.of_response());
-            (quantity, value.map_or(0.0, |(size, of)| of(*size) / limit))
-        });
-        used.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((LimitedQuantity::ResponseRms, 0.0))
-    }
-
-    /// That a limit of the response is exceeded at a point.
-    pub(super) fn response_exceeded(&self, critical: &DesignPoint, point: Vec<f64>) -> NoDesign {
-        let (quantity, used) = self.response_used(critical, &point);
-        NoDesign::Limit { quantity, used, point: Some(point) }
+    /// The limit on exact responses that the verified dither exceeds most in the box, with its operating point; or a point at which
+    /// a response is unknown.
+    pub(super) fn exceeded_by_responses(&self, critical: &DesignPoint) -> Option<NoDesign> {
+        let limits: Vec<_> = self.limits_of_responses().collect();
+        let amplitude = self.verified_amplitude(critical.amplitude);
+        let mut most: Option<(f64, LimitedQuantity, Vec<f64>)> = None;
+        for limited in limits {
+            let points = self.points_of_response(critical);
+            let shares = answers(self.tasks, &points, |point| {
+                let at = OperatingPoint { point, others: &critical.others };
+                self.used_exactly_at(limited, at, amplitude)
+            });
+            for (point, used) in points.into_iter().zip(shares) {
+                match used {
+                    Err(why) => return Some(NoDesign::Failed { point, why }),
+                    Ok(used) if used > most.as_ref().map_or(KEPT, |(most, ..)| *most) => {
+                        most = Some((used, limited.0, point));
+                    }
+                    Ok(_) => {}
+                }
+            }
+        }
+        most.map(|(used, quantity, point)| NoDesign::Limit { quantity, used, point: Some(point) })
     }
 }

@@ -31,6 +31,32 @@ fn range_in_words(study: &dyn StudyWithDesign, (from, to): (f64, f64)) -> String
     format!("{} to {}{}", digits(scale.of(from)), digits(scale.of(to)), scale.unit)
 }
 
+/// Bands of frequencies, those that are narrow apart.
+fn bands_in_words(study: &dyn StudyWithDesign, bands: &[SufficientBand]) -> String {
+    let (narrow, wide): (Vec<&SufficientBand>, Vec<&SufficientBand>) =
+        bands.iter().partition(|band| band.is_narrow());
+    let wide: Vec<String> = wide.into_iter().map(|band| range_in_words(study, band.ends)).collect();
+    let narrow: Vec<String> = narrow
+        .into_iter()
+        .map(|band| {
+            let width = quell_model::digits::digits(100.0 * band.width(), 2);
+            format!("{} ({width} % wide)", range_in_words(study, band.ends))
+        })
+        .collect();
+    let moves = "which a small change of a natural frequency moves away";
+    match (wide.is_empty(), narrow.is_empty()) {
+        (_, true) => format!("from {}", listed(&wide)),
+        (false, false) => {
+            format!(
+                "from {}, and in narrow windows, {moves}, from {}",
+                listed(&wide),
+                listed(&narrow)
+            )
+        }
+        (true, false) => format!("only in narrow windows, {moves}: from {}", listed(&narrow)),
+    }
+}
+
 impl ActuatorFound {
     /// The result in a few sentences.
     pub fn sentence(&self, study: &dyn StudyWithDesign) -> String {
@@ -58,8 +84,6 @@ impl ActuatorFound {
                 )
             }
             (bands, best) => {
-                let ranges: Vec<String> =
-                    bands.iter().map(|band| range_in_words(study, band.ends)).collect();
                 let best = best.as_ref().map_or(String::new(), |best| {
                     format!(
                         " The margin is largest at {}, {} times the least amplitude that quenches by averaging; it can give",
@@ -67,7 +91,10 @@ impl ActuatorFound {
                         best.margin().map_or_else(|why| why, digits)
                     )
                 });
-                format!("The {kind} can quench with a {waveform} from {}.{best}", listed(&ranges))
+                format!(
+                    "The {kind} can quench with a {waveform} {}.{best}",
+                    bands_in_words(study, bands)
+                )
             }
         };
         let most = self.best_or_own();
@@ -227,6 +254,7 @@ impl ActuatorFound {
         inner
             .number("from", Quantity::FrequencyRatio, band.ends.0)
             .number("to", Quantity::FrequencyRatio, band.ends.1)
+            .plain("narrow", band.is_narrow())
             .nested("best", self.fields_at(study, &band.best, false));
         inner
     }

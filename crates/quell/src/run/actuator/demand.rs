@@ -1,6 +1,10 @@
 //! What a dither demands of an actuator, as fields and as warnings: for `actuator` and `design`.
 
 use quell_design::actuator::{Actuator, ActuatorDemand, SignalSize};
+use quell_linear::driven_point::DrivenPoint;
+use quell_linear::linearised::Linearised;
+use quell_model::System;
+use quell_model::system::{Input, InputTarget};
 use quell_model::units::Quantity;
 
 use crate::fields::Fields;
@@ -35,6 +39,24 @@ pub(crate) fn warnings_about_actuator(actuator: &Actuator, demand: &ActuatorDema
         "[actuator] has neither free_stroke nor stiffness: the spring of the stack must be part of the structure".to_owned()
     });
     changed.into_iter().chain(free).collect()
+}
+
+/// The warning about a dither force that demands more than an actuator can give, in the units of its equations: the first force that
+/// acts. `None` where the demand is unknown.
+pub(crate) fn beyond_actuator(system: &System, actuator: Option<&Actuator>) -> Option<String> {
+    let linear = Linearised::new(system).ok()?;
+    let forces = |input: &&Input| matches!(input.target, InputTarget::Force(_));
+    let input = system.inputs.iter().find(forces)?;
+    let wave = input.profile.waves().first()?;
+    let (waveform, frequency) = (&wave.waveform, wave.frequency);
+    let point = DrivenPoint::of_input(system, &linear, &input.target, waveform, frequency).ok()?;
+    let demand = actuator?.demand(&point).at(wave.amplitude);
+    let (limit, used) = demand.tightest().ok().filter(|(_, used)| *used > 1.0)?;
+    Some(format!(
+        "the dither of this study demands {} times what the actuator can give, by {}",
+        digits(used),
+        limit.path()
+    ))
 }
 
 /// The warning about a controller with few samples in a period.

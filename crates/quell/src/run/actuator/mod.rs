@@ -15,7 +15,9 @@ use quell_model::parameter::DITHER_FREQUENCY_RATIO;
 use rayon::prelude::*;
 use serde_json::Value as Json;
 
-pub(crate) use demand::{demand_fields, warning_about_samples, warnings_about_actuator};
+pub(crate) use demand::{
+    beyond_actuator, demand_fields, warning_about_samples, warnings_about_actuator,
+};
 
 use super::design::StudyWithDesign;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
@@ -182,14 +184,11 @@ impl ActuatorQuestion<'_> {
     fn at(&self, frequency: f64) -> ActuatorAtFrequency {
         let others = [frequency];
         let place = OperatingPoint { point: &[], others: &others };
-        let needed = self.plant.least_averaged(place).and_then(|least| {
-            least.ok_or_else(|| "no amplitude of this frequency quenches by averaging".to_owned())
-        });
         ActuatorAtFrequency {
             frequency,
             demand: self.plant.demand(place, self.actuator),
             slips: self.plant.slip_amplitudes(place),
-            needed,
+            needed: self.plant.least_averaged(place),
         }
     }
 
@@ -265,7 +264,9 @@ fn notable(
 ) -> Vec<(String, ActuatorAtFrequency)> {
     let mut places: Vec<(String, ActuatorAtFrequency)> =
         vec![("start of the range".to_owned(), at(from)), ("end of the range".to_owned(), at(to))];
-    places.push(("of the study".to_owned(), own.clone()));
+    let is_inside = (from..=to).contains(&own.frequency);
+    let of_study = if is_inside { "of the study" } else { "of the study, outside of the range" };
+    places.push((of_study.to_owned(), own.clone()));
     places.extend(found.changes().map(|(frequency, limits)| {
         let name = |limit: Option<quell_design::actuator::ActuatorLimit>| {
             limit.map_or("unknown", quell_design::actuator::ActuatorLimit::name)

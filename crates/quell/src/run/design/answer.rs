@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use quell_design::least_dither::{
-    CoveredBox, DesignObjective, DesignPoint, DesignStart, Designed, FeasibleDesign,
-    InfeasibleDesign, LimitedQuantity, MARGIN, NoDesign, ResponseSize,
+    DesignObjective, DesignPoint, DesignStart, Designed, FeasibleDesign, InfeasibleDesign,
+    LimitedQuantity, NoDesign, ResponseSize,
 };
 use quell_model::Waveform;
 use quell_model::parameter::design::LIMITS;
@@ -23,6 +23,12 @@ const BINDS: f64 = 0.9999;
 
 /// Quiet amplitudes up to this multiple of the least one are a narrow range, of which a user is warned.
 const NARROW: f64 = 1.5;
+
+/// A ratio to a limit in words, with as many digits as show that it is not 1.
+fn times_in_words(used: f64) -> String {
+    let short = digits(used);
+    if short == "1" { format!("{used} times") } else { format!("{short} times") }
+}
 
 /// The quantity of an objective.
 pub(crate) fn quantity_of(study: &dyn StudyWithDesign, objective: DesignObjective) -> Quantity {
@@ -114,40 +120,6 @@ impl LeastDitherFound {
         })
     }
 
-    /// Whether a dither that is not the least serves the whole box.
-    fn is_covered_whole(&self) -> bool {
-        let range = self.over.first().map(|number| number.range);
-        let covered = self.covered.as_ref().ok().zip(range);
-        covered.is_some_and(|(part, range)| part.is_whole(range))
-    }
-
-    /// The part of the box that one dither serves, in words; `is_above_least` of one that serves it all, and is not the least.
-    fn covered_in_words(&self, part: &CoveredBox, one: &str, is_above_least: bool) -> String {
-        let Some(number) = self.over.first() else { return String::new() };
-        if is_above_least {
-            return format!(
-                " A larger amplitude does: a {one} is quiet and keeps them in the whole range; a smaller one may do so too."
-            );
-        }
-        let [low, high] = [part.ends.0, part.ends.1].map(|end| digits(end * number.per_unit));
-        let sides = [("below", &low), ("above", &high)].into_iter().zip(&part.unknown_beyond);
-        let unknown: Vec<String> = sides
-            .filter_map(|((side, end), why)| {
-                // The reason without its advice, which is for one response.
-                let why = why.as_ref()?.split(';').next()?;
-                Some(format!("{side} {end} ({why})"))
-            })
-            .collect();
-        if unknown.is_empty() {
-            return format!(" One {one} suffices for {} from {low} to {high}.", number.path);
-        }
-        format!(
-            " One {one} suffices for {} at least from {low} to {high}; it is unknown {}.",
-            number.path,
-            unknown.join(" and ")
-        )
-    }
-
     /// The answer in a few sentences.
     pub fn sentence(&self, study: &dyn StudyWithDesign) -> String {
         let waveform = label(self.waveform());
@@ -190,11 +162,23 @@ impl LeastDitherFound {
                         self.point_in_words(point)
                     )
                 });
+                let slow = self.slow_in_words(study);
+                let size = format!("{}{}", force(critical.amplitude), chosen(&critical.others));
+                let least = match (self.is_quiet() == Ok(true), slow.as_str()) {
+                    (true, "") => format!(
+                        "The least dither that is quiet in the whole range is a {waveform}{place} of amplitude {size}"
+                    ),
+                    (true, slow) => format!(
+                        "The least dither that is quiet in the whole range, a {waveform}{place} of amplitude {size},{slow}"
+                    ),
+                    (false, slow) => format!(
+                        "The least dither with which the motion stays in step in the whole range, a {waveform}{place} of amplitude \
+                         {size},{slow}"
+                    ),
+                };
                 format!(
-                    "The least dither that is quiet in the whole range is a {waveform}{place} of amplitude {}{}{decides}{binds}. At {} it is \
-                     verified by {by} at {} operating point{}: the largest multiplier is {}.{drive}{confident}{loss}{follows}{depends}",
-                    force(critical.amplitude),
-                    chosen(&critical.others),
+                    "{least}{decides}{binds}. At {} it is verified by {by} at {} operating point{}: the largest multiplier is \
+                     {}.{drive}{confident}{loss}{follows}{depends}",
                     force(found.verified_amplitude),
                     found.verified.len(),
                     plural(found.verified.len() as u64),
@@ -202,22 +186,23 @@ impl LeastDitherFound {
                 )
             }
             Err(none) => {
-                // The least amplitude exceeds a limit that a larger one keeps.
-                let is_above_least =
-                    matches!(none.why, NoDesign::Limit { .. }) && self.is_covered_whole();
+                let is_limited = matches!(none.why, NoDesign::Limit { .. });
                 let covered = self.covered.as_ref().map_or(String::new(), |part| {
                     let one = format!(
                         "{waveform}{place} of amplitude {}{}",
                         force(part.amplitude),
                         chosen(&part.others)
                     );
-                    self.covered_in_words(part, &one, is_above_least)
+                    self.covered_in_words(&one, is_limited)
                 });
                 let why = self.why(study, none);
-                if is_above_least {
+                let is_whole = self.is_covered_whole();
+                if is_whole && is_limited {
                     format!(
                         "No dither that has the least quiet amplitude of its choice keeps every limit: {why}.{covered}"
                     )
+                } else if is_whole {
+                    format!("The least dither is unknown: {why}.{covered}")
                 } else if none.why.is_known() {
                     format!("No allowed dither is quiet in the whole range: {why}.{covered}")
                 } else {
@@ -245,7 +230,7 @@ impl LeastDitherFound {
                     LimitedQuantity::MinimumNormalLoad => 1.0 / used,
                     _ => *used,
                 };
-                format!("{} would be {} times its limit{at}", quantity.name(), digits(used))
+                format!("{} would be {} its limit{at}", quantity.name(), times_in_words(used))
             }
             NoDesign::Unlimited { quantity, point, why } => {
                 let at = point.as_ref().map_or(String::new(), |point| self.point_in_words(point));
@@ -376,7 +361,11 @@ impl LeastDitherFound {
         designed: &Designed,
     ) {
         match &designed.answer {
-            Err(none) if !none.why.is_known() => {
+            // A dither that serves the whole box was found by another search.
+            Err(none)
+                if !none.why.is_known()
+                    || self.is_covered_whole() && !matches!(none.why, NoDesign::Limit { .. }) =>
+            {
                 fields.unknown("feasible", self.why(study, none));
             }
             answer => {
@@ -401,12 +390,13 @@ impl LeastDitherFound {
             .plain("averaged", self.by_path(averaged.amplitude, &averaged.others))
             .known("objective", quantity_of(study, minimise), critical.objective.clone())
             .plain("binding", self.binding(critical));
+        self.put_slow(fields);
         self.put_drive(fields, study, found.drive.as_ref());
         match &critical.worst {
             Some(worst) => fields.plain("worst", self.point_by_path(worst)),
             None => fields.unknown("worst", "the smallest allowed amplitude is quiet everywhere"),
         };
-        fields.number("margin", Quantity::Ratio, MARGIN);
+        fields.number("margin", Quantity::Ratio, found.margin());
         let loud = || "no larger amplitude of the range is loud where it was judged".to_owned();
         let loud_from = found.loud_from.clone().and_then(|end| end.ok_or_else(loud));
         fields.known("loud_from", study.quantity_of_amplitude(), loud_from);
@@ -458,6 +448,11 @@ impl LeastDitherFound {
             "critical",
             "averaged",
             "objective",
+            "quiet",
+            "residual_vibration",
+            "level_db",
+            "tone_frequency",
+            "tone_amplitude",
             "loud_from",
             "drive",
             "confident",
@@ -477,18 +472,6 @@ impl LeastDitherFound {
         {
             fields.plain("worst", self.point_by_path(point));
         }
-        match &self.covered {
-            Ok(part) => {
-                let number = self.over.first();
-                let (path, per_unit) =
-                    number.map_or(("", 1.0), |number| (number.path.as_str(), number.per_unit));
-                let ends = [part.ends.0 * per_unit, part.ends.1 * per_unit];
-                fields.plain("covered", serde_json::json!({ path: ends }));
-                fields.plain("parameters", self.by_path(part.amplitude, &part.others));
-            }
-            Err(why) => {
-                fields.unknown("covered", why.clone()).unknown("parameters", why.clone());
-            }
-        }
+        self.put_covered(fields, study);
     }
 }

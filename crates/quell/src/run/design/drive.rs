@@ -39,9 +39,14 @@ impl LeastDitherFound {
         let mut needs: Vec<String> = peaks.into_iter().filter_map(peak).collect();
         let stroke = study.in_words(Quantity::Displacement, demand.displacement.peak_to_peak);
         needs.push(format!("{stroke} peak to peak"));
+        // The least dither keeps every limit; the verified one exceeds it by the margin.
+        let margin = match used.first() {
+            Some((most, _)) if *most > 1.0 => ", the margin of the verified dither included",
+            _ => "",
+        };
         // Of the operating point where a limit is used most; elsewhere another quantity may be larger.
         format!(
-            " It uses {}{}, where it takes {}.",
+            " It uses {}{margin}{}, where it takes {}.",
             listed(&shares),
             self.point_in_words(point),
             listed(&needs)

@@ -6,6 +6,7 @@ use quell_design::least_dither::{
 use quell_dynamics::orbit::threshold::ThresholdKind;
 use quell_model::Waveform;
 
+use super::slow_response::LargestSlowResponse;
 use super::study_with_design::StudyWithDesign;
 use crate::run::waveforms::label;
 use crate::study::{BurstNumber, Confidence};
@@ -55,6 +56,9 @@ pub struct LeastDitherFound {
     pub sensitivity: Result<DesignSensitivity, String>,
     /// The dither that is quiet in the share of random samples that is asked for, or why it is unknown.
     pub confident: Result<ConfidentDither, String>,
+    /// Of a dither that repeats in the band of the vibration, the response to it where it is largest, or why it is unknown; `None` of
+    /// other dithers, whose response has no slow vibration.
+    pub slow: Option<Result<LargestSlowResponse, String>>,
 }
 
 /// A dither that was tried.

@@ -2,8 +2,8 @@
 
 use quell_design::actuator::Actuator;
 use quell_design::least_dither::{
-    DesignProblem, DesignStart, Designed, LimitedQuantity, OperatingPoint, Plant, ScheduledDither,
-    SystemAtPoint, SystemPlant, covered, design,
+    CoveredBox, DesignProblem, DesignStart, Designed, InfeasibleDesign, LimitedQuantity,
+    OperatingPoint, Plant, ScheduledDither, SystemAtPoint, SystemPlant, covered, design,
 };
 use quell_dynamics::simulation::{apart, within};
 use quell_linear::averaging::DitheredSystem;
@@ -122,7 +122,7 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         tasks: &InParallel,
     };
     let designed = tried.par_iter().map(|tried| {
-        let (designed, _) = apart(STEPS_OF_MANY_SEARCHES, || within_range(problem(&tried.plant)));
+        let (designed, _) = apart(STEPS_OF_MANY_SEARCHES, || fast_first(problem(&tried.plant)));
         let waveform = tried.waveform.clone();
         let is_slow = numbers.is_slow(&designed, &waveform, tried.study);
         DesignedDither { waveform, place: tried.place.clone(), is_slow, designed }
@@ -151,7 +151,9 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         _ => Err("the box of operating points has not exactly one coordinate".to_owned()),
     };
     let covered = match (tried.get(best), answer) {
-        (Some(tried), Err(_)) => within(STEPS_OF_MANY_SEARCHES, || covered(problem(&tried.plant))),
+        (Some(tried), Err(none)) => {
+            within(STEPS_OF_MANY_SEARCHES, || covered_fast_first(problem(&tried.plant), none))
+        }
         _ => Err("one dither suffices for the whole range".to_owned()),
     };
     let (without_state, tongues) = (Vec::new(), Vec::new());
@@ -179,6 +181,7 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         tongues,
         sensitivity,
         confident,
+        slow: None,
     };
     // The derivatives and the laws are those of the dither at its place.
     let study = tried.get(best).map_or(study, |tried| tried.study);
@@ -187,7 +190,44 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         Err(_) => Vec::new(),
     };
     let sensitivity = found.sensitivity_of(study);
-    Ok(LeastDitherFound { beyond_laws, sensitivity, ..found })
+    let slow = found.slow_response(&numbers.amplitude, study);
+    Ok(LeastDitherFound { beyond_laws, sensitivity, slow, ..found })
+}
+
+/// A problem whose dither must repeat above the band of the vibration, with the limits of `fast`.
+fn fast<'a>(problem: DesignProblem<'a>, limits: &'a [(LimitedQuantity, f64)]) -> DesignProblem<'a> {
+    DesignProblem { limits, ..problem }
+}
+
+/// The limits of a problem, and that the dither repeats above the band of the vibration; `None` where nothing about its frequency is
+/// chosen.
+fn limits_of_fast(problem: &DesignProblem<'_>) -> Option<Vec<(LimitedQuantity, f64)>> {
+    let more = [(LimitedQuantity::Band, 1.0)];
+    (!problem.others.is_empty()).then(|| problem.limits.iter().copied().chain(more).collect())
+}
+
+/// The least dither of a problem: of those that repeat above the band of the vibration, or of all where none of them is allowed.
+fn fast_first(problem: DesignProblem<'_>) -> Designed {
+    if let Some(limits) = limits_of_fast(&problem) {
+        let designed = within_range(fast(problem, &limits));
+        if designed.answer.is_ok() {
+            return designed;
+        }
+    }
+    within_range(problem)
+}
+
+/// The part of the box that one dither serves: one that repeats above the band of the vibration, or any where none of them does.
+fn covered_fast_first(
+    problem: DesignProblem<'_>,
+    none: &InfeasibleDesign,
+) -> Result<CoveredBox, String> {
+    if let Some(limits) = limits_of_fast(&problem)
+        && let Ok(part) = covered(fast(problem, &limits), none)
+    {
+        return Ok(part);
+    }
+    covered(problem, none)
 }
 
 /// The least dither of a problem. Where none is found although other variables are chosen, the end of the range of amplitudes is taken as a

@@ -6,11 +6,12 @@
 //! | `study_with_design` | what a kind of study answers about itself |
 //! | `least`, `sampling`, `sensitivity` | the search over waveforms, random samples, derivatives |
 //! | `found` | what is found |
-//! | `answer`, `confident`, `drive`, `frontier`, `schedule`, `validity` | its parts as sentences, warnings and JSON |
+//! | `answer`, `confident`, `covered`, `drive`, `frontier`, `schedule`, `slow`, `validity` | its parts as sentences, warnings and JSON |
 
 mod answer;
 mod belt;
 mod confident;
+mod covered;
 mod drive;
 mod found;
 mod frontier;
@@ -18,6 +19,8 @@ mod least;
 mod sampling;
 mod schedule;
 mod sensitivity;
+mod slow;
+mod slow_response;
 mod study_with_design;
 mod validity;
 mod waveform;
@@ -31,5 +34,6 @@ pub use found::{
 };
 pub(crate) use found::{DesignNumbers, TriedDither};
 pub(crate) use least::{asked, least_dither, least_dither_of_systems, without_amplitude};
+pub use slow_response::{LargestSlowResponse, SlowResponse};
 pub use study_with_design::{FrequencyScale, StudyWithDesign};
 pub(crate) use waveform::system_with_waveform;

@@ -9,6 +9,7 @@ use quell_model::units::Quantity;
 use quell_model::{Parametrisation, System, Waveform};
 use serde_json::Value as Json;
 
+use super::slow_response::{self, SlowResponse};
 use super::waveform::{system_with_waveform, with_waveform};
 use crate::fields::Fields;
 use crate::range::{outside_of_laws, sentence, with_dither};
@@ -62,6 +63,17 @@ pub trait StudyWithDesign: Sync {
         average.map_or_else(|_| Vec::new(), |found| outside_of_laws(&system, Some(&found.contacts)))
     }
 
+    /// The response to a dither that repeats in the band of the vibration, on the base response, with numbers set in order as by `--set` and
+    /// another waveform of the dither that is designed.
+    ///
+    /// # Errors
+    /// Why it is unknown.
+    fn slow_response(
+        &self,
+        waveform: &Waveform,
+        numbers: &[(&str, f64)],
+    ) -> Result<SlowResponse, String>;
+
     /// The uncertain numbers.
     fn uncertain(&self) -> Option<&Uncertainty>;
 
@@ -112,6 +124,14 @@ impl FrequencyScale {
 }
 
 impl StudyWithDesign for BeltStudy {
+    fn slow_response(
+        &self,
+        waveform: &Waveform,
+        numbers: &[(&str, f64)],
+    ) -> Result<SlowResponse, String> {
+        slow_response::of_belt(self, waveform, numbers)
+    }
+
     fn beyond_laws(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Vec<String> {
         let Ok(study) = self.at(numbers.iter().copied()) else { return Vec::new() };
         let Ok(belt) = with_waveform(study.belt(), waveform) else { return Vec::new() };
@@ -168,6 +188,14 @@ impl StudyWithDesign for BeltStudy {
 }
 
 impl StudyWithDesign for SystemStudy {
+    fn slow_response(
+        &self,
+        waveform: &Waveform,
+        numbers: &[(&str, f64)],
+    ) -> Result<SlowResponse, String> {
+        slow_response::of_system(self, &self.system_with(waveform, numbers)?)
+    }
+
     fn uncertain(&self) -> Option<&Uncertainty> {
         self.uncertainty()
     }
@@ -215,6 +243,10 @@ impl StudyWithDesign for SystemStudy {
 }
 
 impl StudyWithDesign for DiscStudy {
+    fn slow_response(&self, _: &Waveform, _: &[(&str, f64)]) -> Result<SlowResponse, String> {
+        Err("the dither of a disc varies its friction and moves nothing".to_owned())
+    }
+
     fn uncertain(&self) -> Option<&Uncertainty> {
         self.uncertainty()
     }

@@ -11,7 +11,7 @@ use crate::run::waveforms::label;
 
 impl DesignNumbers {
     /// Corners of the box and the operating point that decides, the fastest first, as a rule.
-    fn points(&self, found: &FeasibleDesign) -> Vec<Vec<f64>> {
+    pub(super) fn points(&self, found: &FeasibleDesign) -> Vec<Vec<f64>> {
         let mut points: Vec<Vec<f64>> = vec![Vec::new()];
         for number in &self.over {
             let ends = [number.range.1, number.range.0];
@@ -23,7 +23,11 @@ impl DesignNumbers {
     }
 
     /// The verified dither at an operating point, as numbers of the study.
-    fn verified<'n>(&'n self, found: &FeasibleDesign, point: &[f64]) -> Vec<(&'n str, f64)> {
+    pub(super) fn verified<'n>(
+        &'n self,
+        found: &FeasibleDesign,
+        point: &[f64],
+    ) -> Vec<(&'n str, f64)> {
         let others = self.others.iter().zip(found.critical.others.iter().copied());
         let at = self.over.iter().zip(point.iter().copied());
         let amplitude = [(&self.amplitude, found.verified_amplitude)];
@@ -65,8 +69,7 @@ impl LeastDitherFound {
         let band = format!("at or below {BAND_END} times the frequency of the vibration");
         if self.dither().is_slow {
             return vec![format!(
-                "the {} repeats {band}: quiet means that the motion is in step with it, and that motion vibrates slowly; response_rms \
-                 and response_peak give it",
+                "the {} repeats {band}: the motion in step with it vibrates slowly, which response_rms and response_peak give too",
                 label(self.waveform())
             )];
         }

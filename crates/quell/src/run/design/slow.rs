@@ -1,0 +1,118 @@
+//! The response to a least dither that repeats in the band of the vibration: what remains there, and the tone that replaces the vibration.
+//!
+//! Such a dither may be followed in step, and shake the structure as much as the vibration that it quenches. E is that of `response`, started
+//! on the base response.
+
+use quell_dynamics::response::Peak;
+use quell_model::units::Quantity;
+
+use super::found::{DesignNumber, DesignNumbers, LeastDitherFound};
+use super::slow_response::LargestSlowResponse;
+use super::study_with_design::StudyWithDesign;
+use crate::fields::Fields;
+use crate::run::effect_words::{level_of, percent};
+
+/// Residual vibration E below which a response in the band of the vibration is quiet: the share by which the dissertation calls a vibration
+/// quenched in its maps.
+pub(super) const QUIET_BELOW: f64 = 0.05;
+
+impl LeastDitherFound {
+    /// The largest response to the verified dither at the corners of the box and the point that decides, where it repeats in the band of the
+    /// vibration.
+    pub(super) fn slow_response(
+        &self,
+        amplitude: &DesignNumber,
+        study: &dyn StudyWithDesign,
+    ) -> Option<Result<LargestSlowResponse, String>> {
+        let Ok(found) = &self.answer().answer else { return None };
+        if !self.dither().is_slow {
+            return None;
+        }
+        let numbers = DesignNumbers {
+            amplitude: amplitude.clone(),
+            others: self.others.clone(),
+            over: self.over.clone(),
+        };
+        let mut largest: Option<LargestSlowResponse> = None;
+        let mut failed = None;
+        for point in numbers.points(found) {
+            match study.slow_response(self.waveform(), &numbers.verified(found, &point)) {
+                Ok(response)
+                    if largest.as_ref().is_none_or(|known| {
+                        response.residual_vibration > known.response.residual_vibration
+                    }) =>
+                {
+                    largest = Some(LargestSlowResponse { response, point });
+                }
+                Ok(_) => {}
+                Err(why) => failed = failed.or(Some(why)),
+            }
+        }
+        let unknown = || failed.unwrap_or_else(|| "the box has no points".to_owned());
+        Some(largest.ok_or_else(unknown))
+    }
+
+    /// Whether the verified dither is quiet: its response has no slow vibration, or one that is below a share of that without dither.
+    ///
+    /// # Errors
+    /// Why it is unknown.
+    pub(super) fn is_quiet(&self) -> Result<bool, String> {
+        match &self.slow {
+            None => Ok(true),
+            Some(Ok(slow)) => Ok(slow.response.residual_vibration < QUIET_BELOW),
+            Some(Err(why)) => Err(why.clone()),
+        }
+    }
+
+    /// The response to a dither in the band of the vibration, in words; empty of other dithers.
+    pub(super) fn slow_in_words(&self, study: &dyn StudyWithDesign) -> String {
+        let Some(slow) = &self.slow else { return String::new() };
+        let LargestSlowResponse { response, point } = match slow {
+            Ok(slow) => slow,
+            Err(why) => return format!(" leaves an unknown residual vibration E ({why})"),
+        };
+        let scale = study.frequency_scale();
+        let level = level_of(response.residual_vibration)
+            .map_or(String::new(), |level| format!(" ({level:.1} dB)"));
+        let [with, without] = response.tones.map(|tone| {
+            let size = study.in_words(Quantity::Displacement, tone.amplitude);
+            (scale.with_noun(tone.frequency), size)
+        });
+        format!(
+            " leaves a residual vibration E of {}{level} below {}{}, a tone at {} of {} in place of the vibration at {} of {}",
+            percent(response.residual_vibration),
+            scale.with_noun(response.band_end),
+            self.point_in_words(point),
+            with.0,
+            with.1,
+            without.0,
+            without.1
+        )
+    }
+
+    /// Adds `quiet`, the residual vibration and the tone.
+    pub(super) fn put_slow(&self, fields: &mut Fields) {
+        match self.is_quiet() {
+            Ok(quiet) => fields.plain("quiet", quiet),
+            Err(why) => fields.unknown("quiet", why),
+        };
+        let none = || "the dither repeats above the band of the vibration".to_owned();
+        let known = match &self.slow {
+            None => Err(none()),
+            Some(slow) => slow.as_ref().map(|slow| slow.response).map_err(Clone::clone),
+        };
+        let residual = match &self.slow {
+            // Every line of the response is a multiple of the frequency at which the dither repeats.
+            None => Ok(0.0),
+            Some(_) => known.clone().map(|response| response.residual_vibration),
+        };
+        let level = residual.clone().and_then(|residual| {
+            level_of(residual).ok_or_else(|| "E is zero, which has no level in decibels".to_owned())
+        });
+        fields.known("residual_vibration", Quantity::Ratio, residual);
+        fields.known("level_db", Quantity::Ratio, level);
+        let tone = |of: fn(Peak) -> f64| known.clone().map(|response| of(response.tones[0]));
+        fields.known("tone_frequency", Quantity::FrequencyRatio, tone(|tone| tone.frequency));
+        fields.known("tone_amplitude", Quantity::Displacement, tone(|tone| tone.amplitude));
+    }
+}
