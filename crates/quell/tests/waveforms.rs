@@ -14,7 +14,7 @@ use quell_linear::averaging::{
     AveragingOptions, Becomes, CrossingKind, FastResponse, critical_amplitudes,
 };
 use quell_linear::linear_cost::linear_cost;
-use quell_model::{Direction, Dither, Waveform};
+use quell_model::{Belt, Direction, Dither, Waveform};
 use serde_json::Value as Json;
 
 fn reference() -> Json {
@@ -79,7 +79,12 @@ fn averages_are_those_of_the_definition() {
             let alpha = number(&case["amplitude_ratio"]);
             let study = study.with("dither.amplitude", alpha * ratio).expect("an amplitude");
             let found = friction::run(&study, &numbers(&case["slip_velocity"]));
-            let values = found.effective_coefficients().into_iter().zip(found.effective_slopes());
+            // The reference is of the limit R → ∞.
+            let limit = found.limit.as_ref().expect("a dither acts");
+            let values = limit.iter().map(|found| {
+                let found = found.as_ref().expect("an average");
+                (found.coefficient, found.slope)
+            });
             let expected = numbers(&case["coefficient"]).into_iter().zip(numbers(&case["slope"]));
             for ((value, slope), (exact, exact_slope)) in values.zip(expected) {
                 assert!((value - exact).abs() < 1e-10 * exact.abs(), "{row}: {value} {exact}");
@@ -89,7 +94,7 @@ fn averages_are_those_of_the_definition() {
         let stability = &row["stability"];
         let belt = study.belt();
         assert_eq!(belt.belt_velocity(), number(&stability["belt_velocity"]));
-        let found = critical_amplitudes(belt, AveragingOptions::default()).expect("an average");
+        let found = critical_amplitudes(belt, AveragingOptions::LIMIT).expect("an average");
         let end = number(&stability["scanned_to"]);
         let found: Vec<_> =
             found.iter().filter(|critical| critical.amplitude_ratio < end).collect();
@@ -372,7 +377,25 @@ fn least_amplitudes_of_every_waveform() {
             "square" => std::f64::consts::FRAC_PI_2,
             _ => 2.0 - row.duty_cycle,
         };
-        assert!((least.amplitude_ratio * peak / 0.05 - 1.0).abs() < 1e-9, "{row:?}");
+        // The form is that of the limit R → ∞; the comparison has the same amplitude at the study's R.
+        let dither = Dither { waveform: row.waveform.clone(), ..study.belt().dithers()[0].clone() };
+        let law = study.belt().friction().clone();
+        let belt = Belt::new(0.005, 1.0, 0.05, law, vec![dither]).expect("a belt");
+        let of = |options| {
+            let found = critical_amplitudes(&belt, options).expect("an average");
+            let stable = found.iter().find(|critical| critical.becomes == Becomes::Stable);
+            stable.expect("an amplitude").amplitude_ratio
+        };
+        let limit = of(AveragingOptions::LIMIT);
+        assert!((limit * peak / 0.05 - 1.0).abs() < 1e-9, "{row:?}");
+        assert!(
+            (least.amplitude_ratio / of(AveragingOptions::FINITE_R) - 1.0).abs() < 1e-12,
+            "{row:?}"
+        );
+        // The fast velocity of a sine is larger by 1/(1 − 1/R²).
+        if row.waveform == Waveform::Sine {
+            assert!((least.amplitude_ratio / limit - (1.0 - 1.0 / 3600.0)).abs() < 1e-9, "{row:?}");
+        }
         let exact = row.exact.as_ref().expect("an exact amplitude");
         // The longest bursts repeat at 7.5 times the natural frequency only.
         let off = 3.0 * f64::from(row.waveform.cycles()) / 60.0 / 8.0 + 1.0 / 60.0;
@@ -383,24 +406,25 @@ fn least_amplitudes_of_every_waveform() {
             "square" => 1.0,
             _ => (0.5 * row.duty_cycle).sqrt(),
         };
-        assert!((least.root_mean_square / (share * least.amplitude) - 1.0).abs() < 1e-9, "{row:?}");
+        assert!((row.unit.root_mean_square / share - 1.0).abs() < 1e-9, "{row:?}");
     }
-    let sine = found.rows[0].averaged.as_ref().expect("an amplitude");
+    let json = found.json_of_belt(&study);
+    let rows = json["waveforms"].as_array().expect("rows");
     // The stroke of a sine: 2D/(R² − 1), as damping has no part in it.
-    let stroke = sine.stroke.as_ref().expect("a stroke");
-    assert!((stroke / (2.0 * 3.0 / 3599.0) - 1.0).abs() < 1e-5, "{stroke}");
+    let stroke = number(&rows[0]["stroke"]);
+    let amplitude = number(&rows[0]["amplitude"]);
+    assert!((stroke / (2.0 * amplitude / 3599.0) - 1.0).abs() < 1e-5, "{stroke}");
     // The mean power 2ζ⟨x′²⟩ of a sine whose velocity is the belt's.
-    let power = sine.power.as_ref().expect("a power");
+    let power = number(&rows[0]["power"]);
     assert!((power / (0.01 * 0.5 * 0.05 * 0.05) - 1.0).abs() < 1e-3, "{power}");
     // Bursts of half the time take ⟨G²⟩/G_max² = (1.5 d − d²)/(2 − d)² of it, over that of the sine.
-    let half = found.rows.iter().find(|row| row.duty_cycle == 0.5).expect("a burst");
-    let half = half.averaged.as_ref().expect("an amplitude").power.as_ref().expect("a power");
+    let half = rows.iter().find(|row| row["duty_cycle"] == 0.5).expect("a burst");
+    let half = number(&half["power"]);
     assert!((half / power / (0.5 / 2.25 / 0.5) - 1.0).abs() < 0.02, "{half} {power}");
-    let json = found.json(&study);
     assert_eq!(json["best"]["stroke"], "square");
     assert_eq!(json["best"]["power"], "burst 1 : 7");
     assert_eq!(
-        found.dataset(&study).csv().lines().filter(|line| !line.starts_with('#')).count(),
+        found.dataset_of_belt(&study).csv().lines().filter(|line| !line.starts_with('#')).count(),
         11
     );
 }
@@ -411,7 +435,7 @@ fn what_cannot_be_compared_has_a_reason() {
     let quiet = study(&QUENCH.replace("belt_velocity = 0.05", "belt_velocity = 0.5"));
     let found = waveforms::run(&quiet).expect("a comparison");
     assert!(found.rows.iter().all(|row| row.averaged.is_err() && row.exact.is_err()));
-    let json = found.json(&quiet);
+    let json = found.json_of_belt(&quiet);
     assert!(json["waveforms"][0]["amplitude"].is_null() && json["best"]["amplitude"].is_null());
     assert!(
         json["why"]["waveforms[0].amplitude"].as_str().expect("why").contains("nothing to quench")
@@ -422,7 +446,7 @@ fn what_cannot_be_compared_has_a_reason() {
             .replace("tangential", "normal")
             .replace("frequency_ratio = 60.0", "frequency_ratio = 10.0"),
     );
-    let found = waveforms::run(&normal).expect("a comparison").json(&normal);
+    let found = waveforms::run(&normal).expect("a comparison").json_of_belt(&normal);
     assert!(found["waveforms"][0]["power"].is_null(), "{found}");
     // Without dither there is no direction and no frequency, and a disc has no such verb.
     let bare = &QUENCH[..QUENCH.find("[dither]").expect("a table")];

@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 
-use quell_design::decay::DECAY_PARAMETERS;
+use quell_design::decay::{DECAY_PARAMETERS, DecayFit};
 use serde_json::{Value as Json, json};
 
 use super::Outcome;
-use super::estimates::{criteria, in_words, numbers, parameters, rows};
+use super::estimates::{criteria, explained_in_words, in_words, numbers, parameters, rows};
 use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
@@ -46,7 +46,7 @@ impl Outcome for FreeDecay {
             ))
             .with(Array::new("measured", unit, self.record.values.clone()))
             .with(Array::new("fitted", unit, best.values.clone()))
-            .with(Array::new("fitted_deviation", unit, best.deviations.clone()))
+            .with(Array::new("fitted_deviation", unit, fitted_deviations(best)))
             .with(Array::new("point_residual", unit, self.residuals()));
         vec![("record", dataset)]
     }
@@ -56,6 +56,12 @@ impl Outcome for FreeDecay {
     }
 }
 
+/// Standard deviations of the fitted values: unknown where the law does not explain the record.
+fn fitted_deviations(best: &DecayFit) -> Vec<f64> {
+    let is_known = best.estimates.explain();
+    best.deviations.iter().map(|known| if is_known { *known } else { f64::NAN }).collect()
+}
+
 fn sentence(done: &FreeDecay) -> String {
     let best = done.best();
     let named = done.named(best);
@@ -63,14 +69,23 @@ fn sentence(done: &FreeDecay) -> String {
         .filter(|place| FreeDecay::has(best, *place))
         .map(|place| in_words(&named, place))
         .collect();
-    let mut text = format!(
-        "The law {} fits {} samples of the {} with a residual standard deviation of {}: {}.",
-        best.law.name(),
-        done.record.times.len(),
-        done.record.quantity.name(),
-        digits(named.estimates.residual()),
-        listed(&shown)
-    );
+    let (law, count, quantity) =
+        (best.law.name(), done.record.times.len(), done.record.quantity.name());
+    let (residual, shown) = (digits(named.estimates.residual()), listed(&shown));
+    let mut text = match explained_in_words(&named) {
+        Some(share) if !named.estimates.explain() => format!(
+            "The law {law} does not explain the record: the explained share of the variance of {count} samples of the {quantity} is \
+             {share}, with a residual standard deviation of {residual}. The values of the least sum of squares have no standard \
+             errors: {shown}."
+        ),
+        Some(share) => format!(
+            "The law {law} fits {count} samples of the {quantity} with a residual standard deviation of {residual}, which explains \
+             {share} of their variance: {shown}."
+        ),
+        None => format!(
+            "The law {law} fits {count} samples of the {quantity} with a residual standard deviation of {residual}: {shown}."
+        ),
+    };
     if let (Some(weights), true) = (&done.weights, done.fits.len() > 1) {
         let _ = write!(
             text,

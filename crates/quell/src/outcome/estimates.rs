@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 use serde_json::{Map, json};
 
 use super::table::figure;
+use quell_model::units::Quantity;
+
 use crate::fields::Fields;
 use crate::run::named_estimates::NamedEstimates;
 use crate::words::digits;
@@ -46,12 +48,29 @@ pub(super) fn numbers(fields: &mut Fields, named: &NamedEstimates, unit: &str) {
 pub(super) fn criteria(fields: &mut Fields, named: &NamedEstimates, unit: &str) {
     fields
         .measured("residual", unit, named.estimates.residual())
+        .known(
+            "explained",
+            Quantity::Ratio,
+            named.estimates.explained.ok_or_else(|| "the record does not vary".to_owned()),
+        )
         .measured("rss", format!("{unit}²").as_str(), named.estimates.rss)
         .plain("p", named.estimates.free);
     match named.estimates.aic() {
         Ok(aic) => fields.measured("aic", "1", aic),
         Err(why) => fields.unknown("aic", why),
     };
+}
+
+/// The share of the variance of a record that a model explains, as a percentage; `None` of a record that does not vary.
+pub(super) fn explained_in_words(named: &NamedEstimates) -> Option<String> {
+    let share = named.estimates.explained?;
+    let percent = 100.0 * share;
+    // A share that is not 1 is not printed as 100 %.
+    let text = match digits(percent) {
+        text if text == "100" && percent < 100.0 => "more than 99.9999".to_owned(),
+        text => text.replacen('-', "−", 1),
+    };
+    Some(format!("{text} %"))
 }
 
 /// "damping_ratio = 0.01 ± 0.0002".

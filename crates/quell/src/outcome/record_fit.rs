@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde_json::{Value as Json, json};
 
 use super::Outcome;
-use super::estimates::{in_words, numbers, parameters, rows};
+use super::estimates::{explained_in_words, in_words, numbers, parameters, rows};
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
@@ -129,11 +129,20 @@ impl RecordFit {
 fn sentence(done: &RecordFit) -> String {
     let values: Vec<String> =
         (0..done.free.len()).map(|place| in_words(&done.named, place)).collect();
-    format!(
-        "{} samples of the {} are fitted with a residual standard deviation of {}: {}.",
-        done.record.times.len(),
-        done.record.quantity.name(),
-        digits(done.named.estimates.residual()),
-        listed(&values)
-    )
+    let (count, quantity) = (done.record.times.len(), done.record.quantity.name());
+    let residual = digits(done.named.estimates.residual());
+    let (values, share) = (listed(&values), explained_in_words(&done.named));
+    match share {
+        Some(share) if !done.named.estimates.explain() => format!(
+            "The study does not explain the record: the explained share of the variance of {count} samples of the {quantity} is {share}, \
+             with a residual standard deviation of {residual}. The values of the least sum of squares have no standard errors: {values}."
+        ),
+        Some(share) => format!(
+            "{count} samples of the {quantity} are fitted with a residual standard deviation of {residual}, which explains {share} of \
+             their variance: {values}."
+        ),
+        None => format!(
+            "{count} samples of the {quantity} are fitted with a residual standard deviation of {residual}: {values}."
+        ),
+    }
 }

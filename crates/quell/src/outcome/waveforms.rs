@@ -11,24 +11,27 @@ use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::waveforms::{COLUMNS, ComparedWaveform, WaveformComparison};
-use crate::study::{BeltSetup, BeltStudy};
+use crate::run::waveforms::{COLUMNS, ComparedWaveform, CostColumn, RankedBy, WaveformComparison};
+use crate::study::{BeltSetup, BeltStudy, SystemSetup, SystemStudy};
 
 impl Presented<BeltSetup> for WaveformComparison {
     fn json(&self, study: &BeltStudy) -> Json {
-        self.json(study)
+        self.json_of_belt(study)
     }
 
     fn sentence(&self, study: &BeltStudy) -> Option<String> {
-        Some(self.sentence(study))
+        Some(self.of_belt_in_words(study))
     }
 
     fn table(&self, study: &BeltStudy) -> String {
-        table(study, self)
+        table(self, |quantity| match study.scales().zip(quantity.si_unit()) {
+            Some((scales, (unit, _))) => (scales.si_per_unit(quantity), Some(unit)),
+            None => (1.0, None),
+        })
     }
 
     fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
-        vec![("waveforms", self.dataset(study))]
+        vec![("waveforms", self.dataset_of_belt(study))]
     }
 
     fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
@@ -36,71 +39,109 @@ impl Presented<BeltSetup> for WaveformComparison {
     }
 }
 
-/// One line per waveform; the smallest value of each column has an asterisk.
-fn table(study: &BeltStudy, done: &WaveformComparison) -> String {
-    let scale = |quantity: Quantity| match study.scales().zip(quantity.si_unit()) {
-        Some((scales, (unit, _))) => (scales.si_per_unit(quantity), format!(" {unit}")),
-        None => (1.0, String::new()),
-    };
+impl Presented<SystemSetup> for WaveformComparison {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
+        self.json_of_system(study)
+    }
+
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
+        Some(self.of_system_in_words(study))
+    }
+
+    fn table(&self, study: &SystemStudy) -> String {
+        table(self, |quantity| (1.0, study.units().unit(quantity)))
+    }
+
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
+        vec![("waveforms", self.dataset_of_system(study))]
+    }
+
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::waveforms_of_system(study, self)))
+    }
+}
+
+/// One line per waveform, with the costs at the amplitude that ranks it; the smallest value of each column has an asterisk. Printed values are
+/// those of the equations times a scale, in a unit.
+fn table(
+    done: &WaveformComparison,
+    printed: impl Fn(Quantity) -> (f64, Option<&'static str>),
+) -> String {
     let width = done.rows.iter().map(|row| row.label().chars().count()).max().unwrap_or(0);
     let mut text = format!("  {:<width$}  {:>10}", "waveform", "duty cycle");
-    for column in &COLUMNS {
-        let heading = format!("{}{}", column.words, scale(column.quantity).1);
-        let _ = write!(text, "  {heading:>14}");
+    let unit =
+        |quantity: Quantity| printed(quantity).1.map_or(String::new(), |unit| format!("/{unit}"));
+    let [_, costs @ ..] = &COLUMNS;
+    for words in ["averaging", "exact"] {
+        let _ = write!(text, "  {:>14}", format!("{words}{}", unit(Quantity::Force)));
     }
-    let _ = writeln!(text, "  {:>14}", "exact");
+    for column in costs {
+        let _ = write!(text, "  {:>14}", format!("{}{}", column.words, unit(column.quantity)));
+    }
+    text.push('\n');
+    let by = done.ranked_by();
+    let cell = |value: Option<f64>, quantity: Quantity, is_best: bool| {
+        let mark = if is_best { "*" } else { "" };
+        let value = value.map(|value| figure(value * printed(quantity).0));
+        value.map_or_else(|| "none".to_owned(), |value| format!("{value}{mark}"))
+    };
     for row in &done.rows {
         let _ = write!(text, "  {:<width$}  {:>10}", row.label(), figure(row.duty_cycle));
-        for column in &COLUMNS {
-            let best = done.best(column).is_some_and(|best| std::ptr::eq(best, row));
-            let cell = row.value(column).map_or_else(
-                |_| "none".to_owned(),
-                |value| {
-                    let mark = if best { "*" } else { "" };
-                    format!("{}{mark}", figure(value * scale(column.quantity).0))
-                },
-            );
-            let _ = write!(text, "  {cell:>14}");
+        let is_best =
+            |column: &CostColumn| done.best(column).is_some_and(|best| std::ptr::eq(best, row));
+        let averaged = row.averaged.as_ref().ok().map(|least| least.amplitude);
+        for (way, value) in
+            [(RankedBy::Averaging, averaged), (RankedBy::Exact, row.exact.clone().ok())]
+        {
+            let best = by == way && is_best(&COLUMNS[0]);
+            let _ = write!(text, "  {:>14}", cell(value, Quantity::Force, best));
         }
-        let exact = row.exact.as_ref();
-        let exact = exact
-            .map_or_else(|_| "none".to_owned(), |value| figure(value * scale(Quantity::Force).0));
-        let _ = writeln!(text, "  {exact:>14}");
+        for column in costs {
+            let value = done.ranked(row, column);
+            let _ = write!(text, "  {:>14}", cell(value, column.quantity, is_best(column)));
+        }
+        text.push('\n');
     }
-    text.push_str(
-        "  * smallest. Rms force: at the least amplitude by averaging; power, stroke (peak to peak) and velocity: of the structure \
-         without friction.\n",
+    let _ = writeln!(
+        text,
+        "  * smallest. Rms force, power, stroke (peak to peak) and velocity: at the {}, of the structure without friction.",
+        match by {
+            RankedBy::Exact => "exact amplitude",
+            RankedBy::Averaging => "amplitude of averaging",
+        }
     );
-    text.push_str(&notes(study, done));
+    let (scale, unit) = printed(Quantity::Force);
+    text.push_str(&notes(done, scale, unit));
     text
 }
 
 /// Why values are missing, and where larger amplitudes destabilise.
-fn notes(study: &BeltStudy, done: &WaveformComparison) -> String {
-    let (unit, scale) = match study.scales().zip(Quantity::Force.si_unit()) {
-        Some((scales, (unit, _))) => (format!(" {unit}"), scales.si_per_unit(Quantity::Force)),
-        None => (String::new(), 1.0),
-    };
-    let of = |row: &ComparedWaveform| match &row.averaged {
-        Err(why) => vec![why.clone()],
-        Ok(least) => {
-            let power = least.power.as_ref().err();
-            let power = power.map(|why| format!("no power, stroke and velocity: {why}"));
-            let exact = row.exact.as_ref().err().map(|why| format!("no exact amplitude: {why}"));
-            let until = least.until.map(|until| {
-                format!("by averaging unstable again from {}{unit} on", figure(until * scale))
-            });
-            [power, exact, until].into_iter().flatten().collect()
-        }
+fn notes(done: &WaveformComparison, scale: f64, unit: Option<&str>) -> String {
+    let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+    let of = |row: &ComparedWaveform| {
+        let averaged = row.averaged.as_ref().err().cloned();
+        let power = row.unit.power.as_ref().err();
+        let power = power.filter(|_| averaged.is_none());
+        let power = power.map(|why| format!("no power, stroke and velocity: {why}"));
+        // The same reason is said once.
+        let exact = row.exact.as_ref().err().filter(|why| Some(*why) != averaged.as_ref());
+        let exact = exact.map(|why| format!("no exact amplitude: {why}"));
+        let until = row.averaged.as_ref().ok().and_then(|least| least.until);
+        let until = until.map(|until| {
+            format!("by averaging unstable again from {}{unit} on", figure(until * scale))
+        });
+        [averaged, power, exact, until].into_iter().flatten()
     };
     joined_notes(done.rows.iter().flat_map(|row| {
         let label = row.label();
-        of(row).into_iter().map(move |why| (why, label.clone()))
+        of(row).map(move |why| (why, label.clone()))
     }))
 }
 
 /// Notes with the labels of the rows to which they apply, each note once, on a line of its own.
-pub(super) fn joined_notes(notes: impl Iterator<Item = (String, String)>) -> String {
+fn joined_notes(notes: impl Iterator<Item = (String, String)>) -> String {
     let mut joined: Vec<(String, Vec<String>)> = Vec::new();
     for (why, label) in notes {
         match joined.iter_mut().find(|(known, _)| *known == why) {

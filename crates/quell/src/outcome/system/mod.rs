@@ -14,7 +14,6 @@ mod simulate;
 mod stability;
 mod thresholds;
 mod tracked;
-mod waveforms;
 
 use std::fmt::Write as _;
 

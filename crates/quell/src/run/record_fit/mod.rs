@@ -259,7 +259,7 @@ fn finish(
     (settle, from_highest): (f64, bool),
 ) -> Result<RecordFit, Failure> {
     let best = minima.remove(0);
-    let estimates = Estimates::of(&best, &vec![Freedom::Free; free.len()]);
+    let estimates = Estimates::of(&best, &record.values, &vec![Freedom::Free; free.len()]);
     let parameters = free.iter().map(|number| ReportedParameter {
         name: number.name().to_owned(),
         unit: unit(study, record, number),

@@ -1,0 +1,299 @@
+//! Waveforms side by side: which is least in each quantity, and by what it is known.
+//!
+//! Exact amplitudes rank the waveforms, with the cost at these amplitudes. Averages rank them only where no waveform has an exact
+//! amplitude, and then those that repeat fast enough.
+
+use std::fmt::Write as _;
+
+use quell_model::Waveform;
+use quell_model::units::Quantity;
+
+use super::label;
+use crate::fields::Fields;
+
+/// The cost of a dither of unit amplitude.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WaveformCost {
+    /// Root mean square.
+    pub root_mean_square: f64,
+    /// Peak-to-peak displacement of the driven point of the structure without friction, or why it has no value.
+    pub stroke: Result<f64, String>,
+    /// Its largest velocity.
+    pub velocity: Result<f64, String>,
+    /// Mean power that the dither brings into it.
+    pub power: Result<f64, String>,
+}
+
+/// The least dither of one waveform that quenches by averaging.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeastDither {
+    /// α: the amplitude over the frequency.
+    pub amplitude_ratio: f64,
+    /// The amplitude.
+    pub amplitude: f64,
+    /// The larger amplitude from which sliding is unstable again, if any.
+    pub until: Option<f64>,
+}
+
+/// One waveform of the comparison.
+#[derive(Clone, Debug)]
+pub struct ComparedWaveform {
+    /// The waveform.
+    pub waveform: Waveform,
+    /// Share of the period in which it acts: 1 except for bursts.
+    pub duty_cycle: f64,
+    /// Whether it is that of the study.
+    pub own: bool,
+    /// Whether it repeats too slowly for averaging to rank it.
+    pub slow: bool,
+    /// The least dither by averaging, or why no amplitude quenches.
+    pub averaged: Result<LeastDither, String>,
+    /// The exact least amplitude at the study's frequency, or why it is unknown.
+    pub exact: Result<f64, String>,
+    /// The cost of unit amplitude.
+    pub unit: WaveformCost,
+    /// Why the average, which does not know the state of the contacts, differs from that with it at the least amplitude.
+    pub without_state: Option<String>,
+}
+
+/// The waveforms of a study.
+#[derive(Clone, Debug)]
+pub struct WaveformComparison {
+    /// Every waveform: sine, triangle, square, the study's own, bursts in ascending duty cycle.
+    pub rows: Vec<ComparedWaveform>,
+    /// Name of the carrier of the bursts.
+    pub carrier: &'static str,
+}
+
+/// What the amplitudes are by which waveforms are ranked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RankedBy {
+    /// Exact thresholds at the study's frequency.
+    Exact,
+    /// Averages.
+    Averaging,
+}
+
+impl RankedBy {
+    /// The word in outputs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Averaging => "averaging",
+        }
+    }
+}
+
+/// A quantity in which waveforms are compared.
+pub(crate) struct CostColumn {
+    /// Name in JSON.
+    pub(crate) name: &'static str,
+    /// Words for tables and sentences.
+    pub(crate) words: &'static str,
+    pub(crate) quantity: Quantity,
+    /// The value at an amplitude.
+    of: fn(f64, &WaveformCost) -> Result<f64, String>,
+}
+
+/// The compared quantities, the amplitude first.
+pub(crate) const COLUMNS: [CostColumn; 5] = [
+    CostColumn {
+        name: "amplitude",
+        words: "amplitude",
+        quantity: Quantity::Force,
+        of: |amplitude, _| Ok(amplitude),
+    },
+    CostColumn {
+        name: "root_mean_square",
+        words: "rms force",
+        quantity: Quantity::Force,
+        of: |amplitude, unit| Ok(amplitude * unit.root_mean_square),
+    },
+    CostColumn {
+        name: "power",
+        words: "power",
+        quantity: Quantity::Power,
+        of: |amplitude, unit| Ok(amplitude * amplitude * unit.power.clone()?),
+    },
+    CostColumn {
+        name: "stroke",
+        words: "stroke",
+        quantity: Quantity::Displacement,
+        of: |amplitude, unit| Ok(amplitude * unit.stroke.clone()?),
+    },
+    CostColumn {
+        name: "velocity",
+        words: "velocity",
+        quantity: Quantity::Velocity,
+        of: |amplitude, unit| Ok(amplitude * unit.velocity.clone()?),
+    },
+];
+
+impl ComparedWaveform {
+    /// A short label, such as "burst 3 : 5": periods of the carrier in the burst and in the pause.
+    pub fn label(&self) -> String {
+        label(&self.waveform)
+    }
+
+    /// A quantity at the least amplitude by averaging, or why it has no value.
+    pub(crate) fn averaged_value(&self, column: &CostColumn) -> Result<f64, String> {
+        (column.of)(self.averaged.as_ref().map_err(Clone::clone)?.amplitude, &self.unit)
+    }
+
+    /// A quantity at the exact least amplitude, or why it has no value.
+    pub(crate) fn exact_value(&self, column: &CostColumn) -> Result<f64, String> {
+        (column.of)(self.exact.clone()?, &self.unit)
+    }
+}
+
+impl WaveformComparison {
+    /// By what the waveforms are ranked.
+    pub fn ranked_by(&self) -> RankedBy {
+        if self.rows.iter().any(|row| row.exact.is_ok()) {
+            RankedBy::Exact
+        } else {
+            RankedBy::Averaging
+        }
+    }
+
+    /// A quantity of a waveform at the amplitude by which it is ranked.
+    pub(crate) fn ranked(&self, row: &ComparedWaveform, column: &CostColumn) -> Option<f64> {
+        match self.ranked_by() {
+            RankedBy::Exact => row.exact_value(column).ok(),
+            RankedBy::Averaging if row.slow => None,
+            RankedBy::Averaging => row.averaged_value(column).ok(),
+        }
+    }
+
+    /// The waveform that is least in a column.
+    pub(crate) fn best(&self, column: &CostColumn) -> Option<&ComparedWaveform> {
+        let known = self.rows.iter().filter_map(|row| Some((row, self.ranked(row, column)?)));
+        known.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(row, _)| row)
+    }
+
+    /// The carrier without pauses.
+    fn carrier_row(&self) -> Option<&ComparedWaveform> {
+        self.rows.iter().find(|row| row.waveform.name() == self.carrier)
+    }
+
+    /// The result in a few sentences; `force` writes an amplitude, and `sliding` is the sliding that is stabilised, in words.
+    pub(crate) fn sentence(&self, force: impl Fn(f64) -> String, sliding: &str) -> String {
+        let [amplitude, _, power, ..] = &COLUMNS;
+        let Some(best) = self.best(amplitude) else { return self.without_best() };
+        let value = self.ranked(best, amplitude).map(&force).unwrap_or_default();
+        let count = self.rows.iter().filter(|row| self.ranked(row, amplitude).is_some()).count();
+        let of = match count {
+            1 => "The only waveform with".to_owned(),
+            count if count == self.rows.len() => format!("Of {count} waveforms"),
+            count => format!("Of the {count} waveforms (of {}) with", self.rows.len()),
+        };
+        let mut text = match (self.ranked_by(), count == self.rows.len(), count) {
+            (RankedBy::Exact, true, _) => format!(
+                "{of} {} stabilises {sliding} with the least amplitude, {value}, by exact thresholds at the study's frequency.",
+                named(best)
+            ),
+            (RankedBy::Exact, false, 1) => format!(
+                "{of} an exact amplitude that stabilises {sliding} at the study's frequency is {}, with {value}.",
+                named(best)
+            ),
+            (RankedBy::Exact, false, _) => format!(
+                "{of} an exact amplitude that stabilises {sliding} at the study's frequency {} has the least, {value}.",
+                named(best)
+            ),
+            (RankedBy::Averaging, ..) => {
+                let why = best.exact.as_ref().err().map_or("", String::as_str);
+                format!(
+                    "No waveform has an exact amplitude that stabilises {sliding} ({}: {why}). By averaging alone {} has the least \
+                     amplitude, {value}.",
+                    best.label(),
+                    named(best)
+                )
+            }
+        };
+        text += &self.least_power(power);
+        text
+    }
+
+    /// Why no waveform is best.
+    fn without_best(&self) -> String {
+        if self.rows.iter().any(|row| row.averaged.is_ok()) {
+            return "No waveform has an exact amplitude that quenches, and every waveform that quenches by averaging repeats too slowly \
+                    for averaging to rank it."
+                .to_owned();
+        }
+        let why = self.rows.iter().find_map(|row| row.averaged.as_ref().err());
+        format!("No waveform quenches: {}.", why.map_or("none was tried", String::as_str))
+    }
+
+    /// The waveform that takes least power, against the carrier without pauses.
+    fn least_power(&self, power: &CostColumn) -> String {
+        let carrier = self.carrier_row().and_then(|row| self.ranked(row, power));
+        let (Some(cheapest), Some(whole)) =
+            (self.best(power), carrier.filter(|whole| *whole > 0.0))
+        else {
+            return String::new();
+        };
+        let carrier = self.carrier;
+        if cheapest.waveform.name() == carrier {
+            return format!(" No waveform takes less power than the continuous {carrier}.");
+        }
+        let mut text = String::new();
+        if let Some(least) = self.ranked(cheapest, power) {
+            let share = quell_model::digits::digits(100.0 * least / whole, 3);
+            let named = named(cheapest);
+            let _ = write!(
+                text,
+                " The least power is that of {named}: {share} % of that of the continuous {carrier}."
+            );
+        }
+        text
+    }
+
+    /// The rows as JSON, with what a kind of study adds to each; `empty` are fields in the units of the study.
+    pub(crate) fn put_rows(
+        &self,
+        fields: &mut Fields,
+        empty: impl Fn() -> Fields,
+        own: impl Fn(&ComparedWaveform, &mut Fields),
+    ) {
+        let rows = self.rows.iter().map(|row| {
+            let mut inner = empty();
+            inner
+                .plain("waveform", row.waveform.name())
+                .plain("label", row.label())
+                .plain("own", row.own);
+            own(row, &mut inner);
+            inner.number("duty_cycle", Quantity::Ratio, row.duty_cycle);
+            if let Waveform::Burst(burst) = &row.waveform {
+                inner.plain("on", burst.on()).plain("off", burst.off());
+            }
+            for column in &COLUMNS {
+                inner.known(column.name, column.quantity, row.averaged_value(column));
+            }
+            let until = row.averaged.as_ref().map_err(Clone::clone).and_then(|least| {
+                least.until.ok_or_else(|| "no larger amplitude makes it unstable again".to_owned())
+            });
+            inner.known("until", Quantity::Force, until);
+            for column in &COLUMNS {
+                let name = format!("exact_{}", column.name);
+                inner.known(&name, column.quantity, row.exact_value(column));
+            }
+            inner
+        });
+        fields.plain("carrier", self.carrier).plain("ranked_by", self.ranked_by().name());
+        fields.list("waveforms", rows.collect::<Vec<_>>());
+        let mut best = empty();
+        for column in &COLUMNS {
+            match self.best(column) {
+                Some(row) => best.plain(column.name, row.label()),
+                None => best.unknown(column.name, "no waveform that is ranked has a value"),
+            };
+        }
+        fields.nested("best", best);
+    }
+}
+
+/// "a sine", "a burst 3 : 5".
+fn named(row: &ComparedWaveform) -> String {
+    format!("a {}", row.label())
+}
