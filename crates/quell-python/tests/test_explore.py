@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import base64
 import http.client
 import math
 import os
 import pickle
 import socket
-import struct
 import subprocess
 import sys
 import threading
 import time
 import wave
+import zlib
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -22,7 +23,8 @@ import pytest
 from conftest import STUDIES, command
 
 import quell
-from quell.explore import _answers, _maps, _measured, _numbers, _other_law, _questions, _reading, _share, _sound, _state, _zoo
+from quell.explore import _answers, _link, _maps, _measured, _numbers, _other_law, _questions, _reading, _share, _sound, _spectra, _state, _zoo
+from quell.explore._freshness import Freshness
 from quell.explore._lanes import Event, Here, Lane, Process
 
 BELT = STUDIES / "stribeck-belt.toml"
@@ -265,7 +267,7 @@ def test_questions_of_a_study_are_those_of_its_tables() -> None:
 
 def test_the_spectrum_is_in_db_of_the_largest_line_without_dither() -> None:
     study = of("stribeck-belt.toml")
-    found = _answers.response(study)
+    found = _spectra.response(study)
     assert max(found["before"][1:]) == pytest.approx(0.0, abs=1e-9)
     slow = found["frequency"] <= 1.9
     # The residual vibration E compares the largest lines below 1.9 ω₀.
@@ -276,7 +278,7 @@ def test_the_spectrum_is_in_db_of_the_largest_line_without_dither() -> None:
 def test_the_map_changes_sign_at_the_averaged_threshold() -> None:
     study = of("stribeck-belt.toml")
     found = _maps.plane(study, ("belt.belt_velocity", 0.04, 0.06, False), ("dither.amplitude", 0.1, 0.9, False))
-    critical = study.stability().facts["sharper"]["critical_amplitudes"][0]["amplitude"]
+    critical = study.stability().facts["critical_amplitudes"][0]["amplitude"]
     column = found["growth"][:, int(np.argmin(np.abs(found["x"] - 0.05)))]
     assert np.all(column[found["y"] < critical - 0.03] > 0.0) and np.all(column[found["y"] > critical + 0.03] < 0.0)
 
@@ -313,33 +315,108 @@ def test_both_sounds_have_the_same_gain() -> None:
         assert np.max(np.abs(samples.astype(float))) == pytest.approx(expected, rel=0.03)
 
 
-def tone(*parts: tuple[float, float]) -> bytes:
-    time_ = np.arange(44100) / 44100.0
-    signal = sum(amplitude * np.sin(2.0 * np.pi * frequency * time_) for frequency, amplitude in parts)
-    file = BytesIO()
-    with wave.open(file, "wb") as sound:
-        sound.setnchannels(1)
-        sound.setsampwidth(2)
-        sound.setframerate(44100)
-        values = np.round(np.asarray(signal + 0.0 * time_) * 32767.0).astype(int)
-        sound.writeframes(struct.pack(f"<{values.size}h", *values))
-    return file.getvalue()
+@pytest.mark.parametrize("name", ["stribeck-belt.toml", "squealing-pad-si.toml", "two-mass-drive.toml"])
+def test_loudness_is_that_of_the_response_everywhere(name: str) -> None:
+    study = of(name)
+    level = study.response().facts["level_db"]
+    said = _sound.sound(study)["words"]
+    change = "as loud as without" if abs(level) < 0.5 else f"{abs(level):.0f} dB {'quieter' if level < 0 else 'louder'}"
+    assert "same gain" in said and change in said, said
+    shown = _spectra.response(study)
+    assert shown["loudness"] in said and change in shown["loudness"]
+    slow = (shown["frequency"] > 0.0) & (shown["frequency"] <= shown["band_end"])
+    # The lines of the spectrum are those of which E compares the largest; each point is the largest of its bin.
+    assert shown["after"][slow].max() - shown["before"][slow].max() == pytest.approx(level, abs=1.0)
 
 
-def test_levels_are_those_of_known_tones() -> None:
-    both = tone((110.0, 0.1), (1100.0, 0.5))
-    assert _sound.level_of(tone((110.0, 0.1))) == pytest.approx(-23.01, abs=0.05)
-    assert _sound.level_of(both, 209.0) == pytest.approx(-23.01, abs=0.1)
-    assert _sound.level_of(both) == pytest.approx(10.0 * math.log10(0.5 * (0.01 + 0.25)), abs=0.05)
-    assert _sound.level_of(tone((110.0, 0.0))) == -math.inf
+def test_sound_file_and_picture_begin_at_the_same_place(tmp_path: Path) -> None:
+    files = pytest.importorskip("quell.explore._files", exc_type=ImportError)
+    for name, chosen in (("stribeck-belt.toml", {"displacement": -0.4, "velocity": 0.3}), ("figure-5.3.toml", {"A2": 0.01})):
+        study = of(name)
+        for start in (None, chosen):
+            picture = _answers.trajectory(study, start)
+            lines = files.content(study, "simulate", "csv", start).decode().splitlines()
+            head, first = (line.split(",") for line in [it for it in lines if not it.startswith("#")][:2])
+            column = next(place for place, it in enumerate(head) if it.split(" ")[0].replace(".", "_") == _reading.array_name(picture["names"][0]))
+            assert float(first[column]) == pytest.approx(picture["x"][0], abs=1e-12)
+        runs = [_sound.sound(study, start) for start in (None, chosen)]
+        assert runs[0]["files"]["with dither"] != runs[1]["files"]["with dither"]
+    # Both sounds are those of runs from the chosen start.
+    study = of("stribeck-belt.toml")
+    found = _sound.sound(study, {"displacement": 0.0, "velocity": 0.3})
+    for name, one in (("with dither", study), ("without dither", study.set({"dither.amplitude": 0}))):
+        until = _sound.SOUND_SECONDS * _sound.heard(study)
+        one.simulate(until, start=(0.0, 0.3), samples=False, events=False, gain=found["gain"]).save(tmp_path / "direct.wav")
+        assert (tmp_path / "direct.wav").read_bytes() == found["files"][name]
 
 
-def test_levels_in_words() -> None:
-    panes = pytest.importorskip("quell.explore._panes", exc_type=ImportError)
-    words = panes.difference({"without dither": -10.0, "with dither": -51.2}, {})
-    assert "41 dB quieter" in words and "same gain" in words
-    assert "as loud as without" in panes.difference({"without dither": -10.0, "with dither": -10.2}, {})
-    assert "silent" in panes.difference({"without dither": -10.0, "with dither": -math.inf}, {})
+def test_noise_has_answers() -> None:
+    state = _state.State(of("stribeck-belt.toml").set({"solver.settle": 60, "solver.record_periods": 8}), _state.Source("text"))
+    assert state.set({"dither.waveform": "noise"}), state.complaints
+    found, direct = _spectra.response(state.study), state.study.response()
+    assert found["sentence"] == direct.sentence and f"E = {100 * direct.residual_vibration_median:.3g} %" in found["loudness"]
+    assert found["before"].shape == found["after"].shape == found["frequency"].shape and found["band_end"] == 1.9
+    assert found["before"][(found["frequency"] > 0.0) & (found["frequency"] < 1.9)].max() == pytest.approx(0.0, abs=1e-9)
+    inside = (found["frequency"] > 8.0) & (found["frequency"] < 12.0)
+    assert found["after"][inside].max() > found["before"][inside].max() + 20.0
+    for answer in (_answers.averaged, lambda it: _answers.trajectory(it, None), _sound.sound):
+        assert answer(state.study)
+    system = of("mode-coupling-dither.toml")
+    other = _state.State(system, _state.Source("text"))
+    path = next(path for path in system.settings if path.endswith("waveform"))
+    assert other.set({path: "noise"}), other.complaints
+    assert _answers.times(other.study)[1] > 0.0 and _answers.averaged(other.study)["sentence"]
+
+
+def test_the_map_of_a_disc_is_exact() -> None:
+    assert not _answers.is_averaged(of("figure-5.3.toml")) and not _answers.is_averaged(of("mode-coupling.toml"))
+    assert _answers.is_averaged(of("stribeck-belt.toml")) and _answers.is_averaged(of("two-mass-drive.toml"))
+
+
+def test_an_answer_about_earlier_numbers_is_known() -> None:
+    fresh = Freshness()
+    fresh.outdate(["averaged", "response"])
+    old = Event("response", "done", {}, tag=fresh.tag("response"))
+    assert fresh.is_stale("response") and fresh.show(old) and not fresh.is_stale("response")
+    fresh.outdate(["averaged"])
+    assert fresh.is_current(old) and not fresh.is_stale("response") and fresh.is_stale("averaged")
+    fresh.outdate(["averaged", "response"])
+    assert not fresh.is_current(old) and not fresh.show(old) and fresh.is_stale("response")
+    assert fresh.show(Event("response", "failed", tag=fresh.tag("response")))
+
+
+def test_two_studies_are_compared() -> None:
+    state = state_of(BELT)
+    first = state.study
+    assert state.choose("B") and state.study == first and not state.choose("B")
+    assert state.set({"dither.amplitude": 0.7})
+    assert state.choose("A") and state.study == first
+    assert state.choose("B") and state.study.settings["dither.amplitude"] == 0.7
+    assert state.copy().study == state.study and state.copy().slot == "B"
+
+
+@pytest.mark.parametrize("name", ["stribeck-belt.toml", "squealing-pad-si.toml", "bowed-string.toml", "figure-5.3.toml"])
+def test_a_link_has_the_whole_state(name: str) -> None:
+    state = state_of(STUDIES / name)
+    knob = next(it for it in _numbers.knobs(state.study) if it.path.split(".")[-1].startswith(("belt_velocity", "speed")))
+    assert state.set({knob.path: knob.given(knob.grid()[len(knob.grid()) // 2])}), state.complaints
+    start = {"displacement": 0.1, "velocity": -0.2}
+    state.set_start(start)
+    code = _link.encoded(state.step)
+    study, source, begin = _link.decoded(_link.in_link(f"http://127.0.0.1:1/secret/?x=1&state={code}"))
+    assert study.stability().facts == state.study.stability().facts and begin == start and source.kind == "text"
+    assert len(code) < 3000 and _link.code_of({"state": [code.encode()]}) == code and _link.code_of({}) is None
+
+
+def test_a_broken_link_is_refused() -> None:
+    code = _link.encoded(state_of(BELT).step)
+    bomb = base64.urlsafe_b64encode(zlib.compress(b" " * (64 << 20))).decode()
+    invalid = base64.urlsafe_b64encode(zlib.compress(b'{"study": "x = 1", "start": null}')).decode()
+    for wrong in (code[:-9], "", "???", code[10:], bomb, invalid, "ü"):
+        with pytest.raises(quell.StudyError):
+            _link.decoded(wrong)
+    done = subprocess.run([sys.executable, "-m", "quell.explore", "--link", "xyz"], capture_output=True, text=True, check=False)
+    assert done.returncode == 2 and "a whole link" in done.stderr and "Traceback" not in done.stderr
 
 
 @pytest.mark.parametrize(("format_", "begins"), [("svg", b"<svg"), ("png", b"\x89PNG"), ("pdf", b"%PDF"), ("csv", b"#"), ("nc", b"\x89HDF"), ("toml", b"")])
@@ -604,7 +681,7 @@ def test_questions_about_a_steady_study_are_answered_for_a_moment(kind: str) -> 
     assert averaged["sentence"].startswith("At time ") and averaged["verdict"] in ("stable", "unstable")
     at = 60.0 if kind == "belt" else 0.0
     assert averaged["growth"] == study.at_time(at).stability().facts["growth_rate"]
-    assert _answers.response(study)["sentence"].startswith("At time ")
+    assert _spectra.response(study)["sentence"].startswith("At time ")
 
 
 STATES = {
@@ -639,7 +716,7 @@ def test_contacts_with_a_state_open_change_and_draw(kind: str, name: str) -> Non
     assert state.set({path: found[path].grid()[-1]}), state.complaints
     after = _answers.trajectory(state.study, None)
     assert not np.array_equal(before["x"], after["x"])
-    assert _answers.response(state.study)["sentence"]
+    assert _spectra.response(state.study)["sentence"]
     amplitude, velocity = ("dither.amplitude", "belt.belt_velocity") if kind == "belt" else ("dither[0].amplitude", "contact[0].belt_velocity")
     plane = _maps.plane(state.study, (velocity, 0.05, 0.2, False), (amplitude, 0.1, 2.0, False))
     assert np.isfinite(plane["growth"]).any()

@@ -12,6 +12,7 @@ import pytest
 from conftest import STUDIES
 
 import quell
+from quell.explore import _link
 
 sync_api = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
 pytest.importorskip("panel", reason="Panel is not installed")
@@ -41,6 +42,18 @@ TOOLS = """() => {
     return all;
   };
 }"""
+
+
+WATCH = """() => {
+  window.seen = [];
+  const look = () => {
+    const one = window.found('quell-exact');
+    window.seen.push([window.words(one), Number(getComputedStyle(one).opacity), performance.now()]);
+    if (window.seen.length < 400) setTimeout(look, 20);
+  };
+  look();
+}"""
+"""Records the words and the opacity of the exact verdict."""
 
 
 class Page:
@@ -193,6 +206,76 @@ def test_the_study_is_downloaded(belt_page: Page) -> None:
     assert waiting.value.path().read_text().startswith("<svg")
 
 
+def test_what_is_stale_is_dimmed_at_once_and_gives_way(belt_page: Page) -> None:
+    belt_page.settled()
+    belt_page.wait("quell-exact", lambda it: it == belt_page.explorer.study.response().sentence)
+    old = belt_page.words("quell-exact")
+    # Under noise the exact response takes seconds: nothing of the sine stays above it.
+    belt_page.page.evaluate(WATCH)
+    belt_page.page.locator("select").filter(has=belt_page.page.locator("option[value=noise]")).first.select_option("noise")
+    belt_page.wait("quell-exact", lambda it: "computing" in it)
+    seen = belt_page.page.evaluate("() => window.seen")
+    bright = [it for it in seen if it[0] == old and it[1] >= 0.5]
+    # The first look may be before the page knows of the change.
+    assert not bright or bright[-1][2] - seen[0][2] < 400.0, bright
+    belt_page.wait("quell-exact", lambda it: "runs" in it)
+    study = belt_page.explorer.study
+    assert study.settings["dither.waveform"] == "noise" and belt_page.words("quell-exact") == study.response().sentence
+    belt_page.wait("quell-spectrum-status", lambda it: "exact" in it and " s" in it)
+    assert "KeyError" not in belt_page.words("quell-spectrum-status")
+    belt_page.until(lambda: float(belt_page.opacity("quell-exact")) == 1.0)
+    belt_page.page.locator(".quell-undo button").click()
+    belt_page.wait("quell-exact", lambda it: it == old)
+
+
+def test_two_studies_are_compared_by_key(belt_page: Page) -> None:
+    before = belt_page.explorer.study.settings["dither.amplitude"]
+    radio = belt_page.page.locator(".quell-slot input").first
+    radio.focus()
+    belt_page.page.keyboard.press("ArrowRight")
+    belt_page.until(lambda: belt_page.explorer._state.slot == "B")
+    belt_page.type("dither-amplitude", 0.9)
+    belt_page.until(lambda: belt_page.explorer.study.settings["dither.amplitude"] == 0.9)
+    for key, value in (("ArrowLeft", before), ("ArrowRight", 0.9), ("ArrowLeft", before)):
+        belt_page.page.locator(".quell-slot input:checked").first.focus()
+        belt_page.page.keyboard.press(key)
+        belt_page.until(lambda value=value: belt_page.explorer.study.settings["dither.amplitude"] == value)  # type: ignore[misc]
+    belt_page.wait("quell-averaged", lambda it: it.startswith(belt_page.explorer.study.stability().sentence))
+
+
+def test_a_run_is_played_and_a_picture_fills_the_screen(belt_page: Page) -> None:
+    buttons = belt_page.page.locator(".quell-play button")
+    assert buttons.count() > 3
+    belt_page.page.locator(".quell-play input[type=range]").first.focus()
+    belt_page.page.keyboard.press("ArrowRight")
+    moments = "() => Bokeh.documents[0]._all_models && [...Bokeh.documents[0]._all_models.values()]"
+    fullscreen = belt_page.page.evaluate(f"({moments})().filter((it) => it.type === 'FullscreenTool').length")
+    assert fullscreen >= 6
+    moment = f"({moments})().filter((it) => it.type === 'ColumnDataSource' && it.data.time && it.data.time.length === 1).length"
+    belt_page.until(lambda: belt_page.page.evaluate(moment) >= 1)
+
+
+def test_a_link_opens_the_state(belt_page: Page, browser: Any) -> None:
+    belt_page.type("dither-amplitude", 0.37)
+    belt_page.until(lambda: belt_page.explorer.study.settings["dither.amplitude"] == 0.37)
+    belt_page.page.locator(".quell-share").get_by_text("link", exact=True).first.click()
+
+    def address(text: str) -> str:
+        return next(line for line in text.splitlines() if line.startswith("http"))
+
+    def has_it(text: str) -> bool:
+        return "?state=" in text and _link.decoded(_link.in_link(address(text)))[0].settings["dither.amplitude"] == 0.37
+
+    link = address(belt_page.wait("quell-link", has_it))
+    belt_page.type("dither-amplitude", 0.6)
+    belt_page.until(lambda: belt_page.explorer.study.settings["dither.amplitude"] == 0.6)
+    other = browser.new_page(viewport={"width": 1280, "height": 720})
+    other.goto(link)
+    other.wait_for_selector(".quell-motion", timeout=1e3 * LIMIT)
+    belt_page.until(lambda: belt_page.explorer.study.settings["dither.amplitude"] == 0.37)
+    other.close()
+
+
 def test_discs_and_systems_are_shown_and_nothing_fails(belt_page: Page) -> None:
     zoo = belt_page.page.locator(".quell-zoo select").first
     zoo.select_option("figure-5.3.toml")
@@ -212,6 +295,25 @@ def test_discs_and_systems_are_shown_and_nothing_fails(belt_page: Page) -> None:
     belt_page.page.evaluate(TOOLS)
     belt_page.wait("quell-averaged", lambda it: "the disc is unstable" in it)
     assert [it for it in belt_page.errors if "favicon" not in it and "404" not in it] == []
+
+
+def test_a_slider_and_its_effect_are_seen_together_on_a_phone(belt_page: Page) -> None:
+    belt_page.page.set_viewport_size({"width": 480, "height": 800})
+    zoo = belt_page.page.locator(".quell-zoo select").first
+    zoo.select_option("two-mass-drive.toml")
+    belt_page.wait("quell-averaged", lambda it: "averaging over the dither" in it)
+    zoo.select_option("stribeck-belt.toml")
+    belt_page.wait("quell-averaged", lambda it: it.startswith(quell.Study.from_toml(STUDIES / "stribeck-belt.toml").stability().sentence))
+    handle = belt_page.page.locator(".quell-dither-amplitude .noUi-handle").first
+    handle.scroll_into_view_if_needed()
+    # The page is scrolled until the picture begins below the numbers, which stay.
+    below = "() => window.scrollBy(0, window.found('quell-motion').getBoundingClientRect().top - 290)"
+    belt_page.page.evaluate(below)
+    slider, picture = handle.bounding_box(), belt_page.page.locator(".quell-motion .bk-Canvas").first.bounding_box()
+    assert 0 <= slider["y"] and slider["y"] + slider["height"] <= picture["y"] + 1
+    assert picture["y"] + picture["height"] <= 800
+    box = belt_page.page.locator(".quell-side").first.bounding_box()
+    assert slider["y"] + slider["height"] <= box["y"] + box["height"] <= picture["y"] + 1
 
 
 @pytest.mark.parametrize("width", [480, 1280, 1920])

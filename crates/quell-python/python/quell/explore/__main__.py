@@ -9,6 +9,9 @@ import webbrowser
 from .._errors import QuellError
 from .._study import Study
 from . import explore
+from ._link import decoded, in_link
+from ._server import Explorer, run
+from ._state import State
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -16,6 +19,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m quell.explore", description="Explores a study in the browser.")
     parser.add_argument("study", nargs="?", help="study file (TOML) [default: the first study of `quell new`]")
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", help="changes a value of the study")
+    parser.add_argument("--link", metavar="LINK", help="opens the state of a link that an explorer has given")
     parser.add_argument("--no-browser", action="store_true", help="only print the address")
     given = parser.parse_args(arguments)
     try:
@@ -24,8 +28,10 @@ def main(arguments: list[str] | None = None) -> int:
         parser.error("--set: expected PATH=VALUE")
     if changes and given.study is None:
         parser.error("--set: needs a study file")
+    if given.link is not None and given.study is not None:
+        parser.error("--link: given without a study file")
     try:
-        explorer = explore(Study.from_toml(given.study, changes) if given.study else None)
+        explorer = reopened(given.link) if given.link is not None else explore(Study.from_toml(given.study, changes) if given.study else None)
     except (QuellError, ImportError) as refused:
         print(refused, file=sys.stderr)
         return 2
@@ -39,6 +45,15 @@ def main(arguments: list[str] | None = None) -> int:
     finally:
         explorer.stop()
     return 0
+
+
+def reopened(link: str) -> Explorer:
+    """The explorer of the state in a link."""
+    study, source, start = decoded(in_link(link))
+    state = State(study, source)
+    if start is not None:
+        state.set_start(start)
+    return run(state)
 
 
 if __name__ == "__main__":

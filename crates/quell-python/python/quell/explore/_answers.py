@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -25,18 +25,6 @@ PER_PERIOD = 28.0
 """Samples of a trajectory for each dither period."""
 
 MOST_SAMPLES = 8000
-
-LONGEST_SMALL = 150
-"""Longest small motion of a disc, in slow periods."""
-
-LARGEST_GROWTH = 1e3
-"""Factor by which the small motion of a disc may grow."""
-
-MOST_BINS = 1500
-"""Most points of a spectrum; each is the largest of its bin."""
-
-FLOOR_DB = -120.0
-"""Least level that a spectrum shows."""
 
 
 @of_a_moment
@@ -63,7 +51,7 @@ def times(study: Study) -> tuple[float, float]:
     if kind == "belt":
         facts = study.check().facts
         rate = natural_frequency(study, facts)
-        ratios = [it["frequency_ratio"] for it in facts["dithers"] if it["amplitude"]]
+        ratios = [highest(it) for it in facts["dithers"] if it["amplitude"]]
         slow = 2.0 * math.pi / rate
         return slow, slow / max(ratios) if ratios else 0.0
     facts = steady(study)[0].stability().facts
@@ -77,9 +65,15 @@ def times(study: Study) -> tuple[float, float]:
     return 2.0 * math.pi / rate, 2.0 * math.pi / top if top else 0.0
 
 
+def highest(dither: Mapping[str, Any]) -> float:
+    """The frequency ratio of a dither of a belt, of noise the upper end of its band."""
+    noise = dither.get("noise") or {}
+    return float(max(noise.get("band", [dither["frequency_ratio"]])))
+
+
 def frequency_of(dither: Mapping[str, Any]) -> float:
-    """The angular frequency of a dither of a system; 0 if it is a formula or a text."""
-    hertz, rate = dither.get("frequency_hz"), dither.get("frequency")
+    """The angular frequency of a dither of a system, of noise the upper end of its band; 0 if it is a formula or a text."""
+    hertz, rate = (dither.get(key, (dither.get(band) or [None])[-1]) for key, band in (("frequency_hz", "band_hz"), ("frequency", "band")))
     if isinstance(hertz, (int, float)):
         return 2.0 * math.pi * float(hertz)
     return float(rate) if isinstance(rate, (int, float)) else 0.0
@@ -124,8 +118,7 @@ def trajectory(study: Study, start: Mapping[str, float] | None, pair: int = -1) 
     """A run from the start with its events and sticking intervals; ``pair`` selects the plane [default: the largest motion]."""
     kind = study._native.kind
     at = moments(study)
-    asked: Any = dict(start) if start else None
-    run: Any = study.simulate(t_eval=at, start=asked)
+    run: Any = study.simulate(t_eval=at, start=start_of(study, start))
     pairs = pairs_of(run, kind)
     if not 0 <= pair < len(pairs):
         spread = [float(np.ptp(values(run, array_name(first)))) for first, _ in pairs]
@@ -153,90 +146,21 @@ def trajectory(study: Study, start: Mapping[str, float] | None, pair: int = -1) 
     }
 
 
-def binned(frequency: Array, levels: Sequence[Array]) -> tuple[Array, list[Array]]:
-    """A spectrum with few points, each with the largest level of its bin."""
-    count = frequency.size // max(1, math.ceil(frequency.size / MOST_BINS))
-    size = frequency.size // max(count, 1)
-    used = count * size
-    return (
-        frequency[:used].reshape(count, size).mean(axis=1),
-        [level[:used].reshape(count, size).max(axis=1) for level in levels],
-    )
+def start_of(study: Study, chosen: Mapping[str, float] | None) -> Any:
+    """Where the run of every picture, sound and file begins: the chosen start, or that of the study.
+
+    That of a disc is its leading small motion, in numbers: a run without dither begins there too.
+    """
+    if study._native.kind != "disc":
+        return dict(chosen) if chosen else None
+    begin = study.simulate(times(study)[0], samples=False, events=False, start=dict(chosen) if chosen else None).facts
+    numbers = zip(begin["state_names"], begin["start"]["state"], strict=True)
+    return {str(name): float(value) for name, value in numbers}
 
 
-@of_a_moment
-def response(study: Study) -> Answer:
-    """The steady response with and without dither, and its spectrum in dB re the largest line without dither."""
-    if study._native.kind == "disc":
-        return small_motion(study)
-    found = study.response()
-    facts = found.facts
-    name = "spectrum_frequency_hz" if "spectrum_frequency_hz" in found.arrays else "frequency"
-    frequency = values(found, name)
-    after, before = values(found, "spectrum_amplitude"), values(found, "spectrum_undithered_amplitude")
-    _, fast = times(study)
-    in_hertz = unit(found, name) == "Hz"
-    rate = 1.0 / fast if in_hertz and fast else 2.0 * math.pi / fast if fast else 0.0
-    if study._native.kind == "belt" and not in_hertz and fast:
-        rate = 2.0 * math.pi / fast
-    peaks = [it.get("frequency_hz", it["frequency"]) if in_hertz else it["frequency"] for it in facts.get("peaks", [])]
-    top = 1.3 * rate if rate else 1.5 * max(peaks, default=float(frequency[-1]))
-    inside = frequency <= min(top, float(frequency[-1]))
-    return {
-        **in_db(frequency[inside], before[inside], after[inside]),
-        "unit": unit(found, name),
-        "sentence": facts["sentence"],
-        "effect": facts["effect"],
-        "level_db": facts.get("level_db"),
-        "settled": bool(facts.get("settled")) and bool(facts.get("undithered_settled")),
-        "warnings": found.warnings,
-    }
-
-
-def in_db(frequency: Array, before: Array, after: Array) -> Answer:
-    """Two spectra in dB re the largest line of the first, or of the second if the first is silent."""
-    reference = float(before[1:].max(initial=0.0)) or float(after[1:].max(initial=0.0)) or 1.0
-    at, (first, second) = binned(frequency, (before, after))
-    with np.errstate(divide="ignore"):
-        levels = [np.maximum(20.0 * np.log10(it / reference), FLOOR_DB) for it in (first, second)]
-    return {"frequency": at, "before": levels[0], "after": levels[1]}
-
-
-def small_motion(study: Study) -> Answer:
-    """The spectra of the motion of a disc from the same small start with and without dither."""
-    end, start = small_start(study)
-    at = np.linspace(0.0, end, MOST_SAMPLES // 2)
-    after: Any = study.simulate(t_eval=at, start=start)
-    quiet = without_dither(study)
-    before: Any = after if quiet is None else quiet.simulate(t_eval=at, start=start)
-    pairs = pairs_of(after, "disc")
-    name = array_name(max((it[0] for it in pairs), key=lambda it: float(np.ptp(values(after, array_name(it))))))
-    window = np.hanning(at.size)
-    frequency: Array = (2.0 * math.pi * np.fft.rfftfreq(at.size, float(at[1] - at[0]))).astype(np.float64)
-    spectra: list[Array] = [np.abs(np.fft.rfft(window * values(run, name))).astype(np.float64) for run in (before, after)]
-    inside = frequency <= 4.0 * 2.0 * math.pi / times(study)[0]
-    words = study.stability().facts["sentence"]
-    return {
-        **in_db(frequency[inside], spectra[0][inside], spectra[1][inside]),
-        "unit": "ω_ref",
-        "sentence": words,
-        "effect": "",
-        "level_db": None,
-        "settled": True,
-        "warnings": after.warnings,
-    }
-
-
-def small_start(study: Study) -> tuple[float, dict[str, float]]:
-    """A small start of a disc, that of its leading motion without dither, and a time in which it stays small."""
-    quiet = without_dither(study) or study
-    facts = quiet.stability().facts
-    slow = times(quiet)[0]
-    growth = max(facts["growth_rate"] or 0.0, study.stability().facts["growth_rate"] or 0.0)
-    end = min(LONGEST_SMALL * slow, math.log(LARGEST_GROWTH) / growth if growth > 0.0 else math.inf)
-    run = quiet.simulate(slow, samples=False, events=False)
-    names, state = run.facts["state_names"], run.facts["start"]["state"]
-    return max(end, slow), {str(name): float(value) for name, value in zip(names, state, strict=True)}
+def is_averaged(study: Study) -> bool:
+    """Whether growth rates are averaged over a dither: those of a disc are exact."""
+    return study._native.kind != "disc" and "dither" in study._native.document()
 
 
 def without_dither(study: Study) -> Study | None:

@@ -108,13 +108,13 @@ class Controls:
         self._change = change
         self._choose_law = choose_law
         self.sliders: dict[str, Slider] = {}
-        self._selects: dict[str, Any] = {}
+        self.selects: dict[str, Any] = {}
         self._silent = False
         self.view = pn.Column(width=SIDE + 8)
         self._build(study)
 
     def _build(self, study: Study) -> None:
-        self.sliders, self._selects = {}, {}
+        self.sliders, self.selects = {}, {}
         groups: dict[str, list[Any]] = {}
         for path, law in tables_of_laws(study).items():
             self._law(groups, study, path, law)
@@ -159,7 +159,7 @@ class Controls:
         options = laws() if law in laws() else [law, *laws()]
         select = pn.widgets.Select(label="law", options=options, value=law, width=SIDE - 20, margin=(2, 4, 8, 4))
         select.param.watch(lambda event: None if self._silent else self._choose_law(path, event.new), "value")
-        self._selects[f"{path}.law"] = select
+        self.selects[f"{path}.law"] = select
         groups.setdefault(label_of(study, [*tokens(path), "law"], "")[1], []).append(select)
 
     def _choice(self, groups: dict[str, list[Any]], choice: Choice) -> None:
@@ -167,7 +167,7 @@ class Controls:
             label=choice.label, options=list(choice.options), value=choice.value, width=SIDE - 20, margin=(2, 4, 8, 4)
         )
         select.param.watch(lambda event: None if self._silent else self._change({choice.path: event.new}), "value")
-        self._selects[choice.path] = select
+        self.selects[choice.path] = select
         groups.setdefault(choice.group, []).append(select)
 
     @staticmethod
@@ -187,7 +187,7 @@ class Controls:
                 slider.show(self._knobs[path])
         self._silent = True
         for choice in choices(study):
-            self._selects[choice.path].value = choice.value
+            self.selects[choice.path].value = choice.value
         self._silent = False
 
 

@@ -6,17 +6,18 @@ import math
 from typing import Any
 
 import numpy as np
-from bokeh.models import ColumnDataSource, Legend, LegendItem, LogTicker, Span
+from bokeh.models import BoxAnnotation, ColumnDataSource, Legend, LegendItem, LogTicker, Span
 from bokeh.plotting import figure
 
-from ._style import ACCENT, BEFORE, FONT, HEIGHT, STICK, TEXT, WIDTH
+from ._style import ACCENT, BEFORE, FONT, HEIGHT, MOMENT, STICK, TEXT, WIDTH
 
-TOOLS = "pan,wheel_zoom,box_zoom,reset"
+TOOLS = ("pan", "wheel_zoom", "box_zoom", "reset", "save", "fullscreen")
+"""Tools of every picture; the last fills the screen with it."""
 
 
 def blank(across: str, up: str, width: int = WIDTH, height: int = HEIGHT, **options: Any) -> Any:
     """A figure with labels that can be read on a projector."""
-    plot: Any = figure(width=width, height=height, tools=TOOLS, toolbar_location="above", **options)
+    plot: Any = figure(width=width, height=height, tools=",".join(TOOLS), toolbar_location="above", **options)
     plot.xaxis.axis_label, plot.yaxis.axis_label = across, up
     dress(plot)
     return plot
@@ -25,7 +26,6 @@ def blank(across: str, up: str, width: int = WIDTH, height: int = HEIGHT, **opti
 def dress(plot: Any) -> None:
     """Sets fonts, grid and toolbar."""
     plot.toolbar.logo = None
-    plot.toolbar.autohide = True
     for axis in (plot.xaxis, plot.yaxis):
         axis.axis_label_text_font = axis.major_label_text_font = FONT
         axis.axis_label_text_font_style = "normal"
@@ -79,6 +79,7 @@ class Motion:
         self.stick = ColumnDataSource({"time": [], "x": [], "v": []})
         self.events = ColumnDataSource({"time": [], "x": [], "v": []})
         self.start = ColumnDataSource({"x": [], "v": []})
+        self.moment = ColumnDataSource({"time": [], "x": [], "v": []})
         self.over_time = blank("time", "displacement")
         self.plane = blank("displacement", "velocity")
         self.surface = Span(dimension="width", line_color=STICK, line_dash="dotted", visible=False)
@@ -88,10 +89,11 @@ class Motion:
             first = plot.line(across, up, source=self.run, line_color=ACCENT, line_width=1.5)
             second = plot.line(across, up, source=self.stick, line_color=STICK, line_width=4)
             third = plot.scatter(across, up, source=self.events, size=4, fill_color="white", line_color="#222", line_alpha=0.7)
-            lines.append([("motion", [first]), ("stick", [second]), ("event", [third])])
+            played = plot.scatter(across, up, source=self.moment, size=11, marker="diamond", fill_color=MOMENT, line_color="#222")
+            lines.append([("motion", [first]), ("stick", [second]), ("event", [third]), ("played", [played])])
         fourth = self.plane.scatter("x", "v", source=self.start, size=13, marker="cross", line_width=3, line_color="#222")
         legend(self.over_time, lines[0])
-        legend(self.plane, [*lines[1][:2], ("start", [fourth])])
+        legend(self.plane, [*lines[1][:2], ("start", [fourth]), lines[1][3]])
 
     def show(self, answer: dict[str, Any]) -> None:
         """Draws a run."""
@@ -107,6 +109,7 @@ class Motion:
         self.stick.data = {"time": time + gaps, "x": x + gaps, "v": v + gaps} if sticking.any() else {"time": [], "x": [], "v": []}
         self.events.data = {"time": at, "x": np.interp(at, time, x), "v": np.interp(at, time, v)}
         self.start.data = {"x": x[:1], "v": v[:1]}
+        self.moment.data = {"time": [], "x": [], "v": []}
         names = answer["names"]
         self.over_time.xaxis.axis_label = labelled("time", units[0])
         self.over_time.yaxis.axis_label = self.plane.xaxis.axis_label = labelled(names[0], units[1])
@@ -115,6 +118,13 @@ class Motion:
         if answer["sliding"] is not None:
             self.surface.location = answer["sliding"] / scales[2][0]
 
+    def play(self, share: float) -> None:
+        """Marks the moment after a share of the run."""
+        count = len(self.run.data["time"])
+        if count:
+            place = min(int(share * count), count - 1)
+            self.moment.data = {name: [self.run.data[name][place]] for name in ("time", "x", "v")}
+
 
 class Spectrum:
     """The spectrum with and without dither."""
@@ -122,14 +132,21 @@ class Spectrum:
     def __init__(self) -> None:
         self.source = ColumnDataSource({"frequency": [], "before": [], "after": []})
         self.plot = blank("frequency", "level [dB]")
-        first = self.plot.line("frequency", "before", source=self.source, line_color=BEFORE, line_width=1.5)
+        # Its legend needs a glyph; the frame is that of the data, which begin at 0.
+        self.band = BoxAnnotation(left=0.0, right=0.0, fill_color=ACCENT, fill_alpha=0.08, line_color=None, visible=False)
+        self.plot.add_layout(self.band)
+        first = self.plot.line("frequency", "before", source=self.source, line_color=BEFORE, line_width=1.8, line_dash="dashed")
         second = self.plot.line("frequency", "after", source=self.source, line_color=ACCENT, line_width=1.5)
-        legend(self.plot, [("without dither", [first]), ("with dither", [second])])
+        third = self.plot.rect([], [], [], [], fill_color=ACCENT, fill_alpha=0.15, line_color=None)
+        legend(self.plot, [("without dither", [first]), ("with dither", [second]), ("band of E", [third])])
 
     def show(self, answer: dict[str, Any]) -> None:
         """Draws two spectra."""
         self.source.data = {name: answer[name] for name in ("frequency", "before", "after")}
         self.plot.xaxis.axis_label = labelled("frequency", answer["unit"])
+        self.band.visible = answer["band_end"] is not None
+        if answer["band_end"] is not None:
+            self.band.right = answer["band_end"]
 
 
 class Law:
@@ -140,7 +157,7 @@ class Law:
         self.effective = ColumnDataSource({"velocity": [], "coefficient": []})
         self.point = ColumnDataSource({"velocity": [], "coefficient": []})
         self.plot = blank("slip velocity", "friction coefficient")
-        first = self.plot.line("velocity", "coefficient", source=self.law, line_color=BEFORE, line_width=2)
+        first = self.plot.line("velocity", "coefficient", source=self.law, line_color=BEFORE, line_width=2, line_dash="dashed")
         second = self.plot.line("velocity", "coefficient", source=self.effective, line_color=ACCENT, line_width=2.5)
         third = self.plot.scatter("velocity", "coefficient", source=self.point, size=10, line_color="#222", fill_color="#222")
         legend(self.plot, [("law", [first]), ("effective", [second]), ("steady sliding", [third])])
@@ -158,8 +175,9 @@ class Law:
         if sliding:
             shown = effective if effective is not None else law["coefficient"]
             known = np.isfinite(shown)
-            at = float(np.interp(sliding, law["velocity"][known], shown[known]))
-            self.point.data = {"velocity": [sliding], "coefficient": [at]}
+            if known.any():
+                at = float(np.interp(sliding, law["velocity"][known], shown[known]))
+                self.point.data = {"velocity": [sliding], "coefficient": [at]}
         self.plot.xaxis.axis_label = labelled("slip velocity", law["unit"])
 
 
@@ -188,7 +206,10 @@ class Eigenvalues:
         self.plots = [blank("parameter", name, height=230, y_range=(-1.0, 1.0)) for name in ("growth rate", "frequency")]
         self.cursors = []
         for plot, source in zip(self.plots, (self.growth, self.frequency), strict=True):
-            plot.multi_line("xs", "ys", source=source, line_color=ACCENT, line_width=1.8)
+            branches = plot.multi_line("xs", "ys", source=source, line_color=ACCENT, line_width=1.8)
+            # A Span has no legend.
+            here = plot.line([], [], line_color="#222", line_dash="dashed")
+            legend(plot, [("small motion", [branches]), ("the study", [here])])
             cursor = Span(dimension="height", line_color="#222", line_dash="dashed", visible=False)
             plot.add_layout(cursor)
             self.cursors.append(cursor)

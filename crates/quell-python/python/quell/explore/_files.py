@@ -5,15 +5,16 @@ from __future__ import annotations
 import io
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import panel as pn
 
 from .._errors import QuellError, StudyError
 from .._study import Study
-from ._answers import moments
+from ._answers import moments, start_of
 from ._panes import MARGIN, words
+from ._state import Step
 from ._style import STICK, TEXT
 
 FORMATS = ("svg", "png", "pdf", "csv", "nc", "toml")
@@ -27,8 +28,8 @@ VERBS = {
 """Verbs whose answers can be downloaded, by the kind of study."""
 
 
-def content(study: Study, verb: str, format_: str) -> bytes:
-    """The content of a file with the answer of a verb.
+def content(study: Study, verb: str, format_: str, start: Mapping[str, float] | None = None) -> bytes:
+    """The content of a file with the answer of a verb; a run begins at ``start``, where that of the picture does.
 
     Raises
     ------
@@ -39,7 +40,8 @@ def content(study: Study, verb: str, format_: str) -> bytes:
     """
     if format_ == "toml":
         return study.to_toml().encode()
-    result: Any = study.simulate(t_eval=moments(study)) if verb == "simulate" else getattr(study, verb)()
+    is_run = verb == "simulate"
+    result: Any = study.simulate(t_eval=moments(study), start=start_of(study, start)) if is_run else getattr(study, verb)()
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, f"quell.{format_}")
         if format_ == "pdf":
@@ -63,9 +65,9 @@ def pdf(result: Any, path: str) -> None:
 class Downloads:
     """The choice of a file, and its download."""
 
-    def __init__(self, study: Callable[[], Study]) -> None:
-        self._study = study
-        self.verb = pn.widgets.Select(label="answer", options=list(VERBS[study()._native.kind]), width=150, margin=MARGIN)
+    def __init__(self, step: Callable[[], Step]) -> None:
+        self._step = step
+        self.verb = pn.widgets.Select(label="answer", options=list(VERBS[step().base._native.kind]), width=150, margin=MARGIN)
         self.format = pn.widgets.Select(label="file", options=list(FORMATS), width=100, margin=MARGIN)
         self.file = pn.widgets.FileDownload(
             callback=self._content, filename="quell.svg", label="download", auto=True, width=150, margin=(20, 8, 2, 8),
@@ -89,7 +91,8 @@ class Downloads:
     def _content(self) -> io.BytesIO:
         self.note.object = ""
         try:
-            return io.BytesIO(content(self._study(), str(self.verb.value), str(self.format.value)))
+            step = self._step()
+            return io.BytesIO(content(step.study(), str(self.verb.value), str(self.format.value), step.start))
         except (QuellError, ImportError) as refused:
             self.note.object = words(str(refused), TEXT - 1, STICK)
             self.file.filename = "refused.txt"

@@ -15,7 +15,7 @@ Progress = Callable[[int, int], object]
 Axis = tuple[str, float, float, bool]
 """Path of a number, the ends of its axis, and whether it is logarithmic."""
 
-QUANTITY = {"belt": "growth-sharper", "disc": "growth", "system": "growth"}
+QUANTITY = {"belt": "growth", "disc": "growth", "system": "growth"}
 GRID = (44, 32)
 
 
@@ -52,7 +52,7 @@ def tongues(study: Study, across: Axis) -> list[Answer]:
     return [
         {"speed": it["speed"], "edges": it.get("edges"), "pair": it["pair"], "dithered": dithered}
         for it, dithered in both
-        if it["can_be_unstable"] and it["speed"] > 0.0
+        if it["pair_can_be_unstable"] and it["speed"] > 0.0
     ]
 
 

@@ -12,14 +12,15 @@ from .._errors import QuellError
 from .._study import Study
 from .._tables import Number
 from . import _measured, _questions, _zoo
+from ._answers import is_averaged
 from ._controls import Controls
-from ._files import Downloads
+from ._freshness import Freshness
 from ._lanes import Event, Here, Lane, Process
 from ._numbers import Knob, kept, knobs, within
 from ._panes import EigenPane, LawPane, MeasuredPane, MotionPane, QuestionPane, SoundPane, SpectrumPane, Verdict, headed, words
 from ._plane_panes import ACROSS, BasinsPane, PlanePane, preferred
-from ._share import commands, python, toml
-from ._state import State
+from ._sharing import Sharing
+from ._state import SLOTS, State
 from ._style import SIDE, STICK, TEXT, WIDTH
 
 pn.extension()
@@ -30,18 +31,29 @@ SKETCH_WIDTH = f"{round(WIDTH * 25.4 / 96.0)}mm"
 REST = 150
 """Time in milliseconds after which a slider that does not move is at rest."""
 
+SOON = 20
+"""Time in milliseconds after which the page is built again for another study."""
+
+PATIENT = 400
+"""Time in milliseconds after which a sentence about earlier numbers gives way to the words that the answer is being computed."""
+
+HEADLINES = {"averaged": "Steady sliding: computing…", "response": "The exact response: computing…"}
+"""Answers whose sentences are above the panes, and the words while they are computed."""
+
 STICKY = """
-:host { flex: none; position: sticky; top: 0; max-height: 100vh; overflow-y: auto; overflow-x: hidden; }
-@media (max-width: 820px) { :host { position: static; max-height: none; } }
+:host { flex: none; position: sticky; top: 0; max-height: 100vh; overflow-y: auto; overflow-x: hidden; background: white; z-index: 5; }
+@media (max-width: 820px) { :host { max-height: 36vh; border-bottom: 3px solid #0072b2; } }
 """
-"""The column of numbers stays in view next to the panes; on a narrow screen it is above them."""
+"""The column of numbers stays in view next to the panes; on a narrow screen it is above them, and as high as leaves a picture in view."""
 
 
 class Page:
     """The explorer in one browser session."""
 
-    def __init__(self, state: State, changed: Callable[[State], None]) -> None:
+    def __init__(self, state: State, changed: Callable[[State], None], address: str = "", complaint: str = "") -> None:
         self.state = state
+        self._fresh = Freshness()
+        self._patience: Any = None
         self._tell = changed
         self._document = pn.state.curdoc
         self._closed = False
@@ -68,8 +80,7 @@ class Page:
             "fit": MeasuredPane("Laws fitted to measured friction", "fit", ("slip velocity and friction",)),
         }
         self.controls = Controls(state.study, self.change, self.choose_law)
-        self.downloads = Downloads(lambda: self.state.study)
-        self.shared = {name: pn.pane.HTML("", sizing_mode="stretch_width") for name in ("TOML", "command line", "Python")}
+        self.sharing = Sharing(lambda: self.state.step, address)
         self.complaints = pn.pane.HTML("", visible=False, sizing_mode="stretch_width", css_classes=["quell-complaints"])
         self.title = pn.pane.HTML("", sizing_mode="stretch_width", css_classes=["quell-title"])
         self._wire()
@@ -78,6 +89,9 @@ class Page:
         self.view = self._layout()
         self._shown_shape = self.controls.shape(state.study)
         self._fill()
+        if complaint:
+            self.state.complaints = [complaint]
+            self._complain()
         self.refresh()
 
     # Layout.
@@ -94,6 +108,9 @@ class Page:
             measured.button.on_click(lambda event, name=name: self.request_measured(name))
         self.undo = pn.widgets.Button(label="undo", width=90, css_classes=["quell-undo"])
         self.redo = pn.widgets.Button(label="redo", width=90, css_classes=["quell-redo"])
+        # Browsers go from one to the other with the arrow keys.
+        self.slot = pn.widgets.RadioBoxGroup(options=list(SLOTS), value=self.state.slot, inline=True, css_classes=["quell-slot"])
+        self.slot.param.watch(lambda event: self._went(self.state.choose(event.new)), "value")
         self.undo.on_click(lambda event: self._went(self.state.undo()))
         self.redo.on_click(lambda event: self._went(self.state.redo()))
 
@@ -103,25 +120,16 @@ class Page:
         options = list(dict.fromkeys(["this study", *self._sources]))
         self.zoo = pn.widgets.Select(label="open a study", options=options, value=here, width=SIDE, css_classes=["quell-zoo"])
         self.zoo.param.watch(self._open, "value")
-        return pn.Column(self.zoo, pn.Row(self.undo, self.redo), width=SIDE + 8)
+        compare = pn.pane.HTML(words("compare, by ← and →:", TEXT - 1), margin=(8, 4, 2, 8))
+        return pn.Column(self.zoo, pn.Row(self.undo, self.redo), pn.Row(compare, self.slot), width=SIDE + 8)
 
     def _layout(self) -> Any:
-        share = pn.Tabs(*self.shared.items(), sizing_mode="stretch_width", css_classes=["quell-share"])
-        self.bottom = pn.Card(
-            share,
-            self.downloads.view,
-            title="Share and download",
-            collapsed=False,
-            sizing_mode="stretch_width",
-            max_width=2 * WIDTH + 30,
-            css_classes=["quell-sharing"],
-        )
         main = pn.Column(
             self.title,
             self.complaints,
             self.verdict.view,
             self.right,
-            self.bottom,
+            self.sharing.view,
             styles={"flex": f"1 1 {WIDTH + 20}px", "min-width": "0"},
         )
         return pn.FlexBox(self.side, main, align_items="flex-start", flex_wrap="wrap", gap="10px", sizing_mode="stretch_width")
@@ -133,8 +141,9 @@ class Page:
         found = knobs(study)
         labels = [it.label for it in found]
         numbers = {it.label if labels.count(it.label) == 1 else f"{it.group} {it.label}": it for it in found}
+        self.plane.kind = self.eigen.kind = self.law.kind = "averaged" if is_averaged(study) else "exact"
         self.plane.offer(kind, numbers)
-        self.downloads.offer(kind)
+        self.sharing.downloads.offer(kind)
         self.motion.coordinate.options = []
         panes: list[Any] = [self.motion.view, self.motion.plane_view, self.spectrum.view]
         if kind != "disc":
@@ -167,7 +176,11 @@ class Page:
     def change(self, changes: dict[str, Number | str]) -> bool:
         """Changes numbers of the study, and asks for the answers."""
         done = self.state.set(changes)
-        self._after(done)
+        if done and any(path in self.controls.selects for path in changes):
+            # Another word may need other numbers.
+            self._went(True)
+        else:
+            self._after(done)
         return done
 
     def choose_law(self, path: str, law: str) -> None:
@@ -181,8 +194,10 @@ class Page:
             return
         given = None if start is None else dict(zip(names, start, strict=True))
         self.state.set_start(given)
+        self._outdate(("trajectory", "sound"))
         self.request_motion()
-        self._share()
+        self._tell(self.state)
+        self.sharing.show()
 
     def _tapped(self, event: Any) -> None:
         if event.x is not None and event.y is not None:
@@ -207,27 +222,72 @@ class Page:
 
     def _went(self, done: bool) -> None:
         """Shows the numbers again after a change that was made elsewhere than at a slider."""
+        if done:
+            # The browser dims the answers before the page is built again.
+            self._outdate_all()
+            self._document.add_timeout_callback(self._rebuild, SOON)
+        else:
+            self._after(False)
+
+    def _rebuild(self) -> None:
         with pn.io.hold():
-            if done:
-                self.controls.show(self.state.study)
-                shape = self.controls.shape(self.state.study)
-                if self._shown_shape != shape:
-                    self._shown_shape = shape
-                    self._fill()
-            self._after(done)
+            self.controls.show(self.state.study)
+            shape = self.controls.shape(self.state.study)
+            if self._shown_shape != shape:
+                self._shown_shape = shape
+                self._fill()
+            self._after(True)
 
     def _after(self, done: bool) -> None:
         self._complain()
         if done:
             self.refresh()
-        else:
-            self.dim()
+        elif self.state.complaints:
+            self._outdate(tuple(self.panes()))
+            self.plane.forget()
 
-    def dim(self) -> None:
-        """Dims every answer: the numbers that the sliders show are not valid."""
-        for pane in (self.motion, self.spectrum, self.law, self.plane, self.basins, self.eigen, self.sound, *self.asking()):
-            pane.dim(True)
-        self.verdict.dim()
+    def panes(self) -> dict[str, Any]:
+        """The pane of each answer."""
+        return {
+            "averaged": self.law,
+            "trajectory": self.motion,
+            "response": self.spectrum,
+            "plane": self.plane,
+            "curves": self.plane,
+            "basins": self.basins,
+            "eigenvalues": self.eigen,
+            "sound": self.sound,
+            **self.questions,
+            **self.measured,
+        }
+
+    def _outdate(self, names: tuple[str, ...]) -> None:
+        """Dims answers at once, which are about earlier numbers, until newer ones are there."""
+        self._fresh.outdate(names)
+        panes = self.panes()
+        for name in names:
+            panes[name].dim(True)
+            if name in HEADLINES:
+                self.verdict.dim(name)
+
+    def _outdate_all(self) -> None:
+        """Dims every answer, but not a map in which only the cursor moves."""
+        kept: tuple[str, ...] = ("plane", "curves")
+        if self.plane.is_outdated(self.state.study):
+            self.plane.forget()
+            kept = ()
+        self._outdate(tuple(name for name in self.panes() if name not in kept))
+
+    def _ask(self, lane: Lane, name: str, *arguments: Any) -> None:
+        """Asks for an answer about the study as it is."""
+        lane.submit(name, self.state.study, *arguments, tag=self._fresh.tag(name))
+
+    def _be_patient(self) -> None:
+        """A sentence about earlier numbers does not stay for long."""
+        self._patience = None
+        for name, text in HEADLINES.items():
+            if self._fresh.is_stale(name) and not self.state.complaints:
+                self.verdict.replace(name, text)
 
     def _complain(self) -> None:
         found = self.state.complaints
@@ -239,11 +299,14 @@ class Page:
 
     def refresh(self) -> None:
         """Asks for every answer of the study: first for the short ones, and for the others when the sliders rest."""
-        self.fast.submit("averaged", self.state.study)
+        self._outdate_all()
+        self._ask(self.fast, "averaged")
         self._tell(self.state)
-        if self._later is not None:
-            self._document.remove_timeout_callback(self._later)
+        for callback in (self._later, self._patience):
+            if callback is not None:
+                self._document.remove_timeout_callback(callback)
         self._later = self._document.add_timeout_callback(self._refresh_later, REST)
+        self._patience = self._document.add_timeout_callback(self._be_patient, PATIENT)
 
     def _refresh_later(self) -> None:
         self._later = None
@@ -258,22 +321,19 @@ class Page:
             if study._native.kind == "system":
                 self.request_eigenvalues()
             self._draw_sketch(study)
-            self.sound.dim(True)
-            for pane in self.asking():
-                pane.dim(True)
-            self._share()
+            self.sharing.show()
 
     def request_exact(self) -> None:
         """Asks for the trajectory and the response."""
         if not self._closed:
             self.request_motion()
-            self.exact.submit("response", self.state.study)
+            self._ask(self.exact, "response")
 
     def request_motion(self) -> None:
         """Asks for the trajectory."""
         pairs = self.motion.coordinate.options
         pair = pairs.index(self.motion.coordinate.value) if self.motion.coordinate.value in pairs else -1
-        self.exact.submit("trajectory", self.state.study, self.state.step.start, pair)
+        self._ask(self.exact, "trajectory", self.state.step.start, pair)
 
     def request_plane(self) -> None:
         """Asks for the map and its curves, or only moves the cursor if nothing else changed."""
@@ -282,13 +342,14 @@ class Page:
         if asked is None:
             return
         across, up = asked
-        self.maps.submit("plane", study, across, up)
+        self._outdate(("plane", "curves"))
+        self._ask(self.maps, "plane", across, up)
         if study._native.kind != "disc":
-            self.maps.submit("curves", study, across, up)
+            self._ask(self.maps, "curves", across, up)
 
     def request_basins(self) -> None:
         """Asks for the basins."""
-        self.maps.submit("basins", self.state.study, self.basins.grid)
+        self._ask(self.maps, "basins", self.basins.grid)
 
     def request_eigenvalues(self) -> None:
         """Asks for the eigenvalues over the chosen parameter."""
@@ -299,15 +360,15 @@ class Page:
         one = within(self.state.study, now)
         ends = (one.given(one.start), one.given(one.stop))
         self.eigen.picture.mark(one.value)
-        self.maps.submit("eigenvalues", self.state.study, one.path, *ends)
+        self._ask(self.maps, "eigenvalues", one.path, *ends)
 
     def request_sound(self) -> None:
         """Asks for the sound."""
-        self.exact.submit("sound", self.state.study)
+        self._ask(self.exact, "sound", self.state.step.start)
 
     def request_question(self, name: str) -> None:
         """Asks what a table of the study asks."""
-        self.maps.submit(name, self.state.study)
+        self._ask(self.maps, name)
 
     def request_measured(self, name: str) -> None:
         """Asks what a measured file says, if one was chosen."""
@@ -318,11 +379,7 @@ class Page:
         elif max(map(len, contents)) > _measured.LARGEST:
             pane.sentence.object = words(f"a file may have at most {_measured.LARGEST >> 20} MiB", TEXT, STICK)
         else:
-            self.maps.submit(name, self.state.study, *contents)
-
-    def asking(self) -> list[QuestionPane]:
-        """The panes that answer on request."""
-        return [*self.questions.values(), *self.measured.values()]
+            self._ask(self.maps, name, *contents)
 
     def _draw_sketch(self, study: Study) -> None:
         """Draws the mechanism, where this version of Quell can."""
@@ -332,11 +389,6 @@ class Page:
             self.sketch.object = self._draw(study, width=SKETCH_WIDTH)
         except QuellError as refused:
             self.sketch.object = words(str(refused), TEXT, STICK)
-
-    def _share(self) -> None:
-        step = self.state.step
-        for name, text in (("TOML", toml(step)), ("command line", commands(step)), ("Python", python(step))):
-            self.shared[name].object = preformatted(text)
 
     # Answers.
 
@@ -358,42 +410,31 @@ class Page:
         if self._closed or event.kind in ("dropped", "waiting") or (event.name, event.kind) == ("averaged", "running"):
             return
         name, answer = event.name, event.answer
-        pane: Any = {
-            "averaged": self.law,
-            "trajectory": self.motion,
-            "response": self.spectrum,
-            "plane": self.plane,
-            "curves": self.plane,
-            "basins": self.basins,
-            "eigenvalues": self.eigen,
-            "sound": self.sound,
-            **self.questions,
-            **self.measured,
-        }[name]
+        pane = self.panes()[name]
         pane.state(event)
         if name == "averaged" and event.kind in ("done", "failed"):
             # The exact answers begin when the averaged one is there, so that they do not delay it.
             self._document.add_next_tick_callback(self.request_exact)
-        if answer is None:
-            return
-        if name == "averaged":
-            self.verdict.show_averaged(answer, event.seconds)
-        if name == "response":
-            self.verdict.show_exact(answer["sentence"] if self.state.study._native.kind != "disc" else "")
-        pane.show(answer) if name != "curves" else self.plane.show_curves(answer)
+        if event.kind in ("done", "failed") and name in HEADLINES:
+            self._headline(event)
+        if answer is not None:
+            pane.show(answer) if name != "curves" else self.plane.show_curves(answer)
+            if self._fresh.is_current(event):
+                pane.dim(False)
+
+    def _headline(self, event: Event) -> None:
+        """Shows a sentence above the panes, dimmed if it is not about the numbers that the sliders show."""
+        if event.answer is None:
+            self.verdict.replace(event.name, f"No answer: {event.words}")
+        elif event.name == "averaged":
+            self.verdict.show_averaged(event.answer)
+        else:
+            self.verdict.show_exact(event.answer["sentence"] if self.state.study._native.kind != "disc" else "")
+        if not self._fresh.show(event):
+            self.verdict.dim(event.name)
 
     def close(self) -> None:
         """Ends the lanes of this session."""
         self._closed = True
         for lane in (self.fast, self.exact, self.maps):
             lane.close()
-
-
-def preformatted(text: str) -> str:
-    """Text as it is, which can be selected with one click."""
-    import html
-
-    return (
-        f'<pre style="font-size:{TEXT - 1}px;background:#f4f6f8;padding:8px;max-height:340px;overflow:auto;'
-        f'user-select:all;white-space:pre-wrap">{html.escape(text)}</pre>'
-    )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import html
-import math
 from typing import Any
 
 import panel as pn
@@ -16,6 +15,9 @@ from ._style import ACCENT, FONT, STICK, TEXT, WIDTH
 DIM = {"opacity": "0.4"}
 CLEAR = {"opacity": "1"}
 MARGIN = (2, 8, 2, 8)
+
+FRAMES = 400
+"""Moments of a run that is played."""
 
 
 def words(text: str, size: int = TEXT, colour: str = "#222", weight: int = 400) -> str:
@@ -48,7 +50,8 @@ class Pane:
 
     def __init__(self, title: str, css: str, *body: Any, kind: str = "exact") -> None:
         self.title = title
-        self._kind = kind
+        self.kind = kind
+        """How its answers are found: "exact" or "averaged"."""
         self._line = paragraph(WIDTH, f"{css}-status")
         self._bodies = list(body)
         self.css = css
@@ -66,8 +69,7 @@ class Pane:
         elif event.kind == "progress":
             self._line.object = self._head(f"computing… {event.words}")
         elif event.kind == "done":
-            self._line.object = self._head(f"{self._kind}, {time_words(event.seconds)}")
-            self.dim(False)
+            self._line.object = self._head(f"{self.kind}, {time_words(event.seconds)}")
         elif event.kind == "failed":
             self._line.object = self._head(event.words, STICK)
             self.dim(True)
@@ -94,19 +96,25 @@ class MotionPane(Pane):
         self.coordinate = pn.widgets.Select(label="coordinate", options=[], width=180, visible=False, margin=MARGIN)
         self.again = pn.widgets.Button(label="start of the study", width=170, margin=(8, 8, 2, 8), css_classes=["quell-restart"])
         self.sentence = paragraph(WIDTH, "quell-motion-words")
+        self.player = pn.widgets.Player(
+            start=0, end=FRAMES, value=0, interval=50, loop_policy="loop", show_loop_controls=False, width=WIDTH, height=60, margin=MARGIN,
+            css_classes=["quell-play"],
+        )  # fmt: skip
+        self.player.param.watch(lambda event: self.picture.play(event.new / FRAMES), "value")
         over_time = pn.pane.Bokeh(self.picture.over_time, margin=MARGIN)
         plane = pn.pane.Bokeh(self.picture.plane, margin=MARGIN, css_classes=["quell-phase"])
         self.plane_view = pn.Column(
             pn.pane.HTML(headed("Phase plane", "click a start"), width=WIDTH, margin=MARGIN), plane, width=WIDTH + 16
         )
-        super().__init__("Trajectory", "quell-motion", over_time, self.sentence, pn.Row(self.coordinate, self.again))
-        self._bodies = [over_time, plane]
+        super().__init__("Trajectory", "quell-motion", over_time, self.player, self.sentence, pn.Row(self.coordinate, self.again))
+        self._bodies = [over_time, plane, self.sentence]
 
     def show(self, answer: dict[str, Any]) -> None:
         """Draws a run."""
         self.names = answer["names"]
         self.picture.show(answer)
         self.sentence.object = words(answer["sentence"], TEXT - 1)
+        self.player.value = 0
         self.coordinate.visible = len(answer["pairs"]) > 1
         self.is_shown = True
         if self.coordinate.options != answer["pairs"] or self.coordinate.value != answer["names"][0]:
@@ -119,11 +127,13 @@ class SpectrumPane(Pane):
 
     def __init__(self) -> None:
         self.picture = Spectrum()
-        super().__init__("Spectrum", "quell-spectrum", pn.pane.Bokeh(self.picture.plot, margin=MARGIN))
+        self.loudness = paragraph(WIDTH, "quell-loudness")
+        super().__init__("Spectrum", "quell-spectrum", pn.pane.Bokeh(self.picture.plot, margin=MARGIN), self.loudness)
 
     def show(self, answer: dict[str, Any]) -> None:
         """Draws the spectra."""
         self.picture.show(answer)
+        self.loudness.object = words(answer["loudness"], TEXT - 1)
 
 
 class LawPane(Pane):
@@ -159,7 +169,7 @@ class EigenPane(Pane):
         self.sentence = paragraph(WIDTH)
         bodies = [pn.pane.Bokeh(plot, margin=MARGIN) for plot in self.picture.plots]
         super().__init__("Eigenvalues", "quell-eigen", self.parameter, *bodies, self.sentence, kind="averaged")
-        self._bodies = bodies
+        self._bodies = [*bodies, self.sentence]
 
     def show(self, answer: dict[str, Any]) -> None:
         """Draws the branches."""
@@ -187,7 +197,7 @@ class SoundPane(Pane):
                     f'<div style="font-size:{TEXT}px;font-family:{FONT};margin-bottom:4px">{name}<br>'
                     f'<audio controls style="width:{WIDTH - 20}px;height:40px" src="data:audio/wav;base64,{data}"></audio></div>'
                 )
-        self.players.object = "".join(rows) + words(difference(answer["levels"], answer["slow"]), TEXT, weight=600)
+        self.players.object = "".join(rows) + words(answer["words"], TEXT, weight=600)
 
 
 class QuestionPane(Pane):
@@ -227,26 +237,6 @@ def paragraph_of(text: str, width: int) -> Any:
     return pn.pane.HTML(words(text), width=width, margin=MARGIN)
 
 
-def difference(levels: dict[str, float], slow: dict[str, float]) -> str:
-    """The difference of two sounds in words: of their whole levels, and of those below 1.9 ω₀."""
-    if "without dither" not in levels:
-        return "The study has no dither: this is its only sound."
-    whole = f"With dither it is {change(levels)}, with the same gain."
-    return f"{whole} Below 1.9 ω₀, without the tone of the dither, it is {change(slow)}." if len(slow) == 2 else whole
-
-
-def change(levels: dict[str, float]) -> str:
-    """What dither does to a level, in words."""
-    before, after = levels["without dither"], levels["with dither"]
-    if before == after or abs(after - before) < 0.5:
-        return "silent, as without" if math.isinf(after) else "as loud as without"
-    if math.isinf(after):
-        return "silent"
-    if math.isinf(before):
-        return "audible, and without dither it is silent"
-    return f"{abs(after - before):.0f} dB {'quieter' if after < before else 'louder'}"
-
-
 class Verdict:
     """The answers in one sentence each, above the panes."""
 
@@ -255,10 +245,11 @@ class Verdict:
         self.exact = paragraph(900, "quell-exact")
         for one in (self.averaged, self.exact):
             one.sizing_mode = "stretch_width"
+        self.lines = {"averaged": self.averaged, "response": self.exact}
         self.view = pn.Column(self.averaged, self.exact, sizing_mode="stretch_width")
 
-    def show_averaged(self, answer: dict[str, Any], seconds: float) -> None:
-        """The averaged verdict."""
+    def show_averaged(self, answer: dict[str, Any]) -> None:
+        """The verdict about steady sliding."""
         colours = {"unstable": STICK, "stable": ACCENT}
         notes = f" ({answer['warnings'][0]})" if answer["warnings"] else ""
         self.averaged.object = words(answer["sentence"] + notes, TEXT + 1, colours.get(answer["verdict"], "#222"), 600)
@@ -269,16 +260,10 @@ class Verdict:
         self.exact.object = words(sentence, TEXT + 1) if sentence else ""
         self.exact.styles = CLEAR
 
-    def dim(self) -> None:
-        """Dims both sentences."""
-        self.averaged.styles = self.exact.styles = DIM
+    def dim(self, name: str) -> None:
+        """Dims a sentence about earlier numbers."""
+        self.lines[name].styles = DIM
 
-
-def legend_of(names: list[str], colours: list[str], fractions: list[float]) -> str:
-    """Colours and what they mean."""
-    rows = [
-        f'<div><span style="display:inline-block;width:14px;height:14px;background:{colour};margin-right:6px"></span>'
-        f"{html.escape(name)}: {fraction:.0%}</div>"
-        for name, colour, fraction in zip(names, colours, fractions, strict=True)
-    ]
-    return f'<div style="font-family:{FONT};font-size:{TEXT - 1}px;line-height:1.35">{"".join(rows)}</div>'
+    def replace(self, name: str, text: str) -> None:
+        """Shows why there is no answer in place of a sentence about earlier numbers."""
+        self.lines[name].object, self.lines[name].styles = words(text, TEXT + 1, "#555"), CLEAR

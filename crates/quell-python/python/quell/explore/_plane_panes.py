@@ -14,9 +14,10 @@ from ._figures import labelled
 from ._lanes import Event
 from ._maps import Axis
 from ._numbers import Knob, kept, within
-from ._panes import MARGIN, Pane, legend_of, time_words, words
-from ._planes import Basins, Plane
-from ._style import TEXT, WIDTH
+from ._legend import cross, legend, line, patch, scale
+from ._panes import MARGIN, Pane, time_words, words
+from ._planes import GROWTH, Basins, Plane
+from ._style import ACCENT, TEXT, WIDTH
 
 ACROSS = ("belt_velocity", "belt_velocity_m_per_s", "speed", "speed_rpm", "speed_hz", "frequency_ratio", "frequency", "frequency_hz")
 """Keys of the first axis of the map, the preferred first."""
@@ -34,14 +35,13 @@ def preferred(numbers: Mapping[str, Knob], keys: tuple[str, ...], other: str | N
 
 
 class PlanePane(Pane):
-    """The map of the averaged growth rate over two numbers, with exact thresholds and a cursor."""
+    """The map of the growth rate over two numbers, with exact thresholds and a cursor."""
 
     def __init__(self, jump: Callable[[float, float], None], ask: Callable[[], None]) -> None:
         self._plane = Plane(jump)
         self._ask = ask
         self._numbers: dict[str, Knob] = {}
-        self._key: object = None
-        self._scale = ""
+        self._key: tuple[object, object] | None = None
         self._last: tuple[Knob, ...] = ()
         self._silent = False
         width = (WIDTH - 24) // 2
@@ -49,7 +49,7 @@ class PlanePane(Pane):
         self.up = pn.widgets.Select(label="up", options=[], width=width, margin=MARGIN)
         self.picture = pn.pane.HoloViews(self._plane.picture(), linked_axes=False, margin=MARGIN, css_classes=["quell-plane-picture"])
         self.sentence = pn.pane.HTML("", width=WIDTH, margin=MARGIN)
-        super().__init__("Threshold map", "quell-plane", pn.Row(self.across, self.up), self.picture, self.sentence, kind="averaged")
+        super().__init__("Threshold map", "quell-plane", pn.Row(self.across, self.up), self.picture, self.sentence)
         self._bodies = [self.picture]
         for select in (self.across, self.up):
             select.param.watch(self._chosen, "value")
@@ -59,11 +59,19 @@ class PlanePane(Pane):
         if event.name == "plane":
             super().state(event)
         elif event.kind == "running" and self._plane.map is not None:
-            self.say("averaged; exact threshold: computing…")
+            self.say(f"{self.kind}; threshold curves: computing…")
         elif event.kind == "done" and self._plane.map is not None:
-            self.say(f"averaged; exact threshold: {time_words(event.seconds)}")
+            self.say(f"{self.kind}; threshold curves: {time_words(event.seconds)}")
         elif event.kind == "failed" and self._plane.map is not None:
-            self.say(f"averaged; no exact threshold: {event.words}")
+            self.say(f"{self.kind}; no threshold curves: {event.words}")
+
+    def forget(self) -> None:
+        """The map is asked for again, regardless of what it shows."""
+        self._key = None
+
+    def is_outdated(self, study: Study) -> bool:
+        """Whether the map is that of other numbers: not if only the cursor moves."""
+        return self._key is None or self._others(study, [it.path for it in self._last]) != self._key[1]
 
     def _chosen(self, event: Any) -> None:
         if not self._silent:
@@ -102,10 +110,7 @@ class PlanePane(Pane):
             self.say("choose two numbers")
             return None
         axes = [(it.path, it.start, it.stop, it.logarithmic) for it in pair]
-        others = tuple(
-            (path, value) for path, value in study._native.settings if path not in (axes[0][0], axes[1][0])
-        )
-        key = (tuple(axes), others)
+        key = (tuple(axes), self._others(study, [axes[0][0], axes[1][0]]))
         if key == self._key:
             self._plane.mark(pair[0].value, pair[1].value)
             return None
@@ -125,6 +130,11 @@ class PlanePane(Pane):
         self._key = key
         return axes[0], axes[1]
 
+    @staticmethod
+    def _others(study: Study, axes: list[str]) -> object:
+        """The numbers of a study that are no axes."""
+        return tuple((path, value) for path, value in study._native.settings if path not in axes)
+
     def changes(self, across: float, up: float) -> dict[str, Number | str]:
         """The changes that a point of the map means."""
         found: dict[str, Number | str] = {}
@@ -140,20 +150,32 @@ class PlanePane(Pane):
         """Draws the map."""
         self._plane.map = answer
         self._plane.refresh()
-        finite = answer["growth"][np.isfinite(answer["growth"])]
-        largest = float(np.abs(finite).max(initial=0.0))
-        unit = f" {answer['unit']}" if answer["unit"] else ""
-        self._scale = f"Growth rate: blue decays, red grows, up to {largest:.3g}{unit}. "
-        tongues = "Dotted: speeds at which waves meet and can become unstable. Bars: their tongues at the numbers of the study. " if answer["tongues"] else ""
-        self.sentence.object = words(f"{self._scale}Dashed: threshold of the map. {tongues}Click to go there.", TEXT - 1)
+        self._describe("")
 
     def show_curves(self, answer: dict[str, Any]) -> None:
         """Draws the exact thresholds."""
         self._plane.curves = answer["curves"]
         self._plane.refresh()
-        kinds = ", ".join(sorted({it["kind"] for it in answer["curves"]}))
-        exact = f"Solid: exact threshold ({kinds}). " if kinds else "No exact threshold is in this window. "
-        self.sentence.object = words(f"{self._scale}{exact}Dashed: averaged threshold. Click to go there.", TEXT - 1)
+        self._describe("" if answer["curves"] else "No exact threshold is in this window. ")
+
+    def _describe(self, note: str) -> None:
+        """The legend of what is drawn."""
+        answer = self._plane.map
+        if answer is None:
+            return
+        finite = answer["growth"][np.isfinite(answer["growth"])]
+        largest = float(np.abs(finite).max(initial=0.0))
+        marks = [(cross(), "the study"), (line("#222", 2, "6 4"), f"growth rate 0 ({self.kind})")]
+        if self._plane.curves:
+            kinds = ", ".join(sorted({it["kind"] for it in self._plane.curves}))
+            marks.append((line("#222", 3), f"exact threshold ({kinds})"))
+        if answer["tongues"]:
+            marks += [
+                (line(ACCENT, 1.2, "2 3"), "speed at which waves meet and can become unstable"),
+                (line(ACCENT, 7), "tongue at the numbers of the study"),
+            ]
+        growth = scale(GROWTH, largest, answer["unit"], "growth rate")
+        self.sentence.object = growth + legend(marks) + words(f"{note}Click to go there.", TEXT - 1)
 
 
 class BasinsPane(Pane):
@@ -189,7 +211,7 @@ class BasinsPane(Pane):
         """Draws the ends of the starts."""
         self._basins.answer = answer
         self._basins.refresh()
-        names = [*answer["words"]]
-        self.legend.object = legend_of(names, self._basins.colours()[: len(names)], answer["fractions"]) + words(
-            "Click to start there.", TEXT - 1
-        )
+        looks = zip(self._basins.colours(), self._basins.marks(), strict=False)
+        entries = zip(looks, answer["words"], answer["fractions"], strict=False)
+        marks = [(patch(colour, mark), f"{name}: {fraction:.0%}") for (colour, mark), name, fraction in entries]
+        self.legend.object = legend(marks) + words("Click to start there.", TEXT - 1)

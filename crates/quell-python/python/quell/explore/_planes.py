@@ -12,7 +12,8 @@ import numpy.typing as npt
 from bokeh.models import ColumnDataSource
 from contourpy import contour_generator
 
-from ._figures import dress, labelled, prefixed
+from ._figures import TOOLS, dress, labelled, prefixed
+from ._legend import MARKS
 from ._style import ACCENT, ENDS, HEIGHT, STICK, TEXT, WIDTH
 
 hv.Store.set_current_backend("bokeh")
@@ -20,8 +21,8 @@ hv.Store.set_current_backend("bokeh")
 CURSOR = "cursor"
 """Name of the glyph at the values of the study."""
 
-GROWTH = ("#2b83ba", "#abd9e9", "#eef5f8", "#fdeee6", "#fdae61", "#d7301f")
-"""Colours of growth rates: strong decay to strong growth."""
+GROWTH = ("#eaf4fb", "#cfe4f2", "#b3d3e8", "#f4a582", "#d6604d", "#8c1515")
+"""Colours of growth rates: strong decay to strong growth. Their lightness falls, so that growth is dark in grey too."""
 
 Ends = tuple[float, float, bool]
 """The ends of an axis, and whether it is logarithmic."""
@@ -33,7 +34,7 @@ OPTIONS: dict[str, Any] = {
     "fontsize": FONTS,
     "toolbar": "above",
     "tools": ["hover"],
-    "default_tools": ["pan", "wheel_zoom", "box_zoom", "reset"],
+    "default_tools": list(TOOLS),
 }
 
 
@@ -127,8 +128,9 @@ class Plane:
         if self.map is None:
             first, second = (np.array(it[:2]) for it in (across, up))
             mesh = cells(first, second, np.zeros((1, 1)), across[2] or up[2], "growth").opts(
-                xlim=across[:2], ylim=up[:2], logx=across[2], logy=up[2], cmap=["#f4f6f8"]
-            )
+                xlim=across[:2], ylim=up[:2], logx=across[2], logy=up[2], cmap=["#f4f6f8"],
+                tools=OPTIONS["tools"], default_tools=OPTIONS["default_tools"],
+            )  # fmt: skip
             return mesh * hv.Path([]) * hv.Path([]) * hv.Path([]) * hv.Path([])
         x, y, growth = self.map["x"], self.map["y"], self.map["growth"]
         largest = float(np.nanmax(np.abs(growth))) if np.isfinite(growth).any() else 1.0
@@ -166,6 +168,7 @@ class Basins:
     def picture(self) -> Any:
         """A new picture."""
         self._pipe = hv.streams.Pipe(data=None)
+        self._marks = ColumnDataSource({"x": [], "y": [], "mark": []})
         return hv.DynamicMap(lambda data: self._mesh(), streams=[self._pipe])
 
     def refresh(self) -> None:
@@ -178,6 +181,9 @@ class Basins:
         if plot.state.tags != [CURSOR]:
             plot.state.tags = [CURSOR]
             plot.state.on_event("tap", self._tapped)
+            plot.state.scatter(
+                "x", "y", marker="mark", source=self._marks, size=6, fill_color="white", line_color="#222", line_alpha=0.8, level="overlay"
+            )
 
     def _tapped(self, event: Any) -> None:
         if event.x is not None and event.y is not None and self.answer is not None:
@@ -188,6 +194,22 @@ class Basins:
         others = list(ENDS[1:])
         quiet = self.answer["quiet"] if self.answer else []
         return [ACCENT if is_quiet else others[place % len(others)] for place, is_quiet in enumerate(quiet)] or [STICK]
+
+    def marks(self) -> list[str | None]:
+        """The marker of each motion: none for quiet ones."""
+        quiet = self.answer["quiet"] if self.answer else []
+        return [None if is_quiet else MARKS[place % len(MARKS)] for place, is_quiet in enumerate(quiet)]
+
+    def _mark(self, x: npt.NDArray[np.float64], y: npt.NDArray[np.float64], ends: npt.NDArray[np.float64]) -> None:
+        """Draws the marker of its end in every second cell."""
+        up, across = np.nonzero(np.isfinite(ends))
+        marks = self.marks()
+        shown = [
+            (x[column], y[line], marks[int(ends[line, column])])
+            for line, column in zip(up, across, strict=True)
+            if (line + column) % 2 == 0 and marks[int(ends[line, column])] is not None
+        ]
+        self._marks.data = {name: [it[place] for it in shown] for place, name in enumerate(("x", "y", "mark"))}
 
     def _mesh(self) -> Any:
         if self.answer is None:
@@ -200,6 +222,7 @@ class Basins:
         x, y = answer["x"] / self.factors[0], answer["y"] / self.factors[1]
         first, second = (labelled(name, scale[1]) for name, scale in zip(answer["names"], scales, strict=True))
         ends = np.where(answer["ends"] < len(colours), answer["ends"], np.nan)
+        self._mark(x, y, ends)
         return cells(edges(x), edges(y), ends, False, "end").opts(
             **OPTIONS,
             cmap=colours if len(colours) > 1 else colours * 2,

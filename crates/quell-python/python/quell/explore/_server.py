@@ -16,13 +16,18 @@ import time
 from importlib import import_module
 from typing import Any
 
+from .._errors import QuellError
 from .._study import Study
 from . import _zoo
+from ._link import code_of, decoded
 from ._state import Source, State, opened
 
 ADDRESS = "127.0.0.1"
 PORTS = 8
 """Number of ports that are tried."""
+
+HEIGHT = 900
+"""Height of the frame in a notebook, in pixels."""
 
 START_LIMIT = 30.0
 """Time in seconds within which the server has to start."""
@@ -138,7 +143,16 @@ class Explorer:
         return server
 
     def _page(self) -> Any:
-        page = part("._page").Page(self._state.copy(), self._changed)
+        state, complaint = self._state.copy(), ""
+        code = code_of(part("panel").state.session_args)
+        if code is not None:
+            try:
+                study, source, start = decoded(code)
+                state.open(study, source)
+                state.set_start(start)
+            except QuellError as refused:
+                complaint = str(refused)
+        page = part("._page").Page(state, self._changed, self.url, complaint)
         self._pages.append(page)
         part("panel").state.on_session_destroyed(lambda context: self._left(page))
         return page.view
@@ -169,13 +183,18 @@ def part(name: str) -> Any:
     return import_module(name, __package__)
 
 
-def started(study: Study | str | os.PathLike[str] | None, height: int) -> Explorer:
+def started(study: Study | str | os.PathLike[str] | None, height: int = HEIGHT) -> Explorer:
     """A running explorer of a study."""
     if study is None:
         source = Source("question", _zoo.FIRST)
         state = State(_zoo.read(source), source)
     else:
         state = State(*opened(study))
+    return run(state, height)
+
+
+def run(state: State, height: int = HEIGHT) -> Explorer:
+    """A running explorer of a state."""
     try:
         for name in ("bokeh", "holoviews", "panel"):
             part(name)

@@ -20,6 +20,9 @@ from ._other_waveform import other_waveform
 MERGED = 1.0
 """Time in seconds within which changes of the same number are one step of undo."""
 
+SLOTS = ("A", "B")
+"""Names of the two studies that are compared."""
+
 MOST_STEPS = 500
 """Largest number of steps that can be undone."""
 
@@ -62,6 +65,16 @@ class State:
         self.past: list[Step] = []
         self.future: list[Step] = []
         self._last: tuple[tuple[str, ...], float] | None = None
+        self.slot = SLOTS[0]
+        self._kept: dict[str, Step] = {}
+
+    def choose(self, slot: str) -> bool:
+        """Goes to one of two studies that are compared; the second begins as a copy of the first."""
+        if slot == self.slot:
+            return False
+        self._kept[self.slot] = self.step
+        self.slot = slot
+        return self._take(self._kept.get(slot, self.step), ())
 
     def set(self, changes: Mapping[str, Number | str]) -> bool:
         """Changes values of the study; whether they are valid."""
@@ -138,6 +151,7 @@ class State:
         """An independent state with the same study and steps."""
         twin = State(self.study, self.step.source)
         twin.step, twin.past, twin.future = self.step, [*self.past], [*self.future]
+        twin.study, twin.slot, twin._kept = self.study, self.slot, {**self._kept}
         return twin
 
 

@@ -8,6 +8,9 @@ ACCENT = "#0072b2"
 BEFORE = "#8a8a8a"
 """The motion without dither."""
 
+MOMENT = "#f0e442"
+"""The moment that is played."""
+
 STICK = "#d55e00"
 """Sticking, instability and complaints."""
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ._answers import averaged, response, trajectory
+from ._answers import averaged, trajectory
 from ._maps import basins, curves, eigenvalues, plane
 from ._measured import compare, fit
 from ._questions import actuator, atlas, design, probability
 from ._reading import Answer
 from ._sound import sound
+from ._spectra import response
 
 TASKS: dict[str, Callable[..., Answer]] = {
     "averaged": averaged,
