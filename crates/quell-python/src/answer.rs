@@ -60,16 +60,17 @@ impl NativeAnswer {
     }
 
     /// The picture as data, for matplotlib.
-    #[pyo3(signature = (width=None, caption=false))]
+    #[pyo3(signature = (width=None, caption=false, title=true))]
     fn description(
         &self,
         py: Python<'_>,
         width: Option<String>,
         caption: bool,
+        title: bool,
     ) -> PyResult<Py<PyAny>> {
         let inner = Self { inner: Arc::clone(&self.inner) };
         let data = call::run(py, move || {
-            let page = page(width.as_deref(), caption)?;
+            let page = page(width.as_deref(), caption, title)?;
             Ok(page.laid_out(inner.figure()?).described())
         })?;
         convert::to_python(py, &data)
@@ -82,17 +83,18 @@ impl NativeAnswer {
     }
 
     /// Writes the picture.
-    #[pyo3(signature = (path, width=None, caption=false))]
+    #[pyo3(signature = (path, width=None, caption=false, title=true))]
     fn picture(
         &self,
         py: Python<'_>,
         path: PathBuf,
         width: Option<String>,
         caption: bool,
+        title: bool,
     ) -> PyResult<String> {
         let inner = Self { inner: Arc::clone(&self.inner) };
         call::run(py, move || {
-            let page = page(width.as_deref(), caption)?;
+            let page = page(width.as_deref(), caption, title)?;
             let output = Output::prepare(&path, "path", EXTENSIONS, &inner.inner.inputs())?;
             picture::write(&page.laid_out(inner.figure()?), output)
         })
@@ -148,7 +150,11 @@ impl NativeAnswer {
 }
 
 /// The page of a picture from the arguments of Python.
-pub(crate) fn page(width: Option<&str>, caption: bool) -> Result<PicturePage, Failure> {
+pub(crate) fn page(
+    width: Option<&str>,
+    caption: bool,
+    title: bool,
+) -> Result<PicturePage, Failure> {
     let width = width.map(|text| PictureWidth::parse(text, "width")).transpose()?;
-    Ok(PicturePage { width, caption })
+    Ok(PicturePage { width, caption, without_title: !title })
 }

@@ -87,7 +87,7 @@ fn sweeping(study: Study, axes: Option<&[AxisKeys]>) -> Result<Study, Complaints
     study.sweeping(&tables)
 }
 
-fn change((path, value): &(String, String)) -> Change {
+pub(crate) fn change((path, value): &(String, String)) -> Change {
     Change { path: path.trim().to_owned(), node: Node::from_argument(value, "set") }
 }
 

@@ -31,6 +31,8 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+
+from .._frozen import Frozen
 '''
 
 KINDS = {"f": "np.float64", "u": "np.uint8", "U": "np.str_"}
@@ -116,7 +118,7 @@ def text() -> str:
     parts = [HEAD]
     for cls, names in declared().items():
         lines = [f"    {name}: {kind}" for name, kind in names.items()]
-        parts.append(f'\n\nclass {cls}Columns:\n    """Of :class:`quell.results.{cls}`."""\n\n' + "\n".join(lines) + "\n")
+        parts.append(f'\n\nclass {cls}Columns(Frozen):\n    """Of :class:`quell.results.{cls}`."""\n\n' + "\n".join(lines) + "\n")
     return "".join(parts)
 
 

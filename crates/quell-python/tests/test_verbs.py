@@ -28,11 +28,12 @@ ELSEWHERE = {
 OF_PICTURES = {
     "--width": "width= of Result.plot and Result.save",
     "--caption": "caption= of Result.plot and Result.save",
+    "--no-title": "title= of Result.plot and Result.save",
 }
 """The same for the options of `--plot`."""
 
-OTHER_NAMES = {"--from": "from_"}
-"""Options whose name is a keyword of Python."""
+OTHER_NAMES = {"--from": "from_", "--no-title": "title"}
+"""Options whose name is a keyword of Python or a negation."""
 
 DRAWINGS = {"sketch", "report"}
 """Verbs whose answer is a file; Python returns its text, and `--out` is the argument `path`."""
@@ -99,7 +100,7 @@ def test_the_options_are_the_same(verb: str) -> None:
         "bifurcation": {"progress"},
         "basins": {"progress"},
         "probability": {"progress"},
-        "reproduce": {"names"},
+        "reproduce": {"names", "set"},
         "new": {"question", "save"},
         "fit": {"data"},
         "compare": {"measured"},

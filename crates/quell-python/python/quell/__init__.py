@@ -22,11 +22,11 @@ and provenance as an xarray Dataset. :class:`StudyError` reports all errors in t
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _quell, results
-from ._arguments import Arguments, keywords
+from ._arguments import Arguments, changes_of, keywords
 from ._axes import Axes, Axis
 from ._belt import Belt, Dither, Initial, Solver
 from ._disc import Disc, Load, Mode
@@ -203,19 +203,19 @@ def fit(
             if value is not None:
                 arguments.wrong.append(complaint(name, str(value), "left out with decay", "conflict"))
         arguments.done()
-        return fit_decay(data, law=law, fix=fix, **given).facts  # type: ignore[arg-type]
+        return fit_decay(data, law=law, fix=fix, **given).to_dict()  # type: ignore[arg-type]
     if record:
         if study is None or law is not None:
             arguments.wrong.append(complaint("study", None, "given with record, and law left out", "conflict"))
         arguments.done()
         read = study if isinstance(study, Study) else Study.from_toml(study)  # type: ignore[arg-type]
-        return read.fit_record(data, free=free or [], fix=fix, settle=settle, **given).facts  # type: ignore[arg-type]
+        return read.fit_record(data, free=free or [], fix=fix, settle=settle, **given).to_dict()  # type: ignore[arg-type]
     alone: dict[str, object] = {"study": study, "settle": settle, **given}
     for name, value in alone.items():
         if value is not None:
             arguments.wrong.append(complaint(name, str(value), "given with decay or record", "conflict"))
     arguments.done()
-    return fit_laws(data, law=law, free=free, fix=fix).facts
+    return fit_laws(data, law=law, free=free, fix=fix).to_dict()
 
 
 @keywords
@@ -254,7 +254,7 @@ def fit_laws(
     place = arguments.path("data", data)
     laws, freed, fixed = (names_of(arguments, name, it) for name, it in (("law", law), ("free", free), ("fix", fix)))
     arguments.done()
-    return results.LawFit(None, _quell.fit_laws(str(place), laws, freed, fixed))
+    return results.LawFit._of(None, _quell.fit_laws(str(place), laws, freed, fixed))
 
 
 @keywords
@@ -297,7 +297,7 @@ def fit_decay(
     laws, fixed = names_of(arguments, "law", law), names_of(arguments, "fix", fix)
     texts = record_of(arguments, column, quantity, gain, window)
     arguments.done()
-    return results.Decay(None, _quell.fit_decay(str(place), laws, fixed, texts))
+    return results.Decay._of(None, _quell.fit_decay(str(place), laws, fixed, texts))
 
 
 @keywords
@@ -342,7 +342,7 @@ def atlas(
     arguments.done()
     if study is not None:
         return study.atlas(exact=exact)
-    return results.AtlasTables(None, _quell.atlas_tables(bool(compute), workers, progress))
+    return results.AtlasTables._of(None, _quell.atlas_tables(bool(compute), workers, progress))
 
 
 def quantities() -> dict[str, dict[str, str]]:
@@ -373,8 +373,10 @@ def reproduce(
     *names: str,
     out: str | os.PathLike[str] = "reproduction",
     quick: bool = False,
+    set: Mapping[str, Any] | None = None,  # noqa: A002
     width: str | None = None,
     caption: bool = False,
+    title: bool = True,
 ) -> dict[str, Any]:
     """Reproduces figures and tables of the dissertation, with their data, the table of claims and a report.
 
@@ -386,14 +388,20 @@ def reproduce(
         Directory for the report, pictures, data and tables; it is created if it is missing.
     quick :
         Whether to use coarser grids for the maps, which takes less than a minute.
+    set :
+        Numbers of your own for the named figures, such as ``{"friction.reference_velocity": 0.3}``; a list replaces a family of
+        curves or panels, such as ``{"dither.amplitude": [0, 1, 2]}``. Such figures are captioned as yours.
     width :
         Width of the figures with its unit, such as ``"85mm"`` [default: suits their panels].
     caption :
         Whether to draw the captions below the figures.
+    title :
+        Whether to draw the titles above the figures.
     """
     arguments = Arguments()
+    changes = changes_of(set, arguments)
     place = arguments.path("out", out)
     asked = [arguments.text("names", name, "the name of a figure or table") for name in names]
-    arguments.page(width, caption)
+    arguments.page(width, caption, title)
     arguments.done()
-    return _quell.reproduce(asked, place, bool(quick), width, caption)
+    return _quell.reproduce(asked, place, bool(quick), changes, (width, caption, title))

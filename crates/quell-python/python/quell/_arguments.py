@@ -136,12 +136,14 @@ class Arguments:
             return ""
         return given.encode("utf-8", "replace").decode("utf-8")
 
-    def page(self, width: object, caption: object) -> None:
-        """The width and the caption of a picture; a number without its unit is no width."""
+    def page(self, width: object, caption: object, title: object = True) -> None:
+        """The width, the caption and the title of a picture; a number without its unit is no width."""
         if width is not None:
             self.text("width", width, "a length with its unit, such as '85mm'")
         if not isinstance(caption, bool):
             self.wrong.append(complaint("caption", caption, "True or False"))
+        if not isinstance(title, bool):
+            self.wrong.append(complaint("title", title, "True or False"))
 
     def done(self) -> None:
         """Raises if there are complaints."""

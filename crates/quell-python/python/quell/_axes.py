@@ -53,11 +53,10 @@ class Axis(Table):
         **unknown: Unknown,
     ) -> None:
         given = None if values is None else listed(values)
+        begin = {"from": from_}
         super().__init__(
-            parameter=parameter, to=to, points=points, values=given, spacing=spacing, **unknown
+            parameter=parameter, to=to, points=points, values=given, spacing=spacing, **begin, **unknown
         )
-        if from_ is not None:
-            self.given["from"] = from_
 
 
 def listed(values: Any) -> Any:

@@ -134,7 +134,7 @@ class Dither(Table):
         keys, distance = with_wave(given(locals()))
         super().__init__(**keys)
         if distance is not None:
-            self._waveform_error = distance
+            self._keep(_waveform_error=distance)
 
     @property
     def waveform_error(self) -> float | None:
@@ -208,6 +208,10 @@ class Solver(Table):
         **unknown: Unknown,
     ) -> None:
         super().__init__(**given(locals()))
+
+
+OTHER_TABLES = ("friction", "dither", "solver", "band", "band_hz", "design", "actuator", "uncertainty", "axes", "title")
+"""Arguments of a belt that are tables of their own."""
 
 
 class Belt(Study):
@@ -314,14 +318,9 @@ class Belt(Study):
         uncertainty: Mapping[str, Any] | None = None,
         **unknown: Unknown,
     ) -> None:
-        belt = Table(
-            **given(
-                locals(), "friction", "dither", "initial", "solver", "band", "band_hz", "design", "actuator", "uncertainty", "axes", "title"
-            )
-        )
-        if initial is not None:
-            si = any(name in belt.given for name in ("mass_kg", "stiffness_n_per_m", "natural_frequency_hz"))
-            belt.given["initial"] = start(initial, si)
+        keys = given(locals(), *OTHER_TABLES)
+        si = any(keys.get(name) is not None for name in ("mass_kg", "stiffness_n_per_m", "natural_frequency_hz"))
+        belt = Table(**{**keys, "initial": None if initial is None else start(initial, si)})
         if callable(friction):
             friction = as_law(friction, *speed_of(belt.given, several(dither)))
         self._build(

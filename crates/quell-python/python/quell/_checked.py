@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from . import _toml
 from ._arguments import Arguments, changes_of, keywords
 from ._axes import Axes, Axis, axes_tables
 from ._errors import StudyError, StudyFileNotFoundError, complaint
+from ._frozen import Frozen
 from ._names import suggestion
 from ._quell import NativeStudy
 from ._tables import Table
@@ -25,20 +26,30 @@ FILES = ("file", "modes", "modes_file", "frequency_response")
 """Keys whose value may be the path of a file, relative to the folder of the study."""
 
 
-class CheckedStudy:
+class CheckedStudy(Frozen):
     """What studies of all kinds have apart from their verbs."""
 
     _native: NativeStudy
 
-    _folder: str = ""
+    _folder: ClassVar[str] = ""
     """Folder of the files that the study names, while it is made."""
 
-    _own: str = ""
+    _own: ClassVar[str] = ""
     """Name of the table of its own numbers."""
 
     def _build(self, **tables: Any) -> None:
         text = _toml.study(tables)
-        self._native = NativeStudy.parse((text, self._folder, [], None, False, None))
+        self._keep(_native=NativeStudy.parse((text, self._folder, [], None, False, None)))
+
+    def _other(self, name: str) -> str:
+        given = name if name in self._names() else "…"
+        return f"a study does not change; replace({given}=…) returns another one"
+
+    @classmethod
+    def _names(cls) -> tuple[str, ...]:
+        """The arguments of the class."""
+        code = cls.__init__.__code__
+        return code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
 
     @classmethod
     def _of(cls: type[Self], native: NativeStudy) -> Self:
@@ -48,7 +59,7 @@ class CheckedStudy:
 
         kinds: dict[str, type[Study]] = {"belt": Belt, "disc": Disc, "system": System}
         study: Self = object.__new__(kinds[native.kind])  # type: ignore[assignment]
-        study._native = native
+        study._keep(_native=native)
         return study
 
     @classmethod
@@ -105,7 +116,7 @@ class CheckedStudy:
         removes an argument. The text of the new study has no comments.
         """
         study: Self = object.__new__(type(self))
-        study._folder = self._native.folder
+        study._keep(_folder=self._native.folder)
         study.__init__(**{**self._arguments(), **changes})  # type: ignore[misc]
         return study
 

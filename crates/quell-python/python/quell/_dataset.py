@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from ._frozen import Frozen, frozen, read_only
 from ._names import attributes, singular, suggestion
 from ._quell import __version__, readable_unit
 
@@ -21,11 +22,21 @@ NOT_FACTS = ("ok", "units", "why", "warnings", "counts", "axes", "shape", "point
 """Entries of the facts that are reported elsewhere."""
 
 
-class Variable:
-    """An array with dimensions and attributes, like an xarray Variable but in plain NumPy."""
+class Variable(Frozen):
+    """An array with dimensions and attributes, like an xarray Variable but in plain NumPy. Its values are read-only."""
+
+    dims: tuple[str, ...]
+    """Names of the dimensions."""
+    values: npt.NDArray[Any]
+    """The numbers."""
+    attrs: Mapping[str, Any]
+    """Unit and scaling, or the words of codes."""
 
     def __init__(self, dims: tuple[str, ...], values: npt.NDArray[Any], attrs: dict[str, Any]) -> None:
-        self.dims, self.values, self.attrs = dims, values, attrs
+        self._keep(dims=dims, values=read_only(values), attrs=frozen(attrs))
+
+    def _other(self, name: str) -> str:
+        return "a result belongs to its study, and study.replace(…) returns another study; copies of arrays can be changed"
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:
         return np.array(self.values, dtype=dtype) if copy else np.asarray(self.values, dtype=dtype)
@@ -55,12 +66,19 @@ class Variable:
         return f"<{', '.join(self.dims) or 'scalar'}{f' [{unit}]' if unit else ''}: {self.values!r}>"
 
 
-class Arrays(Mapping[str, Variable]):
+class Arrays(Frozen, Mapping[str, Variable]):
     """Named variables, like an xarray Dataset but in plain NumPy.
 
     Every name is also a name in Python (``velocity_x``). Names of earlier versions (``velocity.x``) are found with a
     FutureWarning.
     """
+
+    coords: frozenset[str]
+    """Names of the coordinates."""
+    attrs: Mapping[str, Any]
+    """Provenance."""
+    _variables: dict[str, Variable]
+    _renamed: dict[str, str]
 
     def __init__(
         self,
@@ -69,8 +87,10 @@ class Arrays(Mapping[str, Variable]):
         attrs: dict[str, Any],
         renamed: dict[str, str] | None = None,
     ) -> None:
-        self._variables, self.coords, self.attrs = variables, coords, attrs
-        self._renamed = renamed or {}
+        self._keep(_variables=variables, coords=frozenset(coords), attrs=frozen(attrs), _renamed=renamed or {})
+
+    def _other(self, name: str) -> str:
+        return "a result belongs to its study, and study.replace(…) returns another study"
 
     def __getitem__(self, name: str) -> Variable:
         return self._variables[self.current(name)]

@@ -276,11 +276,8 @@ class Disc(Study):
         **unknown: Unknown,
     ) -> None:
         keys = given(locals(), "mode", "load", "friction", "dither", "design", "uncertainty", "axes", "title")
-        disc = Table(**{**keys, "without": several(without)})
         modes = [mode] if isinstance(mode, Table) else several(mode)
-        for name, inner in (("mode", modes), ("load", several(load))):
-            if inner is not None:
-                disc.given[name] = inner
+        disc = Table(**{**keys, "without": several(without), "mode": modes, "load": several(load)})
         self._build(
             title=title,
             disc=disc,

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["events_frame", "frame", "mat", "needed", "netcdf", "parquet", "quantity"]
 
-INSTALL = {"scipy.io": "scipy"}
+INSTALL = {"scipy.io": "scipy", "scipy.sparse": "scipy", "scipy.sparse.linalg": "scipy"}
 """Packages whose modules have other names than those under which pip installs them."""
 
 

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from ._arguments import Arguments, keywords
 from ._errors import StudyError, complaint
+from ._frozen import frozen
 from ._tables import Number, Table, Unknown, given
 from ._values import plain
 
@@ -372,7 +373,7 @@ class SampledLaw(Samples):
         wanted = np.array([float(function(float(speed))) for speed in speeds])
         off = np.abs(fitted(self.given["coefficient"], speeds_of(self.given), self.given.get("terms"), speeds) - wanted)
         error = float(off.max())
-        object.__setattr__(self, "error", error)
+        self._keep(error=error)
         largest = float(np.abs(wanted).max())
         if error > bound * largest:
             where = float(speeds[off.argmax()])
@@ -428,8 +429,11 @@ class StudyFriction(Friction):
     _study: Study
 
     def __init__(self, study: Study, table: Mapping[str, Any]) -> None:
-        self.given = dict(table)
-        self._study = study
+        self._keep(given=frozen(dict(table)), _study=study)
+
+    def replace(self, **changes: Any) -> Friction:  # type: ignore[override]
+        """The law with other numbers."""
+        return law_of(self.given).replace(**changes)
 
     def _keys(self) -> tuple[str, ...]:
         return law_of(self.given)._keys()
@@ -489,16 +493,16 @@ class StudyFriction(Friction):
             if at is not None or measured:
                 arguments.wrong.append(complaint("describing", None, "given without at and measured", "conflict"))
             arguments.done()
-            return gains(study, native.describing(largest))
+            return gains._of(study, native.describing(largest))
         where: npt.NDArray[np.float64] | None = None
         at = plain(at)
         if isinstance(at, str):
             at = [at]
         if isinstance(at, Sequence) and at and all(isinstance(it, str) for it in at):
-            return curve(study, native.friction(None, [str(it) for it in at], bool(measured)))
+            return curve._of(study, native.friction(None, [str(it) for it in at], bool(measured)))
         if at is not None:
             try:
                 where = np.atleast_1d(np.asarray(at, dtype=np.float64)).ravel()
             except (TypeError, ValueError, OverflowError):
                 raise StudyError([complaint("at", at, "slip velocities: finite numbers")]) from None
-        return curve(study, native.friction(where, [], bool(measured)))
+        return curve._of(study, native.friction(where, [], bool(measured)))

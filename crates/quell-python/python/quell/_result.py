@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import keyword
 import os
-from collections.abc import Iterator, KeysView
-from typing import TYPE_CHECKING, Any, TypeVar, overload
+from collections.abc import Iterator, KeysView, Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,7 @@ from . import _dataset
 from ._arguments import Arguments
 from ._dataset import Arrays
 from ._errors import StudyError, complaint
+from ._frozen import Frozen, frozen, thawed
 from ._names import suggestion
 
 if TYPE_CHECKING:
@@ -27,49 +28,66 @@ if TYPE_CHECKING:
 __all__ = ["Result", "numbers_of"]
 
 T = TypeVar("T")
+Self = TypeVar("Self", bound="Result")
 
 REPORTED_ELSEWHERE = ("ok", "units", "why", "warnings")
 """Facts that every result has as properties."""
 
 
-def _check_page(width: object, caption: object) -> None:
-    """Complains about a width that is no text, and a caption that is neither true nor false."""
+ASKED = ("verdict", "effect", "converged", "reason", "probability")
+"""Facts that a condition about a result may mean, the first ones before the others."""
+
+
+def _check_page(width: object, caption: object, title: object) -> None:
+    """Complains about a width that is no text, and a caption or title that is neither true nor false."""
     arguments = Arguments()
-    arguments.page(width, caption)
+    arguments.page(width, caption, title)
     arguments.done()
 
 
-class Result:
+class Result(Frozen):
     """The result of a verb for a study.
 
     Facts and arrays are attributes and entries: ``response.residual_vibration``, ``response["residual_vibration"]``,
     ``"residual_vibration" in response``, ``list(response)``. An attribute is a method or property of the class if it has one of that
     name, else the fact, else the array, as NumPy values in the units of the study; an array never replaces a fact that the class
-    documents. An entry is the variable of :attr:`dataset`, with its unit, else the fact.
+    documents. An entry is the variable of :attr:`dataset`, with its unit, else the fact. A result cannot be changed, and has no truth
+    value: whether it is good is one of its facts.
     """
 
-    verb: str = ""
+    verb: ClassVar[str] = ""
     """The verb."""
 
     study: Study
     """The study of the result."""
 
+    # No facts: annotations at run time are those of facts.
+    if TYPE_CHECKING:
+        _native: NativeAnswer | None
+        _facts: Mapping[str, Any] | None
+        _arrays: Arrays | None
+        _description: dict[str, Any] | None
+
     sentence: str
     """The result in one sentence, if the verb has one."""
 
-    def __init__(self, study: Study, native: NativeAnswer | None) -> None:
-        self.study = study
-        self._native = native
-        self._facts: dict[str, Any] | None = None
-        self._arrays: Arrays | None = None
-        self._description: dict[str, Any] | None = None
+    @classmethod
+    def _of(cls: type[Self], study: Study | None, native: NativeAnswer | None) -> Self:
+        """The result of a verb; fits of laws have no study."""
+        made: Self = object.__new__(cls)
+        made._keep(study=study, _native=native, _facts=None, _arrays=None, _description=None)
+        return made
+
+    def _other(self, name: str) -> str:
+        return "a result belongs to its study; study.replace(…) returns another study, whose results are computed anew"
 
     @property
-    def facts(self) -> dict[str, Any]:
-        """The facts, as the command line prints them with ``--json``; for a map without its arrays."""
+    def facts(self) -> Mapping[str, Any]:
+        """The facts, as the command line prints them with ``--json``; for a map without its arrays. :meth:`to_dict` copies them."""
         if self._facts is None:
-            self._facts = self._alive().facts()
-        return self._facts
+            self._keep(_facts=frozen(self._alive().facts()))
+        known: Mapping[str, Any] = self._facts or {}
+        return known
 
     @property
     def units(self) -> dict[str, str]:
@@ -93,8 +111,9 @@ class Result:
     def arrays(self) -> Arrays:
         """Everything as NumPy arrays with dimensions, units and provenance, without xarray."""
         if self._arrays is None:
-            self._arrays = _dataset.arrays(self.verb, self.facts, self._alive().datasets())
-        return self._arrays
+            self._keep(_arrays=_dataset.arrays(self.verb, self.facts, self._alive().datasets()))
+        found: Arrays = self._arrays  # type: ignore[assignment]
+        return found
 
     @property
     def dataset(self) -> xarray.Dataset:
@@ -111,9 +130,8 @@ class Result:
 
     def to_dict(self) -> dict[str, Any]:
         """The facts as a new dict, as ``--json`` prints them."""
-        import copy
-
-        return copy.deepcopy(self.facts)
+        copied: dict[str, Any] = thawed(self.facts)
+        return copied
 
     def to_dataframe(self) -> pandas.DataFrame:
         """The arrays over the first coordinates as a pandas DataFrame, one row for each point, with the coordinates as index.
@@ -166,13 +184,15 @@ class Result:
 
     @overload
     def plot(
-        self, ax: None = None, *, width: str | None = None, caption: bool = False, **style: Any
+        self, ax: None = None, *, width: str | None = None, caption: bool = False, title: bool = True, **style: Any
     ) -> matplotlib.figure.Figure: ...
 
     @overload
     def plot(self, ax: T, **style: Any) -> T: ...
 
-    def plot(self, ax: Any = None, *, width: str | None = None, caption: bool = False, **style: Any) -> Any:
+    def plot(
+        self, ax: Any = None, *, width: str | None = None, caption: bool = False, title: bool = True, **style: Any
+    ) -> Any:
         """Draws the picture of ``--plot`` on the command line with matplotlib.
 
         Parameters
@@ -183,6 +203,8 @@ class Result:
             Width of a new figure with its unit, such as ``"85mm"`` [default: suits its panels].
         caption :
             Draws the caption, :attr:`caption`, below a new figure.
+        title :
+            Draws the title above a new figure.
         style :
             Properties of every curve, such as ``color``, ``linewidth`` and ``alpha``; ``label`` is that of the first.
 
@@ -199,8 +221,9 @@ class Result:
         """
         from .plotting import draw
 
-        _check_page(width, caption)
-        return draw(self._described(width, caption), ax, style)
+        _check_page(width, caption, title)
+        described = self._described(width, caption)
+        return draw(described if title else {**described, "title": ""}, ax, style)
 
     @property
     def caption(self) -> str:
@@ -208,7 +231,7 @@ class Result:
         return str(self._described(None, True)["caption"])
 
     def save(
-        self, path: str | os.PathLike[str], *, width: str | None = None, caption: bool = False
+        self, path: str | os.PathLike[str], *, width: str | None = None, caption: bool = False, title: bool = True
     ) -> list[str]:
         """Writes the arrays as .csv, .mat (MATLAB) or .nc (NetCDF), the picture as .svg, .pdf or .png, or a run as .wav.
 
@@ -223,6 +246,8 @@ class Result:
             Width of the picture with its unit, such as ``"85mm"`` [default: suits its panels].
         caption :
             Draws the caption below the picture.
+        title :
+            Draws the title above the picture.
 
         Returns
         -------
@@ -234,7 +259,7 @@ class Result:
         quell.StudyError
             The file cannot be written, or the width has no unit or is outside 50 mm to 1000 mm.
         """
-        _check_page(width, caption)
+        _check_page(width, caption, title)
         try:
             place = os.fspath(path)
         except TypeError:
@@ -242,11 +267,12 @@ class Result:
         if self._native is None:
             raise StudyError([complaint("save", None, "a result that was not unpickled: repeat the call", "usage")])
         if str(place).lower().endswith((".svg", ".pdf", ".png")):
-            return [self._native.picture(str(place), width, caption)]
-        if width is not None or caption:
-            given = {"width": width} if width is not None else {"caption": caption}
-            name, value = next(iter(given.items()))
-            raise StudyError([complaint(name, value, "left out: only pictures have a width and a caption", "conflict")])
+            return [self._native.picture(str(place), width, caption, title)]
+        given = {"width": (width, None), "caption": (caption, False), "title": (title, True)}
+        for name, (value, usual) in given.items():
+            if value != usual:
+                allowed = "left out: only pictures have a width, a caption and a title"
+                raise StudyError([complaint(name, value, allowed, "conflict")])
         if str(place).lower().endswith(".wav"):
             return [self._native.sound(str(place))]
         return self._native.table(str(place))
@@ -267,12 +293,13 @@ class Result:
             if self._native is None:
                 allowed = "this result has no picture"
                 raise StudyError([complaint("plot", None, allowed, "usage")])
-            self._description = self._native.description(None, True)
+            self._keep(_description=self._native.description(None, True))
+        known: dict[str, Any] = self._description or {}
         if caption:
-            return self._description
+            return known
         if self._native is not None:
             return self._native.description(None, False)
-        return {**self._description, "caption": ""}
+        return {**known, "caption": ""}
 
     # Names. The one place that decides between a fact and an array of the same name.
 
@@ -290,8 +317,13 @@ class Result:
     def __len__(self) -> int:
         return len(self.keys())
 
-    def __bool__(self) -> bool:
-        return True
+    def __bool__(self) -> NoReturn:
+        raise TypeError(f"a {type(self).__name__} is neither true nor false{self._advice()}")
+
+    def _advice(self) -> str:
+        """Which facts a condition may mean."""
+        asked = [name for name in ASKED if name in self.facts]
+        return f": ask for {' or '.join(f'.{name}' for name in asked)}" if asked else ": ask for one of its facts"
 
     def __contains__(self, name: object) -> bool:
         return name in self.arrays or (isinstance(name, str) and name in self.facts and self._is_entry(name))

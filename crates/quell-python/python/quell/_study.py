@@ -47,7 +47,7 @@ class Study(CheckedStudy):
     @keywords
     def check(self) -> results.Check:
         """The study in numbers; for a study in SI also in SI."""
-        return results.Check(self, self._native.check())
+        return results.Check._of(self, self._native.check())
 
     @keywords
     def sketch(self, path: str | os.PathLike[str] | None = None, *, width: str | None = None) -> str:
@@ -125,7 +125,7 @@ class Study(CheckedStudy):
     @keywords
     def cite(self) -> results.Citations:
         """Equations and papers that the computations use, with BibTeX, and corrections of the printed equations."""
-        return results.Citations(self, self._native.cite())
+        return results.Citations._of(self, self._native.cite())
 
     @property
     def friction(self) -> StudyFriction:
@@ -193,10 +193,10 @@ class Study(CheckedStudy):
         arguments.done()
         if tracked is not None and begin is not None and end is not None:
             pair = None if second is None or window is None else (second, window)
-            return results.TrackedStability(self, self._native.tracked_stability(tracked, (begin, end), pair))
+            return results.TrackedStability._of(self, self._native.tracked_stability(tracked, (begin, end), pair))
         if exact:
-            return results.ExactStability(self, self._native.stability(True))
-        return results.Stability(self, self._native.stability(False))
+            return results.ExactStability._of(self, self._native.stability(True))
+        return results.Stability._of(self, self._native.stability(False))
 
     @keywords
     def simulate(
@@ -258,7 +258,7 @@ class Study(CheckedStudy):
         level = None if gain is None else arguments.quantity("gain", gain)
         arguments.done()
         texts = (factor, level) if sound or factor is not None or level is not None else None
-        return results.Simulation(self, self._native.simulate(end, (bool(events), bool(samples)), begin, moments, texts))
+        return results.Simulation._of(self, self._native.simulate(end, (bool(events), bool(samples)), begin, moments, texts))
 
     @keywords
     @keywords
@@ -276,7 +276,7 @@ class Study(CheckedStudy):
         document = self._native.document_at(moment)
         document.pop("schema", None)
         study = object.__new__(type(self))
-        study._folder = self._native.folder
+        study._keep(_folder=self._native.folder)
         study._build(**document)
         return study
 
@@ -325,18 +325,18 @@ class Study(CheckedStudy):
             before = None if settle is None else arguments.quantity("settle", settle, allowed)
             length = None if record is None else arguments.quantity("record", record, allowed)
             arguments.done()
-            return results.NoiseResponse(self, self._native.response_of_seeds(count, before, length))
+            return results.NoiseResponse._of(self, self._native.response_of_seeds(count, before, length))
         if window is not None:
             for name, given in (("settle", settle), ("record", record)):
                 if given is not None:
                     arguments.wrong.append(complaint(name, given, "left out: window gives both times", "conflict"))
             ends = arguments.quantities("window", window, "two finite times, the beginning and the end")
             arguments.done()
-            return results.Window(self, self._native.window(*ends))
+            return results.Window._of(self, self._native.window(*ends))
         before = None if settle is None else arguments.quantity("settle", settle, allowed)
         length = None if record is None else arguments.quantity("record", record, allowed)
         arguments.done()
-        return results.Response(self, self._native.response(before, length))
+        return results.Response._of(self, self._native.response(before, length))
 
     @keywords
     def orbit(
@@ -379,7 +379,7 @@ class Study(CheckedStudy):
                     allowed = "given without a start: a run determines its response"
                     arguments.wrong.append(complaint(name, given, allowed, "conflict"))
         arguments.done()
-        return results.Orbit(self, self._native.orbit(state, count, asked, begin))
+        return results.Orbit._of(self, self._native.orbit(state, count, asked, begin))
 
     def _orbit_of_system(self, near: object, periods: int, flagged: bool, start: object) -> results.Orbit:
         """The motion of a system near a state, or on which a run from a start ends, whose numbers have names."""
@@ -394,7 +394,7 @@ class Study(CheckedStudy):
         native = self._native.orbit_of_system(
             None if near is None else state, count, None if start is None else begin
         )
-        return results.Orbit(self, native)
+        return results.Orbit._of(self, native)
 
     @keywords
     def attractor(
@@ -429,10 +429,10 @@ class Study(CheckedStudy):
         if isinstance(start, Mapping):
             named = arguments.named("start", start)
             arguments.done()
-            return results.Attractor(self, self._native.attractor_of_system(named, times))
+            return results.Attractor._of(self, self._native.attractor_of_system(named, times))
         begin = None if start is None else arguments.quantities("start", start, "two finite numbers (x, x′)")
         arguments.done()
-        return results.Attractor(self, self._native.attractor(begin, times))
+        return results.Attractor._of(self, self._native.attractor(begin, times))
 
     @overload
     def thresholds(
@@ -514,7 +514,7 @@ class Study(CheckedStudy):
             native = self._native.thresholds_of_system(
                 path, ends, (asked, time), None if start is None else begin, None if near is None else (pairs, count)
             )
-            return results.Thresholds(self, native)
+            return results.Thresholds._of(self, native)
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
         ends = (arguments.quantity("from_", from_), arguments.quantity("to", to))
         state = None if start is None else arguments.quantities("start", start, "two finite numbers (x, x′)")
@@ -529,8 +529,8 @@ class Study(CheckedStudy):
             arguments.wrong.append(complaint("along", along, "given without starts and ramp", "conflict"))
         arguments.done()
         if second is not None and window is not None:
-            return results.ThresholdCurves(self, self._native.threshold_curves(path, ends, second, window))
-        return results.Thresholds(self, self._native.thresholds(path, ends, asked, state, time))
+            return results.ThresholdCurves._of(self, self._native.threshold_curves(path, ends, second, window))
+        return results.Thresholds._of(self, self._native.thresholds(path, ends, asked, state, time))
 
     @overload
     def map(
@@ -628,7 +628,7 @@ class Study(CheckedStudy):
             from .cluster import compute
 
             return compute(study, asked, place, client, resume=resume, progress=progress)
-        return results.Map(study, study._native.map(asked, place, bool(resume), count, progress))
+        return results.Map._of(study, study._native.map(asked, place, bool(resume), count, progress))
 
     @overload
     def bifurcation(
@@ -684,13 +684,13 @@ class Study(CheckedStudy):
                 if given is not None:
                     arguments.wrong.append(complaint(name, given, "left out: the study gives the ramp", "conflict"))
             arguments.done()
-            return results.Ramp(self, self._native.ramp())
+            return results.Ramp._of(self, self._native.ramp())
         path = arguments.text("parameter", parameter, "path of a number, such as dither.amplitude")
         ends = (arguments.quantity("from_", from_), arguments.quantity("to", to))
         count = arguments.whole("points", points, 0, 2**31)
         arguments.done()
         ways = (bool(up), bool(down))
-        return results.Bifurcation(self, self._native.bifurcation(path, ends, count, ways, progress))
+        return results.Bifurcation._of(self, self._native.bifurcation(path, ends, count, ways, progress))
 
     @keywords
     def basins(
@@ -765,9 +765,9 @@ class Study(CheckedStudy):
             arguments.done()
             size = None if grid is None else (sides[0], sides[1])
             native = self._native.basins_in_plane(text, (size, drawn), along, workers, progress)
-            return results.Basins(self, native)
+            return results.Basins._of(self, native)
         native = self._native.basins(window, ((sides[0], sides[1]), drawn), along, workers, progress)
-        return results.Basins(self, native)
+        return results.Basins._of(self, native)
 
     @keywords
     def atlas(self, *, exact: bool = False) -> results.Atlas:
@@ -791,11 +791,11 @@ class Study(CheckedStudy):
         StudyError
             If the study is outside the atlas, with every key that places it there.
         """
-        return results.Atlas(self, self._native.atlas(bool(exact)))
+        return results.Atlas._of(self, self._native.atlas(bool(exact)))
 
     @keywords
     def waveforms(self) -> results.Waveforms:
-        """The least dither of each waveform that quenches by averaging, and its cost.
+        """The least dither of each waveform that quenches, exactly and by averaging, and its cost.
 
         Sine, triangle, square, the waveform of the study, and bursts of the study's carrier, at the direction and the frequency of
         the study's first dither. Power, stroke and velocity are those of the structure without friction under that dither. System:
@@ -806,7 +806,7 @@ class Study(CheckedStudy):
         quell.results.Waveforms
             Least amplitude, rms force, power, stroke, velocity and exact amplitude over the waveforms (n,).
         """
-        return results.Waveforms(self, self._native.waveforms())
+        return results.Waveforms._of(self, self._native.waveforms())
 
     @keywords
     def design(self) -> results.Design:
@@ -817,7 +817,7 @@ class Study(CheckedStudy):
         quell.results.Design
             The exact least dither, that of averaging, what decides it, and its verification.
         """
-        return results.Design(self, self._native.design())
+        return results.Design._of(self, self._native.design())
 
     @keywords
     def actuator(self, *, frequency: State | None = None) -> results.Actuator:
@@ -839,7 +839,7 @@ class Study(CheckedStudy):
         two = "two frequencies, the first below the second"
         given = None if frequency is None else arguments.quantities("frequency", frequency, two)
         arguments.done()
-        return results.Actuator(self, self._native.actuator(given))
+        return results.Actuator._of(self, self._native.actuator(given))
 
     @keywords
     def probability(
@@ -880,7 +880,7 @@ class Study(CheckedStudy):
             arguments.wrong.append(complaint("start", start, "one of averaged, local, rest, squeal"))
         arguments.done()
         native = self._native.probability(start, count, chosen, workers, progress)
-        return results.Probability(self, native)
+        return results.Probability._of(self, native)
 
     @keywords
     def compare(
@@ -919,7 +919,7 @@ class Study(CheckedStudy):
         time = None if settle is None else arguments.quantity("settle", settle)
         texts = record_of(arguments, column, quantity, gain, window)
         arguments.done()
-        return results.Comparison(self, self._native.compare((first, second), time, texts))
+        return results.Comparison._of(self, self._native.compare((first, second), time, texts))
 
     @keywords
     def fit_record(
@@ -961,11 +961,11 @@ class Study(CheckedStudy):
         time = None if settle is None else arguments.quantity("settle", settle)
         texts = record_of(arguments, column, quantity, gain, window)
         arguments.done()
-        return results.RecordFit(self, self._native.fit_record((place, freed, fixed), time, texts))
+        return results.RecordFit._of(self, self._native.fit_record((place, freed, fixed), time, texts))
 
     def modes(self) -> results.Modes:
         """Natural frequencies and shapes of a disc or of a system, and critical speeds of a disc."""
-        return results.Modes(self, self._native.modes())
+        return results.Modes._of(self, self._native.modes())
 
     @keywords
     def resonances(
@@ -1000,7 +1000,7 @@ class Study(CheckedStudy):
         within = None if frequency is None else arguments.quantities("frequency", frequency, two)
         how_far = arguments.text("order", order, '"first" or "second"')
         arguments.done()
-        return results.Resonances(self, self._native.resonances(ranges, how_far, wanted, within))
+        return results.Resonances._of(self, self._native.resonances(ranges, how_far, wanted, within))
 
 
 def begin_of(arguments: Arguments, start: Any, kind: str) -> Any:

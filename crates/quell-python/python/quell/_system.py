@@ -107,11 +107,12 @@ class Contact(Table):
         load: Profile | Mapping[str, Any] | None = None,
         **unknown: Unknown,
     ) -> None:
-        super().__init__(**given(locals()))
+        keys = given(locals())
         if callable(friction):
             in_si = belt_velocity_m_per_s is not None
-            speed = number_in(self.given, "belt_velocity_m_per_s" if in_si else "belt_velocity")
-            self.given["friction"] = as_law(friction, speed, in_si)
+            speed = number_in(keys, "belt_velocity_m_per_s" if in_si else "belt_velocity")
+            keys["friction"] = as_law(friction, speed, in_si)
+        super().__init__(**keys)
 
 
 class SystemDither(Table):
@@ -232,7 +233,7 @@ class SystemDither(Table):
         keys, distance = with_wave(given(locals()))
         super().__init__(**keys)
         if distance is not None:
-            self._waveform_error = distance
+            self._keep(_waveform_error=distance)
 
     @property
     def waveform_error(self) -> float | None:
@@ -486,10 +487,8 @@ class System(Study):
     ) -> None:
         keys = given(locals(), *OTHER_TABLES)
         start = SystemInitial(initial) if isinstance(initial, str) else initial
-        system = Table(**{**keys, "mode": tables(mode), "component": tables(component), "initial": start})
-        for name in ("coordinates", "states"):
-            if name in system.given:
-                system.given[name] = several(system.given[name])
+        names = {name: several(keys[name]) for name in ("coordinates", "states")}
+        system = Table(**{**keys, **names, "mode": tables(mode), "component": tables(component), "initial": start})
         self._build(
             title=title,
             parameters=None if parameters is None else Table(**parameters),
@@ -510,11 +509,9 @@ class System(Study):
         document = self._document()
         found = []
         for place, table in enumerate(listed_tables(document.get("contact"))):
-            contact = Contact._of({"name": f"{place + 1}", **table})
             law = table.get("friction", document.get("friction"))
-            if law is not None:
-                contact.given["friction"] = law_of(law)
-            found.append(contact)
+            own = {} if law is None else {"friction": law_of(law)}
+            found.append(Contact._of({"name": f"{place + 1}", **table, **own}))
         return Contacts(found)
 
     @property

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NoReturn, Protocol, TypeVar, Union
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, TypeVar, Union
 
+from ._frozen import Frozen, FrozenDict, frozen
 from ._names import suggestion
 
 __all__ = ["Number", "Table", "given"]
@@ -30,32 +31,35 @@ Number = Union[float, str, Quantity]
 Self = TypeVar("Self", bound="Table")
 
 
-class Table:
+class Table(Frozen):
     """Keys and values of one table of a study file, which are attributes: ``dither.amplitude``.
 
     A key that is not given is ``None``. Nothing is checked until the study is made of its tables; then all errors are reported at
-    once.
+    once. A table cannot be changed: :meth:`replace` returns another one.
     """
 
-    _path: str = ""
+    _path: ClassVar[str] = ""
 
-    given: dict[str, Any]
+    given: Mapping[str, Any]
     """The given values, by key."""
 
     def __init__(self, **given: Any) -> None:
-        self.given = {name: value for name, value in given.items() if value is not None}
+        self._keep(given=kept(given))
 
     @classmethod
     def _of(cls: type[Self], given: Mapping[str, Any]) -> Self:
         """The table with these keys and values."""
         table: Self = object.__new__(cls)
-        table.given = dict(given)
+        table._keep(given=frozen(dict(given)))
         return table
 
     def replace(self: Self, **changes: Any) -> Self:
         """The table with other values; ``None`` removes a key."""
-        kept = {**self.given, **changes}
-        return self._of({name: value for name, value in kept.items() if value is not None})
+        return self._of(kept({**self.given, **changes}))
+
+    def _other(self, name: str) -> str:
+        key = name if name in self._keys() else "…"
+        return f"replace({key}=…) returns another {type(self).__name__}, which replace() of the study takes"
 
     # Type checkers know the declared keys.
     if not TYPE_CHECKING:
@@ -87,6 +91,12 @@ class Table:
         return type(other) is type(self) and other.__dict__ == self.__dict__
 
     __hash__ = None  # type: ignore[assignment]
+
+
+def kept(given: Mapping[str, Any]) -> FrozenDict:
+    """The values of the keys that are given."""
+    found: FrozenDict = frozen({name: value for name, value in given.items() if value is not None})
+    return found
 
 
 Unknown = NoReturn

@@ -67,7 +67,7 @@ def compute_shard(
     NativeShared.check_shard(shard)
     here = NativeShared.open(study._native, quantities, store)
     facts, seconds = here.compute_shard(shard, threads, progress)
-    return results.Shard(study, {**facts, "seconds": seconds})
+    return results.Shard._left(study, {**facts, "seconds": seconds})
 
 
 def split(chunks: list[int], threads: int) -> list[list[int]]:
@@ -113,7 +113,7 @@ def compute(
         if not todo:
             missing = here.missing()
             if not missing:
-                return results.Map(study, here.read())
+                return results.Map._of(study, here.read())
             todo = missing
         tasks = split(todo, sum(anyone.nthreads().values()))
         futures: list[Any] = anyone.map(
@@ -134,5 +134,5 @@ def compute(
             anyone.cancel(futures, force=True)
     left = here.missing()
     if not left:
-        return results.Map(study, here.read())
+        return results.Map._of(study, here.read())
     raise RunError(store, f"{len(left)} of {len(sizes)} chunks are still missing: do all workers reach this path?")

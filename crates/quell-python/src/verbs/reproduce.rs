@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use quell_reproduce::{ENTRIES, Resolution, find, run};
+use quell_reproduce::{ENTRIES, ReproductionOptions, Resolution, find, run};
 
-use crate::answer::page;
-use crate::{call, convert};
+use crate::study::change;
+use crate::{answer, call, convert};
 
 /// Reproduces entries and writes them into a folder. Returns the object of the command line.
 #[pyfunction]
@@ -15,15 +15,19 @@ pub(crate) fn reproduce(
     names: Vec<String>,
     out: PathBuf,
     quick: bool,
-    width: Option<String>,
-    caption: bool,
+    set: Vec<(String, String)>,
+    page: (Option<String>, bool, bool),
 ) -> PyResult<Py<PyAny>> {
+    let (width, caption, title) = page;
     let object = call::run(py, move || {
         let entries = find(&names)?;
-        let pace = if quick { Resolution::Quick } else { Resolution::Full };
-        let page = page(width.as_deref(), caption)?;
-        let done = run(&entries, &out, pace, page, |_| ())?;
-        Ok(done.json(&out, pace))
+        let options = ReproductionOptions {
+            resolution: if quick { Resolution::Quick } else { Resolution::Full },
+            page: answer::page(width.as_deref(), caption, title)?,
+            changes: set.iter().map(change).collect(),
+        };
+        let done = run(&entries, &out, &options, |_| ())?;
+        Ok(done.json(&out, &options))
     })?;
     convert::to_python(py, &object)
 }

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
+from collections.abc import Iterable
 from typing import Any
 
 from .._errors import StudyError, complaint
 from .._system import System
-from ._matrices import Entries, symmetric_of, system_of_matrices
+from ._entries import Entries
+from ._lines import lines_of, number_of, of_line, whole_of
+from ._matrices import system_of_matrices
 from ._modal import PerMode
-from ._points import Dof, Points, Units, check_units
+from ._points import Dof, Points, Units, check_units, dof_of
 
 __all__ = ["from_abaqus"]
 
@@ -33,7 +35,8 @@ def from_abaqus(
     The three formats of ``*MATRIX OUTPUT`` are read: ``MATRIX INPUT`` and ``LABELS`` have lines of row node, row direction, column
     node, column direction and entry, with commas or spaces; ``COORDINATE`` has lines of row, column and entry. Entries that a file
     repeats are added, as Abaqus does on input. Degrees of freedom that boundary conditions restrain (1e36 on the diagonal) are
-    left out, and those without mass are eliminated statically, which is exact.
+    left out, and those without mass are eliminated statically, which is exact. Matrices of more than 1000 degrees of freedom are sparse:
+    they need ``modes``, ``points`` and SciPy.
 
     Parameters
     ----------
@@ -84,11 +87,12 @@ def from_abaqus(
     'unstable'
     """
     check_units(units)
+    rows = None if dofs is None else rows_of(dofs)
     files = {"stiffness": stiffness, "mass": mass} | ({} if damping is None else {"damping": damping})
-    read = {name: symmetric_of(entries(file, name, dofs), symmetric, name) for name, file in files.items()}
+    read = {name: entries(file, name, rows, symmetric) for name, file in files.items()}
     return system_of_matrices(
         read["mass"],
-        read.get("damping", {}),
+        read.get("damping"),
         read["stiffness"],
         units=units,
         points=points,
@@ -98,45 +102,53 @@ def from_abaqus(
     )
 
 
-def entries(file: str | os.PathLike[str], name: str, dofs: list[Dof] | None) -> Entries:
+ADVICE = "; give symmetric=False for a matrix that is not symmetric"
+
+
+def rows_of(dofs: object) -> list[Dof]:
+    """Nodes and directions of the rows of the format COORDINATE."""
+    allowed = "nodes and directions of all rows, such as [(1, 1), (1, 2)]"
+    if not isinstance(dofs, Iterable):
+        raise StudyError([complaint("dofs", dofs, allowed)])
+    found = [(given, dof_of(given)) for given in dofs]
+    wrong = [complaint(f"dofs[{place}]", given, "a node and a direction") for place, (given, dof) in enumerate(found) if dof is None]
+    if wrong:
+        raise StudyError(wrong)
+    return [dof for _, dof in found if dof is not None]
+
+
+def entries(file: str | os.PathLike[str], name: str, dofs: list[Dof] | None, symmetric: bool) -> Entries:
     """The entries of a file, by node and direction."""
-    found: Entries = {}
-    for number, line in enumerate(Path(file).read_text(encoding="utf-8", errors="replace").splitlines(), 1):
+    found = Entries(name, file, symmetric=symmetric, repeated=True, advice=ADVICE)
+    for number, line in lines_of(name, file):
         words = line.replace(",", " ").split()
         # Comments begin with **; a keyword line, with *, comes before the entries.
         if not words or words[0].startswith("*"):
             continue
         try:
             *labels, last = words
-            places = [int(word) for word in labels]
-            value = float(last.replace("D", "E").replace("d", "e"))
+            places = [whole_of(word) for word in labels]
+            value = number_of(last)
         except ValueError:
-            raise StudyError([wrong(name, file, number, line)]) from None
+            places, value = [], 0.0
         if len(places) == 4:
-            pair = ((places[0], places[1]), (places[2], places[3]))
+            found.add((places[0], places[1]), (places[2], places[3]), value, number)
         elif len(places) == 2:
-            pair = (of_row(name, file, number, places[0], dofs), of_row(name, file, number, places[1], dofs))
+            row, column = (of_row(name, file, number, place, dofs) for place in places)
+            found.add(row, column, value, number)
         else:
-            raise StudyError([wrong(name, file, number, line)])
-        found[pair] = found.get(pair, 0.0) + value
-    if not found:
+            allowed = "row node, direction, column node, direction and a finite entry, or row, column and entry"
+            raise StudyError([of_line(name, file, number, line, allowed)])
+    if not len(found):
         raise StudyError([complaint(name, str(file), "a matrix of Abaqus with at least one entry", "path")])
     return found
 
 
-def of_row(name: str, file: Any, number: int, row: int, dofs: list[Dof] | None) -> Dof:
+def of_row(name: str, file: object, number: int, row: int, dofs: list[Dof] | None) -> Dof:
     """The degree of freedom of a row of the format COORDINATE."""
     if dofs is None:
-        allowed = f"given: line {number} of {os.fspath(file)} has rows without nodes (FORMAT=COORDINATE)"
+        allowed = f"given: line {number} of {file} has rows without nodes (FORMAT=COORDINATE)"
         raise StudyError([complaint("dofs", None, allowed, "missing")])
     if not 1 <= row <= len(dofs):
-        allowed = f"the nodes and directions of all rows: line {number} of {os.fspath(file)} has row {row}, dofs has {len(dofs)}"
-        raise StudyError([complaint("dofs", len(dofs), allowed)])
-    node, direction = dofs[row - 1]
-    return (int(node), int(direction))
-
-
-def wrong(name: str, file: Any, number: int, line: str) -> Any:
-    """The complaint about a line."""
-    allowed = "row node, direction, column node, direction and entry, or row, column and entry"
-    return complaint(name, f"{os.fspath(file)}, line {number}: {line[:40]!r}", allowed)
+        raise StudyError([of_line(name, file, number, str(row), f"one of the {len(dofs)} rows of dofs")])
+    return dofs[row - 1]

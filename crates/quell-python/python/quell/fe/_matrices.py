@@ -13,31 +13,31 @@ import numpy.typing as npt
 
 from .._errors import StudyError, complaint
 from .._system import System
-from ._modal import FileMode, PerMode, system_of_modes
+from ._entries import RESTRAINT, Entries, Listed
+from ._modal import PerMode, system_of_modes
+from ._modes import FreeMotion, modes_of
 from ._points import Dof, Points, Units, chosen, name_of
+from ._sparse import lowest_of
 
-__all__ = ["Entries", "Matrices", "symmetric_of", "system_of_matrices"]
-
-Entries = dict[tuple[Dof, Dof], float]
-"""Entries of a matrix, by row and column."""
+__all__ = ["system_of_matrices"]
 
 Floats = npt.NDArray[np.float64]
 
-RESTRAINED = 1e35
-"""Stiffness on the diagonal from which on a degree of freedom is restrained: Abaqus writes 1e36 there."""
+DENSE = 1000
+"""Most degrees of freedom of dense matrices; larger ones are sparse, and only their modes become a study."""
 
-SYMMETRIC = 1e-9
-"""Largest difference of entries that count as equal, relative to the largest entry: more than rounding to ten digits."""
 
-RIGID = 1e-9
-"""Eigenvalues of the stiffness below 0 down to this share of the largest are rounding of rigid motions, whose frequency is 0."""
+class Assembled(NamedTuple):
+    """Entries of the matrices over the degrees of freedom that are not restrained."""
 
-COUPLED = 1e-6
-"""Modal damping is diagonal if the coupling of two modes is below this share of their own damping."""
+    dofs: list[Dof]
+    mass: Listed
+    damping: Listed
+    stiffness: Listed
 
 
 class Matrices(NamedTuple):
-    """Matrices over the same degrees of freedom."""
+    """Dense matrices over the same degrees of freedom."""
 
     dofs: list[Dof]
     mass: Floats
@@ -45,46 +45,33 @@ class Matrices(NamedTuple):
     stiffness: Floats
 
 
-def symmetric_of(entries: Entries, symmetric: bool, what: str) -> Entries:
-    """The entries of a symmetric matrix of which a file has a triangle or all; of any matrix the entries as they are.
-
-    Raises
-    ------
-    quell.StudyError
-        Two entries that should be equal are not.
-    """
-    if not symmetric:
-        return entries
-    full = dict(entries)
-    for (row, column), value in entries.items():
-        other = entries.get((column, row), value)
-        if abs(other - value) > SYMMETRIC * max(abs(other), abs(value)):
-            names = f"({name_of(row)}, {name_of(column)})"
-            allowed = f"equal to its mirror image {other}, at {names}; give symmetric=False for a matrix that is not symmetric"
-            raise StudyError([complaint(what, value, allowed)])
-        full[column, row] = value
-    return full
-
-
-def assembled(mass: Entries, damping: Entries, stiffness: Entries) -> Matrices:
-    """Dense matrices over all degrees of freedom that have an entry, in ascending order."""
-    dofs = sorted({dof for entries in (mass, damping, stiffness) for pair in entries for dof in pair})
+def assembled(mass: Entries, damping: Entries | None, stiffness: Entries) -> Assembled:
+    """The entries over all degrees of freedom that have one, in ascending order, without the restrained ones."""
+    given = [it for it in (mass, damping, stiffness) if it is not None]
+    dofs = sorted({dof for entries in given for dof in entries.dofs})
     place = {dof: index for index, dof in enumerate(dofs)}
+    none = Listed(np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64), np.zeros(0))
+    read = [none if it is None else it.listed(place) for it in (mass, damping, stiffness)]
+    springs = read[2]
+    kept: npt.NDArray[np.bool_] = np.ones(len(dofs), dtype=bool)
+    kept[springs.rows[(springs.rows == springs.columns) & (springs.values == RESTRAINT)]] = False
+    number = np.cumsum(kept) - 1
+    inner = []
+    for rows, columns, values in read:
+        moves = kept[rows] & kept[columns]
+        inner.append(Listed(number[rows[moves]], number[columns[moves]], values[moves]))
+    return Assembled([dof for dof, is_kept in zip(dofs, kept, strict=True) if is_kept], *inner)
+
+
+def dense(entries: Assembled) -> Matrices:
+    """The matrices with every entry."""
+    count = len(entries.dofs)
     filled = []
-    for entries in (mass, damping, stiffness):
-        matrix: Floats = np.zeros((len(dofs), len(dofs)))
-        for (row, column), value in entries.items():
-            matrix[place[row], place[column]] = value
+    for rows, columns, values in entries[1:]:
+        matrix: Floats = np.zeros((count, count))
+        matrix[rows, columns] = values
         filled.append(matrix)
-    return Matrices(dofs, *filled)
-
-
-def free_of(matrices: Matrices) -> Matrices:
-    """The matrices without restrained degrees of freedom."""
-    kept: npt.NDArray[np.bool_] = np.abs(np.diag(matrices.stiffness)) < RESTRAINED
-    inner = np.ix_(kept, kept)
-    dofs = [dof for dof, is_kept in zip(matrices.dofs, kept, strict=True) if is_kept]
-    return Matrices(dofs, matrices.mass[inner], matrices.damping[inner], matrices.stiffness[inner])
+    return Matrices(entries.dofs, *filled)
 
 
 def condensed(matrices: Matrices) -> tuple[Matrices, Floats]:
@@ -111,46 +98,9 @@ def condensed(matrices: Matrices) -> tuple[Matrices, Floats]:
     return Matrices(kept, mass[inner], damping[inner], reduced), rows
 
 
-def modes_of(matrices: Matrices, rows: Floats, dofs: list[Dof], count: int, has_damping: bool) -> list[FileMode]:
-    """The lowest modes, mass-normalised, with shapes over ``dofs``."""
-    _, mass, damping, stiffness = matrices
-    for name, matrix in (("mass", mass), ("stiffness", stiffness), ("damping", damping)):
-        if np.abs(matrix - matrix.T).max(initial=0.0) > SYMMETRIC * np.abs(matrix).max(initial=0.0):
-            raise StudyError([complaint(name, None, "symmetric for a reduction to modes; leave out modes", "conflict")])
-    try:
-        factor = np.linalg.cholesky(mass)
-    except np.linalg.LinAlgError:
-        allowed = "positive definite over the degrees of freedom that have mass"
-        raise StudyError([complaint("mass", None, allowed, "conflict")]) from None
-    half = np.linalg.solve(factor, stiffness)
-    values, vectors = np.linalg.eigh(np.linalg.solve(factor, half.T))
-    if values[0] < -RIGID * abs(values[-1]):
-        allowed = f"positive semidefinite for a reduction to modes; its least eigenvalue is {values[0]:.6g}"
-        raise StudyError([complaint("stiffness", None, allowed, "conflict")])
-    shapes = np.linalg.solve(factor.T, vectors)[:, :count]
-    frequencies = np.sqrt(np.clip(values[:count], 0.0, None))
-    ratios = modal_damping(shapes, damping, frequencies) if has_damping else [None] * len(frequencies)
-    displaced = rows @ shapes
-    return [
-        FileMode(float(frequency), ratio, 1.0, dict(zip(dofs, displaced[:, place].tolist(), strict=True)))
-        for place, (frequency, ratio) in enumerate(zip(frequencies, ratios, strict=True))
-    ]
-
-
-def modal_damping(shapes: Floats, damping: Floats, frequencies: Floats) -> list[float | None]:
-    """Damping ratios of a damping matrix that does not couple the modes."""
-    modal = shapes.T @ damping @ shapes
-    own = np.sqrt(np.abs(np.diag(modal)))
-    if (np.abs(modal - np.diag(np.diag(modal))) > COUPLED * np.outer(own, own)).any() or (np.diag(modal)[frequencies == 0.0] != 0.0).any():
-        allowed = "a damping matrix that does not couple the modes; leave out modes, or give damping_ratio instead of damping"
-        raise StudyError([complaint("damping", None, allowed, "conflict")])
-    found = zip(np.diag(modal), frequencies, strict=True)
-    return [0.0 if frequency == 0.0 else float(rate / (2.0 * frequency)) for rate, frequency in found]
-
-
 def system_of_matrices(
     mass: Entries,
-    damping: Entries,
+    damping: Entries | None,
     stiffness: Entries,
     *,
     units: Units,
@@ -166,20 +116,22 @@ def system_of_matrices(
     quell.StudyError
         What is wrong with a matrix or an argument, and everything that is wrong in the study.
     """
-    whole = free_of(assembled(mass, damping, stiffness))
+    whole = assembled(mass, damping, stiffness)
     if not whole.dofs:
         raise StudyError([complaint("stiffness", None, "a matrix with a degree of freedom that can move", "conflict")])
-    left, rows = condensed(whole)
     if modes is not None:
-        if not isinstance(modes, int) or isinstance(modes, bool) or not 1 <= modes <= len(left.dofs):
-            raise StudyError([complaint("modes", modes, f"a whole number from 1 to {len(left.dofs)}")])
-        if damping and damping_ratio is not None:
+        if damping is not None and damping_ratio is not None:
             raise StudyError([complaint("damping_ratio", None, "left out where there is a damping matrix", "conflict")])
-        found = modes_of(left, rows, whole.dofs, modes, bool(damping))
+        motion = free_motion(whole, points, modes, damping is not None)
+        found = modes_of(motion, damping is not None)
         return system_of_modes(found, units=units, points=points, damping_ratio=damping_ratio, modal_mass=None, study=study)
+    if len(whole.dofs) > DENSE:
+        allowed = f"given: matrices of more than {DENSE} degrees of freedom are reduced to modes, and these have {len(whole.dofs)}"
+        raise StudyError([complaint("modes", None, allowed, "missing")])
     if damping_ratio is not None:
         allowed = "given together with modes: matrices have their own damping"
         raise StudyError([complaint("damping_ratio", None, allowed, "conflict")])
+    left, _ = condensed(dense(whole))
     named = {dof: name for name, dof in chosen(points, whole.dofs).items()}
     if missing := [name for dof, name in named.items() if dof not in left.dofs and points is not None]:
         allowed = f"a point with mass, or give modes, whose shapes have every point: {', '.join(missing)} has none"
@@ -188,8 +140,21 @@ def system_of_matrices(
     return System(
         coordinates=coordinates,
         mass=left.mass.tolist(),
-        damping=left.damping.tolist() if damping else None,
+        damping=left.damping.tolist() if damping is not None else None,
         stiffness=left.stiffness.tolist(),
         units=units,
         **study,
     )
+
+
+def free_motion(whole: Assembled, points: Points | None, modes: int, has_damping: bool) -> FreeMotion:
+    """The lowest natural motions of the structure at its points."""
+    named = list(chosen(points, whole.dofs).values())
+    if len(whole.dofs) > DENSE:
+        if points is None:
+            allowed = f"given: the file has {len(whole.dofs)} degrees of freedom, too many for a study"
+            raise StudyError([complaint("points", None, allowed, "missing")])
+        return lowest_of(whole.dofs, (whole.mass, whole.damping, whole.stiffness), modes, named)
+    matrices = dense(whole)
+    left, rows = condensed(matrices)
+    return FreeMotion.of_dense((left.mass, left.damping, left.stiffness), rows, whole.dofs, modes, named)

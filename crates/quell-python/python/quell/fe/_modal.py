@@ -76,12 +76,17 @@ def system_of_modes(
     if wrong:
         raise StudyError(wrong)
     names = chosen(points, (dof for mode in found for dof in mode.shape))
+    for mode in found:
+        missing = [name for name, dof in names.items() if dof not in mode.shape]
+        if missing:
+            allowed = f"in every mode: that of angular frequency {mode.frequency:.6g} has no displacement of {missing[0]}"
+            raise StudyError([complaint("points", missing[0], allowed)])
     made = [
         SystemMode(
             frequency=mode.frequency,
             damping_ratio=mode.damping_ratio if ratios is None else ratios[place],
             modal_mass=mode.modal_mass if masses is None else masses[place],
-            shape={name: mode.shape.get(dof, 0.0) for name, dof in names.items()},
+            shape={name: mode.shape[dof] for name, dof in names.items()},
         )
         for place, mode in enumerate(found)
     ]

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, Literal, Union
 
+import numpy as np
+
 from .._errors import StudyError, complaint
 
-__all__ = ["DIRECTIONS", "Dof", "Points", "Units", "chosen", "check_units", "name_of"]
+__all__ = ["DIRECTIONS", "Dof", "Points", "Units", "chosen", "check_units", "dof_of", "name_of"]
 
 Dof = tuple[int, int]
 """A node and the number of a direction: 1 to 3 are displacements, 4 to 6 rotations."""
@@ -36,9 +38,9 @@ def dof_of(given: Any) -> Dof | None:
         if direction.lower() not in DIRECTIONS:
             return None
         direction = DIRECTIONS.index(direction.lower()) + 1
-    if not isinstance(node, int) or not isinstance(direction, int) or direction < 0:
+    if any(isinstance(it, bool) or not isinstance(it, (int, np.integer)) for it in (node, direction)) or direction < 0:
         return None
-    return (node, direction)
+    return (int(node), int(direction))
 
 
 def chosen(points: Points | None, there: Iterable[Dof]) -> dict[str, Dof]:
@@ -52,6 +54,8 @@ def chosen(points: Points | None, there: Iterable[Dof]) -> dict[str, Dof]:
     known = dict.fromkeys(there)
     if points is None:
         return {name_of(dof): dof for dof in known}
+    if not isinstance(points, Mapping):
+        raise StudyError([complaint("points", points, 'a dict of names, nodes and directions, such as {"pad_x": (1204, "x")}')])
     wrong, found = [], {}
     for name, given in points.items():
         dof = dof_of(given)

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from .._errors import StudyError, complaint
 from .._export import needed
 from .._system import System
+from ._lines import regular
 from ._modal import FileMode, PerMode, system_of_modes
 from ._points import DIRECTIONS, Dof, Points, Units, check_units
 from ._response import Response, written
@@ -87,11 +88,8 @@ def from_universal_file(
     """
     check_units(units)
     pyuff = needed("pyuff", "from_universal_file()")
-    place = Path(path)
-    # pyuff reports a missing file as an error of its own kind.
-    place.open("rb").close()
-    read = pyuff.UFF(str(place)).read_sets()
-    sets: list[DataSet] = [one for one in ([read] if isinstance(read, Mapping) else read) if one]
+    place = regular("path", path)
+    sets = data_sets(pyuff, place)
     agree(sets, units)
     modal = [one for one in sets if one.get("type") in (55, 2414) and one.get("analysis_type") == NORMAL_MODE]
     responses = [one for one in sets if one.get("type") == 58 and one.get("func_type") == FREQUENCY_RESPONSE]
@@ -115,6 +113,27 @@ def from_universal_file(
     return system_of_modes(
         found_modes, units=units, points=points, damping_ratio=damping_ratio, modal_mass=modal_mass, study=study
     )
+
+
+def data_sets(pyuff: Any, place: Path) -> list[DataSet]:
+    """The data sets of a file. pyuff raises errors of many kinds for lines that it cannot read."""
+    number = 0
+    try:
+        file = pyuff.UFF(str(place))
+        found = []
+        for number in range(1, int(file.get_n_sets()) + 1):
+            one = file.read_sets(number - 1)
+            found.append(one[0] if isinstance(one, list) else one)
+    except Exception as why:
+        allowed = f"{place}: data set {number} cannot be read: {why}" if number else f"{place}: expected a universal file: {why}"
+        raise StudyError([complaint("path", str(place), allowed, "path")]) from why
+    return [one for one in found if one]
+
+
+def finite(one: DataSet, values: npt.ArrayLike, what: str) -> None:
+    """Rejects numbers of a data set that are not finite."""
+    if not np.isfinite(np.asarray(values)).all():
+        raise StudyError([complaint(f"data set {one['type']}", None, f"finite numbers: its {what} has others", "path")])
 
 
 def agree(sets: list[DataSet], units: Units) -> None:
@@ -145,6 +164,10 @@ def mode_of(one: DataSet) -> FileMode:
         for node, row in zip(nodes, values, strict=True)
         for direction, value in enumerate(row, 1)
     }
+    finite(one, [hertz, mass, viscous, hysteretic], "header")
+    finite(one, values, "shape")
+    if hertz < 0.0:
+        raise StudyError([complaint(f"data set {one['type']}", float(hertz), "a natural frequency ≥ 0")])
     damping = None if viscous == 0.0 and hysteretic != 0.0 else float(viscous)
     return FileMode(2.0 * np.pi * float(hertz), damping, float(mass) or None, shape)
 
@@ -163,6 +186,8 @@ def response_of(one: DataSet) -> Response:
     force, sign_in = directed(one["ref_node"], int(one["ref_dir"]))
     hertz: npt.NDArray[np.float64] = np.asarray(one["x"], dtype=np.float64)
     values: npt.NDArray[np.complex128] = np.asarray(one["data"], dtype=np.complex128) * (sign_out * sign_in)
+    finite(one, hertz, "abscissa")
+    finite(one, values, "response")
     kind, over = int(one["ordinate_spec_data_type"]), int(one["orddenom_spec_data_type"])
     s: npt.NDArray[np.complex128] = np.asarray(2j * np.pi * hertz, dtype=np.complex128)
     powers = {DISPLACEMENT: 0, VELOCITY: 1, ACCELERATION: 2}

@@ -11,8 +11,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from .._frozen import Frozen
 
-class ActuatorColumns:
+
+class ActuatorColumns(Frozen):
     """Of :class:`quell.results.Actuator`."""
 
     amplitude_n: npt.NDArray[np.float64]
@@ -85,12 +87,13 @@ class ActuatorColumns:
     stroke_m: npt.NDArray[np.float64]
     sufficient_from: npt.NDArray[np.float64]
     sufficient_from_hz: npt.NDArray[np.float64]
+    sufficient_narrow: npt.NDArray[Any]
     sufficient_to: npt.NDArray[np.float64]
     sufficient_to_hz: npt.NDArray[np.float64]
     to_hz: float
 
 
-class AtlasColumns:
+class AtlasColumns(Frozen):
     """Of :class:`quell.results.Atlas`."""
 
     belt_velocity: npt.NDArray[np.float64]
@@ -122,7 +125,7 @@ class AtlasColumns:
     reference_velocity_m_per_s: float
 
 
-class AtlasTablesColumns:
+class AtlasTablesColumns(Frozen):
     """Of :class:`quell.results.AtlasTables`."""
 
     error_from: npt.NDArray[np.float64]
@@ -155,7 +158,7 @@ class AtlasTablesColumns:
     waveform: npt.NDArray[np.uint8]
 
 
-class AttractorColumns:
+class AttractorColumns(Frozen):
     """Of :class:`quell.results.Attractor`."""
 
     attractor_base_response: Any
@@ -200,7 +203,7 @@ class AttractorColumns:
     time: npt.NDArray[np.float64]
 
 
-class BasinsColumns:
+class BasinsColumns(Frozen):
     """Of :class:`quell.results.Basins`."""
 
     across_value: npt.NDArray[np.float64]
@@ -263,7 +266,7 @@ class BasinsColumns:
     window_velocity_value: npt.NDArray[np.float64]
 
 
-class BifurcationColumns:
+class BifurcationColumns(Frozen):
     """Of :class:`quell.results.Bifurcation`."""
 
     direction: npt.NDArray[np.uint8]
@@ -348,7 +351,7 @@ class BifurcationColumns:
     up_words: npt.NDArray[np.str_]
 
 
-class CheckColumns:
+class CheckColumns(Frozen):
     """Of :class:`quell.results.Check`."""
 
     belt_belt_velocity: float
@@ -408,7 +411,7 @@ class CheckColumns:
     observe_value: npt.NDArray[np.float64]
 
 
-class CitationsColumns:
+class CitationsColumns(Frozen):
     """Of :class:`quell.results.Citations`."""
 
     correction_equations: npt.NDArray[np.str_]
@@ -419,7 +422,7 @@ class CitationsColumns:
     source_reference: npt.NDArray[np.str_]
 
 
-class ContactFrictionColumns:
+class ContactFrictionColumns(Frozen):
     """Of :class:`quell.results.ContactFriction`."""
 
     coefficient: npt.NDArray[np.float64]
@@ -435,7 +438,7 @@ class ContactFrictionColumns:
     slip_velocity: npt.NDArray[np.float64]
 
 
-class ContactGainsColumns:
+class ContactGainsColumns(Frozen):
     """Of :class:`quell.results.ContactGains`."""
 
     contact_name: npt.NDArray[np.str_]
@@ -456,7 +459,7 @@ class ContactGainsColumns:
     undithered_gain: npt.NDArray[np.float64]
 
 
-class ComparisonColumns:
+class ComparisonColumns(Frozen):
     """Of :class:`quell.results.Comparison`."""
 
     after_columns: npt.NDArray[np.str_]
@@ -503,11 +506,12 @@ class ComparisonColumns:
     slow_reduction_predicted: float
 
 
-class DecayColumns:
+class DecayColumns(Frozen):
     """Of :class:`quell.results.Decay`."""
 
     comparison_aic: npt.NDArray[np.float64]
     comparison_difference: npt.NDArray[np.float64]
+    comparison_explained: npt.NDArray[np.float64]
     comparison_law: npt.NDArray[np.str_]
     comparison_p: npt.NDArray[Any]
     comparison_residual: npt.NDArray[np.float64]
@@ -541,7 +545,7 @@ class DecayColumns:
     time: npt.NDArray[np.float64]
 
 
-class DescribingFunctionColumns:
+class DescribingFunctionColumns(Frozen):
     """Of :class:`quell.results.DescribingFunction`."""
 
     belt_velocity_m_per_s: float
@@ -558,25 +562,25 @@ class DescribingFunctionColumns:
     limit_cycle_velocity_amplitude_error_m_per_s: npt.NDArray[np.float64]
     limit_cycle_velocity_amplitude_m_per_s: npt.NDArray[np.float64]
     limit_cycle_velocity_m_per_s: float
-    sharper_limit_cycle_amplitude: float
-    sharper_limit_cycle_amplitude_m: float
-    sharper_limit_cycle_amplitude_m_value: npt.NDArray[np.float64]
-    sharper_limit_cycle_amplitude_value: npt.NDArray[np.float64]
-    sharper_limit_cycle_stable: npt.NDArray[Any]
-    sharper_limit_cycle_velocity: float
-    sharper_limit_cycle_velocity_amplitude: npt.NDArray[np.float64]
-    sharper_limit_cycle_velocity_amplitude_error: npt.NDArray[np.float64]
-    sharper_limit_cycle_velocity_amplitude_error_m_per_s: npt.NDArray[np.float64]
-    sharper_limit_cycle_velocity_amplitude_m_per_s: npt.NDArray[np.float64]
-    sharper_limit_cycle_velocity_m_per_s: float
-    sharper_small_gain: float
-    sharper_small_gain_s_per_m: float
+    limit_limit_cycle_amplitude: float
+    limit_limit_cycle_amplitude_m: float
+    limit_limit_cycle_amplitude_m_value: npt.NDArray[np.float64]
+    limit_limit_cycle_amplitude_value: npt.NDArray[np.float64]
+    limit_limit_cycle_stable: npt.NDArray[Any]
+    limit_limit_cycle_velocity: float
+    limit_limit_cycle_velocity_amplitude: npt.NDArray[np.float64]
+    limit_limit_cycle_velocity_amplitude_error: npt.NDArray[np.float64]
+    limit_limit_cycle_velocity_amplitude_error_m_per_s: npt.NDArray[np.float64]
+    limit_limit_cycle_velocity_amplitude_m_per_s: npt.NDArray[np.float64]
+    limit_limit_cycle_velocity_m_per_s: float
+    limit_small_gain: float
+    limit_small_gain_s_per_m: float
     small_gain_s_per_m: float
     undithered_gain_s_per_m: list[float | None]
     velocity_amplitude_m_per_s: list[float | None]
 
 
-class DesignColumns:
+class DesignColumns(Frozen):
     """Of :class:`quell.results.Design`."""
 
     amplitude: npt.NDArray[np.float64]
@@ -609,6 +613,7 @@ class DesignColumns:
     confident_samples: Any
     confident_seed: Any
     confident_unknown: Any
+    covered_belt_belt_velocity_m_per_s: npt.NDArray[np.float64]
     critical_dither_amplitude: float
     critical_dither_amplitude_n: float
     critical_dither_frequency_hz: float
@@ -637,6 +642,9 @@ class DesignColumns:
     drive_voltage_peak: float
     drive_voltage_peak_to_peak: float
     drive_voltage_rms: float
+    examined_above: float
+    examined_largest_gap: float
+    examined_points: Any
     frontier_limit: npt.NDArray[np.str_]
     frontier_objective: npt.NDArray[np.float64]
     frontier_objective_m: npt.NDArray[np.float64]
@@ -661,6 +669,8 @@ class DesignColumns:
     schedule_objective_m: npt.NDArray[np.float64]
     schedule_objective_w: npt.NDArray[np.float64]
     threshold_meets: float
+    tone_amplitude_m: float | None
+    tone_frequency_hz: float | None
     verified_growth_rate: float
     verified_largest_multiplier: float
     verified_multiplier: float
@@ -677,7 +687,7 @@ class DesignColumns:
     worst_belt_belt_velocity_m_per_s: float
 
 
-class ExactStabilityColumns:
+class ExactStabilityColumns(Frozen):
     """Of :class:`quell.results.ExactStability`."""
 
     exponent_frequency: npt.NDArray[np.float64]
@@ -689,7 +699,7 @@ class ExactStabilityColumns:
     state_value: npt.NDArray[np.float64]
 
 
-class FrictionCurveColumns:
+class FrictionCurveColumns(Frozen):
     """Of :class:`quell.results.FrictionCurve`."""
 
     effective_coefficient_error_value: npt.NDArray[np.float64]
@@ -706,13 +716,16 @@ class FrictionCurveColumns:
     law_reference_velocity: float
     law_reference_velocity_m_per_s: float
     law_static_coefficient: float
+    limit_effective_coefficient_value: npt.NDArray[np.float64]
+    limit_effective_slope_s_per_m: npt.NDArray[np.float64]
+    limit_effective_slope_s_per_m_value: npt.NDArray[np.float64]
+    limit_effective_slope_value: npt.NDArray[np.float64]
     measured_base_value: npt.NDArray[Any]
     measured_verdict_value: npt.NDArray[np.str_]
-    sharper_effective_slope_s_per_m: list[float | None]
     slip_velocity_m_per_s: list[float | None]
 
 
-class LawFitColumns:
+class LawFitColumns(Frozen):
     """Of :class:`quell.results.LawFit`."""
 
     coefficient: npt.NDArray[np.float64]
@@ -744,14 +757,12 @@ class LawFitColumns:
     slip_velocity: npt.NDArray[np.float64]
 
 
-class MapColumns:
+class MapColumns(Frozen):
     """Of :class:`quell.results.Map`."""
 
     amplitude: npt.NDArray[np.float64]
     amplitude_status: npt.NDArray[np.uint8]
     criterion: npt.NDArray[np.float64]
-    criterion_sharper: npt.NDArray[np.float64]
-    criterion_sharper_status: npt.NDArray[np.uint8]
     criterion_status: npt.NDArray[np.uint8]
     critical_amplitude: npt.NDArray[np.float64]
     critical_amplitude_status: npt.NDArray[np.uint8]
@@ -765,8 +776,6 @@ class MapColumns:
     dither_stroke_status: npt.NDArray[np.uint8]
     effect: npt.NDArray[np.uint8]
     effect_status: npt.NDArray[np.uint8]
-    residual_vibration: npt.NDArray[np.float64]
-    residual_vibration_status: npt.NDArray[np.uint8]
     ends_on: npt.NDArray[Any]
     ends_on_status: npt.NDArray[np.uint8]
     frequency: npt.NDArray[np.float64]
@@ -774,8 +783,6 @@ class MapColumns:
     growth: npt.NDArray[np.float64]
     growth_error: npt.NDArray[np.float64]
     growth_error_status: npt.NDArray[np.uint8]
-    growth_sharper: npt.NDArray[np.float64]
-    growth_sharper_status: npt.NDArray[np.uint8]
     growth_status: npt.NDArray[np.uint8]
     growth_undithered: npt.NDArray[np.float64]
     growth_undithered_error: npt.NDArray[np.float64]
@@ -783,6 +790,16 @@ class MapColumns:
     growth_undithered_status: npt.NDArray[np.uint8]
     growth_verdict: npt.NDArray[np.uint8]
     growth_verdict_status: npt.NDArray[np.uint8]
+    limit_criterion: npt.NDArray[np.float64]
+    limit_criterion_status: npt.NDArray[np.uint8]
+    limit_critical_amplitude: npt.NDArray[np.float64]
+    limit_critical_amplitude_status: npt.NDArray[np.uint8]
+    limit_critical_amplitude_upper: npt.NDArray[np.float64]
+    limit_critical_amplitude_upper_status: npt.NDArray[np.uint8]
+    limit_growth: npt.NDArray[np.float64]
+    limit_growth_status: npt.NDArray[np.uint8]
+    limit_verdict: npt.NDArray[np.uint8]
+    limit_verdict_status: npt.NDArray[np.uint8]
     mean_friction: npt.NDArray[np.float64]
     mean_friction_status: npt.NDArray[np.uint8]
     minimum_normal_load: npt.NDArray[np.float64]
@@ -803,6 +820,8 @@ class MapColumns:
     quench_last_status: npt.NDArray[np.uint8]
     quench_lost: npt.NDArray[np.float64]
     quench_lost_status: npt.NDArray[np.uint8]
+    residual_vibration: npt.NDArray[np.float64]
+    residual_vibration_status: npt.NDArray[np.uint8]
     settled: npt.NDArray[np.uint8]
     settled_status: npt.NDArray[np.uint8]
     slip_ratio: npt.NDArray[np.float64]
@@ -812,12 +831,10 @@ class MapColumns:
     undithered_amplitude: npt.NDArray[np.float64]
     undithered_amplitude_status: npt.NDArray[np.uint8]
     verdict: npt.NDArray[np.uint8]
-    verdict_sharper: npt.NDArray[np.uint8]
-    verdict_sharper_status: npt.NDArray[np.uint8]
     verdict_status: npt.NDArray[np.uint8]
 
 
-class ModesColumns:
+class ModesColumns(Frozen):
     """Of :class:`quell.results.Modes`."""
 
     critical_mode_diameters: Any
@@ -845,7 +862,7 @@ class ModesColumns:
     shape_at_load: npt.NDArray[np.float64]
 
 
-class NoiseResponseColumns:
+class NoiseResponseColumns(Frozen):
     """Of :class:`quell.results.NoiseResponse`."""
 
     amplitude_m: list[float | None]
@@ -881,7 +898,7 @@ class NoiseResponseColumns:
     undithered_amplitude_m: float
 
 
-class OrbitColumns:
+class OrbitColumns(Frozen):
     """Of :class:`quell.results.Orbit`."""
 
     contact_name: npt.NDArray[np.str_]
@@ -933,25 +950,51 @@ class OrbitColumns:
     velocity_value: float
 
 
-class ProbabilityColumns:
+class ProbabilityColumns(Frozen):
     """Of :class:`quell.results.Probability`."""
 
     group_first: npt.NDArray[np.float64]
     group_first_error: npt.NDArray[np.float64]
     group_total: npt.NDArray[np.float64]
     group_total_error: npt.NDArray[np.float64]
+    limit_high: float
+    limit_indices_belt_belt_velocity_first: float
+    limit_indices_belt_belt_velocity_first_error: float
+    limit_indices_belt_belt_velocity_m_per_s_first: float
+    limit_indices_belt_belt_velocity_m_per_s_first_error: float
+    limit_indices_belt_belt_velocity_m_per_s_total: float
+    limit_indices_belt_belt_velocity_m_per_s_total_error: float
+    limit_indices_belt_belt_velocity_total: float
+    limit_indices_belt_belt_velocity_total_error: float
+    limit_indices_belt_damping_ratio_first: float
+    limit_indices_belt_damping_ratio_first_error: float
+    limit_indices_belt_damping_ratio_total: float
+    limit_indices_belt_damping_ratio_total_error: float
+    limit_indices_friction_minimum_coefficient_first: float
+    limit_indices_friction_minimum_coefficient_first_error: float
+    limit_indices_friction_minimum_coefficient_total: float
+    limit_indices_friction_minimum_coefficient_total_error: float
+    limit_indices_friction_static_coefficient_first: float
+    limit_indices_friction_static_coefficient_first_error: float
+    limit_indices_friction_static_coefficient_total: float
+    limit_indices_friction_static_coefficient_total_error: float
+    limit_low: float
+    limit_probability: float
+    limit_quantiles_growth_0_05_per_s: float
+    limit_quantiles_growth_0_5_per_s: float
+    limit_quantiles_growth_0_95_per_s: float
+    limit_quiet: Any
+    limit_unknown: Any
+    limit_vibrating: Any
     quantiles_growth_0_05_per_s: float
     quantiles_growth_0_5_per_s: float
     quantiles_growth_0_95_per_s: float
-    quantiles_growth_sharper_0_05_per_s: float
-    quantiles_growth_sharper_0_5_per_s: float
-    quantiles_growth_sharper_0_95_per_s: float
     threshold_amplitude: npt.NDArray[np.float64]
     threshold_amplitude_n: npt.NDArray[np.float64]
     threshold_share: npt.NDArray[np.float64]
 
 
-class RampColumns:
+class RampColumns(Frozen):
     """Of :class:`quell.results.Ramp`."""
 
     displacement: npt.NDArray[np.float64]
@@ -991,7 +1034,7 @@ class RampColumns:
     velocity: npt.NDArray[np.float64]
 
 
-class RecordFitColumns:
+class RecordFitColumns(Frozen):
     """Of :class:`quell.results.RecordFit`."""
 
     covariance_matrix_value: npt.NDArray[np.float64]
@@ -1008,19 +1051,22 @@ class RecordFitColumns:
     time: npt.NDArray[np.float64]
 
 
-class ResonancesColumns:
+class ResonancesColumns(Frozen):
     """Of :class:`quell.results.Resonances`."""
 
-    can_be_unstable: npt.NDArray[np.float64]
     clear_clear_value: npt.NDArray[np.float64]
     clear_frequencies: npt.NDArray[np.float64]
     clear_original_suppressed: Any
     clear_speeds: npt.NDArray[np.float64]
     clear_suggestion: float
-    clear_there_can_be_unstable: npt.NDArray[Any]
+    clear_tested_frequency_ratio: npt.NDArray[np.float64]
+    clear_tested_growth_rate: npt.NDArray[np.float64]
+    clear_tested_speed: npt.NDArray[np.float64]
+    clear_tested_verdict: npt.NDArray[np.str_]
     clear_there_conjugate: npt.NDArray[Any]
     clear_there_harmonic: npt.NDArray[Any]
     clear_there_pair: npt.NDArray[np.str_]
+    clear_there_pair_can_be_unstable: npt.NDArray[Any]
     clear_there_peak_growth: npt.NDArray[np.float64]
     clear_there_reaches_in: npt.NDArray[Any]
     clear_there_speed: npt.NDArray[np.float64]
@@ -1030,12 +1076,12 @@ class ResonancesColumns:
     clear_verified_growth_rate_error: float
     clear_verified_growth_rate_value: float
     clear_verified_speed: float
-    dithered_can_be_unstable: npt.NDArray[Any]
     dithered_conjugate: npt.NDArray[Any]
     dithered_edges: npt.NDArray[np.float64]
     dithered_edges_hz: npt.NDArray[np.float64]
     dithered_harmonic: npt.NDArray[Any]
     dithered_pair: npt.NDArray[np.str_]
+    dithered_pair_can_be_unstable: npt.NDArray[Any]
     dithered_peak_growth: npt.NDArray[np.float64]
     dithered_speed: npt.NDArray[np.float64]
     dithered_speed_hz: npt.NDArray[np.float64]
@@ -1045,9 +1091,20 @@ class ResonancesColumns:
     dithered_width_hz: npt.NDArray[np.float64]
     frequency: npt.NDArray[np.float64]
     from_hz: float
+    growing_explained_by: npt.NDArray[np.str_]
+    growing_from: npt.NDArray[np.float64]
+    growing_from_hz: npt.NDArray[np.float64]
+    growing_order: npt.NDArray[np.str_]
+    growing_pair: npt.NDArray[np.str_]
+    growing_peak_growth: npt.NDArray[np.float64]
+    growing_peak_speed: npt.NDArray[np.float64]
+    growing_peak_speed_hz: npt.NDArray[np.float64]
+    growing_to: npt.NDArray[np.float64]
+    growing_to_hz: npt.NDArray[np.float64]
     harmonic: npt.NDArray[np.float64]
     lower_edge: npt.NDArray[np.float64]
     meeting: npt.NDArray[np.float64]
+    pair_can_be_unstable: npt.NDArray[np.float64]
     peak_growth: npt.NDArray[np.float64]
     response_contact: npt.NDArray[np.str_]
     response_dither: npt.NDArray[Any]
@@ -1056,10 +1113,10 @@ class ResonancesColumns:
     speeds_hz_value: npt.NDArray[np.float64]
     threshold: npt.NDArray[np.float64]
     to_hz: float
-    undithered_can_be_unstable: npt.NDArray[Any]
     undithered_conjugate: npt.NDArray[Any]
     undithered_harmonic: npt.NDArray[Any]
     undithered_pair: npt.NDArray[np.str_]
+    undithered_pair_can_be_unstable: npt.NDArray[Any]
     undithered_peak_growth: npt.NDArray[np.float64]
     undithered_speed: npt.NDArray[np.float64]
     undithered_speed_hz: npt.NDArray[np.float64]
@@ -1070,7 +1127,7 @@ class ResonancesColumns:
     upper_edge: npt.NDArray[np.float64]
 
 
-class ResponseColumns:
+class ResponseColumns(Frozen):
     """Of :class:`quell.results.Response`."""
 
     amplitude_m: float
@@ -1144,7 +1201,7 @@ class ResponseColumns:
     velocity_m_per_s: npt.NDArray[np.float64]
 
 
-class SimulationColumns:
+class SimulationColumns(Frozen):
     """Of :class:`quell.results.Simulation`."""
 
     contact_friction_power: npt.NDArray[np.float64]
@@ -1234,7 +1291,7 @@ class SimulationColumns:
     velocity_m_per_s: npt.NDArray[np.float64]
 
 
-class StabilityColumns:
+class StabilityColumns(Frozen):
     """Of :class:`quell.results.Stability`."""
 
     change_frequency: npt.NDArray[np.float64]
@@ -1278,36 +1335,36 @@ class StabilityColumns:
     frequency_hz: float
     growth_rate_db_per_s: float
     growth_rate_per_s: float
+    limit_criterion: float
+    limit_critical_amplitude_amplitude: npt.NDArray[np.float64]
+    limit_critical_amplitude_amplitude_n: npt.NDArray[np.float64]
+    limit_critical_amplitude_amplitude_ratio: npt.NDArray[np.float64]
+    limit_critical_amplitude_amplitude_ratio_error: npt.NDArray[np.float64]
+    limit_critical_amplitude_amplitude_ratio_error_m_per_s: npt.NDArray[np.float64]
+    limit_critical_amplitude_amplitude_ratio_m_per_s: npt.NDArray[np.float64]
+    limit_critical_amplitude_becomes: npt.NDArray[np.str_]
+    limit_critical_amplitude_contact_stays_closed: npt.NDArray[Any]
+    limit_critical_amplitude_kind: npt.NDArray[np.str_]
+    limit_effective_coefficient: float
+    limit_error: float
+    limit_everywhere_stable_amplitude: float
+    limit_everywhere_stable_amplitude_n: float
+    limit_everywhere_stable_amplitude_ratio: float
+    limit_everywhere_stable_amplitude_ratio_m_per_s: float
+    limit_growth_rate: float
+    limit_growth_rate_db_per_s: float
+    limit_growth_rate_per_s: float
+    limit_one_sided: Any
+    limit_unstable_belt_velocity_lower: npt.NDArray[np.float64]
+    limit_unstable_belt_velocity_lower_kind: npt.NDArray[np.str_]
+    limit_unstable_belt_velocity_lower_m_per_s: npt.NDArray[np.float64]
+    limit_unstable_belt_velocity_upper: npt.NDArray[np.float64]
+    limit_unstable_belt_velocity_upper_m_per_s: npt.NDArray[np.float64]
     motion_damping_ratio: npt.NDArray[np.float64]
     motion_error: npt.NDArray[np.float64]
     motion_frequency: npt.NDArray[np.float64]
     motion_frequency_hz: npt.NDArray[np.float64]
     motion_growth_rate: npt.NDArray[np.float64]
-    sharper_criterion: float
-    sharper_critical_amplitude_amplitude: npt.NDArray[np.float64]
-    sharper_critical_amplitude_amplitude_n: npt.NDArray[np.float64]
-    sharper_critical_amplitude_amplitude_ratio: npt.NDArray[np.float64]
-    sharper_critical_amplitude_amplitude_ratio_error: npt.NDArray[np.float64]
-    sharper_critical_amplitude_amplitude_ratio_error_m_per_s: npt.NDArray[np.float64]
-    sharper_critical_amplitude_amplitude_ratio_m_per_s: npt.NDArray[np.float64]
-    sharper_critical_amplitude_becomes: npt.NDArray[np.str_]
-    sharper_critical_amplitude_contact_stays_closed: npt.NDArray[Any]
-    sharper_critical_amplitude_kind: npt.NDArray[np.str_]
-    sharper_effective_coefficient: float
-    sharper_error: float
-    sharper_everywhere_stable_amplitude: float
-    sharper_everywhere_stable_amplitude_n: float
-    sharper_everywhere_stable_amplitude_ratio: float
-    sharper_everywhere_stable_amplitude_ratio_m_per_s: float
-    sharper_growth_rate: float
-    sharper_growth_rate_db_per_s: float
-    sharper_growth_rate_per_s: float
-    sharper_one_sided: Any
-    sharper_unstable_belt_velocity_lower: npt.NDArray[np.float64]
-    sharper_unstable_belt_velocity_lower_kind: npt.NDArray[np.str_]
-    sharper_unstable_belt_velocity_lower_m_per_s: npt.NDArray[np.float64]
-    sharper_unstable_belt_velocity_upper: npt.NDArray[np.float64]
-    sharper_unstable_belt_velocity_upper_m_per_s: npt.NDArray[np.float64]
     speed_at_load_km_per_h: float
     speed_at_load_m_per_s: float
     speed_hz: float
@@ -1323,11 +1380,11 @@ class StabilityColumns:
     unstable_belt_velocity_upper_m_per_s: npt.NDArray[np.float64]
 
 
-class ThresholdCurvesColumns:
+class ThresholdCurvesColumns(Frozen):
     """Of :class:`quell.results.ThresholdCurves`."""
 
     amplitude_ratio: npt.NDArray[np.float64]
-    averaged_sharper: npt.NDArray[Any]
+    averaged_limit: npt.NDArray[Any]
     between_value: npt.NDArray[np.float64]
     curve: npt.NDArray[np.float64]
     curve_contact: npt.NDArray[np.str_]
@@ -1343,7 +1400,7 @@ class ThresholdCurvesColumns:
     velocity: npt.NDArray[np.float64]
 
 
-class ThresholdsColumns:
+class ThresholdsColumns(Frozen):
     """Of :class:`quell.results.Thresholds`."""
 
     branch: npt.NDArray[np.float64]
@@ -1413,7 +1470,7 @@ class ThresholdsColumns:
     to_n: float
 
 
-class TrackedStabilityColumns:
+class TrackedStabilityColumns(Frozen):
     """Of :class:`quell.results.TrackedStability`."""
 
     between_value: npt.NDArray[np.float64]
@@ -1450,15 +1507,10 @@ class TrackedStabilityColumns:
     threshold_was: npt.NDArray[np.str_]
 
 
-class WaveformsColumns:
+class WaveformsColumns(Frozen):
     """Of :class:`quell.results.Waveforms`."""
 
     amplitude_n: npt.NDArray[np.float64]
-    best_amplitude: float
-    best_power: float
-    best_root_mean_square: float
-    best_stroke: float
-    best_velocity: float
     exact_amplitude_n: npt.NDArray[np.float64]
     number: npt.NDArray[np.float64]
     power_w: npt.NDArray[np.float64]
@@ -1473,6 +1525,14 @@ class WaveformsColumns:
     waveform_duty_cycle: npt.NDArray[np.float64]
     waveform_exact_amplitude: npt.NDArray[np.float64]
     waveform_exact_amplitude_n: npt.NDArray[np.float64]
+    waveform_exact_power: npt.NDArray[np.float64]
+    waveform_exact_power_w: npt.NDArray[np.float64]
+    waveform_exact_root_mean_square: npt.NDArray[np.float64]
+    waveform_exact_root_mean_square_n: npt.NDArray[np.float64]
+    waveform_exact_stroke: npt.NDArray[np.float64]
+    waveform_exact_stroke_m: npt.NDArray[np.float64]
+    waveform_exact_velocity: npt.NDArray[np.float64]
+    waveform_exact_velocity_m_per_s: npt.NDArray[np.float64]
     waveform_label: npt.NDArray[np.str_]
     waveform_off: npt.NDArray[np.float64]
     waveform_on: npt.NDArray[np.float64]
@@ -1491,7 +1551,7 @@ class WaveformsColumns:
     waveform_waveform: npt.NDArray[np.str_]
 
 
-class WindowColumns:
+class WindowColumns(Frozen):
     """Of :class:`quell.results.Window`."""
 
     amplitude_m: float

@@ -39,6 +39,14 @@ class _Estimates(Result):
     """Its columns."""
 
 
+class _OfRecord(_Estimates):
+    """What a fit to a record says."""
+
+    explained: float | None
+    """Share of the variance of the record that the model explains, 1 − RSS/Σ(y − ȳ)²; below 0.5 the model does not explain the record,
+    and standard errors are ``None``. ``None`` of a record that does not vary."""
+
+
 class _ComparedLaws(_Estimates):
     """What fits of several laws say; they have no study."""
 
@@ -47,11 +55,8 @@ class _ComparedLaws(_Estimates):
     comparison: list[dict[str, Any]]
     """Every law by ascending AIC."""
 
-    def __init__(self, study: Study | None, native: NativeAnswer | None) -> None:
-        super().__init__(study, native)  # type: ignore[arg-type]
 
-
-class Decay(_columns.DecayColumns, _ComparedLaws):
+class Decay(_columns.DecayColumns, _ComparedLaws, _OfRecord):
     """Natural frequency, damping and friction from a free decay; arrays over the samples (n,). It has no study."""
 
     verb = "fit_decay"
@@ -93,7 +98,7 @@ class LawFit(_columns.LawFitColumns, _ComparedLaws):
         return found
 
 
-class RecordFit(_columns.RecordFitColumns, _Estimates):
+class RecordFit(_columns.RecordFitColumns, _OfRecord):
     """Numbers of a study from a measured record; arrays over the samples (n,)."""
 
     verb = "fit_record"

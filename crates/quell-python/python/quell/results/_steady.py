@@ -83,6 +83,8 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
     """Bound on the error of μ̄′ (n,)."""
     effective_slope_one_sided: list[bool]
     """Whether μ̄′ is the slope on one side of a kink (n,)."""
+    limit: dict[str, list[float | None]] | None
+    """``effective_coefficient`` and ``effective_slope`` in the limit of high dither frequency (n,); ``None`` without dither."""
     measured_verdict: list[Verdict | None] | None
     """Measured: stability of the steady response on which friction is measured (n,)."""
     measured_base: list[bool | None] | None
@@ -109,15 +111,15 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
         return self.arrays["effective_slope"].values
 
     @property
-    def sharper_effective_coefficient(self) -> npt.NDArray[np.float64] | None:
-        """μ̄ (n,) by finite-R averaging, with the oscillator's own response to the dither; ``None`` without dither."""
-        found = self.arrays.get("sharper_effective_coefficient")
+    def limit_effective_coefficient(self) -> npt.NDArray[np.float64] | None:
+        """μ̄ (n,) in the limit of high dither frequency, R → ∞; ``None`` without dither."""
+        found = self.arrays.get("limit_effective_coefficient")
         return None if found is None else found.values
 
     @property
-    def sharper_effective_slope(self) -> npt.NDArray[np.float64] | None:
+    def limit_effective_slope(self) -> npt.NDArray[np.float64] | None:
         """Its slope (n,); ``None`` without dither."""
-        found = self.arrays.get("sharper_effective_slope")
+        found = self.arrays.get("limit_effective_slope")
         return None if found is None else found.values
 
     @property
@@ -152,8 +154,8 @@ class DescribingFunction(_columns.DescribingFunctionColumns, Result):
     """Its displacement amplitude."""
     limit_cycles: list[dict[str, Any]]
     """Every limit cycle: ``velocity_amplitude``, ``amplitude``, ``velocity_amplitude_error``, ``stable``."""
-    sharper: dict[str, Any] | None
-    """The same by finite-R averaging: ``small_gain``, ``limit_cycle_velocity``, ``limit_cycle_amplitude``, ``limit_cycles``."""
+    limit: dict[str, Any] | None
+    """The same in the limit of high dither frequency: ``small_gain``, ``limit_cycle_velocity``, ``limit_cycle_amplitude``, ``limit_cycles``."""
     gain_error: list[float | None]
     """Bound on the numerical error of N₁ (n,)."""
     belt_velocity: float
@@ -234,7 +236,7 @@ class Design(_columns.DesignColumns, Result):
     critical: dict[str, float] | None
     """The exact least dither by paths; ``None`` where no dither is allowed."""
     parameters: dict[str, float] | None
-    """The dither that was verified, 0.1 % above the least one; where no dither is allowed, that of ``covered``."""
+    """The dither that was verified, 0.1 % above the least one or at the end of its range; where no dither is allowed, that of ``covered``."""
     averaged: dict[str, float] | None
     """The least dither by averaging alone."""
     objective: float | None
@@ -245,6 +247,16 @@ class Design(_columns.DesignColumns, Result):
     """The operating point that decides."""
     margin: float | None
     """Share by which the verified amplitude exceeds the least one."""
+    quiet: bool | None
+    """Whether the verified dither is quiet: no slow vibration, and a residual vibration E below 0.05."""
+    residual_vibration: float | None
+    """The residual vibration E on the base response where it is largest; 0 of a dither that repeats above the band of the vibration."""
+    level_db: float | None
+    """20 lg E."""
+    tone_frequency: float | None
+    """Frequency of the strongest line of that response; ``None`` of a dither that repeats above the band of the vibration."""
+    tone_amplitude: float | None
+    """Its amplitude."""
     loud_from: float | None
     """The larger amplitude from which it vibrates again somewhere in the box; ``None`` where no amplitude of the range does."""
     verified: dict[str, Any] | None
@@ -271,6 +283,10 @@ class Design(_columns.DesignColumns, Result):
     ``objective``."""
     covered: dict[str, list[float]] | None
     """Where no dither is allowed: the largest part of the box that one dither serves."""
+    examined: dict[str, Any] | None
+    """What was examined of it: the number of ``points``, all of which the dither serves, the ``largest_gap`` between two of them, and
+    what is ``below`` and ``above`` it: ``"not examined"`` where the box ends, ``"loud"``, the name of a limit that is exceeded, or
+    ``None`` where that is unknown."""
     response_rms: float | None
     """Root mean square of the observed displacement about its mean, on the exact responses to the verified dither: the largest of the
     box."""
@@ -399,26 +415,15 @@ class Probability(_columns.ProbabilityColumns, Result):
     """Samples that do not."""
     unknown: int
     """Samples whose verdict is unknown; the interval includes both verdicts."""
-    probability_sharper: float | None
-    """By finite-R averaging, of a dithered belt."""
-    low_sharper: float | None
-    """Lower end of its 95 % interval."""
-    high_sharper: float | None
-    """Upper end of its 95 % interval."""
-    vibrating_sharper: int
-    """Samples that vibrate by finite-R averaging."""
-    quiet_sharper: int
-    """Samples that do not."""
-    unknown_sharper: int
-    """Samples whose verdict is unknown."""
+    limit: dict[str, Any]
+    """Of a dithered belt, in the limit of high dither frequency: ``quantiles``, ``indices`` and, judged by averaging, ``probability``,
+    ``low``, ``high``, ``vibrating``, ``quiet`` and ``unknown``."""
     quantiles: dict[str, dict[str, float]]
-    """Quantiles 0.05, 0.5 and 0.95 of the growth rate, ``growth`` and of a dithered belt ``growth_sharper``."""
+    """Quantiles 0.05, 0.5 and 0.95 of the growth rate, ``growth``."""
     thresholds: list[dict[str, Any]]
     """The least ``amplitude`` of the first dither that is enough for a ``share`` of the samples: 0.05, 0.5 and 0.95."""
     indices: dict[str, dict[str, float | None]]
     """Sobol indices of the growth rate by path: ``first`` and ``total`` with their standard errors."""
-    indices_sharper: dict[str, dict[str, float | None]]
-    """The same of finite-R averaging, of a dithered belt."""
     groups: list[dict[str, Any]]
     """Indices of each group of correlated numbers, ``of``."""
     invalid: int
@@ -495,9 +500,6 @@ class AtlasTables(_columns.AtlasTablesColumns, Result):
     missing: int | None
     """Number of values that could not be recomputed; ``None`` if nothing was recomputed."""
 
-    def __init__(self, study: Study | None, native: NativeAnswer | None) -> None:
-        super().__init__(study, native)  # type: ignore[arg-type]
-
 
 class Waveforms(_columns.WaveformsColumns, Result):
     """The least dither of each waveform that quenches, and its cost; arrays over the waveforms (n,)."""
@@ -506,10 +508,13 @@ class Waveforms(_columns.WaveformsColumns, Result):
     carrier: str | None
     """Belt: carrier of the bursts."""
     waveforms: list[dict[str, Any]]
-    """Each waveform: ``waveform``, ``label``, ``own``, ``duty_cycle``, ``amplitude_ratio``, ``amplitude``, ``root_mean_square``,
-    ``power``, ``stroke``, ``velocity``, ``until``, ``exact_amplitude``; of bursts ``on`` and ``off``."""
+    """Each waveform: ``waveform``, ``label``, ``own``, ``duty_cycle``; by averaging ``amplitude_ratio``, ``amplitude``,
+    ``root_mean_square``, ``power``, ``stroke``, ``velocity``, ``until``; at the exact amplitude the same with ``exact_``; of bursts ``on``
+    and ``off``."""
+    ranked_by: str
+    """What ranks the waveforms: "exact", or "averaging" where none has an exact amplitude."""
     best: dict[str, str | None]
-    """Label of the waveform that is smallest in amplitude, rms force, power, stroke and velocity."""
+    """Label of the waveform that is smallest in amplitude, rms force, power, stroke and velocity, of those that are ranked."""
 
     @property
     def duty_cycle(self) -> npt.NDArray[np.float64] | None:
@@ -575,10 +580,8 @@ class Stability(_columns.StabilityColumns, Result):
     """System: ``name``, ``friction``, ``normal``, ``slip_amplitude``, ``effective_coefficient``, … of each contact."""
     undithered: dict[str, Any] | None
     """System: ``verdict``, ``growth_rate`` and ``frequency`` without dither."""
-    sentence_by: str
-    """Belt: the averaging behind the sentence, "averaged" or "sharper"."""
     method: str
-    """Belt: the method of averaging in words."""
+    """Belt: the method behind the verdict: "finite-R averaging", or without dither "the slope of the friction law"."""
     error: float | None
     """Belt: bound on the error of the criterion."""
     effective_coefficient: float | None
@@ -591,8 +594,8 @@ class Stability(_columns.StabilityColumns, Result):
     """Belt: the same amplitude as a force over k."""
     unstable_belt_velocities: list[dict[str, Any]] | None
     """Belt: ``lower``, ``lower_kind`` and ``upper`` of each range of belt velocities in which sliding is unstable."""
-    sharper: dict[str, Any] | None
-    """Belt: the same facts by finite-R averaging, with the oscillator's own response."""
+    limit: dict[str, Any] | None
+    """Belt: the same facts in the limit of high dither frequency, R → ∞ (2.26); ``None`` without dither."""
     unstable_modes: list[int]
     """Disc: modes that grow."""
     critical_speeds: list[dict[str, Any]]
@@ -713,7 +716,14 @@ class Resonances(_columns.ResonancesColumns, Result):
     undithered: list[dict[str, Any]]
     """Disc: meetings without dither, with the keys of ``dithered``."""
     dithered: list[dict[str, Any]]
-    """Disc: ``speed``, ``waves``, ``can_be_unstable``, ``threshold``, ``edges``, ``peak_growth`` of each meeting."""
+    """Disc: ``speed``, ``waves``, ``pair_can_be_unstable`` (at the order of the theory), ``threshold``, ``edges``, ``peak_growth`` of
+    each meeting."""
+    growing: list[dict[str, Any]] | None
+    """Disc: the speeds in which a motion grows by the exact equations at the study's friction: ``from``, ``to``, ``peak_speed``,
+    ``peak_growth``, and ``explained_by``: "wave", "pair" (its ``pair`` and ``order``), or "none" where three waves or more grow
+    together; ``None`` and ``why`` where the exponents are not known."""
+    friction: float
+    """Disc: friction f* of the study."""
     speeds: list[float]
     """Disc: range of speeds in which meetings are listed, in ω_ref."""
     order: str
@@ -721,8 +731,9 @@ class Resonances(_columns.ResonancesColumns, Result):
     clear: dict[str, Any]
     """Disc: ``clear`` and ``blocked`` intervals of R for the ``speeds`` that should be kept clear, the best R (``suggestion``) with
     its ``verified_growth_rate``, the result of the exact equations for it (``verified``: ``verdict``, which is "stable" if nothing
-    grows, "unstable" or "undecided", ``growth_rate``, ``growth_rate_error`` and its ``speed``; or ``None``, and ``why``), and the
-    meetings in the range, ``there``, each with ``reaches_in``."""
+    grows, "unstable" or "undecided", ``growth_rate``, ``growth_rate_error`` and its ``speed``; or ``None``, and ``why``), the frequencies that were
+    tested by the exact equations (``tested``), and the meetings in the range, ``there``, each with ``reaches_in``. The intervals are
+    those of first order."""
     from_: float
     """System: least frequency."""
     to: float

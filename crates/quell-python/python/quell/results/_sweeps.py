@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from .. import _dataset
 from .._errors import StudyError, complaint
+from .._frozen import frozen
 from .._result import Result
 from . import _columns
 
@@ -95,7 +96,7 @@ class ThresholdCurves(_columns.ThresholdCurvesColumns, Result):
     system also ``state`` (n, m) and the ``contacts`` that graze or open. ``criticality`` (n,) and ``first_lyapunov_coefficient`` (n,)
     of each point, or ``None`` with its reason in ``criticality_reason`` (n,); of folds ``opens_towards`` (n,) likewise."""
     averaged: list[dict[str, Any]]
-    """With dither: boundaries of averaging: ``sharper``, ``along`` (n,), ``value`` (n,), and both as pairs, ``points``."""
+    """With dither: boundaries of averaging: whether in the ``limit`` R → ∞, ``along`` (n,), ``value`` (n,), and both as pairs, ``points``."""
     from_: float
     """First value of the parameter."""
     to: float
@@ -250,13 +251,15 @@ class Shard(Result):
     left_shards: list[int]
     """Shards that have the missing chunks."""
 
-    def __init__(self, study: Study, facts: dict[str, Any]) -> None:
-        super().__init__(study, None)
-        self._facts = facts
-        self._arrays = _dataset.arrays(self.verb, facts, [])
+    @classmethod
+    def _left(cls, study: Study, facts: dict[str, Any]) -> Shard:
+        """What one process computed, and what is left."""
+        made = cls._of(study, None)
+        made._keep(_facts=frozen(facts), _arrays=_dataset.arrays(cls.verb, facts, []))
+        return made
 
     def save(
-        self, path: str | os.PathLike[str], *, width: str | None = None, caption: bool = False
+        self, path: str | os.PathLike[str], *, width: str | None = None, caption: bool = False, title: bool = True
     ) -> list[str]:
         """Raises an error: the chunks are in the store, and only the whole map has a table."""
         raise StudyError([complaint("save", None, "a shard has no table: read the map with resume=True", "usage")])

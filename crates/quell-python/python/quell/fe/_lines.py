@@ -1,0 +1,110 @@
+"""Text files of other programs: their lines, and the numbers in them, with file and line in every complaint."""
+
+from __future__ import annotations
+
+import errno
+import math
+import os
+import re
+import stat
+from collections.abc import Iterator
+from pathlib import Path
+
+from .._errors import Complaint, StudyError, StudyFileNotFoundError, complaint
+
+__all__ = ["number_of", "of_line", "regular", "lines_of", "whole_of"]
+
+LONGEST = 100_000
+"""Longest line in characters: a file without line ends is no text of a finite-element program."""
+
+SHOWN = 60
+"""Characters of a line that a complaint shows."""
+
+NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[EeDd]?([+-]\d+)|[EeDd](\d+))?", re.ASCII)
+"""A real number of Fortran, such as 1.5, 2.D-3 or 1.5-3, which is 1.5e-3."""
+
+WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
+
+
+def number_of(text: str) -> float:
+    """A finite real number.
+
+    Raises
+    ------
+    ValueError
+        The text is not a number, or has no finite value.
+    """
+    found = NUMBER.fullmatch(text.strip())
+    if found is None:
+        raise ValueError(text)
+    digits, signed, unsigned = found.groups()
+    value = float(f"{digits}e{signed or unsigned or '0'}")
+    if not math.isfinite(value):
+        raise ValueError(text)
+    return value
+
+
+def whole_of(text: str) -> int:
+    """A whole number.
+
+    Raises
+    ------
+    ValueError
+        The text is not a whole number.
+    """
+    if WHOLE.fullmatch(text.strip()) is None:
+        raise ValueError(text)
+    return int(text)
+
+
+def regular(argument: str, path: str | os.PathLike[str]) -> Path:
+    """The path of an existing file with an end: devices and pipes may never have one.
+
+    Raises
+    ------
+    quell.StudyError
+        It is no path, or not that of a regular file that can be read.
+    quell.StudyFileNotFoundError
+        There is no such file.
+    """
+    try:
+        place = os.fspath(path)
+        kind = os.stat(place).st_mode
+    except TypeError:
+        raise StudyError([complaint(argument, path, "a path", "path")]) from None
+    except (OSError, ValueError) as why:
+        wrong = complaint(argument, str(path), f"{path}: {getattr(why, 'strerror', None) or why}", "path")
+        if isinstance(why, OSError) and why.errno == errno.ENOENT:
+            raise StudyFileNotFoundError([wrong], str(path)) from None
+        raise StudyError([wrong]) from None
+    if not stat.S_ISREG(kind):
+        raise StudyError([complaint(argument, str(path), f"{path}: expected a regular file", "path")])
+    return Path(os.fsdecode(place))
+
+
+def lines_of(argument: str, path: str | os.PathLike[str]) -> Iterator[tuple[int, str]]:
+    """The lines of a text file with their numbers, from 1.
+
+    Raises
+    ------
+    quell.StudyError
+        The file cannot be read, or is not text.
+    """
+    place = regular(argument, path)
+    try:
+        with place.open(encoding="utf-8", errors="replace") as file:
+            number = 0
+            while line := file.readline(LONGEST):
+                number += 1
+                if len(line) == LONGEST or "\0" in line:
+                    raise StudyError([of_line(argument, path, number, line, "a line of text")])
+                yield number, line.rstrip("\r\n")
+    except OSError as why:
+        raise StudyError([complaint(argument, str(path), f"{path}: {why.strerror}", "path")]) from None
+
+
+def of_line(argument: str, path: object, number: int, line: str, allowed: str) -> Complaint:
+    """The complaint about a line of a file."""
+    shown = line[:SHOWN]
+    found = complaint(argument, shown, allowed)
+    return {**found, "line": number, "message": f"{argument}: {path}, line {number}: {shown!r} must be {allowed}"}
