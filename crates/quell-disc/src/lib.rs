@@ -6,16 +6,18 @@
 //! * [`undithered`], [`boundaries`]: eigenvalues, Campbell diagram, exact boundaries f(Ω) at ξ = 0;
 //! * [`dithered`], [`partition`]: Floquet exponents with error bounds, boundary curves by D-partition;
 //! * [`marginal`]: marginal values of any parameter under any waveform, by exact exponents along a line;
+//! * [`growing`]: the speeds at which a motion grows, exactly;
 //! * [`instability`]: which part of the loads causes an unstable motion;
 //! * [`static_load`]: deflection under a static load, critical speeds;
 //! * [`tangential`]: the follower force under tangential dither at a finite speed ratio, and the force of the dither;
-//! * [`resonance`]: where waves meet, which meetings can be unstable, tongues, clear dither frequencies.
+//! * [`resonance`]: where waves meet, which pairs of them can be unstable at first and second order, tongues, clear dither frequencies.
 //!
 //! The disc itself, its modes, loads and dither, is a noun of `quell-model`.
 
 pub mod boundaries;
 pub mod dithered;
 pub mod equations;
+pub mod growing;
 pub mod instability;
 pub mod marginal;
 pub mod partition;

@@ -180,7 +180,7 @@ pub fn tongue_grid(disc: &Disc, speeds: &RangeInclusive<f64>, steps: u32) -> Vec
             let waves = waves.clone().with_order(order);
             let near = from - 0.1..=to + 0.1;
             let meetings = waves.undithered(near.clone()).into_iter().chain(waves.dithered(near));
-            for resonance in meetings.filter(Resonance::can_be_unstable) {
+            for resonance in meetings.filter(Resonance::pair_can_be_unstable) {
                 grid.extend(
                     BESIDE.iter().flat_map(|by| [resonance.speed - by, resonance.speed + by]),
                 );

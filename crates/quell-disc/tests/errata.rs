@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 
 use quell_disc::dithered;
 use quell_disc::equations::linearised;
+use quell_disc::growing::growing_speeds;
 use quell_disc::plate::{ModeSet, Plate, RadialShape, Reference};
 use quell_disc::resonance::Waves;
 use quell_disc::undithered;
@@ -303,15 +304,16 @@ fn standstill_is_a_meeting() {
     assert!(growth(&slow(0.3, 0.1)) < 0.0);
 }
 
-/// Table 5.2 lists meetings of waves. Waves that travel head-on share their damping, and l = 0 does not couple: five of the
-/// eight are harmless.
+/// Table 5.2 lists meetings of waves. At first order waves that travel head-on share their damping, and l = 0 does not couple: five of
+/// the eight have no tongue. With f/c = 4 that is so exactly; with f/c = 17, in figure 5.9, the fourth grows too, and it takes all three
+/// modes: no pair of them grows there.
 #[test]
-fn only_three_of_eight_can_be_unstable() {
+fn at_first_order_three_of_eight_grow_and_exactly_the_fourth_too() {
     let strength = 0.05;
     let waves = Waves::new(&disc(strength, 4.0, 0.0, TANGENTIAL, 0.3)).expect("waves");
     let found = waves.dithered(0.0..=1.0);
     let can: Vec<bool> =
-        found.iter().map(quell_disc::resonance::Resonance::can_be_unstable).collect();
+        found.iter().map(quell_disc::resonance::Resonance::pair_can_be_unstable).collect();
     assert_eq!(can, [true, true, true, false, false, false, false, false]);
     for (resonance, can) in found.iter().zip(can) {
         let rates = (-60..=60).map(|k| {
@@ -321,6 +323,22 @@ fn only_three_of_eight_can_be_unstable() {
         let largest = rates.fold(f64::MIN, f64::max);
         assert_eq!(largest > 0.0, can, "Ω = {}: {largest}", resonance.speed);
     }
+    // Figure 5.9: printed m = c = k = 0.1 and f = 1.7·10⁻⁴, in the units of the plate's mass.
+    let printed = 0.1 / (0.75 * PI);
+    let of = |modes: Vec<Mode>| {
+        zoo::disc(modes, vec![equal_load(printed, 17.0 * printed)], TANGENTIAL, 0.553)
+    };
+    let all = of(modes(0.0));
+    close(growth(&all), 3.676e-4, 1e-3);
+    for left_out in 0..3 {
+        let mut pair = modes(0.0);
+        pair.remove(left_out);
+        assert!(growth(&of(pair)) < 0.0, "without mode {left_out}");
+    }
+    let growing = growing_speeds(&all, &(0.5..=0.6), 60).expect("finite");
+    let fourth = growing.iter().find(|speeds| (speeds.from..speeds.to).contains(&0.553));
+    let fourth = fourth.expect("the fourth");
+    assert!(fourth.from > 0.54 && fourth.to < 0.57 && fourth.peak_growth > 3.6e-4, "{fourth:?}");
 }
 
 /// "Neither dither suppresses the undithered instabilities": tangential dither removes the mean friction that drives them.

@@ -3,7 +3,7 @@
 use super::arrange::arrange;
 use super::axis::Mapping;
 use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
-use super::envelope::{self, BAND_OPACITY, CurveTrace};
+use super::envelope::{self, CurveTrace, band_opacity};
 use super::figure::{CaptionPlacement, Figure, Panel};
 use super::font_sizes::FontSizes;
 use super::layer::{Layer, Polyline, ReferenceLine, Region, RegionShape};
@@ -137,7 +137,8 @@ fn draw_curve(canvas: &mut Canvas, line: &Polyline, pieces: &[Vec<(f64, f64)>]) 
             CurveTrace::Band { upper, lower } => {
                 let outline: Vec<(f64, f64)> =
                     upper.iter().chain(lower.iter().rev()).copied().collect();
-                canvas.fill(&path(&[outline], true), stroke.colour, BAND_OPACITY);
+                let opacity = band_opacity(stroke.colour);
+                canvas.fill(&path(&[outline], true), stroke.colour, opacity);
                 let edges = path(&[thin::polyline(&upper), thin::polyline(&lower)], false);
                 canvas.stroke(&edges, &Stroke::solid(stroke.colour, EDGE.min(stroke.width)));
             }

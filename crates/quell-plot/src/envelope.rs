@@ -4,6 +4,8 @@
 //! oscillation with the pixels (moiré). Where a curve swings more often than that, the band between its upper and its lower
 //! extremes is what the eye can take from it.
 
+use super::palette::{Colour, PlotRole};
+
 /// Largest distance along x between an extreme and the next for which the strokes merge (pixels).
 const MERGING: f64 = 2.2;
 /// Least height of a swing that makes a band; a smaller one is hidden by the width of the stroke (pixels).
@@ -11,8 +13,10 @@ const LEAST_SWING: f64 = 3.0;
 /// Least number of successive swings that make a band.
 const LEAST_COUNT: usize = 8;
 
-/// Opacity of a band.
-pub(super) const BAND_OPACITY: f64 = 0.45;
+/// Opacity of a band of this colour: that of the response without dither is much paler, so that two bands differ in grey.
+pub(super) fn band_opacity(colour: Colour) -> f64 {
+    if colour == PlotRole::Undithered.colour() { 0.25 } else { 0.55 }
+}
 
 /// A part of a curve as it is drawn (pixels).
 #[derive(Debug, Clone, PartialEq)]
@@ -128,6 +132,18 @@ fn band(points: &[(f64, f64)], extremes: &[usize]) -> CurveTrace {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// In grey, a band of the response with dither is darker than one without by more than a fifth of the range.
+    #[test]
+    fn bands_with_and_without_dither_differ_in_grey() {
+        let grey = |role: PlotRole| {
+            let (red, green, blue) = role.colour();
+            let light = 0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue);
+            255.0 - band_opacity(role.colour()) * (255.0 - light)
+        };
+        let [with, without] = [PlotRole::Dithered, PlotRole::Undithered].map(grey);
+        assert!(without - with > 55.0, "{with} {without}");
+    }
 
     fn wave(length: f64, height: f64) -> Vec<(f64, f64)> {
         (0..4000)

@@ -4,7 +4,7 @@ use super::axis::Mapping;
 use super::axis_limits::AxisLimits;
 use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
 use super::colouring::{Colouring, Shading, Tint};
-use super::envelope::{self, BAND_OPACITY, CurveTrace};
+use super::envelope::{self, CurveTrace, band_opacity};
 use super::figure::{LegendPosition, Panel};
 use super::font_sizes::FontSizes;
 use super::layer::{Fill, Layer, Marker, Polyline};
@@ -301,7 +301,7 @@ fn draw_entry(canvas: &mut Canvas, entry: &SetEntry, (left, top): (f64, f64), si
             }
             LegendKey::Band(colour) => {
                 let outline = marks::outline(patch);
-                canvas.fill(&outline, *colour, BAND_OPACITY);
+                canvas.fill(&outline, *colour, band_opacity(*colour));
                 canvas.rectangle(patch, None, Some((*colour, 0.6)));
             }
             LegendKey::Point(role, marker, diameter) => {

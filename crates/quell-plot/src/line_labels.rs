@@ -2,8 +2,8 @@
 //!
 //! An occupancy map records the pixels of the frame that are drawn on. Along each line, candidate positions are tried in
 //! order of increasing cost (bend, slope, distance from the middle); the label is placed at the first one that covers
-//! nothing else, and the line is interrupted there. A level for which no such position exists has one label over other strokes:
-//! a level without its number would be of no use.
+//! nothing else, and the line is interrupted there. A level for which no such position exists has one label over other strokes,
+//! or next to its line where the line is too close to the frame: a level without its number would be of no use.
 
 use super::canvas::Rectangle;
 use super::typeset::RichText;
@@ -31,6 +31,8 @@ pub(super) struct PlacedLabel {
 
 /// Space before and after a label (pixels).
 const MARGIN: f64 = 3.0;
+/// Space between a line and a label next to it (pixels).
+const BESIDE: f64 = 1.5;
 /// Distance between candidates along a line (pixels).
 const STEP: f64 = 3.0;
 /// Maximum number of labels of one level.
@@ -60,6 +62,8 @@ enum Cover {
     OwnLine,
     /// Any stroke, but no text.
     Strokes,
+    /// The same next to the line, for a line along the edge of the frame.
+    Beside,
 }
 
 impl OccupancyMap {
@@ -140,7 +144,7 @@ impl OccupancyMap {
     fn is_free(&self, candidate: &Candidate, half: (f64, f64), owner: u32, cover: Cover) -> bool {
         let allowed = |found: u32| match cover {
             Cover::OwnLine => found == FREE || found == owner,
-            Cover::Strokes => found != TAKEN,
+            Cover::Strokes | Cover::Beside => found != TAKEN,
         };
         let mut free = true;
         candidate.each_pixel(half, |point| {
@@ -164,6 +168,16 @@ struct Candidate {
 }
 
 impl Candidate {
+    /// The candidates next to the line on both of its sides, for a text of this half height.
+    fn beside(self, half: f64) -> [Self; 2] {
+        let (dx, dy) = self.direction;
+        [1.0, -1.0].map(|side| {
+            let off = side * (half + BESIDE);
+            let centre = (self.centre.0 + off * dy, self.centre.1 - off * dx);
+            Self { centre, ..self }
+        })
+    }
+
     fn each_pixel(&self, half: (f64, f64), mut visit: impl FnMut((f64, f64))) {
         #[expect(clippy::cast_possible_truncation, reason = "half the size of a text")]
         let (across, up) = (half.0.ceil() as i32, half.1.ceil() as i32);
@@ -260,7 +274,7 @@ pub(super) fn place(
         owners.push(mine);
     }
     let mut placed: Vec<PlacedLabel> = Vec::new();
-    for cover in [Cover::OwnLine, Cover::Strokes] {
+    for cover in [Cover::OwnLine, Cover::Strokes, Cover::Beside] {
         for (number, level) in levels.iter().enumerate() {
             let unlabelled = placed.iter().all(|label| label.level != number);
             if !level.text.is_empty() && unlabelled {
@@ -282,7 +296,7 @@ fn label(
     let half = (0.5 * level.text.width(size, false) + MARGIN, 0.58 * size);
     let (most, least_length) = match cover {
         Cover::OwnLine => (MOST, 4.0 * half.0 + 8.0),
-        Cover::Strokes => (1, 2.0 * half.0 + 6.0),
+        Cover::Strokes | Cover::Beside => (1, 2.0 * half.0 + 6.0),
     };
     let mut paths: Vec<(usize, MeasuredPath<'_>)> = level
         .pieces
@@ -302,13 +316,15 @@ fn label(
             let search = LabelSearch { half, owner: owners[*piece], size, cover };
             if let Some(candidate) = search.best(path, (from, to), occupied) {
                 occupied.take(&candidate, (half.0 + 2.0, half.1 + 1.0));
+                // A line is interrupted under its label alone.
+                let opened = if cover == Cover::Beside { 0.0 } else { half.0 };
                 placed.push(PlacedLabel {
                     level: number,
                     centre: candidate.centre,
                     rotation: candidate.direction.1.atan2(candidate.direction.0).to_degrees(),
                     piece: *piece,
-                    from: candidate.at - half.0,
-                    to: candidate.at + half.0,
+                    from: candidate.at - opened,
+                    to: candidate.at + opened,
                 });
             }
         }
@@ -354,9 +370,12 @@ impl LabelSearch {
                 reason = "lines in a frame are some thousand pixels chord"
             )]
             let count = ((last - first) / STEP).clamp(0.0, 1e4) as usize;
-            let mut candidates: Vec<Candidate> = (0..=count)
-                .filter_map(|step| path.candidate(first + STEP * step as f64, half.0, most_bend))
-                .collect();
+            let on_line = (0..=count)
+                .filter_map(|step| path.candidate(first + STEP * step as f64, half.0, most_bend));
+            let mut candidates: Vec<Candidate> = match self.cover {
+                Cover::OwnLine | Cover::Strokes => on_line.collect(),
+                Cover::Beside => on_line.flat_map(|candidate| candidate.beside(half.1)).collect(),
+            };
             candidates.sort_by(|one, other| one.cost.total_cmp(&other.cost));
             let free =
                 |candidate: &&Candidate| occupied.is_free(candidate, half, self.owner, self.cover);
@@ -410,6 +429,22 @@ mod tests {
 
     fn level(text: &str, pieces: Vec<Vec<(f64, f64)>>) -> LevelLines {
         LevelLines { text: RichText::parse(text), pieces }
+    }
+
+    /// A line along the edge of the frame has no room for its label: it is next to the line.
+    #[test]
+    fn a_line_along_the_frame_is_labelled_beside_itself() {
+        let line: Vec<(f64, f64)> = (0..=40).map(|k| (10.0 * f64::from(k), 298.0)).collect();
+        let levels = [level("95 %", vec![line.clone()])];
+        let placed = place(&levels, &mut OccupancyMap::new(FRAME), 11.0);
+        assert_eq!(placed.len(), 1);
+        assert!(placed[0].centre.1 < 298.0 - 6.0, "{placed:?}");
+        let drawn: f64 = opened(0, &[line], &placed)
+            .iter()
+            .flat_map(|part| part.windows(2))
+            .map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1))
+            .sum();
+        assert!((drawn - 400.0).abs() < 1e-9, "the line is whole: {drawn}");
     }
 
     fn circle(radius: f64) -> Vec<(f64, f64)> {

@@ -67,6 +67,11 @@ impl Obstacles {
         self.strokes.push(line);
     }
 
+    /// Whether this rectangle would cover a text.
+    pub(super) fn covers_text(&self, area: Rectangle) -> bool {
+        self.texts.iter().any(|text| overlap(text, &area))
+    }
+
     /// Weighted number of strokes and texts that this rectangle would cover.
     pub(super) fn covered_by(&self, area: Rectangle) -> usize {
         let texts = self.texts.iter().filter(|text| overlap(text, &area)).count();

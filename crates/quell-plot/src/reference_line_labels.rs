@@ -8,8 +8,11 @@ use super::obstacles::Obstacles;
 use super::projection::reference_line_ends;
 use super::typeset::{LINE_HEIGHT, RichText, wrap};
 
+/// Cost of a label outside the frame, above that of covering anything.
+const OUTSIDE: usize = 1000;
+
 /// The rectangle of the label and its lines, which are no wider than the room next to the line; `None` if the line lies
-/// outside the frame.
+/// outside the frame, or if every place next to it would cover another text.
 pub(super) fn place(
     rule: &ReferenceLine,
     (x, y): (&Mapping, &Mapping),
@@ -47,19 +50,30 @@ pub(super) fn place(
             vec![at.1 - 0.6 * GAP - height, at.1 + 0.6 * GAP],
         ),
     };
-    let mut best: Option<(usize, Rectangle)> = None;
-    for &top in &tops {
-        for &left in &lefts {
-            let area = Rectangle { left, top, right: left + width, bottom: top + height };
-            let outside = left < frame.left
+    let best = |tops: &[f64]| {
+        let areas = tops.iter().flat_map(|&top| {
+            lefts.iter().map(move |&left| Rectangle {
+                left,
+                top,
+                right: left + width,
+                bottom: top + height,
+            })
+        });
+        let cost = |area: &Rectangle| {
+            let outside = area.left < frame.left
                 || area.right > frame.right
-                || top < frame.top
+                || area.top < frame.top
                 || area.bottom > frame.bottom;
-            let cost = obstacles.covered_by(area.grown(1.0)) + if outside { 1000 } else { 0 };
-            if best.is_none_or(|(least, _)| cost < least) {
-                best = Some((cost, area));
-            }
-        }
+            obstacles.covered_by(area.grown(1.0)) + if outside { OUTSIDE } else { 0 }
+        };
+        areas.map(|area| (cost(&area), area)).min_by_key(|(cost, _)| *cost)
+    };
+    let mut found = best(&tops)?;
+    if obstacles.covers_text(found.1) && rule.orientation == Orientation::Vertical {
+        // Many lines: every row of the frame.
+        let rows = (0..).map(|row: u32| f64::from(row).mul_add(height + GAP, frame.top + GAP));
+        let rows: Vec<f64> = rows.take_while(|top| top + height < frame.bottom).collect();
+        found = best(&rows).unwrap_or(found);
     }
-    best.map(|(_, area)| (area, lines))
+    (!obstacles.covers_text(found.1)).then_some((found.1, lines))
 }

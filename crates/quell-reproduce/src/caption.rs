@@ -10,6 +10,12 @@ pub(super) fn short(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// A small number in words.
+pub(super) fn count_of(count: usize) -> String {
+    let words = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine"];
+    words.get(count).map_or_else(|| count.to_string(), |word| (*word).to_owned())
+}
+
 /// (a), (b), … of a panel.
 pub(super) fn letter(index: usize) -> char {
     char::from(b'a' + u8::try_from(index % 26).unwrap_or(0))
@@ -39,11 +45,20 @@ pub(super) fn parameters(study: &BeltStudy) -> String {
     let belt = study.belt();
     let law = belt.friction();
     let values = law.values();
-    let [static_level, minimum] =
-        [values.first().copied(), values.get(1).copied()].map(|v| v.unwrap_or(0.0));
-    format!(
-        "$F$ = {}, $v_m$ = {}, $μ_s$ = {static_level}, $μ_m$ = {minimum}",
-        belt.normal_load(),
-        law.velocity_scale()
-    )
+    match (law.kind(), values.as_slice()) {
+        (LawKind::Stribeck | LawKind::Decreasing, [static_level, minimum, ..]) => format!(
+            "$F$ = {}, $v_m$ = {}, $μ_s$ = {static_level}, $μ_m$ = {minimum}",
+            belt.normal_load(),
+            law.velocity_scale()
+        ),
+        // A law of one's own.
+        (kind, values) => {
+            let numbers = kind.parameters().iter().zip(values);
+            let numbers =
+                numbers.map(|(parameter, value)| format!("${}$ = {value}", parameter.symbol));
+            let numbers: Vec<String> =
+                std::iter::once(format!("$F$ = {}", belt.normal_load())).chain(numbers).collect();
+            numbers.join(", ")
+        }
+    }
 }

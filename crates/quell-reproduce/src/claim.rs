@@ -22,6 +22,9 @@ pub enum ClaimVerdict {
         /// |printed − correct|/|correct|.
         deviation: f64,
     },
+    /// A finding of Quell that the dissertation does not state: it explains or extends a statement, and counts neither for nor
+    /// against it.
+    Finding,
 }
 
 impl ClaimVerdict {
@@ -32,18 +35,19 @@ impl ClaimVerdict {
             Self::Within { .. } => "reproduced within",
             Self::NotReproduced { .. } => "not reproduced",
             Self::FormulaWrong { .. } => "printed formula wrong",
+            Self::Finding => "finding",
         }
     }
 
     /// Whether the claim holds.
     pub fn holds(self) -> bool {
-        matches!(self, Self::Reproduced | Self::Within { .. })
+        matches!(self, Self::Reproduced | Self::Within { .. } | Self::Finding)
     }
 
     /// The relative deviation on which the verdict is based.
     pub fn deviation(self) -> Option<f64> {
         match self {
-            Self::Reproduced => None,
+            Self::Reproduced | Self::Finding => None,
             Self::Within { deviation } | Self::FormulaWrong { deviation } => Some(deviation),
             Self::NotReproduced { deviation } => deviation,
         }
@@ -84,8 +88,10 @@ pub enum Expected {
     Within,
     /// Not reproduced, with the reason.
     NotReproduced(&'static str),
-    /// The printed formula is wrong.
-    FormulaWrong,
+    /// The printed formula is wrong, by this slip, which several formulas may share.
+    FormulaWrong(&'static str),
+    /// A finding that the dissertation does not state.
+    Finding,
 }
 
 impl Expected {
@@ -95,7 +101,8 @@ impl Expected {
             Self::Reproduced => "reproduced",
             Self::Within => "reproduced within",
             Self::NotReproduced(_) => "not reproduced",
-            Self::FormulaWrong => "printed formula wrong",
+            Self::FormulaWrong(_) => "printed formula wrong",
+            Self::Finding => "finding",
         }
     }
 
@@ -103,7 +110,7 @@ impl Expected {
     pub fn why(self) -> &'static str {
         match self {
             Self::NotReproduced(why) => why,
-            Self::Reproduced | Self::Within | Self::FormulaWrong => "",
+            Self::Reproduced | Self::Within | Self::FormulaWrong(_) | Self::Finding => "",
         }
     }
 }
@@ -137,6 +144,11 @@ impl Claim {
     /// Whether the verdict is the one on record.
     pub fn as_expected(&self) -> bool {
         self.expected.is_some_and(|expected| expected.name() == self.verdict.name())
+    }
+
+    /// Whether it measures a statement of the dissertation; otherwise it is a finding.
+    pub fn is_of_a_statement(&self) -> bool {
+        self.verdict != ClaimVerdict::Finding
     }
 
     /// Why the claim does not hold, if it does not and the reason is on record; empty otherwise.

@@ -8,7 +8,7 @@ use quell_linear::averaging::{FastMotion, FastWave, effective};
 use quell_model::{LawKind, Waveform};
 
 use super::axis::values;
-use super::caption::{letter, parameters, short, waveform_name};
+use super::caption::{count_of, letter, parameters, short, waveform_name};
 use super::failure::failed;
 use super::printed_formulas::{self, LawNumbers};
 use super::product::{DataTable, Product};
@@ -30,14 +30,17 @@ const POINTS: u32 = 360;
 pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
-    let panel = panel(source, &study, &Waveform::Sine, &mut table)?
+    let waveform = study.belt().dithers()[0].waveform.clone();
+    let panel = panel(source, &study, &waveform, &mut table)?
         .legend(Legend::Inside(LegendPosition::BottomRight));
-    let caption = format!(
-        "Figure {}. Effective {} friction under sinusoidal tangential dither of five amplitudes. {}.",
-        source.name,
+    let shows = format!(
+        "Effective {} friction under {} tangential dither of {} amplitudes. {}.",
         super::caption::law_name(study.belt().friction().kind()),
+        waveform_name(study.belt().dithers()[0].waveform.clone()),
+        count_of(values(&study, "dither.amplitude").len()),
         parameters(&study),
     );
+    let caption = source.caption(&shows, "");
     Ok(Product::new(Figure::single(panel), caption, &study).by(&[Task::Friction]).table(table))
 }
 
@@ -54,18 +57,20 @@ pub(super) fn three(source: &EntrySource) -> Result<Product, Failure> {
     let law = study.belt().friction().kind();
     let note = match law {
         LawKind::Decreasing => {
-            " Dotted in (b): (3.38a) as printed, which has the factor exp(−γ − |$v_r$|/$v_m$) instead of exp(γ − \
+            "Dotted in (b): (3.38a) as printed, which has the factor exp(−γ − |$v_r$|/$v_m$) instead of exp(γ − \
              |$v_r$|/$v_m$) before the error functions and is not continuous with (3.38b) at |$v_r$| = π$α$/4."
         }
         _ => "",
     };
-    let caption = format!(
-        "Figure {}. Effective {} friction under tangential dither of three waveforms and five amplitudes. {}.{note}",
-        source.name,
+    let shows = format!(
+        "Effective {} friction under tangential dither of {} waveforms and {} amplitudes. {}.",
         super::caption::law_name(law),
+        count_of(studies.len()),
+        count_of(values(&study, "dither.amplitude").len()),
         parameters(&study),
     );
-    let figure = Figure::grid(3, panels)
+    let caption = source.caption(&shows, note);
+    let figure = Figure::grid(panels.len().clamp(1, 3), panels)
         .sharing_x(Sharing::All)
         .sharing_y(Sharing::All)
         .legend(SharedLegend::Below)
@@ -101,9 +106,7 @@ fn panel(
     let static_level = law.static_coefficient();
     let mut panel = Panel::new(
         PlotAxis::new("slip velocity").symbol("v_r/v_m").between(FROM, TO),
-        PlotAxis::new("effective friction")
-            .symbol("\\bar{μ}")
-            .between(-0.45, if law.kind() == LawKind::Stribeck { 0.75 } else { 0.45 }),
+        friction_axis(source, law.kind()),
     )
     .with(ReferenceLine::horizontal(0.0));
     let mut printed = Vec::new();
@@ -112,7 +115,8 @@ fn panel(
         let corner = alpha * waveform.peak_integral() / vm;
         let motion = FastMotion::single(FastWave::Integral(waveform.clone()), alpha);
         let as_printed = |w: f64| {
-            let inside = law.kind() == LawKind::Decreasing
+            let inside = !source.is_own()
+                && law.kind() == LawKind::Decreasing
                 && *waveform == Waveform::Triangle
                 && w.abs() < corner;
             inside.then(|| {
@@ -160,6 +164,15 @@ fn panel(
         panel = panel.with(line.label("as printed (3.38a)"));
     }
     Ok(panel)
+}
+
+/// The axis of the dissertation's figures; one that suits other numbers.
+fn friction_axis(source: &EntrySource, law: LawKind) -> PlotAxis {
+    let axis = PlotAxis::new("effective friction").symbol("\\bar{μ}");
+    if source.is_own() {
+        return axis;
+    }
+    axis.between(-0.45, if law == LawKind::Stribeck { 0.75 } else { 0.45 })
 }
 
 /// Equal steps, with points clustered on the inner side of the corners ±`corner`, where the slope is infinite.

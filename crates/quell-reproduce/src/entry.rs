@@ -6,6 +6,8 @@ use super::product::Product;
 use super::shared::SharedMeasurements;
 use super::source::EntrySource;
 use quell::complaint::Failure;
+use quell::picture::PicturePage;
+use quell::study::Change;
 
 /// One figure or table of the dissertation.
 #[derive(Clone, Copy)]
@@ -16,6 +18,8 @@ pub struct CatalogueEntry {
     pub about: &'static str,
     /// Text of its study file; empty for the table of claims, which has none.
     pub(super) study: &'static str,
+    /// Paths of which it has several values besides those of its axes.
+    pub(super) families: &'static [&'static str],
     pub(super) make: fn(&EntrySource) -> Result<Product, Failure>,
 }
 
@@ -27,6 +31,18 @@ pub enum Resolution {
     Full,
     /// At most a few points along each axis of a map. Claims are still measured in full.
     Quick,
+}
+
+/// Options of a reproduction.
+#[derive(Clone, Debug, Default)]
+pub struct ReproductionOptions {
+    /// Resolution of the grids [default: full].
+    pub resolution: Resolution,
+    /// Width and parts of the pictures.
+    pub page: PicturePage,
+    /// Changes for numbers of one's own, as after `--set`; a list of values replaces a family of the figure [default: the numbers of
+    /// the dissertation].
+    pub changes: Vec<Change>,
 }
 
 /// Largest number of points along an axis of a map at quick resolution.
@@ -49,17 +65,23 @@ impl CatalogueEntry {
         (self.make)(&EntrySource { most_points: Some(most_points), ..self.source() })
     }
 
-    /// The product at this resolution, using the shared measurements of the run.
+    /// The product with these options, using the shared measurements of the run.
     pub(super) fn at(
         &self,
-        resolution: Resolution,
+        options: &ReproductionOptions,
         shared: &SharedMeasurements,
     ) -> Result<Product, Failure> {
-        let most_points = match resolution {
+        let most_points = match options.resolution {
             Resolution::Full => None,
             Resolution::Quick => Some(QUICK_POINTS),
         };
-        (self.make)(&EntrySource { most_points, shared: shared.clone(), ..self.source() })
+        let source = self.source().with(&options.changes)?;
+        (self.make)(&EntrySource { most_points, shared: shared.clone(), ..source })
+    }
+
+    /// Whether it has numbers that can be changed: the claims are of the dissertation's, and figure 5.6 sketches three rates.
+    pub(super) fn has_numbers(&self) -> bool {
+        !self.study.is_empty() && self.name != "5.6"
     }
 
     /// Its name and study file.
@@ -69,7 +91,10 @@ impl CatalogueEntry {
             about: self.about,
             text: self.study,
             most_points: None,
+            families: self.families,
             shared: SharedMeasurements::default(),
+            own: Vec::new(),
+            own_families: Vec::new(),
         }
     }
 

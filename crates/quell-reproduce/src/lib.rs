@@ -27,8 +27,7 @@ use std::time::Instant;
 use serde_json::{Value as Json, json};
 
 use quell::complaint::{Complaint, Complaints, Failure};
-use quell::picture::PicturePage;
-use quell::study::suggest;
+use quell::study::{Change, suggest};
 
 mod amplitude_columns;
 mod axis;
@@ -58,7 +57,7 @@ mod written;
 use figures::FIGURES;
 use shared::SharedMeasurements;
 
-pub use entry::{CatalogueEntry, Resolution};
+pub use entry::{CatalogueEntry, ReproductionOptions, Resolution};
 pub use product::{Cell, DataColumn, DataTable, Product};
 pub use source::EntrySource;
 pub use written::WrittenEntry;
@@ -68,6 +67,7 @@ const CLAIMS: CatalogueEntry = CatalogueEntry {
     name: "claims",
     about: "numerical claims and formulas: printed, measured, verdict",
     study: "",
+    families: &[],
     make: claims::product,
 };
 
@@ -167,14 +167,16 @@ impl Reproduction {
     }
 
     /// As JSON, for files written to `directory`.
-    pub fn json(&self, directory: &Path, resolution: Resolution) -> Json {
+    pub fn json(&self, directory: &Path, options: &ReproductionOptions) -> Json {
         let entries: Vec<Json> = self.written.iter().map(WrittenEntry::json).collect();
+        let changes: Vec<String> = options.changes.iter().map(Change::to_string).collect();
         json!({
             "ok": true,
             "directory": directory.display().to_string(),
             "report": self.report.display().to_string(),
             "table": self.table.display().to_string(),
-            "quick": resolution == Resolution::Quick,
+            "quick": options.resolution == Resolution::Quick,
+            "changes": changes,
             "entries": entries,
             "summary": self.summary(),
             "warnings": self.warnings(),
@@ -186,14 +188,15 @@ impl Reproduction {
 /// `progress` is called at the beginning and end of each entry.
 ///
 /// # Errors
-/// A complaint where the directory cannot be written, otherwise the first failure. Files already written are kept.
+/// A complaint where the directory cannot be written, and about changes that do not suit an entry; otherwise the first failure. Files
+/// already written are kept.
 pub fn run(
     entries: &[CatalogueEntry],
     directory: &Path,
-    resolution: Resolution,
-    page: PicturePage,
+    options: &ReproductionOptions,
     progress: impl Fn(EntryProgress) + Sync,
 ) -> Result<Reproduction, Failure> {
+    check_changes(entries, &options.changes)?;
     write::prepare(directory)?;
     let shared = SharedMeasurements::default();
     let next = AtomicUsize::new(0);
@@ -205,7 +208,7 @@ pub fn run(
         while let Some(&index) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
             let entry = &entries[index];
             progress(EntryProgress::Begun(entry));
-            let outcome = one(entry, directory, (resolution, page), &shared);
+            let outcome = one(entry, directory, options, &shared);
             match &outcome {
                 Ok(written) => progress(EntryProgress::Done(written)),
                 Err(_) => next.store(entries.len(), Ordering::Relaxed),
@@ -224,8 +227,8 @@ pub fn run(
     done.sort_by_key(|(index, _)| *index);
     let written: Vec<WrittenEntry> =
         done.into_iter().map(|(_, outcome)| outcome).collect::<Result<_, Failure>>()?;
-    let page = report::html(&written, resolution);
-    let table = report::markdown(&written, resolution);
+    let page = report::html(&written, options);
+    let table = report::markdown(&written, options);
     let report = write::file(directory, "report.html", page.as_bytes())?;
     let table = write::file(directory, "report.md", table.as_bytes())?;
     Ok(Reproduction { written, report, table })
@@ -234,11 +237,36 @@ pub fn run(
 fn one(
     entry: &CatalogueEntry,
     directory: &Path,
-    (resolution, page): (Resolution, PicturePage),
+    options: &ReproductionOptions,
     shared: &SharedMeasurements,
 ) -> Result<WrittenEntry, Failure> {
     let began = Instant::now();
-    let product = entry.at(resolution, shared)?;
-    let files = write::product(&product, &entry.stem(), directory, page)?;
-    Ok(WrittenEntry { entry: *entry, files, product, elapsed: began.elapsed() })
+    let product = entry.at(options, shared)?;
+    let own = !options.changes.is_empty();
+    // No file with other numbers has the name of a figure of the dissertation.
+    let stem = if own { format!("own-{}", entry.stem()) } else { entry.stem() };
+    let files = write::product(&product, &stem, directory, options.page)?;
+    Ok(WrittenEntry { entry: *entry, own, files, product, elapsed: began.elapsed() })
+}
+
+/// Changes suit every entry that is named, and need names: most numbers belong to some figures only.
+fn check_changes(entries: &[CatalogueEntry], changes: &[Change]) -> Result<(), Failure> {
+    if changes.is_empty() {
+        return Ok(());
+    }
+    let reject = |allowed: String| {
+        let given = changes[0].to_string();
+        Failure::from(Complaint::option("--set", given, allowed))
+    };
+    if entries.len() == ENTRIES.len() {
+        return Err(reject("the name of a figure next to it, such as 2.4".to_owned()));
+    }
+    for entry in entries {
+        if !entry.has_numbers() {
+            let why = format!("figures with numbers of a study, unlike {}", entry.name);
+            return Err(reject(why));
+        }
+        entry.source().with(changes)?.checked()?;
+    }
+    Ok(())
 }

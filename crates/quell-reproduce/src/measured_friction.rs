@@ -21,7 +21,7 @@ use quell_model::Belt;
 use rayon::prelude::*;
 
 use super::axis::values;
-use super::caption::{law_name, letter, parameters};
+use super::caption::{law_name, letter, parameters, waveform_name};
 use super::failure::failed;
 use super::product::{DataTable, Product};
 use super::source::EntrySource;
@@ -155,7 +155,9 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         panels.push(
             Panel::new(
                 PlotAxis::new("mean slip velocity").symbol("⟨v_r⟩").between(0.0, TO),
-                PlotAxis::new("friction").symbol("⟨f/N⟩, \\bar{μ}, μ").between(0.0, 0.42),
+                PlotAxis::new("friction")
+                    .symbol("⟨f/N⟩, \\bar{μ}, μ")
+                    .between(0.0, 1.05 * law.static_coefficient()),
             )
             .title(title)
             .with(
@@ -193,15 +195,14 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         .legend(SharedLegend::Below)
         .size(Size::Frame(340.0, 220.0));
     let displacements = values(&study, "belt.initial.displacement");
-    let caption = format!(
-        "Figure {}. Effective friction with the {} law under sinusoidal normal dither: means of $f/N$ and of the slip velocity \
+    let shows = format!(
+        "Effective friction with the {} law under {} normal dither: means of $f/N$ and of the slip velocity \
          over one dither period (4.30), (4.31). Black: steady responses at belt velocities equal to the slip velocity, stick \
          included, which need not be stable. Dots: free decays from $x_0$ between {} and {} at {} belt velocities, without windows \
          that stick or across which the slow velocity changes by more than {DRIFT}, and medians in bins of {BIN}. Vermillion: \
-         averaging with both terms of (4.23). $ζ$ = {}, $R_N$ = {}, {}. The dissertation does not specify the trajectories of its \
-         points.",
-        source.name,
+         averaging with both terms of (4.23). $ζ$ = {}, $R_N$ = {}, {}.",
         law_name(law.kind()),
+        waveform_name(study.belt().dithers()[0].waveform.clone()),
         displacements.first().copied().unwrap_or_default(),
         displacements.last().copied().unwrap_or_default(),
         values(&study, "belt.belt_velocity").len(),
@@ -209,6 +210,8 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         study.belt().dithers()[0].frequency_ratio,
         parameters(&study),
     );
+    let print = "The dissertation does not specify the trajectories of its points.";
+    let caption = source.caption(&shows, print);
     let product = Product::new(figure, caption, &study);
     Ok(product.by(&[Task::Simulate, Task::Friction]).table(steady).table(decays))
 }

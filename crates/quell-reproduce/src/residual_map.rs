@@ -24,11 +24,14 @@ use quell::run::map::{FinishedMap, boundaries, run};
 use quell::study::BeltStudy;
 use quell::sweep::{MapQuantity, Plan, Running, Status};
 
+/// Path of the family of belt velocities.
+pub(super) const VELOCITIES: &str = "belt.belt_velocity";
+
 /// Belt velocities of figures 2.8 and 2.9.
-const FOUR_VELOCITIES: [f64; 4] = [0.05, 0.1, 0.125, 0.15];
+const FOUR_VELOCITIES: [&str; 4] = ["0.05", "0.1", "0.125", "0.15"];
 
 /// Belt velocities of figures 3.10 and 3.11.
-const THREE_VELOCITIES: [f64; 3] = [0.05, 0.1, 0.15];
+const THREE_VELOCITIES: [&str; 3] = ["0.05", "0.1", "0.15"];
 
 /// The contour that the dissertation compares with averaging.
 const FIVE_PER_CENT: f64 = 5.0;
@@ -42,21 +45,35 @@ struct MapPanel {
 /// Figures 2.8 and 2.9: four belt velocities.
 pub(super) fn velocities(source: &EntrySource) -> Result<Product, Failure> {
     let waveform = source.study()?.belt().dithers()[0].waveform.clone();
-    let cases =
-        FOUR_VELOCITIES.map(|belt_velocity| MapPanel { belt_velocity, waveform: waveform.clone() });
-    figure(source, &cases, 2)
+    let cases: Vec<MapPanel> = belt_velocities(source, &FOUR_VELOCITIES)?
+        .into_iter()
+        .map(|belt_velocity| MapPanel { belt_velocity, waveform: waveform.clone() })
+        .collect();
+    figure(source, &cases, cases.len().min(2))
+}
+
+/// The belt velocities of the panels, in the unit of the study.
+fn belt_velocities(source: &EntrySource, printed: &[&str]) -> Result<Vec<f64>, Failure> {
+    let of = |value: &String| -> Result<f64, Failure> {
+        let study = source.changed(&[&format!("{VELOCITIES}={value}")])?;
+        Ok(study.belt().belt_velocity())
+    };
+    source.family(VELOCITIES, printed).iter().map(of).collect()
 }
 
 /// Figures 3.10 and 3.11: three waveforms from top to bottom, three belt velocities.
 pub(super) fn waveforms(source: &EntrySource) -> Result<Product, Failure> {
-    let cases: Vec<MapPanel> = Waveform::NAMED
+    let velocities = belt_velocities(source, &THREE_VELOCITIES)?;
+    let cases: Vec<MapPanel> = source
+        .with_waveforms()?
         .iter()
-        .flat_map(|waveform| {
-            THREE_VELOCITIES
-                .map(|belt_velocity| MapPanel { belt_velocity, waveform: waveform.clone() })
+        .flat_map(|(waveform, _)| {
+            velocities
+                .iter()
+                .map(|&belt_velocity| MapPanel { belt_velocity, waveform: waveform.clone() })
         })
         .collect();
-    figure(source, &cases, THREE_VELOCITIES.len())
+    figure(source, &cases, velocities.len().max(1))
 }
 
 /// Figures 4.9 and 4.10: one panel.
@@ -138,17 +155,19 @@ fn study_of(
         * (dither.waveform.peak_integral() / case.waveform.peak_integral());
     let to = furthest * reach;
     let points = values(first, "dither.amplitude").len() as f64;
-    let changes = [
+    let mut changes = vec![
         format!("belt.belt_velocity={}", case.belt_velocity),
         format!("dither.waveform={}", case.waveform.name()),
-        format!("sweep[1].from={}", short(to / points)),
-        format!("sweep[1].to={}", short(to)),
     ];
+    if !source.has_own_axis(1) {
+        changes.push(format!("sweep[1].from={}", short(to / points)));
+        changes.push(format!("sweep[1].to={}", short(to)));
+    }
     // The first panel is the unchanged study, so that `quell map` gives the same result.
-    if reach == 1.0 {
+    if reach == 1.0 && case.waveform == dither.waveform {
         return Ok(first.clone());
     }
-    source.changed(&changes.each_ref().map(String::as_str))
+    source.changed(&changes.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
 /// E over the study's axes.
@@ -191,7 +210,7 @@ fn boundary(done: &FinishedMap, panel: &str, table: &mut DataTable) -> Vec<Polyl
                 ("averaging", "averaging, $D$ = $α^*R$", PlotRole::Averaged, LineStyle::DashDotted)
             }
             FastResponse::Oscillator => {
-                ("sharper", "finite-$R$ averaging", PlotRole::Averaged, LineStyle::ShortDashed)
+                ("finite_r", "finite-$R$ averaging", PlotRole::Averaged, LineStyle::ShortDashed)
             }
         };
         if boundary.becomes != Becomes::Stable {
@@ -262,16 +281,24 @@ fn caption(source: &EntrySource, study: &BeltStudy) -> String {
             " $D_N$ < $F$ keeps the contact closed; the line in the dissertation is $α_N^*$ with $μ$($v_0$)$α_N$ instead of $α$."
         }
     };
-    format!(
-        "Figure {}. Residual vibration $E$ (2.27) under {direction} dither with the {} law, from rest: contours in per cent. \
-         Dash-dotted: averaged boundary $D$ = $α^*R$, which the dissertation compares with $E$ = {FIVE_PER_CENT} %; dashed: \
+    let compared = if source.is_own() {
+        String::new()
+    } else {
+        format!(", which the dissertation compares with $E$ = {FIVE_PER_CENT} %")
+    };
+    let shows = format!(
+        "Residual vibration $E$, the efficiency metric (2.27), under {direction} dither with the {} law, from rest: contours in per \
+         cent. Dash-dotted: averaged boundary $D$ = $α^*R${compared}; dashed: \
          finite-$R$ averaging, with the exact fast motion of the oscillator. $ζ$ = {}, {}. Record: $τ$ < {} discarded, {} slow periods, mean removed, Hann \
-         window; the dissertation specifies neither its record nor the ranges of its axes.{closing}",
-        source.name,
+         window.",
         law_name(belt.friction().kind()),
         belt.damping_ratio(),
         parameters(study),
         study.solver().settle,
         study.solver().record_periods,
-    )
+    );
+    let print = format!(
+        "The dissertation specifies neither its record nor the ranges of its axes.{closing}"
+    );
+    source.caption(&shows, &print)
 }

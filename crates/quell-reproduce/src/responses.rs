@@ -65,7 +65,9 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let shown = |response: &SteadyResponse| {
         response.record.spectrum.frequencies().take_while(|ω| *ω <= top).count()
     };
-    let first = &cases[0].response;
+    let Some(first) = cases.first().map(|case| &case.response) else {
+        return Err(failed(source.name, &"it has no amplitude"));
+    };
     let (spectrum, without) = (&first.record.spectrum, &first.undithered_record.spectrum);
     let mut spectra = vec![
         (
@@ -91,11 +93,11 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         rows[1].push(velocity);
         rows[2].push(spectrum_panel(case, top));
     }
-    let figure =
-        Figure::grid(3, rows.into_iter().flatten().map(|panel| panel.legend(Legend::None)))
-            .sharing_y(Sharing::Aligned)
-            .legend(SharedLegend::Above)
-            .size(Size::Frame(270.0, 165.0));
+    let panels = rows.into_iter().flatten().map(|panel| panel.legend(Legend::None));
+    let figure = Figure::grid(cases.len(), panels)
+        .sharing_y(Sharing::Aligned)
+        .legend(SharedLegend::Above)
+        .size(Size::Frame(270.0, 165.0));
     let caption = caption(source, &study, &cases[0].response);
     Ok(Product::new(figure, caption, &study)
         .by(&[Task::Simulate, Task::Response])
@@ -211,13 +213,11 @@ fn caption(source: &EntrySource, study: &BeltStudy, response: &SteadyResponse) -
         }
         _ => String::new(),
     };
-    format!(
-        "Figure {}. Responses from rest with the {} law and {} {direction} dither (solid) and without dither (dashed): \
+    let shows = format!(
+        "Responses from rest with the {} law and {} {direction} dither (solid) and without dither (dashed): \
          displacement, velocity, and spectral amplitude of the steady displacement. $ζ$ = {}, $v_0$ = {}, ${symbol}$ = {}, {}. \
          $E$ is the largest amplitude below {BAND_END} $ω_0$ divided by that without dither (2.27). Spectra: $τ$ < {} \
-         discarded, {} slow periods kept, mean removed, Hann window; the dissertation does not specify its \
-         record.{fundamental}",
-        source.name,
+         discarded, {} slow periods kept, mean removed, Hann window.",
         law_name(belt.friction().kind()),
         waveform_name(dither.waveform),
         belt.damping_ratio(),
@@ -226,5 +226,7 @@ fn caption(source: &EntrySource, study: &BeltStudy, response: &SteadyResponse) -
         parameters(study),
         study.solver().settle,
         study.solver().record_periods,
-    )
+    );
+    let print = format!("The dissertation does not specify its record.{fundamental}");
+    source.caption(&shows, &print)
 }

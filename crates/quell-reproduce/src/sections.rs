@@ -8,14 +8,14 @@ use std::sync::Arc;
 
 use quell_dynamics::attractor::Attractor;
 use quell_dynamics::simulation::{Sample, Sampler, simulate};
-use quell_model::{Direction, Waveform};
+use quell_model::Direction;
 
 use super::amplitude_columns::{AmplitudeColumn, AmplitudeColumns, AmplitudeThreshold};
 use super::caption::{law_name, letter, parameters, short, waveform_name};
 use super::failure::failed;
 use super::product::{Cell, DataTable, Product};
 use super::responses::columns_of;
-use super::source::EntrySource;
+use super::source::{EntrySource, WAVEFORMS};
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::plot::{
@@ -47,12 +47,15 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
 
 /// Figure 4.11: square as its caption says, and sine, which its text describes.
 pub(super) fn square_and_sine(source: &EntrySource) -> Result<Product, Failure> {
-    let of = |waveform: Waveform| {
-        let study = source.changed(&[&format!("dither.waveform={}", waveform.name())])?;
-        source.shared.columns(source.name, &study)
-    };
-    let [square, sine] = [of(Waveform::Square)?, of(Waveform::Sine)?];
-    of_waveforms(source, &[square, sine])
+    let blocks = source
+        .family(WAVEFORMS, &["square", "sine"])
+        .iter()
+        .map(|waveform| {
+            let study = source.changed(&[&format!("{WAVEFORMS}={waveform}")])?;
+            source.shared.columns(source.name, &study)
+        })
+        .collect::<Result<Vec<Arc<AmplitudeColumns>>, Failure>>()?;
+    of_waveforms(source, &blocks)
 }
 
 fn of_waveforms(
@@ -272,10 +275,9 @@ fn caption(source: &EntrySource, blocks: &[Arc<AmplitudeColumns>]) -> String {
         Direction::Normal => ("normal", "D_N", "R_N"),
     };
     let mut text = format!(
-        "Figure {}. Responses from rest with the {} law and {direction} dither: displacement, velocity, and Poincaré section \
+        "Responses from rest with the {} law and {direction} dither: displacement, velocity, and Poincaré section \
          at ${r}τ$ = 2πn (grey: the first {TRANSIENT} periods; blue: settled to the period of the dither; red: vibrates \
          indefinitely). $ζ$ = {}, $v_0$ = {}, ${r}$ = {}, {}.",
-        source.name,
         law_name(belt.friction().kind()),
         belt.damping_ratio(),
         belt.belt_velocity(),
@@ -291,19 +293,20 @@ fn caption(source: &EntrySource, blocks: &[Arc<AmplitudeColumns>]) -> String {
             list(&block.local, d, ["is unstable", "is stable"]),
         );
     }
-    text + &departure(source.name)
+    source.caption(&text, departure(source.name))
 }
 
 /// Departure of a figure from the dissertation.
-fn departure(name: &str) -> String {
+fn departure(name: &str) -> &'static str {
     match name {
-        "2.11" => " The printed caption has $v_0$ = 1.0; its text and responses are for 1.5.".to_owned(),
+        "2.11" => "The printed caption has $v_0$ = 1.0; its text and responses are for 1.5.",
         "4.11" => {
-            " The printed caption says square; the pattern described in the text occurs with a sine.".to_owned()
+            "The printed caption says square; the pattern described in the text occurs with a sine."
         }
-        _ => " Below the local threshold the base response and a stick-slip vibration coexist. The threshold from rest, which \
+        _ => {
+            "Below the local threshold the base response and a stick-slip vibration coexist. The threshold from rest, which \
                is lower than that of averaging, is where rest crosses the boundary between their basins."
-            .to_owned(),
+        }
     }
 }
 

@@ -57,13 +57,11 @@ pub(super) fn single(source: &EntrySource) -> Result<Product, Failure> {
     let study = source.study()?;
     let mut table = empty_table();
     let panel = panel(source, &study, study.belt().dithers()[0].waveform.clone(), &mut table)?;
-    let caption = format!(
-        "{} $ζ$ = {}, {}. {}",
-        opening(source, &study),
-        study.belt().damping_ratio(),
-        parameters(&study),
-        closing(&study, false)
-    );
+    let ratios = damping_ratios(source, &study)?;
+    let damping: Vec<String> = ratios.iter().map(f64::to_string).collect();
+    let opening = opening(&study, lightest(&ratios));
+    let shows = format!("{opening} $ζ$ = {}, {}.", damping.join(", "), parameters(&study));
+    let caption = source.caption(&shows, &closing(&study, false));
     Ok(Product::new(Figure::single(panel), caption, &study).by(&[Task::Stability]).table(table))
 }
 
@@ -79,16 +77,12 @@ pub(super) fn three(source: &EntrySource) -> Result<Product, Failure> {
             panel(source, study, waveform.clone(), &mut table)?.title(title).legend(Legend::None),
         );
     }
-    let damping: Vec<String> =
-        values(&study, "belt.damping_ratio").iter().map(f64::to_string).collect();
-    let caption = format!(
-        "{} $ζ$ = {}; {}. {}",
-        opening(source, &study),
-        damping.join(", "),
-        parameters(&study),
-        closing(&study, true)
-    );
-    let figure = Figure::grid(3, panels)
+    let ratios = damping_ratios(source, &study)?;
+    let damping: Vec<String> = ratios.iter().map(f64::to_string).collect();
+    let opening = opening(&study, lightest(&ratios));
+    let shows = format!("{opening} $ζ$ = {}; {}.", damping.join(", "), parameters(&study));
+    let caption = source.caption(&shows, &closing(&study, true));
+    let figure = Figure::grid(panels.len().clamp(1, 3), panels)
         .sharing_x(Sharing::All)
         .sharing_y(Sharing::All)
         .legend(SharedLegend::Below)
@@ -98,14 +92,38 @@ pub(super) fn three(source: &EntrySource) -> Result<Product, Failure> {
     Ok(product.by(&[Task::Stability]).table(table))
 }
 
-fn opening(source: &EntrySource, study: &BeltStudy) -> String {
+/// Path of the family of damping ratios.
+pub(super) const DAMPING: &str = "belt.damping_ratio";
+
+/// The damping ratios of the curves: one's own, those of the study's axis, or that of the belt.
+fn damping_ratios(source: &EntrySource, study: &BeltStudy) -> Result<Vec<f64>, Failure> {
+    let own = source
+        .family(DAMPING, &[])
+        .iter()
+        .map(|value| Ok(source.changed(&[&format!("{DAMPING}={value}")])?.belt().damping_ratio()))
+        .collect::<Result<Vec<f64>, Failure>>()?;
+    if !own.is_empty() {
+        return Ok(own);
+    }
+    let of_the_axis = values(study, DAMPING);
+    Ok(if of_the_axis.is_empty() { vec![study.belt().damping_ratio()] } else { of_the_axis })
+}
+
+/// The damping ratio of the last curve, for which finite-R averaging is drawn too.
+fn lightest(damping: &[f64]) -> f64 {
+    damping.last().copied().unwrap_or_default()
+}
+
+fn opening(study: &BeltStudy, damping_ratio: f64) -> String {
     let dither = study.belt().dithers()[0].clone();
     format!(
-        "Figure {}. Stability map with the {} law and {} dither: in the shaded region averaged steady sliding is unstable, \
-         2$ζ$ + $F$ d$\\bar{{μ}}$/d$v$ < 0.",
-        source.name,
+        "Stability map with the {} law and {} dither: in the shaded region averaged steady sliding is unstable, \
+         2$ζ$ + $F$ d$\\bar{{μ}}$/d$v$ < 0. Dash-dotted: the boundary at $R$ = {} and $ζ$ = {} with the exact fast motion of the \
+         oscillator instead of $αG$ (for a sine, $α$ = $DR$/($R^2$ − 1)).",
         law_name(study.belt().friction().kind()),
         dither.direction.name(),
+        dither.frequency_ratio,
+        damping_ratio,
     )
 }
 
@@ -116,11 +134,7 @@ fn closing(study: &BeltStudy, three: bool) -> String {
     let normal = dither.direction == Direction::Normal;
     let stribeck = belt.friction().kind() == LawKind::Stribeck;
     let ratio = dither.frequency_ratio;
-    let damping = if three { format!(", $ζ$ = {}", belt.damping_ratio()) } else { String::new() };
-    let mut sentences = vec![format!(
-        "Dash-dotted: the boundary at $R$ = {ratio} with the exact fast motion of the oscillator instead of \
-         $αG$ (for a sine, $α$ = $DR$/($R^2$ − 1)){damping}."
-    )];
+    let mut sentences: Vec<String> = Vec::new();
     if three && stribeck {
         let equation = if normal { "(4.35)" } else { "(3.47)" };
         sentences.push(format!(
@@ -193,10 +207,7 @@ fn panel(
         direction: dither.direction,
         reach: (alpha, velocity),
     };
-    let mut damping = values(study, "belt.damping_ratio");
-    if damping.is_empty() {
-        damping.push(belt.damping_ratio());
-    }
+    let damping = damping_ratios(source, study)?;
     let symbol = if normal { "α_N" } else { "α_T" };
     let mut panel = Panel::new(
         PlotAxis::new("dither amplitude").symbol(symbol).between(0.0, alpha),
@@ -223,7 +234,7 @@ fn panel(
         plane.record(table, region.damping_ratio, "lower", &region.lower);
         plane.record(table, region.damping_ratio, "upper", &region.upper);
     }
-    panel = plane.sharper(panel, belt.damping_ratio(), table)?;
+    panel = plane.finite_r(panel, lightest(&damping), table)?;
     panel = plane.printed(panel, &damping, table);
     panel = plane.tips(panel, &regions, lone);
     Ok(plane.words(panel, &regions))
@@ -281,7 +292,7 @@ impl StabilityPlane<'_> {
     }
 
     /// The boundary by finite-R averaging: with the oscillator's own response instead of αG.
-    fn sharper(
+    fn finite_r(
         &self,
         panel: Panel,
         damping_ratio: f64,
@@ -359,7 +370,10 @@ impl StabilityPlane<'_> {
 
     /// The upper edge as printed for the Stribeck law and a triangle, up to the printed α^L.
     fn printed(&self, panel: Panel, damping: &[f64], table: &mut DataTable) -> Panel {
-        if self.waveform != Waveform::Triangle || self.law().kind() != LawKind::Stribeck {
+        let is_printed = self.waveform == Waveform::Triangle
+            && self.law().kind() == LawKind::Stribeck
+            && !self.source.is_own();
+        if !is_printed {
             return panel;
         }
         let numbers = LawNumbers::DISSERTATION;

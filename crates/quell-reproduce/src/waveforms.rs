@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use quell_model::Waveform;
 
-use super::caption::{letter, waveform_name};
+use super::caption::{letter, short, waveform_name};
 use super::product::{DataTable, Product};
 use super::source::EntrySource;
 use quell::cite::Task;
@@ -39,7 +39,12 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
                 .legend(Legend::None),
         );
         let peak = waveform.peak_integral();
-        let label = ["$G_{max}$ = 1", "$G_{max}$ = π/4", "$G_{max}$ = π/2"][index];
+        let label = match waveform {
+            Waveform::Sine => "$G_{max}$ = 1".to_owned(),
+            Waveform::Triangle => "$G_{max}$ = π/4".to_owned(),
+            Waveform::Square => "$G_{max}$ = π/2".to_owned(),
+            _ => format!("$G_{{max}}$ = {}", short(peak)),
+        };
         rows[1].push(
             axes("integral", "G", "cycles $τ$/2π")
                 .with(ReferenceLine::horizontal(peak).label(label))
@@ -50,11 +55,21 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
                 .legend(Legend::None),
         );
     }
-    let figure = Figure::grid(3, rows.into_iter().flatten())
+    let figure = Figure::grid(studies.len().max(1), rows.into_iter().flatten())
         .sharing_x(Sharing::Aligned)
         .sharing_y(Sharing::Aligned);
-    let caption = "Figure 3.2. Two cycles of the dither waveforms $g$ (3.4)–(3.6), odd and of unit amplitude, and their \
-        zero-mean integrals $G$, which are even (the text after (3.25) calls them odd).";
+    let caption = if source.is_own() {
+        source.caption(
+            "Two cycles of the dither waveforms $g$ and their zero-mean integrals $G$.",
+            "",
+        )
+    } else {
+        source.caption(
+            "Two cycles of the dither waveforms $g$ (3.4)–(3.6), odd and of unit amplitude, and their zero-mean integrals $G$, which \
+             are even (the text after (3.25) calls them odd).",
+            "",
+        )
+    };
     let product = Product::new(figure, caption, &study)
         .also(studies.iter().map(|(_, study)| study))
         .by(&[Task::Friction]);

@@ -14,6 +14,8 @@ use super::product::Product;
 pub struct WrittenEntry {
     /// The entry.
     pub entry: CatalogueEntry,
+    /// Whether its numbers are not those of the dissertation.
+    pub own: bool,
     /// The files.
     pub files: Vec<PathBuf>,
     /// The product; the rows of its data tables are in the files.
@@ -29,6 +31,7 @@ impl WrittenEntry {
         let mut object = json!({
             "name": self.entry.name,
             "about": self.entry.about,
+            "own": self.own,
             "files": files,
             "caption": self.product.plain_caption(),
             "seconds": self.elapsed.as_secs_f64(),

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use quell::outcome::{Answered, Outcome};
 use quell::run::disc::{modes, resonances, stability};
 use quell::run::map::run as map;
 use quell::study::DiscStudy;
@@ -225,7 +226,7 @@ fn tables_of_the_dissertation() {
         ["0.325", "0.369", "0.458", "0.536", "0.675", "0.836", "0.879", "0.964"]
     );
     let json = found.json(&study);
-    for name in ["speed", "waves", "can_be_unstable", "threshold", "edges", "peak_growth"] {
+    for name in ["speed", "waves", "pair_can_be_unstable", "threshold", "edges", "peak_growth"] {
         assert!(json["dithered"][0].get(name).is_some(), "{name}");
     }
 }
@@ -336,4 +337,73 @@ fn a_clear_frequency_is_verified_by_the_exact_equations() {
         let rate = answer["verified"]["growth_rate"].as_f64();
         assert_eq!(rate.map(|rate| rate > 0.0), Some(verdict == "unstable"));
     }
+}
+
+/// Figure 5.9 at f = 1.7·10⁻⁴: near the fourth speed of table 5.2 three waves grow together. No pair of waves does at first order, which
+/// the answer says, and the exact growth is on the same page; a dither frequency is not called clear there.
+#[test]
+fn a_tongue_of_three_waves_is_found_exactly() {
+    let text = fs::read_to_string(
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies/figure-5.9.toml"),
+    )
+    .expect("a study");
+    let change = Change::parse("disc.load.friction=0.7215", "--set").expect("a change");
+    let study = DiscStudy::parse_in(&text, &[change], Path::new("")).expect("valid");
+    let found =
+        resonances::run(&study, resonances::ResonancesRequest::default()).expect("one load");
+    let json = found.json(&study);
+    let fourth = &json["dithered"][3];
+    assert!((fourth["speed"].as_f64().expect("a speed") - 0.5358).abs() < 1e-4);
+    assert_eq!(fourth["pair_can_be_unstable"], false);
+    assert!(fourth["why"]["threshold"].as_str().expect("why").contains("at this order"));
+    let growing = json["growing"].as_array().expect("a list");
+    let inside = |item: &&Json| {
+        let end = |name: &str| item[name].as_f64().expect("a speed");
+        (end("from")..end("to")).contains(&0.553)
+    };
+    let three = growing.iter().find(inside).expect("the fourth");
+    let peak = ["peak_speed", "peak_growth"].map(|name| three[name].as_f64().expect("a number"));
+    assert_eq!(three["explained_by"], "none");
+    assert!(three["why"]["pair"].as_str().expect("why").contains("three waves or more"));
+    assert!(growing.iter().filter(|item| item["explained_by"] != "none").count() >= 3, "{json}");
+    // Between the intervals nothing grows, and within them something does.
+    let growth = |speed: f64| {
+        let disc = study.disc().at_speed(speed).expect("valid");
+        quell_disc::dithered::growth(&disc, Effort::default()).expect("finite")
+    };
+    assert!((growth(0.553).rate / 3.676e-4 - 1.0).abs() < 1e-3, "{:?}", growth(0.553));
+    assert!((growth(peak[0]).rate / peak[1] - 1.0).abs() < 1e-6 && peak[1] > 3.676e-4, "{three}");
+    for k in 1..400 {
+        let speed = f64::from(k) / 400.0;
+        let end = |item: &Json, name: &str| item[name].as_f64().expect("a speed");
+        let within =
+            growing.iter().any(|item| end(item, "from") < speed && speed < end(item, "to"));
+        let found = growth(speed);
+        assert!(within == (found.rate > found.error), "Ω = {speed}: {found:?}");
+    }
+    let outcome = Answered::new(&study, found);
+    let words = outcome.text();
+    assert!(
+        words.contains("no tongue at first order") && !words.contains("cannot be unstable"),
+        "{words}"
+    );
+    assert!(
+        words.contains("three waves or more grow together; the nearest meeting is at 0.5357"),
+        "{words}"
+    );
+    // At first order R = 2.7 is clear of these speeds; exactly it is not, and no frequency is said to be that was found to grow.
+    let question = resonances::ResonancesRequest {
+        clear: Some((0.545..=0.56, 2.69..=2.71)),
+        ..Default::default()
+    };
+    let found = resonances::run(&study, question).expect("an answer");
+    let json = found.json(&study)["clear"].clone();
+    assert!(!json["clear"].as_array().expect("intervals").is_empty(), "{json}");
+    assert_eq!(json["verified"]["verdict"], "unstable", "{json}");
+    assert!(
+        json["tested"].as_array().expect("tested").iter().all(|item| item["verdict"] == "unstable"),
+        "{json}"
+    );
+    let words = Answered::new(&study, found).text();
+    assert!(words.contains("at first order") && words.contains("exactly, 0 of"), "{words}");
 }

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+use quell::kind::verbs;
 use quell::picture::{basins as draw_basins, curves as draw_curves, disc, periodic_response};
 use quell::plot::Figure;
 use quell::run::basins::{self, StartLayout};
@@ -14,7 +15,7 @@ use quell::run::protocol::Protocol;
 use quell::run::thresholds;
 use quell::run::varied::Range;
 use quell::sweep::Running;
-use quell::{BeltStudy, Change, DiscStudy, picture};
+use quell::{BeltStudy, Change, DiscStudy, Study, picture};
 use serde_json::Value as Json;
 
 fn path(name: &str) -> std::path::PathBuf {
@@ -48,6 +49,10 @@ fn places(layer: &Json) -> Vec<(f64, f64)> {
 fn numbers(list: &Json, name: &str) -> Vec<f64> {
     let list = list.as_array().expect("a list");
     list.iter().map(|object| object[name].as_f64().expect("a number")).collect()
+}
+
+fn numbers_of(list: &Json) -> Vec<f64> {
+    list.as_array().expect("a list").iter().filter_map(Json::as_f64).collect()
 }
 
 #[test]
@@ -124,7 +129,21 @@ fn curves_of_thresholds_are_drawn_point_by_point() {
             .collect();
         assert!(expected.len() > 50 && places(line) == expected, "{kind}");
     }
-    assert!(drawn.iter().any(|line| line["label"] == "averaged"));
+    assert!(drawn.iter().any(|line| line["label"] == "averaged, R → ∞"));
+    // The curves fill the frame, which is as small as they are and within the window that was searched.
+    for (axis, column, window) in [("y", 1, (0.1, 16.0)), ("x", 0, (0.85, 1.5))] {
+        let of = |(along, value): (f64, f64)| if column == 0 { along } else { value };
+        let all: Vec<f64> = drawn.iter().flat_map(|line| places(line)).map(of).collect();
+        let inside = all.iter().copied().filter(|value| *value >= window.0 && *value <= window.1);
+        let (low, high) =
+            (inside.clone().fold(f64::MAX, f64::min), inside.fold(f64::MIN, f64::max));
+        let limits = numbers_of(&figure["panels"][0][axis]["stretch"]);
+        assert!(limits[0] >= window.0 - 1e-9 && limits[1] <= window.1 + 1e-9, "{axis}: {limits:?}");
+        assert!(
+            high - low > 0.85 * (limits[1] - limits[0]),
+            "{axis}: {limits:?} around {low} to {high}"
+        );
+    }
     assert_eq!(answer["warnings"].as_array().map(Vec::len), Some(0), "{}", answer["warnings"]);
 }
 
@@ -203,8 +222,11 @@ fn a_disc_is_drawn_with_its_own_place() {
         .filter(|rule| rule["vertical"] == true)
         .filter_map(|rule| rule["value"].as_f64())
         .collect();
-    let stable =
-        found.undithered.iter().chain(&found.dithered).filter(|meeting| !meeting.can_be_unstable());
+    let stable = found
+        .undithered
+        .iter()
+        .chain(&found.dithered)
+        .filter(|meeting| !meeting.pair_can_be_unstable());
     assert_eq!(dotted, stable.map(|meeting| meeting.speed).collect::<Vec<_>>());
 
     let listed = DiscStudy::parse_in(
@@ -219,4 +241,35 @@ fn a_disc_is_drawn_with_its_own_place() {
     let rows: Vec<(f64, f64)> = rows.iter().map(|row| (row.diameters as f64, row.ratio)).collect();
     assert_eq!(places(layers(&figure, 0, "points")[0]), rows);
     assert_eq!(rows.len(), 2);
+}
+
+/// A picture of changed numbers is not the figure of the dissertation, and says what is changed.
+#[test]
+fn a_changed_study_does_not_keep_its_title() {
+    let text = "schema = 1\ntitle = \"Figure 2.4: effective friction, Stribeck law\"\n[belt]\ndamping_ratio = 0.005\n\
+        normal_load = 1\nbelt_velocity = 0.05\n[friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\n\
+        minimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\n\
+        amplitude = 1\nfrequency_ratio = 10\n";
+    let title = |changes: &[&str]| {
+        let changes: Vec<Change> =
+            changes.iter().map(|text| Change::parse(text, "--set").expect("a change")).collect();
+        let study = Study::parse(text, &changes).expect("valid");
+        let done = verbs(&study).friction(None, false).expect("an answer");
+        done.figure().expect("a picture").expect("drawn").title
+    };
+    assert_eq!(title(&[]), "Figure 2.4: effective friction, Stribeck law");
+    assert_eq!(
+        title(&["friction.reference_velocity=0.3"]),
+        "Effective friction, Stribeck law; changed: friction.reference_velocity = 0.3"
+    );
+    // Accuracy changes no study, and a title that is set stays as it is.
+    assert_eq!(title(&["solver.tolerance=1e-9"]), "Figure 2.4: effective friction, Stribeck law");
+    assert_eq!(title(&["belt.belt_velocity=0.1", "title=Mine"]), "Mine");
+    let many = title(&[
+        "belt.belt_velocity=0.1",
+        "belt.damping_ratio=0.01",
+        "dither.amplitude=2",
+        "dither.phase=1",
+    ]);
+    assert!(many.ends_with("dither.amplitude = 2, 1 more"), "{many}");
 }

@@ -25,7 +25,8 @@
 //! and adds meetings at h = ±2.
 //!
 //! Accuracy: relative errors are proportional to ε (measured in the tests). Assumption: no third wave is in resonance with the
-//! two.
+//! two. Under strong friction three waves grow together where no pair does, such as near the fourth speed of table 5.2 in figure 5.9:
+//! `growing` finds them by exact exponents.
 
 mod amplitude;
 mod clear;
@@ -43,6 +44,6 @@ mod tests;
 
 pub use clear::{Blocked, Clearance, ClearanceError, Nearby, clear_frequencies, within};
 pub use tongue::{Coupling, Resonance, Tongue};
-pub use verified::{Verified, verified_frequency};
+pub use verified::{TestedFrequency, Verification, Verified, verified_frequency};
 pub use wave::{TravellingWave, WaveDirection};
 pub use waves::{Order, WaveError, Waves};

@@ -43,7 +43,7 @@ fn tables_of_the_dissertation() {
         waves.dithered(0.0..=1.0).into_iter().filter(|r| r.speed > 1e-9).collect();
     let speeds = ["0.325", "0.369", "0.458", "0.536", "0.675", "0.836", "0.879", "0.964"];
     assert_eq!(printed(&dithered), speeds);
-    let unstable: Vec<bool> = dithered.iter().map(Resonance::can_be_unstable).collect();
+    let unstable: Vec<bool> = dithered.iter().map(Resonance::pair_can_be_unstable).collect();
     assert_eq!(unstable, [true, true, true, false, false, false, false, false]);
     assert_eq!(dithered[0].label(), "forward (1,2) with its own conjugate");
     assert_eq!(dithered[1].label(), "forward (1,1) with forward (1,2)");
@@ -54,10 +54,10 @@ fn tables_of_the_dissertation() {
         assert!((threshold / 0.1 - tip).abs() < 6e-4, "{threshold}");
     }
     // Without mean friction the undithered pairs are not excited; without dither they are.
-    assert!(undithered.iter().all(|resonance| !resonance.can_be_unstable()));
+    assert!(undithered.iter().all(|resonance| !resonance.pair_can_be_unstable()));
     let plain = waves_of(&modes(0.0), &load(0.1, 0.1), DiscDither::None);
     let found = plain.undithered(0.01..=0.99);
-    assert!(found.iter().all(Resonance::can_be_unstable));
+    assert!(found.iter().all(Resonance::pair_can_be_unstable));
     assert!(found.iter().all(|resonance| resonance.threshold == Some(0.0)));
     assert!(plain.dithered(0.0..=1.0).is_empty());
 }

@@ -12,7 +12,7 @@ use super::waves::{Order, Waves};
 pub enum Coupling {
     /// The waves can grow.
     Destabilising,
-    /// A forward and a backward wave under dither share their damping: no tongue can occur.
+    /// A forward and a backward wave under dither share their damping: the pair has no tongue.
     SharesDamping,
     /// No effect: a node at the load, a wave without nodal diameters under dither, no mean friction, or a load without effect.
     None,
@@ -92,9 +92,9 @@ pub struct Resonance {
 }
 
 impl Resonance {
-    /// Whether the meeting can be unstable at all.
+    /// Whether the pair of waves can be unstable at the order of the expansion. Three waves and more can grow where no pair does.
     #[must_use]
-    pub fn can_be_unstable(&self) -> bool {
+    pub fn pair_can_be_unstable(&self) -> bool {
         self.coupling == Coupling::Destabilising
     }
 

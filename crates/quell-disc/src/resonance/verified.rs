@@ -1,12 +1,13 @@
 //! Verification of clear dither frequencies by exact Floquet exponents over the range of speeds.
 //!
 //! First-order theory neglects the terms quadratic in friction: revived undithered tongues, meetings at sums of the harmonics of
-//! the dither (of a sine at twice its frequency), and waves that lose their damping under strong friction. Frequencies of the clear intervals are therefore tested by
-//! their Floquet exponents, on a grid of speeds with a point in every second-order tongue. Among those without growth, the middle
+//! the dither (of a sine at twice its frequency), waves that lose their damping under strong friction, and tongues of three waves
+//! and more. Frequencies of the clear intervals are therefore tested by their Floquet exponents, on a grid of speeds with a point in
+//! every second-order tongue, and by all exponents along the speeds ([`growing_speeds`]). Among those without growth, the middle
 //! of the widest interval is examined closely: with a finer grid, several points per tongue, and a refinement of the largest
 //! growth rate. If the closer examination finds growth, the next widest interval follows.
 //!
-//! Limitation: an interval of growth between neighbouring speeds that second-order theory does not predict is missed.
+//! Limitation: that of [`growing_speeds`]; between two tested frequencies nothing is known beyond first order.
 
 use core::ops::RangeInclusive;
 
@@ -18,6 +19,7 @@ use super::clear::Clearance;
 use super::tongue::{Coupling, Tongue};
 use super::waves::{Order, Waves};
 use crate::dithered;
+use crate::growing::growing_speeds;
 use quell_linear::growth::{Growth, Verdict};
 use quell_model::Disc;
 
@@ -56,39 +58,40 @@ impl Verified {
     }
 }
 
-/// The frequency in the clear intervals that keeps the range of speeds clear by the exact equations, far from those that do
-/// not; where no tested frequency does, the one with the smallest growth rate. `None` where there is no interval, and where
-/// exponents cannot be computed.
+/// What the exact equations say of the frequencies that are clear at first order.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Verification {
+    /// The frequency in the clear intervals that keeps the range of speeds clear by the exact equations, far from those that do
+    /// not; where no tested frequency does, the one with the smallest growth rate. `None` where there is no interval, and where
+    /// exponents cannot be computed.
+    pub best: Option<Verified>,
+    /// Every frequency that was tested, in the order of the intervals.
+    pub tested: Vec<TestedFrequency>,
+}
+
+/// A frequency that was tested.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TestedFrequency {
+    /// Index of its clear interval.
+    pub interval: usize,
+    /// Width of the frequencies that it represents.
+    pub width: f64,
+    /// Largest growth found.
+    pub result: Verified,
+}
+
+/// Tests frequencies of the clear intervals by the exact equations.
 #[must_use]
 pub fn verified_frequency(
     disc: &Disc,
     clearance: &Clearance,
     speeds: RangeInclusive<f64>,
-) -> Option<Verified> {
-    let waves = Waves::new(disc).ok()?.with_order(Order::Second);
-    let exact = Exact { disc, waves, speeds };
+) -> Verification {
+    let Ok(waves) = Waves::new(disc) else { return Verification::default() };
+    let exact = Exact { disc, waves: waves.with_order(Order::Second), speeds };
     let mut tested = exact.coarsely(&clearance.clear);
-    for _ in 0..CLOSELY {
-        let Some(middle) = middle_of_widest(&tested) else { break };
-        let found = exact.closely(tested[middle].result.frequency_ratio)?;
-        if found.is_clear() {
-            return Some(found);
-        }
-        tested[middle].result = found;
-    }
-    let least =
-        tested.iter().min_by(|a, b| a.result.growth.rate.total_cmp(&b.result.growth.rate))?;
-    exact.closely(least.result.frequency_ratio)
-}
-
-/// A frequency that was tested.
-struct TestedFrequency {
-    /// Index of its clear interval.
-    interval: usize,
-    /// Width of the frequencies that it represents.
-    width: f64,
-    /// Largest growth found.
-    result: Verified,
+    let best = exact.best(&mut tested);
+    Verification { best, tested }
 }
 
 /// The middle of the widest run of neighbours without growth.
@@ -117,6 +120,36 @@ struct Exact<'a> {
 }
 
 impl Exact<'_> {
+    /// The middle of the widest run of clear frequencies that a close examination confirms, or the frequency of least growth.
+    fn best(&self, tested: &mut [TestedFrequency]) -> Option<Verified> {
+        for _ in 0..CLOSELY {
+            let Some(middle) = middle_of_widest(tested) else { break };
+            let found = self.closely(tested[middle].result.frequency_ratio)?;
+            tested[middle].result = found;
+            if found.is_clear() {
+                return Some(found);
+            }
+        }
+        let least =
+            tested.iter().min_by(|a, b| a.result.growth.rate.total_cmp(&b.result.growth.rate))?;
+        self.closely(least.result.frequency_ratio)
+    }
+
+    /// The result with the largest growth that all exponents along the speeds have, if that is larger.
+    fn with_growing(&self, found: Verified, steps: u32) -> Option<Verified> {
+        let ratio = found.frequency_ratio;
+        let disc = self.disc.with(DITHER_FREQUENCY_RATIO.path, ratio).ok()?;
+        let growing = growing_speeds(&disc, &self.speeds, steps).ok()?;
+        let peak = growing.iter().max_by(|a, b| a.peak_growth.total_cmp(&b.peak_growth));
+        match peak.filter(|peak| peak.peak_growth > found.growth.rate) {
+            Some(peak) => {
+                let growth = self.growth(ratio, peak.peak_speed)?;
+                Some(Verified { growth, speed: peak.peak_speed, ..found })
+            }
+            None => Some(found),
+        }
+    }
+
     fn growth(&self, ratio: f64, speed: f64) -> Option<Growth> {
         let disc = self.disc.with(DITHER_FREQUENCY_RATIO.path, ratio).ok()?.at_speed(speed).ok()?;
         dithered::growth(&disc, Effort::default()).ok()
@@ -134,8 +167,9 @@ impl Exact<'_> {
             let mut number = 0.5;
             while number < share {
                 let ratio = width.mul_add(number, *from);
-                let worst = self.worst(ratio, STEPS.0, 1);
-                tested.extend(worst.map(|(result, _)| TestedFrequency { interval, width, result }));
+                let worst = self.worst(ratio, STEPS.0, 1).map(|(worst, _)| worst);
+                let worst = worst.and_then(|worst| self.with_growing(worst, STEPS.0));
+                tested.extend(worst.map(|result| TestedFrequency { interval, width, result }));
                 number += 1.0;
             }
         }
@@ -154,7 +188,7 @@ impl Exact<'_> {
             let found = growth(peak.location)?;
             worst = Verified { growth: found, speed: peak.location, ..worst };
         }
-        Some(worst)
+        self.with_growing(worst, STEPS.1)
     }
 
     /// The largest growth at one frequency over the grid, and the neighbours of its speed.

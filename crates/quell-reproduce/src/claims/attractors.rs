@@ -1,5 +1,7 @@
 //! Claims about single responses from rest, figures 2.10, 2.11, 3.12, 3.13, 4.11, and from other initial conditions.
 
+use std::sync::Arc;
+
 use quell_dynamics::attractor::{AttractorSettings, Patience, gather, settle_many};
 use quell_dynamics::simulation::Start;
 use quell_model::{Direction, LawKind, Waveform};
@@ -154,35 +156,91 @@ fn borders(sheet: &mut ClaimSheet, printed: &Printed, columns: &AmplitudeColumns
     }
 }
 
-/// Figure 4.11 with one waveform: that of its caption, or a sine.
-pub(super) fn normal(sheet: &mut ClaimSheet, waveform: &Waveform) -> Result<(), Failure> {
-    let waveform = waveform.name();
-    let study = source("4.11")?.changed(&[&format!("dither.waveform={waveform}")])?;
-    let columns = sheet.shared.columns("4.11", &study)?;
-    let stem = format!("4.11-{waveform}");
-    columns_claim(sheet, &stem, &format!("4.11, {waveform}"), &columns, &[0.0, 0.6, 0.95]);
-    let spreads: Vec<f64> = columns.cases.iter().filter_map(spread).collect();
-    let thresholds: Vec<f64> = columns.local.iter().map(|change| change.amplitude).collect();
+/// Figure 4.11 with the waveform of its caption: what its text says of it.
+pub(super) fn square(sheet: &mut ClaimSheet) -> Result<(), Failure> {
+    let columns = normal(sheet, &Waveform::Square)?;
+    let stem = "4.11-square";
+    columns_claim(sheet, stem, "4.11, square", &columns, &[0.0, 0.6, 0.95]);
+    let (spreads, thresholds) = (spreads(&columns), amplitudes(&columns.local));
     let statement =
         "from rest it is stable at D_N = 0.6, unstable from 0.7, and nearly stable at 0.9 to 0.95";
-    // Size of the section where the text calls the response unstable, compared with its size at the end.
-    let pattern = spreads.len() == 6
+    sheet
+        .statement(
+            [&format!("{stem}-pattern"), "Figure 4.11, square", statement],
+            format!("size of the section {}", list(&spreads)),
+            &spreads,
+            is_the_pattern(&spreads),
+        )
+        .note(format!("the stability of the base response changes at D_N = {}", list(&thresholds)));
+    Ok(())
+}
+
+/// With a sine, of which the dissertation says nothing, the pattern of the text appears.
+pub(super) fn sine(sheet: &mut ClaimSheet) -> Result<(), Failure> {
+    let columns = normal(sheet, &Waveform::Sine)?;
+    // "Unstable for D_N ≥ 0.7", not yet at 0.6, and "stabilised approximately in the range 0.9 ≤ D_N ≤ 0.95".
+    let sizes = spreads(&columns);
+    let left = match sizes.as_slice() {
+        [_, _, first, .., last] => Some(last / first),
+        _ => None,
+    };
+    let found: Vec<f64> =
+        amplitudes(&columns.from_rest).first().copied().into_iter().chain(left).collect();
+    let holds = found.len() == 2 && 0.6 < found[0] && found[0] <= 0.7 && found[1] < 0.2;
+    sheet
+        .finding(
+            [
+                "4.11-sine-columns",
+                "Figure 4.11, sine",
+                "with a sine, runs from rest become unstable between the columns 0.6 and 0.7, and little of that is left at 0.95",
+            ],
+            format!(
+                "unstable from {}; at 0.95 the section has {} of its size at 0.7",
+                list(&found[..found.len().min(1)]),
+                list(found.get(1..).unwrap_or_default())
+            ),
+            &found,
+            holds,
+        )
+        .note("the dissertation says square; the small vibration at D_N = 0.95 disappears at 0.9654");
+    let (spreads, thresholds) = (spreads(&columns), amplitudes(&columns.local));
+    sheet
+        .finding(
+            [
+                "4.11-sine-pattern",
+                "Figure 4.11, sine",
+                "with a sine, the sections have the pattern that the text describes: a point, closed curves, nearly a point",
+            ],
+            format!("size of the section {}", list(&spreads)),
+            &spreads,
+            is_the_pattern(&spreads),
+        )
+        .note(format!("the stability of the base response changes at D_N = {}", list(&thresholds)));
+    several_responses(sheet, &columns);
+    Ok(())
+}
+
+/// The columns of figure 4.11 with a waveform.
+fn normal(sheet: &ClaimSheet, waveform: &Waveform) -> Result<Arc<AmplitudeColumns>, Failure> {
+    let study = source("4.11")?.changed(&[&format!("dither.waveform={}", waveform.name())])?;
+    sheet.shared.columns("4.11", &study)
+}
+
+fn spreads(columns: &AmplitudeColumns) -> Vec<f64> {
+    columns.cases.iter().filter_map(spread).collect()
+}
+
+fn amplitudes(changes: &[AmplitudeThreshold]) -> Vec<f64> {
+    changes.iter().map(|change| change.amplitude).collect()
+}
+
+/// Whether the sections are as the text describes: their size where it calls the response unstable, compared with that at the end.
+fn is_the_pattern(spreads: &[f64]) -> bool {
+    spreads.len() == 6
         && spreads[1] < 1e-6
         && spreads[2] > 0.01
         && spreads[3] > 0.01
-        && spreads[5] < 0.2 * spreads[2];
-    sheet
-        .statement(
-            [&format!("{stem}-pattern"), &format!("Figure 4.11, {waveform}"), statement],
-            format!("size of the section {}", list(&spreads)),
-            &spreads,
-            pattern,
-        )
-        .note(format!("the stability of the base response changes at D_N = {}", list(&thresholds)));
-    if study.belt().dithers()[0].waveform == Waveform::Sine {
-        several_responses(sheet, &columns);
-    }
-    Ok(())
+        && spreads[5] < 0.2 * spreads[2]
 }
 
 /// "Although multiple solutions have not been encountered in this study, their existence in other parameter regions is still an open
@@ -195,11 +253,11 @@ fn several_responses(sheet: &mut ClaimSheet, columns: &AmplitudeColumns) {
         [ends(&columns.from_rest), ends(&columns.local)].into_iter().flatten().collect();
     let holds = found.len() == 2 && found[0] < found[1];
     sheet
-        .statement(
+        .finding(
             [
                 "4-open-question",
                 "after Figure 4.11",
-                "multiple solutions under normal dither may exist in other parameter regions (left open)",
+                "whether multiple solutions exist under normal dither, which the dissertation leaves open",
             ],
             format!("they exist from D_N = {}, for the values of figure 4.11 and a sine", list(&found).replace(", ", " to ")),
             &found,

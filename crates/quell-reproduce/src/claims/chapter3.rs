@@ -186,7 +186,7 @@ pub(super) fn thresholds(sheet: &mut ClaimSheet) -> Result<(), Failure> {
             Some((Direction::Tangential, waveform.clone(), 1.0, 10.0)),
         )?;
         let found = critical(&belt, FastResponse::Limit)?;
-        let sharper =
+        let finite_r =
             critical(&belt, FastResponse::Oscillator)?.get(which).map(|change| change.amplitude);
         let becomes = ["unstable", "stable again"][which];
         let (symbol, suffix) = if is_ratio { ("α", "-ratio") } else { ("D_T", "") };
@@ -202,8 +202,8 @@ pub(super) fn thresholds(sheet: &mut ClaimSheet) -> Result<(), Failure> {
             printed,
             value.as_slice(),
         );
-        if let (false, Some(sharper)) = (is_ratio, sharper) {
-            claim.note(format!("with the exact fast motion {}", digits(sharper, 6)));
+        if let (false, Some(finite_r)) = (is_ratio, finite_r) {
+            claim.note(format!("with the exact fast motion {}", digits(finite_r, 6)));
         }
     }
     Ok(())

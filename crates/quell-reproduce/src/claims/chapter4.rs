@@ -5,7 +5,7 @@ use quell_linear::averaging::{
     AveragingOptions, EverywhereStable, FastResponse, FastWave, criterion,
     everywhere_stable_amplitude, unstable_bands,
 };
-use quell_model::{Direction, LawKind, Waveform};
+use quell_model::{Belt, Direction, LawKind, Waveform};
 
 use super::super::failure::failed;
 use super::super::measured_friction::{self, FrictionPanel, TOLERANCE, averaged_at, interpolated};
@@ -162,20 +162,46 @@ fn slope_change(sheet: &mut ClaimSheet, figure: &str, place: &str, pairs: &[[f64
     );
 }
 
+/// Largest slip velocity at which the maximum of friction is searched: the Stribeck law increases again beyond v_m.
+const TOPS_BELOW: f64 = 0.75 * NUMBERS.vm;
+
 /// Slip velocity of the largest friction below that of the law's minimum: measured and averaged.
 fn tops(case: &FrictionPanel) -> Result<[f64; 2], Failure> {
-    // The Stribeck law increases again beyond v_m.
-    let below = |v: f64| v < 0.75 * NUMBERS.vm;
     let steady = case.steady.iter().map(|&(v, mu, _)| (v, mu));
-    let steady: Vec<(f64, f64)> = steady.filter(|point| below(point.0)).collect();
+    tops_among(&case.belt, steady, case.averaged.iter().copied())
+}
+
+/// The same of a belt with normal dither.
+pub(super) fn tops_of(belt: &Belt) -> Result<[f64; 2], Failure> {
+    let grid: Vec<f64> = (1..=50).map(|k| 0.02 * TOPS_BELOW * f64::from(k)).collect();
+    let steady = grid
+        .iter()
+        .filter_map(|v| {
+            let found = steady_effective_friction(belt, *v, TOLERANCE).ok()?;
+            Some((*v, found.coefficient))
+        })
+        .collect::<Vec<_>>();
+    let averaged = grid
+        .iter()
+        .map(|v| Ok((*v, averaged_at("claims", belt, *v)?)))
+        .collect::<Result<Vec<(f64, f64)>, Failure>>()?;
+    tops_among(belt, steady, averaged)
+}
+
+fn tops_among(
+    belt: &Belt,
+    steady: impl IntoIterator<Item = (f64, f64)>,
+    averaged: impl IntoIterator<Item = (f64, f64)>,
+) -> Result<[f64; 2], Failure> {
+    let below = |point: &(f64, f64)| point.0 < TOPS_BELOW;
+    let steady: Vec<(f64, f64)> = steady.into_iter().filter(below).collect();
     let measured = top(&steady, |v| {
-        steady_effective_friction(&case.belt, v, TOLERANCE)
+        steady_effective_friction(belt, v, TOLERANCE)
             .map(|found| found.coefficient)
             .map_err(|error| failed("claims", &error))
     })?;
-    let curve: Vec<(f64, f64)> =
-        case.averaged.iter().copied().filter(|point| below(point.0)).collect();
-    let averaged = top(&curve, |v| averaged_at("claims", &case.belt, v))?;
+    let curve: Vec<(f64, f64)> = averaged.into_iter().filter(below).collect();
+    let averaged = top(&curve, |v| averaged_at("claims", belt, v))?;
     Ok([measured, averaged])
 }
 

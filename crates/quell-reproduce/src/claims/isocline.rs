@@ -44,8 +44,17 @@ fn points(waveforms: &[Waveform], velocities: &[f64], ratios: &[f64]) -> Vec<Iso
     points
 }
 
-/// D(5 %)/(α*R) of each point. The crossing is searched from 0.7 to 1.15 α*R.
-fn ratios(direction: Direction, points: &[IsolinePoint]) -> Result<Vec<f64>, Failure> {
+/// A point of E = 5 %.
+#[derive(Clone, Copy)]
+struct Crossing {
+    /// D(5 %).
+    amplitude: f64,
+    /// D(5 %)/(α*R).
+    ratio: f64,
+}
+
+/// D(5 %) of each point. The crossing is searched from 0.7 to 1.15 α*R.
+fn crossings(direction: Direction, points: &[IsolinePoint]) -> Result<Vec<Crossing>, Failure> {
     let solver = Solver { settle: SETTLE, ..Solver::default() };
     points
         .par_iter()
@@ -74,16 +83,39 @@ fn ratios(direction: Direction, points: &[IsolinePoint]) -> Result<Vec<f64>, Fai
                 range,
                 CLOSENESS,
             )
-            .map(|found| found / amplitude)
+            .map(|found| Crossing { amplitude: found, ratio: found / amplitude })
             .ok_or_else(|| missing("no crossing of 5 %"))
         })
         .collect()
 }
 
-fn extent(values: &[f64]) -> [f64; 2] {
-    values
-        .iter()
-        .fold([f64::INFINITY, 0.0], |[least, most], &value| [value.min(least), value.max(most)])
+fn extent(values: &[Crossing]) -> [f64; 2] {
+    values.iter().fold([f64::INFINITY, 0.0], |[least, most], found| {
+        [found.ratio.min(least), found.ratio.max(most)]
+    })
+}
+
+/// "The slope of the 5 % isocline should increase as v₀ increases": ΔD/ΔR between two ratios, of each law and waveform in turn.
+fn slopes(
+    sheet: &mut ClaimSheet,
+    [name, place]: [&str; 2],
+    [from, to]: [(f64, &[Crossing]); 2],
+    velocities: &[f64],
+) {
+    let slope =
+        |(one, other): (&Crossing, &Crossing)| (other.amplitude - one.amplitude) / (to.0 - from.0);
+    let found: Vec<f64> = from.1.iter().zip(to.1).map(slope).collect();
+    let rows: Vec<String> = found.chunks(velocities.len()).map(list).collect();
+    let grows = |row: &[f64]| row.windows(2).all(|pair| pair[1] > pair[0]);
+    let holds = found.len() == to.1.len() && found.chunks(velocities.len()).all(grows);
+    sheet
+        .statement(
+            [name, place, "the slope of the 5 % isoline increases as v₀ increases"],
+            format!("slope D/R at v₀ = {}: {}", plain(velocities), rows.join("; ")),
+            &found,
+            holds,
+        )
+        .note(format!("between R = {} and {}; Stribeck law first", from.0, to.0));
 }
 
 /// Tangential dither: R = 5, 10, 20.
@@ -91,12 +123,13 @@ pub(super) fn tangential(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let four = [0.05, 0.1, 0.125, 0.15];
     let three = [0.05, 0.1, 0.15];
     let others = [Waveform::Triangle, Waveform::Square];
+    let mut all: [Vec<(f64, Vec<Crossing>)>; 2] = Default::default();
     for ratio in [5.0, 10.0, 20.0] {
-        for (name, place, waveforms, velocities) in [
+        for (all, (name, place, waveforms, velocities)) in all.iter_mut().zip([
             ("2.8", "Figures 2.8, 2.9", &[Waveform::Sine][..], &four[..]),
             ("3.10", "Figures 3.10, 3.11", &others[..], &three[..]),
-        ] {
-            let found = ratios(Direction::Tangential, &points(waveforms, velocities, &[ratio]))?;
+        ]) {
+            let found = crossings(Direction::Tangential, &points(waveforms, velocities, &[ratio]))?;
             let extent = extent(&found);
             let [name, statement] = [
                 format!("{name}-isocline-{ratio}"),
@@ -109,7 +142,15 @@ pub(super) fn tangential(sheet: &mut ClaimSheet) -> Result<(), Failure> {
                      threshold, also for R → ∞",
                     found.len()
                 ));
+            all.push((ratio, found));
         }
+    }
+    for (all, (name, place, velocities)) in all
+        .iter()
+        .zip([("2.8", "Figures 2.8, 2.9", &four[..]), ("3.10", "Figures 3.10, 3.11", &three[..])])
+    {
+        let ends = [1, 2].map(|k: usize| (all[k].0, all[k].1.as_slice()));
+        slopes(sheet, [&format!("{name}-slope-with-velocity"), place], ends, velocities);
     }
     Ok(())
 }
@@ -121,10 +162,19 @@ pub(super) fn normal(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         (LawKind::Decreasing, "Figure 4.10", "4.10-isocline"),
     ] {
         let rows = [4.0, 5.0, 6.0, 7.0].map(|ratio| (law, Waveform::Sine, 0.05, ratio));
-        let found = ratios(Direction::Normal, &rows)?;
+        let found = crossings(Direction::Normal, &rows)?;
+        let found: Vec<f64> = found.iter().map(|found| found.ratio).collect();
         let statement = "E = 5 % coincides with D = α*R: D/(α*R), R_N = 4, 5, 6, 7";
         sheet.number_within(COINCIDES, [name, place, statement], "1.00", &found);
     }
+    let velocities = [0.03, 0.04, 0.05];
+    let [from, to] = [4.0, 6.0].map(|ratio| {
+        crossings(Direction::Normal, &points(&[Waveform::Sine], &velocities, &[ratio]))
+            .map(|found| (ratio, found))
+    });
+    let (from, to) = (from?, to?);
+    let words = ["4.9-slope-with-velocity", "Figures 4.9, 4.10"];
+    slopes(sheet, words, [(from.0, &from.1), (to.0, &to.1)], &velocities);
     Ok(())
 }
 
@@ -232,25 +282,35 @@ pub(super) fn trends(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Levels of E whose isoclines are compared with straight lines, and the last of them is called "fairly distorted".
-const LEVELS: [f64; 4] = [0.05, 0.1, 0.2, 0.5];
+/// Levels of E whose isoclines are compared with straight lines: up to that below which they are called straight, and the level that is
+/// called "fairly distorted".
+fn levels(contours: &ContourFigure) -> Vec<f64> {
+    let mut levels = vec![0.05, 0.1, 0.2, 0.3, 0.4];
+    levels.retain(|level| *level <= contours.small);
+    levels.push(0.5);
+    levels
+}
 
 /// "Small reduction ratios exhibit approximately linear relationships between dither amplitude and frequency ratio", and "the
 /// isoclines become less straight as the performance worsens; for example, when E = 0.5, the contours are fairly distorted".
 pub(super) fn straight(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let deviations = CONTOURS
         .par_iter()
-        .map(|contours| LEVELS.iter().map(|level| deviation(contours, *level)).collect())
+        .map(|contours| {
+            levels(contours).into_iter().map(|level| deviation(contours, level)).collect()
+        })
         .collect::<Result<Vec<Vec<f64>>, Failure>>()?;
     for (contours, found) in CONTOURS.iter().zip(&deviations) {
         let figure = contours.figure;
         let place = format!("Figure {figure}");
-        let small: Vec<f64> = LEVELS
+        let levels = levels(contours);
+        let small: Vec<f64> = levels
             .iter()
             .zip(found)
             .filter(|(level, _)| **level <= contours.small)
             .map(|(_, deviation)| *deviation)
             .collect();
+        let per_cent: Vec<f64> = levels.iter().map(|level| 100.0 * level).collect();
         let words = format!(
             "isoclines of E below {} % are approximately straight for R > {}",
             100.0 * contours.small,
@@ -263,16 +323,20 @@ pub(super) fn straight(sheet: &mut ClaimSheet) -> Result<(), Failure> {
                 &small,
                 small.iter().all(|deviation| *deviation < 0.05),
             )
-            .note(format!("E = 5, 10, 20 % at R = {}", plain(contours.isocline_ratios)));
+            .note(format!(
+                "E = {} % at R = {}",
+                plain(&per_cent[..small.len()]),
+                plain(contours.isocline_ratios)
+            ));
         sheet.statement(
             [
                 &format!("{figure}-less-straight"),
                 &place,
                 "the isoclines become less straight as E increases; at E = 0.5 they are fairly distorted",
             ],
-            format!("largest deviation at E = 5, 10, 20, 50 %: {}", list(found)),
+            format!("largest deviation at E = {} %: {}", plain(&per_cent), list(found)),
             found,
-            found.last() > found[..3].iter().max_by(|a, b| a.total_cmp(b)),
+            found.last() > small.iter().max_by(|a, b| a.total_cmp(b)),
         );
     }
     Ok(())

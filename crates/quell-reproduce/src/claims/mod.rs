@@ -4,7 +4,6 @@
 //! by the rules of [`ClaimVerdict`]. The verdicts on record are in [`LEDGER`]; a test compares every claim with it, so that no
 //! verdict changes unnoticed. `statements` groups the claims by the statements that they measure.
 
-use quell_model::Waveform;
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
 
@@ -14,6 +13,7 @@ use super::source::EntrySource;
 use quell::complaint::Failure;
 
 mod attractors;
+mod bands;
 mod chapter2;
 mod chapter3;
 mod chapter3_formulas;
@@ -21,6 +21,7 @@ mod chapter4;
 mod chapter5;
 mod isocline;
 mod ledger;
+mod qualitative;
 mod record;
 mod revived;
 mod sheet;
@@ -29,7 +30,7 @@ mod thresholds;
 
 pub use super::claim::{Claim, ClaimVerdict, Expected};
 pub use ledger::LEDGER;
-pub use statements::{SEVERAL, StatementVerdict, count, statement_of, statements, summary};
+pub use statements::{SEVERAL, StatementVerdict, count, slips, statement_of, statements, summary};
 
 use sheet::ClaimSheet;
 
@@ -41,11 +42,17 @@ const SECTIONS: &[ClaimMeasurement] = &[
     chapter2::friction_laws,
     chapter2::responses,
     chapter2::forced_response,
+    qualitative::transients,
+    qualitative::equilibrium,
     chapter2::stribeck_map,
     chapter2::decreasing_map,
+    qualitative::upper_edge,
     chapter2::destabilisation,
     thresholds::tangential,
+    qualitative::bursts,
     chapter3::waveforms,
+    qualitative::mean_squares,
+    qualitative::negative_slope,
     chapter3_formulas::formulas,
     chapter3::everywhere_stable,
     chapter3::thresholds,
@@ -56,21 +63,30 @@ const SECTIONS: &[ClaimMeasurement] = &[
     isocline::straight,
     chapter4::responses,
     chapter4::effective_friction,
+    qualitative::change_of_slope,
     chapter4::stability_maps,
+    qualitative::lower_edge,
     isocline::normal,
     |sheet| attractors::tangential(sheet, "2.10"),
     |sheet| attractors::tangential(sheet, "2.11"),
     |sheet| attractors::tangential(sheet, "3.12"),
     |sheet| attractors::tangential(sheet, "3.13"),
-    |sheet| attractors::normal(sheet, &Waveform::Square),
-    |sheet| attractors::normal(sheet, &Waveform::Sine),
+    attractors::square,
+    attractors::sine,
     attractors::other_starts,
     chapter4::formulas,
     chapter5::tables,
+    bands::friction_alone,
     chapter5::thresholds,
+    bands::more_bands,
+    bands::newtons,
+    bands::suppression,
     chapter5::normal,
+    bands::plate_damping,
+    bands::induced,
     chapter5::tangential,
     revived::undamped,
+    bands::narrow,
     chapter5::damping,
     revived::damped,
     chapter5::floquet,
@@ -78,6 +94,8 @@ const SECTIONS: &[ClaimMeasurement] = &[
         chapter5::tangential_force(sheet);
         Ok(())
     },
+    bands::chosen_speed,
+    qualitative::always_quenched,
 ];
 
 /// Measures every claim, in parallel on all cores. The claims are in the order of the dissertation.
@@ -130,7 +148,7 @@ pub fn json(claims: &[Claim]) -> Json {
         .map(|claim| {
             json!({
                 "claim": claim.name,
-                "statement_name": statement_of(&claim.name),
+                "statement_name": claim.is_of_a_statement().then(|| statement_of(&claim.name)),
                 "where": claim.place,
                 "statement": claim.statement,
                 "printed": claim.printed,

@@ -95,6 +95,22 @@ impl ClaimSheet {
         self.push(words, String::new(), measured.into(), values, verdict)
     }
 
+    /// A finding that the dissertation does not state, with the numbers that decide whether it holds.
+    pub(super) fn finding(
+        &mut self,
+        words: [&str; 3],
+        measured: impl Into<String>,
+        values: &[f64],
+        holds: bool,
+    ) -> &mut Claim {
+        let verdict = if holds {
+            ClaimVerdict::Finding
+        } else {
+            ClaimVerdict::NotReproduced { deviation: None }
+        };
+        self.push(words, String::new(), measured.into(), values, verdict)
+    }
+
     /// Compares a printed formula at one point with the value of its definition.
     pub(super) fn formula(&mut self, words: [&str; 3], printed: f64, right: f64) -> &mut Claim {
         let deviation = (printed - right).abs() / right.abs();

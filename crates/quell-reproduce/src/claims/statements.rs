@@ -4,7 +4,8 @@
 //! frequency ratios, or a number measured exactly and once more in the way in which the author probably read it. Counts are counts
 //! of statements; a statement holds if all of its claims do.
 
-use super::super::claim::{Claim, ClaimVerdict};
+use super::super::claim::{Claim, ClaimVerdict, Expected};
+use quell::cite::errata::CORRECT_AS_PRINTED;
 
 /// A statement with the verdict that follows from its claims.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +25,6 @@ pub const SEVERAL: &[&[&str]] = &[
     &["3.7-fundamental", "3.7-record"],
     &["4.3-cancelled", "4.3-record"],
     &["2.6-linear-up-to", "2.6-linear"],
-    &["2.7-undithered-from-rest", "2.7-undithered-from-afar"],
     &["2.7-v1-unstable-ratio", "2.7-v1-unstable", "2.10-local-lower"],
     &[
         "2.7-v1-stable-ratio",
@@ -49,14 +49,13 @@ pub const SEVERAL: &[&[&str]] = &[
     &["4.5-falling-region", "4.6-falling-region"],
     &["4.5-convexity", "4.6-convexity"],
     &["2.3-forced-amplitude", "2.8-falls-with-ratio"],
-    &["4-other-starts", "4-open-question"],
     &["4.41-unstable-ratio", "4.41-unstable"],
     &["4.41-stable-ratio", "4.41-stable"],
     &["2.10-columns", "2.10-from-rest-lower", "2.10-from-rest-upper"],
     &["2.11-columns", "2.11-from-rest-lower", "2.11-from-rest-upper"],
     &["3.12-columns", "3.12-from-rest-lower", "3.12-from-rest-upper"],
     &["3.13-columns", "3.13-from-rest-lower", "3.13-from-rest-upper"],
-    &["4.11-square-columns", "4.11-square-pattern", "4.11-sine-columns", "4.11-sine-pattern"],
+    &["4.11-square-columns", "4.11-square-pattern"],
     &["5.1-speed-1", "5.1-speed-2", "5.1-speed-3", "5.1-speed-4", "5.1-speed-5"],
     &[
         "5.2-speed-1",
@@ -84,10 +83,10 @@ pub fn statement_of(claim: &str) -> &str {
     several.and_then(|claims| claims.first().copied()).unwrap_or(claim)
 }
 
-/// The statements that these claims measure, in the order of their first claims.
+/// The statements that these claims measure, in the order of their first claims; findings measure none.
 pub fn statements<'a>(claims: impl IntoIterator<Item = &'a Claim>) -> Vec<StatementVerdict<'a>> {
     let mut found: Vec<StatementVerdict<'a>> = Vec::new();
-    for claim in claims {
+    for claim in claims.into_iter().filter(|claim| claim.is_of_a_statement()) {
         let name = statement_of(&claim.name);
         match found.iter_mut().find(|statement| statement.name == name) {
             Some(statement) => {
@@ -107,7 +106,7 @@ pub fn statements<'a>(claims: impl IntoIterator<Item = &'a Claim>) -> Vec<Statem
 /// Order from the most to the least favourable verdict, deviations of one kind by size.
 fn rank(verdict: ClaimVerdict) -> (u8, f64) {
     let kind = match verdict {
-        ClaimVerdict::Reproduced => 0,
+        ClaimVerdict::Reproduced | ClaimVerdict::Finding => 0,
         ClaimVerdict::Within { .. } => 1,
         ClaimVerdict::NotReproduced { .. } => 2,
         ClaimVerdict::FormulaWrong { .. } => 3,
@@ -123,15 +122,31 @@ pub fn count(statements: &[StatementVerdict<'_>], kind: &str) -> usize {
 /// The counts in one sentence.
 pub fn summary(statements: &[StatementVerdict<'_>]) -> String {
     let claims: usize = statements.iter().map(|statement| statement.claims.len()).sum();
+    let wrong = count(statements, "printed formula wrong");
     format!(
         "{} statements of the dissertation, measured by {claims} claims: {} reproduced, {} reproduced within a stated deviation, \
-         {} not reproduced, {} printed formulas wrong.",
+         {} not reproduced, {wrong} printed formulas wrong; these are {wrong} of {} that were compared with their definitions, from {} \
+         slips.",
         statements.len(),
         count(statements, "reproduced"),
         count(statements, "reproduced within"),
         count(statements, "not reproduced"),
-        count(statements, "printed formula wrong"),
+        wrong + CORRECT_AS_PRINTED.len(),
+        slips(statements).len(),
     )
+}
+
+/// The slips behind the wrong formulas.
+pub fn slips(statements: &[StatementVerdict<'_>]) -> Vec<&'static str> {
+    let mut found = Vec::new();
+    for claim in statements.iter().flat_map(|statement| &statement.claims) {
+        if let Some(Expected::FormulaWrong(slip)) = claim.expected
+            && !found.contains(&slip)
+        {
+            found.push(slip);
+        }
+    }
+    found
 }
 
 #[cfg(test)]

@@ -19,7 +19,7 @@ pub(super) fn tangential(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     for (velocity, which, figure, ratio, amplitude) in rows {
         let belt = belt_at(LawKind::Decreasing, velocity)?;
         let found = critical(&belt, FastResponse::Limit)?.get(which).copied();
-        let sharper = critical(&belt, FastResponse::Oscillator)?.get(which).copied();
+        let finite_r = critical(&belt, FastResponse::Oscillator)?.get(which).copied();
         let place = format!("Figures 2.7, {figure}");
         let becomes = ["unstable", "stable again"][which];
         let statement = format!("averaging, v₀ = {velocity}: {becomes} from");
@@ -30,11 +30,11 @@ pub(super) fn tangential(sheet: &mut ClaimSheet) -> Result<(), Failure> {
             sheet.truncated([&name, &place, &statement], printed, value.as_slice());
         }
         let value = found.map(|change| change.amplitude);
-        let sharper = sharper.map_or_else(String::new, |change| {
+        let finite_r = finite_r.map_or_else(String::new, |change| {
             format!("with the exact fast motion {}", digits(change.amplitude, 6))
         });
         let statement = format!("{statement} D_T =");
-        sheet.truncated([&stem, &place, &statement], amplitude, value.as_slice()).note(sharper);
+        sheet.truncated([&stem, &place, &statement], amplitude, value.as_slice()).note(finite_r);
     }
     by_differences(sheet)
 }

@@ -19,7 +19,9 @@ use super::{FRICTION_PER_PRINTED, OPEN, STRENGTH_PER_PRINTED, study};
 use quell::cite::Task;
 use quell::complaint::Failure;
 use quell::picture::{self, MapAxis, MapKind};
-use quell::plot::{Figure, Legend, Panel, PlotAxis, SharedLegend, Sharing, Size, Spread};
+use quell::plot::{
+    Figure, Legend, LineStyle, Panel, PlotAxis, ReferenceLine, SharedLegend, Sharing, Size, Spread,
+};
 use quell::study::DiscStudy;
 use quell::sweep::Grid;
 
@@ -30,17 +32,27 @@ const LOW_FRICTIONS: [f64; 4] = [0.002, 0.03, 0.15, 0.5];
 /// Number of frictions at which the edges of predicted tongues are evaluated.
 const EDGES: usize = 80;
 
-/// Speeds of the resonances of undithered waves, and those that dither induces.
-fn marks(disc: &Disc, speeds: &[f64]) -> Vec<(String, f64)> {
+/// A meeting of two waves to be marked.
+struct MeetingMark {
+    label: String,
+    speed: f64,
+    /// Whether the pair has a tongue at the order of the theory.
+    has_tongue: bool,
+}
+
+/// Every meeting of tables 5.1 and 5.2: of undithered waves, and those that dither induces.
+fn marks(disc: &Disc, speeds: &[f64]) -> Vec<MeetingMark> {
     let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else { return Vec::new() };
     let Ok(waves) = Waves::new(disc) else { return Vec::new() };
     // Counted from the slowest, as in tables 5.1 and 5.2; a disc at rest is no resonance.
-    let numbered = |found: Vec<Resonance>, star: &str| -> Vec<(String, f64)> {
+    let numbered = |found: Vec<Resonance>, star: &str| -> Vec<MeetingMark> {
         let found = found.into_iter().filter(|resonance| resonance.speed > 0.0);
-        let numbered = found.enumerate().filter(|(_, resonance)| resonance.can_be_unstable());
-        numbered
-            .map(|(index, resonance)| (format!("$Ω_{}{star}$", index + 1), resonance.speed))
-            .collect()
+        let mark = |(index, resonance): (usize, Resonance)| MeetingMark {
+            label: format!("$Ω_{{{}}}{star}$", index + 1),
+            speed: resonance.speed,
+            has_tongue: resonance.pair_can_be_unstable(),
+        };
+        found.enumerate().map(mark).collect()
     };
     let order = match disc.dither() {
         DiscDither::Tangential { .. } => Order::Second,
@@ -48,7 +60,7 @@ fn marks(disc: &Disc, speeds: &[f64]) -> Vec<(String, f64)> {
     };
     let mut marks = numbered(waves.clone().with_order(order).undithered(0.0..=last), "");
     marks.extend(numbered(waves.dithered(0.0..=last), "^*"));
-    marks.retain(|(_, speed)| *speed >= first);
+    marks.retain(|mark| mark.speed >= first);
     marks
 }
 
@@ -76,16 +88,24 @@ pub(crate) fn sizes(source: &EntrySource) -> Result<Product, Failure> {
         format!("sweep[1].from={}", ends[0]),
         format!("sweep[1].to={}", ends[1]),
     ];
-    let second = study(source, &changes.each_ref().map(String::as_str))?;
+    let changes = if source.has_own_axis(1) { &changes[..3] } else { &changes[..] };
+    let second = study(source, &changes.iter().map(String::as_str).collect::<Vec<_>>())?;
     let studies = [(first.clone(), first.disc().clone()), (second.clone(), second.disc().clone())];
     let modes = first.disc().modes().len();
-    let caption = format!(
-        "Figure {}. Growth rate of the undithered disc over speed and friction, {modes} modes, (a) $m$ = $c$ = $k$ = 0.1, (b) \
-         0.01 as printed; dark red: growth, pale blue: decay, with the exact line of zero growth. Speeds are in units of the lowest critical speed of this set of modes, \
-         which changes by a factor of 1.188 from $N_θ$ = 2 to 5. {OPEN}",
-        source.name
+    let shows = format!(
+        "Growth rate of the undithered disc over speed and friction, {modes} modes, {}; dark red: growth, pale blue: decay, with the \
+         exact line of zero growth. Speeds are in units of the lowest critical speed of this set of modes.",
+        if source.is_own() {
+            "(a) the load of the study, (b) a mass, damper and spring of 0.01 as printed"
+        } else {
+            "(a) $m$ = $c$ = $k$ = 0.1, (b) 0.01 as printed"
+        }
     );
-    draw(source, &studies, ["$m$ = $c$ = $k$ = 0.1", "$m$ = $c$ = $k$ = 0.01"], caption)
+    let print =
+        format!("The unit of speed changes by a factor of 1.188 from $N_θ$ = 2 to 5. {OPEN}");
+    let caption = source.caption(&shows, &print);
+    let first = if source.is_own() { "load of the study" } else { "$m$ = $c$ = $k$ = 0.1" };
+    draw(source, &studies, [first, "$m$ = $c$ = $k$ = 0.01"], caption)
 }
 
 /// Figures 5.7 to 5.15: growth rate without and with dither.
@@ -104,12 +124,20 @@ pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     };
     let printed = disc.loads().first().map_or(0.0, |load| load.mass / STRENGTH_PER_PRINTED);
     let damping = disc.get("disc.modal_damping").unwrap_or(0.0);
-    let caption = format!(
-        "Figure {}. Growth rate of the disc over speed and friction, (a) without dither, (b) with {kind} dither, $α$ = 1, $R$ \
-         = {ratio}; $m$ = $c$ = $k$ = {printed:.1} as printed, $ξ$ = {damping}; dark red: growth, pale blue: decay, with the exact line of zero growth. Dashed: tongues \
-         by first-order theory{revived}. {OPEN}",
-        source.name
+    let amplitude = disc.get("dither.amplitude").unwrap_or(1.0);
+    let load = match disc.loads().first() {
+        Some(load) if source.is_own() => format!(
+            "$m$ = {}, $c$ = {}, $k$ = {} of the plate's mass",
+            load.mass, load.damping, load.stiffness
+        ),
+        _ => format!("$m$ = $c$ = $k$ = {printed:.1} as printed"),
+    };
+    let shows = format!(
+        "Growth rate of the disc over speed and friction, (a) without dither, (b) with {kind} dither, $α$ = {amplitude}, $R$ \
+         = {ratio}; {load}, $ξ$ = {damping}; dark red: growth, pale blue: decay, with the exact line of zero growth. Dashed: tongues \
+         by first-order theory{revived}; vertical lines: meetings of waves, dotted where no pair of waves has a tongue at this order."
     );
+    let caption = source.caption(&shows, OPEN);
     draw(source, &studies, ["without dither", "with dither"], caption)
 }
 
@@ -201,11 +229,10 @@ fn panel(
         _ => Vec::new(),
     };
     let mut over = over;
-    over.extend(
-        marks(disc, &done.speeds)
-            .into_iter()
-            .map(|(label, speed)| quell::plot::ReferenceLine::vertical(speed).label(label).into()),
-    );
+    over.extend(marks(disc, &done.speeds).into_iter().map(|mark| {
+        let style = if mark.has_tongue { LineStyle::Dashed } else { LineStyle::Dotted };
+        ReferenceLine::vertical(mark.speed).label(mark.label).style(style).into()
+    }));
     let zero = zero
         .into_iter()
         .map(|line| line.into_iter().map(|(speed, friction)| (speed, friction * unit)).collect());

@@ -21,7 +21,7 @@ use std::path::Path;
 
 use super::source::EntrySource;
 use quell::complaint::Failure;
-use quell::study::{Change, DiscStudy};
+use quell::study::DiscStudy;
 
 /// Ratio of f* to the printed f.
 pub(super) const FRICTION_PER_PRINTED: f64 = 1e4 * STRENGTH_PER_PRINTED;
@@ -34,9 +34,7 @@ pub(super) const STRENGTH_PER_PRINTED: f64 = 1.0 / (0.75 * std::f64::consts::PI)
 /// # Errors
 /// Complaints about the study file; a test checks that it has no fault.
 pub(super) fn study(source: &EntrySource, changes: &[&str]) -> Result<DiscStudy, Failure> {
-    let changes: Result<Vec<Change>, _> =
-        changes.iter().map(|change| Change::parse(change, "reproduce")).collect();
-    let mut changes = changes?;
+    let mut changes = source.changes(changes)?;
     let folder = Path::new("");
     if source.most_points.is_some() {
         let fine = DiscStudy::parse_in(source.text, &changes, folder)?;
@@ -45,6 +43,6 @@ pub(super) fn study(source: &EntrySource, changes: &[&str]) -> Result<DiscStudy,
     Ok(DiscStudy::parse_in(source.text, &changes, folder)?)
 }
 
-/// Sentence about the unspecified parameters in every caption.
+/// Sentence about the unspecified parameters in every caption of the dissertation's own numbers.
 pub(super) const OPEN: &str = "Not specified in the dissertation and fitted to its text: $b$/$a$ = 0.5, $r_0$/$a$ = 0.75, \
      $ρha^2$ = 1 (m*, c*, k* = 0.4244 × printed), and the printed $f$ equal to 10⁻⁴ of the consistent value.";

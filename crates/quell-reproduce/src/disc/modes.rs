@@ -21,7 +21,10 @@ const RADII: usize = 101;
 pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
     let study = study(source, &[])?;
     let failure = |why: &dyn std::fmt::Display| failed(source.name, &why);
-    let plate = Plate::new(0.5, 0.3).map_err(|why| failure(&why))?;
+    let document = study.document();
+    let number = |key: &str, printed: f64| document["disc"][key].as_f64().unwrap_or(printed);
+    let (inner, poisson) = (number("inner_radius_ratio", 0.5), number("poisson_ratio", 0.3));
+    let plate = Plate::new(inner, poisson).map_err(|why| failure(&why))?;
     let set = ModeSet::new(&plate, 2, 3, Reference::Critical).map_err(|why| failure(&why))?;
     let columns = [("radial", "1"), ("diameters", "1"), ("radius", "a"), ("shape", "1")];
     let mut table = DataTable::new("", &columns);
@@ -30,7 +33,7 @@ pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         let shown = |mode: &&PlateMode| (mode.radial, mode.diameters) == (radial, diameters);
         let Some(mode) = set.modes().iter().find(shown) else { continue };
         for k in 0..RADII {
-            let radius = 0.5 + 0.5 * (k as f64 / (RADII - 1) as f64);
+            let radius = (1.0 - inner).mul_add(k as f64 / (RADII - 1) as f64, inner);
             let value = mode.shape.value(radius);
             let (radial, diameters) = (radial as f64, f64::from(diameters));
             table.row([radial.into(), diameters.into(), radius.into(), value.into()]);
@@ -50,8 +53,10 @@ pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         .sharing_x(Sharing::All)
         .sharing_y(Sharing::All)
         .size(Size::Frame(230.0, 230.0));
-    let caption = "Figure 5.2. Modes of the annular plate clamped at its inner and free at its outer edge, $b$/$a$ = 0.5, $ν$ \
-                   = 0.3: deflection $φ$($r$) cos $jθ$ with unit mean square over the plate (red: up, blue: down, black: \
-                   nodes); $k^2$ is the frequency parameter.";
+    let shows = format!(
+        "Modes of the annular plate clamped at its inner and free at its outer edge, $b$/$a$ = {inner}, $ν$ = {poisson}: deflection \
+         $φ$($r$) cos $jθ$ with unit mean square over the plate (red: up, blue: down, black: nodes); $k^2$ is the frequency parameter."
+    );
+    let caption = source.caption(&shows, "");
     Ok(Product::of_disc(figure, caption, &study).by(&[Task::Modes]).table(table))
 }

@@ -45,7 +45,9 @@ pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         panels.push(panel.title(format!("({name}) Re $ρ$ {sign}")).legend(Legend::None));
     }
     let figure = Figure::grid(3, panels).sharing_x(Sharing::All).size(Size::Frame(250.0, 180.0));
-    let caption = "Figure 5.6. Responses of one degree of freedom, $x$ = $e^{ρτ}$ cos $τ$ with Re $ρ$ = 0.03, 0, −0.03, and \
-                   their envelopes; the dissertation gives no numbers.";
+    let caption = source.caption(
+        "Responses of one degree of freedom, $x$ = $e^{ρτ}$ cos $τ$ with Re $ρ$ = 0.03, 0, −0.03, and their envelopes.",
+        "The dissertation gives no numbers.",
+    );
     Ok(Product::of_disc(figure, caption, &study).by(&[]).table(table))
 }

@@ -40,16 +40,19 @@ fn table(
         ("printed", "ω_ref"),
         ("speed", "ω_ref"),
         ("waves", "1"),
-        ("can_be_unstable", "1"),
+        ("pair_can_be_unstable", "1"),
         ("threshold_over_damper", "1"),
     ];
     let mut table = DataTable::new("", &columns);
+    // Speeds of one's own are not those of the print.
+    let printed = if source.is_own() { &[] } else { printed };
     let mut names = printed.iter().enumerate();
     let damper = study.disc().loads().first().map_or(1.0, |load| load.damping);
     for resonance in found(&waves) {
         // The dissertation omits Ω = 0.
         let (name, value) = match names.next().filter(|_| resonance.speed > 1e-9) {
             Some((index, printed)) => (format!("{symbol}_{}", index + 1), printed.parse().ok()),
+            None if source.is_own() => (symbol.to_owned(), None),
             None => ("not printed".to_owned(), None),
         };
         if resonance.speed <= 1e-9 {
@@ -60,15 +63,24 @@ fn table(
             value.into(),
             resonance.speed.into(),
             resonance.label().as_str().into(),
-            if resonance.can_be_unstable() { "yes" } else { "no" }.into(),
+            if resonance.pair_can_be_unstable() { "yes" } else { "no" }.into(),
             resonance.threshold.map(|threshold| threshold / damper).into(),
         ]);
     }
-    let caption = format!(
-        "Table {number}. Speeds Ω at which two waves of the disc meet in the frame of the load, $N_r$ = 1, $N_θ$ = 2{}: every \
-         printed digit is reproduced with $b$/$a$ = 0.5, printed as 0.05. Added: the pair of waves, whether their meeting can \
-         be unstable at first order, and the friction $f$/$c$ at the tip of its tongue.",
-        if number == "5.2" { ", $R$ = 2.7" } else { "" }
-    );
+    let caption = if source.is_own() {
+        format!(
+            "Own numbers, {}: speeds Ω at which two waves of the disc meet in the frame of the load, as in table {number} of Michaux \
+             (2005), but no table of that dissertation; the pair of waves, whether it can be unstable at first order, and the friction \
+             $f$/$c$ at the tip of its tongue.",
+            source.own_words().join("; ")
+        )
+    } else {
+        format!(
+            "Table {number}. Speeds Ω at which two waves of the disc meet in the frame of the load, $N_r$ = 1, $N_θ$ = 2{}: every \
+             printed digit is reproduced with $b$/$a$ = 0.5, printed as 0.05. Added: the pair of waves, whether it can be unstable at \
+             first order, and the friction $f$/$c$ at the tip of its tongue.",
+            if number == "5.2" { ", $R$ = 2.7" } else { "" }
+        )
+    };
     Ok(Product::table_of_disc(caption, &study).by(&[Task::Resonances]).table(table))
 }

@@ -47,10 +47,12 @@ fn write_one(page: &mut HtmlPage, done: &WrittenEntry, claims: &[&Claim]) {
     let kind = if done.entry.name.starts_with("table") { "Table" } else { "Figure" };
     let short = if kind == "Table" { format!("T {number}") } else { number.to_owned() };
     page.entry(&anchor, &short, done.entry.about);
-    page.put(&format!(
-        "<article id=\"{anchor}\"><h3>{kind} {number}: {}</h3>",
-        escape(done.entry.about)
-    ));
+    let heading = if done.own {
+        format!("Own numbers, like {} {number}", kind.to_lowercase())
+    } else {
+        format!("{kind} {number}: {}", escape(done.entry.about))
+    };
+    page.put(&format!("<article id=\"{anchor}\"><h3>{heading}</h3>"));
     page.put(&format!(
         "<figure>{}<figcaption>{}</figcaption></figure>",
         shown(done),

@@ -57,6 +57,7 @@ pub(super) fn chip(claim: &Claim) -> String {
         ClaimVerdict::Within { .. } => "within",
         ClaimVerdict::FormulaWrong { .. } => "wrong",
         ClaimVerdict::NotReproduced { .. } => "fails",
+        ClaimVerdict::Finding => "finding",
     };
     format!("<span class=\"chip {class}\">{}</span>", claim.verdict)
 }

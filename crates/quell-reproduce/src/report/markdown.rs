@@ -2,15 +2,15 @@
 
 use std::fmt::Write as _;
 
-use super::super::{Resolution, WrittenEntry};
+use super::super::{ReproductionOptions, Resolution, WrittenEntry};
 use super::claims;
 use crate::claims::{statements, summary};
 
 /// The table.
-pub(crate) fn markdown(written: &[WrittenEntry], resolution: Resolution) -> String {
+pub(crate) fn markdown(written: &[WrittenEntry], options: &ReproductionOptions) -> String {
     let all = claims::all(written);
-    let mut text = "# The dissertation, reproduced\n\n".to_owned();
-    if resolution == Resolution::Quick {
+    let mut text = format!("# {}\n\n", super::title(options));
+    if options.resolution == Resolution::Quick {
         text += "Quick: maps have coarser grids than their study files specify.\n\n";
     }
     if !all.is_empty() {
@@ -19,7 +19,8 @@ pub(crate) fn markdown(written: &[WrittenEntry], resolution: Resolution) -> Stri
     }
     text += "| name | what | claims that hold | corrections applied | files | seconds |\n|---|---|---|---|---|---|\n";
     for done in written {
-        let of = claims::of(&done.entry, &all);
+        let mut of = claims::of(&done.entry, &all);
+        of.retain(|claim| claim.is_of_a_statement());
         let holding = of.iter().filter(|claim| claim.verdict.holds()).count();
         let counted =
             if of.is_empty() { String::new() } else { format!("{holding} of {}", of.len()) };

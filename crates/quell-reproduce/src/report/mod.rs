@@ -10,7 +10,7 @@ mod errata;
 mod markdown;
 mod summary;
 
-use super::{Resolution, WrittenEntry};
+use super::{ReproductionOptions, WrittenEntry};
 use quell::cite::Sources;
 use quell::html::{HtmlPage, escape};
 
@@ -20,14 +20,24 @@ pub(super) use markdown::markdown;
 const STYLE: &str = include_str!("style.css");
 
 /// The page.
-pub(super) fn html(written: &[WrittenEntry], resolution: Resolution) -> String {
-    let mut page = HtmlPage::new("The dissertation, reproduced", STYLE);
-    summary::write(&mut page, written, resolution);
+pub(super) fn html(written: &[WrittenEntry], options: &ReproductionOptions) -> String {
+    let title = title(options);
+    let mut page = HtmlPage::new(title, STYLE);
+    summary::write(&mut page, title, written, options);
     chapters::write(&mut page, written);
     claims::write(&mut page, written);
     errata::write(&mut page);
     sources(&mut page, written);
     page.finish()
+}
+
+/// Title of the report: one with other numbers reproduces nothing.
+fn title(options: &ReproductionOptions) -> &'static str {
+    if options.changes.is_empty() {
+        "The dissertation, reproduced"
+    } else {
+        "Own numbers, by the figures of the dissertation"
+    }
 }
 
 /// The literature on which the results are based.

@@ -2,10 +2,11 @@
 
 use std::time::Duration;
 
-use super::super::claims::{Claim, ClaimVerdict, count, statements};
-use super::super::{Resolution, WrittenEntry};
+use super::super::claims::{Claim, ClaimVerdict, StatementVerdict, count, slips, statements};
+use super::super::{ReproductionOptions, Resolution, WrittenEntry};
 use super::claims::{all, chip};
 use quell::cite::MICHAUX_2005;
+use quell::cite::errata::CORRECT_AS_PRINTED;
 use quell::html::{HtmlPage, escape, symbols, table};
 
 /// Kinds of verdict in the order of the summary, with their meaning.
@@ -29,15 +30,32 @@ const KINDS: [(&str, &str, &str); 4] = [
 ];
 
 /// Writes the section.
-pub(super) fn write(page: &mut HtmlPage, written: &[WrittenEntry], resolution: Resolution) {
+pub(super) fn write(
+    page: &mut HtmlPage,
+    title: &str,
+    written: &[WrittenEntry],
+    options: &ReproductionOptions,
+) {
     let claims: Vec<&Claim> = all(written);
+    let resolution = options.resolution;
+    let lead = if options.changes.is_empty() {
+        "Does dither, a fast added vibration, silence friction-induced vibration, as this dissertation claims? Every figure and table \
+         was recomputed from its study file, and every number and formula that can be measured was measured."
+            .to_owned()
+    } else {
+        let changes: Vec<String> =
+            options.changes.iter().map(|change| escape(&change.to_string())).collect();
+        format!(
+            "Figures computed like those of this dissertation with other numbers: {}. None of them is a figure of the dissertation.",
+            changes.join(", ")
+        )
+    };
     page.put(&format!(
-        "<header><p class=\"kicker\">Quell {} · reproduce{}</p><h1>The dissertation, reproduced</h1><p \
-         class=\"source\">{}</p><p class=\"lead\">Does dither, a fast added vibration, silence friction-induced vibration, as \
-         this dissertation claims? Every figure and table was recomputed from its study file, and every number and formula \
-         that can be measured was measured. {}</p></header>",
+        "<header><p class=\"kicker\">Quell {} · reproduce{}</p><h1>{}</h1><p \
+         class=\"source\">{}</p><p class=\"lead\">{lead} {}</p></header>",
         env!("CARGO_PKG_VERSION"),
         if resolution == Resolution::Quick { " --quick" } else { "" },
+        title,
         escape(MICHAUX_2005.reference),
         extent(written, resolution),
     ));
@@ -94,9 +112,22 @@ fn overview(page: &mut HtmlPage, claims: &[&Claim]) {
         .concat();
     page.put(&format!(
         "<p>Of <strong>{total}</strong> statements, measured by {} claims:</p><div class=\"bar\">{bar}</div><ul \
-         class=\"cards\">{cards}</ul>",
-        claims.len()
+         class=\"cards\">{cards}</ul><p>{}</p>",
+        claims.iter().filter(|claim| claim.is_of_a_statement()).count(),
+        escape(&formulas(&statements)),
     ));
+}
+
+/// How many printed formulas were compared, and the slips behind those that are wrong.
+fn formulas(found: &[StatementVerdict<'_>]) -> String {
+    let wrong = count(found, "printed formula wrong");
+    let slips = slips(found);
+    format!(
+        "{} printed formulas were compared with their definitions; {wrong} are wrong, from {} slips: {}.",
+        wrong + CORRECT_AS_PRINTED.len(),
+        slips.len(),
+        slips.join("; ")
+    )
 }
 
 /// Lists verdicts that are not the expected ones, first and prominently.
@@ -146,6 +177,8 @@ fn exceptions(page: &mut HtmlPage, claims: &[&Claim]) {
         &names,
         rows(|verdict| matches!(verdict, ClaimVerdict::NotReproduced { .. })),
     ));
+    page.put("<h3>Findings that the dissertation does not state</h3>");
+    page.put(&table("claims", &names, rows(|verdict| *verdict == ClaimVerdict::Finding)));
     page.put("<h3>Printed formulas that are wrong</h3>");
     page.put(&table(
         "claims",

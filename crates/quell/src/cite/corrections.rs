@@ -371,11 +371,12 @@ pub const CORRECTIONS: &[Correction] = &[
     Correction {
         equations: "(5.56), table 5.2",
         printed: "eight dither-induced instabilities",
-        right: "places only: waves that meet head-on share their damping, a wave with l = 0 is coupled one way only; of the eight \
-                only the first three can be unstable",
+        right: "places only. At first order only the first three of the eight have a tongue: waves that meet head-on share their \
+                damping, and a wave with l = 0 is coupled one way only. Exactly, strong friction adds the fourth, as figure 5.9 and its \
+                text have it: at m = c = k = 0.1, Ω = 0.553, f = 1.7·10⁻⁴ three waves grow together",
         tasks: RESONANCES,
         bears: Bears::Disc(DiscKind::Dithered),
-        proof: disc("only_three_of_eight_can_be_unstable"),
+        proof: disc("at_first_order_three_of_eight_grow_and_exactly_the_fourth_too"),
     },
     Correction {
         equations: "text after (5.56)",

@@ -15,6 +15,7 @@ mod correction;
 mod corrections;
 mod disc;
 pub mod errata;
+pub mod page;
 mod references;
 mod system;
 

@@ -1,14 +1,16 @@
-//! `resonances`: where waves of the disc meet, which meetings can be unstable, and which dither frequencies keep a range of
-//! speeds clear.
+//! `resonances`: where waves of the disc meet, which pairs can be unstable at the order of the theory, where motions grow by the exact
+//! equations, and which dither frequencies keep a range of speeds clear.
 
 use std::ops::RangeInclusive;
 
+use quell_disc::growing::{GrowingSpeeds, growing_speeds};
 use quell_disc::resonance::{
-    Blocked, Clearance, ClearanceError, Nearby, Tongue, Verified, WaveError, Waves,
-    clear_frequencies, verified_frequency, within,
+    Blocked, Clearance, ClearanceError, Nearby, TestedFrequency, Tongue, Verification, Verified,
+    WaveError, Waves, clear_frequencies, verified_frequency, within,
 };
 pub use quell_disc::resonance::{Order, Resonance};
 pub use quell_linear::growth::Verdict;
+use quell_model::Disc;
 use quell_model::disc::Contributions;
 use quell_model::parameter::{Bounds, DITHER_FREQUENCY_RATIO};
 use quell_model::units::Quantity;
@@ -97,6 +99,36 @@ pub struct Clear {
     pub suggestion: Option<(f64, Vec<Nearby>)>,
     /// The largest growth rate of the exact equations at that frequency over the range of speeds.
     pub verified: Option<Verified>,
+    /// The frequencies that were tested by the exact equations.
+    pub tested: Vec<TestedFrequency>,
+}
+
+/// Speeds in which a motion grows by the exact equations, and which pair of waves explains it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GrowingInterval {
+    /// The speeds and the largest growth.
+    pub speeds: GrowingSpeeds,
+    /// What theory says of it.
+    pub explained: Explained,
+}
+
+/// How theory explains an interval of growth.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Explained {
+    /// A single wave grows at its fastest speed by itself.
+    Wave,
+    /// The tongue of a pair of waves at this order reaches into it.
+    Pair {
+        /// The order.
+        order: Order,
+        /// The meeting.
+        meeting: Resonance,
+    },
+    /// No wave and no pair of waves grows there at first or second order; the meeting whose speed is nearest.
+    Not {
+        /// The nearest meeting.
+        nearest: Option<Resonance>,
+    },
 }
 
 /// Resonances of a study's disc.
@@ -108,6 +140,8 @@ pub struct Resonances {
     pub undithered: Vec<Resonance>,
     /// Meetings induced by dither.
     pub dithered: Vec<Resonance>,
+    /// The speeds in which a motion grows by the exact equations, at the friction of the study; or why they are not known.
+    pub growing: Result<Vec<GrowingInterval>, String>,
     /// The answer about clear frequencies.
     pub clear: Option<Clear>,
 }
@@ -165,7 +199,8 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
                 })?;
             let widest =
                 clearance.clear.iter().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
-            let verified = verified_frequency(study.disc(), &clearance, speeds.clone());
+            let Verification { best: verified, tested } =
+                verified_frequency(study.disc(), &clearance, speeds.clone());
             let suggestion = widest.map(|[from, to]| {
                 let ratio = verified.map_or(0.5 * (from + to), |best| best.frequency_ratio);
                 let there = waves
@@ -175,16 +210,99 @@ pub fn run(study: &DiscStudy, question: ResonancesRequest) -> Result<Resonances,
             });
             let suggestion = suggestion.transpose()?;
             let (speeds, frequencies) = (speeds.clone(), frequencies.clone());
-            Some(Clear { speeds, frequencies, clearance, suggestion, verified })
+            Some(Clear { speeds, frequencies, clearance, suggestion, verified, tested })
         }
     };
     let speeds = question.speeds.clone();
     Ok(Resonances {
+        growing: growing(study.disc(), &waves, &speeds),
         undithered: waves.undithered(speeds.clone()),
         dithered: waves.dithered(speeds),
         question,
         clear,
     })
+}
+
+/// Equal steps of the range of speeds in which motions that grow are searched, besides the predicted tongues.
+const STEPS: u32 = 240;
+
+/// The speeds in which a motion grows by the exact equations, with their explanation.
+fn growing(
+    disc: &Disc,
+    waves: &Waves,
+    speeds: &RangeInclusive<f64>,
+) -> Result<Vec<GrowingInterval>, String> {
+    let found = growing_speeds(disc, speeds, STEPS).map_err(|why| why.to_string())?;
+    let orders =
+        [Order::First, Order::Second].map(|order| (order, waves.clone().with_order(order)));
+    let (start, end) = (*speeds.start(), *speeds.end());
+    // A tongue next to the range may reach into it.
+    let wide = start - 0.5..=end + 0.5;
+    let all = orders.map(|(order, waves)| {
+        let meetings = waves.undithered(wide.clone()).into_iter();
+        (order, meetings.chain(waves.dithered(wide.clone())).collect::<Vec<_>>())
+    });
+    let explain = |speeds: &GrowingSpeeds| -> Explained {
+        let peak = speeds.peak_speed;
+        if waves.waves().iter().any(|wave| waves.growth_rate(wave, peak) > 0.0) {
+            return Explained::Wave;
+        }
+        let apart = |meeting: &&Resonance| (meeting.speed - peak).abs();
+        for (order, meetings) in &all {
+            let reaches = |meeting: &&Resonance| {
+                let edges = meeting.tongue.edges();
+                edges.is_some_and(|[low, high]| low <= speeds.to && high >= speeds.from)
+            };
+            let reaching = meetings.iter().filter(reaches);
+            let meeting = reaching.min_by(|a, b| apart(a).total_cmp(&apart(b)));
+            if let Some(meeting) = meeting {
+                return Explained::Pair { order: *order, meeting: *meeting };
+            }
+        }
+        let nearest = all[0].1.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        Explained::Not { nearest: nearest.copied() }
+    };
+    Ok(found
+        .into_iter()
+        .map(|speeds| GrowingInterval { explained: explain(&speeds), speeds })
+        .collect())
+}
+
+/// An interval of growth as JSON.
+fn interval(growing: &GrowingInterval, hertz: Option<f64>) -> Json {
+    let GrowingSpeeds { from, to, peak_speed, peak_growth } = growing.speeds;
+    let (explained, order, pair) = match &growing.explained {
+        Explained::Wave => ("wave", Json::Null, Json::Null),
+        Explained::Pair { order, meeting } => {
+            ("pair", named(*order).into(), meeting.label().into())
+        }
+        Explained::Not { .. } => ("none", Json::Null, Json::Null),
+    };
+    let mut object = json!({
+        "from": from,
+        "to": to,
+        "peak_speed": peak_speed,
+        "peak_growth": peak_growth,
+        "explained_by": explained,
+        "order": order,
+        "pair": pair,
+    });
+    put_hertz(&mut object, hertz, &["from", "to", "peak_speed"]);
+    if let Explained::Not { nearest } = &growing.explained {
+        object["nearest_meeting"] = nearest.map_or(Json::Null, |meeting| meeting.speed.into());
+        object["why"] = json!({ "pair": THREE_WAVES });
+    }
+    object
+}
+
+/// What theory says of an interval of growth that it does not explain.
+pub const THREE_WAVES: &str = "no wave and no pair of waves grows there at first or second order: three waves or more grow together";
+
+fn named(order: Order) -> &'static str {
+    match order {
+        Order::First => "first",
+        Order::Second => "second",
+    }
 }
 
 /// Adds to an object its numbers in ω_ref converted to hertz, under their names with `_hz`.
@@ -219,10 +337,10 @@ fn meeting(resonance: &Resonance, hertz: Option<f64>) -> Json {
         why.insert("peak_growth".to_owned(), reason.into());
     }
     if resonance.threshold.is_none() {
-        let reason = if resonance.can_be_unstable() {
+        let reason = if resonance.pair_can_be_unstable() {
             "as friction rises, a wave grows on its own before a tongue appears"
         } else {
-            "this meeting cannot be unstable at this order"
+            "this pair of waves has no tongue at this order at any friction"
         };
         why.insert("threshold".to_owned(), reason.into());
     }
@@ -232,7 +350,7 @@ fn meeting(resonance: &Resonance, hertz: Option<f64>) -> Json {
         "pair": resonance.label(),
         "conjugate": resonance.sum,
         "harmonic": resonance.harmonic,
-        "can_be_unstable": resonance.can_be_unstable(),
+        "pair_can_be_unstable": resonance.pair_can_be_unstable(),
         "threshold": resonance.threshold,
         "edges": edges,
         "width": resonance.tongue.width(),
@@ -280,9 +398,9 @@ impl Resonances {
             .with(Array::new("speed", "ω_ref", column(&|resonance| resonance.speed)))
             .with(Array::new("harmonic", "1", column(&|resonance| f64::from(resonance.harmonic))))
             .with(Array::new(
-                "can_be_unstable",
+                "pair_can_be_unstable",
                 "1",
-                column(&|resonance| f64::from(u8::from(resonance.can_be_unstable()))),
+                column(&|resonance| f64::from(u8::from(resonance.pair_can_be_unstable()))),
             ))
             .with(Array::new(
                 "threshold",
@@ -305,14 +423,22 @@ impl Resonances {
         let mut object = json!({
             "ok": true,
             "speeds": [start, end],
-            "order": if self.question.order == Order::First { "first" } else { "second" },
+            "order": named(self.question.order),
             "undithered": self.undithered.iter().map(|resonance| meeting(resonance, hertz)).collect::<Vec<_>>(),
             "dithered": self.dithered.iter().map(|resonance| meeting(resonance, hertz)).collect::<Vec<_>>(),
+            "growing": self.growing.as_ref().ok().map(|found| {
+                found.iter().map(|growing| interval(growing, hertz)).collect::<Vec<_>>()
+            }),
+            "friction": study.disc().loads().first().map(|load| load.friction),
             "units": {
                 "speed": "ω_ref", "edges": "ω_ref", "width": "ω_ref", "peak_growth": "ω_ref", "threshold": "1 (f*)",
+                "from": "ω_ref", "to": "ω_ref", "peak_speed": "ω_ref", "friction": "1 (f*)",
             },
             "warnings": study.warnings(),
         });
+        if let Err(why) = &self.growing {
+            object["why"] = json!({ "growing": why });
+        }
         put_hertz(&mut object, hertz, &["speeds"]);
         if let Some(clear) = &self.clear {
             let mut inner = json!({
@@ -329,9 +455,15 @@ impl Resonances {
                     "growth_rate_error": verified.growth.error,
                     "speed": verified.speed,
                 })),
+                "tested": clear.tested.iter().map(|tested| json!({
+                    "frequency_ratio": tested.result.frequency_ratio,
+                    "verdict": tested.result.growth.verdict().name(),
+                    "growth_rate": tested.result.growth.rate,
+                    "speed": tested.result.speed,
+                })).collect::<Vec<_>>(),
                 "units": {
                     "speeds": "ω_ref", "frequencies": "ω_ref", "clear": "ω_ref", "suggestion": "ω_ref",
-                    "verified_growth_rate": "ω_ref", "growth_rate": "ω_ref", "growth_rate_error": "ω_ref", "speed": "ω_ref",
+                    "verified_growth_rate": "ω_ref", "growth_rate": "ω_ref", "growth_rate_error": "ω_ref", "speed": "ω_ref", "frequency_ratio": "ω_ref",
                 },
             });
             put_hertz(&mut inner, hertz, &["speeds", "frequencies", "clear", "suggestion"]);
