@@ -418,3 +418,41 @@ fn errata_equal_the_list_of_corrections() {
     let page = fs::read_to_string(&path).expect("QUELL_BLESS=1 writes it");
     assert_eq!(page, now, "QUELL_BLESS=1 writes the present registry into the page");
 }
+
+/// The page of sources is generated from the bibliography, so that it lists every source.
+#[test]
+fn sources_equal_the_bibliography() {
+    let path = root().join("docs/book/src/sources.md");
+    let now = quell::cite::page::markdown();
+    if std::env::var_os("QUELL_BLESS").is_some() {
+        fs::write(&path, &now).expect("written");
+    }
+    let page = fs::read_to_string(&path).expect("QUELL_BLESS=1 writes it");
+    assert_eq!(page, now, "QUELL_BLESS=1 writes the present bibliography into the page");
+}
+
+/// The README counts the laws and waveforms that there are, and lists the names of the laws.
+#[test]
+fn the_readme_counts_laws_and_waveforms() {
+    let text = fs::read_to_string(root().join("README.md")).expect("the README");
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = ["four", "five", "six", "seven", "eight", "nine", "ten"];
+    let in_words = |count: usize| words[count - 4];
+    let laws = quell_model::LawKind::NUMERIC;
+    assert!(text.contains(&format!(
+        "with {} friction laws, a formula or measured samples",
+        in_words(laws.len())
+    )));
+    for law in laws {
+        assert!(text.contains(&format!("\"{}\"", law.name())), "{}", law.name());
+    }
+    let waveforms = ["sine", "triangle", "square", "fourier", "samples", "burst", "noise"];
+    assert!(text.contains(&format!("dither of {} waveforms", in_words(waveforms.len()))));
+    let listed = waveforms.map(|name| format!("\"{name}\""));
+    assert!(listed.iter().all(|name| text.contains(name.as_str())), "{listed:?}");
+    // Every kind that a study may name is among them.
+    let schema = quell::schema::schema().to_string();
+    for name in waveforms {
+        assert!(schema.contains(&format!("\"{name}\"")), "{name}");
+    }
+}

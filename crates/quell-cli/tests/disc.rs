@@ -79,7 +79,7 @@ fn every_verb_has_its_documented_fields() {
     let resonances = good(&place, &["resonances", "disc.toml"]);
     assert_eq!(resonances["undithered"].as_array().expect("a list").len(), 7);
     assert_eq!(resonances["dithered"].as_array().expect("a list").len(), 8);
-    for name in ["speed", "waves", "can_be_unstable", "threshold", "edges", "peak_growth"] {
+    for name in ["speed", "waves", "pair_can_be_unstable", "threshold", "edges", "peak_growth"] {
         assert!(resonances["dithered"][0].get(name).is_some(), "{name}");
     }
 }
@@ -163,7 +163,10 @@ fn remaining_instabilities_at_a_clear_frequency_are_reported() {
     let found = reaching(&clear);
     assert_eq!(found.len(), 1, "{clear}");
     assert!(clear["there"].as_array().is_some_and(|there| there.len() > 1), "{clear}");
-    assert_eq!((&found[0]["harmonic"], &found[0]["can_be_unstable"]), (&0.into(), &true.into()));
+    assert_eq!(
+        (&found[0]["harmonic"], &found[0]["pair_can_be_unstable"]),
+        (&0.into(), &true.into())
+    );
     let number = |item: &Json| item.as_f64().expect("a number");
     assert!(number(&found[0]["speed"]) < 0.25 && number(&found[0]["edges"][1]) > 0.25, "{clear}");
     assert!(number(&clear["verified_growth_rate"]) < 0.0, "{clear}");
@@ -181,7 +184,7 @@ fn remaining_instabilities_at_a_clear_frequency_are_reported() {
     // Over all speeds the theory finds no frequency either.
     let (clear, words) = ask("0.02:0.9", "0.4");
     assert!(clear["suggestion"].is_null() && clear["why"]["suggestion"].is_string(), "{clear}");
-    assert!(words.contains("clear of dither-induced tongues:\n  none\n"), "{words}");
+    assert!(words.contains("clear of dither-induced tongues at first order:\n  none\n"), "{words}");
     assert!(!words.contains("remaining there") && !words.contains("verified"), "{words}");
 }
 

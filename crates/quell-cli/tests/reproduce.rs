@@ -30,11 +30,9 @@ fn figures_and_claims_are_written() {
     let names: std::collections::BTreeSet<&str> =
         claims.iter().filter_map(|claim| claim["statement_name"].as_str()).collect();
     let summary = object["summary"].as_str().expect("a sentence");
-    let counts = format!(
-        "{} statements of the dissertation, measured by {} claims: ",
-        names.len(),
-        claims.len()
-    );
+    let counted = claims.iter().filter(|claim| claim["verdict"] != "finding").count();
+    let counts =
+        format!("{} statements of the dissertation, measured by {counted} claims: ", names.len());
     assert!(names.len() < claims.len() && summary.starts_with(&counts), "{summary}");
 }
 
@@ -51,4 +49,27 @@ fn unknown_names_and_unwritable_directories_are_rejected() {
     assert_eq!(done.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&done.stderr).contains("--out"));
     assert!(!folder.path().join("file/figure-2.2.svg").exists());
+}
+
+#[test]
+fn a_figure_with_ones_own_numbers_is_one_command() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("mine");
+    let out = out.to_str().expect("a path");
+    let set = "friction.reference_velocity=0.3";
+    let done = quell(&["reproduce", "2.4", "--set", set, "--no-title", "--out", out, "--json"]);
+    assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
+    let object: Value = serde_json::from_slice(&done.stdout).expect("one JSON object");
+    assert_eq!(object["changes"][0], "friction.reference_velocity=0.3");
+    assert_eq!(object["entries"][0]["own"], true);
+    let svg =
+        std::fs::read_to_string(folder.path().join("mine/own-figure-2.4.svg")).expect("a picture");
+    assert!(svg.contains("Own numbers") && !svg.contains("Figure 2.4"), "{}", &svg[..600]);
+    let report = std::fs::read_to_string(folder.path().join("mine/report.html")).expect("a report");
+    assert!(
+        report.contains("None of them is a figure of the dissertation")
+            && !report.contains("<h3>Figure 2.4")
+    );
+    let done = quell(&["reproduce", "--set", set, "--out", out]);
+    assert_eq!(done.status.code(), Some(2));
 }

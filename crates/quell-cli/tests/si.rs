@@ -512,7 +512,7 @@ fn an_orbit_has_extremes_and_a_table() {
 fn stability_reports_growth_and_forces() {
     let place = place("si_stability");
     let found = place.good(&["stability", "pad.toml"]);
-    let finite = &found["sharper"];
+    let finite = &found;
     let rate = finite["growth_rate_per_s"].as_f64().expect("a rate");
     let decibels = finite["growth_rate_db_per_s"].as_f64().expect("a rate");
     assert!((decibels / rate - 20.0 * std::f64::consts::LOG10_E).abs() < 1e-12);

@@ -27,7 +27,7 @@ pub(crate) fn main() -> Result<(), Failure> {
     let curve = friction::run(&study, &[0.1, 0.2, 0.4]);
     println!("{}", Answered::new(&study, curve).text());
     let found = stability::run(&study);
-    assert_eq!(found.limit.verdict(), "unstable");
+    assert_eq!(found.averaged.verdict(), "unstable");
     println!("{}", Answered::new(&study, found).text());
     Ok(())
 }

@@ -140,7 +140,7 @@ pub(crate) fn rigid_average(belt: &Belt, slip_velocity: f64) -> Option<String> {
         return (displacement > 0.0 && ratio < LARGE).then(|| bristles_follow(ratio, ""));
     }
     let stiffness = belt.tangential_stiffness()?;
-    let breakaway = law.static_coefficient() * belt.normal_load() / stiffness;
+    let breakaway = letting_go(law, belt.fast_velocity()) * belt.normal_load() / stiffness;
     if displacement > 0.0 && displacement < LARGE * breakaway {
         return Some(slider_follows(displacement / breakaway, ""));
     }
@@ -153,6 +153,12 @@ pub(crate) fn rigid_average(belt: &Belt, slip_velocity: f64) -> Option<String> {
             digits(reached)
         )
     })
+}
+
+/// The largest coefficient at which an elastic slider lets go under slip speeds up to `speed`: its static level, or that of sliding where
+/// the law rises above it.
+fn letting_go(law: &Friction, speed: f64) -> f64 {
+    law.static_coefficient().max(law.coefficient(speed))
 }
 
 /// The level at which bristles saturate at high slip.
@@ -171,7 +177,7 @@ fn bristles_follow(ratio: f64, of: &str) -> String {
 fn slider_follows(ratio: f64, of: &str) -> String {
     format!(
         "the elastic contact{of} follows the dither without slipping for a part of each period, because the dither displacement is {} \
-         times the breakaway displacement μ_s N/k_t, not many times: the average of the rigid law does not hold",
+         times the breakaway displacement, not many times: the average of the rigid law does not hold",
         digits(ratio)
     )
 }
@@ -195,7 +201,8 @@ pub(crate) fn without_states(system: &System, fast: Option<(&[f64], f64)>) -> Ve
                 warnings.push(small_motions(&of));
             }
         } else if let Some(stiffness) = contact.tangential_stiffness {
-            let breakaway = law.static_coefficient() * contact.normal_load / stiffness;
+            let speed = fast.and_then(|(slip, _)| slip.get(index).copied()).unwrap_or_default();
+            let breakaway = letting_go(law, speed) * contact.normal_load / stiffness;
             if displacement > 0.0 && displacement < LARGE * breakaway {
                 warnings.push(slider_follows(displacement / breakaway, &of));
             }

@@ -114,6 +114,25 @@ fn the_belt_and_the_belt_as_a_system_have_the_closed_coefficient() {
     }
 }
 
+/// The formula of the book for any units: l₁ = −N μ‴ ω/(4m), with the mass, the load and the frequency of the study.
+#[test]
+fn the_coefficient_of_a_mass_scales_as_the_book_says() {
+    let book = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/book/src/theory/orbits.md");
+    let book = fs::read_to_string(book).expect("the book");
+    assert!(book.contains("l₁ = −N μ‴ω/(4m)"), "the book states the formula that is tested here");
+    let (mass, stiffness, load) = (2.5, 40.0, 3.0);
+    let text = SYSTEM
+        .replace("mass = [1.0]", &format!("mass = [{mass}]"))
+        .replace("stiffness = [[1.0]]", &format!("stiffness = [[{stiffness}]]"))
+        .replace("normal_load = 1.0", &format!("normal_load = {load}"));
+    let answer = thresholds(&study(&text), "contact.belt.belt_velocity", 0.15, 0.21);
+    let [found] = list(&answer["local"]) else { panic!("{answer}") };
+    let third = 3.0 * 0.15 / 0.008;
+    let expected = -load * third * f64::sqrt(stiffness / mass) / (4.0 * mass);
+    let value = number(&found["first_lyapunov_coefficient"]);
+    assert!((value / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+}
+
 /// Under a small fast dither the threshold is a Neimark–Sacker bifurcation whose coefficient is close to T ω l₁.
 #[test]
 fn a_dithered_belt_keeps_the_criticality_of_the_belt() {

@@ -8,6 +8,7 @@ use quell::run::{
 };
 use quell::study::{BeltStudy, Change};
 use quell::sweep::{MapQuantity, Plan, Running, Status};
+use quell_linear::averaging::{AveragingOptions, Effective, FastMotion};
 use serde_json::Value as Json;
 
 fn reference() -> Json {
@@ -50,7 +51,12 @@ fn averages_are_those_of_the_definition() {
     for row in rows {
         let study = study(row["study"].as_str().expect("text"));
         let found = friction::run(&study, &numbers(&row["slip_velocity"]));
-        let (values, slopes) = (found.effective_coefficients(), found.effective_slopes());
+        // The reference is of the limit R → ∞.
+        let limit = found.limit.as_ref().expect("a dither acts");
+        let of = |pick: fn(&Effective) -> f64| -> Vec<f64> {
+            limit.iter().map(|found| pick(found.as_ref().expect("an average"))).collect()
+        };
+        let (values, slopes) = (of(|found| found.coefficient), of(|found| found.slope));
         for (place, value) in numbers(&row["coefficient"]).into_iter().enumerate() {
             let error = (values[place] / value - 1.0).abs();
             assert!(error < 1e-10, "{row}: {} differs by {error:e}", values[place]);
@@ -59,7 +65,7 @@ fn averages_are_those_of_the_definition() {
         // reported error of the average is larger.
         for (place, slope) in numbers(&row["slope"]).into_iter().enumerate() {
             let error = (slopes[place] - slope).abs();
-            let reported = found.points[place].effective.as_ref().expect("an average").slope_error;
+            let reported = limit[place].as_ref().expect("an average").slope_error;
             assert!(reported < 1e-4, "{row}: {reported:e}");
             assert!(error < 1e-9 + reported, "{row}: slope {} differs by {error:e}", slopes[place]);
         }
@@ -73,9 +79,17 @@ fn coulomb_under_a_sine_is_an_arcsine() {
     let study = study(reference["averages"][0]["study"].as_str().expect("text"));
     let alpha = 0.08;
     let at: Vec<f64> = (1..40).map(|k| 0.002 * f64::from(k)).collect();
-    for (v, value) in at.iter().zip(friction::run(&study, &at).effective_coefficients()) {
-        let exact = 0.3 * (2.0 / std::f64::consts::PI) * (v / alpha).asin();
-        assert!((value / exact - 1.0).abs() < 1e-12, "{v}: {value}, {exact}");
+    let found = friction::run(&study, &at);
+    let limit = found.limit.as_ref().expect("a dither acts");
+    // At R = 10 the fast velocity is larger by 1/(1 − 1/R²).
+    let finite = alpha / 0.99;
+    for (place, v) in at.iter().enumerate() {
+        let exact = |alpha: f64| 0.3 * (2.0 / std::f64::consts::PI) * (v / alpha).asin();
+        let own = found.points[place].effective.as_ref().expect("an average").coefficient;
+        let limit = limit[place].as_ref().expect("an average").coefficient;
+        for (value, exact) in [(own, exact(finite)), (limit, exact(alpha))] {
+            assert!((value / exact - 1.0).abs() < 1e-12, "{v}: {value}, {exact}");
+        }
     }
 }
 
@@ -166,7 +180,7 @@ fn friction_in_newtons_is_independent_of_the_normal_force() {
 #[test]
 fn the_drive_of_veraszto_and_stepan_has_its_hopf_point() {
     let study = study(DRIVE);
-    let bands = stability::run(&study).limit.unstable_bands.expect("bands");
+    let bands = stability::run(&study).averaged.unstable_bands.expect("bands");
     let upper = bands[0].upper.expect("an end") * study.scales().expect("SI").angular_frequency();
     assert!((upper / 0.190616072953803 - 1.0).abs() < 1e-9, "{upper}");
 }
@@ -215,7 +229,7 @@ fn laws_not_analytic_at_rest_are_only_averaged() {
     let study = study(&text);
     let wrong = simulate::run(&study, 10.0, simulate::Options::default()).expect_err("no branch");
     assert!(format!("{wrong:?}").contains("exponent = 1, 2, 3 or 4"), "{wrong:?}");
-    assert!(stability::run(&study).limit.criterion.is_ok());
+    assert!(stability::run(&study).averaged.criterion.is_ok());
 }
 
 const CUBIC: &str = "schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.1\n[friction]\n\
@@ -268,7 +282,9 @@ fn every_verb_warns_where_slip_leaves_the_range() {
         let grid = friction::grid(study.belt());
         let end = grid.last().copied().expect("points");
         // With dither, the average at a slip velocity reaches that velocity plus the fast velocity.
-        let met = end + study.belt().fast_velocity();
+        let belt = study.belt();
+        let motion = FastMotion::of(belt, belt.belt_velocity(), AveragingOptions::FINITE_R);
+        let met = end + motion.and_then(|motion| motion.largest_slip()).expect("a fast motion");
         assert!((met - 0.2 * 3f64.sqrt()).abs() < 1e-15, "{end}");
     }
     quiet(&friction::run(&inside, &friction::grid(inside.belt())).json(&inside));
@@ -307,7 +323,7 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     // A map point has its value, and a status that reports the range.
     let axes = "[[sweep]]\nparameter = \"dither.amplitude\"\nvalues = [0.5, 3.0]\n";
     let swept = study(&format!("{CUBIC}{axes}"));
-    for name in ["residual-vibration", "mean-friction", "verdict", "criterion-sharper"] {
+    for name in ["residual-vibration", "mean-friction", "verdict", "limit-criterion"] {
         let quantity = MapQuantity::named(name, "--quantity").expect("a quantity");
         let plan = Plan::new(&swept, &[quantity]).expect("axes");
         let found = map::run(plan, None, running).expect("a map");

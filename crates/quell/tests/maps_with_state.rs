@@ -159,10 +159,11 @@ fn points_of_belts_are_the_answers_of_the_verbs() {
         "verdict",
         "criterion",
         "growth",
-        "verdict-sharper",
-        "criterion-sharper",
-        "growth-sharper",
         "critical-amplitude",
+        "limit-verdict",
+        "limit-criterion",
+        "limit-growth",
+        "limit-critical-amplitude",
     ];
     let names: Vec<String> = of_response.iter().map(|name| name.replace('_', "-")).collect();
     let quantities: Vec<&str> = names.iter().map(String::as_str).chain(averaged).collect();
@@ -175,15 +176,16 @@ fn points_of_belts_are_the_answers_of_the_verbs() {
                 assert_same(&found, fact, point, &response[fact]);
             }
             let stability = one.stability().expect("averages").json();
-            let sharper = &stability["sharper"];
+            let limit = &stability["limit"];
             for (variable, fact) in [
                 ("verdict", &stability["verdict"]),
                 ("criterion", &stability["criterion"]),
                 ("growth", &stability["growth_rate"]),
-                ("verdict_sharper", &sharper["verdict"]),
-                ("criterion_sharper", &sharper["criterion"]),
-                ("growth_sharper", &sharper["growth_rate"]),
                 ("critical_amplitude", &stability["critical_amplitudes"][0]["amplitude_ratio"]),
+                ("limit_verdict", &limit["verdict"]),
+                ("limit_criterion", &limit["criterion"]),
+                ("limit_growth", &limit["growth_rate"]),
+                ("limit_critical_amplitude", &limit["critical_amplitudes"][0]["amplitude_ratio"]),
             ] {
                 assert_same(&found, variable, point, fact);
                 let status = &found[format!("{variable}_status").as_str()][point];

@@ -1,8 +1,13 @@
 //! Verbs that could contradict each other about one study, found by readers from outside.
 
+use std::sync::atomic::AtomicBool;
+
 use quell::Study;
 use quell::kind::verbs;
+use quell::run::probability::ProbabilityRequest;
+use quell::run::system::tracked::TrackRequest;
 use quell::run::thresholds::ThresholdsRequest;
+use quell::sweep::{MapQuantity, Plan, Running};
 use quell_design::quench::quench_of_belt;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -92,7 +97,7 @@ fn a_waveform_in_the_band_of_the_vibration_has_no_exact_amplitude() {
     assert_eq!(reasons.count(), 4, "{why:?}");
     assert!(number(&row("burst 1 : 3")["exact_amplitude"]) > 1.0);
     let sentence = found["sentence"].as_str().expect("a sentence");
-    assert!(sentence.contains("the least amplitude is that of a square"), "{sentence}");
+    assert!(sentence.contains("a square has the least"), "{sentence}");
     let burst = BELT.replace("\"sine\"", "\"burst\"\ncarrier = \"sine\"\non = 5\noff = 3");
     let response = verbs(&study(&burst)).response().expect("a response").facts();
     assert_ne!(response["effect"], "quenches", "{response}");
@@ -139,4 +144,111 @@ fn a_run_in_its_first_stick_has_not_settled() {
         "{}",
         found["warnings"]
     );
+}
+
+/// A belt between the amplitude from which it is quiet (exact: D = 0.496562) and that of the limit of high frequency (0.4999).
+const NEAR: &str = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.05\n[friction]\nlaw = \"stribeck\"\n\
+                    static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\n\
+                    direction = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.498\nfrequency_ratio = 10.0\n";
+
+/// The same in SI: a brake whose dither is a little more than enough.
+const BRAKE: &str = "[belt]\nmass_kg = 0.5\nnatural_frequency_hz = 5600.0\ndamping_ratio = 0.005\nnormal_force_n = \"4 kN\"\n\
+                     belt_velocity_m_per_s = 0.1\n[friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.4\n\
+                     minimum_coefficient = 0.2857\nreference_velocity_m_per_s = 0.2\n[dither]\ndirection = \"tangential\"\n\
+                     waveform = \"sine\"\namplitude_n = 5800\nfrequency_hz = 20000\n";
+
+fn map(text: &str, quantities: &[&str]) -> Json {
+    let asked: Vec<_> = quantities
+        .iter()
+        .map(|name| MapQuantity::named_for("belt", name, "--quantity").expect("a quantity"))
+        .collect();
+    let plan = Plan::new(study(text), &asked).expect("a plan");
+    let never = AtomicBool::new(false);
+    let running = Running { threads: Some(1), stop: &never, progress: &() };
+    quell::run::map::run(plan, None, running).expect("a map").json()
+}
+
+/// The unprefixed keys of every verb are those of its sentence, by finite-R averaging; the limit has names of its own.
+#[test]
+fn verdicts_by_averaging_are_those_of_the_sentence() {
+    for (text, amplitude) in [(NEAR, "dither.amplitude"), (BRAKE, "dither.amplitude_n")] {
+        let own = number(
+            &verbs(&study(text)).check().facts()["dithers"][0]
+                [if text == NEAR { "amplitude" } else { "amplitude_n" }],
+        );
+        let stability = verbs(&study(text)).stability().expect("averages").facts();
+        assert_eq!(stability["verdict"], "stable", "{stability}");
+        assert_eq!(stability["limit"]["verdict"], "unstable", "{stability}");
+        assert!(number(&stability["growth_rate"]) < 0.0);
+        let sentence = stability["sentence"].as_str().expect("a sentence");
+        assert!(
+            sentence.contains("is stable") && !sentence.contains("unstable from"),
+            "{sentence}"
+        );
+        let axis = format!("{text}[[sweep]]\nparameter = \"{amplitude}\"\nvalues = [{own:?}]\n");
+        let quantities = [
+            "verdict",
+            "growth",
+            "critical-amplitude",
+            "limit-verdict",
+            "limit-critical-amplitude",
+        ];
+        let found = map(&axis, &quantities);
+        assert_eq!(found["verdict"][0], "stable", "{found}");
+        assert_eq!(found["limit_verdict"][0], "unstable", "{found}");
+        let ratio = &stability["critical_amplitudes"][0]["amplitude_ratio"];
+        assert!((number(&found["critical_amplitude"][0]) / number(ratio) - 1.0).abs() < 1e-12);
+        // Mean friction has the slope that decides: that of the limit has the other sign of 2ζ + Fμ̄′.
+        let friction =
+            verbs(&study(text)).friction(Some(vec![0.05]), false).expect("means").facts();
+        assert_ne!(friction["effective_slope"], friction["limit"]["effective_slope"]);
+        let uncertain = format!(
+            "{text}[uncertainty]\n\"{amplitude}\" = {{ uniform = [{own:?}, {:?}] }}\n",
+            own * (1.0 + 1e-9)
+        );
+        let request = ProbabilityRequest { samples: Some(20), ..ProbabilityRequest::default() };
+        let never = AtomicBool::new(false);
+        let running = Running { threads: Some(1), stop: &never, progress: &() };
+        let found = verbs(&study(&uncertain)).probability(request, running).expect("a probability");
+        let found = found.facts();
+        assert_eq!((&found["quiet"], &found["limit"]["quiet"]), (&20.into(), &0.into()), "{found}");
+    }
+}
+
+/// Where the belt is exactly as fast as the fast motion the criterion jumps to infinity: a map has no number there, only a reason. The
+/// rounding of the quotient of amplitude and frequency makes no number of 10⁸ of it.
+#[test]
+fn a_map_has_no_criterion_where_it_is_infinite() {
+    // Of a sine the fast velocity is D/R in the limit, at any rounding of D = 0.05·R.
+    for (velocity, ratio) in [(0.05, 10.0), (0.1, 3.0), (0.3, 7.0), (0.7, 11.0), (0.07, 13.0)] {
+        let text = NEAR
+            .replace("frequency_ratio = 10.0", &format!("frequency_ratio = {ratio:?}"))
+            .replace("belt_velocity = 0.05", &format!("belt_velocity = {velocity:?}"));
+        let exact: f64 = velocity * ratio;
+        let values = [exact.next_down(), exact, exact.next_up(), 1.001 * exact, 0.999 * exact];
+        let axis = format!("[[sweep]]\nparameter = \"dither.amplitude\"\nvalues = {values:?}\n");
+        let found = map(&format!("{text}{axis}"), &["limit-criterion", "limit-growth"]);
+        for point in 0..3 {
+            for name in ["limit_criterion", "limit_growth"] {
+                assert!(found[name][point].is_null(), "{ratio}: {found}");
+                assert_eq!(found[format!("{name}_status").as_str()][point], "at_corner");
+            }
+        }
+        assert!(number(&found["limit_criterion"][3]) > 0.0);
+        assert!(found["limit_criterion"][4].is_number());
+    }
+}
+
+/// An option that a kind of study lacks is not refused by a list that has the verb.
+#[test]
+fn a_refused_option_is_not_listed() {
+    let request = TrackRequest {
+        parameter: "belt.belt_velocity".to_owned(),
+        window: (0.1, 0.2),
+        along: None,
+    };
+    let refused = verbs(&study(NEAR)).tracked_stability(&request).map(|_| ()).expect_err("a belt");
+    let said = refused.to_string();
+    assert!(said.starts_with("belt: stability --parameter is not available"), "{said}");
+    assert!(said.contains("stability without --parameter"), "{said}");
 }

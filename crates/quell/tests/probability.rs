@@ -48,10 +48,12 @@ fn probabilities_quantiles_and_indices_are_those_of_quadrature() {
     for case in reference["cases"].as_array().expect("cases") {
         let name = case["name"].as_str().expect("a name");
         let found = averaged(case["study"].as_str().expect("a study"), samples);
-        for key in ["probability", "probability_sharper"] {
+        for (key, pointer) in
+            [("probability", "/probability"), ("limit_probability", "/limit/probability")]
+        {
             let Some(exact) = case[key].as_f64() else { continue };
             let error = 3.0 * (exact * (1.0 - exact) / samples as f64).sqrt();
-            let value = number(&found[key]);
+            let value = found.pointer(pointer).map_or(f64::NAN, number);
             assert!((value - exact).abs() < error, "{name}: {key} {value} {exact}");
         }
         let (low, high) = (number(&found["low"]), number(&found["high"]));
@@ -280,9 +282,7 @@ fn share_quenched(amplitude: f64, start: ProbabilityStart) -> f64 {
             "{text}[uncertainty]\n\"belt.damping_ratio\" = {{ uniform = [0.005, 0.0050000001] }}\n"
         );
         let found = found(&certain, 1, start);
-        let key =
-            if start == ProbabilityStart::Averaged { "vibrating_sharper" } else { "vibrating" };
-        found[key] == 1
+        found["vibrating"] == 1
     };
     for _ in 0..14 {
         let middle = f64::midpoint(low, high);
@@ -312,7 +312,7 @@ fn uncertain_scales_change_rates_and_forces() {
     }
 }
 
-/// Averaging of a dither that is not fast is warned of, and its sharper form is unknown below the resonance.
+/// Averaging of a dither that is not fast is warned of, and is unknown below the resonance.
 #[test]
 fn averaging_of_slow_dither_is_warned_of() {
     let uncertain = "[uncertainty]\n\"belt.belt_velocity\" = { uniform = [0.05, 0.15] }\n";
@@ -327,17 +327,14 @@ fn averaging_of_slow_dither_is_warned_of() {
     };
     let slow = of("0.5");
     assert!(warned(&slow, "R is below 5 in 60 of 60 samples"), "{slow}");
-    assert!(slow["probability_sharper"].is_null());
-    assert!(
-        slow["sentence"]
-            .as_str()
-            .is_some_and(|said| said.contains("By finite-R averaging it is unknown"))
-    );
+    assert!(slow["probability"].is_null() && slow["why"]["probability"].is_string(), "{slow}");
+    assert_eq!(slow["sentence"], "No verdict of 60 samples is known.");
+    assert!(slow["limit"]["probability"].is_number(), "{slow}");
     // Fast enough for both, and not for the limit of high frequency.
     let near = averaged(
         &format!("{}{uncertain}", STRIBECK.replace("amplitude = 1.2", "amplitude = 0.985")),
         400,
     );
-    assert!(warned(&near, "disagree"), "{near}");
+    assert!(warned(&near, "another verdict"), "{near}");
     assert!(!warned(&of("10.0"), "below 5"));
 }

@@ -181,3 +181,52 @@ fn bistability_of_the_block_of_veraszto_and_stepan() {
     let high = number(&case, "printed", "end_of_bistability") / exact - 1.0;
     assert!((0.15..0.16).contains(&high), "{high}");
 }
+
+/// The stick–slip example of PathSim 0.27.1: m = 20 kg, k = 70 N/m, d = 10 N·s/m, friction coefficient 1, belt 2 sin(2πt/50) m/s. In
+/// the frame of the belt the support is at rest, and the belt's motion is a force: two sines and a constant, which shifts the origin. The
+/// block sticks until k x_b + d v_b + m a_b = μmg, in closed form.
+#[test]
+fn a_belt_of_oscillating_speed_is_a_support_at_rest_under_two_sines() {
+    let (mass, stiffness, damper, weight) = (20.0, 70.0, 10.0, 20.0 * 9.81);
+    let (speed, omega) = (2.0, std::f64::consts::TAU / 50.0);
+    let own = f64::sqrt(stiffness / mass);
+    let zeta = damper / (2.0 * mass * own);
+    let (cosine, sine) = (
+        (stiffness * speed / omega - mass * speed * omega) / stiffness,
+        damper * speed / stiffness,
+    );
+    let dither = |amplitude: f64, phase: f64| {
+        format!(
+            "[[dither]]\ndirection = \"tangential\"\nwaveform = \"sine\"\namplitude = {amplitude:?}\nfrequency_ratio = {:?}\n\
+             phase = {phase:?}\n",
+            omega / own
+        )
+    };
+    let text = format!(
+        "[belt]\ndamping_ratio = {zeta:?}\nnormal_load = {:?}\nbelt_velocity = 0.0\n[belt.initial]\ndisplacement = {:?}\n\
+         velocity = 0.0\n[friction]\nlaw = \"expression\"\ncoefficient = \"1.0\"\n{}{}",
+        weight / stiffness,
+        speed / omega,
+        dither(cosine, std::f64::consts::FRAC_PI_2),
+        dither(sine, std::f64::consts::PI),
+    );
+    let study = study(&text);
+    let options = Options { events: true, ..Options::default() };
+    let found = simulate(&study, 20.0, options).expect("a run").events.expect("asked");
+    let release = found.iter().find(|event| event.kind == EventKind::Release).expect("it slips");
+    // The closed form, by bisection.
+    let excess = |t: f64| {
+        let angle = omega * t;
+        stiffness * speed / omega * (1.0 - angle.cos())
+            + damper * speed * angle.sin()
+            + mass * speed * omega * angle.cos()
+            - weight
+    };
+    let (mut low, mut high) = (0.0, 10.0);
+    while high - low > 1e-13 {
+        let middle = 0.5 * (low + high);
+        *(if excess(middle) < 0.0 { &mut low } else { &mut high }) = middle;
+    }
+    close(release.time / own, low, 1e-9);
+    close(low, 4.600699324, 1e-9);
+}

@@ -101,7 +101,10 @@ impl FastMotion {
     }
 
     /// Largest fast slip velocity, max s summed over the groups.
-    pub(super) fn largest_slip(&self) -> Result<f64, AveragingError> {
+    ///
+    /// # Errors
+    /// A quadrature that did not converge.
+    pub fn largest_slip(&self) -> Result<f64, AveragingError> {
         Ok(self.slip_range()?[1])
     }
 }

@@ -44,8 +44,9 @@ pub struct Contact {
     pub friction: Friction,
     /// Tangential stiffness k_t > 0 of an elastic slider, a force over a length; `None` for a rigid contact.
     ///
-    /// While |T| < μ_s N the contact adheres and Ṫ = k_t γ. It slides at T = ±μ(|γ|)N, and adheres again where its own speed
-    /// γ − Ṫ/k_t reaches zero. Its state is T, 0 at the start of a study: the element of Jenkins (1962) and Iwan (1966).
+    /// While |T| < max(μ_s, μ(|γ|))N the contact adheres and Ṫ = k_t γ. It slides at T = ±μ(|γ|)N, and adheres again where its own
+    /// speed γ − Ṫ/k_t reaches zero. Its state is T, 0 at the start of a study and where an open contact lands: the element of Jenkins
+    /// (1962) and Iwan (1966).
     pub tangential_stiffness: Option<f64>,
 }
 

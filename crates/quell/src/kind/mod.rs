@@ -332,7 +332,13 @@ pub trait Verbs: Send + Sync {
     /// The error of a verb that the kind does not have.
     fn lacks(&self, verb: &str) -> Failure {
         let mut complaint = not_available(verb, self.kind(), Origin::Whole);
-        let _ = write!(complaint.allowed, "; its verbs are {}", self.names().join(", "));
+        // An option that the kind lacks, of a verb that it has.
+        let named = |name: &&'static str| match verb.strip_prefix(*name) {
+            Some(option) if option.starts_with(" --") => format!("{name} without{option}"),
+            _ => (*name).to_owned(),
+        };
+        let names: Vec<String> = self.names().iter().map(named).collect();
+        let _ = write!(complaint.allowed, "; its verbs are {}", names.join(", "));
         complaint.into()
     }
 }

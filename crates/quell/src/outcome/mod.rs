@@ -205,6 +205,15 @@ impl<K: StudyKind + Send + Sync, D: Presented<K>> Outcome for Answered<K, D> {
     }
 
     fn figure(&self) -> Option<Result<Figure, Failure>> {
-        self.done.figure(&self.study)
+        let figure = self.done.figure(&self.study)?;
+        Some(figure.map(|figure| titled(figure, &self.study)))
+    }
+}
+
+/// A picture of a study with the title of that study: a changed one does not keep that of its file.
+pub(crate) fn titled<K: StudyKind>(figure: Figure, study: &StudyOf<K>) -> Figure {
+    match study.picture_title() {
+        Some(title) if !figure.title.is_empty() => figure.title(title),
+        _ => figure,
     }
 }

@@ -10,7 +10,9 @@ use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::disc::resonances::{Clear, Resonance, Resonances, Verdict};
+use crate::run::disc::resonances::{
+    Clear, Explained, GrowingInterval, Order, Resonance, Resonances, THREE_WAVES, Verdict,
+};
 use crate::study::{DiscSetup, DiscStudy};
 
 impl Presented<DiscSetup> for Resonances {
@@ -61,29 +63,80 @@ fn table(study: &DiscStudy, done: &Resonances) -> String {
                 0 | 1 => String::new(),
                 order => format!(" at harmonic {order}"),
             };
-            let tongue = tongue(resonance);
+            let tongue = tongue(resonance, done.question.order);
             let _ = writeln!(text, "  Ω = {speed:<9}{rpm}  {label}{harmonic}: {tongue}");
         }
     }
+    text += &growing(study, done);
     if let Some(clear) = &done.clear {
         text += &clearance(study, clear);
     }
     text
 }
 
-/// The instability at a meeting.
-fn tongue(resonance: &Resonance) -> String {
+/// The speeds in which a motion grows by the exact equations.
+fn growing(study: &DiscStudy, done: &Resonances) -> String {
+    let friction = study.disc().loads().first().map_or(0.0, |load| load.friction);
+    let opening = format!("Exactly, at f* = {}", figure(friction));
+    let found = match &done.growing {
+        Ok(found) => found,
+        Err(why) => return format!("{opening}, unknown: {why}\n"),
+    };
+    if found.is_empty() {
+        let (from, to) = (done.question.speeds.start(), done.question.speeds.end());
+        return format!(
+            "{opening}, no motion grows at Ω = {} to {}.\n",
+            figure(*from),
+            figure(*to)
+        );
+    }
+    let mut text = format!("{opening}, a motion grows at:\n");
+    for GrowingInterval { speeds, explained } in found {
+        let why = match explained {
+            Explained::Wave => "a wave on its own".to_owned(),
+            Explained::Pair { order, meeting } => {
+                format!("{} at {}", meeting.label(), in_words(*order))
+            }
+            Explained::Not { nearest: Some(meeting) } => format!(
+                "{THREE_WAVES}; the nearest meeting is at {}, {}",
+                figure(meeting.speed),
+                meeting.label()
+            ),
+            Explained::Not { nearest: None } => THREE_WAVES.to_owned(),
+        };
+        let _ = writeln!(
+            text,
+            "  Ω = {} to {}{}, growth up to {} at {}: {why}",
+            figure(speeds.from),
+            figure(speeds.to),
+            in_rpm(study, speeds.peak_speed),
+            figure(speeds.peak_growth),
+            figure(speeds.peak_speed),
+        );
+    }
+    text
+}
+
+fn in_words(order: Order) -> &'static str {
+    match order {
+        Order::First => "first order",
+        Order::Second => "second order",
+    }
+}
+
+/// The instability of the pair at a meeting, at the order of the theory.
+fn tongue(resonance: &Resonance, order: Order) -> String {
     match (resonance.tongue.edges(), resonance.tongue.peak_growth()) {
         (Some([from, to]), Some(growth)) => {
             let (from, to, growth) = (figure(from), figure(to), figure(growth));
             format!("tongue {from} to {to}, growth up to {growth}")
         }
         (None, Some(growth)) => by_itself(growth),
-        _ if resonance.can_be_unstable() => match resonance.threshold {
+        _ if resonance.pair_can_be_unstable() => match resonance.threshold {
             Some(threshold) => format!("tongue from f* = {} on", figure(threshold)),
-            None => "no tongue".to_owned(),
+            None => format!("no tongue at this friction at {}", in_words(order)),
         },
-        _ => "cannot be unstable".to_owned(),
+        _ => format!("no tongue at {}", in_words(order)),
     }
 }
 
@@ -109,17 +162,38 @@ fn verified(clear: &Clear) -> String {
     }
 }
 
+/// How many of the frequencies tested in an interval are clear by the exact equations, and the runs of neighbours that are.
+fn tested(clear: &Clear, interval: usize) -> String {
+    let of: Vec<_> = clear.tested.iter().filter(|tested| tested.interval == interval).collect();
+    if of.is_empty() {
+        return String::new();
+    }
+    let runs: Vec<String> = of
+        .chunk_by(|one, other| one.result.is_clear() == other.result.is_clear())
+        .filter(|run| run[0].result.is_clear())
+        .map(|run| {
+            let [first, last] =
+                [run[0], run[run.len() - 1]].map(|tested| figure(tested.result.frequency_ratio));
+            if run.len() == 1 { first } else { format!("{first} to {last}") }
+        })
+        .collect();
+    let count = of.iter().filter(|tested| tested.result.is_clear()).count();
+    let which = if runs.is_empty() { String::new() } else { format!(": {}", runs.join(", ")) };
+    format!("; exactly, {count} of {} tested in it are clear{which}", of.len())
+}
+
 /// The dither frequencies that keep the speeds clear.
 fn clearance(study: &DiscStudy, clear: &Clear) -> String {
     let mut text = String::new();
     let (from, to) = (figure(*clear.speeds.start()), figure(*clear.speeds.end()));
     let _ = writeln!(
         text,
-        "Dither frequencies R that keep Ω = {from} to {to} clear of dither-induced tongues:"
+        "Dither frequencies R that keep Ω = {from} to {to} clear of dither-induced tongues at first order:"
     );
-    for [from, to] in &clear.clearance.clear {
+    for (index, [from, to]) in clear.clearance.clear.iter().enumerate() {
         let hertz = in_hertz(study, &[*from, *to]);
-        let _ = writeln!(text, "  {} to {}{hertz}", figure(*from), figure(*to));
+        let exact = tested(clear, index);
+        let _ = writeln!(text, "  {} to {}{hertz}{exact}", figure(*from), figure(*to));
     }
     match &clear.suggestion {
         None => text.push_str("  none\n"),

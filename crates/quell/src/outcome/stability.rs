@@ -1,7 +1,5 @@
 //! `stability`: averaged stability of steady sliding; eigenvalues or Floquet exponents of a disc.
 
-use std::fmt::Write as _;
-
 use quell_disc::instability::GrowthShares;
 use quell_linear::growth::of_criterion;
 use quell_model::units::Quantity;
@@ -143,22 +141,13 @@ fn speed_in_words(study: &DiscStudy) -> String {
 }
 
 fn table(study: &BeltStudy, done: &BeltStability) -> String {
-    let mut text = String::new();
-    match &done.sharper {
-        Ok(sharper) => {
-            text.push_str(
-                "\nFinite-R averaging, with the oscillator's own response to the dither:\n",
-            );
-            text += &averaged(study, sharper);
-            text.push_str("\nIn the limit of high dither frequency:\n");
-            text += &averaged(study, &done.limit);
-        }
-        Err(why) => {
-            text += &averaged(study, &done.limit);
-            let _ = writeln!(text, "\nNo finite-R averaging: {why}.");
-        }
-    }
-    text
+    let own = averaged(study, &done.averaged);
+    let Some(limit) = &done.limit else { return own };
+    format!(
+        "\nFinite-R averaging, with the oscillator's own response to the dither:\n{own}\n\
+         In the limit of high dither frequency:\n{}",
+        averaged(study, limit)
+    )
 }
 
 fn averaged(study: &BeltStudy, found: &AveragedStability) -> String {

@@ -22,7 +22,7 @@ pub fn compare(study: &Study, done: &Comparison) -> Figure {
     Figure::grid(1, panels)
         .sharing_x(Sharing::All)
         .legend(SharedLegend::Above)
-        .title(study.title().unwrap_or_default())
+        .title(study.picture_title().unwrap_or_default())
         .caption(format!(
             "{} Measured and computed spectra of the {} under a Hann window{}.",
             caption_of(study),

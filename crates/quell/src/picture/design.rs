@@ -251,6 +251,8 @@ fn largest_within(point: &DesignPoint, place: usize) -> Option<f64> {
         | LimitedQuantity::ResponseRms
         | LimitedQuantity::ResponsePeak
         | LimitedQuantity::Actuator(_) => Some(point.amplitude / used),
+        // The frequency decides, not the amplitude.
+        LimitedQuantity::Band => (*used > 1.0).then_some(0.0),
         LimitedQuantity::FrictionLoss | LimitedQuantity::MinimumNormalLoad => None,
     }
 }

@@ -187,7 +187,8 @@ pub fn stability(study: &DiscStudy, done: &DiscStability, campbell: &Campbell) -
         .caption(caption_of_disc(study))
 }
 
-/// Tongues over speed and friction; resonances that cannot be unstable are thin lines.
+/// Tongues over speed and friction; meetings of pairs without a tongue at this order are thin lines, speeds of exact growth marks at the
+/// friction of the study.
 pub fn resonances(study: &DiscStudy, done: &Resonances) -> Figure {
     let (from, to) = (*done.question.speeds.start(), *done.question.speeds.end());
     let load = study.disc().loads().first();
@@ -198,7 +199,7 @@ pub fn resonances(study: &DiscStudy, done: &Resonances) -> Figure {
         PlotAxis::new("friction").symbol("f*").between(0.0, scale),
     );
     let all = done.undithered.iter().chain(&done.dithered);
-    for resonance in all.filter(|resonance| !resonance.can_be_unstable()) {
+    for resonance in all.filter(|resonance| !resonance.pair_can_be_unstable()) {
         panel = panel.with(
             ReferenceLine::vertical(resonance.speed).role(PlotRole::Guide).style(LineStyle::Dotted),
         );
@@ -209,12 +210,17 @@ pub fn resonances(study: &DiscStudy, done: &Resonances) -> Figure {
         panel = panel.with(
             ReferenceLine::horizontal(load.friction).role(PlotRole::Guide).label("this study"),
         );
+        let growing = done.growing.iter().flatten().map(|growing| growing.speeds);
+        let ends = growing.map(|speeds| [(speeds.from, load.friction), (speeds.to, load.friction)]);
+        panel = panel.with(
+            Polyline::pieces(PlotRole::Exact, ends).width(3.0).label("exactly, a motion grows"),
+        );
     }
     Figure::single(panel.legend(Legend::Above))
         .size(Size::Frame(520.0, 320.0))
         .title(study.title().unwrap_or_default())
         .caption(format!(
-            "{} Dotted: resonances that cannot be unstable at this order.",
+            "{} Dotted: meetings of pairs of waves without a tongue at this order. Thick: speeds at which a motion grows exactly.",
             caption_of_disc(study)
         ))
 }

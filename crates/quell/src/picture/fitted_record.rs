@@ -99,7 +99,7 @@ pub fn decay(done: &FreeDecay) -> Figure {
 /// The picture of a study fitted to a record.
 pub fn record_fit(done: &RecordFit) -> Figure {
     figure(&FittedRecord { record: &done.record, fitted: &done.values, band: None, label: "fit" })
-        .title(done.study.title().unwrap_or_default())
+        .title(done.study.picture_title().unwrap_or_default())
         .caption(format!(
             "{} A measured record with the exact motion fitted to it, and the residuals.",
             caption_of(&done.fitted_study)

@@ -73,6 +73,8 @@ pub struct PicturePage {
     pub width: Option<PictureWidth>,
     /// Whether the caption is drawn below the panels; otherwise it is left to the text next to the picture.
     pub caption: bool,
+    /// Whether the title above the panels is left out.
+    pub without_title: bool,
 }
 
 impl PicturePage {
@@ -82,6 +84,7 @@ impl PicturePage {
         let placement =
             if self.caption { CaptionPlacement::Below } else { CaptionPlacement::Apart };
         let figure = figure.caption_placement(placement);
+        let figure = if self.without_title { figure.title("") } else { figure };
         match self.width {
             Some(width) => figure.size(Size::Wide(width.units())),
             None => figure,

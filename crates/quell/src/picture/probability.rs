@@ -20,17 +20,17 @@ pub fn probability(
     let curve = |growth: &SampledGrowth| growth.distribution(DISTRIBUTION_POINTS, factor);
     let mut panel = Panel::new(axis, PlotAxis::new("share of the samples below").between(0.0, 1.0))
         .with(ReferenceLine::vertical(0.0).label("grows beyond"));
-    let sharper = done.growth_sharper.as_ref();
+    let limit = done.limit_growth.as_ref();
     let line = Polyline::new(PlotRole::Series(0), curve(&done.growth));
-    panel = panel.with(match sharper {
-        Some(_) => line.label("averaging"),
+    panel = panel.with(match limit {
+        Some(_) => line.label("finite-R averaging"),
         None => line,
     });
-    if let Some(growth) = sharper {
+    if let Some(growth) = limit {
         panel = panel.with(
             Polyline::new(PlotRole::Series(1), curve(growth))
                 .style(LineStyle::Dashed)
-                .label("finite-R averaging"),
+                .label("limit R → ∞"),
         );
     }
     Figure::single(panel)

@@ -1,6 +1,6 @@
 //! The stability criterion by averaging over the amplitude of the first dither.
 
-use quell_linear::averaging::{AveragingOptions, criterion};
+use quell_linear::averaging::criterion;
 use quell_model::units::Quantity;
 use quell_model::{Belt, Direction};
 
@@ -19,7 +19,7 @@ const POINTS: u32 = 160;
 /// a horizontal line.
 pub fn stability(study: &BeltStudy, done: &BeltStability) -> Figure {
     let belt = study.belt();
-    let averaged = done.leading();
+    let averaged = &done.averaged;
     let critical: Vec<f64> =
         averaged.critical_amplitudes.iter().flatten().map(|critical| critical.amplitude).collect();
     let own = belt.dithers().first().map_or(0.0, |dither| dither.amplitude);
@@ -37,12 +37,12 @@ pub fn stability(study: &BeltStudy, done: &BeltStability) -> Figure {
         Panel::new(force.axis("dither amplitude", symbol).between(0.0, force.place(end)), vertical)
             .with(Region::across_y(PlotRole::Unstable, f64::NEG_INFINITY, 0.0).label("unstable"))
             .with(ReferenceLine::horizontal(0.0));
-    if let Ok(found) = criterion(&belt.undithered(), AveragingOptions::default()) {
+    if let Ok(found) = criterion(&belt.undithered(), averaged.options) {
         let level = [(0.0, found.value), (force.place(end), found.value)];
         panel = panel.with(Polyline::new(PlotRole::Undithered, level).label("without dither"));
     }
     panel = panel.with(Polyline::pieces(PlotRole::Averaged, pieces).label("averaged"));
-    let by = format!("by {}", done.method(study));
+    let by = format!("by {}", done.method());
     if let Some((place, value)) = value(own).filter(|_| !belt.dithers().is_empty()) {
         let point =
             Points::new(PlotRole::Dithered, [(place, value)]).marker(Marker::Disc).size(7.0);

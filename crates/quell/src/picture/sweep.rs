@@ -63,7 +63,7 @@ pub fn sweep(done: &FinishedMap) -> Result<Figure, Failure> {
         _ => map::map(&picture(done, shown[0], &over)),
     };
     let figure = figure.map_err(undrawable)?;
-    let title = plan.grid().study().title().unwrap_or_default();
+    let title = plan.grid().study().picture_title().unwrap_or_default();
     let ranges: Vec<VariedNumber> = plan.grid().axes().iter().filter_map(range).collect();
     let caption = with_varied(plan.grid().study(), caption_of, &ranges);
     Ok(figure.title(title).caption(caption))

@@ -10,7 +10,7 @@ use super::caption::{caption, with_varied};
 use super::ruler::Ruler;
 use super::sweep::short_name;
 use crate::plot::{
-    AxisRange, Figure, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotRole, Points,
+    AxisRange, Figure, Layer, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotRole, Points,
     Polyline, ReferenceLine, Region, Size,
 };
 use crate::run::curves::{AveragedBoundary, Curves, ThresholdCurve};
@@ -156,10 +156,10 @@ pub(super) fn with_curves<S>(
     place: impl Fn((f64, f64)) -> (f64, f64),
 ) -> Panel {
     for boundary in averaged {
-        let (label, style) = if boundary.sharper {
-            ("averaged at finite R, with the oscillator's own response", LineStyle::Dashed)
+        let (label, style) = if boundary.limit {
+            ("averaged, R → ∞", LineStyle::Solid)
         } else {
-            ("averaged", LineStyle::Solid)
+            ("averaged at finite R", LineStyle::Dashed)
         };
         // Wide enough to be seen under an exact curve that coincides with it.
         let width = 3.4;
@@ -197,6 +197,41 @@ pub(super) fn with_curves<S>(
         };
         let place = (middle(&panel.x), middle(&panel.y));
         panel = panel.with(Note::new(place.0, place.1, "no threshold in this window"));
+        return panel;
     }
+    filled(panel)
+}
+
+/// Space around the curves, as a share of their extent.
+const SPACE: f64 = 0.06;
+
+/// The panel with axes that its curves fill: the window that was searched may be much larger.
+fn filled(mut panel: Panel) -> Panel {
+    let window = |axis: &PlotAxis| match axis.range {
+        AxisRange::Between(from, to) => Some((from.min(to), from.max(to))),
+        _ => None,
+    };
+    let (Some(x), Some(y)) = (window(&panel.x), window(&panel.y)) else { return panel };
+    let inside = |range: (f64, f64), value: f64| (range.0..=range.1).contains(&value);
+    let points: Vec<(f64, f64)> = panel
+        .layers
+        .iter()
+        .filter_map(|layer| if let Layer::Polyline(line) = layer { Some(line) } else { None })
+        .flat_map(|line| line.pieces.iter().flatten().copied())
+        .filter(|point| inside(x, point.0) && inside(y, point.1))
+        .collect();
+    let fit = |window: (f64, f64), of: fn(&(f64, f64)) -> f64| {
+        let low = points.iter().map(of).fold(f64::INFINITY, f64::min);
+        let high = points.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+        // A level line keeps a tenth of the window around it.
+        let space = if high > low { SPACE * (high - low) } else { 0.1 * (window.1 - window.0) };
+        ((low - space).max(window.0), (high + space).min(window.1))
+    };
+    if points.is_empty() {
+        return panel;
+    }
+    let ((left, right), (bottom, top)) = (fit(x, |point| point.0), fit(y, |point| point.1));
+    panel.x = panel.x.between(left, right);
+    panel.y = panel.y.between(bottom, top);
     panel
 }

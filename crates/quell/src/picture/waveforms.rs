@@ -3,8 +3,7 @@
 use super::caption::{caption, caption_of_system};
 use super::ruler::Ruler;
 use crate::plot::{Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, SharedLegend};
-use crate::run::system::waveforms::{COLUMNS as SYSTEM_COLUMNS, SystemWaveforms};
-use crate::run::waveforms::{COLUMNS, WaveformComparison};
+use crate::run::waveforms::{COLUMNS, CostColumn, RankedBy, WaveformComparison};
 use crate::study::{BeltStudy, SystemStudy};
 
 /// A waveform as a picture shows it.
@@ -13,8 +12,10 @@ struct CostMark {
     /// Whether it is the carrier or a burst of it.
     of_carrier: bool,
     duty_cycle: f64,
+    /// At the amplitude that ranks the waveform.
     value: Option<f64>,
-    exact: Option<f64>,
+    /// By averaging, where exact amplitudes rank.
+    averaged: Option<f64>,
 }
 
 /// What one panel shows.
@@ -29,58 +30,65 @@ struct CostPanel<'a> {
 
 /// One panel for amplitude, rms force, power and stroke.
 pub fn waveforms(study: &BeltStudy, done: &WaveformComparison) -> Figure {
-    let panels = COLUMNS[..4].iter().enumerate().map(|(place, column)| {
-        let marks: Vec<CostMark> = done
-            .rows
-            .iter()
-            .map(|row| CostMark {
-                label: row.label(),
-                of_carrier: row.waveform.name() == done.carrier || row.duty_cycle < 1.0,
-                duty_cycle: row.duty_cycle,
-                value: row.value(column).ok(),
-                exact: row.exact.as_ref().ok().copied().filter(|_| place == 0),
-            })
-            .collect();
-        let ruler = Ruler::of(study, column.quantity, shown(&marks));
-        let (words, carrier) = (column.words, done.carrier);
-        // The stroke depends on the length of a burst too.
-        panel(&CostPanel { words, ruler, carrier, marks, joined: place < 3 })
-    });
-    Figure::grid(2, panels)
-        .legend(SharedLegend::Below)
-        .title(study.title().unwrap_or_default())
-        .caption(format!("{}; {SHOWN}", caption(study)))
+    let ruler =
+        |column: &CostColumn, marks: &[CostMark]| Ruler::of(study, column.quantity, shown(marks));
+    figure(done, ruler, true).title(study.title().unwrap_or_default()).caption(format!(
+        "{}; {}",
+        caption(study),
+        shown_in_words(done)
+    ))
 }
 
 /// The same for a system, whose structure responds differently to each length of a burst.
-pub fn waveforms_of_system(study: &SystemStudy, done: &SystemWaveforms) -> Figure {
-    let panels = SYSTEM_COLUMNS[..4].iter().map(|column| {
-        let marks: Vec<CostMark> = done
-            .rows
-            .iter()
-            .map(|row| CostMark {
-                label: row.label(),
-                of_carrier: row.waveform.name() == done.carrier || row.duty_cycle < 1.0,
-                duty_cycle: row.duty_cycle,
-                value: row.value(column).ok(),
-                exact: None,
-            })
-            .collect();
-        let ruler = Ruler::of_system(study, column.2, shown(&marks));
-        panel(&CostPanel { words: column.1, ruler, carrier: done.carrier, marks, joined: false })
+pub fn waveforms_of_system(study: &SystemStudy, done: &WaveformComparison) -> Figure {
+    let ruler = |column: &CostColumn, marks: &[CostMark]| {
+        Ruler::of_system(study, column.quantity, shown(marks))
+    };
+    figure(done, ruler, false).title(study.title().unwrap_or_default()).caption(format!(
+        "{}; {}",
+        caption_of_system(study),
+        shown_in_words(done)
+    ))
+}
+
+/// The panels; `is_mass` of a mass, whose response to bursts depends on the duty cycle alone.
+fn figure(
+    done: &WaveformComparison,
+    ruler: impl Fn(&CostColumn, &[CostMark]) -> Ruler,
+    is_mass: bool,
+) -> Figure {
+    let is_exact = done.ranked_by() == RankedBy::Exact;
+    let panels = COLUMNS[..4].iter().enumerate().map(|(place, column)| {
+        let marks = done.rows.iter().map(|row| CostMark {
+            label: row.label(),
+            of_carrier: row.waveform.name() == done.carrier || row.duty_cycle < 1.0,
+            duty_cycle: row.duty_cycle,
+            value: done.ranked(row, column),
+            averaged: row.averaged_value(column).ok().filter(|_| is_exact && place == 0),
+        });
+        let marks: Vec<CostMark> = marks.collect();
+        // The stroke depends on the length of a burst too, and so do exact amplitudes.
+        let joined = is_mass && place < 3 && !is_exact;
+        let (words, carrier) = (column.words, done.carrier);
+        panel(&CostPanel { words, ruler: ruler(column, &marks), carrier, marks, joined })
     });
-    Figure::grid(2, panels)
-        .legend(SharedLegend::Below)
-        .title(study.title().unwrap_or_default())
-        .caption(format!("{}; {SHOWN}", caption_of_system(study)))
+    Figure::grid(2, panels).legend(SharedLegend::Below)
 }
 
 /// What the picture shows, in a caption.
-const SHOWN: &str =
-    "least dither that quenches by averaging, over the share of time in which bursts act.";
+fn shown_in_words(done: &WaveformComparison) -> &'static str {
+    match done.ranked_by() {
+        RankedBy::Exact => {
+            "exact least dither that quenches, over the share of time in which bursts act."
+        }
+        RankedBy::Averaging => {
+            "least dither that quenches by averaging, over the share of time in which bursts act."
+        }
+    }
+}
 
 fn shown(marks: &[CostMark]) -> impl Iterator<Item = f64> {
-    marks.iter().flat_map(|mark| [mark.value, mark.exact]).flatten()
+    marks.iter().flat_map(|mark| [mark.value, mark.averaged]).flatten()
 }
 
 fn panel(panel: &CostPanel<'_>) -> Panel {
@@ -101,7 +109,7 @@ fn panel(panel: &CostPanel<'_>) -> Panel {
         ruler.axis(words, "").between(0.0, top),
     )
     .with(
-        Points::new(PlotRole::Averaged, bursts.clone())
+        Points::new(if *joined { PlotRole::Averaged } else { PlotRole::Exact }, bursts.clone())
             .size(5.0)
             .label(format!("bursts of a {carrier}")),
     );
@@ -116,10 +124,10 @@ fn panel(panel: &CostPanel<'_>) -> Panel {
         let points = Points::new(PlotRole::Printed, [(1.0, ruler.place(value))]).marker(marker);
         panel = panel.with(points.size(size).label(mark.label.clone()));
     }
-    let exact = over_duty(|mark| mark.exact);
-    if !exact.is_empty() {
-        let points = Points::new(PlotRole::Exact, exact).marker(Marker::Cross).size(8.0);
-        panel = panel.with(points.label("exact, at the study's frequency"));
+    let averaged = over_duty(|mark| mark.averaged);
+    if !averaged.is_empty() {
+        let points = Points::new(PlotRole::Averaged, averaged).marker(Marker::Cross).size(8.0);
+        panel = panel.with(points.label("by averaging"));
     }
     panel
 }

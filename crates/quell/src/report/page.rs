@@ -42,7 +42,8 @@ const ERRORS: &[&str] = &[
 
 /// The page.
 pub(super) fn html(report: &StudyReport) -> String {
-    let title = report.study.title().unwrap_or("Report about a study");
+    let title = report.study.picture_title();
+    let title = title.as_deref().unwrap_or("Report about a study");
     let mut page = HtmlPage::new(title, STYLE);
     page.put(&format!(
         "<header><p class=\"kicker\">Report of Quell {}</p><h1>{}</h1><p class=\"lead\">{}</p></header>",

@@ -1,5 +1,6 @@
 //! `check`: the numbers of a valid study.
 
+use quell_model::Parametrisation;
 use quell_model::parameter::{BELT_VELOCITY, DAMPING_RATIO, NORMAL_LOAD};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
@@ -10,7 +11,8 @@ use crate::fields::Fields;
 use crate::noise;
 use crate::range;
 use crate::removed_mean;
-use crate::study::{BeltStudy, GivenSize};
+use crate::run::actuator::beyond_actuator;
+use crate::study::{BeltStudy, GivenSize, SystemUnits, plausible};
 
 /// The answer for a valid study.
 #[derive(Clone, Debug)]
@@ -97,6 +99,10 @@ impl Check<'_> {
         });
         fields.list("sweeps", axes.collect::<Vec<_>>());
         let warnings = range::averaged(study).into_iter().chain(passivity(study.belt()));
+        let in_si = belt.system_in_si().and_then(Result::ok);
+        let magnitudes = in_si.map(|system| plausible::warnings(&system, SystemUnits::Si, false));
+        let warnings = warnings.chain(magnitudes.into_iter().flatten());
+        let warnings = warnings.chain(beyond_actuator(&belt.system(), study.actuator()));
         let waveforms = belt.dithers().iter().map(|dither| &dither.waveform);
         let warnings = warnings.chain(noise::few_lines(study.belt()));
         let warnings = warnings.chain(removed_mean::warnings(waveforms));

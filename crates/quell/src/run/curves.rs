@@ -3,9 +3,7 @@
 use quell_dynamics::orbit::curve::{CurvesFound, Open, OpenLine, ParameterPlane, curves};
 pub use quell_dynamics::orbit::curve::{ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint};
 use quell_dynamics::simulation::within;
-use quell_linear::averaging::{
-    AveragingOptions, Becomes, CriticalAmplitude, FastResponse, critical_amplitudes,
-};
+use quell_linear::averaging::{AveragingOptions, Becomes, CriticalAmplitude, critical_amplitudes};
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
@@ -46,8 +44,8 @@ pub struct CurvesRequest {
 /// A boundary of averaging in the same plane: (second parameter, amplitude), both in the numbers of the equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AveragedBoundary {
-    /// Whether this is finite-R averaging, with the oscillator's own fast motion, instead of the limit R → ∞.
-    pub sharper: bool,
+    /// Whether this is averaging in the limit R → ∞, instead of finite-R averaging, which has the structure's own fast motion.
+    pub limit: bool,
     /// Points; a boundary is broken where it does not exist.
     pub pieces: Vec<Vec<(f64, f64)>>,
 }
@@ -56,7 +54,7 @@ impl AveragedBoundary {
     /// The critical amplitudes over a window of the second parameter at `steps` intervals, one boundary after another: those
     /// towards stability and towards instability are separate curves.
     pub(super) fn along(
-        sharper: bool,
+        limit: bool,
         (first, last): (f64, f64),
         steps: u32,
         boundaries: &[&dyn Fn(f64) -> Option<f64>],
@@ -76,7 +74,7 @@ impl AveragedBoundary {
                 pieces.push(piece);
             }
         }
-        Self { sharper, pieces }
+        Self { limit, pieces }
     }
 }
 
@@ -190,10 +188,9 @@ fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<AveragedBoundary
     let inside = |critical: &CriticalAmplitude| {
         critical.amplitude >= question.window.0 && critical.amplitude <= question.window.1
     };
-    [(false, FastResponse::Limit), (true, FastResponse::Oscillator)]
+    [(true, AveragingOptions::LIMIT), (false, AveragingOptions::FINITE_R)]
         .into_iter()
-        .map(|(sharper, response)| {
-            let options = AveragingOptions { response, ..AveragingOptions::default() };
+        .map(|(limit, options)| {
             let boundary = |becomes: Becomes| {
                 move |along: f64| {
                     let belt = belt.with(&question.along, along).ok()?;
@@ -203,7 +200,7 @@ fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<AveragedBoundary
                 }
             };
             let [stable, unstable] = [boundary(Becomes::Stable), boundary(Becomes::Unstable)];
-            AveragedBoundary::along(sharper, question.between, AVERAGED, &[&stable, &unstable])
+            AveragedBoundary::along(limit, question.between, AVERAGED, &[&stable, &unstable])
         })
         .collect()
 }
@@ -268,7 +265,7 @@ impl Curves {
             let pairs: Vec<Json> = points().map(|(along, value)| json!([along, value])).collect();
             let mut inner = object();
             inner
-                .plain("sharper", boundary.sharper)
+                .plain("limit", boundary.limit)
                 .plain("points", pairs)
                 .numbers("along", along, &points().map(|(along, _)| *along).collect::<Vec<_>>())
                 .numbers("value", value, &points().map(|(_, value)| *value).collect::<Vec<_>>());

@@ -33,7 +33,7 @@ pub struct FrictionPoint {
     pub slip_velocity: f64,
     /// μ with the sign of v_r, dimensionless; or why it has no single value.
     pub coefficient: Result<f64, String>,
-    /// μ̄, dimensionless, and its slope per unit of v_r; or why they are undefined.
+    /// μ̄, dimensionless, and its slope per unit of v_r, by finite-R averaging; or why they are undefined.
     pub effective: Result<Effective, String>,
 }
 
@@ -42,9 +42,9 @@ pub struct FrictionPoint {
 pub struct FrictionCurve {
     /// Points in the requested order.
     pub points: Vec<FrictionPoint>,
-    /// μ̄ and its slope by finite-R averaging, with the oscillator's own response to the dither; `None` without dither, of a system,
-    /// whose averages all have the response of the structure, and of a contact with a state of its own.
-    pub sharper: Option<Vec<Result<Effective, String>>>,
+    /// μ̄ and its slope in the limit of high dither frequency, R → ∞; `None` without dither, of a system, whose averages all have the
+    /// response of the structure, and of a contact with a state of its own.
+    pub limit: Option<Vec<Result<Effective, String>>>,
     /// ⟨f/N⟩ of the steady response at each point, or why it has no value; `None` if it was not requested.
     pub measured: Option<Vec<Result<SteadyFriction, String>>>,
 }
@@ -52,7 +52,10 @@ pub struct FrictionCurve {
 /// Slip velocities of a picture: beyond the velocities of the law, the belt and the fast motion, up to where slip
 /// including dither leaves the law's range.
 pub fn grid(belt: &Belt) -> Vec<f64> {
-    grid_of(belt.friction(), belt.belt_velocity(), belt.fast_velocity())
+    let fast = FastMotion::of(belt, belt.belt_velocity(), AveragingOptions::FINITE_R);
+    let fast = fast.and_then(|motion| motion.largest_slip());
+    let fast = fast.unwrap_or_else(|_| belt.fast_velocity());
+    grid_of(belt.friction(), belt.belt_velocity(), fast)
 }
 
 /// The same of a law at a surface velocity under a fast slip velocity.
@@ -96,6 +99,11 @@ pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
     let belt = study.belt();
     let law = belt.friction();
     let has_noise = belt.dithers().iter().any(|dither| !dither.waveform.is_periodic());
+    let averaged = |v: f64, options: AveragingOptions| {
+        FastMotion::of(belt, v, options)
+            .and_then(|motion| effective(law, &motion, v))
+            .map_err(|why| why.to_string())
+    };
     let points = at.par_iter().map(|&v| FrictionPoint {
         slip_velocity: v,
         coefficient: coefficient_at(law, v),
@@ -104,19 +112,13 @@ pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
         } else if belt.has_contact_state() {
             mean_friction(belt, v).map_err(|why| why.to_string())
         } else {
-            FastMotion::of(belt, v, AveragingOptions::default())
-                .and_then(|motion| effective(law, &motion, v))
-                .map_err(|why| why.to_string())
+            averaged(v, AveragingOptions::FINITE_R)
         },
     });
-    let by_finite_r = |v: &f64| {
-        FastMotion::of(belt, *v, AveragingOptions::FINITE_R)
-            .and_then(|motion| effective(law, &motion, *v))
-            .map_err(|why| why.to_string())
-    };
-    let has_sharper = !belt.dithers().is_empty() && !belt.has_contact_state();
-    let sharper = has_sharper.then(|| at.par_iter().map(by_finite_r).collect());
-    FrictionCurve { points: points.collect(), sharper, measured: None }
+    let in_the_limit = |v: &f64| averaged(*v, AveragingOptions::LIMIT);
+    let has_limit = !belt.dithers().is_empty() && !belt.has_contact_state();
+    let limit = has_limit.then(|| at.par_iter().map(in_the_limit).collect());
+    FrictionCurve { points: points.collect(), limit, measured: None }
 }
 
 /// The same with friction measured on steady responses (4.30), (4.31), in parallel on all cores.
@@ -174,10 +176,10 @@ impl FrictionCurve {
         })
     }
 
-    /// μ̄ or its slope by finite-R averaging, NaN where it is undefined; `None` where it is not given.
-    fn sharper_column(&self, value: fn(&Effective) -> f64) -> Option<Vec<f64>> {
-        let sharper = self.sharper.as_ref()?;
-        Some(sharper.iter().map(|found| found.as_ref().map_or(f64::NAN, value)).collect())
+    /// μ̄ or its slope in the limit R → ∞, NaN where it is undefined; `None` where it is not given.
+    fn limit_column(&self, value: fn(&Effective) -> f64) -> Option<Vec<f64>> {
+        let limit = self.limit.as_ref()?;
+        Some(limit.iter().map(|found| found.as_ref().map_or(f64::NAN, value)).collect())
     }
 
     fn measured_column(&self, value: fn(&SteadyFriction) -> f64) -> Option<Vec<f64>> {
@@ -219,7 +221,7 @@ impl FrictionCurve {
             point.effective.as_ref().is_ok_and(|found| found.side == SlopeSide::Outer)
         });
         fields.plain("effective_slope_one_sided", one_sided.collect::<Vec<bool>>());
-        self.sharper_json(fields);
+        self.limit_json(fields);
         self.measured_json(fields);
         for (index, point) in self.points.iter().enumerate() {
             if let Err(why) = &point.coefficient {
@@ -232,23 +234,21 @@ impl FrictionCurve {
         }
     }
 
-    /// The columns of finite-R averaging, if they are given.
-    fn sharper_json(&self, fields: &mut Fields) {
-        let Some(sharper) = &self.sharper else { return };
-        let column = |value: fn(&Effective) -> f64| self.sharper_column(value).unwrap_or_default();
-        fields
-            .numbers(
-                "sharper_effective_coefficient",
-                Quantity::Ratio,
-                &column(|found| found.coefficient),
-            )
-            .per_velocity("sharper_effective_slope", &column(|found| found.slope));
-        for (index, found) in sharper.iter().enumerate() {
+    /// The columns of the limit R → ∞, if they are given.
+    fn limit_json(&self, fields: &mut Fields) {
+        let Some(limit) = &self.limit else { return };
+        let column = |value: fn(&Effective) -> f64| self.limit_column(value).unwrap_or_default();
+        let mut inner = Fields::new(fields.scales());
+        inner
+            .numbers("effective_coefficient", Quantity::Ratio, &column(|found| found.coefficient))
+            .per_velocity("effective_slope", &column(|found| found.slope));
+        for (index, found) in limit.iter().enumerate() {
             if let Err(why) = found {
-                fields.why(&format!("sharper_effective_coefficient[{index}]"), why);
-                fields.why(&format!("sharper_effective_slope[{index}]"), why);
+                inner.why(&format!("effective_coefficient[{index}]"), why);
+                inner.why(&format!("effective_slope[{index}]"), why);
             }
         }
+        fields.nested("limit", inner);
     }
 
     /// The columns of the measured friction, if it was requested.
@@ -369,11 +369,11 @@ impl FrictionCurve {
             .array("coefficient", Quantity::Ratio, self.coefficients())
             .array("effective_coefficient", Quantity::Ratio, self.effective_coefficients())
             .per_velocity("effective_slope", self.effective_slopes());
-        if let Some(slopes) = self.sharper_column(|found| found.slope) {
-            dataset = dataset.per_velocity("sharper_effective_slope", slopes);
+        if let Some(slopes) = self.limit_column(|found| found.slope) {
+            dataset = dataset.per_velocity("limit_effective_slope", slopes);
         }
         for (name, values) in [
-            ("sharper_effective_coefficient", self.sharper_column(|found| found.coefficient)),
+            ("limit_effective_coefficient", self.limit_column(|found| found.coefficient)),
             ("measured_coefficient", self.measured_coefficients()),
             ("measured_stick_fraction", self.measured_stick_fractions()),
             ("measured_stable", self.measured_stability()),

@@ -1,6 +1,6 @@
 //! Estimates of a fit under the names and in the units in which they are reported.
 
-use quell_design::estimates::Estimates;
+use quell_design::estimates::{Estimates, NOT_EXPLAINED};
 
 /// Correlation of two estimates above which the data determine only a combination of them.
 const CORRELATED: f64 = 0.99;
@@ -95,7 +95,8 @@ impl NamedEstimates {
                     crate::words::digits(self.value(place)),
                     quell_model::digits::digits(error, 2)
                 )),
-                Err(why) if !why.ends_with("fixed") => {
+                // What the model does not explain is said about the whole fit.
+                Err(why) if !why.ends_with("fixed") && why != NOT_EXPLAINED => {
                     found.push(format!("{} has no standard error: {why}", name(place)));
                 }
                 _ => {}

@@ -1,8 +1,8 @@
 //! `stability`: averaged stability of steady sliding, and the amplitudes at which it changes.
 //!
-//! Protocol "averaged": the slow motion about steady sliding under fast dither, in the limit of
-//! high frequency; `sharper` is finite-R averaging, which uses the oscillator's own response to the dither and one
-//! more term of the fast motion under normal dither.
+//! Protocol "averaged": the slow motion about steady sliding under fast dither by finite-R averaging, which uses the oscillator's own
+//! response to the dither and one more term of the fast motion under normal dither. `limit` is the dissertation's averaging, in the
+//! limit of high frequency R → ∞ (2.26).
 
 pub use quell_linear::averaging::SlopeSide;
 use quell_linear::averaging::{
@@ -46,10 +46,10 @@ pub struct AveragedStability {
 /// Averaged stability of a study.
 #[derive(Clone, Debug)]
 pub struct BeltStability {
-    /// In the limit of high frequency: the dissertation's averaging.
-    pub limit: AveragedStability,
-    /// Finite-R averaging, with the oscillator's own response; or why it is unavailable.
-    pub sharper: Result<AveragedStability, String>,
+    /// By finite-R averaging, with the oscillator's own response; without dither by the slope of the friction law.
+    pub averaged: AveragedStability,
+    /// In the limit of high frequency, R → ∞: the dissertation's averaging. `None` without dither, which has no such limit.
+    pub limit: Option<AveragedStability>,
     /// The exact small motion about steady sliding without dither that grows fastest, with the state of bristles; `None` of a law
     /// without bristles, whose criterion is exact there.
     pub bristles: Option<Result<Growth, String>>,
@@ -58,19 +58,9 @@ pub struct BeltStability {
 /// Averaged stability of a study.
 pub fn run(study: &BeltStudy) -> BeltStability {
     let belt = study.belt();
-    let slow = belt
-        .dithers()
-        .iter()
-        .map(Dither::lowest_ratio)
-        .find(|ratio| *ratio <= 1.0)
-        .map(|frequency_ratio| AveragingError::NotFast { frequency_ratio });
     BeltStability {
-        limit: averaged(belt, AveragingOptions::default()),
-        sharper: match slow {
-            _ if belt.dithers().is_empty() => Err("the study has no dither".to_owned()),
-            Some(why) => Err(why.to_string()),
-            None => Ok(averaged(belt, AveragingOptions::FINITE_R)),
-        },
+        averaged: averaged(belt, AveragingOptions::FINITE_R),
+        limit: (!belt.dithers().is_empty()).then(|| averaged(belt, AveragingOptions::LIMIT)),
         bristles: belt.friction().bristles().map(|_| small_motions_of_bristles(belt)),
     }
 }
@@ -268,39 +258,18 @@ pub fn becomes(becomes: Becomes) -> &'static str {
 }
 
 impl BeltStability {
-    /// The averaging that sentence and picture use: finite-R averaging if available, else the limit of high
-    /// frequency.
-    pub fn leading(&self) -> &AveragedStability {
-        self.finite().unwrap_or(&self.limit)
-    }
-
-    /// Finite-R averaging, or why it is unavailable.
-    fn finite(&self) -> Result<&AveragedStability, String> {
-        let finite = self.sharper.as_ref().map_err(Clone::clone)?;
-        match &finite.criterion {
-            Ok(_) => Ok(finite),
-            Err(why) => Err(why.to_string()),
-        }
-    }
-
-    /// The name of the averaging that sentence and picture use.
-    pub fn method(&self, study: &BeltStudy) -> String {
-        match self.finite() {
-            Ok(_) => "finite-R averaging".to_owned(),
-            Err(_) if study.belt().dithers().is_empty() => {
-                "the slope of the friction law".to_owned()
-            }
-            Err(why) => format!(
-                "averaging in the limit of high dither frequency (finite-R averaging is unavailable: {why})"
-            ),
-        }
+    /// The name of the averaging that decides.
+    pub fn method(&self) -> &'static str {
+        if self.limit.is_some() { "finite-R averaging" } else { "the slope of the friction law" }
     }
 
     /// The verdict, and the next amplitude that changes it.
     pub fn sentence(&self, study: &BeltStudy) -> String {
         let v = in_words(study, Quantity::Velocity, study.belt().belt_velocity());
-        let verdict = match &self.leading().criterion {
-            Err(why) => format!("the stability of steady sliding at v₀ = {v} is unknown: {why}"),
+        let verdict = match &self.averaged.criterion {
+            Err(why) => {
+                format!("the stability of steady sliding at v₀ = {v} is unknown: {why}")
+            }
             Ok(found) => match found.verdict {
                 AveragedVerdict::Stable => {
                     format!("steady sliding at v₀ = {v} is stable for small slow motions")
@@ -317,7 +286,7 @@ impl BeltStability {
                 ),
             },
         };
-        format!("By {}, {verdict}.{}", self.method(study), self.next(study))
+        format!("By {}, {verdict}.{}", self.method(), self.next(study))
     }
 
     /// The next amplitude at which the verdict changes.
@@ -325,13 +294,13 @@ impl BeltStability {
         let Some(dither) = study.belt().dithers().first() else {
             return " The study has no dither.".to_owned();
         };
-        let leading = self.leading();
-        let (Ok(critical), Ok(_)) = (&leading.critical_amplitudes, &leading.criterion) else {
-            return String::new();
+        let averaged = &self.averaged;
+        let (Ok(critical), Ok(_)) = (&averaged.critical_amplitudes, &averaged.criterion) else {
+            return self.limit_in_words();
         };
         let now = dither.amplitude_ratio();
         let next = critical.iter().find(|critical| {
-            critical.amplitude_ratio > now && becomes(critical.becomes) != leading.verdict()
+            critical.amplitude_ratio > now && becomes(critical.becomes) != averaged.verdict()
         });
         match next {
             Some(next) => format!(
@@ -346,16 +315,31 @@ impl BeltStability {
         }
     }
 
+    /// The verdict in the limit of high frequency, where finite-R averaging has none.
+    fn limit_in_words(&self) -> String {
+        let known = self.limit.as_ref().filter(|limit| limit.criterion.is_ok());
+        known.map_or(String::new(), |limit| {
+            format!(" In the limit of high dither frequency it is {}.", limit.verdict())
+        })
+    }
+
     /// Warnings about the result.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let ratios = study.belt().dithers().iter().map(Dither::lowest_ratio);
         let hardly = ratios.filter(|ratio| *ratio < FAST).map(|ratio| {
             format!("averaging assumes fast dither, and R = {ratio} is hardly fast; check with `simulate`")
         });
-        let verdicts = self.finite().ok().map(|finite| (finite.verdict(), self.limit.verdict()));
-        let apart = verdicts.filter(|(finite, limit)| finite != limit).map(|(finite, limit)| {
+        let apart = self.limit.as_ref().filter(|limit| {
+            self.averaged.criterion.is_ok()
+                && limit.criterion.is_ok()
+                && limit.verdict() != self.averaged.verdict()
+        });
+        let apart = apart.map(|limit| {
             format!(
-                "the two averaging methods disagree: {finite} at finite R, {limit} in the limit of high frequency; check with `simulate`"
+                "the limit of high dither frequency has another verdict: {} at the finite R of this study, {} in the limit; check \
+                 with `simulate`",
+                self.averaged.verdict(),
+                limit.verdict()
             )
         });
         let range = range::averaged(study).into_iter().chain(self.beyond(study));
@@ -414,7 +398,7 @@ impl BeltStability {
         let belt = study.belt();
         let Some(range) = belt.friction().range() else { return Vec::new() };
         let averaged: Vec<&AveragedStability> =
-            [&self.limit].into_iter().chain(&self.sharper).collect();
+            [&self.averaged].into_iter().chain(&self.limit).collect();
         let mut warnings = Vec::new();
         let amplitudes =
             averaged.iter().filter_map(|averaged| averaged.critical_amplitudes.as_ref().ok());
@@ -462,22 +446,17 @@ impl BeltStability {
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
             .plain("protocol", "averaged")
-            .plain("sentence_by", self.method(study))
-            .plain("method", "averaging over the fast motion in the limit of high frequency");
-        self.limit.put(study, &mut fields);
-        match &self.sharper {
-            Ok(averaged) => {
+            .plain("method", self.method());
+        self.averaged.put(study, &mut fields);
+        match &self.limit {
+            Some(limit) => {
                 let mut inner = Fields::new(study.scales());
-                inner.plain(
-                    "method",
-                    "averaging with the oscillator's own response to the dither and, under normal dither, \
-                     the fast motion to second order",
-                );
-                averaged.put(study, &mut inner);
-                fields.nested("sharper", inner);
+                inner.plain("method", "averaging in the limit of high dither frequency");
+                limit.put(study, &mut inner);
+                fields.nested("limit", inner);
             }
-            Err(why) => {
-                fields.unknown("sharper", why);
+            None => {
+                fields.unknown("limit", "the study has no dither");
             }
         }
         self.put_bristles(study, &mut fields);

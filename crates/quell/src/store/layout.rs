@@ -161,8 +161,9 @@ fn references(plan: &Plan) -> String {
             | Computation::ResponseWithEffect
             | Computation::SystemResponse => task == Task::Response,
             Computation::Criterion
-            | Computation::CriterionSharper
+            | Computation::LimitCriterion
             | Computation::CriticalAmplitudes
+            | Computation::LimitCriticalAmplitudes
             | Computation::Quench
             | Computation::DiscGrowth
             | Computation::DiscGrowthUndithered

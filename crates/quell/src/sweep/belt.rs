@@ -1,7 +1,9 @@
 //! Maps of belts: responses and averages, and the quantities read from them.
 
 use quell_dynamics::response::Effect;
-use quell_linear::averaging::{AveragedVerdict, Criterion, UndecidedBecause};
+use quell_linear::averaging::{
+    AveragedVerdict, Criterion, CriticalAmplitude, SlopeSide, UndecidedBecause,
+};
 use quell_linear::growth::of_criterion as growth_rate;
 use quell_model::units;
 
@@ -74,11 +76,17 @@ const OF_STROKE: &[Status] =
 const OF_COST: &[Status] = &[Status::Stalled, Status::NoSquealingStart, Status::OnlyNormalDither];
 
 /// Statuses of averaging other than known.
-const OF_AVERAGING: &[Status] =
-    &[Status::SetValued, Status::TooManyGroups, Status::NotFast, Status::NotConverged];
+const OF_AVERAGING: &[Status] = &[
+    Status::AtCorner,
+    Status::SetValued,
+    Status::TooManyGroups,
+    Status::NotFast,
+    Status::NotConverged,
+];
 
-/// Statuses of finite-R averaging other than known.
-const OF_FINITE_R: &[Status] = &[
+/// Statuses of averaging in the limit of high frequency other than known.
+const OF_LIMIT: &[Status] = &[
+    Status::AtCorner,
     Status::SetValued,
     Status::TooManyGroups,
     Status::NotFast,
@@ -88,6 +96,16 @@ const OF_FINITE_R: &[Status] = &[
 
 /// Statuses of verdicts other than known.
 const OF_VERDICT: &[Status] = &[
+    Status::WithinError,
+    Status::AtCorner,
+    Status::SetValued,
+    Status::TooManyGroups,
+    Status::NotFast,
+    Status::NotConverged,
+];
+
+/// Statuses of verdicts in the limit of high frequency other than known.
+const OF_LIMIT_VERDICT: &[Status] = &[
     Status::WithinError,
     Status::AtCorner,
     Status::SetValued,
@@ -164,27 +182,31 @@ pub(super) const QUANTITIES: &[MapQuantity] = &[
     belt("minimum-normal-load", "smallest normal load divided by k", Computation::Response, &[
         variable(("minimum_normal_load", "N_{min}"), "smallest normal load", FORCE, OF_RESPONSE, |r| Ok(steady(r)?.minimum_normal_load)),
     ]),
-    belt("verdict", "averaged verdict on steady sliding (2.26): stable or unstable", Computation::Criterion, &[
-        variable(("verdict", ""), "averaged verdict on steady sliding", VERDICTS, OF_VERDICT, |r| verdict(limit(r)?)),
+    belt("verdict", "verdict of finite-R averaging on steady sliding, with the oscillator's own response to the dither: stable or unstable", Computation::Criterion, &[
+        variable(("verdict", ""), "averaged verdict on steady sliding", VERDICTS, OF_VERDICT, |r| verdict(averaged(r)?)),
     ]),
-    belt("criterion", "criterion of averaged stability 2ζ + Fμ̄′ (2.26): unstable where negative", Computation::Criterion, &[
-        variable(("criterion", "2ζ + F\\bar{μ}′"), "criterion of averaged stability", RATIO, OF_AVERAGING, |r| Ok(limit(r)?.value)),
+    belt("criterion", "criterion of stability 2ζ + Fμ̄′ by finite-R averaging: unstable where negative", Computation::Criterion, &[
+        variable(("criterion", "2ζ + F\\bar{μ}′"), "criterion of averaged stability", RATIO, OF_AVERAGING, |r| value(averaged(r)?)),
     ]),
-    belt("growth", "growth rate of small slow motions by averaging, per unit τ", Computation::Criterion, &[
-        variable(("growth", "Re ρ"), "averaged growth rate of small slow motions", VariableKind::Rate, OF_AVERAGING, |r| Ok(growth_rate(limit(r)?.value))),
+    belt("growth", "growth rate of small slow motions by finite-R averaging, per unit τ", Computation::Criterion, &[
+        variable(("growth", "Re ρ"), "averaged growth rate of small slow motions", VariableKind::Rate, OF_AVERAGING, |r| Ok(growth_rate(value(averaged(r)?)?))),
     ]),
-    belt("verdict-sharper", "the verdict of finite-R averaging, with the oscillator's own response to the dither", Computation::CriterionSharper, &[
-        variable(("verdict_sharper", ""), "verdict of finite-R averaging on steady sliding", VERDICTS, OF_VERDICT, |r| verdict(sharper(r)?)),
+    belt("critical-amplitude", "smallest and largest amplitude ratio α = D/R of the first dither at which stability by finite-R averaging changes", Computation::CriticalAmplitudes, &[
+        variable(("critical_amplitude", "α_c"), "smallest critical amplitude ratio of the first dither", VELOCITY, OF_CRITICAL, |r| critical(r.critical_amplitudes.as_ref(), false)),
+        variable(("critical_amplitude_upper", "α_c"), "largest critical amplitude ratio of the first dither, where there are several", VELOCITY, OF_CRITICAL, |r| critical(r.critical_amplitudes.as_ref(), true)),
     ]),
-    belt("criterion-sharper", "the criterion of finite-R averaging, with the oscillator's own response to the dither", Computation::CriterionSharper, &[
-        variable(("criterion_sharper", "2ζ + F\\bar{μ}′"), "criterion of stability by finite-R averaging", RATIO, OF_FINITE_R, |r| Ok(sharper(r)?.value)),
+    belt("limit-verdict", "averaged verdict (2.26) in the limit of high dither frequency, R → ∞: that of the dissertation", Computation::LimitCriterion, &[
+        variable(("limit_verdict", ""), "averaged verdict on steady sliding for R → ∞", VERDICTS, OF_LIMIT_VERDICT, |r| verdict(limit(r)?)),
     ]),
-    belt("growth-sharper", "the growth rate of finite-R averaging, with the oscillator's own response to the dither", Computation::CriterionSharper, &[
-        variable(("growth_sharper", "Re ρ"), "growth rate by finite-R averaging", VariableKind::Rate, OF_FINITE_R, |r| Ok(growth_rate(sharper(r)?.value))),
+    belt("limit-criterion", "criterion of averaged stability 2ζ + Fμ̄′ (2.26) in the limit R → ∞", Computation::LimitCriterion, &[
+        variable(("limit_criterion", "2ζ + F\\bar{μ}′"), "criterion of averaged stability for R → ∞", RATIO, OF_LIMIT, |r| value(limit(r)?)),
     ]),
-    belt("critical-amplitude", "smallest and largest amplitude ratio α = D/R of the first dither at which averaged stability changes", Computation::CriticalAmplitudes, &[
-        variable(("critical_amplitude", "α_c"), "smallest critical amplitude ratio of the first dither", VELOCITY, OF_CRITICAL, |r| critical(r, false)),
-        variable(("critical_amplitude_upper", "α_c"), "largest critical amplitude ratio of the first dither, where there are several", VELOCITY, OF_CRITICAL, |r| critical(r, true)),
+    belt("limit-growth", "growth rate of small slow motions by averaging in the limit R → ∞, per unit τ", Computation::LimitCriterion, &[
+        variable(("limit_growth", "Re ρ"), "averaged growth rate of small slow motions for R → ∞", VariableKind::Rate, OF_LIMIT, |r| Ok(growth_rate(value(limit(r)?)?))),
+    ]),
+    belt("limit-critical-amplitude", "smallest and largest amplitude ratio α = D/R of the first dither at which averaged stability changes in the limit R → ∞", Computation::LimitCriticalAmplitudes, &[
+        variable(("limit_critical_amplitude", "α_c"), "smallest critical amplitude ratio of the first dither for R → ∞", VELOCITY, OF_CRITICAL, |r| critical(r.limit_critical_amplitudes.as_ref(), false)),
+        variable(("limit_critical_amplitude_upper", "α_c"), "largest critical amplitude ratio of the first dither for R → ∞, where there are several", VELOCITY, OF_CRITICAL, |r| critical(r.limit_critical_amplitudes.as_ref(), true)),
     ]),
     belt(quench::NAME, quench::ABOUT, Computation::Quench, &QUENCH),
 ];
@@ -205,13 +227,24 @@ fn effect(results: &Results) -> Result<f64, Status> {
     Ok(results.effect.unwrap_or(Err(Status::Missing))?.place()? as f64)
 }
 
-fn limit(results: &Results) -> Result<&Criterion, Status> {
-    results.criterion.as_ref().map_or(Err(Status::Missing), |found| found.as_ref().map_err(|s| *s))
+fn averaged(results: &Results) -> Result<&Criterion, Status> {
+    known(results.criterion.as_ref())
 }
 
-fn sharper(results: &Results) -> Result<&Criterion, Status> {
-    let found = results.criterion_sharper.as_ref();
+fn limit(results: &Results) -> Result<&Criterion, Status> {
+    known(results.limit_criterion.as_ref())
+}
+
+fn known<T>(found: Option<&Result<T, Status>>) -> Result<&T, Status> {
     found.map_or(Err(Status::Missing), |found| found.as_ref().map_err(|status| *status))
+}
+
+/// A criterion; at a corner, where it jumps, it has no value.
+fn value(criterion: &Criterion) -> Result<f64, Status> {
+    match criterion.effective.side {
+        SlopeSide::Both => Ok(criterion.value),
+        SlopeSide::Outer => Err(Status::AtCorner),
+    }
 }
 
 fn verdict(criterion: &Criterion) -> Result<f64, Status> {
@@ -225,9 +258,11 @@ fn verdict(criterion: &Criterion) -> Result<f64, Status> {
     }
 }
 
-fn critical(results: &Results, upper: bool) -> Result<f64, Status> {
-    let found = results.critical_amplitudes.as_ref().ok_or(Status::Missing)?;
-    match (found.as_ref().map_err(|status| *status)?.as_slice(), upper) {
+/// Critical amplitudes of one model of the fast motion.
+type Criticals = Result<Vec<CriticalAmplitude>, Status>;
+
+fn critical(results: Option<&Criticals>, upper: bool) -> Result<f64, Status> {
+    match (known(results)?.as_slice(), upper) {
         ([], _) => Err(Status::NeverChanges),
         ([first, ..], false) => Ok(first.amplitude_ratio),
         ([_], true) => Err(Status::ChangesOnce),

@@ -59,9 +59,10 @@ pub(super) fn of_belt(study: &BeltStudy, wanted: &[Computation]) -> f64 {
     let each = wanted.iter().map(|computation| match computation {
         Computation::Response | Computation::ResponseWithCost => response(study),
         Computation::ResponseWithEffect => SETTLING * response(study),
-        Computation::Criterion => criterion(study, false),
-        Computation::CriterionSharper => criterion(study, true),
-        Computation::CriticalAmplitudes => SEARCH * criterion(study, false),
+        Computation::Criterion => criterion(study, true),
+        Computation::LimitCriterion => criterion(study, false),
+        Computation::CriticalAmplitudes => SEARCH * criterion(study, true),
+        Computation::LimitCriticalAmplitudes => SEARCH * criterion(study, false),
         Computation::Quench => QUENCH + SEARCH * criterion(study, true),
         Computation::DiscGrowth
         | Computation::DiscGrowthUndithered
@@ -102,12 +103,12 @@ fn response(study: &BeltStudy) -> f64 {
     engine * periods * (fastest * PERIOD + 2.0 * SLOW_PERIOD) + 2.0 * samples * SAMPLE
 }
 
-fn criterion(study: &BeltStudy, sharper: bool) -> f64 {
+fn criterion(study: &BeltStudy, finite_r: bool) -> f64 {
     let belt = study.belt();
     let normal = belt.dithers().iter().any(|dither| dither.direction == Direction::Normal);
     match belt.dithers().len() {
         0 => CLOSED_FORM,
-        1 if !(normal && sharper) => CLOSED_FORM,
+        1 if !(normal && finite_r) => CLOSED_FORM,
         dithers => QUADRATURE * 30_f64.powi(i32::try_from(dithers).unwrap_or(4).min(4) - 1),
     }
 }

@@ -34,12 +34,14 @@ pub enum Computation {
     ResponseWithCost,
     /// The steady response with the effect of the dither: where runs end with and without it.
     ResponseWithEffect,
-    /// The criterion of averaged stability.
+    /// The criterion of stability by finite-R averaging.
     Criterion,
-    /// The criterion by finite-R averaging.
-    CriterionSharper,
-    /// Every critical amplitude of the first dither.
+    /// The criterion in the limit of high frequency.
+    LimitCriterion,
+    /// Every critical amplitude of the first dither by finite-R averaging.
     CriticalAmplitudes,
+    /// Those in the limit of high frequency.
+    LimitCriticalAmplitudes,
     /// The exact quench amplitude of the first dither.
     Quench,
     /// The largest growth rate of a disc.
@@ -80,8 +82,9 @@ impl Computation {
         matches!(
             self,
             Self::Criterion
-                | Self::CriterionSharper
+                | Self::LimitCriterion
                 | Self::CriticalAmplitudes
+                | Self::LimitCriticalAmplitudes
                 | Self::SystemGrowth
                 | Self::SystemGrowthUndithered
                 | Self::SystemCritical
@@ -215,12 +218,14 @@ pub struct Results {
     pub steady: Option<Result<ResponseNumbers, Status>>,
     /// The effect of the dither.
     pub effect: Option<Result<Effect, Status>>,
-    /// The criterion of averaged stability.
+    /// The criterion of stability by finite-R averaging.
     pub criterion: Option<Result<Criterion, Status>>,
-    /// The criterion by finite-R averaging.
-    pub criterion_sharper: Option<Result<Criterion, Status>>,
-    /// Every critical amplitude of the first dither, in order.
+    /// The criterion in the limit of high frequency.
+    pub limit_criterion: Option<Result<Criterion, Status>>,
+    /// Every critical amplitude of the first dither by finite-R averaging, in order.
     pub critical_amplitudes: Option<Result<Vec<CriticalAmplitude>, Status>>,
+    /// Those in the limit of high frequency.
+    pub limit_critical_amplitudes: Option<Result<Vec<CriticalAmplitude>, Status>>,
     /// The exact quench amplitude of the first dither of a belt or a system.
     pub quench: Option<Result<QuenchNumbers, Status>>,
     /// The largest growth rate of a disc.
@@ -320,13 +325,15 @@ impl Results {
     fn is_without_state(&self, computation: Computation, value: f64) -> bool {
         let Some(belt) = &self.with_state else { return false };
         match computation {
-            Computation::Criterion | Computation::CriterionSharper => differs_from_rigid(belt),
+            Computation::Criterion | Computation::LimitCriterion => differs_from_rigid(belt),
             // An amplitude ratio of the first dither.
-            Computation::CriticalAmplitudes => belt.dithers().first().is_some_and(|dither| {
-                let path = belt.dither_path(0, "amplitude");
-                let acting = belt.with(&path, value * dither.frequency_ratio);
-                differs_from_rigid(acting.as_ref().unwrap_or(belt))
-            }),
+            Computation::CriticalAmplitudes | Computation::LimitCriticalAmplitudes => {
+                belt.dithers().first().is_some_and(|dither| {
+                    let path = belt.dither_path(0, "amplitude");
+                    let acting = belt.with(&path, value * dither.frequency_ratio);
+                    differs_from_rigid(acting.as_ref().unwrap_or(belt))
+                })
+            }
             _ => false,
         }
     }
@@ -341,9 +348,11 @@ impl Results {
                 let met = |steady: ResponseNumbers| steady.largest_slip > reach.upper;
                 self.steady.is_some_and(|steady| steady.is_ok_and(met))
             }
-            Computation::Criterion | Computation::CriterionSharper => reach.is_left_at(reach.ratio),
+            Computation::Criterion | Computation::LimitCriterion => reach.is_left_at(reach.ratio),
             // An amplitude ratio of the first dither.
-            Computation::CriticalAmplitudes => reach.is_left_at(value),
+            Computation::CriticalAmplitudes | Computation::LimitCriticalAmplitudes => {
+                reach.is_left_at(value)
+            }
             Computation::Quench => {
                 let least = self.quench.and_then(|found| found.ok()?.least.ok());
                 least.is_some_and(|least| reach.is_left_at(least / reach.frequency_ratio))
@@ -460,6 +469,7 @@ fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
     let with_state = belt.has_contact_state().then(|| Box::new(belt.clone()));
     let mut results = Results { reach: Reach::of(belt), with_state, ..Results::default() };
     let status = |why: AveragingError| Status::from(&why);
+    let dithered = if belt.dithers().is_empty() { Err(Status::NoDither) } else { Ok(()) };
     for computation in wanted {
         match computation {
             Computation::Response
@@ -475,22 +485,24 @@ fn averages(study: &BeltStudy, wanted: &[Computation]) -> Results {
             | Computation::SystemEnd
             | Computation::SystemResponse => {}
             Computation::Criterion => {
-                let found = criterion(belt, AveragingOptions::default());
+                let found = criterion(belt, AveragingOptions::FINITE_R);
                 results.criterion = Some(found.map_err(status));
             }
-            Computation::CriterionSharper => {
-                let slow = belt.dithers().iter().any(|dither| dither.lowest_ratio() <= 1.0);
-                results.criterion_sharper = Some(match belt.dithers() {
-                    [] => Err(Status::NoDither),
-                    _ if slow => Err(Status::NotFast),
-                    _ => criterion(belt, AveragingOptions::FINITE_R).map_err(status),
-                });
+            Computation::LimitCriterion => {
+                results.limit_criterion = Some(
+                    dithered
+                        .and_then(|()| criterion(belt, AveragingOptions::LIMIT).map_err(status)),
+                );
             }
             Computation::CriticalAmplitudes => {
-                results.critical_amplitudes = Some(match belt.dithers() {
-                    [] => Err(Status::NoDither),
-                    _ => critical_amplitudes(belt, AveragingOptions::default()).map_err(status),
-                });
+                results.critical_amplitudes = Some(dithered.and_then(|()| {
+                    critical_amplitudes(belt, AveragingOptions::FINITE_R).map_err(status)
+                }));
+            }
+            Computation::LimitCriticalAmplitudes => {
+                results.limit_critical_amplitudes = Some(dithered.and_then(|()| {
+                    critical_amplitudes(belt, AveragingOptions::LIMIT).map_err(status)
+                }));
             }
             Computation::Quench => results.quench = Some(quench_numbers_of_belt(belt)),
         }

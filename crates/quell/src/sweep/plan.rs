@@ -132,7 +132,7 @@ mod tests {
             "growth",
             "critical-amplitude",
             "dither-stroke",
-            "verdict-sharper",
+            "limit-verdict",
         ]
         .iter()
         .map(|name| MapQuantity::named(name, "--quantity").expect("a quantity"))

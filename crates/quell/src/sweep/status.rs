@@ -212,7 +212,7 @@ impl Status {
             }
             Self::WithinError => "the criterion is zero within its error",
             Self::AtCorner => {
-                "the belt is exactly as fast as the fast motion: slower belts are stable, faster ones unstable"
+                "the belt is exactly as fast as the fast motion, where the criterion of stability jumps"
             }
             Self::SetValued => {
                 "without slip and fast motion, friction can take any value up to the static level"

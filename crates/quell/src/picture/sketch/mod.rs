@@ -39,7 +39,7 @@ pub fn sketch(study: &Study, width_mm: f64) -> Result<Sketch, Failure> {
         return Err(Complaint::new(Fault::Value, "--width", origin, width_mm, allowed).into());
     }
     let mut sheet = Sketch::new(width_mm);
-    study.title().unwrap_or("Sketch of the study").clone_into(&mut sheet.title);
+    sheet.title = study.picture_title().unwrap_or_else(|| "Sketch of the study".to_owned());
     let mut sheet = match study.kind() {
         Kind::Belt(setup) => belt::draw(sheet, &study.narrowed(setup.as_ref())),
         Kind::Disc(setup) => disc::draw(sheet, &study.narrowed(setup.as_ref())),

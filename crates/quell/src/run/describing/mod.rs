@@ -1,6 +1,6 @@
 //! `friction --describing`: averaged friction under a slow sinusoid of the slip velocity, and the limit cycles that it predicts.
 //!
-//! Of a belt the averages are those of the limit of high frequency, and `sharper` has the cycles of finite-R averaging. Of a system
+//! Of a belt the averages are those of finite-R averaging, and `limit` has the cycles of the limit of high frequency. Of a system
 //! every average has the fast motion that the structure makes of the dither (`system`).
 
 mod gains;
@@ -47,13 +47,13 @@ pub struct DescribedFriction {
     pub curve: GainCurve,
     /// Every limit cycle up to the largest amplitude, ascending.
     pub cycles: Vec<DescribedCycle>,
-    /// The same by finite-R averaging, with the oscillator's own response to the dither; or why it is unavailable.
-    pub sharper: Result<SharperCycles, String>,
+    /// The same in the limit of high dither frequency; or why it is unavailable.
+    pub limit: Result<LimitAveragedCycles, String>,
 }
 
-/// Limit cycles by finite-R averaging.
+/// Limit cycles by averaging in the limit of high dither frequency.
 #[derive(Clone, Debug)]
-pub struct SharperCycles {
+pub struct LimitAveragedCycles {
     /// The gain for a → 0, or why it has no value.
     pub small: Result<f64, String>,
     /// Every limit cycle, ascending.
@@ -68,14 +68,14 @@ pub fn of_belt(study: &BeltStudy, largest: f64) -> Result<DescribedFriction, Fai
     refused_of_belt(study, "friction --describing")?;
     is_amplitude(largest)?;
     let belt = study.belt();
-    let limit = AveragingOptions::default();
-    let function = DescribingFunction::of_belt(belt, limit).map_err(failed)?;
+    let finite_r = AveragingOptions::FINITE_R;
+    let function = DescribingFunction::of_belt(belt, finite_r).map_err(failed)?;
     let bare = belt.undithered();
-    let without = DescribingFunction::of_belt(&bare, limit).map_err(failed)?;
+    let without = DescribingFunction::of_belt(&bare, finite_r).map_err(failed)?;
     Ok(DescribedFriction {
         curve: GainCurve::new(&function, &without, largest).map_err(failed)?,
         cycles: cycles_of(belt, &function, largest).map_err(failed)?,
-        sharper: sharper(belt, largest),
+        limit: limit(belt, largest),
     })
 }
 
@@ -87,15 +87,15 @@ fn cycles_of(
     function.cycles(largest, |gain| Ok::<f64, AveragingError>(balance(belt, gain)))
 }
 
-/// The cycles of finite-R averaging.
-fn sharper(belt: &Belt, largest: f64) -> Result<SharperCycles, String> {
+/// The cycles in the limit of high dither frequency.
+fn limit(belt: &Belt, largest: f64) -> Result<LimitAveragedCycles, String> {
     if belt.dithers().is_empty() {
         return Err("the study has no dither".to_owned());
     }
-    let of = || -> Result<SharperCycles, AveragingError> {
-        let function = DescribingFunction::of_belt(belt, AveragingOptions::FINITE_R)?;
+    let of = || -> Result<LimitAveragedCycles, AveragingError> {
+        let function = DescribingFunction::of_belt(belt, AveragingOptions::LIMIT)?;
         let cycles = cycles_of(belt, &function, largest)?;
-        Ok(SharperCycles { small: small(&function), cycles })
+        Ok(LimitAveragedCycles { small: small(&function), cycles })
     };
     of().map_err(|why| why.to_string())
 }
@@ -204,7 +204,7 @@ impl DescribedFriction {
             );
         let empty = || Fields::new(study.scales());
         fields.list("limit_cycles", put_cycles(&self.cycles, &empty));
-        self.put_sharper(study, &mut fields);
+        self.put_limit(study, &mut fields);
         self.curve.put(&mut fields);
         fields
             .numbers("balance", Quantity::Ratio, &self.balances(study))
@@ -212,13 +212,13 @@ impl DescribedFriction {
         fields.finish()
     }
 
-    /// The cycles of finite-R averaging.
-    fn put_sharper(&self, study: &BeltStudy, fields: &mut Fields) {
+    /// The cycles in the limit of high dither frequency.
+    fn put_limit(&self, study: &BeltStudy, fields: &mut Fields) {
         let empty = || Fields::new(study.scales());
-        let found = match &self.sharper {
+        let found = match &self.limit {
             Ok(found) => found,
             Err(why) => {
-                fields.unknown("sharper", why.as_str());
+                fields.unknown("limit", why.as_str());
                 return;
             }
         };
@@ -232,7 +232,7 @@ impl DescribedFriction {
             .known("limit_cycle_velocity", Quantity::Velocity, stable.clone())
             .known("limit_cycle_amplitude", Quantity::Displacement, stable)
             .list("limit_cycles", put_cycles(&found.cycles, &empty));
-        fields.nested("sharper", inner);
+        fields.nested("limit", inner);
     }
 
     /// As a dataset.

@@ -17,7 +17,7 @@ use crate::sweep::{Grid, GridAxis};
 /// One boundary of averaging in the plane of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Boundary {
-    /// Model of the fast motion: αG, or the oscillator's own response ("sharper").
+    /// Model of the fast motion: αG, or the oscillator's own response (finite-R averaging).
     pub response: FastResponse,
     /// The stability of sliding above this amplitude.
     pub becomes: Becomes,
@@ -57,8 +57,8 @@ pub fn boundaries_at(grid: &Grid, values: &[f64]) -> Vec<Boundary> {
         .filter_map(|&value| Some((value, study.with(&across.path, value).ok()?)))
         .collect();
     let mut boundaries = Vec::new();
-    for response in [FastResponse::Limit, FastResponse::Oscillator] {
-        let options = AveragingOptions { response, ..AveragingOptions::default() };
+    for options in [AveragingOptions::LIMIT, AveragingOptions::FINITE_R] {
+        let response = options.response;
         let critical: Vec<(f64, f64, Vec<CriticalAmplitude>)> = at
             .iter()
             .filter_map(|(value, study)| {

@@ -44,16 +44,13 @@ impl VibrationProbability {
         let Some(probability) = of(&self.verdicts) else {
             return format!("No verdict of {} samples is known.", self.samples);
         };
-        let sharper = self.verdicts_sharper.as_ref().and_then(of);
-        let sharper = match (sharper, &self.verdicts_sharper) {
-            (Some(found), _) => format!(
-                " By finite-R averaging, with the response of the oscillator to the dither, it is {found}."
-            ),
-            (None, Some(tally)) => {
-                let why = tally.why.as_deref().unwrap_or("no verdict is known");
-                format!(" By finite-R averaging it is unknown: {why}.")
-            }
-            (None, None) => String::new(),
+        let limit = self.limit_verdicts.as_ref().and_then(of);
+        let limit = limit.map_or(String::new(), |found| {
+            format!(" In the limit of high dither frequency it is {found}.")
+        });
+        let judge = match self.limit_verdicts {
+            Some(_) => "by finite-R averaging",
+            None => self.start.words(),
         };
         let cause = self.main_cause().map_or(String::new(), |(paths, total)| {
             format!(
@@ -66,10 +63,10 @@ impl VibrationProbability {
         let (unit, factor) = study.unit_of_rates();
         let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
         // The growth rate is that of averaging, also where exact motions decide about the vibration.
-        let by = if self.start == ProbabilityStart::Averaged { "" } else { " by averaging" };
+        let averaged = if self.start == ProbabilityStart::Averaged { "" } else { " by averaging" };
         let growth = match self.growth.quantiles() {
             Some([low, _, high]) => format!(
-                " The growth rate{by} is between {}{unit} and {}{unit} in 90 % of the samples.",
+                " The growth rate{averaged} is between {}{unit} and {}{unit} in 90 % of the samples.",
                 digits(low * factor),
                 digits(high * factor)
             ),
@@ -83,8 +80,7 @@ impl VibrationProbability {
             )
         });
         format!(
-            "The probability that it vibrates {} is {probability}, from {} sample{}.{sharper}{growth}{cause}{enough}",
-            self.start.words(),
+            "The probability that it vibrates {judge} is {probability}, from {} sample{}.{limit}{growth}{cause}{enough}",
             self.samples,
             plural(self.samples)
         )
@@ -115,26 +111,8 @@ impl VibrationProbability {
             .plain("start", self.start.name())
             .plain("samples", self.samples)
             .plain("seed", self.seed);
-        put_tally(&mut fields, "", &self.verdicts);
-        if let Some(sharper) = &self.verdicts_sharper {
-            put_tally(&mut fields, "_sharper", sharper);
-        }
-        fields.plain("confidence", 0.95);
-        let growths =
-            [("growth", Some(&self.growth)), ("growth_sharper", self.growth_sharper.as_ref())];
-        let mut quantiles = study.fields();
-        for (name, growth) in growths {
-            let Some(growth) = growth else { continue };
-            let mut inner = study.fields();
-            let found = growth.quantiles();
-            for (place, (key, _)) in QUANTILES.iter().enumerate() {
-                let why =
-                    || growth.why.clone().unwrap_or_else(|| "no growth rate is known".to_owned());
-                inner.rate(key, found.map(|found| found[place]).ok_or_else(why));
-            }
-            quantiles.nested(name, inner);
-        }
-        fields.nested("quantiles", quantiles);
+        put_tally(&mut fields, &self.verdicts);
+        fields.plain("confidence", 0.95).nested("quantiles", quantiles(study, &self.growth));
         let thresholds = QUANTILES.map(|(_, share)| {
             let mut inner = study.fields();
             inner.measured("share", "1", share);
@@ -142,12 +120,16 @@ impl VibrationProbability {
             inner
         });
         fields.list("thresholds", thresholds);
-        for (name, growth) in
-            [("indices", Some(&self.growth)), ("indices_sharper", self.growth_sharper.as_ref())]
-        {
-            if let Some(growth) = growth {
-                fields.nested(name, self.indices(study, growth));
+        fields.nested("indices", self.indices(study, &self.growth));
+        if let Some(growth) = &self.limit_growth {
+            let mut limit = study.fields();
+            if let Some(verdicts) = &self.limit_verdicts {
+                put_tally(&mut limit, verdicts);
             }
+            limit
+                .nested("quantiles", quantiles(study, growth))
+                .nested("indices", self.indices(study, growth));
+            fields.nested("limit", limit);
         }
         let groups = self.groups.iter().zip(&self.growth.indices).map(|(group, found)| {
             let mut inner = study.fields();
@@ -211,7 +193,7 @@ impl VibrationProbability {
         }
         if self.apart > 0 {
             warnings.push(format!(
-                "the two averaging methods disagree about {}: --start local judges by exact responses",
+                "the limit of high dither frequency has another verdict in {}: --start local judges by exact responses",
                 samples(self.apart)
             ));
         }
@@ -252,26 +234,38 @@ impl SampledGrowth {
     }
 }
 
-fn put_tally(fields: &mut Fields, suffix: &str, tally: &VerdictTally) {
-    let name = |stem: &str| format!("{stem}{suffix}");
+/// The quantiles of [`QUANTILES`] of the growth rate.
+fn quantiles(study: &impl SampledKind, growth: &SampledGrowth) -> Fields {
+    let mut inner = study.fields();
+    let found = growth.quantiles();
+    for (place, (key, _)) in QUANTILES.iter().enumerate() {
+        let why = || growth.why.clone().unwrap_or_else(|| "no growth rate is known".to_owned());
+        inner.rate(key, found.map(|found| found[place]).ok_or_else(why));
+    }
+    let mut fields = study.fields();
+    fields.nested("growth", inner);
+    fields
+}
+
+fn put_tally(fields: &mut Fields, tally: &VerdictTally) {
     let (low, high) = tally.interval();
     match tally.probability() {
         Some(probability) => {
             fields
-                .measured(&name("probability"), "1", probability)
-                .measured(&name("low"), "1", low)
-                .measured(&name("high"), "1", high);
+                .measured("probability", "1", probability)
+                .measured("low", "1", low)
+                .measured("high", "1", high);
         }
         None => {
-            for stem in ["probability", "low", "high"] {
-                fields.unknown(&name(stem), "no verdict is known");
+            for name in ["probability", "low", "high"] {
+                fields.unknown(name, "no verdict is known");
             }
         }
     }
     fields
-        .plain(&name("vibrating"), tally.vibrating)
-        .plain(&name("quiet"), tally.quiet)
-        .plain(&name("unknown"), tally.unknown);
+        .plain("vibrating", tally.vibrating)
+        .plain("quiet", tally.quiet)
+        .plain("unknown", tally.unknown);
 }
 
 fn put_indices(fields: &mut Fields, found: &Result<SobolIndices, String>) {

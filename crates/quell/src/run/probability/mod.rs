@@ -175,12 +175,12 @@ pub struct VibrationProbability {
     pub groups: Vec<Vec<usize>>,
     /// The verdicts.
     pub verdicts: VerdictTally,
-    /// The verdicts of finite-R averaging, of a dithered belt judged by averaging.
-    pub verdicts_sharper: Option<VerdictTally>,
-    /// The growth rates.
+    /// The verdicts of averaging in the limit R → ∞, of a dithered belt judged by averaging.
+    pub limit_verdicts: Option<VerdictTally>,
+    /// The growth rates by averaging with the response of the structure to the dither.
     pub growth: SampledGrowth,
-    /// Those of finite-R averaging, of a dithered belt.
-    pub growth_sharper: Option<SampledGrowth>,
+    /// Those in the limit R → ∞, of a dithered belt.
+    pub limit_growth: Option<SampledGrowth>,
     /// The least quiet amplitudes of the first dither, by averaging or, judged by the base response, exactly.
     pub thresholds: SampledThresholds,
     /// Samples in which slip leaves the range of a friction law.
@@ -247,7 +247,7 @@ where
         let first = at(&points.first)?;
         let growth = study.averaged_growth(&first);
         let verdict = match start {
-            ProbabilityStart::Averaged => verdict(&growth.limit),
+            ProbabilityStart::Averaged => verdict(&growth.growth),
             _ => study.vibrates(&first, start),
         };
         let threshold = SampledThresholds::includes(number).then(|| match start {
@@ -294,18 +294,18 @@ where
     }
     let groups = joint.groups().to_vec();
     let averaged = start == ProbabilityStart::Averaged;
-    let sharper = valid.iter().any(|sample| sample.first.sharper.is_some());
-    let sharper_verdicts: Vec<Result<bool, String>> =
-        valid.iter().filter_map(|sample| Some(verdict(sample.first.sharper.as_ref()?))).collect();
+    let has_limit = valid.iter().any(|sample| sample.first.limit.is_some());
+    let limit_verdicts: Vec<Result<bool, String>> =
+        valid.iter().filter_map(|sample| Some(verdict(sample.first.limit.as_ref()?))).collect();
     Ok(VibrationProbability {
         start,
         samples,
         seed,
         paths,
         verdicts: VerdictTally::of(valid.iter().map(|sample| &sample.verdict)),
-        verdicts_sharper: (sharper && averaged).then(|| VerdictTally::of(sharper_verdicts.iter())),
-        growth: growth(&valid, &groups, |growth| Some(&growth.limit)),
-        growth_sharper: sharper.then(|| growth(&valid, &groups, |growth| growth.sharper.as_ref())),
+        limit_verdicts: (has_limit && averaged).then(|| VerdictTally::of(limit_verdicts.iter())),
+        growth: growth(&valid, &groups, |growth| Some(&growth.growth)),
+        limit_growth: has_limit.then(|| growth(&valid, &groups, |growth| growth.limit.as_ref())),
         thresholds: SampledThresholds::of(
             valid.iter().filter_map(|sample| sample.threshold.as_ref()),
         ),
@@ -321,8 +321,8 @@ where
 
 /// Whether the two methods of averaging have different verdicts.
 fn disagree(growth: &AveragedGrowth) -> bool {
-    let sharper = growth.sharper.as_ref().and_then(|found| verdict(found).ok());
-    sharper.is_some_and(|sharper| verdict(&growth.limit).is_ok_and(|limit| limit != sharper))
+    let limit = growth.limit.as_ref().and_then(|found| verdict(found).ok());
+    limit.is_some_and(|limit| verdict(&growth.growth).is_ok_and(|own| own != limit))
 }
 
 /// The verdict of a growth rate.

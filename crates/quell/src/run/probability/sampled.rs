@@ -8,7 +8,7 @@ use quell_linear::averaging::{AveragedVerdict, AveragingOptions, criterion};
 use quell_linear::growth::{Growth, Verdict, of_criterion};
 use quell_model::disc::Disc;
 use quell_model::units::{Quantity, Scales};
-use quell_model::{Belt, Dither, Input, System};
+use quell_model::{Belt, Input, System};
 
 use super::ProbabilityStart;
 use crate::complaint::{Complaint, Failure};
@@ -51,10 +51,10 @@ impl JudgedGrowth {
 /// The growth of small motions of one sample, by averaging under dither.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AveragedGrowth {
-    /// Of a belt in the limit of high frequency; of another structure with its response to the dither.
-    pub limit: Result<JudgedGrowth, String>,
-    /// Of a dithered belt finite-R averaging.
-    pub sharper: Option<Result<JudgedGrowth, String>>,
+    /// With the response of the structure to the dither: of a belt finite-R averaging.
+    pub growth: Result<JudgedGrowth, String>,
+    /// Of a dithered belt in the limit R → ∞.
+    pub limit: Option<Result<JudgedGrowth, String>>,
     /// Whether slip leaves the range of a friction law.
     pub beyond_range: bool,
     /// Whether the fast motion opens a contact.
@@ -64,8 +64,8 @@ pub struct AveragedGrowth {
 }
 
 impl AveragedGrowth {
-    fn of(limit: Result<JudgedGrowth, String>) -> Self {
-        Self { limit, sharper: None, beyond_range: false, opens: false, hardly_fast: false }
+    fn of(growth: Result<JudgedGrowth, String>) -> Self {
+        Self { growth, limit: None, beyond_range: false, opens: false, hardly_fast: false }
     }
 }
 
@@ -164,17 +164,10 @@ impl SampledKind for BeltStudy {
         let amplitude = belt.dithers().first().map_or(0.0, |dither| dither.amplitude);
         let slip = range::at_amplitude(belt, amplitude);
         let beyond_range = belt.friction().range().is_some_and(|range| slip > range.upper);
-        let is_fast = |dither: &Dither| dither.lowest_ratio() > 1.0;
-        let sharper = (!belt.dithers().is_empty()).then(|| {
-            if belt.dithers().iter().all(is_fast) {
-                sampled.growth(AveragingOptions::FINITE_R)
-            } else {
-                Err(Status::NotFast.about().to_owned())
-            }
-        });
-        let limit = sampled.growth(AveragingOptions::default());
+        let growth = sampled.growth(AveragingOptions::FINITE_R);
+        let limit = (!belt.dithers().is_empty()).then(|| sampled.growth(AveragingOptions::LIMIT));
         let hardly_fast = belt.dithers().iter().any(|dither| dither.lowest_ratio() < FAST);
-        AveragedGrowth { limit, sharper, beyond_range, opens: false, hardly_fast }
+        AveragedGrowth { growth, limit, beyond_range, opens: false, hardly_fast }
     }
 
     fn threshold(&self, sampled: &SampledBelt, exactly: bool) -> Result<f64, String> {
@@ -237,7 +230,7 @@ fn by_averaging(belt: &Belt, options: AveragingOptions) -> Result<JudgedGrowth, 
 /// Whether the base response of a belt is unstable; without dither steady sliding.
 fn is_unstable(belt: &Belt) -> Result<bool, String> {
     if !belt.dithers().iter().any(|dither| dither.amplitude != 0.0) {
-        return by_averaging(belt, AveragingOptions::default())?.vibrates;
+        return by_averaging(belt, AveragingOptions::FINITE_R)?.vibrates;
     }
     match from_sliding(belt, GROWTH_STEPS).map_err(|why| why.to_string())?.verdict() {
         OrbitVerdict::Stable => Ok(false),
@@ -261,8 +254,8 @@ impl SampledKind for SystemStudy {
     fn averaged_growth(&self, system: &System) -> AveragedGrowth {
         match growth_of_system(system) {
             Ok(point) => AveragedGrowth {
-                limit: Ok(JudgedGrowth::of(point.growth)),
-                sharper: None,
+                growth: Ok(JudgedGrowth::of(point.growth)),
+                limit: None,
                 beyond_range: point.beyond_range,
                 opens: point.opens,
                 hardly_fast: false,
@@ -368,7 +361,7 @@ impl SampledKind for DiscStudy {
     }
 
     fn vibrates(&self, disc: &Disc, _: ProbabilityStart) -> Result<bool, String> {
-        self.averaged_growth(disc).limit?.vibrates
+        self.averaged_growth(disc).growth?.vibrates
     }
 
     fn fields(&self) -> Fields {

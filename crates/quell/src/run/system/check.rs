@@ -8,6 +8,7 @@ use serde_json::{Value as Json, json};
 use crate::contact_state::passivity_of_system;
 use crate::noise;
 use crate::removed_mean;
+use crate::run::actuator::beyond_actuator;
 use crate::study::{SystemStart, SystemStudy, SystemUnits};
 
 /// The study as JSON.
@@ -110,6 +111,7 @@ fn dithers(study: &SystemStudy) -> Vec<Json> {
 fn warnings(study: &SystemStudy) -> Vec<String> {
     let mut warnings = study.warnings().to_vec();
     warnings.extend(passivity_of_system(study));
+    warnings.extend(beyond_actuator(study.system(), study.actuator()));
     let waves = study.system().inputs.iter().flat_map(|input| input.profile.waves());
     warnings.extend(removed_mean::warnings(waves.map(|wave| &wave.waveform)));
     warnings

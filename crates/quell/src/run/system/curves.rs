@@ -112,7 +112,7 @@ fn averaged(
     };
     let [stable, unstable] = [boundary(Becomes::Stable), boundary(Becomes::Unstable)];
     // Averaging of systems has the fast motion of the structure itself.
-    let found = AveragedBoundary::along(true, request.between, AVERAGED, &[&stable, &unstable]);
+    let found = AveragedBoundary::along(false, request.between, AVERAGED, &[&stable, &unstable]);
     vec![found]
 }
 
@@ -236,7 +236,7 @@ impl SystemCurves {
             let pairs: Vec<Json> = points().map(|(along, value)| json!([along, value])).collect();
             let mut inner = object();
             inner
-                .plain("sharper", boundary.sharper)
+                .plain("limit", boundary.limit)
                 .plain("points", pairs)
                 .measured("along", across, points().map(|point| point.0).collect::<Vec<_>>())
                 .measured("value", unit, points().map(|point| point.1).collect::<Vec<_>>());

@@ -64,7 +64,7 @@ pub fn run(study: &SystemStudy, at: Option<&[f64]>) -> Result<SystemFriction, Fa
             coefficient: coefficient_at(&contact.friction, v),
             effective: mean_at(system, index, law.clone(), v),
         });
-        let curve = FrictionCurve { points: points.collect(), sharper: None, measured: None };
+        let curve = FrictionCurve { points: points.collect(), limit: None, measured: None };
         ContactFriction { name: contact.name.clone(), velocity, fast_velocity, curve }
     };
     let contacts: Vec<ContactFriction> = system.contacts.iter().enumerate().map(of).collect();

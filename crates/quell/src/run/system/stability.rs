@@ -254,15 +254,16 @@ impl SystemStability {
             .rate("growth_rate_error", Ok(undithered.growth.error))
             .number("frequency", Quantity::FrequencyRatio, undithered.growth.frequency);
         fields.nested("undithered", inner);
-        put_critical(fields, units, critical);
+        put_critical(fields, units, critical, |_, found| Ok(found.error));
     }
 }
 
-/// Adds critical amplitudes, or why they are unknown.
+/// Adds critical amplitudes with the error of each, or why they are unknown.
 pub(super) fn put_critical(
     fields: &mut Fields,
     units: SystemUnits,
     critical: &Result<Vec<CriticalInput>, String>,
+    error: impl Fn(usize, &CriticalInput) -> Result<f64, String>,
 ) {
     let critical = match critical {
         Ok(critical) => critical,
@@ -271,11 +272,11 @@ pub(super) fn put_critical(
             return;
         }
     };
-    let items = critical.iter().map(|found| {
+    let items = critical.iter().enumerate().map(|(index, found)| {
         let mut inner = Fields::of_system(units);
         inner
             .number("amplitude", Quantity::Force, found.amplitude)
-            .number("amplitude_error", Quantity::Force, found.error)
+            .known("amplitude_error", Quantity::Force, error(index, found))
             .plain("kind", kind(found.crossing))
             .plain("becomes", becomes(found.becomes))
             .plain("contacts_stay_closed", found.contacts_stay_closed)

@@ -6,9 +6,7 @@ use quell_dynamics::motion::orbit::{
     base_motion, motion_thresholds, values_tried,
 };
 use quell_dynamics::orbit::threshold::BranchEnding;
-use quell_dynamics::response::BAND_END;
-use quell_linear::linearised::Linearised;
-use quell_linear::spectrum;
+use quell_dynamics::response::{BAND_END, vibration_frequency};
 use quell_model::System;
 use quell_model::profile::Wave;
 use rayon::prelude::*;
@@ -167,14 +165,10 @@ fn why_of(why: &Failure) -> String {
     }
 }
 
-/// Whether a dither is not fast in comparison with the fastest growing motion.
+/// Whether a dither is not fast in comparison with the vibration.
 pub(crate) fn reaches_the_band(system: &System) -> bool {
-    let free = system.undithered();
-    let Ok(linear) = Linearised::new(&free) else { return false };
-    let Ok(growth) = spectrum::growth(&linear, &linear.friction()) else { return false };
-    let waves = system.waves();
-    let lowest = waves.map(Wave::repetition).fold(f64::INFINITY, f64::min);
-    lowest <= BAND_END * growth.frequency
+    let lowest = system.waves().map(Wave::repetition).fold(f64::INFINITY, f64::min);
+    vibration_frequency(system).is_some_and(|vibration| lowest <= BAND_END * vibration)
 }
 
 /// Rejects `--near`, `--ramp` and runs where no dither acts.
