@@ -530,11 +530,17 @@ fn stability_reports_growth_and_forces() {
     let scaled =
         String::from_utf8(place.quell(&["stability", "scaled.toml"]).stdout).expect("UTF-8");
     assert!(scaled.contains("per unit τ") && !scaled.contains("dB/s"), "{scaled}");
-    // If finite-R averaging does not apply, the limit R → ∞ is used, and the answer states that.
+    // Where finite-R averaging does not apply nothing is known, and the answer says what the limit R → ∞ has.
     let slow = place.good(&["stability", "scaled.toml", "--set", "dither.frequency_ratio=0.9"]);
     let sentence = slow["sentence"].as_str().expect("a sentence");
+    assert!(sentence.contains("is unknown: the oscillator's own response"), "{sentence}");
     assert!(
-        sentence.contains("limit of high dither frequency (finite-R averaging is unavailable"),
+        sentence.ends_with("In the limit of high dither frequency it is stable."),
         "{sentence}"
+    );
+    assert!(slow["criterion"].is_null() && slow["why"]["criterion"].is_string(), "{slow}");
+    assert_eq!(
+        (&slow["verdict"], &slow["limit"]["verdict"]),
+        (&"undecided".into(), &"stable".into())
     );
 }

@@ -201,7 +201,7 @@ fn verdicts_by_averaging_are_those_of_the_sentence() {
         // Mean friction has the slope that decides: that of the limit has the other sign of 2ζ + Fμ̄′.
         let friction =
             verbs(&study(text)).friction(Some(vec![0.05]), false).expect("means").facts();
-        assert_ne!(friction["effective_slope"], friction["limit"]["effective_slope"]);
+        assert_ne!(friction["effective_slope"], friction["limit_effective_slope"]);
         let uncertain = format!(
             "{text}[uncertainty]\n\"{amplitude}\" = {{ uniform = [{own:?}, {:?}] }}\n",
             own * (1.0 + 1e-9)

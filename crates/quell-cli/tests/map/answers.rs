@@ -9,7 +9,7 @@ use crate::place::{Place, SMALL, STUDY, same};
 #[test]
 fn a_point_of_a_map_has_the_same_bits_as_a_single_computation() {
     let place = Place::new("alone");
-    let quantities = "residual_vibration,amplitude,stick-fraction,mean-friction,dither-power,criterion,\
+    let quantities = "residual-vibration,amplitude,stick-fraction,mean-friction,dither-power,criterion,\
                       growth,critical-amplitude,verdict";
     let map = place.good(&["map", "small.toml", "--quantity", quantities]);
     let (first, second) = (&map["axes"][0]["values"], &map["axes"][1]["values"]);
@@ -77,7 +77,7 @@ fn a_store_describes_itself() {
         "--set",
         set,
         "--quantity",
-        "residual_vibration,verdict",
+        "residual-vibration,verdict",
         "--save",
         "m.zarr",
     ]);

@@ -48,8 +48,8 @@ pub(super) fn effective(
     let b1 = law.static_coefficient() - b0;
     let corner = alpha * waveform.peak_integral();
     let a = alpha / vm;
-    let side = SlopeSide::at(v, [-corner, corner]);
-    if v >= corner || side == SlopeSide::Outer {
+    if v >= corner {
+        let side = if v == corner { SlopeSide::Outer } else { SlopeSide::Both };
         let tail = b1 * exp(-((v - corner) / vm)) * scaled_mean_exponential(waveform, a)?;
         return Ok(Effective::closed([b0, tail], [-tail / vm, 0.0], tail / vm, side));
     }

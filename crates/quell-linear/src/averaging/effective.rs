@@ -10,17 +10,6 @@ pub enum SlopeSide {
     Outer,
 }
 
-impl SlopeSide {
-    /// The side at slip velocity `v` where the fast velocity is between `low` and `high`. Both are known up to a few roundings (of
-    /// an amplitude ratio D/R, for instance): within these, `v` is at the corner. Anywhere nearer than that a slope of the inner
-    /// side, which grows like the inverse root of the distance, would be the rounding of that distance.
-    pub(super) fn at(v: f64, [low, high]: [f64; 2]) -> Self {
-        let rounding = 8.0 * f64::EPSILON * (low.abs() + high.abs());
-        let at_corner = (v - high).abs() <= rounding || (v - low).abs() <= rounding;
-        if at_corner { Self::Outer } else { Self::Both }
-    }
-}
-
 /// Effective friction at one slip velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effective {

@@ -98,7 +98,7 @@ pub(super) fn effective(
         slope: slope.0,
         slope_error: slope.1 + CORNER_NOISE * slope.0.abs(),
         // Convolution with a second wave smooths the corner, but the slope stays one-sided at its outer edge.
-        side: outermost.map_or(SlopeSide::Both, |edge| SlopeSide::at(v.abs(), [-edge, edge])),
+        side: if Some(v.abs()) == outermost { SlopeSide::Outer } else { SlopeSide::Both },
     })
 }
 

@@ -161,8 +161,8 @@ pub(super) fn mean(
 ) -> Result<Effective, AveragingError> {
     let start = law.coefficient(0.0);
     let [low, high] = signal.range();
-    let side = SlopeSide::at(v, [low, high]);
-    let at_corner = side == SlopeSide::Outer;
+    let rounding = 8.0 * f64::EPSILON * (low.abs() + high.abs());
+    let at_corner = (v - high).abs() <= rounding || (v - low).abs() <= rounding;
     // The outer slope at the corner: a tangential contact is not a crossing.
     let crossings = if at_corner { Vec::new() } else { signal.crossings(v) };
     let jump: f64 = crossings
@@ -193,6 +193,7 @@ pub(super) fn mean(
     };
     let value = settled(integrate(value, 0.0, TAU, &cuts, &options(scale)))?;
     let smooth = settled(integrate(slope, 0.0, TAU, &cuts, &options(slope_scale)))?;
+    let side = if at_corner { SlopeSide::Outer } else { SlopeSide::Both };
     let mut effective =
         Effective::closed([value.value / TAU, 0.0], [jump, smooth.value / TAU], slope_scale, side);
     effective.coefficient_error += value.error / TAU + 1e-14 * scale;

@@ -150,9 +150,9 @@ fn extent(wave: &FastWave) -> ([f64; 2], f64) {
 pub(super) fn effective(law: &Friction, wave: &FastWave, alpha: f64, v: f64) -> Option<Effective> {
     let ([least, largest], period) = extent(wave);
     let (low, high) = (alpha * least, alpha * largest);
+    let rounding = 8.0 * f64::EPSILON * (low.abs() + high.abs());
     // At the corner of the whole wave the contact is tangential, and no crossing.
-    let side = SlopeSide::at(v, [low, high]);
-    let at_corner = side == SlopeSide::Outer;
+    let at_corner = (v - high).abs() <= rounding || (v - low).abs() <= rounding;
     let mut sums = PieceSums::default();
     for part in parts(wave, alpha)? {
         sums.monotone(law, v, &part, at_corner)?;
@@ -168,6 +168,7 @@ pub(super) fn effective(law: &Friction, wave: &FastWave, alpha: f64, v: f64) -> 
     if !settled || !sums.density.is_finite() {
         return None;
     }
+    let side = if at_corner { SlopeSide::Outer } else { SlopeSide::Both };
     let jump = 2.0 * at_rest * sums.density / period;
     let mut effective = Effective::closed(
         [sums.value[0] / period, 0.0],

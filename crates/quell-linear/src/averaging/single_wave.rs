@@ -110,8 +110,7 @@ fn quarter_wave(
 ) -> Result<Effective, AveragingError> {
     let corner = alpha * wave.peak();
     let vm = law.velocity_scale();
-    let side = SlopeSide::at(v, [-corner, corner]);
-    let outside = v >= corner || side == SlopeSide::Outer;
+    let outside = v >= corner;
     let (delta, density) = if outside {
         (FRAC_PI_2, 0.0)
     } else {
@@ -156,6 +155,7 @@ fn quarter_wave(
     let scale = at_rest + law.slope(v).abs() + PI * law.coefficient(0.0) * density;
     let options = QuadratureOptions { relative, absolute: relative * scale, ..options };
     let smooth = settled(integrate(slopes, 0.0, FRAC_PI_2, &cuts, &options))?;
+    let side = if v == corner { SlopeSide::Outer } else { SlopeSide::Both };
     let mut effective = Effective::closed(
         [near.value / PI, far / PI],
         [law.coefficient(0.0) * density, smooth.value / PI],

@@ -27,8 +27,8 @@ pub(super) fn effective(law: &Stribeck, waveform: &Waveform, alpha: f64, v: f64)
     let smooth_slope = -1.5 * difference / vm * ((1.0 - w) * (1.0 + w) - moment);
     let slope_size = 1.5 * difference / vm * (1.0 + w * w + moment);
     let corner = alpha * waveform.peak_integral();
-    let side = SlopeSide::at(v, [-corner, corner]);
-    if v >= corner || side == SlopeSide::Outer {
+    if v >= corner {
+        let side = if v == corner { SlopeSide::Outer } else { SlopeSide::Both };
         return Effective::closed(
             [law.static_coefficient(), linear],
             [smooth_slope, 0.0],

@@ -106,9 +106,9 @@ def averages(sheet: Sheet) -> None:
         curve = belt_of(it["law"], it["wave"], alpha).friction([v])
         wanted, slope = float(it["mubar"]), float(it["dmubar"])
         name = f"{it['law']}, {it['wave']}, α = {alpha:g}, v = {v:g}"
-        found = float(curve.effective_coefficient[0])
+        found = float(curve.limit_effective_coefficient[0])
         sheet.number(f"{name}, μ̄", found, wanted, max(1e-11 * abs(wanted), 1e-14))
-        found = float(curve.effective_slope[0])
+        found = float(curve.limit_effective_slope[0])
         sheet.number(f"{name}, μ̄′", found, slope, max(1e-9 * abs(slope), 1e-14))
 
 

@@ -238,17 +238,16 @@ impl FrictionCurve {
     fn limit_json(&self, fields: &mut Fields) {
         let Some(limit) = &self.limit else { return };
         let column = |value: fn(&Effective) -> f64| self.limit_column(value).unwrap_or_default();
-        let mut inner = Fields::new(fields.scales());
-        inner
-            .numbers("effective_coefficient", Quantity::Ratio, &column(|found| found.coefficient))
-            .per_velocity("effective_slope", &column(|found| found.slope));
+        let (name, slope) = ("limit_effective_coefficient", "limit_effective_slope");
+        fields
+            .numbers(name, Quantity::Ratio, &column(|found| found.coefficient))
+            .per_velocity(slope, &column(|found| found.slope));
         for (index, found) in limit.iter().enumerate() {
             if let Err(why) = found {
-                inner.why(&format!("effective_coefficient[{index}]"), why);
-                inner.why(&format!("effective_slope[{index}]"), why);
+                fields.why(&format!("{name}[{index}]"), why);
+                fields.why(&format!("{slope}[{index}]"), why);
             }
         }
-        fields.nested("limit", inner);
     }
 
     /// The columns of the measured friction, if it was requested.

@@ -72,7 +72,7 @@ def curve_of(table: Mapping[str, Any], slip: float | None, speed: object) -> Ans
     return {
         "velocity": values(found, "slip_velocity"),
         "coefficient": values(found, "coefficient"),
-        "effective": values(found, "effective_coefficient") if slip and "effective_coefficient" in found.arrays else None,
+        "effective": values(found, "limit_effective_coefficient") if slip and "limit_effective_coefficient" in found.arrays else None,
         "sliding": float(speed) if isinstance(speed, (int, float)) else None,
     }
 

@@ -83,8 +83,6 @@ class FrictionCurve(_columns.FrictionCurveColumns, Result):
     """Bound on the error of μ̄′ (n,)."""
     effective_slope_one_sided: list[bool]
     """Whether μ̄′ is the slope on one side of a kink (n,)."""
-    limit: dict[str, list[float | None]] | None
-    """``effective_coefficient`` and ``effective_slope`` in the limit of high dither frequency (n,); ``None`` without dither."""
     measured_verdict: list[Verdict | None] | None
     """Measured: stability of the steady response on which friction is measured (n,)."""
     measured_base: list[bool | None] | None

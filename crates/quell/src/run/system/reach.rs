@@ -108,9 +108,10 @@ pub fn run(study: &SystemStudy, range: Option<(f64, f64)>) -> Result<Reaches, Fa
         let allowed = "two positive numbers, the second above the first";
         return Err(Complaint::option("--frequency", given, allowed).into());
     }
-    // The quotient of the ends may overflow, their logarithms do not.
-    let (first, last) = (libm::log(from), libm::log(to));
-    let at = |k: usize| libm::exp(first + (last - first) * k as f64 / (POINTS - 1) as f64);
+    // The quotient of the ends may overflow, their roots do not.
+    let half = libm::log(libm::sqrt(to) / libm::sqrt(from));
+    let share = |k: usize| k as f64 / (POINTS - 1) as f64;
+    let at = |k: usize| from * libm::exp(half * share(k)) * libm::exp(half * share(k));
     let frequencies: Vec<f64> = (0..POINTS).map(|k| at(k).clamp(from, to)).collect();
     let undamped = undamped(&linear);
     let heaviest = linear.matrices().map_or(1.0, |matrices| matrices.mass.largest());
