@@ -350,7 +350,15 @@ fn measured_responses_state_their_interpolation() {
         let found = verbs(&measured).stability().expect("a verdict").json();
         let critical = &found["critical_amplitudes"][0];
         let error = (number(&critical["amplitude"]) - wanted).abs();
-        let stated = number(&critical["amplitude_error"]);
+        // Every second of the coarsest frequencies may not decide.
+        let Some(stated) = critical["amplitude_error"].as_f64() else {
+            let why = &found["why"]["critical_amplitudes[0].amplitude_error"];
+            assert!(
+                points == 600 && why.is_string() && error < 1e-6,
+                "{points}: {error:e} {found}"
+            );
+            continue;
+        };
         assert!(error <= stated && stated < 0.01 * wanted, "{step}: {error:e} {stated:e}");
     }
 }

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use quell_model::units::Quantity;
 
 use crate::quantity;
+use crate::run::friction::fast_velocity;
 use crate::run::friction_export::FrictionExport;
 use crate::run::law;
 use crate::study::BeltStudy;
@@ -50,7 +51,7 @@ pub(super) fn provenance(
     lines.push(what.to_owned());
     let belt = study.belt();
     if export.is_dithered {
-        let fast = digits(belt.fast_velocity() * units.speed.1);
+        let fast = digits(fast_velocity(belt) * units.speed.1);
         lines.push(format!("largest fast slip velocity: {fast} {}", units.named(&units.speed)));
         lines.push("It holds while the slow motion is slow against the dither.".to_owned());
     }
