@@ -716,10 +716,7 @@ class FrictionCurveColumns(Frozen):
     law_reference_velocity: float
     law_reference_velocity_m_per_s: float
     law_static_coefficient: float
-    limit_effective_coefficient_value: npt.NDArray[np.float64]
-    limit_effective_slope_s_per_m: npt.NDArray[np.float64]
-    limit_effective_slope_s_per_m_value: npt.NDArray[np.float64]
-    limit_effective_slope_value: npt.NDArray[np.float64]
+    limit_effective_slope_s_per_m: list[float | None]
     measured_base_value: npt.NDArray[Any]
     measured_verdict_value: npt.NDArray[np.str_]
     slip_velocity_m_per_s: list[float | None]
