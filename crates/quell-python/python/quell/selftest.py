@@ -103,12 +103,12 @@ def averages(sheet: Sheet) -> None:
         if it.get("at_corner"):
             continue  # a product of two rounded numbers need not equal the corner
         alpha, v = it["alpha_over_vm"] * 0.2, it["vr_over_vm"] * 0.2
-        curve = belt_of(it["law"], it["wave"], alpha).friction([v])
+        curve = belt_of(it["law"], it["wave"], alpha).friction([v]).arrays
         wanted, slope = float(it["mubar"]), float(it["dmubar"])
         name = f"{it['law']}, {it['wave']}, α = {alpha:g}, v = {v:g}"
-        found = float(curve.limit_effective_coefficient[0])
+        found = float(curve["limit_effective_coefficient"].values[0])
         sheet.number(f"{name}, μ̄", found, wanted, max(1e-11 * abs(wanted), 1e-14))
-        found = float(curve.limit_effective_slope[0])
+        found = float(curve["limit_effective_slope"].values[0])
         sheet.number(f"{name}, μ̄′", found, slope, max(1e-9 * abs(slope), 1e-14))
 
 
