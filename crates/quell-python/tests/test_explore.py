@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import http.client
+import importlib
 import math
 import os
 import pickle
@@ -313,6 +314,24 @@ def test_both_sounds_have_the_same_gain() -> None:
         run: Any = one.simulate(t_eval=np.linspace(0.0, end * 0.999, 20000))
         expected = found["gain"] * float(np.max(np.abs(np.asarray(run.arrays["velocity"].values)))) * 32768.0
         assert np.max(np.abs(samples.astype(float))) == pytest.approx(expected, rel=0.03)
+
+
+def test_every_entry_of_a_legend_has_a_mark() -> None:
+    models = pytest.importorskip("bokeh.models")
+    figures = importlib.import_module("quell.explore._figures")
+    motion, eigenvalues = figures.Motion(), figures.Eigenvalues()
+    for plot in (motion.over_time, motion.plane, figures.Spectrum().plot, figures.Law().plot, *eigenvalues.plots):
+        items = [item for one in plot.select(models.Legend) for item in one.items]
+        # Bokeh draws no mark of a glyph without data.
+        assert len(items) > 1 and all(len(column) for it in items for column in it.renderers[0].data_source.data.values())
+
+
+def test_cells_have_markers_only_if_there_are_several_motions() -> None:
+    pytest.importorskip("holoviews")
+    basins = importlib.import_module("quell.explore._planes").Basins(lambda x, y: None)
+    for quiet, marked in (([False], 0), ([True], 0), ([False, True], 1), ([False, False], 2)):
+        basins.answer = {"quiet": quiet}
+        assert sum(it is not None for it in basins.marks()) == marked
 
 
 @pytest.mark.parametrize("name", ["stribeck-belt.toml", "squealing-pad-si.toml", "two-mass-drive.toml"])

@@ -226,6 +226,9 @@ def test_what_is_stale_is_dimmed_at_once_and_gives_way(belt_page: Page) -> None:
     belt_page.until(lambda: float(belt_page.opacity("quell-exact")) == 1.0)
     belt_page.page.locator(".quell-undo button").click()
     belt_page.wait("quell-exact", lambda it: it == old)
+    belt_page.wait("quell-basins-status", lambda it: "exact" in it)
+    for name in ("quell-phase", "quell-plane-picture", "quell-basins-picture"):
+        belt_page.until(lambda name=name: float(belt_page.opacity(name)) == 1.0)  # type: ignore[misc]
 
 
 def test_two_studies_are_compared_by_key(belt_page: Page) -> None:
@@ -251,8 +254,14 @@ def test_a_run_is_played_and_a_picture_fills_the_screen(belt_page: Page) -> None
     moments = "() => Bokeh.documents[0]._all_models && [...Bokeh.documents[0]._all_models.values()]"
     fullscreen = belt_page.page.evaluate(f"({moments})().filter((it) => it.type === 'FullscreenTool').length")
     assert fullscreen >= 6
-    moment = f"({moments})().filter((it) => it.type === 'ColumnDataSource' && it.data.time && it.data.time.length === 1).length"
+    moment = f"({moments})().filter((it) => it.type === 'ColumnDataSource' && it.data.time && it.data.time.length === 1 && Number.isFinite(it.data.time[0])).length"
     belt_page.until(lambda: belt_page.page.evaluate(moment) >= 1)
+    for name in ("quell-motion", "quell-basins-picture"):
+        belt_page.page.locator(f".{name} [title=Fullscreen]").first.click()
+        drawn = belt_page.page.locator(f".{name} .bk-Canvas canvas").first
+        belt_page.until(lambda drawn=drawn: drawn.bounding_box()["width"] > 1000)  # type: ignore[misc]
+        belt_page.page.evaluate("() => document.exitFullscreen()")
+        belt_page.until(lambda drawn=drawn: drawn.bounding_box()["width"] < 500)  # type: ignore[misc]
 
 
 def test_a_link_opens_the_state(belt_page: Page, browser: Any) -> None:
@@ -314,6 +323,7 @@ def test_a_slider_and_its_effect_are_seen_together_on_a_phone(belt_page: Page) -
     assert picture["y"] + picture["height"] <= 800
     box = belt_page.page.locator(".quell-side").first.bounding_box()
     assert slider["y"] + slider["height"] <= box["y"] + box["height"] <= picture["y"] + 1
+    assert box["width"] == 480
 
 
 @pytest.mark.parametrize("width", [480, 1280, 1920])

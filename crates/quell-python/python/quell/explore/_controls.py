@@ -13,7 +13,7 @@ from .._study import Study
 from .._tables import Number
 from ._other_law import laws, tables_of_laws
 from ._numbers import Choice, Knob, choices, knobs, label_of, span, tokens
-from ._style import FONT, SIDE, TEXT
+from ._style import FONT, TEXT
 
 MOST_OPEN = 12
 """Largest number of sliders of a group that is open at first."""
@@ -35,19 +35,20 @@ class Slider:
         self._change = change
         self._silent = False
         name = f"quell-{one.path.replace('.', '-').replace('[', '-').replace(']', '')}"
-        self._label = pn.pane.HTML("", width=SIDE - 130, margin=(0, 0, 0, 4))
+        self._label = pn.pane.HTML("", sizing_mode="stretch_width", margin=(0, 0, 0, 4))
         self.field = pn.widgets.FloatInput(value=one.value, width=112, margin=(0, 2, 0, 2), css_classes=[f"{name}-field"])
         self.slider = pn.widgets.DiscreteSlider(
-            options=one.grid(), value=one.value, width=SIDE - 20, margin=(0, 4, 0, 4), show_value=False, css_classes=[name]
+            options=one.grid(), value=one.value, sizing_mode="stretch_width", margin=(0, 4, 0, 4), show_value=False, css_classes=[name]
         )
         for inner in self.slider.select():
             # Panel gathers the moves of a slider over 50 ms; the lanes of the explorer drop old requests anyway.
             inner._debounce = GATHERED
-        self._ends = pn.pane.HTML("", width=SIDE - 20, margin=(0, 4, 8, 4))
+        self._ends = pn.pane.HTML("", sizing_mode="stretch_width", margin=(0, 4, 8, 4))
         self._describe()
         self.slider.param.watch(self._moved, "value")
         self.field.param.watch(self._typed, "value")
-        self.view = pn.Column(pn.Row(self._label, self.field, width=SIDE), self.slider, self._ends, width=SIDE)
+        head = pn.Row(self._label, self.field, sizing_mode="stretch_width")
+        self.view = pn.Column(head, self.slider, self._ends, sizing_mode="stretch_width")
 
     def _describe(self) -> None:
         one = self.knob
@@ -110,7 +111,7 @@ class Controls:
         self.sliders: dict[str, Slider] = {}
         self.selects: dict[str, Any] = {}
         self._silent = False
-        self.view = pn.Column(width=SIDE + 8)
+        self.view = pn.Column(sizing_mode="stretch_width")
         self._build(study)
 
     def _build(self, study: Study) -> None:
@@ -135,8 +136,8 @@ class Controls:
             *([] if closed else self._sliders(paths)),
             title=group,
             collapsed=closed,
-            width=SIDE + 4,
-            margin=(0, 0, 6, 0),
+            sizing_mode="stretch_width",
+            margin=(0, 8, 6, 0),
             header_background="#eef3f7",
             styles={"font-family": FONT, "font-size": f"{TEXT + 1}px"},
         )
@@ -157,14 +158,14 @@ class Controls:
 
     def _law(self, groups: dict[str, list[Any]], study: Study, path: str, law: str) -> None:
         options = laws() if law in laws() else [law, *laws()]
-        select = pn.widgets.Select(label="law", options=options, value=law, width=SIDE - 20, margin=(2, 4, 8, 4))
+        select = pn.widgets.Select(label="law", options=options, value=law, sizing_mode="stretch_width", margin=(2, 4, 8, 4))
         select.param.watch(lambda event: None if self._silent else self._choose_law(path, event.new), "value")
         self.selects[f"{path}.law"] = select
         groups.setdefault(label_of(study, [*tokens(path), "law"], "")[1], []).append(select)
 
     def _choice(self, groups: dict[str, list[Any]], choice: Choice) -> None:
         select = pn.widgets.Select(
-            label=choice.label, options=list(choice.options), value=choice.value, width=SIDE - 20, margin=(2, 4, 8, 4)
+            label=choice.label, options=list(choice.options), value=choice.value, sizing_mode="stretch_width", margin=(2, 4, 8, 4)
         )
         select.param.watch(lambda event: None if self._silent else self._change({choice.path: event.new}), "value")
         self.selects[choice.path] = select

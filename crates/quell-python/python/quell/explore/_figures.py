@@ -6,13 +6,17 @@ import math
 from typing import Any
 
 import numpy as np
-from bokeh.models import BoxAnnotation, ColumnDataSource, Legend, LegendItem, LogTicker, Span
+from bokeh.models import BoxAnnotation, ColumnDataSource, Legend, LegendItem, LogTicker, MultiLine, Span
 from bokeh.plotting import figure
 
 from ._style import ACCENT, BEFORE, FONT, HEIGHT, MOMENT, STICK, TEXT, WIDTH
 
 TOOLS = ("pan", "wheel_zoom", "box_zoom", "reset", "save", "fullscreen")
 """Tools of every picture; the last fills the screen with it."""
+
+
+WIDE = ":host { min-width: 240px; justify-self: end; }"
+"""Room for every button of a toolbar: one that is as wide as its buttons hides the last of them in a menu."""
 
 
 def blank(across: str, up: str, width: int = WIDTH, height: int = HEIGHT, **options: Any) -> Any:
@@ -26,6 +30,7 @@ def blank(across: str, up: str, width: int = WIDTH, height: int = HEIGHT, **opti
 def dress(plot: Any) -> None:
     """Sets fonts, grid and toolbar."""
     plot.toolbar.logo = None
+    plot.toolbar.stylesheets = [WIDE]
     for axis in (plot.xaxis, plot.yaxis):
         axis.axis_label_text_font = axis.major_label_text_font = FONT
         axis.axis_label_text_font_style = "normal"
@@ -38,14 +43,22 @@ def dress(plot: Any) -> None:
     plot.min_border_right = 12
 
 
-def legend(plot: Any, items: list[tuple[str, list[Any]]]) -> None:
-    """A legend below the plot."""
-    made = Legend(items=[LegendItem(label=label, renderers=found) for label, found in items], orientation="horizontal")
+def sample(plot: Any, renderer: Any) -> Any:
+    """The glyph of a renderer at no place: a legend has no mark of a glyph without data."""
+    nowhere = [[math.nan]] if isinstance(renderer.glyph, MultiLine) else [math.nan]
+    return plot.add_glyph(ColumnDataSource(dict.fromkeys(renderer.data_source.column_names, nowhere)), renderer.glyph)
+
+
+def legend(plot: Any, items: list[tuple[str, Any]]) -> list[Any]:
+    """The items of a legend below the plot."""
+    found = [LegendItem(label=label, renderers=[sample(plot, renderer)]) for label, renderer in items]
+    made = Legend(items=found, orientation="horizontal")
     made.label_text_font_size = f"{TEXT - 2}px"
     made.label_text_font = FONT
     made.border_line_color = None
     made.margin = made.padding = 0
     plot.add_layout(made, "below")
+    return found
 
 
 def labelled(name: str, unit: str) -> str:
@@ -90,10 +103,10 @@ class Motion:
             second = plot.line(across, up, source=self.stick, line_color=STICK, line_width=4)
             third = plot.scatter(across, up, source=self.events, size=4, fill_color="white", line_color="#222", line_alpha=0.7)
             played = plot.scatter(across, up, source=self.moment, size=11, marker="diamond", fill_color=MOMENT, line_color="#222")
-            lines.append([("motion", [first]), ("stick", [second]), ("event", [third]), ("played", [played])])
+            lines.append([("motion", first), ("stick", second), ("event", third), ("played", played)])
         fourth = self.plane.scatter("x", "v", source=self.start, size=13, marker="cross", line_width=3, line_color="#222")
         legend(self.over_time, lines[0])
-        legend(self.plane, [*lines[1][:2], ("start", [fourth]), lines[1][3]])
+        legend(self.plane, [*lines[1][:2], ("start", fourth), lines[1][3]])
 
     def show(self, answer: dict[str, Any]) -> None:
         """Draws a run."""
@@ -132,19 +145,19 @@ class Spectrum:
     def __init__(self) -> None:
         self.source = ColumnDataSource({"frequency": [], "before": [], "after": []})
         self.plot = blank("frequency", "level [dB]")
-        # Its legend needs a glyph; the frame is that of the data, which begin at 0.
-        self.band = BoxAnnotation(left=0.0, right=0.0, fill_color=ACCENT, fill_alpha=0.08, line_color=None, visible=False)
+        # The legend needs a glyph; the frame is that of the data, which begin at 0.
+        self.band = BoxAnnotation(left=0.0, right=0.0, fill_color=ACCENT, fill_alpha=0.15, line_color=None, visible=False)
         self.plot.add_layout(self.band)
         first = self.plot.line("frequency", "before", source=self.source, line_color=BEFORE, line_width=1.8, line_dash="dashed")
         second = self.plot.line("frequency", "after", source=self.source, line_color=ACCENT, line_width=1.5)
-        third = self.plot.rect([], [], [], [], fill_color=ACCENT, fill_alpha=0.15, line_color=None)
-        legend(self.plot, [("without dither", [first]), ("with dither", [second]), ("band of E", [third])])
+        third = self.plot.scatter([], [], size=16, marker="square", fill_color=ACCENT, fill_alpha=0.15, line_color=None)
+        *_, self._name_of_band = legend(self.plot, [("without dither", first), ("with dither", second), ("band of E", third)])
 
     def show(self, answer: dict[str, Any]) -> None:
         """Draws two spectra."""
         self.source.data = {name: answer[name] for name in ("frequency", "before", "after")}
         self.plot.xaxis.axis_label = labelled("frequency", answer["unit"])
-        self.band.visible = answer["band_end"] is not None
+        self.band.visible = self._name_of_band.visible = answer["band_end"] is not None
         if answer["band_end"] is not None:
             self.band.right = answer["band_end"]
 
@@ -160,7 +173,7 @@ class Law:
         first = self.plot.line("velocity", "coefficient", source=self.law, line_color=BEFORE, line_width=2, line_dash="dashed")
         second = self.plot.line("velocity", "coefficient", source=self.effective, line_color=ACCENT, line_width=2.5)
         third = self.plot.scatter("velocity", "coefficient", source=self.point, size=10, line_color="#222", fill_color="#222")
-        legend(self.plot, [("law", [first]), ("effective", [second]), ("steady sliding", [third])])
+        legend(self.plot, [("law", first), ("effective", second), ("steady sliding", third)])
 
     def show(self, law: dict[str, Any] | None) -> None:
         """Draws a law, or nothing."""
@@ -209,7 +222,7 @@ class Eigenvalues:
             branches = plot.multi_line("xs", "ys", source=source, line_color=ACCENT, line_width=1.8)
             # A Span has no legend.
             here = plot.line([], [], line_color="#222", line_dash="dashed")
-            legend(plot, [("small motion", [branches]), ("the study", [here])])
+            legend(plot, [("small motion", branches), ("the study", here)])
             cursor = Span(dimension="height", line_color="#222", line_dash="dashed", visible=False)
             plot.add_layout(cursor)
             self.cursors.append(cursor)

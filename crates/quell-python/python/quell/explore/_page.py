@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import panel as pn
+from bokeh.models import CustomJS
 
 from .._errors import QuellError
 from .._study import Study
@@ -42,9 +43,20 @@ HEADLINES = {"averaged": "Steady sliding: computing…", "response": "The exact 
 
 STICKY = """
 :host { flex: none; position: sticky; top: 0; max-height: 100vh; overflow-y: auto; overflow-x: hidden; background: white; z-index: 5; }
-@media (max-width: 820px) { :host { max-height: 36vh; border-bottom: 3px solid #0072b2; } }
+@media (max-width: 820px) { :host { width: 100% !important; max-height: 36vh; border-bottom: 3px solid #0072b2; } }
 """
 """The column of numbers stays in view next to the panes; on a narrow screen it is above them, and as high as leaves a picture in view."""
+
+FILLED = """
+const fit = (view) => {
+  if (view.model.type === "Figure") view.invalidate_layout();
+  for (const inner of view.children_views()) fit(inner);
+};
+for (const name of ["fullscreenchange", "webkitfullscreenchange"]) {
+  document.addEventListener(name, () => setTimeout(() => { for (const view of Bokeh.index) fit(view); }, 100));
+}
+"""
+"""Draws pictures again when one begins or ends to fill the screen: in a column Bokeh does not always see that its size changes."""
 
 
 class Page:
@@ -56,6 +68,7 @@ class Page:
         self._patience: Any = None
         self._tell = changed
         self._document = pn.state.curdoc
+        self._document.js_on_event("document_ready", CustomJS(code=FILLED))
         self._closed = False
         self._later: Any = None
         self._draw: Any = getattr(type(state.study), "sketch", None)
@@ -118,10 +131,13 @@ class Page:
         self._sources = {**_zoo.questions(), **_zoo.neighbours(self.state.step.source)}
         here = next((name for name, it in self._sources.items() if it == self.state.step.source), "this study")
         options = list(dict.fromkeys(["this study", *self._sources]))
-        self.zoo = pn.widgets.Select(label="open a study", options=options, value=here, width=SIDE, css_classes=["quell-zoo"])
+        self.zoo = pn.widgets.Select(
+            label="open a study", options=options, value=here, sizing_mode="stretch_width", css_classes=["quell-zoo"]
+        )
         self.zoo.param.watch(self._open, "value")
         compare = pn.pane.HTML(words("compare, by ← and →:", TEXT - 1), margin=(8, 4, 2, 8))
-        return pn.Column(self.zoo, pn.Row(self.undo, self.redo), pn.Row(compare, self.slot), width=SIDE + 8)
+        # One row where the column is wide, which leaves more of its height to the sliders.
+        return pn.Column(self.zoo, pn.FlexBox(self.undo, self.redo, pn.Row(compare, self.slot)), sizing_mode="stretch_width")
 
     def _layout(self) -> Any:
         main = pn.Column(
@@ -225,6 +241,9 @@ class Page:
         if done:
             # The browser dims the answers before the page is built again.
             self._outdate_all()
+            if self._shown_shape != self.controls.shape(self.state.study):
+                # It takes a while to build other sliders.
+                self._give_way()
             self._document.add_timeout_callback(self._rebuild, SOON)
         else:
             self._after(False)
@@ -285,6 +304,10 @@ class Page:
     def _be_patient(self) -> None:
         """A sentence about earlier numbers does not stay for long."""
         self._patience = None
+        self._give_way()
+
+    def _give_way(self) -> None:
+        """Sentences about earlier numbers give way to the words that the answer is being computed."""
         for name, text in HEADLINES.items():
             if self._fresh.is_stale(name) and not self.state.complaints:
                 self.verdict.replace(name, text)

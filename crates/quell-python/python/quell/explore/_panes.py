@@ -31,6 +31,11 @@ def paragraph(width: int, *css: str) -> Any:
     return pn.pane.HTML("", width=width, margin=MARGIN, css_classes=list(css))
 
 
+def framed(picture: Any, *css: str) -> Any:
+    """A picture in a column that is dimmed in its place: a pane of HoloViews does not always take new styles."""
+    return pn.Column(picture, margin=0, css_classes=list(css))
+
+
 def time_words(seconds: float) -> str:
     """A time in words."""
     return f"{seconds * 1e3:.0f} ms" if seconds < 1.0 else f"{seconds:.1f} s"
@@ -101,8 +106,8 @@ class MotionPane(Pane):
             css_classes=["quell-play"],
         )  # fmt: skip
         self.player.param.watch(lambda event: self.picture.play(event.new / FRAMES), "value")
-        over_time = pn.pane.Bokeh(self.picture.over_time, margin=MARGIN)
-        plane = pn.pane.Bokeh(self.picture.plane, margin=MARGIN, css_classes=["quell-phase"])
+        over_time = framed(pn.pane.Bokeh(self.picture.over_time, margin=MARGIN))
+        plane = framed(pn.pane.Bokeh(self.picture.plane, margin=MARGIN), "quell-phase")
         self.plane_view = pn.Column(
             pn.pane.HTML(headed("Phase plane", "click a start"), width=WIDTH, margin=MARGIN), plane, width=WIDTH + 16
         )
@@ -128,7 +133,7 @@ class SpectrumPane(Pane):
     def __init__(self) -> None:
         self.picture = Spectrum()
         self.loudness = paragraph(WIDTH, "quell-loudness")
-        super().__init__("Spectrum", "quell-spectrum", pn.pane.Bokeh(self.picture.plot, margin=MARGIN), self.loudness)
+        super().__init__("Spectrum", "quell-spectrum", framed(pn.pane.Bokeh(self.picture.plot, margin=MARGIN)), self.loudness)
 
     def show(self, answer: dict[str, Any]) -> None:
         """Draws the spectra."""
@@ -143,7 +148,8 @@ class LawPane(Pane):
         self.picture = Law()
         self.contact = pn.widgets.Select(label="contact", options=[], width=180, visible=False, margin=MARGIN)
         self._laws: list[dict[str, Any]] = []
-        super().__init__("Effective friction", "quell-law", pn.pane.Bokeh(self.picture.plot, margin=MARGIN), self.contact, kind="averaged")
+        picture = framed(pn.pane.Bokeh(self.picture.plot, margin=MARGIN))
+        super().__init__("Effective friction", "quell-law", picture, self.contact, kind="averaged")
         self.contact.param.watch(lambda event: self._draw(), "value")
 
     def show(self, answer: dict[str, Any]) -> None:
@@ -167,7 +173,7 @@ class EigenPane(Pane):
         self.picture = Eigenvalues()
         self.parameter = pn.widgets.Select(label="over", options={}, width=WIDTH - 40, margin=MARGIN)
         self.sentence = paragraph(WIDTH)
-        bodies = [pn.pane.Bokeh(plot, margin=MARGIN) for plot in self.picture.plots]
+        bodies = [framed(pn.pane.Bokeh(plot, margin=MARGIN)) for plot in self.picture.plots]
         super().__init__("Eigenvalues", "quell-eigen", self.parameter, *bodies, self.sentence, kind="averaged")
         self._bodies = [*bodies, self.sentence]
 

@@ -15,7 +15,7 @@ from ._lanes import Event
 from ._maps import Axis
 from ._numbers import Knob, kept, within
 from ._legend import cross, legend, line, patch, scale
-from ._panes import MARGIN, Pane, time_words, words
+from ._panes import MARGIN, Pane, framed, time_words, words
 from ._planes import GROWTH, Basins, Plane
 from ._style import ACCENT, TEXT, WIDTH
 
@@ -47,10 +47,11 @@ class PlanePane(Pane):
         width = (WIDTH - 24) // 2
         self.across = pn.widgets.Select(label="across", options=[], width=width, margin=MARGIN, css_classes=["quell-across"])
         self.up = pn.widgets.Select(label="up", options=[], width=width, margin=MARGIN)
-        self.picture = pn.pane.HoloViews(self._plane.picture(), linked_axes=False, margin=MARGIN, css_classes=["quell-plane-picture"])
+        self.picture = pn.pane.HoloViews(self._plane.picture(), linked_axes=False, margin=MARGIN)
+        frame = framed(self.picture, "quell-plane-picture")
         self.sentence = pn.pane.HTML("", width=WIDTH, margin=MARGIN)
-        super().__init__("Threshold map", "quell-plane", pn.Row(self.across, self.up), self.picture, self.sentence)
-        self._bodies = [self.picture]
+        super().__init__("Threshold map", "quell-plane", pn.Row(self.across, self.up), frame, self.sentence)
+        self._bodies = [frame, self.sentence]
         for select in (self.across, self.up):
             select.param.watch(self._chosen, "value")
 
@@ -185,14 +186,15 @@ class BasinsPane(Pane):
         self._basins = Basins(lambda x, y: jump((x, y)))
         self.grid = (25, 19)
         self._bound = False
-        self.picture = pn.pane.HoloViews(self._basins.picture(), linked_axes=False, margin=MARGIN, css_classes=["quell-basins-picture"])
+        self.picture = pn.pane.HoloViews(self._basins.picture(), linked_axes=False, margin=MARGIN)
+        frame = framed(self.picture, "quell-basins-picture")
         self.legend = pn.pane.HTML("", width=WIDTH, margin=MARGIN)
         self.button = pn.widgets.Button(label="compute", width=110, margin=MARGIN, css_classes=["quell-compute-basins"])
         self.halt = pn.widgets.Button(label="stop", width=80, margin=MARGIN)
         self.button.on_click(lambda event: ask())
         self.halt.on_click(lambda event: stop())
-        super().__init__("Basins", "quell-basins", self.picture, self.legend, pn.Row(self.button, self.halt))
-        self._bodies = [self.picture, self.legend]
+        super().__init__("Basins", "quell-basins", frame, self.legend, pn.Row(self.button, self.halt))
+        self._bodies = [frame, self.legend]
 
     def offer(self, kind: str) -> None:
         """Basins of a belt are computed at once, those of a system on request."""

@@ -196,9 +196,9 @@ class Basins:
         return [ACCENT if is_quiet else others[place % len(others)] for place, is_quiet in enumerate(quiet)] or [STICK]
 
     def marks(self) -> list[str | None]:
-        """The marker of each motion: none for quiet ones."""
+        """The marker of each motion: none for quiet ones, nor where there is only one."""
         quiet = self.answer["quiet"] if self.answer else []
-        return [None if is_quiet else MARKS[place % len(MARKS)] for place, is_quiet in enumerate(quiet)]
+        return [None if is_quiet or len(quiet) < 2 else MARKS[place % len(MARKS)] for place, is_quiet in enumerate(quiet)]
 
     def _mark(self, x: npt.NDArray[np.float64], y: npt.NDArray[np.float64], ends: npt.NDArray[np.float64]) -> None:
         """Draws the marker of its end in every second cell."""
