@@ -6,7 +6,7 @@ use super::canvas::{Canvas, Rectangle, Stroke, TextStyle, path};
 use super::envelope::{self, CurveTrace, band_opacity};
 use super::figure::{CaptionPlacement, Figure, Panel};
 use super::font_sizes::FontSizes;
-use super::layer::{Layer, Polyline, ReferenceLine, Region, RegionShape};
+use super::layer::{Layer, Marker, Orientation, Polyline, ReferenceLine, Region, RegionShape};
 use super::layout::{FigureLayout, LABEL_GAP, LegendLayout, NUMBER_GAP, PanelLayout};
 use super::obstacles::Obstacles;
 use super::palette::{Colour, FAINT, FRAME, PlotRole};
@@ -316,10 +316,37 @@ fn draw_texts(
                 {
                     obstacles.add(area);
                     draw_outlined_text(canvas, &lines, area, rule_ink(rule), sizes);
+                    leader(canvas, panel, rule, area, &x);
                 }
             }
             _ => {}
         }
+    }
+}
+
+/// How much nearer than another line a label is to its own where no dot is needed (pixels).
+const LEADER: f64 = 3.0;
+
+/// Ties the label of a vertical line to it by a dot on the line, where another line is as near to the label.
+fn leader(canvas: &mut Canvas, panel: &Panel, rule: &ReferenceLine, label: Rectangle, x: &Mapping) {
+    if rule.orientation != Orientation::Vertical {
+        return;
+    }
+    let Some(own) = x.pixel(rule.value) else { return };
+    let is_right = label.left >= own;
+    let near = if is_right { label.left } else { label.right };
+    let around = label.grown((near - own).abs() + LEADER);
+    let others = panel.layers.iter().filter_map(|layer| match layer {
+        Layer::ReferenceLine(other) if other.orientation == Orientation::Vertical => {
+            x.pixel(other.value).filter(|at| *at != own)
+        }
+        _ => None,
+    });
+    if others.into_iter().any(|at| around.left <= at && at <= around.right) {
+        let middle = 0.5 * (label.top + label.bottom);
+        let line = path(&[vec![(near, middle), (own, middle)]], false);
+        canvas.stroke(&line, &Stroke::solid(rule_ink(rule), 0.9));
+        marks::markers(canvas, &[(own, middle)], rule.role, Marker::Disc, 3.0);
     }
 }
 

@@ -108,25 +108,18 @@ fn dense_runs(points: &[(f64, f64)], extremes: &[usize]) -> Vec<(usize, usize)> 
     runs
 }
 
-/// The band through these extremes. At each of them the band reaches to the outermost extreme within [`MERGING`]: what lies
-/// between neighbours that merge cannot be seen, and an edge that follows every swing would be a moiré again.
+/// The band between the upper and the lower ones of these extremes, which alternate; the first and the last belong to both sides.
 fn band(points: &[(f64, f64)], extremes: &[usize]) -> CurveTrace {
     let found: Vec<(f64, f64)> = extremes.iter().map(|&index| points[index]).collect();
-    let side = |outer: fn(f64, f64) -> f64| -> Vec<(f64, f64)> {
-        let (mut from, mut to) = (0, 0);
-        let outermost = |&(x, y): &(f64, f64)| {
-            while found[from].0 < x - MERGING {
-                from += 1;
-            }
-            while to < found.len() && found[to].0 <= x + MERGING {
-                to += 1;
-            }
-            (x, found[from..to].iter().map(|point| point.1).fold(y, outer))
+    let side = |is_outer: fn(f64, f64) -> bool| -> Vec<(f64, f64)> {
+        let on_side = |&index: &usize| match index {
+            0 => true,
+            _ => index + 1 == found.len() || is_outer(found[index].1, found[index - 1].1),
         };
-        found.iter().map(outermost).collect()
+        (0..found.len()).filter(on_side).map(|index| found[index]).collect()
     };
     // Pixels grow downwards.
-    CurveTrace::Band { upper: side(f64::min), lower: side(f64::max) }
+    CurveTrace::Band { upper: side(|one, last| one < last), lower: side(|one, last| one > last) }
 }
 
 #[cfg(test)]

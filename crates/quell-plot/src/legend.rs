@@ -293,16 +293,22 @@ fn draw_entry(canvas: &mut Canvas, entry: &SetEntry, (left, top): (f64, f64), si
         right: left + SAMPLE - 3.0,
         bottom: middle + half,
     };
-    for sample in entry.samples {
+    for (number, sample) in entry.samples.iter().enumerate() {
+        // Bands of several colours stand side by side.
+        let share = patch.width() / entry.samples.len() as f64;
+        let part = Rectangle {
+            left: patch.left + share * number as f64,
+            right: patch.left + share * (number + 1) as f64,
+            ..patch
+        };
         match sample {
             LegendKey::Stroke(stroke) => {
                 let ends = vec![(left, middle), (left + SAMPLE, middle)];
                 canvas.stroke(&path(&[ends], false), stroke);
             }
             LegendKey::Band(colour) => {
-                let outline = marks::outline(patch);
-                canvas.fill(&outline, *colour, band_opacity(*colour));
-                canvas.rectangle(patch, None, Some((*colour, 0.6)));
+                canvas.fill(&marks::outline(part), *colour, band_opacity(*colour));
+                canvas.rectangle(part, None, Some((*colour, 0.6)));
             }
             LegendKey::Point(role, marker, diameter) => {
                 let at = [(left + 0.5 * SAMPLE, middle)];

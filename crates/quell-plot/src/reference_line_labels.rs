@@ -8,6 +8,9 @@ use super::obstacles::Obstacles;
 use super::projection::reference_line_ends;
 use super::typeset::{LINE_HEIGHT, RichText, wrap};
 
+/// Space around a label that other labels leave free (pixels).
+const HALO: f64 = 3.0;
+
 /// Cost of a label outside the frame, above that of covering anything.
 const OUTSIDE: usize = 1000;
 
@@ -64,7 +67,7 @@ pub(super) fn place(
                 || area.right > frame.right
                 || area.top < frame.top
                 || area.bottom > frame.bottom;
-            obstacles.covered_by(area.grown(1.0)) + if outside { OUTSIDE } else { 0 }
+            obstacles.covered_by(area.grown(HALO)) + if outside { OUTSIDE } else { 0 }
         };
         areas.map(|area| (cost(&area), area)).min_by_key(|(cost, _)| *cost)
     };

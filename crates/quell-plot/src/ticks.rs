@@ -152,6 +152,9 @@ fn step_for(wanted: f64) -> f64 {
         .unwrap_or(wanted)
 }
 
+/// Share of a step within which two numbers are one tick.
+const CLOSE: f64 = 1e-6;
+
 /// The multiples of `step` within the limits.
 ///
 /// `step` is that of [`step_for`], which leaves about 15 of them at most.
@@ -165,11 +168,12 @@ fn multiples((lower, upper): (f64, f64), step: f64) -> Vec<f64> {
     let last = ((upper / step).ceil() - first) as u8;
     let mut values: Vec<f64> = (0..=last)
         .map(|index| (first + f64::from(index)) * step)
-        .filter(|value| (lower..=upper).contains(value))
+        .filter(|value| (lower - CLOSE * step..=upper + CLOSE * step).contains(value))
         .map(|value| {
             let rounded = rounded(value);
-            let is_close = (rounded - value).abs() <= 1e-6 * step;
-            if is_close && (lower..=upper).contains(&rounded) { rounded } else { value }
+            let is_close = (rounded - value).abs() <= CLOSE * step;
+            // A product may leave the limits by its rounding error.
+            (if is_close { rounded } else { value }).clamp(lower, upper)
         })
         .collect();
     values.dedup();
@@ -221,7 +225,7 @@ mod tests {
 
     #[test]
     fn multiples_are_within_the_limits_and_without_rounding_errors() {
-        assert_eq!(multiples((0.0, 0.3), 0.1), [0.0, 0.1, 0.2]);
+        assert_eq!(multiples((0.0, 0.3), 0.1), [0.0, 0.1, 0.2, 0.3]);
         assert_eq!(multiples((0.0, 0.35), 0.1), [0.0, 0.1, 0.2, 0.3]);
         assert_eq!(multiples((-0.2, 0.21), 0.1), [-0.2, -0.1, 0.0, 0.1, 0.2]);
         assert_eq!(multiples((1.0, 1.7), 0.2), [1.0, 1.2, 1.4, 1.6]);

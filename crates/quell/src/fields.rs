@@ -271,9 +271,13 @@ impl Fields {
         }
     }
 
-    /// Adopts the units and reasons of an inner object, and returns its fields.
+    /// Adopts the units and reasons of an inner object, and returns its fields. A name that has another unit there is written with its
+    /// object: `voltage.peak`.
     fn take(&mut self, path: &str, inner: Self) -> Map<String, Json> {
+        let object = path.split('[').next().unwrap_or_default();
         for (name, unit) in inner.units {
+            let is_other = self.units.get(&name).is_some_and(|known| *known != unit);
+            let name = if is_other { format!("{object}.{name}") } else { name };
             self.units.insert(name, unit);
         }
         for (name, why) in inner.why {
@@ -281,6 +285,12 @@ impl Fields {
         }
         inner.object
     }
+}
+
+/// The unit of the field at a path: of the longest end of the path that has one.
+pub(crate) fn unit_at<'u>(units: &'u Map<String, Json>, path: &str) -> Option<&'u str> {
+    let ends = path.match_indices('.').map(|(at, _)| &path[at + 1..]);
+    [path].into_iter().chain(ends).find_map(|end| units.get(end)?.as_str())
 }
 
 /// Why a number that is not finite is null.
@@ -316,6 +326,21 @@ fn has_null(value: &Json) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn a_name_with_two_units_has_both() {
+        let mut fields = Fields::new(None);
+        for (name, unit) in [("force", "N"), ("voltage", "V")] {
+            let mut inner = Fields::new(None);
+            inner.measured("peak", unit, 1.0);
+            fields.nested(name, inner);
+        }
+        let units = &fields.finish()["units"];
+        assert_eq!((&units["peak"], &units["voltage.peak"]), (&json!("N"), &json!("V")));
+        assert_eq!(unit_at(units.as_object().expect("units"), "drive.voltage.peak"), Some("V"));
+        assert_eq!(unit_at(units.as_object().expect("units"), "drive.force.peak"), Some("N"));
+    }
 
     #[test]
     fn a_study_in_si_has_dimensionless_and_si_fields() {

@@ -9,7 +9,7 @@ use quell_dynamics::belt_motion::{ContactStart, run_belt};
 use quell_dynamics::simulation::{
     DEFAULT_TOLERANCE, LargestSlip, Observer, SimulationRun, Start, simulate, simulate_many,
 };
-use quell_linear::averaging::DitheredContact;
+use quell_linear::averaging::{AveragingOptions, DitheredContact, FastMotion};
 use quell_model::friction::SlipRange;
 use quell_model::units::Quantity;
 use quell_model::{Belt, Contact, System};
@@ -127,20 +127,30 @@ pub(crate) fn of_starts(cases: &[(&Belt, Start)]) -> Vec<f64> {
     slips.into_iter().map(|slip| slip.speed).collect()
 }
 
+/// The largest fast slip velocity at the belt velocity, at the finite R of the study; in the limit R → ∞ where that has none.
+pub(crate) fn fast_velocity(belt: &Belt) -> f64 {
+    let motion = FastMotion::of(belt, belt.belt_velocity(), AveragingOptions::FINITE_R);
+    let fast = motion.and_then(|motion| motion.largest_slip());
+    fast.unwrap_or_else(|_| belt.fast_velocity())
+}
+
 /// Slip that averages reach at slip speed `slip`: that speed plus the largest fast velocity.
 pub(crate) fn with_dither(belt: &Belt, slip: f64) -> f64 {
-    slip + belt.fast_velocity()
+    slip + fast_velocity(belt)
 }
 
 /// Slip that averages reach at v₀ with the first dither at this amplitude.
 pub(crate) fn at_amplitude(belt: &Belt, amplitude: f64) -> f64 {
     let mut dithers = belt.dithers().to_vec();
-    let first = dithers.first().map_or(0.0, |dither| belt.fast_velocity_of(dither));
     if let Some(dither) = dithers.first_mut() {
         dither.amplitude = amplitude;
     }
-    let then = dithers.first().map_or(0.0, |dither| belt.fast_velocity_of(dither));
-    with_dither(belt, belt.belt_velocity()) - first + then
+    // An amplitude that the belt cannot have, such as normal dither that opens the contact, moves the mass as in the limit.
+    let fast = match belt.dithered_by(dithers.clone()) {
+        Ok(acting) => fast_velocity(&acting),
+        Err(_) => dithers.iter().map(|dither| belt.fast_velocity_of(dither)).sum(),
+    };
+    belt.belt_velocity() + fast
 }
 
 /// Warnings if averages at the study's own slip, v₀, leave the range.
@@ -153,7 +163,7 @@ pub(crate) fn averaged_at(study: &BeltStudy, slip: f64) -> Vec<String> {
     let belt = study.belt();
     let Some(range) = belt.friction().range() else { return Vec::new() };
     let mut warnings = Vec::new();
-    let (together, fast) = (with_dither(belt, slip), belt.fast_velocity());
+    let (together, fast) = (with_dither(belt, slip), fast_velocity(belt));
     if together > range.upper {
         let what = match (fast > 0.0, slip == belt.belt_velocity()) {
             (true, _) => "slip including dither reaches".to_owned(),

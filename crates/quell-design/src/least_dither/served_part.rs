@@ -14,6 +14,10 @@ use crate::tasks::answers;
 /// Closeness of the ends, as a share of the distance of the points around them, or of the part.
 const CLOSENESS: f64 = 1e-7;
 
+/// Distances beyond an unknown end of a part, as shares of its length, at which it is judged again: next to the end of a branch of
+/// responses the solver may fail where a point a little further is loud.
+const BESIDE: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
+
 /// Times that a part is divided at points that fail. A part is what its points show in any case.
 const ROUNDS: usize = 12;
 
@@ -35,6 +39,10 @@ impl Served {
             Self::Yes(multiplier) => Some(*multiplier),
             Self::No(_) => None,
         }
+    }
+
+    fn is_unknown(&self) -> bool {
+        matches!(self, Self::No(BeyondCovered::Unknown(_)))
     }
 }
 
@@ -130,8 +138,8 @@ impl<'a> ServedPart<'a> {
         let above = (last + 1 < self.judged.len()).then(|| (point(last), point(last + 1)));
         let length = point(last) - point(first);
         let ends: Vec<(f64, f64)> = below.into_iter().chain(above).collect();
-        let seen = answers(self.problem.tasks, &ends, |(inside, outside)| {
-            let (mut inside, mut outside, mut seen) = (*inside, *outside, Vec::new());
+        let seen = answers(self.problem.tasks, &ends, |&(mut inside, far)| {
+            let (mut outside, mut seen) = (far, Vec::new());
             let closeness = CLOSENESS * length.max((outside - inside).abs());
             while (outside - inside).abs() > closeness {
                 let middle = f64::midpoint(inside, outside);
@@ -139,6 +147,13 @@ impl<'a> ServedPart<'a> {
                 let is_served = served.multiplier().is_some();
                 *(if is_served { &mut inside } else { &mut outside }) = middle;
                 seen.push((middle, served));
+            }
+            let step = (far - inside).signum() * length;
+            let further = BESIDE.map(|share| share.mul_add(step, outside));
+            let further = further.into_iter().take_while(|point| (far - point) * step > 0.0);
+            let is_unknown = |(at, served): &(f64, Served)| *at == outside && served.is_unknown();
+            if seen.iter().any(is_unknown) {
+                seen.extend(further.map(|point| (point, self.served(point))));
             }
             seen
         });
@@ -173,12 +188,24 @@ impl<'a> ServedPart<'a> {
         inside.all(|(_, served)| served.multiplier().is_some())
     }
 
+    /// What the points next to an end of the part, in their order from there, say of what is beyond it: the first of those beside the end
+    /// that is known.
+    fn beyond(next: &[&(f64, Served)], length: f64) -> BeyondCovered {
+        let Some((end, Served::No(first))) = next.first() else { return BeyondCovered::BoxEnds };
+        let reach = 2.0 * BESIDE[BESIDE.len() - 1] * length;
+        let beside = next.iter().take_while(|(point, _)| (point - end).abs() <= reach);
+        let known = beside.filter(|(_, served)| !served.is_unknown());
+        match known.map(|(_, served)| served).next() {
+            Some(Served::No(why)) => why.clone(),
+            _ => first.clone(),
+        }
+    }
+
     /// The part that a run of points shows.
     fn part(&self, (first, last): (usize, usize)) -> CoveredBox {
-        let beyond = |place: Option<usize>| match place.and_then(|place| self.judged.get(place)) {
-            Some((_, Served::No(why))) => why.clone(),
-            _ => BeyondCovered::BoxEnds,
-        };
+        let length = self.judged[last].0 - self.judged[first].0;
+        let above: Vec<_> = self.judged[last + 1..].iter().collect();
+        let below: Vec<_> = self.judged[..first].iter().rev().collect();
         let gaps = self.judged[first..=last].windows(2).map(|pair| pair[1].0 - pair[0].0);
         CoveredBox {
             ends: (self.judged[first].0, self.judged[last].0),
@@ -186,7 +213,7 @@ impl<'a> ServedPart<'a> {
             others: self.tried.others.clone(),
             points: last - first + 1,
             largest_gap: gaps.fold(0.0, f64::max),
-            beyond: [beyond(first.checked_sub(1)), beyond(Some(last + 1))],
+            beyond: [below, above].map(|next| Self::beyond(&next, length)),
         }
     }
 }

@@ -21,6 +21,10 @@ use crate::simulation::Start;
 /// A response with less than this fraction of the undithered vibration is quenched.
 pub const QUENCHED: f64 = 0.01;
 
+/// Residual vibration E below which the dissertation calls a vibration suppressed (5 % in figure 2.8), and a designed dither that repeats in
+/// the band of the vibration is called quiet.
+pub const SUPPRESSED: f64 = 0.05;
+
 /// Steps in which the base response of a belt with a state is followed from steady sliding.
 const BASE_STEPS: u32 = 8;
 

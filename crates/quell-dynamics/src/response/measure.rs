@@ -12,8 +12,8 @@ use super::record_lines::RecordLines;
 use super::solver::Solver;
 use super::spectral_meter::{Sampling, SpectralMeter};
 use crate::belt_motion::{BeltStopped, ContactStart, run_belt};
-use crate::orbit::NoOrbit;
-use crate::orbit::cycle::keeps_vibrating;
+use crate::orbit::cycle::{keeps_vibrating, sliding_verdict};
+use crate::orbit::{NoOrbit, OrbitVerdict};
 use crate::simulation::{
     Event, FinalState, InstructionSet, LargestSlip, Observer, Segment, SimulationRun, Stalled,
     Start, simulate_many_with,
@@ -201,6 +201,10 @@ pub(super) fn keeps_vibrating_without(
     }
     match keeps_vibrating(&case.belt, case.start) {
         Ok(true) => Ok(Ok(())),
+        // A run that does not leave unstable sliding started exactly there.
+        Ok(false) if sliding_verdict(&case.belt.undithered()) == OrbitVerdict::Unstable => {
+            Ok(Err(Undefined::UnditheredUnstable))
+        }
         Ok(false) => Ok(Err(Undefined::UnditheredSettles)),
         Err(NoOrbit::Stalled(stalled)) => Err(stalled),
         Err(_) => Ok(Err(Undefined::UnditheredUnknown)),

@@ -32,7 +32,7 @@ pub use quell_numerics::spectrum::{Peak, Spectrum};
 
 pub use crate::band::{BAND_END, vibration_frequency};
 pub use dither_lines::stroke_is_measured;
-pub use effect::{Effect, QUENCHED, RunEnding, Uncertain, Vibrations, effect};
+pub use effect::{Effect, QUENCHED, RunEnding, SUPPRESSED, Uncertain, Vibrations, effect};
 pub use effective::{
     SteadyFriction, WindowMean, measured_effective_friction, steady_effective_friction,
 };

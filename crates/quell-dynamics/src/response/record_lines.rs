@@ -36,7 +36,7 @@ impl RecordLines {
 
     /// Whether the vibration is too small to count.
     pub fn is_negligible(&self) -> bool {
-        self.lines.whole < NEGLIGIBLE * self.scale
+        self.lines.whole <= NEGLIGIBLE * self.scale
     }
 
     /// Whether M of the halves agree, relatively or against `reference`.

@@ -46,26 +46,23 @@ pub(crate) fn sign_changes<E>(
     let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
         return Ok(Vec::new());
     };
-    let mut inside: Vec<f64> =
-        corners.iter().copied().filter(|c| *c > first && *c < last).collect();
-    inside.sort_unstable_by(f64::total_cmp);
-    inside.dedup();
+    let inside = both_sides(corners, (first, last));
     let mut changes = Vec::new();
     let mut from = first;
-    for (i, corner) in inside.iter().copied().chain([last]).enumerate() {
-        let is_corner = i < inside.len();
-        let to = if is_corner { corner * (1.0 - BESIDE) } else { corner };
+    for place in 0..=inside.len() {
+        let corner = inside.get(place);
+        let to = corner.map_or(last, |(before, _)| *before);
         let mut interval = vec![from];
         interval.extend(points.iter().copied().filter(|p| *p > from && *p < to));
         interval.push(to);
         smooth_interval(&mut f, &interval, &mut changes)?;
-        if is_corner {
-            from = corner * (1.0 + BESIDE);
+        if let Some(&(_, beyond)) = corner {
+            from = beyond;
             let (before, after) = (f(to)?, f(from)?);
             if (before > 0.0) != (after > 0.0) {
                 changes.push(SignChange {
-                    location: corner,
-                    error: 4.0 * f64::EPSILON * corner,
+                    location: f64::midpoint(to, from),
+                    error: 0.5 * (from - to),
                     crossing: CrossingKind::Jump,
                     becomes_positive: after > 0.0,
                 });
@@ -73,6 +70,22 @@ pub(crate) fn sign_changes<E>(
         }
     }
     Ok(changes)
+}
+
+/// The points beside each corner within a range, ascending; corners that coincide but for rounding have one pair.
+fn both_sides(corners: &[f64], (first, last): (f64, f64)) -> Vec<(f64, f64)> {
+    let sides = corners.iter().map(|corner| (corner * (1.0 - BESIDE), corner * (1.0 + BESIDE)));
+    let mut sides: Vec<_> =
+        sides.filter(|(before, beyond)| *before > first && *beyond < last).collect();
+    sides.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    sides.dedup_by(|next, known| {
+        let coincide = next.0 <= known.1;
+        if coincide {
+            known.1 = next.1;
+        }
+        coincide
+    });
+    sides
 }
 
 /// Appends the sign changes of `f` over the ascending `points`, between which it is continuous.
@@ -162,6 +175,18 @@ mod tests {
 
     fn changes(f: impl Fn(f64) -> f64, points: &[f64], corners: &[f64]) -> Vec<SignChange> {
         sign_changes(|x| Ok::<f64, ()>(f(x)), points, corners).expect("no error")
+    }
+
+    #[test]
+    fn corners_that_coincide_but_for_rounding_are_one_jump() {
+        let corner = 1.402842146859331e-5;
+        let f = |x: f64| if x < corner { -1.0 } else { 1.0 };
+        let grid = [1e-5, 2e-5];
+        let found = changes(f, &grid, &[corner.next_up(), corner, corner.next_down()]);
+        let [only] = found.as_slice() else { panic!("{found:?}") };
+        assert_eq!(only.crossing, CrossingKind::Jump);
+        assert!((only.location - corner).abs() <= only.error);
+        assert!(changes(f, &[1e-5, corner], &[corner.next_down()]).len() <= 1);
     }
 
     #[test]

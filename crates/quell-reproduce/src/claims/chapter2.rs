@@ -1,6 +1,6 @@
 //! Claims of chapter 2: friction laws, responses under sinusoidal tangential dither, averaging.
 
-use quell_dynamics::response::{Solver, respond};
+use quell_dynamics::response::{SUPPRESSED, Solver, respond};
 use quell_dynamics::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
 use quell_linear::averaging::{
     AveragingOptions, Becomes, CriticalAmplitude, EverywhereStable, FastResponse, FastWave,
@@ -16,9 +16,6 @@ use super::super::source::EntrySource;
 use super::record::largest_line;
 use super::sheet::{ClaimSheet, digits, list, shares};
 use quell::complaint::Failure;
-
-/// Fraction of the undithered vibration below which the dissertation calls it suppressed (5 % in figure 2.8).
-pub(super) const SUPPRESSED: f64 = 0.05;
 
 /// Damping ratio of most figures.
 pub(super) const LIGHT: f64 = 0.005;

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use quell_dynamics::response::SUPPRESSED;
 use quell_linear::averaging::{
     EverywhereStable, FastMotion, FastResponse, FastWave, effective, everywhere_stable_amplitude,
 };
@@ -13,7 +14,7 @@ use super::super::failure::failed;
 use super::super::printed_formulas::{self, LawNumbers};
 use super::super::responses::{cases, fundamental};
 use super::chapter2::{
-    LIGHT, SUPPRESSED, belt, critical, law, partial, record_line, residual_vibrations, source,
+    LIGHT, belt, critical, law, partial, record_line, residual_vibrations, source,
 };
 use super::sheet::{ClaimSheet, digits, list, shares};
 use quell::complaint::Failure;

@@ -1,6 +1,6 @@
 //! Claims of chapter 4: normal dither.
 
-use quell_dynamics::response::steady_effective_friction;
+use quell_dynamics::response::{SUPPRESSED, steady_effective_friction};
 use quell_linear::averaging::{
     AveragingOptions, EverywhereStable, FastResponse, FastWave, criterion,
     everywhere_stable_amplitude, unstable_bands,
@@ -11,9 +11,7 @@ use super::super::failure::failed;
 use super::super::measured_friction::{self, FrictionPanel, TOLERANCE, averaged_at, interpolated};
 use super::super::printed_formulas::{self, LawNumbers};
 use super::super::responses::{ResponseColumn, cases};
-use super::chapter2::{
-    LIGHT, SUPPRESSED, belt, critical, law, partial, residual_vibrations, source,
-};
+use super::chapter2::{LIGHT, belt, critical, law, partial, residual_vibrations, source};
 use super::chapter3::lost_brace;
 use super::record::largest_line;
 use super::sheet::{ClaimSheet, USUAL_LIMIT, digits, list, shares};

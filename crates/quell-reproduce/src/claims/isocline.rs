@@ -5,7 +5,7 @@
 //! R → ∞; the ratio D(5 %)/(α*R) measures by how much.
 
 use quell_dynamics::response::{
-    Observables, ResponseCase, Solver, amplitude_at_residual_vibration, compare_many,
+    Observables, ResponseCase, SUPPRESSED, Solver, amplitude_at_residual_vibration, compare_many,
 };
 use quell_dynamics::simulation::Start;
 use quell_linear::averaging::{Becomes, FastResponse};
@@ -13,7 +13,7 @@ use quell_model::{Direction, LawKind, Waveform};
 use rayon::prelude::*;
 
 use super::super::failure::failed;
-use super::chapter2::{LIGHT, SUPPRESSED, belt, critical};
+use super::chapter2::{LIGHT, belt, critical};
 use super::sheet::{ClaimSheet, list, shares};
 use quell::complaint::Failure;
 

@@ -263,7 +263,7 @@ fn in_words(done: &FrictionFit, finding: &FitFinding) -> String {
         }
         FitFinding::Pattern { runs, expected } => format!(
             "the residuals have {runs} run{} of equal sign over the slip speed where {expected:.1} are expected: the law does \
-             not have the shape of the data, and the standard errors are too small. {}",
+             not have the shape of the data, and standard errors, where they are given, are too small. {}",
             if *runs == 1 { "" } else { "s" },
             if done.compares_all() {
                 "Every law has been compared: check whether friction in the data depends on more than the slip velocity"

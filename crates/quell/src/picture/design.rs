@@ -222,7 +222,13 @@ fn with_curves(mut panel: Panel, done: &LeastDitherFound) -> Panel {
     let lines: Vec<Vec<Option<f64>>> = (0..quantities.len())
         .map(|place| tried.iter().map(|point| largest_within(point, place)).collect())
         .collect();
-    panel = panel.with_all(allowed(&least, &lines, (top, up)));
+    // How friction loss and the least load depend on the amplitude is not known from the least one.
+    let unknown = |quantity: &LimitedQuantity| {
+        matches!(quantity, LimitedQuantity::FrictionLoss | LimitedQuantity::MinimumNormalLoad)
+    };
+    if !quantities.iter().any(unknown) {
+        panel = panel.with_all(allowed(&least, &lines, (top, up)));
+    }
     panel = panel.with(
         Polyline::new(PlotRole::Averaged, least.iter().copied())
             .label("least amplitude, by averaging"),

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::ruler::Ruler;
+use super::thresholds::filled;
 use crate::plot::{
     Figure, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
 };
@@ -193,7 +194,7 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
                 panel = panel.with(Polyline::pieces(kind, lines).label(label));
             }
         }
-        panels.push(panel.title("(c) thresholds"));
+        panels.push(filled(panel).title("(c) thresholds"));
     }
     Figure::grid(2, panels).title(study.title().unwrap_or_default()).caption(format!(
         "Eigenvalues of small motions about steady sliding over {}, {}.{}",

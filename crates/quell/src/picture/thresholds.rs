@@ -162,7 +162,7 @@ pub(super) fn with_curves<S>(
             ("averaged at finite R", LineStyle::Dashed)
         };
         // Wide enough to be seen under an exact curve that coincides with it.
-        let width = 3.4;
+        let width = 2.6;
         let pieces = boundary.pieces.iter().map(|piece| piece.iter().copied().map(&place));
         let pieces: Vec<Vec<(f64, f64)>> = pieces.map(Iterator::collect).collect();
         if !pieces.is_empty() {
@@ -206,7 +206,7 @@ pub(super) fn with_curves<S>(
 const SPACE: f64 = 0.06;
 
 /// The panel with axes that its curves fill: the window that was searched may be much larger.
-fn filled(mut panel: Panel) -> Panel {
+pub(super) fn filled(mut panel: Panel) -> Panel {
     let window = |axis: &PlotAxis| match axis.range {
         AxisRange::Between(from, to) => Some((from.min(to), from.max(to))),
         _ => None,

@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value as Json};
 
+use crate::fields::unit_at;
 use crate::words::digits;
 
 /// Lists longer than this are not written; their length is.
@@ -133,7 +134,9 @@ impl FactReader {
     }
 
     fn row(&self, path: &str, key: &str, value: String, si: String) -> FactRow {
-        let unit = self.units.get(key).and_then(Json::as_str).filter(|unit| *unit != "1");
+        let of_list = without_places(path).replace("[]", "");
+        let unit = unit_at(&self.units, &of_list).or_else(|| self.units.get(key)?.as_str());
+        let unit = unit.filter(|unit| *unit != "1");
         FactRow { path: path.to_owned(), value, unit: unit.unwrap_or_default().to_owned(), si }
     }
 

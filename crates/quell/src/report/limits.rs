@@ -96,7 +96,7 @@ fn of_disc(study: &DiscStudy) -> Vec<Unexamined> {
         Unexamined::new(
             "Other speeds",
             format!(
-                "Verdicts hold at Ω = {} only; `quell map` computes maps over speed and friction.",
+                "The verdicts of `stability` hold at Ω = {} only; `quell map` computes maps over speed and friction.",
                 digits(disc.speed())
             ),
         ),

@@ -102,7 +102,7 @@ impl Check<'_> {
         let in_si = belt.system_in_si().and_then(Result::ok);
         let magnitudes = in_si.map(|system| plausible::warnings(&system, SystemUnits::Si, false));
         let warnings = warnings.chain(magnitudes.into_iter().flatten());
-        let warnings = warnings.chain(beyond_actuator(&belt.system(), study.actuator()));
+        let warnings = warnings.chain(beyond_actuator(&belt.system(), study.actuator(), 0));
         let waveforms = belt.dithers().iter().map(|dither| &dither.waveform);
         let warnings = warnings.chain(noise::few_lines(study.belt()));
         let warnings = warnings.chain(removed_mean::warnings(waveforms));

@@ -264,7 +264,7 @@ pub(crate) fn pattern(residuals: &[f64]) -> Option<String> {
     (score < -UNLIKELY).then(|| {
         format!(
             "the residuals have {found} run{} of equal sign where {expected:.0} are expected of independent errors: the noise is \
-             filtered, or the model does not have the shape of the record; the standard errors are too small",
+             filtered, or the model does not have the shape of the record; standard errors, where they are given, are too small",
             plural(found)
         )
     })

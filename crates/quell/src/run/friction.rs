@@ -52,14 +52,7 @@ pub struct FrictionCurve {
 /// Slip velocities of a picture: beyond the velocities of the law, the belt and the fast motion, up to where slip
 /// including dither leaves the law's range.
 pub fn grid(belt: &Belt) -> Vec<f64> {
-    grid_of(belt.friction(), belt.belt_velocity(), fast_velocity(belt))
-}
-
-/// The largest fast slip velocity at the belt velocity, at the finite R of the study; in the limit R → ∞ where that has none.
-pub(crate) fn fast_velocity(belt: &Belt) -> f64 {
-    let motion = FastMotion::of(belt, belt.belt_velocity(), AveragingOptions::FINITE_R);
-    let fast = motion.and_then(|motion| motion.largest_slip());
-    fast.unwrap_or_else(|_| belt.fast_velocity())
+    grid_of(belt.friction(), belt.belt_velocity(), range::fast_velocity(belt))
 }
 
 /// The same of a law at a surface velocity under a fast slip velocity.

@@ -14,7 +14,7 @@ use quell_linear::averaging::{
     critical_amplitudes,
 };
 use quell_linear::growth::Growth;
-use quell_model::{Belt, Dither};
+use quell_model::Belt;
 
 use super::quench::{QuenchNumbers, quench_numbers_of_belt};
 use super::status::Status;
@@ -250,39 +250,35 @@ pub struct Results {
     pub with_state: Option<Box<Belt>>,
 }
 
-/// The upper end of the range of a law, and the slip that averages reach.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The upper end of the range of a law, and the belt whose averages may leave it.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
     /// End of the law's range.
     upper: f64,
-    /// Slip at v₀ with every dither except the first.
-    without_first: f64,
-    /// Fast velocity of the first dither per amplitude ratio α.
-    per_ratio: f64,
-    /// α of the first dither.
-    ratio: f64,
-    /// Frequency ratio R of the first dither.
-    frequency_ratio: f64,
+    /// The belt.
+    belt: Box<Belt>,
 }
 
 impl Reach {
     fn of(belt: &Belt) -> Option<Self> {
         let upper = belt.friction().range()?.upper;
-        let unit = |dither: &Dither| Dither { amplitude: dither.frequency_ratio, ..dither.clone() };
-        let first = belt.dithers().first();
-        let ratio = first.map_or(0.0, Dither::amplitude_ratio);
-        Some(Self {
-            upper,
-            without_first: range::at_amplitude(belt, 0.0),
-            per_ratio: first.map_or(0.0, |dither| belt.fast_velocity_of(&unit(dither))),
-            ratio,
-            frequency_ratio: first.map_or(1.0, |dither| dither.frequency_ratio),
-        })
+        Some(Self { upper, belt: Box::new(belt.clone()) })
     }
 
-    /// Whether averages leave the range with this α of the first dither.
-    fn is_left_at(&self, ratio: f64) -> bool {
-        ratio.mul_add(self.per_ratio, self.without_first) > self.upper
+    /// Whether averages leave the range.
+    fn is_left(&self) -> bool {
+        range::with_dither(&self.belt, self.belt.belt_velocity()) > self.upper
+    }
+
+    /// Whether averages leave the range with this amplitude of the first dither.
+    fn is_left_at(&self, amplitude: f64) -> bool {
+        range::at_amplitude(&self.belt, amplitude) > self.upper
+    }
+
+    /// The same with this α.
+    fn is_left_at_ratio(&self, ratio: f64) -> bool {
+        let first = self.belt.dithers().first();
+        self.is_left_at(ratio * first.map_or(1.0, |dither| dither.frequency_ratio))
     }
 }
 
@@ -340,7 +336,7 @@ impl Results {
 
     /// Whether slip leaves the range of the friction law of a belt in the computation of `value`.
     fn leaves_range(&self, computation: Computation, value: f64) -> bool {
-        let Some(reach) = self.reach else { return false };
+        let Some(reach) = &self.reach else { return false };
         match computation {
             Computation::Response
             | Computation::ResponseWithCost
@@ -348,14 +344,14 @@ impl Results {
                 let met = |steady: ResponseNumbers| steady.largest_slip > reach.upper;
                 self.steady.is_some_and(|steady| steady.is_ok_and(met))
             }
-            Computation::Criterion | Computation::LimitCriterion => reach.is_left_at(reach.ratio),
+            Computation::Criterion | Computation::LimitCriterion => reach.is_left(),
             // An amplitude ratio of the first dither.
             Computation::CriticalAmplitudes | Computation::LimitCriticalAmplitudes => {
-                reach.is_left_at(value)
+                reach.is_left_at_ratio(value)
             }
             Computation::Quench => {
                 let least = self.quench.and_then(|found| found.ok()?.least.ok());
-                least.is_some_and(|least| reach.is_left_at(least / reach.frequency_ratio))
+                least.is_some_and(|least| reach.is_left_at(least))
             }
             Computation::DiscGrowth
             | Computation::DiscGrowthUndithered

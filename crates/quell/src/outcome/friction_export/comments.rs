@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use quell_model::units::Quantity;
 
 use crate::quantity;
-use crate::run::friction::fast_velocity;
+use crate::range::fast_velocity;
 use crate::run::friction_export::FrictionExport;
 use crate::run::law;
 use crate::study::BeltStudy;

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use quell_design::actuator::{ActuatorAtFrequency, ActuatorLimit, SufficientBand};
+use quell_dynamics::response::BAND_END;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
@@ -19,6 +20,9 @@ const NOTHING_TO_QUENCH: &str = "steady sliding is stable without this dither";
 
 /// Why the margin has no value at an undamped resonance.
 const UNBOUNDED_MARGIN: &str = "unbounded (undamped resonance)";
+
+/// Margin above which rounding decides it.
+const MOST_MARGIN: f64 = 1e9;
 
 /// The key of a limit that is known.
 fn path_of(limit: Option<ActuatorLimit>) -> &'static str {
@@ -69,8 +73,9 @@ impl ActuatorFound {
                 )
             }
             ([], Some(best)) => format!(
-                "The {kind} cannot quench with a {waveform} from {}: at best, at {}, it gives {} of the least amplitude that quenches by \
-                 averaging; it can give",
+                "By averaging{}, the {kind} cannot quench with a {waveform} from {}: at best, at {}, it gives {} of the least amplitude \
+                 that quenches; it can give",
+                self.unsure_in_words(study),
                 range_in_words(study, self.range),
                 study.frequency_scale().with_noun(best.frequency),
                 percent(best.margin())
@@ -78,21 +83,28 @@ impl ActuatorFound {
             ([], None) => {
                 let why = self.coverage.points.iter().find_map(|point| point.needed.as_ref().err());
                 format!(
-                    "With a {waveform} from {} nothing can be quenched: {}. The {kind} can give",
+                    "With a {waveform} from {} nothing is known to be quenched: {}. The {kind} can give",
                     range_in_words(study, self.range),
                     why.map_or("nothing is known", String::as_str)
                 )
             }
             (bands, best) => {
                 let best = best.as_ref().map_or(String::new(), |best| {
+                    let margin = match best.margin() {
+                        Ok(margin) if margin > MOST_MARGIN => UNBOUNDED_MARGIN.to_owned(),
+                        Ok(margin) => {
+                            format!("{} times the least amplitude that quenches", digits(margin))
+                        }
+                        Err(why) => why,
+                    };
                     format!(
-                        " The margin is largest at {}, {} times the least amplitude that quenches by averaging; it can give",
-                        study.frequency_scale().with_noun(best.frequency),
-                        best.margin().map_or_else(|why| why, digits)
+                        " The margin is largest at {}, {margin}; it can give",
+                        study.frequency_scale().with_noun(best.frequency)
                     )
                 });
                 format!(
-                    "The {kind} can quench with a {waveform} {}.{best}",
+                    "By averaging{}, the {kind} can quench with a {waveform} {}.{best}",
+                    self.unsure_in_words(study),
                     bands_in_words(study, bands)
                 )
             }
@@ -113,6 +125,25 @@ impl ActuatorFound {
         }
         text += &self.changes_in_words(study);
         text
+    }
+
+    /// Where averaging does not hold or is unsure, after a comma; empty where it is sure.
+    fn unsure_in_words(&self, study: &dyn StudyWithDesign) -> String {
+        let Some(slow) = self.slow else { return String::new() };
+        let slow = slow * f64::from(self.waveform.cycles());
+        let (holds_from, sure_from) = (BAND_END * slow, FAR * slow);
+        let scale = study.frequency_scale();
+        let unsure = self.coverage.sufficient.iter().any(|band| band.ends.0 < sure_from);
+        match (self.range.0 < holds_from, unsure) {
+            (false, false) => String::new(),
+            (true, false) => format!(", which does not hold below {}", scale.with_noun(holds_from)),
+            (false, true) => format!(", which is unsure below {}", scale.with_noun(sure_from)),
+            (true, true) => format!(
+                ", which does not hold below {} and is unsure below {}",
+                scale.with_noun(holds_from),
+                scale.with_unit(sure_from)
+            ),
+        }
     }
 
     /// What holds at the largest margin, or at the study's frequency.
@@ -277,6 +308,8 @@ impl ActuatorFound {
             Ok(reach) => inner.plain("limit", reach.limit.path()),
             Err(why) => inner.unknown("limit", why.as_str()),
         };
+        let unbounded =
+            unbounded || at.margin().is_ok_and(|margin| margin > MOST_MARGIN && margin.is_finite());
         let bounded = if unbounded { Err(UNBOUNDED_MARGIN.to_owned()) } else { Ok(()) };
         let margin = bounded.and_then(|()| match at.margin() {
             Ok(margin) if margin.is_infinite() => Err(NOTHING_TO_QUENCH.to_owned()),

@@ -12,6 +12,7 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::found::{DesignedDither, LeastDitherFound};
+use super::slow::OF_SLOW;
 use super::study_with_design::StudyWithDesign;
 use crate::contact_state::averages_are_a_start;
 use crate::fields::Fields;
@@ -136,7 +137,11 @@ impl LeastDitherFound {
                     Some(worst) if !worst.is_empty() => {
                         format!("; it is decided{}", self.point_in_words(worst))
                     }
-                    _ => String::new(),
+                    Some(_) => String::new(),
+                    None => {
+                        "; this smallest allowed amplitude is quiet everywhere, and less, or no dither, may do"
+                            .to_owned()
+                    }
                 };
                 let binding = self.binding(critical);
                 let binds = if binding.is_empty() {
@@ -193,7 +198,7 @@ impl LeastDitherFound {
                         force(part.amplitude),
                         chosen(&part.others)
                     );
-                    self.covered_in_words(&one, is_limited)
+                    self.covered_in_words(&one, is_limited, study)
                 });
                 let why = self.why(study, none);
                 let is_whole = self.is_covered_whole();
@@ -218,7 +223,7 @@ impl LeastDitherFound {
     fn why(&self, study: &dyn StudyWithDesign, none: &InfeasibleDesign) -> String {
         match &none.why {
             NoDesign::NeverQuiet { point } => format!(
-                "no amplitude from {} to {} that is quiet at the other operating points is also quiet{}",
+                "of the amplitudes from {} to {} none is quiet at all operating points that were examined; the last one was lost{}",
                 study.in_words(study.quantity_of_amplitude(), self.amplitude.range.0),
                 study.in_words(study.quantity_of_amplitude(), self.amplitude.range.1),
                 self.point_in_words(point)
@@ -448,11 +453,6 @@ impl LeastDitherFound {
             "critical",
             "averaged",
             "objective",
-            "quiet",
-            "residual_vibration",
-            "level_db",
-            "tone_frequency",
-            "tone_amplitude",
             "loud_from",
             "drive",
             "confident",
@@ -464,8 +464,13 @@ impl LeastDitherFound {
             "sensitivity_relative",
             "threshold",
         ];
-        for name in unknown {
+        // What the dither leaves is known where one serves a part of the box.
+        let left: &[&str] = if self.covered.is_ok() { &[] } else { &OF_SLOW };
+        for name in unknown.iter().chain(left) {
             fields.unknown(name, why.clone());
+        }
+        if self.covered.is_ok() {
+            self.put_slow(fields);
         }
         if let NoDesign::NeverQuiet { point } | NoDesign::Limit { point: Some(point), .. } =
             &none.why

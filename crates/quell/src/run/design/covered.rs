@@ -16,7 +16,12 @@ impl LeastDitherFound {
 
     /// The part of the box that one dither serves, in words; empty where none is known.
     /// `is_larger` where the least amplitude exceeds a limit that this one keeps.
-    pub(super) fn covered_in_words(&self, one: &str, is_larger: bool) -> String {
+    pub(super) fn covered_in_words(
+        &self,
+        one: &str,
+        is_larger: bool,
+        study: &dyn StudyWithDesign,
+    ) -> String {
         let (Ok(part), Some(number)) = (&self.covered, self.over.first()) else {
             return String::new();
         };
@@ -28,11 +33,18 @@ impl LeastDitherFound {
             if part.points == 1 { "was" } else { "were" },
             digits(part.largest_gap * number.per_unit)
         );
+        let is_quiet = self.is_quiet() == Ok(true);
+        let slow = self.slow_in_words(study);
+        let leaves = if slow.is_empty() { String::new() } else { format!("; it{slow}") };
         if part.is_whole() {
-            let larger = if is_larger { " A larger amplitude does: a" } else { " A" };
-            return format!(
-                "{larger} {one} is quiet and keeps every limit at all {examined}; a smaller amplitude may do so too."
-            );
+            let serves = match (is_quiet, is_larger) {
+                (true, true) => format!(" A larger amplitude does: a {one} is quiet and keeps"),
+                (true, false) => format!(" A {one} is quiet and keeps"),
+                (false, _) => format!(" With a {one} the motion stays in step and keeps"),
+            };
+            let is_smallest = part.amplitude <= self.amplitude.range.0;
+            let smaller = if is_smallest { "" } else { "; a smaller amplitude may do so too" };
+            return format!("{serves} every limit at all {examined}{leaves}{smaller}.");
         }
         let mut sides: Vec<String> = Vec::new();
         for ((side, end), beyond) in
@@ -40,10 +52,15 @@ impl LeastDitherFound {
         {
             sides.push(format!("{side} {end} {}", beyond_in_words(beyond)));
         }
-        let sides = sides.join("; ");
+        let serves = if is_quiet {
+            format!(" One {one} suffices")
+        } else {
+            format!(" With one {one} the motion stays in step")
+        };
         format!(
-            " One {one} suffices for {} from {low} to {high}, at all {examined}; {sides}.",
-            number.path
+            "{serves} for {} from {low} to {high}, at all {examined}{leaves}; {}.",
+            number.path,
+            sides.join("; ")
         )
     }
 

@@ -1,6 +1,6 @@
 //! What the verified dither of a design demands of the actuator.
 
-use quell_design::actuator::{ActuatorDemand, SignalSize};
+use quell_design::actuator::{Actuator, ActuatorDemand, SignalSize};
 use quell_model::units::Quantity;
 
 use super::found::LeastDitherFound;
@@ -15,7 +15,7 @@ type Drive<'a> = Result<&'a (ActuatorDemand, Vec<f64>), &'a String>;
 impl LeastDitherFound {
     /// The share of every limit in words, the most used first, and what an order needs; empty without an actuator.
     pub(super) fn drive_in_words(&self, study: &dyn StudyWithDesign, drive: Drive<'_>) -> String {
-        let (Some(_), Ok((demand, point))) = (study.actuator(), drive) else {
+        let (Some(actuator), Ok((demand, point))) = (study.actuator(), drive) else {
             return String::new();
         };
         let mut used: Vec<(f64, &str)> = demand
@@ -31,17 +31,28 @@ impl LeastDitherFound {
             .iter()
             .map(|(used, path)| format!("{} % of {path}", digits(100.0 * used)))
             .collect();
-        let peaks = [(Quantity::Voltage, &demand.voltage), (Quantity::Current, &demand.current)];
+        // A stack is driven from zero up, so that its voltage is rated from peak to peak.
+        let is_stack = matches!(actuator, Actuator::Piezo(_));
+        let sizes = [
+            (Quantity::Voltage, &demand.voltage, is_stack),
+            (Quantity::Current, &demand.current, false),
+        ];
         // In volts and amperes also without units of the study.
-        let peak = |(quantity, size): (Quantity, &Result<SignalSize, String>)| {
-            Some(format!("{} {}", digits(size.as_ref().ok()?.peak), quantity.scaled_unit()))
+        let size = |(quantity, size, is_range): (Quantity, &Result<SignalSize, String>, bool)| {
+            let size = size.as_ref().ok()?;
+            let (value, of) = if is_range {
+                (size.peak_to_peak, "peak to peak")
+            } else {
+                (size.peak, "at its peak")
+            };
+            Some(format!("{} {} {of}", digits(value), quantity.scaled_unit()))
         };
-        let mut needs: Vec<String> = peaks.into_iter().filter_map(peak).collect();
+        let mut needs: Vec<String> = sizes.into_iter().filter_map(size).collect();
         let stroke = study.in_words(Quantity::Displacement, demand.displacement.peak_to_peak);
         needs.push(format!("{stroke} peak to peak"));
         // The least dither keeps every limit; the verified one exceeds it by the margin.
         let margin = match used.first() {
-            Some((most, _)) if *most > 1.0 => ", the margin of the verified dither included",
+            Some((most, _)) if *most > 1.0 => ", the margin of the verified dither included,",
             _ => "",
         };
         // Of the operating point where a limit is used most; elsewhere another quantity may be larger.

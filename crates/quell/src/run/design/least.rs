@@ -124,7 +124,10 @@ pub(crate) fn least_dither<P: Plant + Sync>(
     let designed = tried.par_iter().map(|tried| {
         let (designed, _) = apart(STEPS_OF_MANY_SEARCHES, || fast_first(problem(&tried.plant)));
         let waveform = tried.waveform.clone();
-        let is_slow = numbers.is_slow(&designed, &waveform, tried.study);
+        let is_slow = designed
+            .answer
+            .as_ref()
+            .is_ok_and(|found| numbers.is_slow(&numbers.verified(found), &waveform, tried.study));
         DesignedDither { waveform, place: tried.place.clone(), is_slow, designed }
     });
     let designed: Vec<DesignedDither> = designed.collect();
@@ -185,12 +188,12 @@ pub(crate) fn least_dither<P: Plant + Sync>(
     };
     // The derivatives and the laws are those of the dither at its place.
     let study = tried.get(best).map_or(study, |tried| tried.study);
-    let beyond_laws = match &found.answer().answer {
-        Ok(feasible) => numbers.beyond_laws(feasible, found.waveform(), study),
-        Err(_) => Vec::new(),
-    };
+    let claimed = found.claimed(numbers);
+    let beyond_laws = claimed
+        .map(|dither| numbers.beyond_laws(&dither, found.waveform(), study))
+        .unwrap_or_default();
     let sensitivity = found.sensitivity_of(study);
-    let slow = found.slow_response(&numbers.amplitude, study);
+    let slow = found.slow_response(numbers, study);
     Ok(LeastDitherFound { beyond_laws, sensitivity, slow, ..found })
 }
 

@@ -3,46 +3,41 @@
 //! Such a dither may be followed in step, and shake the structure as much as the vibration that it quenches. E is that of `response`, started
 //! on the base response.
 
-use quell_dynamics::response::Peak;
+use quell_dynamics::response::{Peak, SUPPRESSED};
 use quell_model::units::Quantity;
 
-use super::found::{DesignNumber, DesignNumbers, LeastDitherFound};
+use super::found::{DesignNumbers, LeastDitherFound};
 use super::slow_response::LargestSlowResponse;
 use super::study_with_design::StudyWithDesign;
 use crate::fields::Fields;
 use crate::run::effect_words::{level_of, percent};
 
-/// Residual vibration E below which a response in the band of the vibration is quiet: the share by which the dissertation calls a vibration
-/// quenched in its maps.
-pub(super) const QUIET_BELOW: f64 = 0.05;
+/// The keys of [`LeastDitherFound::put_slow`].
+pub(super) const OF_SLOW: [&str; 5] =
+    ["quiet", "residual_vibration", "level_db", "tone_frequency", "tone_amplitude"];
 
 impl LeastDitherFound {
-    /// The largest response to the verified dither at the corners of the box and the point that decides, where it repeats in the band of the
+    /// The largest response to the dither of the answer at the operating points of its claim, where it repeats in the band of the
     /// vibration.
     pub(super) fn slow_response(
         &self,
-        amplitude: &DesignNumber,
+        numbers: &DesignNumbers,
         study: &dyn StudyWithDesign,
     ) -> Option<Result<LargestSlowResponse, String>> {
-        let Ok(found) = &self.answer().answer else { return None };
-        if !self.dither().is_slow {
+        let dither = self.claimed(numbers)?;
+        if !numbers.is_slow(&dither, self.waveform(), study) {
             return None;
         }
-        let numbers = DesignNumbers {
-            amplitude: amplitude.clone(),
-            others: self.others.clone(),
-            over: self.over.clone(),
-        };
         let mut largest: Option<LargestSlowResponse> = None;
         let mut failed = None;
-        for point in numbers.points(found) {
-            match study.slow_response(self.waveform(), &numbers.verified(found, &point)) {
+        for point in &dither.points {
+            match study.slow_response(self.waveform(), &numbers.at(&dither, point)) {
                 Ok(response)
                     if largest.as_ref().is_none_or(|known| {
                         response.residual_vibration > known.response.residual_vibration
                     }) =>
                 {
-                    largest = Some(LargestSlowResponse { response, point });
+                    largest = Some(LargestSlowResponse { response, point: point.clone() });
                 }
                 Ok(_) => {}
                 Err(why) => failed = failed.or(Some(why)),
@@ -52,14 +47,14 @@ impl LeastDitherFound {
         Some(largest.ok_or_else(unknown))
     }
 
-    /// Whether the verified dither is quiet: its response has no slow vibration, or one that is below a share of that without dither.
+    /// Whether the dither of the answer is quiet: its response has no slow vibration, or one that is below a share of that without dither.
     ///
     /// # Errors
     /// Why it is unknown.
     pub(super) fn is_quiet(&self) -> Result<bool, String> {
         match &self.slow {
             None => Ok(true),
-            Some(Ok(slow)) => Ok(slow.response.residual_vibration < QUIET_BELOW),
+            Some(Ok(slow)) => Ok(slow.response.residual_vibration < SUPPRESSED),
             Some(Err(why)) => Err(why.clone()),
         }
     }

@@ -1,6 +1,6 @@
 //! Where the least dither leaves the range of a friction law, or is not fast.
 
-use quell_design::least_dither::{Designed, FeasibleDesign};
+use quell_design::least_dither::{CoveredBox, FeasibleDesign};
 use quell_dynamics::response::BAND_END;
 use quell_model::Waveform;
 
@@ -9,9 +9,28 @@ use super::study_with_design::StudyWithDesign;
 use crate::run::system::thresholds::reaches_the_band;
 use crate::run::waveforms::label;
 
+/// A dither of an answer, and operating points at which the answer says that it is quiet.
+pub(super) struct ClaimedDither<'a> {
+    /// Its amplitude.
+    amplitude: f64,
+    /// Values of the other design variables.
+    others: &'a [f64],
+    /// The operating points.
+    pub(super) points: Vec<Vec<f64>>,
+}
+
+impl<'a> ClaimedDither<'a> {
+    /// The dither that serves a part of the box: at both ends and in the middle.
+    fn of_part(part: &'a CoveredBox) -> Self {
+        let (low, high) = part.ends;
+        let points = [high, low, 0.5 * (low + high)].map(|value| vec![value]).to_vec();
+        Self { amplitude: part.amplitude, others: &part.others, points }
+    }
+}
+
 impl DesignNumbers {
-    /// Corners of the box and the operating point that decides, the fastest first, as a rule.
-    pub(super) fn points(&self, found: &FeasibleDesign) -> Vec<Vec<f64>> {
+    /// The verified dither: at the corners of the box and the operating point that decides, the fastest first, as a rule.
+    pub(super) fn verified<'a>(&self, found: &'a FeasibleDesign) -> ClaimedDither<'a> {
         let mut points: Vec<Vec<f64>> = vec![Vec::new()];
         for number in &self.over {
             let ends = [number.range.1, number.range.0];
@@ -19,55 +38,65 @@ impl DesignNumbers {
             points = points.iter().flat_map(longer).collect();
         }
         points.extend(found.critical.worst.clone());
-        points
+        ClaimedDither {
+            amplitude: found.verified_amplitude,
+            others: &found.critical.others,
+            points,
+        }
     }
 
-    /// The verified dither at an operating point, as numbers of the study.
-    pub(super) fn verified<'n>(
+    /// A dither at an operating point, as numbers of the study.
+    pub(super) fn at<'n>(
         &'n self,
-        found: &FeasibleDesign,
+        dither: &ClaimedDither<'_>,
         point: &[f64],
     ) -> Vec<(&'n str, f64)> {
-        let others = self.others.iter().zip(found.critical.others.iter().copied());
+        let others = self.others.iter().zip(dither.others.iter().copied());
         let at = self.over.iter().zip(point.iter().copied());
-        let amplitude = [(&self.amplitude, found.verified_amplitude)];
+        let amplitude = [(&self.amplitude, dither.amplitude)];
         others.chain(at).chain(amplitude).map(in_units).collect()
     }
 
-    /// Whether the least dither repeats in the band of the vibration.
+    /// Whether a dither repeats in the band of the vibration.
     pub(super) fn is_slow(
         &self,
-        designed: &Designed,
+        dither: &ClaimedDither<'_>,
         waveform: &Waveform,
         study: &dyn StudyWithDesign,
     ) -> bool {
-        let Ok(found) = &designed.answer else { return false };
         let reaches = |point: &Vec<f64>| {
-            let system = study.system_with(waveform, &self.verified(found, point));
+            let system = study.system_with(waveform, &self.at(dither, point));
             system.is_ok_and(|system| reaches_the_band(&system))
         };
-        self.points(found).iter().any(reaches)
+        dither.points.iter().any(reaches)
     }
 
-    /// Warnings where the dither takes the slip out of the range of a law.
+    /// Warnings where a dither takes the slip out of the range of a law.
     pub(super) fn beyond_laws(
         &self,
-        found: &FeasibleDesign,
+        dither: &ClaimedDither<'_>,
         waveform: &Waveform,
         study: &dyn StudyWithDesign,
     ) -> Vec<String> {
-        let points = self.points(found);
-        let warned =
-            points.iter().map(|point| study.beyond_laws(waveform, &self.verified(found, point)));
-        warned.into_iter().find(|warnings| !warnings.is_empty()).unwrap_or_default()
+        let points = dither.points.iter();
+        let mut warned = points.map(|point| study.beyond_laws(waveform, &self.at(dither, point)));
+        warned.find(|warnings| !warnings.is_empty()).unwrap_or_default()
     }
 }
 
 impl LeastDitherFound {
+    /// The dither of the answer: the verified one, or the one that serves a part of the box.
+    pub(super) fn claimed(&self, numbers: &DesignNumbers) -> Option<ClaimedDither<'_>> {
+        match &self.answer().answer {
+            Ok(found) => Some(numbers.verified(found)),
+            Err(_) => self.covered.as_ref().ok().map(ClaimedDither::of_part),
+        }
+    }
+
     /// Warnings about dithers that are not fast: the one of the answer, and those that are not called least.
     pub(super) fn warnings_about_slow_ones(&self) -> Vec<String> {
         let band = format!("at or below {BAND_END} times the frequency of the vibration");
-        if self.dither().is_slow {
+        if self.slow.is_some() {
             return vec![format!(
                 "the {} repeats {band}: the motion in step with it vibrates slowly, which response_rms and response_peak give too",
                 label(self.waveform())

@@ -65,7 +65,7 @@ pub(crate) fn refused(study: &SystemStudy, plan: &ResponsePlan, why: ResponseRef
         ResponseRefused::Immobile(why) => failed("response", why),
         ResponseRefused::Stopped(stopped) => failed_run("response", study.system(), &stopped),
         ResponseRefused::TooLong { most } => record(format!(
-            "at most {}, a record with all the samples that are kept",
+            "at most {}, a record with all the samples that are kept (by default it is {RECORD_PERIODS} periods of the slowest motion)",
             in_units(study.units(), Quantity::Time, most)
         )),
         ResponseRefused::TooShort { least } => record(format!(
