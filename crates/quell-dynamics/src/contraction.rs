@@ -11,67 +11,65 @@ use quell_numerics::lane::horner;
 
 use crate::simulation::Segment;
 
-/// |v_r| and the rate at N moments of a segment of slip, for observers that are compiled for the machine's best instruction set.
-#[inline(always)]
-pub(crate) fn rates_along<L: SlidingLaw, const N: usize>(
+/// |v_r| and the rate at N moments of a segment of slip, by a function of each law.
+pub(crate) fn rates_along<const N: usize>(
     belt: &Belt,
-    law: &L,
     segment: &Segment<'_>,
     since: &[f64; N],
 ) -> ([f64; N], [f64; N]) {
-    let sign = f64::from(segment.slip_sign());
-    let (slip, unit) = segment.slip_series();
-    let has_normal = belt.has_normal_dither();
-    let mut speeds = [0.0; N];
-    let mut rates = [0.0; N];
-    for k in 0..N {
-        speeds[k] = sign * unit * horner(slip, since[k]);
-        let load = if has_normal {
-            belt.normal_load_at(segment.clock().time() + since[k])
-        } else {
-            belt.normal_load()
-        };
-        rates[k] = belt.damping_rate(law.slope(speeds[k]), load);
+    belt.friction().visit(Rates { belt, segment, since })
+}
+
+struct Rates<'a, 'c, const N: usize> {
+    belt: &'a Belt,
+    segment: &'a Segment<'c>,
+    since: &'a [f64; N],
+}
+
+impl<const N: usize> LawVisitor for Rates<'_, '_, N> {
+    type Output = ([f64; N], [f64; N]);
+
+    fn visit<L: SlidingLaw>(self, law: &L) -> Self::Output {
+        with_fused_multiply_add(RatesOf { rates: self, law })
     }
-    (speeds, rates)
+}
+
+struct RatesOf<'a, 'c, 'l, L, const N: usize> {
+    rates: Rates<'a, 'c, N>,
+    law: &'l L,
+}
+
+impl<L: SlidingLaw, const N: usize> Work for RatesOf<'_, '_, '_, L, N> {
+    type Output = ([f64; N], [f64; N]);
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        let Rates { belt, segment, since } = self.rates;
+        let sign = f64::from(segment.slip_sign());
+        let (slip, unit) = segment.slip_series();
+        let has_normal = belt.has_normal_dither();
+        let mut speeds = [0.0; N];
+        let mut rates = [0.0; N];
+        for k in 0..N {
+            speeds[k] = sign * unit * horner(slip, since[k]);
+            let load = if has_normal {
+                belt.normal_load_at(segment.clock().time() + since[k])
+            } else {
+                belt.normal_load()
+            };
+            rates[k] = belt.damping_rate(self.law.slope(speeds[k]), load);
+        }
+        (speeds, rates)
+    }
 }
 
 /// The mean rate over a segment of slip by a quadrature rule on [0, 1]: its nodes and weights.
 pub(crate) fn mean_rate<const N: usize>(
     belt: &Belt,
     segment: &Segment<'_>,
-    rule: &[[f64; N]; 2],
+    [nodes, weights]: &[[f64; N]; 2],
 ) -> f64 {
-    belt.friction().visit(MeanRate { belt, segment, rule })
-}
-
-struct MeanRate<'a, 's, 'c, const N: usize> {
-    belt: &'a Belt,
-    segment: &'s Segment<'c>,
-    rule: &'a [[f64; N]; 2],
-}
-
-impl<const N: usize> LawVisitor for MeanRate<'_, '_, '_, N> {
-    type Output = f64;
-
-    fn visit<L: SlidingLaw>(self, law: &L) -> f64 {
-        with_fused_multiply_add(MeanRateOf { mean: self, law })
-    }
-}
-
-struct MeanRateOf<'a, 's, 'c, 'l, L, const N: usize> {
-    mean: MeanRate<'a, 's, 'c, N>,
-    law: &'l L,
-}
-
-impl<L: SlidingLaw, const N: usize> Work for MeanRateOf<'_, '_, '_, '_, L, N> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn run(self) -> f64 {
-        let MeanRate { belt, segment, rule: [nodes, weights] } = self.mean;
-        let since = nodes.map(|node| node * segment.duration());
-        let (_, rates) = rates_along(belt, self.law, segment, &since);
-        rates.iter().zip(weights).map(|(rate, weight)| rate * weight).sum()
-    }
+    let since = nodes.map(|node| node * segment.duration());
+    let (_, rates) = rates_along(belt, segment, &since);
+    rates.iter().zip(weights).map(|(rate, weight)| rate * weight).sum()
 }

@@ -177,6 +177,27 @@ fn a_dither_in_the_band_of_the_vibration_is_not_called_quiet() {
     assert!(residual >= number(&response["residual_vibration"]) * 0.999, "{facts} {response}");
 }
 
+/// A dither that serves a part of the box and repeats in the band of the vibration says what it leaves there, and the end of that part is a
+/// point that was found loud.
+#[test]
+fn a_slow_dither_for_a_part_of_the_box_says_what_it_leaves() {
+    let facts = facts(&pad((13000.0, 40000.0), 2.0));
+    assert_eq!((&facts["feasible"], &facts["quiet"]), (&false.into(), &false.into()), "{facts}");
+    let sentence = words(&facts["sentence"]);
+    assert!(
+        sentence.contains("the motion stays in step") && !sentence.contains("suffices"),
+        "{sentence}"
+    );
+    let residual = number(&facts["residual_vibration"]);
+    assert!(residual > 0.5 && sentence.contains("a residual vibration E of"), "{facts}");
+    assert_eq!(
+        (&facts["examined"]["below"], &facts["examined"]["above"]),
+        (&"loud".into(), &"loud".into())
+    );
+    let warned = facts["warnings"].as_array().expect("a list").iter();
+    assert!(warned.map(words).any(|warning| warning.contains("vibrates slowly")), "{facts}");
+}
+
 /// Of dithers that are allowed, one above the band of the vibration is chosen.
 #[test]
 fn a_dither_above_the_band_is_preferred() {

@@ -252,3 +252,46 @@ fn a_refused_option_is_not_listed() {
     assert!(said.starts_with("belt: stability --parameter is not available"), "{said}");
     assert!(said.contains("stability without --parameter"), "{said}");
 }
+
+/// A start that does not disturb steady sliding leaves the belt there without dither, also where it is unstable: no dither is the cause of a
+/// vibration that `stability` expects without it.
+#[test]
+fn unstable_sliding_is_not_called_quiet() {
+    // The numbers of steady sliding are exact here: rounding does not disturb it either.
+    let text = "[belt]\nmass_kg = 0.4\nstiffness_n_per_m = 6.3e7\ndamping_ratio = 0.008\nnormal_force_n = 2500.0\n\
+                belt_velocity_m_per_s = 0.15\ninitial.state = \"sliding\"\n[friction]\nlaw = \"stribeck\"\nstatic_coefficient = 0.45\n\
+                minimum_coefficient = 0.3\nreference_velocity_m_per_s = 0.6\n[dither]\ndirection = \"tangential\"\n\
+                waveform = \"sine\"\namplitude_n = 4600.0\nfrequency_hz = 13000.0\n";
+    let response = verbs(&study(text)).response().expect("a response").facts();
+    assert_eq!(response["effect"], "unknown", "{response}");
+    let sentence = response["sentence"].as_str().expect("a sentence");
+    assert!(sentence.contains("stays in steady sliding, which is unstable"), "{sentence}");
+    assert!(!sentence.contains("quiet"), "{sentence}");
+}
+
+/// A dither that moves nothing causes no vibration.
+#[test]
+fn a_system_that_does_not_move_is_quiet() {
+    let text = "[system]\ncoordinates = [\"y\"]\nmass = [1.0]\nstiffness = [5.0]\n[[contact]]\nname = \"floor\"\ntangent = { y = 1.0 }\n\
+                normal_load = 9.8\nbelt_velocity = 0.0\n[contact.friction]\nlaw = \"coulomb\"\ncoefficient = 0.4\n[[dither]]\n\
+                at = { y = 1.0 }\nwaveform = \"sine\"\namplitude = 3.5\nfrequency = 2.5\n";
+    let response = verbs(&study(text)).response().expect("a response").facts();
+    assert_eq!(response["effect"], "quiet", "{response}");
+}
+
+/// The units of numbers that have one name in several objects.
+#[test]
+fn every_number_has_its_own_unit() {
+    let text = format!(
+        "{}[actuator]\nkind = \"piezo\"\nblocked_force_n = 7000.0\ncapacitance_f = 2e-6\nmaximum_voltage = 150.0\n",
+        SLIDER
+            .split("[design]")
+            .next()
+            .expect("a study")
+            .replace("tangential_stiffness_n_per_m = 5e6\n", "")
+    );
+    let facts = verbs(&study(&text)).actuator(None).expect("an actuator").facts();
+    assert_eq!(facts["units"]["voltage.peak"], "V", "{}", facts["units"]);
+    assert_eq!(facts["units"]["current.peak"], "A", "{}", facts["units"]);
+    assert_eq!(facts["units"]["peak_n"], "N", "{}", facts["units"]);
+}

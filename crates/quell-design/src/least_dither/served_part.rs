@@ -188,7 +188,7 @@ impl<'a> ServedPart<'a> {
         inside.all(|(_, served)| served.multiplier().is_some())
     }
 
-    /// What the points next to an end of the part, in their order from there, say of what is beyond it: the first of those beside the end
+    /// What the points next to an end of the part, in their order from there, say of what is beyond it: the first of those close to the end
     /// that is known.
     fn beyond(next: &[&(f64, Served)], length: f64) -> BeyondCovered {
         let Some((end, Served::No(first))) = next.first() else { return BeyondCovered::BoxEnds };

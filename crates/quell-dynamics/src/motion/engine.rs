@@ -2,7 +2,6 @@
 
 use quell_model::System;
 use quell_model::friction::FrictionConstants;
-use quell_numerics::dispatch::with_fused_multiply_add;
 
 use super::equations::{Forcings, MotionEquations};
 use super::expansion::{ExpandedStep, StepExpansion};
@@ -223,7 +222,7 @@ impl<'a> MotionRun<'a> {
     /// Computes a step from here, at most `longest` and `room` long.
     pub(super) fn expand(&mut self, longest: f64, room: f64) -> ExpandedStep {
         let Self { tolerance, time_scale, .. } = *self;
-        with_fused_multiply_add(StepExpansion {
+        let step = StepExpansion {
             equations: self.equations,
             forcings: &self.forcings,
             laws: &mut self.laws,
@@ -233,7 +232,8 @@ impl<'a> MotionRun<'a> {
             limit: StepLimit { tolerance, time_scale, longest, room },
             out: &mut self.series,
             end: &mut self.scratch,
-        })
+        };
+        step.run()
     }
 
     #[inline(always)]

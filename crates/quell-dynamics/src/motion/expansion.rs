@@ -3,13 +3,13 @@
 //! The equations (`step_recurrence`) are compiled for the numbers of states of small systems.
 
 use quell_model::friction::FrictionConstants;
-use quell_numerics::dispatch::Work;
+use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 
 use super::contact_masks::ContactMasks;
 use super::equations::{Forcings, MotionEquations};
 use super::guards::{GuardReached, Guards};
 use super::phase::ContactNow;
-use super::rows::{FewStates, ManyStates, RowEntries, StateStorage};
+use super::rows::{FewStates, ManyStates, RowEntries, SmallStates, StateStorage};
 use super::series::{StepSeries, horner_states};
 use super::step_recurrence::{FEW_CONTACTS, SlipRecurrence, StepLimit, StepRecurrence};
 use super::stuck::StuckForces;
@@ -38,45 +38,23 @@ pub(super) struct ExpandedStep {
     pub(super) reached: Option<GuardReached>,
 }
 
-impl Work for StepExpansion<'_> {
-    type Output = ExpandedStep;
-
-    #[inline(always)]
-    fn run(self) -> ExpandedStep {
+impl<'a> StepExpansion<'a> {
+    /// The step, by code that is compiled for the number of states of small systems: each has a function of its own, which a compiler
+    /// takes a tenth of the time of one function for all of them.
+    pub(super) fn run(self) -> ExpandedStep {
         let matrix = &self.equations.matrix;
         if self.now.len() <= FEW_CONTACTS && self.equations.by_speed.is_none() {
             if let Some(storage) = FewStates::<2>::of(matrix) {
-                return self.few(storage);
+                return with_fused_multiply_add(FewStatesStep(self, storage));
             }
             if let Some(storage) = FewStates::<4>::of(matrix) {
-                return self.few(storage);
+                return with_fused_multiply_add(FewStatesStep(self, storage));
             }
-            if let Some(storage) = FewStates::<6>::of(matrix) {
-                return self.few(storage);
-            }
-            if let Some(storage) = FewStates::<8>::of(matrix) {
-                return self.few(storage);
+            if let Some(storage) = SmallStates::of(matrix, self.equations.size) {
+                return with_fused_multiply_add(FewStatesStep(self, storage));
             }
         }
-        let storage = ManyStates { size: self.equations.size, matrix };
-        let mut branches: Vec<SlipRecurrence<'_>> = (0..self.now.len()).map(|_| None).collect();
-        let masks: Vec<ContactMasks> = self.now.iter().map(ContactMasks::of).collect();
-        self.whole(storage, &masks, &mut branches)
-    }
-}
-
-impl<'a> StepExpansion<'a> {
-    /// The step of a system with few states and contacts: with constant loops, and no memory but the stack.
-    #[inline(always)]
-    fn few<S: StateStorage<f64, Row = RowEntries>>(self, storage: S) -> ExpandedStep {
-        let mut branches: [SlipRecurrence<'_>; FEW_CONTACTS] = [None, None, None, None];
-        let mut masks: [ContactMasks; FEW_CONTACTS] =
-            std::array::from_fn(|_| ContactMasks::empty());
-        for (masks, now) in masks.iter_mut().zip(self.now) {
-            *masks = ContactMasks::of(now);
-        }
-        let count = self.now.len();
-        self.whole(storage, &masks[..count], &mut branches[..count])
+        with_fused_multiply_add(ManyStatesStep(self))
     }
 
     /// The step.
@@ -134,5 +112,41 @@ impl<'a> StepExpansion<'a> {
                 contact.factor = factor.series(self.clock);
             }
         }
+    }
+}
+
+/// The step of a system with few states and contacts: with constant loops, and no memory but the stack.
+struct FewStatesStep<'a, S>(StepExpansion<'a>, S);
+
+impl<S: StateStorage<f64, Row = RowEntries>> Work for FewStatesStep<'_, S> {
+    type Output = ExpandedStep;
+
+    #[inline(always)]
+    fn run(self) -> ExpandedStep {
+        let Self(step, storage) = self;
+        let mut branches: [SlipRecurrence<'_>; FEW_CONTACTS] = [None, None, None, None];
+        let mut masks: [ContactMasks; FEW_CONTACTS] =
+            std::array::from_fn(|_| ContactMasks::empty());
+        for (masks, now) in masks.iter_mut().zip(step.now) {
+            *masks = ContactMasks::of(now);
+        }
+        let count = step.now.len();
+        step.whole(storage, &masks[..count], &mut branches[..count])
+    }
+}
+
+/// The step of any other system.
+struct ManyStatesStep<'a>(StepExpansion<'a>);
+
+impl Work for ManyStatesStep<'_> {
+    type Output = ExpandedStep;
+
+    #[inline(always)]
+    fn run(self) -> ExpandedStep {
+        let Self(step) = self;
+        let storage = ManyStates { size: step.equations.size, matrix: &step.equations.matrix };
+        let mut branches: Vec<SlipRecurrence<'_>> = (0..step.now.len()).map(|_| None).collect();
+        let masks: Vec<ContactMasks> = step.now.iter().map(ContactMasks::of).collect();
+        step.whole(storage, &masks, &mut branches)
     }
 }

@@ -253,9 +253,6 @@ pub(super) trait StateStorage<V: Lane>: Copy {
     /// A row or a column over the state.
     type Row: StateRow;
 
-    /// Whether the loop over orders is unrolled, which pays where a step is short.
-    const IS_UNROLLED: bool;
-
     /// Whether the matrix may depend on a speed over time: the others are for constant matrices, and have no code for it.
     const TAKES_SPEED: bool = false;
 
@@ -333,7 +330,6 @@ impl StateStorage<f64> for ManyStates<'_> {
     type Buffer = Vec<f64>;
     type Row = RowEntries;
 
-    const IS_UNROLLED: bool = false;
     const TAKES_SPEED: bool = true;
 
     #[inline(always)]
@@ -389,8 +385,6 @@ impl<const N: usize> StateStorage<f64> for FewStates<'_, N> {
     type Buffer = [f64; N];
     type Row = RowEntries;
 
-    const IS_UNROLLED: bool = N <= 2;
-
     #[inline(always)]
     fn size(self) -> usize {
         N
@@ -427,6 +421,70 @@ impl<const N: usize> StateStorage<f64> for FewStates<'_, N> {
     }
 }
 
+/// Up to [`SMALL`] states of one run, as many as there are columns, with the bits of [`FewStates`]: one function for the numbers of states
+/// that have none of their own.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SmallStates<'a> {
+    size: usize,
+    columns: &'a [f64],
+}
+
+impl<'a> SmallStates<'a> {
+    /// The storage of a matrix of `size` states; `None` if it is not of [`StateMatrix::Small`], or has an odd number of states, whose
+    /// bits in lanes are those of many states.
+    #[inline(always)]
+    pub(super) fn of(matrix: &'a StateMatrix, size: usize) -> Option<Self> {
+        let is_even = size >= 2 && size.is_multiple_of(2);
+        let columns = matrix.columns(size).filter(|_| is_even)?;
+        Some(Self { size, columns })
+    }
+}
+
+impl StateStorage<f64> for SmallStates<'_> {
+    type Buffer = [f64; SMALL];
+    type Row = RowEntries;
+
+    #[inline(always)]
+    fn size(self) -> usize {
+        self.size
+    }
+
+    #[inline(always)]
+    fn buffer(self, _: &mut Vec<f64>) -> [f64; SMALL] {
+        [0.0; SMALL]
+    }
+
+    #[inline(always)]
+    fn keep(self, _: [f64; SMALL], _: &mut Vec<f64>) {}
+
+    #[inline(always)]
+    fn dot(self, row: &RowEntries, state: &[f64]) -> f64 {
+        dot_by_halves(&row.dense[..self.size], &state[..self.size])
+    }
+
+    #[inline(always)]
+    fn add(self, column: &RowEntries, factor: f64, state: &mut [f64]) {
+        for (entry, value) in state[..self.size].iter_mut().zip(&column.dense) {
+            *entry = f64::mul_add(*value, factor, *entry);
+        }
+    }
+
+    #[inline(always)]
+    fn add_where(self, _: f64, column: &RowEntries, factor: f64, state: &mut [f64]) {
+        self.add(column, factor, state);
+    }
+
+    #[inline(always)]
+    fn times(self, state: &[f64], out: &mut [f64]) {
+        out[..self.size].fill(0.0);
+        for (column, entry) in self.columns.chunks_exact(self.size).zip(state) {
+            for (sum, value) in out[..self.size].iter_mut().zip(column) {
+                *sum = f64::mul_add(*value, *entry, *sum);
+            }
+        }
+    }
+}
+
 /// As many states of several runs as [`FewStates`] of each, and with its bits: the matrices in all lanes, column by column.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LaneStates<'a, V> {
@@ -437,8 +495,6 @@ pub(super) struct LaneStates<'a, V> {
 impl<V: Lane> StateStorage<V> for LaneStates<'_, V> {
     type Buffer = [V; SMALL];
     type Row = LaneEntries<V>;
-
-    const IS_UNROLLED: bool = false;
 
     #[inline(always)]
     fn size(self) -> usize {

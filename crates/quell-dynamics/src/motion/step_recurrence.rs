@@ -113,15 +113,8 @@ impl<V: Lane, S: StateStorage<V>> StepRecurrence<'_, V, S> {
     /// All orders, one after the other.
     #[inline(always)]
     fn orders(&mut self, branches: &mut [SlipRecurrence<'_, V>], state: &mut [V], rates: &mut [V]) {
-        if S::IS_UNROLLED {
-            quell_numerics::for_each_order_below_16!(K, {
-                self.order(K, branches, state, rates);
-            });
-            self.order(ORDER, branches, state, rates);
-        } else {
-            for k in 0..=ORDER {
-                self.order(k, branches, state, rates);
-            }
+        for k in 0..=ORDER {
+            self.order(k, branches, state, rates);
         }
     }
 

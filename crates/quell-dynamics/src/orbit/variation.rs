@@ -16,7 +16,6 @@
 //!
 //! Scheme: Gauss–Legendre collocation with 8 nodes, of order 16 like the Taylor step that provides the series for μ′.
 
-use quell_model::friction::{LawVisitor, SlidingLaw};
 use quell_model::{Belt, Direction};
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 
@@ -116,22 +115,12 @@ fn dither_rates(belt: &Belt, direction: Direction, time: f64) -> f64 {
 struct Along<'v, 'b, 's, 'c> {
     variation: &'v mut Variation<'b>,
     segment: &'s Segment<'c>,
+    /// |v_r| and the rate at the nodes.
+    speeds: [f64; NODES],
+    rates: [f64; NODES],
 }
 
-impl LawVisitor for Along<'_, '_, '_, '_> {
-    type Output = ();
-
-    fn visit<L: SlidingLaw>(self, law: &L) {
-        with_fused_multiply_add(AlongBy { along: self, law });
-    }
-}
-
-struct AlongBy<'v, 'b, 's, 'c, 'l, L> {
-    along: Along<'v, 'b, 's, 'c>,
-    law: &'l L,
-}
-
-impl<L: SlidingLaw> Work for AlongBy<'_, '_, '_, '_, '_, L> {
+impl Work for Along<'_, '_, '_, '_> {
     type Output = ();
 
     #[expect(
@@ -140,13 +129,11 @@ impl<L: SlidingLaw> Work for AlongBy<'_, '_, '_, '_, '_, L> {
     )]
     #[inline(always)]
     fn run(self) {
-        let Along { variation, segment } = self.along;
+        let Along { variation, segment, speeds, rates } = self;
         let rule = &*COLLOCATION;
         let h = segment.duration();
         let sign = f64::from(segment.slip_sign());
         let (slip, unit) = segment.slip_series();
-        let since = rule.nodes.map(|node| node * h);
-        let (speeds, rates) = rates_along(variation.belt, self.law, segment, &since);
         variation.damping += h * weighted(rule, &rates);
         let [upper, lower] = variation.matrix;
         let force = forces(rule, &rates, h, [upper[0], upper[1]], [lower[0], lower[1]]);
@@ -176,8 +163,9 @@ impl Observer for Variation<'_> {
             // A run that begins in stick begins on v_r = 0: a change of velocity is lost at once.
             self.matrix[1] = [0.0; 2];
         } else {
-            let law = self.belt.friction();
-            law.visit(Along { variation: self, segment });
+            let since = COLLOCATION.nodes.map(|node| node * segment.duration());
+            let (speeds, rates) = rates_along(self.belt, segment, &since);
+            with_fused_multiply_add(Along { variation: self, segment, speeds, rates });
         }
     }
 

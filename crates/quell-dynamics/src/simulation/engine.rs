@@ -65,6 +65,7 @@ pub(super) struct Engine<'a> {
 }
 
 impl<'a> Engine<'a> {
+    #[inline(never)]
     pub(super) fn new<L: SlidingLaw>(run: SimulationRun<'a>, law: &L, tolerance: f64) -> Self {
         let SimulationRun { belt, start, until, observer } = run;
         let unit = law.velocity_scale();
@@ -211,7 +212,7 @@ impl<'a> Engine<'a> {
         due: SlipDue,
         taken: &SlipTaken<'_>,
     ) -> Next {
-        with_scalar_of(set, Accept { engine: self, due, taken })
+        with_scalar_of(set, Accept { engine: self, set, due, taken })
     }
 
     /// Accepts a slip step, cut at the first root of v_r.
@@ -368,6 +369,7 @@ impl Work for Proceed<'_, '_> {
 /// [`Engine::accept`] as work.
 struct Accept<'e, 'a, 's> {
     engine: &'e mut Engine<'a>,
+    set: InstructionSet,
     due: SlipDue,
     taken: &'e SlipTaken<'s>,
 }
@@ -377,9 +379,16 @@ impl Work for Accept<'_, '_, '_> {
 
     #[inline(always)]
     fn run(self) -> Next {
-        match self.engine.accept_step(self.due, self.taken) {
-            Ok(()) => self.engine.proceed(),
-            Err(stalled) => Next::Over(Err(stalled)),
+        let Self { engine, set, due, taken } = self;
+        if let Err(stalled) = engine.accept_step(due, taken) {
+            return Next::Over(Err(stalled));
+        }
+        // Slip goes on without the code of stick and of the end.
+        match engine.state.contact {
+            ContactState::Slip { sign, zeros } if engine.state.clock.until(engine.until) > 0.0 => {
+                Next::Slip(SlipDue { sign, zeros, stop: engine.next_stop() })
+            }
+            _ => engine.next(set),
         }
     }
 }

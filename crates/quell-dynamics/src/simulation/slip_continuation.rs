@@ -33,7 +33,7 @@ pub(crate) fn continue_slip(
     if let Some(why) = belt.unsimulated() {
         return Err(Stalled { time: start.time, why });
     }
-    belt.friction().visit(SlipContinuation { belt, sign, start, until, tolerance, observer })
+    with_fused_multiply_add(SlipContinuation { belt, sign, start, until, tolerance, observer })
 }
 
 struct SlipContinuation<'a> {
@@ -45,31 +45,17 @@ struct SlipContinuation<'a> {
     observer: &'a mut dyn Observer,
 }
 
-impl LawVisitor for SlipContinuation<'_> {
-    type Output = RunResult;
-
-    fn visit<L: SlidingLaw>(self, law: &L) -> Self::Output {
-        with_fused_multiply_add(SlipContinuationOf { run: self, law })
-    }
-}
-
-struct SlipContinuationOf<'a, 'l, L> {
-    run: SlipContinuation<'a>,
-    law: &'l L,
-}
-
-impl<L: SlidingLaw> Work for SlipContinuationOf<'_, '_, L> {
+impl Work for SlipContinuation<'_> {
     type Output = RunResult;
 
     #[inline(always)]
-    fn run(self) -> Self::Output {
-        let Self { run, law } = self;
-        let SlipContinuation { belt, sign, start, until, tolerance, observer } = run;
+    fn run(self) -> RunResult {
+        let Self { belt, sign, start, until, tolerance, observer } = self;
+        let law = belt.friction();
         let unit = law.velocity_scale();
         let mut clock = Clock::at(start.time);
         let (mut tangential, mut normal) = forcings(belt, unit, clock);
         let longest = longest_step(&tangential, &normal);
-        let mut constants = L::constants::<f64>(std::slice::from_ref(law));
         let belt_velocity = belt.belt_velocity() / unit;
         let equation = SlipEquation { damping: 2.0 * belt.damping_ratio(), belt_velocity };
         let mut displacement = start.displacement / unit;
@@ -95,8 +81,9 @@ impl<L: SlidingLaw> Work for SlipContinuationOf<'_, '_, L> {
             };
             let from = SlipStart { sign, displacement, slip, first_slope: 1.0 };
             let limits = StepLimits { tolerance, longest, room: clock.until(stop) };
-            let length =
-                equation.series::<L>(&mut constants, from, &dither, load, limits, &mut series);
+            let series = &mut series;
+            let dither = &dither;
+            let length = law.visit(SlipStep { equation, from, dither, load, limits, series });
             (displacement, slip) = series.end(length);
             observer.segment(&Segment {
                 clock,
@@ -137,5 +124,44 @@ impl<L: SlidingLaw> Work for SlipContinuationOf<'_, '_, L> {
             steps,
             near_tangential_releases: 0,
         })
+    }
+}
+
+/// A step of slip, by a function of each law.
+struct SlipStep<'a> {
+    equation: SlipEquation<f64>,
+    from: SlipStart<f64>,
+    dither: &'a DitherSeries<'a, f64>,
+    load: StepLoad<'a, f64>,
+    limits: StepLimits<f64>,
+    series: &'a mut SlipSeries<f64>,
+}
+
+impl LawVisitor for SlipStep<'_> {
+    /// The length of the step.
+    type Output = f64;
+
+    fn visit<L: SlidingLaw>(self, law: &L) -> f64 {
+        // Belts whose contact has a state are not simulated here: they were refused.
+        if const { L::HAS_STATE } {
+            return 0.0;
+        }
+        with_fused_multiply_add(SlipStepOf { step: self, law })
+    }
+}
+
+struct SlipStepOf<'a, 'l, L> {
+    step: SlipStep<'a>,
+    law: &'l L,
+}
+
+impl<L: SlidingLaw> Work for SlipStepOf<'_, '_, L> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let SlipStep { equation, from, dither, load, limits, series } = self.step;
+        let mut constants = L::constants::<f64>(std::slice::from_ref(self.law));
+        equation.series::<L>(&mut constants, from, dither, load, limits, series)
     }
 }

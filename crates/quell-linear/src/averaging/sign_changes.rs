@@ -72,7 +72,7 @@ pub(crate) fn sign_changes<E>(
     Ok(changes)
 }
 
-/// The points beside each corner within a range, ascending; corners that coincide but for rounding have one pair.
+/// The points next to each corner within a range, ascending; corners that coincide but for rounding have one pair.
 fn both_sides(corners: &[f64], (first, last): (f64, f64)) -> Vec<(f64, f64)> {
     let sides = corners.iter().map(|corner| (corner * (1.0 - BESIDE), corner * (1.0 + BESIDE)));
     let mut sides: Vec<_> =

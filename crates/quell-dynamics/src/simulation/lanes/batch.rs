@@ -49,7 +49,7 @@ impl<'a, V: Lane, L: SlidingLaw> Batch<'a, V, L> {
     }
 
     /// Fills the empty lanes with the next runs of the queue.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn fill(
         &mut self,
         queue: &mut impl Iterator<Item = (usize, SimulationRun<'a>, L)>,
@@ -97,7 +97,7 @@ impl<'a, V: Lane, L: SlidingLaw> Batch<'a, V, L> {
     }
 
     /// Lets the engines of the lanes that need service continue to their next slip step.
-    #[inline(always)]
+    #[inline]
     pub(super) fn service(&mut self, finish: &mut impl FnMut(usize, RunResult)) {
         if self.round.is_multiple_of(CHECK_INTERVAL) {
             self.check_budgets(finish);

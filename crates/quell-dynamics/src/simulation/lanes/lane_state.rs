@@ -237,7 +237,9 @@ impl<V: Lane> LaneState<V> {
     }
 
     /// Lets the engine of a lane accept the step and continue to its next one. Returns the result of a run that is over.
-    #[inline(always)]
+    ///
+    /// It only moves numbers, and calls the engine: one function for every law.
+    #[inline(never)]
     pub(super) fn service(
         &mut self,
         set: InstructionSet,

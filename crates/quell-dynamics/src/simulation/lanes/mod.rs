@@ -73,6 +73,10 @@ impl LawVisitor for RunGroup<'_, '_> {
     type Output = ();
 
     fn visit<L: SlidingLaw>(self, _: &L) {
+        // Belts whose contact has a state are not simulated here: they were refused.
+        if const { L::HAS_STATE } {
+            return;
+        }
         with_lanes(self.set, RunGroupOf::<L> { group: self, law: std::marker::PhantomData });
     }
 }
@@ -113,7 +117,7 @@ fn drive<'a, V: Lane, L: SlidingLaw>(
 ) {
     let count = queue.len().div_ceil(V::LANES).clamp(1, MOST_BATCHES);
     let mut batches: Vec<Batch<'a, V, L>> = (0..count).map(|_| Batch::new(set, shapes)).collect();
-    let mut search = RootSearch::<V>::new();
+    let mut search = RootSearch::new(set);
     loop {
         let mut occupied = 0;
         for batch in &mut batches {
@@ -126,7 +130,7 @@ fn drive<'a, V: Lane, L: SlidingLaw>(
         if occupied == 0 {
             return;
         }
-        search.run(&mut batches);
+        search.run::<V, L>(&mut batches);
         for batch in &mut batches {
             batch.service(&mut finish);
         }

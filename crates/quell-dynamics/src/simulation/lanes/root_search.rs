@@ -2,6 +2,7 @@
 //! lanes.
 
 use quell_model::friction::SlidingLaw;
+use quell_numerics::dispatch::{InstructionSet, LaneWork, with_lanes};
 use quell_numerics::lane::{Lane, MOST_LANES};
 use quell_numerics::polynomial::side_by_side::first_crossings;
 
@@ -10,31 +11,30 @@ use super::super::taylor::ORDER;
 use super::batch::{Batch, MOST_BATCHES};
 
 /// The search for roots of v_r on the steps that may have one, from all batches side by side.
-pub(super) struct RootSearch<V> {
+pub(super) struct RootSearch {
+    set: InstructionSet,
     /// Batch and lane of each candidate.
     candidates: Vec<(usize, usize)>,
     slip: [f64; (ORDER + 1) * MOST_LANES],
     zeros: LaneRow,
     length: LaneRow,
     wanted: LaneRow,
-    lanes: std::marker::PhantomData<V>,
 }
 
-impl<V: Lane> RootSearch<V> {
-    #[inline(always)]
-    pub(super) fn new() -> Self {
+impl RootSearch {
+    pub(super) fn new(set: InstructionSet) -> Self {
         Self {
+            set,
             candidates: Vec::with_capacity(MOST_BATCHES * MOST_LANES),
             slip: [0.0; (ORDER + 1) * MOST_LANES],
             zeros: LaneRow::ZERO,
             length: LaneRow::ZERO,
             wanted: LaneRow::ZERO,
-            lanes: std::marker::PhantomData,
         }
     }
 
     #[inline(always)]
-    pub(super) fn run<L: SlidingLaw>(&mut self, batches: &mut [Batch<'_, V, L>]) {
+    pub(super) fn run<V: Lane, L: SlidingLaw>(&mut self, batches: &mut [Batch<'_, V, L>]) {
         self.candidates.clear();
         for (number, batch) in batches.iter().enumerate() {
             if batch.all_clear {
@@ -55,7 +55,8 @@ impl<V: Lane> RootSearch<V> {
                 self.length.0[slot] = state.length.0[lane];
                 self.wanted.0[slot] = 1.0;
             }
-            let (found, time) = self.roots();
+            // One function for every law.
+            let (found, time) = with_lanes(self.set, Roots(self));
             for (slot, &(batch, lane)) in self.candidates[first..last].iter().enumerate() {
                 let state = &mut batches[batch].lanes;
                 state.found.0[lane] = found.0[slot];
@@ -66,19 +67,25 @@ impl<V: Lane> RootSearch<V> {
             batch.lanes.cut_at_roots();
         }
     }
+}
 
-    /// The codes of [`first_crossings`], and the roots.
+/// The codes of [`first_crossings`], and the roots.
+struct Roots<'a>(&'a RootSearch);
+
+impl LaneWork for Roots<'_> {
+    type Output = (LaneRow, LaneRow);
+
     #[inline(always)]
-    fn roots(&self) -> (LaneRow, LaneRow) {
+    fn run<V: Lane>(self) -> (LaneRow, LaneRow) {
+        let Self(RootSearch { slip: rows, zeros, length, wanted, .. }) = self;
         let mut slip = [V::splat(0.0); ORDER + 1];
         for (k, coefficient) in slip.iter_mut().enumerate() {
-            *coefficient = V::load(&self.slip[k * V::LANES..]);
+            *coefficient = V::load(&rows[k * V::LANES..]);
         }
-        let (zeros, length) = (self.zeros.load(), self.length.load());
-        let crossings = first_crossings(&slip, zeros, length, self.wanted.load());
-        let mut rows = (LaneRow::ZERO, LaneRow::ZERO);
-        rows.0.store(crossings.found);
-        rows.1.store(crossings.time);
-        rows
+        let crossings = first_crossings(&slip, zeros.load(), length.load(), wanted.load());
+        let mut found = (LaneRow::ZERO, LaneRow::ZERO);
+        found.0.store(crossings.found);
+        found.1.store(crossings.time);
+        found
     }
 }

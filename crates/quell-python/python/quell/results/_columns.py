@@ -642,7 +642,6 @@ class DesignColumns(Frozen):
     drive_voltage_peak: float
     drive_voltage_peak_to_peak: float
     drive_voltage_rms: float
-    examined_above: float
     examined_largest_gap: float
     examined_points: Any
     frontier_limit: npt.NDArray[np.str_]
