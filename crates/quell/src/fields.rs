@@ -287,10 +287,12 @@ impl Fields {
     }
 }
 
-/// The unit of the field at a path: of the longest end of the path that has one.
-pub(crate) fn unit_at<'u>(units: &'u Map<String, Json>, path: &str) -> Option<&'u str> {
+/// The unit of the field `key` at a path that ends with it: of the longest end of the path that has one, and no part of a key such as
+/// `dither.amplitude`.
+pub(crate) fn unit_at<'u>(units: &'u Map<String, Json>, path: &str, key: &str) -> Option<&'u str> {
     let ends = path.match_indices('.').map(|(at, _)| &path[at + 1..]);
-    [path].into_iter().chain(ends).find_map(|end| units.get(end)?.as_str())
+    let ends = [path].into_iter().chain(ends).take_while(|end| end.len() > key.len());
+    ends.chain([key]).find_map(|end| units.get(end)?.as_str())
 }
 
 /// Why a number that is not finite is null.
@@ -338,8 +340,10 @@ mod tests {
         }
         let units = &fields.finish()["units"];
         assert_eq!((&units["peak"], &units["voltage.peak"]), (&json!("N"), &json!("V")));
-        assert_eq!(unit_at(units.as_object().expect("units"), "drive.voltage.peak"), Some("V"));
-        assert_eq!(unit_at(units.as_object().expect("units"), "drive.force.peak"), Some("N"));
+        let at = |path: &str, key: &str| unit_at(units.as_object().expect("units"), path, key);
+        assert_eq!(at("drive.voltage.peak", "peak"), Some("V"));
+        assert_eq!(at("drive.force.peak", "peak"), Some("N"));
+        assert_eq!(at("critical.dither.peak", "dither.peak"), None);
     }
 
     #[test]

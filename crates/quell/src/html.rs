@@ -104,7 +104,7 @@ pub fn symbols(text: &str) -> String {
 
 /// Whether a text ends with a symbol of one letter, and not with a key such as `belt_velocity`.
 fn is_symbol(text: &[char]) -> bool {
-    let in_key = |letter: &char| letter.is_alphanumeric() || matches!(letter, '_' | '.');
+    let in_key = |letter: &char| letter.is_alphabetic() || matches!(letter, '_' | '.');
     match text {
         [.., before, last] => last.is_alphabetic() && !in_key(before),
         [last] => last.is_alphabetic(),
@@ -151,6 +151,7 @@ mod tests {
     fn symbols_become_subscripts_and_superscripts() {
         assert_eq!(symbols("v_mζ < Ω_1"), "v<sub>m</sub>ζ &lt; Ω<sub>1</sub>");
         assert_eq!(symbols("α^L, e^{γ−w}"), "α<sup>L</sup>, e<sup>γ−w</sup>");
+        assert_eq!(symbols("Ω + 2Ω_1"), "Ω + 2Ω<sub>1</sub>");
         assert_eq!(symbols("belt.belt_velocity_m_per_s"), "belt.belt_velocity_m_per_s");
         assert_eq!(symbols("-0.5, 5.9-5.12, 2e-7"), "−0.5, 5.9-5.12, 2e−7");
     }

@@ -14,8 +14,8 @@ use crate::tasks::answers;
 /// Closeness of the ends, as a share of the distance of the points around them, or of the part.
 const CLOSENESS: f64 = 1e-7;
 
-/// Distances beyond an unknown end of a part, as shares of its length, at which it is judged again: next to the end of a branch of
-/// responses the solver may fail where a point a little further is loud.
+/// Distances beyond an unknown end of a part, as shares of its length, at which it is judged again: within about [`CLOSENESS`] of the end
+/// of a branch of responses the solver fails where a point a little further is loud. An end where all of these are unknown stays unknown.
 const BESIDE: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
 
 /// Times that a part is divided at points that fail. A part is what its points show in any case.

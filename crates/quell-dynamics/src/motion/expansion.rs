@@ -39,8 +39,8 @@ pub(super) struct ExpandedStep {
 }
 
 impl<'a> StepExpansion<'a> {
-    /// The step, by code that is compiled for the number of states of small systems: each has a function of its own, which a compiler
-    /// takes a tenth of the time of one function for all of them.
+    /// The step, by code that is compiled for the number of states of small systems: each has a function of its own, because
+    /// compilers take more than in proportion for one function of all of them.
     pub(super) fn run(self) -> ExpandedStep {
         let matrix = &self.equations.matrix;
         if self.now.len() <= FEW_CONTACTS && self.equations.by_speed.is_none() {
@@ -115,7 +115,7 @@ impl<'a> StepExpansion<'a> {
     }
 }
 
-/// The step of a system with few states and contacts: with constant loops, and no memory but the stack.
+/// The step of a system with few states and contacts: with no memory but the stack.
 struct FewStatesStep<'a, S>(StepExpansion<'a>, S);
 
 impl<S: StateStorage<f64, Row = RowEntries>> Work for FewStatesStep<'_, S> {

@@ -430,8 +430,8 @@ pub(super) struct SmallStates<'a> {
 }
 
 impl<'a> SmallStates<'a> {
-    /// The storage of a matrix of `size` states; `None` if it is not of [`StateMatrix::Small`], or has an odd number of states, whose
-    /// bits in lanes are those of many states.
+    /// The storage of a matrix of `size` states; `None` if it is not [`StateMatrix::Small`], or has an odd number of states, whose bits
+    /// are those of [`ManyStates`].
     #[inline(always)]
     pub(super) fn of(matrix: &'a StateMatrix, size: usize) -> Option<Self> {
         let is_even = size >= 2 && size.is_multiple_of(2);

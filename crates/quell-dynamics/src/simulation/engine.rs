@@ -128,9 +128,7 @@ impl<'a> Engine<'a> {
         }
         while self.state.clock.until(self.until) > 0.0 {
             match self.state.contact {
-                ContactState::Slip { sign, zeros } => {
-                    return Next::Slip(SlipDue { sign, zeros, stop: self.next_stop() });
-                }
+                ContactState::Slip { sign, zeros } => return self.slip(sign, zeros),
                 ContactState::Stick { held } => {
                     let before = self.state.clock;
                     self.stick_interval(held);
@@ -143,6 +141,12 @@ impl<'a> Engine<'a> {
         // The steps are counted, but a run that has ended is not stopped for them.
         let _ = self.budget.spend(self.state.steps);
         Next::Over(Ok(self.final_state()))
+    }
+
+    /// The slip step that is due.
+    #[inline(always)]
+    fn slip(&self, sign: f64, zeros: usize) -> Next {
+        Next::Slip(SlipDue { sign, zeros, stop: self.next_stop() })
     }
 
     /// Counts passes of the loop without advance.
@@ -386,7 +390,7 @@ impl Work for Accept<'_, '_, '_> {
         // Slip goes on without the code of stick and of the end.
         match engine.state.contact {
             ContactState::Slip { sign, zeros } if engine.state.clock.until(engine.until) > 0.0 => {
-                Next::Slip(SlipDue { sign, zeros, stop: engine.next_stop() })
+                engine.slip(sign, zeros)
             }
             _ => engine.next(set),
         }

@@ -241,7 +241,7 @@ class Facts:
         elif isinstance(value, Mapping):
             for inner, it in self.in_units(value).items():
                 key = key_of(inner)
-                self.add(f"{label}_{key}", f"{former}_{key}", f"{name}.{inner}", it)
+                self.add(f"{label}_{key}", f"{former}_{key}", f"{name}/{inner}", it)
         elif isinstance(value, list):
             self.many(label, former, name, value)
         else:
@@ -257,7 +257,7 @@ class Facts:
                 column = [it.get(inner) for it in values]
                 if all(isinstance(it, (int, float, bool, str, type(None))) for it in column):
                     key = key_of(inner)
-                    self.put((f"{dim}_{key}", f"{old}_{key}"), f"{name}.{inner}", (dim,), as_array(column))
+                    self.put((f"{dim}_{key}", f"{old}_{key}"), f"{name}/{inner}", (dim,), as_array(column))
         elif values and all(isinstance(it, (int, float, bool, str, type(None))) for it in values):
             self.put((label, former), name, (dim,), as_array(values), (old,))
         elif values and all(isinstance(it, list) for it in values):
@@ -265,8 +265,8 @@ class Facts:
             self.put((label, former), name, (dim, f"{dim}_part"), table, (old,))
 
     def unit_at(self, path: str) -> str | None:
-        """The unit of the fact at a path: of the longest end of the path that has one."""
-        keys = path.split(".")
+        """The unit of the fact at a path of keys with slashes between: of the longest end of the path that has one."""
+        keys = path.split("/")
         ends = (".".join(keys[place:]) for place in range(len(keys)))
         return next((self.units[end] for end in ends if end in self.units), None)
 

@@ -135,8 +135,7 @@ impl FactReader {
 
     fn row(&self, path: &str, key: &str, value: String, si: String) -> FactRow {
         let of_list = without_places(path).replace("[]", "");
-        let unit = unit_at(&self.units, &of_list).or_else(|| self.units.get(key)?.as_str());
-        let unit = unit.filter(|unit| *unit != "1");
+        let unit = unit_at(&self.units, &of_list, key).filter(|unit| *unit != "1");
         FactRow { path: path.to_owned(), value, unit: unit.unwrap_or_default().to_owned(), si }
     }
 

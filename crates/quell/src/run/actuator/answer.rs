@@ -21,7 +21,8 @@ const NOTHING_TO_QUENCH: &str = "steady sliding is stable without this dither";
 /// Why the margin has no value at an undamped resonance.
 const UNBOUNDED_MARGIN: &str = "unbounded (undamped resonance)";
 
-/// Margin above which rounding decides it.
+/// Margin above which rounding decides it: no structure with damping has a quality factor near it, and an undamped one at its natural
+/// frequency, rounded, answers with about the inverse of the machine precision. A smaller bound would hide margins that are real.
 const MOST_MARGIN: f64 = 1e9;
 
 /// The key of a limit that is known.
@@ -127,10 +128,14 @@ impl ActuatorFound {
         text
     }
 
+    /// The frequency at which the dither repeats as often as the vibration.
+    fn slow_dither(&self) -> Option<f64> {
+        Some(self.slow? * f64::from(self.waveform.cycles()))
+    }
+
     /// Where averaging does not hold or is unsure, after a comma; empty where it is sure.
     fn unsure_in_words(&self, study: &dyn StudyWithDesign) -> String {
-        let Some(slow) = self.slow else { return String::new() };
-        let slow = slow * f64::from(self.waveform.cycles());
+        let Some(slow) = self.slow_dither() else { return String::new() };
         let (holds_from, sure_from) = (BAND_END * slow, FAR * slow);
         let scale = study.frequency_scale();
         let unsure = self.coverage.sufficient.iter().any(|band| band.ends.0 < sure_from);
@@ -189,12 +194,11 @@ impl ActuatorFound {
                 digits(FEW_SAMPLES)
             ));
         }
-        let cycles = f64::from(self.waveform.cycles());
-        if let Some(slow) = self.slow.filter(|slow| self.range.0 < FAR * slow * cycles) {
+        if let Some(slow) = self.slow_dither().filter(|slow| self.range.0 < FAR * slow) {
             warnings.push(format!(
                 "below {} the dither repeats at less than {} times the frequency of the vibration: averaging assumes that it is much \
                  faster, and near the vibration itself the least amplitude is that of a resonance, which excites and does not quench",
-                scale.with_noun(FAR * slow * cycles),
+                scale.with_noun(FAR * slow),
                 digits(FAR)
             ));
         }

@@ -222,12 +222,20 @@ impl LeastDitherFound {
     /// Why there is no dither.
     fn why(&self, study: &dyn StudyWithDesign, none: &InfeasibleDesign) -> String {
         match &none.why {
-            NoDesign::NeverQuiet { point } => format!(
-                "of the amplitudes from {} to {} none is quiet at all operating points that were examined; the last one was lost{}",
-                study.in_words(study.quantity_of_amplitude(), self.amplitude.range.0),
-                study.in_words(study.quantity_of_amplitude(), self.amplitude.range.1),
-                self.point_in_words(point)
-            ),
+            NoDesign::NeverQuiet { point } => {
+                // The point that left no amplitude need not be one at which every amplitude is loud.
+                let at = match self.point_in_words(point) {
+                    at if at.is_empty() => at,
+                    at => {
+                        format!(" at all operating points that were examined; the search ended{at}")
+                    }
+                };
+                format!(
+                    "no amplitude from {} to {} is quiet{at}",
+                    study.in_words(study.quantity_of_amplitude(), self.amplitude.range.0),
+                    study.in_words(study.quantity_of_amplitude(), self.amplitude.range.1)
+                )
+            }
             NoDesign::Limit { quantity, used, point } => {
                 let at = point.as_ref().map_or(String::new(), |point| self.point_in_words(point));
                 let used = match quantity {

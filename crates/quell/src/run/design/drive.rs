@@ -52,7 +52,7 @@ impl LeastDitherFound {
         needs.push(format!("{stroke} peak to peak"));
         // The least dither keeps every limit; the verified one exceeds it by the margin.
         let margin = match used.first() {
-            Some((most, _)) if *most > 1.0 => ", the margin of the verified dither included,",
+            Some((most, _)) if *most > 1.0 => " (the margin of the verified dither included)",
             _ => "",
         };
         // Of the operating point where a limit is used most; elsewhere another quantity may be larger.
