@@ -5,7 +5,7 @@
 //! curve attracts. Both use this definition.
 
 use quell_model::Belt;
-use quell_model::friction::{LawVisitor, SlidingLaw};
+use quell_model::friction::{LawSeries, LawVisitor};
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::lane::horner;
 
@@ -29,7 +29,7 @@ struct Rates<'a, 'c, const N: usize> {
 impl<const N: usize> LawVisitor for Rates<'_, '_, N> {
     type Output = ([f64; N], [f64; N]);
 
-    fn visit<L: SlidingLaw>(self, law: &L) -> Self::Output {
+    fn visit<L: LawSeries>(self, law: &L) -> Self::Output {
         with_fused_multiply_add(RatesOf { rates: self, law })
     }
 }
@@ -39,7 +39,7 @@ struct RatesOf<'a, 'c, 'l, L, const N: usize> {
     law: &'l L,
 }
 
-impl<L: SlidingLaw, const N: usize> Work for RatesOf<'_, '_, '_, L, N> {
+impl<L: LawSeries, const N: usize> Work for RatesOf<'_, '_, '_, L, N> {
     type Output = ([f64; N], [f64; N]);
 
     #[inline(always)]

@@ -95,6 +95,20 @@ pub fn with_fused_multiply_add<W: Work>(work: W) -> W::Output {
     with_scalar_of(InstructionSet::Fma, work)
 }
 
+/// Runs `work` if the machine supports fused multiply-add, else gives it back: for code with a slower form of the same bits, which
+/// is then the only one compiled for the baseline.
+///
+/// # Errors
+/// The work, on a machine without fused multiply-add.
+#[inline]
+pub fn only_with_fused_multiply_add<W: Work>(work: W) -> Result<W::Output, W> {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(simd) = pulp::x86::V3::try_new() {
+        return Ok(simd.vectorize(Vectorized(work)));
+    }
+    Err(work)
+}
+
 /// Runs `work` with the scalar instructions that correspond to the lanes of `set`: those of the baseline, or
 /// fused multiply-add if the machine supports it.
 #[inline]

@@ -1,9 +1,11 @@
 //! One step of one run: its series, its length, the first guard that ends it, and the state at its end.
 //!
-//! The equations (`step_recurrence`) are compiled for the numbers of states of small systems.
+//! The equations (`step_recurrence`) are compiled for small systems and for all others.
 
 use quell_model::friction::FrictionConstants;
-use quell_numerics::dispatch::{Work, with_fused_multiply_add};
+use quell_numerics::dispatch::{
+    InstructionSet, Work, only_with_fused_multiply_add, with_fused_multiply_add, with_scalar_of,
+};
 
 use super::contact_masks::ContactMasks;
 use super::equations::{Forcings, MotionEquations};
@@ -42,19 +44,19 @@ impl<'a> StepExpansion<'a> {
     /// The step, by code that is compiled for the number of states of small systems: each has a function of its own, because
     /// compilers take more than in proportion for one function of all of them.
     pub(super) fn run(self) -> ExpandedStep {
-        let matrix = &self.equations.matrix;
+        let MotionEquations { size, ref matrix, .. } = *self.equations;
         if self.now.len() <= FEW_CONTACTS && self.equations.by_speed.is_none() {
             if let Some(storage) = FewStates::<2>::of(matrix) {
-                return with_fused_multiply_add(FewStatesStep(self, storage));
+                return FewStatesStep(self, storage).fused();
             }
             if let Some(storage) = FewStates::<4>::of(matrix) {
-                return with_fused_multiply_add(FewStatesStep(self, storage));
+                return FewStatesStep(self, storage).fused();
             }
-            if let Some(storage) = SmallStates::of(matrix, self.equations.size) {
-                return with_fused_multiply_add(FewStatesStep(self, storage));
+            if let Some(storage) = SmallStates::of(matrix, size) {
+                return FewStatesStep(self, storage).fused();
             }
         }
-        with_fused_multiply_add(ManyStatesStep(self))
+        with_fused_multiply_add(ManyStatesStep(self, false))
     }
 
     /// The step.
@@ -118,6 +120,15 @@ impl<'a> StepExpansion<'a> {
 /// The step of a system with few states and contacts: with no memory but the stack.
 struct FewStatesStep<'a, S>(StepExpansion<'a>, S);
 
+impl<S: StateStorage<f64, Row = RowEntries>> FewStatesStep<'_, S> {
+    /// The step with fused multiply-add; without, with the same bits by the one function for any number of states.
+    fn fused(self) -> ExpandedStep {
+        only_with_fused_multiply_add(self).unwrap_or_else(|Self(step, _)| {
+            with_scalar_of(InstructionSet::Baseline, ManyStatesStep(step, true))
+        })
+    }
+}
+
 impl<S: StateStorage<f64, Row = RowEntries>> Work for FewStatesStep<'_, S> {
     type Output = ExpandedStep;
 
@@ -135,16 +146,17 @@ impl<S: StateStorage<f64, Row = RowEntries>> Work for FewStatesStep<'_, S> {
     }
 }
 
-/// The step of any other system.
-struct ManyStatesStep<'a>(StepExpansion<'a>);
+/// The step of any system; with the bits of [`FewStatesStep`] or not.
+struct ManyStatesStep<'a>(StepExpansion<'a>, bool);
 
 impl Work for ManyStatesStep<'_> {
     type Output = ExpandedStep;
 
     #[inline(always)]
     fn run(self) -> ExpandedStep {
-        let Self(step) = self;
-        let storage = ManyStates { size: step.equations.size, matrix: &step.equations.matrix };
+        let Self(step, by_halves) = self;
+        let MotionEquations { size, ref matrix, .. } = *step.equations;
+        let storage = ManyStates { size, matrix, by_halves };
         let mut branches: Vec<SlipRecurrence<'_>> = (0..step.now.len()).map(|_| None).collect();
         let masks: Vec<ContactMasks> = step.now.iter().map(ContactMasks::of).collect();
         step.whole(storage, &masks, &mut branches)

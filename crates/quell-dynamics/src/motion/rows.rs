@@ -324,6 +324,8 @@ impl<V> StateRow for LaneEntries<V> {
 pub(super) struct ManyStates<'a> {
     pub(super) size: usize,
     pub(super) matrix: &'a StateMatrix,
+    /// Whether products of rows have the bits of [`SmallStates`].
+    pub(super) by_halves: bool,
 }
 
 impl StateStorage<f64> for ManyStates<'_> {
@@ -349,6 +351,9 @@ impl StateStorage<f64> for ManyStates<'_> {
 
     #[inline(always)]
     fn dot(self, row: &RowEntries, state: &[f64]) -> f64 {
+        if self.by_halves {
+            return dot_by_halves(&row.dense[..self.size], &state[..self.size]);
+        }
         row.dot(state)
     }
 
@@ -368,7 +373,8 @@ impl StateStorage<f64> for ManyStates<'_> {
     }
 }
 
-/// `N` states of one run, with the columns of the state matrix. Slices over the state must have this length.
+/// `N` states of one run, with the columns of the state matrix, and the bits of [`SmallStates`]. Slices over the state must have this
+/// length.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FewStates<'a, const N: usize>(&'a [[f64; N]; N]);
 
@@ -421,8 +427,7 @@ impl<const N: usize> StateStorage<f64> for FewStates<'_, N> {
     }
 }
 
-/// Up to [`SMALL`] states of one run, as many as there are columns, with the bits of [`FewStates`]: one function for the numbers of states
-/// that have none of their own.
+/// Up to [`SMALL`] states of one run, as many as there are columns.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SmallStates<'a> {
     size: usize,
@@ -485,7 +490,7 @@ impl StateStorage<f64> for SmallStates<'_> {
     }
 }
 
-/// As many states of several runs as [`FewStates`] of each, and with its bits: the matrices in all lanes, column by column.
+/// As many states of several runs as [`SmallStates`] of each, and with its bits: the matrices in all lanes, column by column.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LaneStates<'a, V> {
     pub(super) size: usize,
@@ -615,34 +620,44 @@ mod tests {
         }
     }
 
-    /// A row, a column and the matrix in the storage of `N` states against the form for any number of states.
-    fn agrees<const N: usize>() {
-        let matrix = Matrix::from_fn(N, N, |i, j| (i as f64 - 0.7).mul_add(1.3, 0.9 * j as f64));
-        let form = StateMatrix::of(&matrix);
-        let few = FewStates::<N>::of(&form).expect("a small matrix");
-        let many = ManyStates { size: N, matrix: &form };
-        let state: [f64; N] = std::array::from_fn(|i| 0.3 * i as f64 - 1.0);
-        let values: Vec<f64> = (0..N / 2).map(|i| 1.7 - i as f64).collect();
-        for row in [RowEntries::at(&values, N / 2), RowEntries::at(&values, 0)] {
-            assert!((few.dot(&row, &state) - many.dot(&row, &state)).abs() < 1e-14);
-            let (mut left, mut right) = (state, state);
-            few.add(&row, 0.6, &mut left);
+    /// A row, a column and the matrix in a storage against the form for any number of states.
+    fn has_the_bits_of_many<S: StateStorage<f64, Row = RowEntries>>(
+        storage: S,
+        form: &StateMatrix,
+    ) {
+        let size = storage.size();
+        let many = ManyStates { size, matrix: form, by_halves: true };
+        let state: Vec<f64> = (0..size).map(|i| 0.3 * i as f64 - 1.0).collect();
+        let values: Vec<f64> = (0..size / 2).map(|i| 1.7 - i as f64).collect();
+        for row in [RowEntries::at(&values, size / 2), RowEntries::at(&values, 0)] {
+            assert_eq!(storage.dot(&row, &state), many.dot(&row, &state));
+            assert!((row.dot(&state) - many.dot(&row, &state)).abs() < 1e-14);
+            let (mut left, mut right) = (state.clone(), state.clone());
+            storage.add(&row, 0.6, &mut left);
             many.add(&row, 0.6, &mut right);
             assert_eq!(left, right);
         }
-        let (mut left, mut right) = ([0.0; N], [0.0; N]);
-        few.times(&state, &mut left);
+        let (mut left, mut right) = (vec![0.0; size], vec![0.0; size]);
+        storage.times(&state, &mut left);
         many.times(&state, &mut right);
         assert_eq!(left, right);
-        assert!(FewStates::<2>::of(&form).is_some() == (N == 2));
     }
 
     #[test]
-    fn the_storage_of_few_states_agrees_with_that_of_many() {
-        agrees::<2>();
-        agrees::<4>();
-        agrees::<6>();
-        agrees::<8>();
+    fn every_storage_has_the_bits_of_that_of_many_states() {
+        for size in [2, 4, 6, 8] {
+            let matrix =
+                Matrix::from_fn(size, size, |i, j| (i as f64 - 0.7).mul_add(1.3, 0.9 * j as f64));
+            let form = StateMatrix::of(&matrix);
+            has_the_bits_of_many(SmallStates::of(&form, size).expect("a small matrix"), &form);
+            assert_eq!(FewStates::<2>::of(&form).is_some(), size == 2);
+            if let Some(few) = FewStates::<2>::of(&form) {
+                has_the_bits_of_many(few, &form);
+            }
+            if let Some(few) = FewStates::<4>::of(&form) {
+                has_the_bits_of_many(few, &form);
+            }
+        }
     }
 
     #[test]

@@ -9,7 +9,6 @@
 //! loop indefinitely; the held time is below every tolerance in use. How far a pass advances time is a separate
 //! matter: [`super::step_budget`] limits the steps.
 
-use quell_model::friction::SlidingLaw;
 use quell_model::{Belt, Direction};
 use quell_numerics::dispatch::{InstructionSet, Work, with_scalar_of};
 use quell_numerics::lane::horner;
@@ -66,8 +65,9 @@ pub(super) struct Engine<'a> {
 
 impl<'a> Engine<'a> {
     #[inline(never)]
-    pub(super) fn new<L: SlidingLaw>(run: SimulationRun<'a>, law: &L, tolerance: f64) -> Self {
+    pub(super) fn new(run: SimulationRun<'a>, tolerance: f64) -> Self {
         let SimulationRun { belt, start, until, observer } = run;
+        let law = belt.friction();
         let unit = law.velocity_scale();
         let clock = Clock::at(start.time);
         let belt_velocity = belt.belt_velocity() / unit;

@@ -10,7 +10,7 @@
 //! n is the normal load, p the tangential dither. The kernel is written over [`Lane`], so
 //! that the same code runs one trajectory or several side by side.
 
-use quell_model::friction::{BranchSeries, SlidingLaw};
+use quell_model::friction::{BranchSeries, LawSeries};
 use quell_numerics::lane::{Lane, horner, partial_product};
 use quell_numerics::polynomial::side_by_side::margin_of_no_root;
 use quell_numerics::polynomial::step_length;
@@ -105,7 +105,7 @@ impl<V: Lane> SlipEquation<V> {
         reason = "the last pass of the unrolled loop is empty, K < ORDER is false there"
     )]
     #[inline(always)]
-    pub(super) fn series<L: SlidingLaw>(
+    pub(super) fn series<L: LawSeries>(
         &self,
         law: &mut L::Constants<V>,
         start: SlipStart<V>,

@@ -6,7 +6,7 @@
 //! velocity. In slip of the branch's own sign it is the actual motion, computed with the engine's series.
 
 use quell_model::Belt;
-use quell_model::friction::{LawVisitor, SlidingLaw};
+use quell_model::friction::{LawSeries, LawVisitor};
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 
 use super::clock::Clock;
@@ -141,11 +141,7 @@ impl LawVisitor for SlipStep<'_> {
     /// The length of the step.
     type Output = f64;
 
-    fn visit<L: SlidingLaw>(self, law: &L) -> f64 {
-        // Belts whose contact has a state are not simulated here: they were refused.
-        if const { L::HAS_STATE } {
-            return 0.0;
-        }
+    fn visit<L: LawSeries>(self, law: &L) -> f64 {
         with_fused_multiply_add(SlipStepOf { step: self, law })
     }
 }
@@ -155,7 +151,7 @@ struct SlipStepOf<'a, 'l, L> {
     law: &'l L,
 }
 
-impl<L: SlidingLaw> Work for SlipStepOf<'_, '_, L> {
+impl<L: LawSeries> Work for SlipStepOf<'_, '_, L> {
     type Output = f64;
 
     #[inline(always)]

@@ -91,6 +91,13 @@ impl LawParameters for Coulomb {
 }
 
 impl SlidingLaw for Coulomb {
+    type Recurrence = Self;
+
+    #[inline(always)]
+    fn recurrence(&self) -> &Self {
+        self
+    }
+
     fn placed(&self, surroundings: &Surroundings) -> Result<Self, InvalidValues> {
         Ok(self.counted_in(surroundings.normal_load))
     }

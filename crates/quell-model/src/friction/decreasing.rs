@@ -63,6 +63,13 @@ impl LawParameters for Decreasing {
 }
 
 impl SlidingLaw for Decreasing {
+    type Recurrence = Self;
+
+    #[inline(always)]
+    fn recurrence(&self) -> &Self {
+        self
+    }
+
     #[inline(always)]
     fn velocity_scale(&self) -> f64 {
         self.reference_velocity

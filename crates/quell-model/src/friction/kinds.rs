@@ -15,8 +15,9 @@ use crate::units::{Quantity, Scales};
 use crate::{Invalid, InvalidValues};
 
 macro_rules! laws {
-    (numbers: $($numeric:ident),+; data: $($carrying:ident),+ $(,)?) => {
+    (numbers: $($numeric:ident),+; data: $($carrying:ident),+; recurrences: $($own:ident),+ $(,)?) => {
         laws!(@ $($numeric),+, $($carrying),+);
+        recurrences!($($own),+);
 
         impl LawKind {
             /// Laws defined by numbers alone.
@@ -86,23 +87,11 @@ macro_rules! laws {
             }
         }
 
-        /// The constants of a law's recurrence in each lane, for engines whose contacts have different laws.
-        pub enum FrictionConstants<V: Lane = f64> {
-            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind(<$kind as LawSeries>::Constants<V>),)+
-        }
-
-        /// The Taylor recurrence of a law in each lane.
-        pub enum FrictionSeries<'c, V: Lane, const N: usize> {
-            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind(<$kind as LawSeries>::Series<'c, V, N>),)+
-        }
-
         impl FrictionConstants {
             /// The constants of a law.
             pub fn of(law: &Friction) -> Self {
                 match law {
-                    $(Friction::$kind(law) => {
-                        Self::$kind(<$kind as LawSeries>::constants::<f64>(std::slice::from_ref(law)))
-                    })+
+                    $(Friction::$kind(law) => Recurring::in_lanes(std::slice::from_ref(law.recurrence())),)+
                 }
             }
         }
@@ -117,48 +106,16 @@ macro_rules! laws {
                 }
                 Some(match first {
                     $(Friction::$kind(_) => {
-                        let laws = laws.iter().map(<$kind as LawSeries>::of).collect::<Option<Vec<_>>>()?;
-                        Self::$kind(<$kind as LawSeries>::constants::<V>(&laws))
+                        type Law = <$kind as SlidingLaw>::Recurrence;
+                        Recurring::in_lanes(&laws.iter().map(Law::of).collect::<Option<Vec<_>>>()?)
                     })+
                 })
-            }
-
-            /// Starts the recurrence on the branch of `sign` (±1) at scaled slip `w0`.
-            #[inline(always)]
-            pub fn series<const N: usize>(&mut self, sign: V, w0: V) -> FrictionSeries<'_, V, N> {
-                match self {
-                    $(Self::$kind(constants) => FrictionSeries::$kind(
-                        <$kind as LawSeries>::series::<V, N>(constants, sign, w0),
-                    ),)+
-                }
-            }
-        }
-
-        impl<V: Lane, const N: usize> BranchSeries<V> for FrictionSeries<'_, V, N> {
-            #[inline(always)]
-            fn first(&self) -> V {
-                match self { $(Self::$kind(series) => series.first()),+ }
-            }
-
-            #[inline(always)]
-            fn slope(&self) -> V {
-                match self { $(Self::$kind(series) => series.slope()),+ }
-            }
-
-            #[inline(always)]
-            fn lower(&mut self, k: usize, w: &[V]) -> V {
-                match self { $(Self::$kind(series) => series.lower(k, w)),+ }
-            }
-
-            #[inline(always)]
-            fn trusted(&self, w: &[V], length: V) -> V {
-                match self { $(Self::$kind(series) => series.trusted(w, length)),+ }
             }
         }
 
         impl AnyLaw for Friction {
-            fn concrete(&self) -> &dyn Any {
-                match self { $(Self::$kind(law) => law),+ }
+            fn recurring(&self) -> &dyn Any {
+                match self { $(Self::$kind(law) => law.recurrence()),+ }
             }
         }
 
@@ -190,7 +147,7 @@ macro_rules! laws {
             /// kind and differ only in numbers.
             pub fn is_alike(&self, other: &Self) -> bool {
                 match (self, other) {
-                    $((Self::$kind(law), Self::$kind(other)) => law.is_alike(other),)+
+                    $((Self::$kind(law), Self::$kind(other)) => law.recurrence().is_alike(other.recurrence()),)+
                     _ => false,
                 }
             }
@@ -200,10 +157,10 @@ macro_rules! laws {
                 match self { $(Self::$kind(law) => law.starts_at_static_level()),+ }
             }
 
-            /// Passes the concrete law to `visitor`.
+            /// Passes the law with the recurrence to `visitor`.
             #[inline]
             pub fn visit<T: LawVisitor>(&self, visitor: T) -> T::Output {
-                match self { $(Self::$kind(law) => visitor.visit(law)),+ }
+                match self { $(Self::$kind(law) => visitor.visit(law.recurrence())),+ }
             }
 
             /// The law for use in a given belt ([`SlidingLaw::placed`]).
@@ -257,7 +214,72 @@ macro_rules! laws {
     };
 }
 
-laws!(numbers: Stribeck, Decreasing, Coulomb, StribeckExponential, Lugre; data: Expression, Samples);
+/// The laws with a recurrence of their own, as one type.
+macro_rules! recurrences {
+    ($($kind:ident),+) => {
+        /// The constants of a law's recurrence in each lane, for engines whose contacts have different laws.
+        pub enum FrictionConstants<V: Lane = f64> {
+            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind(<$kind as LawSeries>::Constants<V>),)+
+        }
+
+        /// The Taylor recurrence of a law in each lane.
+        pub enum FrictionSeries<'c, V: Lane, const N: usize> {
+            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind(<$kind as LawSeries>::Series<'c, V, N>),)+
+        }
+
+        $(impl Recurring for $kind {
+            fn in_lanes<V: Lane>(laws: &[Self]) -> FrictionConstants<V> {
+                FrictionConstants::$kind(Self::constants::<V>(laws))
+            }
+        })+
+
+        impl<V: Lane> FrictionConstants<V> {
+            /// Starts the recurrence on the branch of `sign` (±1) at scaled slip `w0`.
+            #[inline(always)]
+            pub fn series<const N: usize>(&mut self, sign: V, w0: V) -> FrictionSeries<'_, V, N> {
+                match self {
+                    $(Self::$kind(constants) => FrictionSeries::$kind(
+                        <$kind as LawSeries>::series::<V, N>(constants, sign, w0),
+                    ),)+
+                }
+            }
+        }
+
+        impl<V: Lane, const N: usize> BranchSeries<V> for FrictionSeries<'_, V, N> {
+            #[inline(always)]
+            fn first(&self) -> V {
+                match self { $(Self::$kind(series) => series.first()),+ }
+            }
+
+            #[inline(always)]
+            fn slope(&self) -> V {
+                match self { $(Self::$kind(series) => series.slope()),+ }
+            }
+
+            #[inline(always)]
+            fn lower(&mut self, k: usize, w: &[V]) -> V {
+                match self { $(Self::$kind(series) => series.lower(k, w)),+ }
+            }
+
+            #[inline(always)]
+            fn trusted(&self, w: &[V], length: V) -> V {
+                match self { $(Self::$kind(series) => series.trusted(w, length)),+ }
+            }
+        }
+    };
+}
+
+/// A law with a recurrence of its own, as a variant of [`FrictionConstants`].
+trait Recurring: LawSeries {
+    /// The constants of [`Lane::LANES`] laws.
+    fn in_lanes<V: Lane>(laws: &[Self]) -> FrictionConstants<V>;
+}
+
+laws!(
+    numbers: Stribeck, Decreasing, Coulomb, StribeckExponential, Lugre;
+    data: Expression, Samples;
+    recurrences: Stribeck, Decreasing, Coulomb, StribeckExponential, Expression,
+);
 
 impl Friction {
     /// The law of a study in SI with slip in metres per second in place of the numbers of the equations.

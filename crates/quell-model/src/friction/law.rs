@@ -56,7 +56,14 @@ pub trait LawParameters: Sized {
 }
 
 /// A friction law in steady sliding, analytic on each side of v_r = 0.
-pub trait SlidingLaw: LawParameters + LawSeries + Clone + Send + Sync + 'static {
+pub trait SlidingLaw: LawParameters + Clone + Send + Sync + 'static {
+    /// The law with the recurrence of its Taylor series: itself, or the law of which it is a case with other numbers. Engines
+    /// are compiled for laws with a recurrence of their own.
+    type Recurrence: LawSeries;
+
+    /// The law as one with a recurrence of its own.
+    fn recurrence(&self) -> &Self::Recurrence;
+
     /// The law for use at a given contact: its properties are proven over the slip range of the contact, and a law without a
     /// characteristic velocity takes one from the contact to scale slip.
     ///
@@ -115,14 +122,16 @@ pub trait SlidingLaw: LawParameters + LawSeries + Clone + Send + Sync + 'static 
     /// Coefficient and slope dμ/dw at one slip speed |v_r|, without further terms of the series.
     #[inline(always)]
     fn alone(&self, speed: f64) -> (f64, f64) {
-        let mut constants = Self::constants::<f64>(std::slice::from_ref(self));
-        let branch = Self::series::<f64, 1>(&mut constants, 1.0, speed / self.velocity_scale());
+        let law = std::slice::from_ref(self.recurrence());
+        let mut constants = Self::Recurrence::constants::<f64>(law);
+        let scaled = speed / self.velocity_scale();
+        let branch = Self::Recurrence::series::<f64, 1>(&mut constants, 1.0, scaled);
         (branch.first(), branch.slope())
     }
 }
 
 /// The Taylor series of a law along a slip, for one run or for several in SIMD lanes.
-pub trait LawSeries: Sized {
+pub trait LawSeries: SlidingLaw<Recurrence = Self> {
     /// The constants of the recurrence in each lane.
     /// A law with data also stores the memory of its recurrence here, so that no step allocates.
     type Constants<V: Lane>: Send + Sync;
@@ -146,25 +155,22 @@ pub trait LawSeries: Sized {
         w0: V,
     ) -> Self::Series<'_, V, N>;
 
-    /// The concrete law in `friction`, if it is of this kind.
-    fn of(friction: &impl AnyLaw) -> Option<Self>
-    where
-        Self: Clone + 'static,
-    {
-        friction.concrete().downcast_ref::<Self>().cloned()
+    /// The law in `friction`, if its recurrence is of this kind.
+    fn of(friction: &impl AnyLaw) -> Option<Self> {
+        friction.recurring().downcast_ref::<Self>().cloned()
     }
 }
 
 /// A law of any kind, such as [`Friction`](super::Friction).
 pub trait AnyLaw {
-    /// The concrete law.
-    fn concrete(&self) -> &dyn Any;
+    /// The concrete law with the recurrence.
+    fn recurring(&self) -> &dyn Any;
 }
 
-/// An operation on the concrete law, for code that is compiled per law.
+/// An operation on the concrete law, for code that is compiled per recurrence.
 pub trait LawVisitor {
     /// Result of the operation.
     type Output;
     /// Applies the operation to a concrete law.
-    fn visit<L: SlidingLaw>(self, law: &L) -> Self::Output;
+    fn visit<L: LawSeries>(self, law: &L) -> Self::Output;
 }

@@ -7,13 +7,8 @@
 //!
 //! All three σ are over the normal load: friction is proportional to the load at every moment.
 
-use quell_numerics::lane::Lane;
-
 use super::numeric::{checked, number_of, static_at_least_sliding, with_number};
-use super::{
-    Bristles, LawParameters, LawSeries, NumericLaw, Otherwise, SlidingLaw, StribeckExponential,
-    StribeckExponentialConstants, StribeckExponentialSeries,
-};
+use super::{Bristles, LawParameters, NumericLaw, Otherwise, SlidingLaw, StribeckExponential};
 use crate::InvalidValues;
 use crate::parameter::{
     BRISTLE_DAMPING, BRISTLE_STIFFNESS, COEFFICIENT, Parameter, REFERENCE_VELOCITY,
@@ -90,6 +85,14 @@ impl LawParameters for Lugre {
 }
 
 impl SlidingLaw for Lugre {
+    /// Of steady sliding: the state has a series of its own in the engine.
+    type Recurrence = StribeckExponential;
+
+    #[inline(always)]
+    fn recurrence(&self) -> &StribeckExponential {
+        &self.steady
+    }
+
     fn bristles(&self) -> Option<Bristles> {
         Some(self.bristles)
     }
@@ -107,28 +110,6 @@ impl SlidingLaw for Lugre {
     #[inline(always)]
     fn starts_at_static_level(&self) -> bool {
         true
-    }
-}
-
-/// The series of steady sliding: the state has a series of its own in the engine.
-impl LawSeries for Lugre {
-    type Constants<V: Lane> = StribeckExponentialConstants<V>;
-
-    #[inline(always)]
-    fn constants<V: Lane>(laws: &[Self]) -> StribeckExponentialConstants<V> {
-        let steady: Vec<StribeckExponential> = laws.iter().map(|law| law.steady).collect();
-        StribeckExponential::constants::<V>(&steady)
-    }
-
-    type Series<'c, V: Lane, const N: usize> = StribeckExponentialSeries<V, N>;
-
-    #[inline(always)]
-    fn series<V: Lane, const N: usize>(
-        constants: &mut StribeckExponentialConstants<V>,
-        sign: V,
-        w0: V,
-    ) -> StribeckExponentialSeries<V, N> {
-        StribeckExponential::series::<V, N>(constants, sign, w0)
     }
 }
 

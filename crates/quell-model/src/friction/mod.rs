@@ -1,7 +1,8 @@
 //! Friction laws.
 //!
-//! A law is one file that implements [`LawParameters`], [`SlidingLaw`] and [`LawSeries`], and one name in the list
-//! `laws!(…)` of `kinds.rs`. Its formula is written once, as a recurrence for Taylor coefficients
+//! A law is one file that implements [`LawParameters`], [`SlidingLaw`] and [`LawSeries`], and its name in the lists of
+//! `laws!(…)` of `kinds.rs`. A law whose series is that of another implements no [`LawSeries`] of its own, and engines are
+//! compiled for the other alone ([`SlidingLaw::Recurrence`]). Its formula is written once, as a recurrence for Taylor coefficients
 //! ([`BranchSeries`]): the engine, its SIMD lanes, values, slopes and plots all use it.
 //! μ is odd; at v_r = 0 it is set-valued in [−μ_s, μ_s] (the static level is separate from
 //! the sliding branch).

@@ -68,6 +68,13 @@ impl LawParameters for Stribeck {
 }
 
 impl SlidingLaw for Stribeck {
+    type Recurrence = Self;
+
+    #[inline(always)]
+    fn recurrence(&self) -> &Self {
+        self
+    }
+
     fn range(&self) -> Option<SlipRange> {
         let falls = self.minimum_coefficient < self.static_coefficient;
         let upper = 3f64.sqrt() * self.reference_velocity;

@@ -93,6 +93,13 @@ impl LawParameters for StribeckExponential {
 }
 
 impl SlidingLaw for StribeckExponential {
+    type Recurrence = Self;
+
+    #[inline(always)]
+    fn recurrence(&self) -> &Self {
+        self
+    }
+
     fn unsimulated(&self) -> Option<&'static str> {
         let whole = self.exponent.fract() == 0.0 && self.exponent <= LARGEST_SIMULATED;
         (!whole).then_some(

@@ -1,20 +1,8 @@
 //! Values and slopes of the sliding branch.
 
-use quell_model::friction::{LawVisitor, SlidingLaw};
 use quell_model::{Friction, LawKind};
 
 use crate::law_samples::{SCALED_SPEEDS, all_samples};
-
-/// Whether the law reports that its branch starts from the static level.
-struct StartsAtStaticLevel;
-
-impl LawVisitor for StartsAtStaticLevel {
-    type Output = bool;
-
-    fn visit<L: SlidingLaw>(self, law: &L) -> bool {
-        law.starts_at_static_level()
-    }
-}
 
 /// μ(0⁺) ≤ μ_s, up to the rounding of one sum: otherwise stick could never begin.
 #[test]
@@ -23,7 +11,7 @@ fn the_branch_starts_at_or_below_the_static_level() {
         let (start, level) = (law.coefficient(0.0), law.static_coefficient());
         let rounding = f64::EPSILON * level;
         assert!(start <= level + rounding, "{law:?}: {start} > {level}");
-        let reported = law.visit(StartsAtStaticLevel);
+        let reported = law.starts_at_static_level();
         assert_eq!(reported, (start - level).abs() <= rounding, "{law:?}: μ(0⁺) = {start}");
     }
 }

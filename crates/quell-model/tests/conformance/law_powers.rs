@@ -1,7 +1,7 @@
 //! The recurrence of powers in `stribeck-exponential`, against formulas, which use another recurrence for the same law.
 
-use quell_model::friction::{BranchSeries, LawVisitor, SlidingLaw};
-use quell_model::{Expression, Friction, StribeckExponential};
+use quell_model::friction::{BranchSeries, LawSeries, LawVisitor};
+use quell_model::{Expression, Friction, SlidingLaw, StribeckExponential};
 
 const TERMS: usize = 16;
 
@@ -10,7 +10,7 @@ struct Along([f64; TERMS]);
 impl LawVisitor for Along {
     type Output = [f64; TERMS];
 
-    fn visit<L: SlidingLaw>(self, law: &L) -> [f64; TERMS] {
+    fn visit<L: LawSeries>(self, law: &L) -> [f64; TERMS] {
         let w = self.0.map(|w| w / law.velocity_scale());
         let mut constants = L::constants::<f64>(std::slice::from_ref(law));
         let mut series = L::series::<f64, TERMS>(&mut constants, 1.0, w[0]);

@@ -1,6 +1,6 @@
 //! The Taylor recurrence μ₀, μ₁, … along a slip w(t) = Σ wₖtᵏ, against the law itself.
 
-use quell_model::friction::{BranchSeries, LawVisitor, SlidingLaw};
+use quell_model::friction::{BranchSeries, LawSeries, LawVisitor};
 use quell_model::{Friction, LawKind};
 use quell_numerics::lane::{Lane, LanePair, horner};
 
@@ -18,7 +18,7 @@ struct Along<'a, V> {
 impl<V: Lane> LawVisitor for Along<'_, V> {
     type Output = [V; TERMS];
 
-    fn visit<L: SlidingLaw>(self, law: &L) -> [V; TERMS] {
+    fn visit<L: LawSeries>(self, law: &L) -> [V; TERMS] {
         let w = self.slip;
         let mut constants = L::constants::<V>(&vec![law.clone(); V::LANES]);
         let mut series = L::series::<V, TERMS>(&mut constants, V::splat(self.sign), w[0]);
@@ -155,7 +155,7 @@ struct Trusted<'a>(&'a [f64; TERMS]);
 impl LawVisitor for Trusted<'_> {
     type Output = f64;
 
-    fn visit<L: SlidingLaw>(self, law: &L) -> f64 {
+    fn visit<L: LawSeries>(self, law: &L) -> f64 {
         let w = &self.0[..=ORDER];
         let mut constants = L::constants::<f64>(std::slice::from_ref(law));
         let mut series = L::series::<f64, { ORDER + 1 }>(&mut constants, 1.0, w[0]);

@@ -1,8 +1,8 @@
 //! A batch: as many runs as there are lanes, and when each is serviced.
 
-use quell_model::friction::SlidingLaw;
+use quell_model::Friction;
 use quell_numerics::dispatch::InstructionSet;
-use quell_numerics::lane::{Lane, MOST_LANES};
+use quell_numerics::lane::MOST_LANES;
 
 use super::super::engine::Engine;
 use super::super::forcing::ForcingShapes;
@@ -16,63 +16,60 @@ use super::run_slot::RunSlot;
 /// Most batches of a loop: enough that the roots of one round fill the lanes of the search.
 pub(super) const MOST_BATCHES: usize = 4;
 
-/// As many runs as there are lanes.
-pub(super) struct Batch<'a, V: Lane, L: SlidingLaw> {
+/// As many runs as there are lanes. What they share of their law is in [`LawLanes`](super::law_lanes::LawLanes).
+pub(super) struct Batch<'a> {
     set: InstructionSet,
-    pub(super) lanes: LaneState<V>,
-    slots: [Option<RunSlot<'a>>; MOST_LANES],
-    laws: Vec<L>,
-    constants: Option<L::Constants<V>>,
+    pub(super) lanes: LaneState,
+    /// One for each lane.
+    slots: Vec<Option<RunSlot<'a>>>,
     /// Number of lanes with a run.
     pub(super) occupied: usize,
     /// Number of lanes that wait for a run: every lane at first, then each whose run is over.
     waiting: usize,
-    round: u64,
+    pub(super) round: u64,
     /// Whether no run needs service after the last step.
     pub(super) all_clear: bool,
 }
 
-impl<'a, V: Lane, L: SlidingLaw> Batch<'a, V, L> {
-    #[inline(always)]
-    pub(super) fn new(set: InstructionSet, shapes: ForcingShapes) -> Self {
+/// Takes the number and the result of a run that is over.
+pub(super) type RunFinish<'f> = dyn FnMut(usize, RunResult) + 'f;
+
+impl<'a> Batch<'a> {
+    pub(super) fn new(set: InstructionSet, lanes: usize, shapes: ForcingShapes) -> Self {
+        debug_assert!(lanes <= MOST_LANES);
         Self {
             set,
-            lanes: LaneState::new(shapes),
-            slots: std::array::from_fn(|_| None),
-            laws: Vec::with_capacity(V::LANES),
-            constants: None,
+            lanes: LaneState::new(lanes, shapes),
+            slots: (0..lanes).map(|_| None).collect(),
             occupied: 0,
-            waiting: V::LANES,
+            waiting: lanes,
             round: 0,
             all_clear: true,
         }
     }
 
-    /// Fills the empty lanes with the next runs of the queue.
+    /// Fills the empty lanes with the next runs of the queue. Returns whether there were any empty lanes.
     #[inline(never)]
     pub(super) fn fill(
         &mut self,
-        queue: &mut impl Iterator<Item = (usize, SimulationRun<'a>, L)>,
+        queue: &mut dyn Iterator<Item = (usize, SimulationRun<'a>)>,
         tolerance: f64,
-        finish: &mut impl FnMut(usize, RunResult),
-    ) {
+        finish: &mut RunFinish<'_>,
+    ) -> bool {
         if self.waiting == 0 {
-            return;
+            return false;
         }
-        for (lane, slot) in self.slots.iter_mut().enumerate().take(V::LANES) {
+        for (lane, slot) in self.slots.iter_mut().enumerate() {
             while slot.is_none() {
-                let Some((number, run, law)) = queue.next() else { break };
-                let mut engine = Engine::new(run, &law, tolerance);
+                let Some((number, run)) = queue.next() else { break };
+                let belt = run.belt;
+                let mut engine = Engine::new(run, tolerance);
                 match engine.next(self.set) {
                     Next::Over(result) => finish(number, result),
                     Next::Slip(due) => {
-                        if self.laws.is_empty() {
-                            self.laws.resize(V::LANES, law.clone());
-                        }
-                        self.laws[lane] = law;
                         self.lanes.admit(lane, &engine);
                         self.lanes.load(lane, &engine, due);
-                        *slot = Some(RunSlot { number, engine, due, synced: self.round });
+                        *slot = Some(RunSlot { number, belt, engine, due, synced: self.round });
                         self.occupied += 1;
                     }
                 }
@@ -82,23 +79,18 @@ impl<'a, V: Lane, L: SlidingLaw> Batch<'a, V, L> {
             }
         }
         self.waiting = 0;
-        if !self.laws.is_empty() {
-            self.constants = Some(L::constants::<V>(&self.laws));
-        }
+        true
     }
 
-    /// Takes one slip step in all lanes.
-    #[inline(always)]
-    pub(super) fn step(&mut self) {
-        self.round += 1;
-        if let Some(constants) = &mut self.constants {
-            self.all_clear = self.lanes.step::<L>(constants);
-        }
+    /// The laws of the runs, with their lanes.
+    pub(super) fn frictions(&self) -> impl Iterator<Item = (usize, &'a Friction)> {
+        let slots = self.slots.iter().enumerate();
+        slots.filter_map(|(lane, slot)| Some((lane, slot.as_ref()?.belt.friction())))
     }
 
     /// Lets the engines of the lanes that need service continue to their next slip step.
     #[inline]
-    pub(super) fn service(&mut self, finish: &mut impl FnMut(usize, RunResult)) {
+    pub(super) fn service(&mut self, finish: &mut RunFinish<'_>) {
         if self.round.is_multiple_of(CHECK_INTERVAL) {
             self.check_budgets(finish);
         }
@@ -106,7 +98,7 @@ impl<'a, V: Lane, L: SlidingLaw> Batch<'a, V, L> {
             return;
         }
         self.all_clear = true;
-        for (lane, place) in self.slots.iter_mut().enumerate().take(V::LANES) {
+        for (lane, place) in self.slots.iter_mut().enumerate() {
             if !self.lanes.needs_service(lane) {
                 continue;
             }
@@ -122,8 +114,8 @@ impl<'a, V: Lane, L: SlidingLaw> Batch<'a, V, L> {
 
     /// Stops the runs that exceed their step budget in lanes that need no service: their engines receive no step.
     #[cold]
-    fn check_budgets(&mut self, finish: &mut impl FnMut(usize, RunResult)) {
-        for (lane, place) in self.slots.iter_mut().enumerate().take(V::LANES) {
+    fn check_budgets(&mut self, finish: &mut RunFinish<'_>) {
+        for (lane, place) in self.slots.iter_mut().enumerate() {
             let Some(slot) = place else { continue };
             if self.lanes.needs_service(lane) {
                 continue;

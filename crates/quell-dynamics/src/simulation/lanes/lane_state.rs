@@ -1,6 +1,6 @@
 //! The state of the lanes of one batch, and the slip step that all of them take at once.
 
-use quell_model::friction::SlidingLaw;
+use quell_model::friction::LawSeries;
 use quell_numerics::dispatch::InstructionSet;
 use quell_numerics::lane::{Lane, MOST_LANES, horner};
 
@@ -19,7 +19,11 @@ use super::run_slot::RunSlot;
 ///
 /// Clock, displacement and slip of a lane are the working copy of those in the engine's state: a lane
 /// takes slip steps without events on them alone, and [`LaneState::service`] brings the engine up to date.
-pub(super) struct LaneState<V> {
+///
+/// It is the same type in lanes of any width, and what only moves numbers is compiled once for all of them and for every law.
+pub(super) struct LaneState {
+    /// Number of lanes.
+    lanes: usize,
     // Constants of a run.
     damping: LaneRow,
     belt_velocity: LaneRow,
@@ -55,13 +59,12 @@ pub(super) struct LaneState<V> {
     /// Coefficient by coefficient, [`Lane::LANES`] side by side.
     displacement_series: [f64; (ORDER + 1) * MOST_LANES],
     pub(super) slip_series: [f64; (ORDER + 1) * MOST_LANES],
-    series: SlipSeries<V>,
 }
 
-impl<V: Lane> LaneState<V> {
-    #[inline(always)]
-    pub(super) fn new((tangential, normal): ForcingShapes) -> Self {
+impl LaneState {
+    pub(super) fn new(lanes: usize, (tangential, normal): ForcingShapes) -> Self {
         Self {
+            lanes,
             damping: LaneRow::ZERO,
             belt_velocity: LaneRow::ZERO,
             tolerance: LaneRow::ZERO,
@@ -87,10 +90,6 @@ impl<V: Lane> LaneState<V> {
             clear: LaneRow::ZERO,
             displacement_series: [0.0; (ORDER + 1) * MOST_LANES],
             slip_series: [0.0; (ORDER + 1) * MOST_LANES],
-            series: SlipSeries {
-                displacement: [V::splat(0.0); ORDER + 1],
-                slip: [V::splat(0.0); ORDER + 1],
-            },
         }
     }
 
@@ -131,7 +130,6 @@ impl<V: Lane> LaneState<V> {
     }
 
     /// Writes the start of the next step.
-    #[inline(always)]
     pub(super) fn load(&mut self, lane: usize, engine: &Engine<'_>, due: SlipDue) {
         self.sign.0[lane] = due.sign;
         self.stop.0[lane] = due.stop;
@@ -147,7 +145,11 @@ impl<V: Lane> LaneState<V> {
 
     /// Takes one slip step in every lane. Returns whether no lane needs service.
     #[inline(always)]
-    pub(super) fn step<L: SlidingLaw>(&mut self, law: &mut L::Constants<V>) -> bool {
+    pub(super) fn step<V: Lane, L: LawSeries>(
+        &mut self,
+        law: &mut L::Constants<V>,
+        series: &mut SlipSeries<V>,
+    ) -> bool {
         let equation =
             SlipEquation { damping: self.damping.load(), belt_velocity: self.belt_velocity.load() };
         let start = SlipStart {
@@ -169,7 +171,6 @@ impl<V: Lane> LaneState<V> {
             }
             StepLoad::Series(&load_series)
         };
-        let series = &mut self.series;
         let stop: V = self.stop.load();
         let room = until(time, low, stop);
         let limits =
@@ -211,8 +212,8 @@ impl<V: Lane> LaneState<V> {
 
     /// Ends the steps with a root at the root.
     #[inline(always)]
-    pub(super) fn cut_at_roots(&mut self) {
-        let at_root = horner(&self.series.displacement, self.duration.load());
+    pub(super) fn cut_at_roots<V: Lane>(&mut self, series: &SlipSeries<V>) {
+        let at_root = horner(&series.displacement, self.duration.load());
         let found: V = self.found.load();
         self.displacement.store(found.where_positive(at_root, self.displacement.load()));
     }
@@ -237,8 +238,6 @@ impl<V: Lane> LaneState<V> {
     }
 
     /// Lets the engine of a lane accept the step and continue to its next one. Returns the result of a run that is over.
-    ///
-    /// It only moves numbers, and calls the engine: one function for every law.
     #[inline(never)]
     pub(super) fn service(
         &mut self,
@@ -250,7 +249,7 @@ impl<V: Lane> LaneState<V> {
         let RunSlot { engine, due, synced, .. } = slot;
         let pending = round - *synced - 1;
         let clock = Clock::of(self.time_before.0[lane], self.low_before.0[lane]);
-        let column = |rows| LaneColumn { rows, lanes: V::LANES, lane };
+        let column = |rows| LaneColumn { rows, lanes: self.lanes, lane };
         let (displacement, slip) = (column(&self.displacement_series), column(&self.slip_series));
         engine.state.catch_up(
             pending,

@@ -15,15 +15,17 @@
 mod batch;
 mod forcing_rows;
 mod lane_state;
+mod law_lanes;
 mod root_search;
 mod run_slot;
 
 use quell_model::Direction;
-use quell_model::friction::{LawVisitor, SlidingLaw};
+use quell_model::friction::{LawSeries, LawVisitor};
 use quell_numerics::dispatch::{InstructionSet, LaneWork, with_lanes};
 use quell_numerics::lane::Lane;
 
-use self::batch::{Batch, MOST_BATCHES};
+use self::batch::{Batch, MOST_BATCHES, RunFinish};
+use self::law_lanes::LawLanes;
 use self::root_search::RootSearch;
 use super::forcing::{ForcingShape, ForcingShapes};
 use super::run::SimulationRun;
@@ -72,11 +74,7 @@ struct RunGroup<'q, 'a> {
 impl LawVisitor for RunGroup<'_, '_> {
     type Output = ();
 
-    fn visit<L: SlidingLaw>(self, _: &L) {
-        // Belts whose contact has a state are not simulated here: they were refused.
-        if const { L::HAS_STATE } {
-            return;
-        }
+    fn visit<L: LawSeries>(self, _: &L) {
         with_lanes(self.set, RunGroupOf::<L> { group: self, law: std::marker::PhantomData });
     }
 }
@@ -87,20 +85,14 @@ struct RunGroupOf<'q, 'a, L> {
     law: std::marker::PhantomData<L>,
 }
 
-impl<L: SlidingLaw> LaneWork for RunGroupOf<'_, '_, L> {
+impl<L: LawSeries> LaneWork for RunGroupOf<'_, '_, L> {
     type Output = ();
 
     #[inline(always)]
     fn run<V: Lane>(self) {
         let RunGroup { set, runs, shapes, tolerance, outcomes } = self.group;
-        // Every run has this kind of law, by the choice of the group.
-        let runs = runs
-            .into_iter()
-            .filter_map(|(number, run)| Some((number, L::of(run.belt.friction())?, run)))
-            .map(|(number, law, run)| (number, run, law))
-            .collect::<Vec<_>>();
-        let runs = runs.into_iter();
-        drive::<V, L>(runs, set, shapes, tolerance, |number, outcome| outcomes[number] = outcome);
+        let finish: &mut RunFinish<'_> = &mut |number, outcome| outcomes[number] = outcome;
+        drive::<V, L>(runs, set, shapes, tolerance, finish);
     }
 }
 
@@ -108,31 +100,35 @@ impl<L: SlidingLaw> LaneWork for RunGroupOf<'_, '_, L> {
 /// is possible, then services the runs that need it. A lane in which only slip occurs is not
 /// serviced: its state is in the lanes alone.
 #[inline(always)]
-fn drive<'a, V: Lane, L: SlidingLaw>(
-    mut queue: impl ExactSizeIterator<Item = (usize, SimulationRun<'a>, L)>,
+fn drive<V: Lane, L: LawSeries>(
+    runs: Vec<(usize, SimulationRun<'_>)>,
     set: InstructionSet,
     shapes: ForcingShapes,
     tolerance: f64,
-    mut finish: impl FnMut(usize, RunResult),
+    finish: &mut RunFinish<'_>,
 ) {
-    let count = queue.len().div_ceil(V::LANES).clamp(1, MOST_BATCHES);
-    let mut batches: Vec<Batch<'a, V, L>> = (0..count).map(|_| Batch::new(set, shapes)).collect();
+    let count = runs.len().div_ceil(V::LANES).clamp(1, MOST_BATCHES);
+    let mut queue = runs.into_iter();
+    let mut batches: Vec<_> = (0..count).map(|_| Batch::new(set, V::LANES, shapes)).collect();
+    let mut laws: Vec<LawLanes<V, L>> = (0..count).map(|_| LawLanes::new()).collect();
     let mut search = RootSearch::new(set);
     loop {
         let mut occupied = 0;
-        for batch in &mut batches {
-            batch.fill(&mut queue, tolerance, &mut finish);
+        for (batch, laws) in batches.iter_mut().zip(&mut laws) {
+            if batch.fill(&mut queue, tolerance, finish) {
+                laws.refresh(batch);
+            }
             occupied += batch.occupied;
             if batch.occupied > 0 {
-                batch.step();
+                laws.step(batch);
             }
         }
         if occupied == 0 {
             return;
         }
-        search.run::<V, L>(&mut batches);
+        search.run::<V, L>(&mut batches, &laws);
         for batch in &mut batches {
-            batch.service(&mut finish);
+            batch.service(finish);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Roots of v_r on the steps that may have one, gathered from all batches so that they fill the
 //! lanes.
 
-use quell_model::friction::SlidingLaw;
+use quell_model::friction::LawSeries;
 use quell_numerics::dispatch::{InstructionSet, LaneWork, with_lanes};
 use quell_numerics::lane::{Lane, MOST_LANES};
 use quell_numerics::polynomial::side_by_side::first_crossings;
@@ -9,6 +9,7 @@ use quell_numerics::polynomial::side_by_side::first_crossings;
 use super::super::lane_row::LaneRow;
 use super::super::taylor::ORDER;
 use super::batch::{Batch, MOST_BATCHES};
+use super::law_lanes::LawLanes;
 
 /// The search for roots of v_r on the steps that may have one, from all batches side by side.
 pub(super) struct RootSearch {
@@ -34,37 +35,47 @@ impl RootSearch {
     }
 
     #[inline(always)]
-    pub(super) fn run<V: Lane, L: SlidingLaw>(&mut self, batches: &mut [Batch<'_, V, L>]) {
+    pub(super) fn run<V: Lane, L: LawSeries>(
+        &mut self,
+        batches: &mut [Batch<'_>],
+        laws: &[LawLanes<V, L>],
+    ) {
+        self.find::<V>(batches);
+        for (batch, laws) in batches.iter_mut().zip(laws).filter(|(batch, _)| !batch.all_clear) {
+            batch.lanes.cut_at_roots(&laws.series);
+        }
+    }
+
+    /// Gathers the candidates, finds their roots and gives them back: one function for every law.
+    #[inline(never)]
+    fn find<V: Lane>(&mut self, batches: &mut [Batch<'_>]) {
+        let lanes = V::LANES;
         self.candidates.clear();
         for (number, batch) in batches.iter().enumerate() {
             if batch.all_clear {
                 continue;
             }
-            let lanes = (0..V::LANES).filter(|&lane| batch.lanes.is_unproven(lane));
-            self.candidates.extend(lanes.map(|lane| (number, lane)));
+            let unproven = (0..lanes).filter(|&lane| batch.lanes.is_unproven(lane));
+            self.candidates.extend(unproven.map(|lane| (number, lane)));
         }
-        for first in (0..self.candidates.len()).step_by(V::LANES) {
-            let last = self.candidates.len().min(first + V::LANES);
+        for first in (0..self.candidates.len()).step_by(lanes) {
+            let last = self.candidates.len().min(first + lanes);
             self.wanted = LaneRow::ZERO;
             for (slot, &(batch, lane)) in self.candidates[first..last].iter().enumerate() {
                 let state = &batches[batch].lanes;
                 for k in 0..=ORDER {
-                    self.slip[k * V::LANES + slot] = state.slip_series[k * V::LANES + lane];
+                    self.slip[k * lanes + slot] = state.slip_series[k * lanes + lane];
                 }
                 self.zeros.0[slot] = state.zeros_before.0[lane];
                 self.length.0[slot] = state.length.0[lane];
                 self.wanted.0[slot] = 1.0;
             }
-            // One function for every law.
             let (found, time) = with_lanes(self.set, Roots(self));
             for (slot, &(batch, lane)) in self.candidates[first..last].iter().enumerate() {
                 let state = &mut batches[batch].lanes;
                 state.found.0[lane] = found.0[slot];
                 state.duration.0[lane] = time.0[slot];
             }
-        }
-        for batch in batches.iter_mut().filter(|batch| !batch.all_clear) {
-            batch.lanes.cut_at_roots();
         }
     }
 }

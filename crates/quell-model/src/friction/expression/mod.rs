@@ -340,6 +340,13 @@ impl LawParameters for Expression {
 }
 
 impl SlidingLaw for Expression {
+    type Recurrence = Self;
+
+    #[inline(always)]
+    fn recurrence(&self) -> &Self {
+        self
+    }
+
     fn placed(&self, surroundings: &Surroundings) -> Result<Self, InvalidValues> {
         let own =
             || if surroundings.slip > 0.0 { surroundings.slip } else { self.velocity_scale() };

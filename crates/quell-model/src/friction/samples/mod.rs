@@ -9,13 +9,10 @@
 
 use std::sync::Arc;
 
-use quell_numerics::lane::Lane;
+use quell_numerics::order::ascending;
 
-use super::expression::{ExpressionConstants, ExpressionSeries};
 use super::numeric::not_a_number_of;
-use super::{
-    Expression, LawParameters, LawSeries, RangeLimit, SlidingLaw, SlipRange, Surroundings,
-};
+use super::{Expression, LawParameters, RangeLimit, SlidingLaw, SlipRange, Surroundings};
 use crate::parameter::{Parameter, STATIC_COEFFICIENT};
 use crate::{Invalid, InvalidValues};
 
@@ -91,7 +88,7 @@ impl Samples {
             return Err(InvalidValues::of(complaints));
         }
         let mut speeds: Vec<f64> = samples.iter().map(|(speed, _)| *speed).collect();
-        speeds.sort_by(f64::total_cmp);
+        ascending(&mut speeds);
         speeds.dedup();
         if speeds.len() < FEWEST {
             let allowed = format!("at least {FEWEST} distinct speeds");
@@ -163,6 +160,12 @@ impl LawParameters for Samples {
 }
 
 impl SlidingLaw for Samples {
+    type Recurrence = Expression;
+
+    fn recurrence(&self) -> &Expression {
+        &self.curve
+    }
+
     /// Slip beyond the samples causes a warning; the trend of the fit is proven there as well.
     fn placed(&self, surroundings: &Surroundings) -> Result<Self, InvalidValues> {
         let data = self.fit.range.1 * self.curve.velocity_unit();
@@ -191,29 +194,5 @@ impl SlidingLaw for Samples {
 
     fn alone(&self, speed: f64) -> (f64, f64) {
         self.curve.alone(speed)
-    }
-}
-
-impl LawSeries for Samples {
-    type Constants<V: Lane> = ExpressionConstants<V>;
-
-    fn constants<V: Lane>(laws: &[Self]) -> ExpressionConstants<V> {
-        let curves: Vec<Expression> = laws.iter().map(|law| law.curve.clone()).collect();
-        Expression::constants(&curves)
-    }
-
-    fn is_alike(&self, other: &Self) -> bool {
-        self.curve.is_alike(&other.curve)
-    }
-
-    type Series<'c, V: Lane, const N: usize> = ExpressionSeries<'c, V, N>;
-
-    #[inline(always)]
-    fn series<V: Lane, const N: usize>(
-        constants: &mut ExpressionConstants<V>,
-        sign: V,
-        w0: V,
-    ) -> ExpressionSeries<'_, V, N> {
-        Expression::series(constants, sign, w0)
     }
 }
