@@ -9,6 +9,7 @@
 
 use quell_numerics::damped_least_squares::DampedMinimum;
 use quell_numerics::matrix::Matrix;
+use quell_numerics::order::descending_by;
 use quell_numerics::symmetric_eigenvectors::{Eigenpair, symmetric_eigenpairs};
 
 /// Ratio of the least to the largest eigenvalue below which the inverse has no digit left.
@@ -141,7 +142,7 @@ impl Estimates {
             let mut shares: Vec<(usize, f64)> =
                 visible.iter().copied().zip(pair.vector.iter().copied()).collect();
             shares.retain(|(_, share)| share.abs() > NAMED);
-            shares.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+            descending_by(&mut shares, |b| b.1.abs());
             self.weak.push(WeakCombination { ratio: (pair.value / largest).max(0.0), shares });
         }
         self.condition = lost.is_empty().then(|| largest / pairs[0].value);

@@ -20,19 +20,19 @@ impl Tasks for InTurn {
 }
 
 /// The answers about items, in their order, however the tasks were run.
-pub(crate) fn answers<I: Sync, T: Send>(
+pub fn answers<'i, I: Sync, T: Send>(
     tasks: &dyn Tasks,
-    items: &[I],
-    answer: impl Fn(&I) -> T + Sync,
+    items: &'i [I],
+    answer: impl Fn(&'i I) -> T + Sync,
 ) -> Vec<T> {
-    let found: Mutex<Vec<(usize, T)>> = Mutex::new(Vec::with_capacity(items.len()));
+    let mut places: Vec<Option<T>> = Vec::new();
+    places.resize_with(items.len(), || None);
+    let found = Mutex::new(places);
     tasks.run(items.len(), &|index| {
         let one = answer(&items[index]);
-        found.lock().unwrap_or_else(PoisonError::into_inner).push((index, one));
+        found.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(one);
     });
-    let mut found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
-    found.sort_unstable_by_key(|(index, _)| *index);
-    found.into_iter().map(|(_, one)| one).collect()
+    found.into_inner().unwrap_or_else(PoisonError::into_inner).into_iter().flatten().collect()
 }
 
 #[cfg(test)]

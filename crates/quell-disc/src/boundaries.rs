@@ -14,6 +14,7 @@
 use std::fmt;
 
 use quell_numerics::eigen::{Decomposition, EigenError};
+use quell_numerics::order::ascending_by;
 
 use crate::equations::linearised;
 use quell_model::Disc;
@@ -130,6 +131,6 @@ pub fn boundaries(disc: &Disc) -> Result<Vec<ModeBoundary>, NoBoundary> {
         };
         found.push(ModeBoundary { frequency: value.im, friction });
     }
-    found.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+    ascending_by(&mut found, |a| a.frequency);
     Ok(found)
 }

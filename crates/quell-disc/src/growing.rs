@@ -12,6 +12,7 @@ use core::ops::RangeInclusive;
 use quell_linear::floquet::NotFollowerDither;
 use quell_model::Disc;
 use quell_numerics::eigen::EigenError;
+use quell_numerics::order::ascending;
 use quell_numerics::roots::{Closeness, minimise};
 
 use crate::marginal::{DiscExponent, exponents, marginal_values, tongue_grid};
@@ -93,7 +94,7 @@ fn peak(
     let equal = |k: u32| (to - from).mul_add(f64::from(k) / f64::from(INSIDE), from);
     let mut inside: Vec<f64> = (0..=INSIDE).map(equal).collect();
     inside.extend(grid.iter().copied().filter(|speed| *speed > from && *speed < to));
-    inside.sort_unstable_by(f64::total_cmp);
+    ascending(&mut inside);
     inside.dedup();
     let rates = inside.iter().map(|speed| rate(*speed)).collect::<Result<Vec<f64>, _>>()?;
     let best = (0..rates.len()).max_by(|a, b| rates[*a].total_cmp(&rates[*b])).unwrap_or(0);

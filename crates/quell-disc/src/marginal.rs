@@ -23,6 +23,7 @@ use quell_model::Disc;
 use quell_model::disc::Contributions;
 use quell_numerics::eigen::EigenError;
 use quell_numerics::floquet::{Effort, Exponent};
+use quell_numerics::order::{ascending, ascending_by, descending_by};
 use quell_numerics::roots::{Closeness, try_find_root};
 
 use crate::dithered;
@@ -192,7 +193,7 @@ pub fn tongue_grid(disc: &Disc, speeds: &RangeInclusive<f64>, steps: u32) -> Vec
         }
     }
     grid.retain(|speed| (from..=to).contains(speed));
-    grid.sort_unstable_by(f64::total_cmp);
+    ascending(&mut grid);
     grid.dedup_by(|a, b| (*a - *b).abs() <= 1e-9);
     grid
 }
@@ -230,7 +231,7 @@ pub fn marginal_values<E>(
         before = Some(point);
     }
     let mut found = line.found;
-    found.sort_by(|a, b| a.value.total_cmp(&b.value));
+    ascending_by(&mut found, |a| a.value);
     Ok(found)
 }
 
@@ -275,7 +276,7 @@ impl<E> Line<'_, E> {
                 exponents.push(exponent);
             }
         }
-        exponents.sort_by(|a, b| b.rate.total_cmp(&a.rate));
+        descending_by(&mut exponents, |b| b.rate);
         Ok(LinePoint { at, exponents })
     }
 

@@ -25,6 +25,7 @@ use std::fmt;
 
 use num_complex::Complex64;
 use quell_numerics::eigen::Tridiagonal;
+use quell_numerics::order::ascending_by;
 
 use quell_model::{Disc, Waveform};
 
@@ -276,7 +277,7 @@ pub fn crossings(disc: &Disc) -> Result<Vec<FrictionCrossing>, NoPartition> {
         return Err(NoPartition::Eigenvalues);
     }
     push_real(&before, at(points), &mut found);
-    found.sort_by(|a, b| a.factor.total_cmp(&b.factor));
+    ascending_by(&mut found, |a| a.factor);
     found.dedup_by(|a, b| {
         (a.factor - b.factor).abs() <= 1e-9 * b.factor
             && (a.frequency - b.frequency).abs() <= 1e-9 * ratio

@@ -12,6 +12,7 @@ use quell_model::Disc;
 use quell_model::disc::Contributions;
 use quell_numerics::eigen::EigenError;
 use quell_numerics::matrix::Matrix;
+use quell_numerics::order::ascending_by;
 
 /// Amplification of a mode from which its critical speed is near: Ω is within 5 % of Ω_c.
 pub const NEAR: f64 = 10.0;
@@ -43,7 +44,7 @@ pub fn critical_speeds(disc: &Disc) -> Vec<CriticalSpeed> {
         Some(CriticalSpeed { mode, speed, amplification })
     };
     let mut found: Vec<CriticalSpeed> = (0..disc.modes().len()).filter_map(of_mode).collect();
-    found.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+    ascending_by(&mut found, |a| a.speed);
     found
 }
 

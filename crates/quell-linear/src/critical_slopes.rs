@@ -21,6 +21,7 @@
 use num_complex::Complex64;
 use quell_numerics::eigen::{Decomposition, modulus};
 use quell_numerics::matrix::Matrix;
+use quell_numerics::order::ascending;
 
 use crate::growth::Verdict;
 use crate::linearised::{FrictionSlopes, LinearContact, Linearised};
@@ -58,7 +59,7 @@ impl CriticalSlopes {
         let (column, row) = (over_states(contact.along()), over_states(tangent));
         let mut slopes = candidates(&matrix, &column, &row)?;
         slopes.push(0.0);
-        slopes.sort_unstable_by(f64::total_cmp);
+        ascending(&mut slopes);
         let largest = slopes.iter().fold(0.0, |most: f64, slope| most.max(slope.abs()));
         slopes.dedup_by(|a, b| (*a - *b).abs() <= SAME * largest);
         let scale = if largest > 0.0 { largest } else { 1.0 };

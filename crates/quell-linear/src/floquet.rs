@@ -27,6 +27,7 @@ use quell_numerics::floquet::{
     VaryingPiece, of_pieces,
 };
 use quell_numerics::matrix::Matrix;
+use quell_numerics::order::ascending;
 
 use crate::growth::Growth;
 use crate::linearised::{LinearContact, Linearised};
@@ -335,7 +336,7 @@ fn breaks(factors: &[Factor]) -> Vec<f64> {
         })
     };
     let mut breaks: Vec<f64> = factors.iter().flat_map(of_one).collect();
-    breaks.sort_by(f64::total_cmp);
+    ascending(&mut breaks);
     breaks.dedup_by(|next, before| *next - *before <= SAME_BREAK);
     // The last may be the first again, one period later.
     if breaks.len() > 1 && breaks[0] + 1.0 - breaks[breaks.len() - 1] <= SAME_BREAK {

@@ -10,6 +10,7 @@
 //! * [`symmetric`], [`symmetric_eigenvectors`]: eigenvalues of symmetric pencils, eigenvectors of small symmetric matrices;
 //! * [`least_squares`], [`damped_least_squares`]: linear fits of a few columns, nonlinear fits within bounds;
 //! * [`random`]: pseudorandom numbers with fixed bits;
+//! * [`order`]: sorting by numbers, compiled once;
 //! * [`cyclic`]: sequences whose beginning is arbitrary;
 //! * [`interval`]: bounds of functions over intervals with outward rounding, for proofs;
 //! * [`normal_form`]: coefficients that decide whether a bifurcation is supercritical;
@@ -31,6 +32,7 @@ pub mod lane;
 pub mod least_squares;
 pub mod matrix;
 pub mod normal_form;
+pub mod order;
 pub mod periodic_polynomial;
 pub mod polynomial;
 pub mod quadrature;

@@ -4,6 +4,7 @@
 //! that the result has the same bits everywhere. For matrices of a few dozen rows.
 
 use crate::matrix::Matrix;
+use crate::order::ascending_by;
 
 /// Sweeps after which every matrix of this size has converged: the convergence is quadratic, and ten are rarely needed.
 const SWEEPS: usize = 60;
@@ -47,7 +48,7 @@ pub fn symmetric_eigenpairs(matrix: &Matrix) -> Option<Vec<Eigenpair>> {
             vector: (0..size).map(|row| vectors[(row, k)]).collect(),
         })
         .collect();
-    pairs.sort_by(|a, b| a.value.total_cmp(&b.value));
+    ascending_by(&mut pairs, |a| a.value);
     Some(pairs)
 }
 

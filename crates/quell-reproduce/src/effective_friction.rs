@@ -6,6 +6,7 @@
 
 use quell_linear::averaging::{FastMotion, FastWave, effective};
 use quell_model::{LawKind, Waveform};
+use quell_numerics::order::ascending;
 
 use super::axis::values;
 use super::caption::{count_of, letter, parameters, short, waveform_name};
@@ -187,7 +188,7 @@ fn grid(corner: f64) -> Vec<f64> {
         grid.extend([corner, -corner]);
         grid.retain(|w| (FROM..=TO).contains(w));
     }
-    grid.sort_unstable_by(f64::total_cmp);
+    ascending(&mut grid);
     grid.dedup();
     grid
 }

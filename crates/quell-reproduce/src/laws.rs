@@ -3,6 +3,7 @@
 //! Both are odd. At v_r = 0 friction takes any value between ∓μ_s, drawn as a thin line.
 
 use quell_model::{Friction, LawKind};
+use quell_numerics::order::ascending;
 
 use super::caption::{law_name, parameters};
 use super::product::{DataTable, Product};
@@ -104,7 +105,7 @@ pub(super) fn figure(source: &EntrySource) -> Result<Product, Failure> {
 /// Lines at the different values of a level of the laws.
 fn levels(panel: Panel, levels: impl Iterator<Item = f64>, label: &str) -> Panel {
     let mut levels: Vec<f64> = levels.collect();
-    levels.sort_unstable_by(f64::total_cmp);
+    ascending(&mut levels);
     levels.dedup();
     levels
         .into_iter()

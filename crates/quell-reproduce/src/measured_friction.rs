@@ -12,13 +12,14 @@
 //!
 //! Both are compared with the averaging approximation with both terms of (4.23) and with the law itself.
 
+use quell::parallel::Parallel;
 use quell_dynamics::response::{
     WindowMean, measured_effective_friction, steady_effective_friction,
 };
 use quell_dynamics::simulation::Start;
 use quell_linear::averaging::{AveragingOptions, FastMotion, NormalOrder, effective};
 use quell_model::Belt;
-use rayon::prelude::*;
+use quell_numerics::order::ascending;
 
 use super::axis::values;
 use super::caption::{law_name, letter, parameters, waveform_name};
@@ -97,11 +98,11 @@ pub(super) fn cases(source: &EntrySource) -> Result<Vec<FrictionPanel>, Failure>
                     && window.slip_velocity < TO
             });
             let belt = study.with("dither.amplitude", amplitude)?.belt().clone();
-            let steady = grid().into_par_iter().filter_map(|v| {
+            let steady = grid().in_parallel(|&v| {
                 let found = steady_effective_friction(&belt, v, TOLERANCE).ok()?;
                 Some((v, found.coefficient, found.stick_fraction))
             });
-            let (steady, averaged) = (steady.collect(), averaged(source.name, &belt)?);
+            let (steady, averaged) = (steady.flatten().collect(), averaged(source.name, &belt)?);
             Ok(FrictionPanel {
                 amplitude,
                 belt,
@@ -246,7 +247,7 @@ fn medians(windows: &[WindowMean]) -> Vec<(f64, f64, usize)> {
     bins.into_iter()
         .filter(|(_, values)| values.len() >= FEWEST)
         .map(|(bin, mut values)| {
-            values.sort_unstable_by(f64::total_cmp);
+            ascending(&mut values);
             let half = values.len() / 2;
             let median = if values.len() % 2 == 1 {
                 values[half]

@@ -14,6 +14,7 @@
 use std::path::{Path, PathBuf};
 
 use quell_design::decay::RecordedQuantity;
+use quell_numerics::order::ascending;
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
@@ -275,7 +276,7 @@ impl TimeSeries {
     pub fn gaps(&self) -> Vec<usize> {
         let mut steps: Vec<f64> = self.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let each = steps.clone();
-        steps.sort_by(f64::total_cmp);
+        ascending(&mut steps);
         let median = steps[steps.len() / 2];
         let long = each.iter().zip(&self.lines).filter(|(step, _)| **step > GAP * median);
         long.map(|(_, line)| *line).collect()

@@ -162,7 +162,7 @@ pub mod kind;
 mod noise;
 pub mod outcome;
 pub mod output;
-mod parallel;
+pub mod parallel;
 pub mod picture;
 mod range;
 mod removed_mean;

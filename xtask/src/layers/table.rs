@@ -92,7 +92,7 @@ const fn confined(
 /// Confined dependencies, with the crates that may use them.
 #[rustfmt::skip]
 pub(crate) const CONFINED: &[Confined] = &[
-    confined("rayon",      &["quell", "quell-reproduce"],            false, "the engines are single-threaded, so that no result depends on scheduling"),
+    confined("rayon",      &["quell"],            false, "the engines are single-threaded, so that no result depends on scheduling"),
     confined("toml",       &["quell-study", "xtask"],    false, "study files are read by one crate; xtask reads manifests"),
     confined("zarrs",      &["quell"],              false, "stores are written by one crate, atomically"),
     confined("png",        &["quell-plot"],         true,  "pictures are drawn by one crate; tests decode them"),

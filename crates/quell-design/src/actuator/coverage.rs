@@ -7,6 +7,7 @@
 //! and its reversal between two samples are found if the ratio that decides them has an extreme at a sample, which a dip or peak of
 //! any width has.
 
+use quell_numerics::order::ascending_by;
 use quell_numerics::roots::{Closeness, minimise};
 
 use super::demand::{ActuatorDemand, ActuatorLimit, ActuatorReach};
@@ -245,7 +246,7 @@ fn insert(
     keep: impl Fn(&ActuatorAtFrequency) -> bool,
 ) {
     points.extend(new.into_iter().filter(|point| keep(point)));
-    points.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+    ascending_by(points, |a| a.frequency);
     points.dedup_by(|a, b| a.frequency == b.frequency);
 }
 

@@ -4,6 +4,7 @@ use quell_model::friction::LawKind;
 use quell_model::parameter::{
     COEFFICIENT, MINIMUM_COEFFICIENT, REFERENCE_VELOCITY, STATIC_COEFFICIENT,
 };
+use quell_numerics::order::ascending_by;
 
 use super::statistics::{ROUNDING, robust_deviation, runs};
 use super::{Certainty, FitPoint, LawFit};
@@ -200,7 +201,7 @@ fn residuals(fit: &LawFit, points: &[FitPoint]) -> Vec<FitFinding> {
         findings.push(FitFinding::Outliers { places, deviation });
     }
     let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by(|a, b| points[*a].speed().total_cmp(&points[*b].speed()));
+    ascending_by(&mut order, |a| points[*a].speed());
     let sorted: Vec<f64> = order.iter().map(|place| fit.residuals[*place]).collect();
     let exact = fit.is_exact();
     if let Some((runs, expected, score)) = runs(&sorted).filter(|_| !exact)

@@ -5,9 +5,8 @@
 //! reference velocity and the exponent are taken over: Kaufman's form of variable projection. Near the minimum undamped steps
 //! converge until they are at rounding.
 
-use std::cmp::Ordering;
-
 use quell_numerics::least_squares::least_squares;
+use quell_numerics::order::ascending_by;
 
 use super::model::{FitModel, Influence};
 use super::projection::{FitSamples, Position, Projected, project};
@@ -145,7 +144,7 @@ fn starts(model: &FitModel, samples: &FitSamples, searched: &[SearchedParameter]
             }
         }
     }
-    minima.sort_by(|a, b| a.0.partial_cmp(&b.0).unwrap_or(Ordering::Equal));
+    ascending_by(&mut minima, |minimum| minimum.0);
     minima.truncate(REFINED);
     minima.into_iter().map(|(_, values)| values).collect()
 }

@@ -1,5 +1,7 @@
 //! Quantiles and tests of residuals.
 
+use quell_numerics::order::ascending;
+
 /// Residuals up to this part of the largest coefficient are rounding.
 pub(super) const ROUNDING: f64 = 1e-12;
 
@@ -50,7 +52,7 @@ fn central(t: f64, degrees: usize) -> f64 {
 /// of outliers.
 pub(super) fn robust_deviation(values: &[f64]) -> f64 {
     let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
+    ascending(&mut sizes);
     let middle = sizes.len() / 2;
     let median = match sizes.len() {
         0 => 0.0,

@@ -6,6 +6,7 @@
 
 use std::sync::Mutex;
 
+use quell_numerics::order::{ascending, descending_by};
 use quell_numerics::roots::{Closeness, minimise};
 
 use super::{DesignProblem, OperatingPoint};
@@ -50,7 +51,7 @@ impl DesignProblem<'_> {
             return Vec::new();
         }
         let mut line: Vec<f64> = points.iter().flatten().copied().collect();
-        line.sort_by(f64::total_cmp);
+        ascending(&mut line);
         line.dedup();
         line
     }
@@ -102,7 +103,7 @@ impl DesignProblem<'_> {
         judge: impl Fn(f64) -> (Option<f64>, T) + Sync,
     ) -> Vec<(f64, T)> {
         let mut peaks = brackets(points, multipliers);
-        peaks.sort_by(|a, b| b.0.total_cmp(&a.0));
+        descending_by(&mut peaks, |b| b.0);
         peaks.truncate(PEAKS);
         let judged = answers(self.tasks, &peaks, |(_, (low, high))| {
             let closeness =

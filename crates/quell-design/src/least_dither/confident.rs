@@ -7,6 +7,8 @@
 
 use std::collections::BTreeMap;
 
+use quell_numerics::order::{ascending, ascending_by};
+
 use super::exact_box::{ExactBox, Near, QuietSet, WINDOW};
 use super::quiet::QuietAmplitudes;
 use super::search::{Judged, grid};
@@ -187,7 +189,7 @@ impl SampledLeast {
     /// samples.
     pub fn quantile(&self, probability: f64) -> Option<LeastQuantile> {
         let mut best = self.enough();
-        best.sort_by(f64::total_cmp);
+        ascending(&mut best);
         let [low, value, high] = self.ranks(probability)?.map(|rank| best[rank]);
         Some(LeastQuantile { value, interval: (low, high) })
     }
@@ -213,7 +215,7 @@ impl SampledLeast {
         if self.exact.is_empty() {
             let more = (FIRST * self.averaged.len() as f64).ceil() as usize;
             let mut order: Vec<usize> = (0..self.averaged.len()).collect();
-            order.sort_by(|a, b| self.averaged[*a].total_cmp(&self.averaged[*b]));
+            ascending_by(&mut order, |a| self.averaged[*a]);
             let range = low.saturating_sub(more)..(high + more + 1).min(order.len());
             let elsewhere = (0..SPREAD).map(|part| part * order.len() / SPREAD);
             let mut places: Vec<usize> = range.chain(elsewhere).collect();

@@ -4,6 +4,7 @@
 //! Averaging ranks dithers by the length of that part: on a grid over the box first, then with ends of their own, so that the best
 //! amplitude does not depend on the points of the grid. Exact responses then decide ([`super::served_part`]).
 
+use quell_numerics::order::{ascending, descending_by};
 use quell_numerics::roots::{Closeness, minimise};
 
 use super::covered_box::{CoveredBox, Tried, longest_run};
@@ -43,7 +44,7 @@ pub fn covered(problem: DesignProblem<'_>, none: &InfeasibleDesign) -> Result<Co
     let lines = grid(problem.others, CHOICES, true).into_iter();
     let lines = lines.map(|others| AveragedLine::new(problem, others, &points));
     let mut ranked: Vec<_> = lines.filter_map(|line| Some((line.best()?, line))).collect();
-    ranked.sort_by(|a, b| b.0.length.total_cmp(&a.0.length));
+    descending_by(&mut ranked, |b| b.0.length);
     ranked.truncate(JUDGED);
     let nearest = none.nearest.as_ref();
     let of_nearest = nearest.map(|point| Tried {
@@ -132,7 +133,7 @@ impl<'a> AveragedLine<'a> {
         amplitudes.extend(self.sets.iter().flatten().flat_map(|set| {
             set.intervals().iter().map(|(low, _)| low * (1.0 + 1e-9)).filter(|low| *low <= to)
         }));
-        amplitudes.sort_by(f64::total_cmp);
+        ascending(&mut amplitudes);
         amplitudes.dedup();
         let lengths = answers(self.problem.tasks, &amplitudes, |amplitude| {
             let (first, last) = self.longest(*amplitude)?;

@@ -23,6 +23,7 @@ use quell_disc::undithered;
 use quell_linear::growth::Verdict;
 use quell_model::Disc;
 use quell_model::disc::DiscDither;
+use quell_numerics::order::ascending;
 
 use super::search::grid;
 use super::{DitherPrice, ExactVerdict, OperatingPoint, Plant, QuietAmplitudes};
@@ -101,7 +102,7 @@ impl DiscPlant<'_> {
             }
         }
         speeds.retain(|speed| (from..=to).contains(speed));
-        speeds.sort_by(f64::total_cmp);
+        ascending(&mut speeds);
         speeds.dedup_by(|a, b| (*a - *b).abs() <= 1e-6);
         speeds
     }

@@ -1,5 +1,7 @@
 //! The least dither by exact thresholds, near that of averaging, and its verification.
 
+use quell_numerics::order::ascending_by;
+
 use super::exact_box::{ExactBox, WINDOW};
 use super::no_design::NoDesign;
 use super::search::{AveragedSearch, DesignBasin, DesignPoint, Judged};
@@ -102,10 +104,7 @@ pub fn design(problem: DesignProblem<'_>) -> Designed {
         InfeasibleDesign { nearest, why }
     });
     let mut tried = searched.tried;
-    tried.sort_by(|a, b| {
-        let first = |point: &DesignPoint| point.others.first().copied().unwrap_or(0.0);
-        first(a).total_cmp(&first(b))
-    });
+    ascending_by(&mut tried, |point| point.others.first().copied().unwrap_or(0.0));
     Designed { answer, basins, tried }
 }
 

@@ -3,6 +3,8 @@
 //! A grid over these variables (equal ratios where a range is positive) finds the local minima of the objective among the points that
 //! keep every limit; the best of them are refined by a pattern search that stays on the allowed side of the limits.
 
+use quell_numerics::order::ascending_by;
+
 use super::worst_point::{BoxSearch, LeastOfBox, NoLeast, least_of_box};
 use crate::actuator::{ActuatorDemand, ActuatorLimit};
 use crate::tasks::answers;
@@ -410,7 +412,7 @@ impl DesignProblem<'_> {
             done.extend(refined);
         }
         let value = |point: &DesignPoint| point.may_be_allowed().unwrap_or(f64::INFINITY);
-        done.found.sort_by(|a, b| value(a).total_cmp(&value(b)));
+        ascending_by(&mut done.found, value);
         done
     }
 
@@ -456,7 +458,7 @@ impl DesignProblem<'_> {
             .filter_map(|place| Some((place, values[place]?)))
             .filter(|(place, value)| better(*place, *value))
             .collect();
-        minima.sort_by(|a, b| a.1.total_cmp(&b.1));
+        ascending_by(&mut minima, |a| a.1);
         minima.truncate(BASINS);
         minima.into_iter().map(|(place, _)| place).collect()
     }
@@ -514,7 +516,7 @@ fn nearest_choices(tried: &[DesignPoint]) -> Vec<DesignPoint> {
         .iter()
         .filter(|point| point.objective.is_ok() && point.use_of_limits() < NEAREST)
         .collect();
-    known.sort_by(|a, b| a.use_of_limits().total_cmp(&b.use_of_limits()));
+    ascending_by(&mut known, |a| a.use_of_limits());
     known.into_iter().take(BASINS).cloned().collect()
 }
 

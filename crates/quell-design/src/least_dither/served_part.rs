@@ -5,6 +5,8 @@
 //! at the points of a box ([`super::search::box_points`]), at the extremes of averaging between them and at the peaks of the
 //! multipliers. A point that fails divides the part, and the search goes on with the longest run that is left.
 
+use quell_numerics::order::{ascending, ascending_by};
+
 use super::between_points::Towards;
 use super::covered_box::{BeyondCovered, CoveredBox, Tried, longest_run};
 use super::search::box_points;
@@ -73,7 +75,7 @@ impl<'a> ServedPart<'a> {
         let loud = self.problem.plant.loud_points(self.problem.over, others, *amplitude)?;
         let mut seeds: Vec<f64> = seeds.iter().copied().chain(loud.into_iter().flatten()).collect();
         seeds.retain(|seed| (low..=high).contains(seed));
-        seeds.sort_by(f64::total_cmp);
+        ascending(&mut seeds);
         seeds.dedup();
         let extremes = self.problem.averaged_extremes(&seeds, (others, *amplitude), &BOTH);
         self.judge(seeds.into_iter().chain(extremes).collect());
@@ -121,7 +123,7 @@ impl<'a> ServedPart<'a> {
 
     fn add(&mut self, judged: Vec<(f64, Served)>) {
         self.judged.extend(judged);
-        self.judged.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ascending_by(&mut self.judged, |a| a.0);
         self.judged.dedup_by(|a, b| a.0 == b.0);
     }
 
@@ -167,7 +169,7 @@ impl<'a> ServedPart<'a> {
         let fine = box_points(&[(low, high)]).into_iter().flatten();
         let inside = self.judged[first..=last].iter().map(|(point, _)| *point);
         let mut points: Vec<f64> = fine.chain(inside).collect();
-        points.sort_by(f64::total_cmp);
+        ascending(&mut points);
         points.dedup();
         points.extend(self.problem.averaged_extremes(&points, (others, *amplitude), &BOTH));
         self.judge(points);

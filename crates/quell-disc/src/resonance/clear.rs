@@ -15,6 +15,7 @@
 
 use core::ops::RangeInclusive;
 
+use quell_numerics::order::{ascending, ascending_by};
 use quell_numerics::roots::{Closeness, minimise, quadratic};
 
 use super::meetings::MeetingFamily;
@@ -142,7 +143,7 @@ pub fn clear_frequencies(
             }
         }
     }
-    blocked.sort_by(|a, b| a.from.total_cmp(&b.from));
+    ascending_by(&mut blocked, |a| a.from);
     let mut clear = Vec::new();
     let mut reached = *frequencies.start();
     for block in &blocked {
@@ -198,7 +199,7 @@ pub fn within(waves: &Waves, speeds: RangeInclusive<f64>) -> Vec<Nearby> {
         };
         (inside || reaches_in).then_some(Nearby { resonance, reaches_in })
     }));
-    found.sort_by(|a, b| a.resonance.speed.total_cmp(&b.resonance.speed));
+    ascending_by(&mut found, |a| a.resonance.speed);
     found
 }
 
@@ -223,7 +224,7 @@ fn grown_speeds(
     let (slope, bend) = (0.5 * (high - low), 0.5 * (high + low) - centre);
     let mut cuts = vec![-1.0];
     if let Some(mut roots) = quadratic(centre, slope, bend) {
-        roots.sort_by(f64::total_cmp);
+        ascending(&mut roots);
         cuts.extend(roots.into_iter().filter(|x| x.abs() < 1.0));
     }
     cuts.push(1.0);

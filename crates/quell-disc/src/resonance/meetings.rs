@@ -6,6 +6,8 @@
 
 use core::ops::RangeInclusive;
 
+use quell_numerics::order::ascending_by;
+
 use super::wave::{SignedWave, TravellingWave};
 use super::waves::{COINCIDENCE, Waves};
 
@@ -98,7 +100,7 @@ impl Waves {
                     && meeting.speed <= speeds.end() + COINCIDENCE
             })
             .collect();
-        meetings.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        ascending_by(&mut meetings, |a| a.speed);
         meetings
     }
 }

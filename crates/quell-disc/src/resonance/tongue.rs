@@ -2,6 +2,8 @@
 
 use core::ops::RangeInclusive;
 
+use quell_numerics::order::ascending_by;
+
 use super::meetings::{MeetingFamily, WaveMeeting};
 use super::pair::{DetuningBand, WavePair};
 use super::wave::TravellingWave;
@@ -125,7 +127,7 @@ impl Waves {
         let driven = self.driven(&speeds, repetition).into_iter();
         let mut meetings: Vec<WaveMeeting> =
             driven.flat_map(|h| self.meetings(h, &speeds)).collect();
-        meetings.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        ascending_by(&mut meetings, |a| a.speed);
         meetings.iter().map(|meeting| self.resonance(meeting)).collect()
     }
 

@@ -13,6 +13,7 @@ use core::ops::RangeInclusive;
 
 use quell_model::parameter::DITHER_FREQUENCY_RATIO;
 use quell_numerics::floquet::Effort;
+use quell_numerics::order::ascending;
 use quell_numerics::roots::{Closeness, minimise};
 
 use super::clear::Clearance;
@@ -228,7 +229,7 @@ impl Exact<'_> {
             }
         }
         grid.retain(|speed| (from..=to).contains(speed));
-        grid.sort_unstable_by(f64::total_cmp);
+        ascending(&mut grid);
         grid.dedup();
         Some(grid)
     }

@@ -10,6 +10,8 @@
 
 use std::fmt;
 
+use quell_numerics::order::descending_by;
+
 use super::variation::MotionVariation;
 use super::{
     MOTION_TOLERANCE, Motion, MotionEvent, MotionMoment, MotionObserver, MotionSegment,
@@ -327,7 +329,7 @@ impl Motion<'_> {
         }
         let mut found: Vec<(LyapunovExponent, Vec<f64>)> =
             (0..count).map(|index| growth.exponent(index)).collect();
-        found.sort_by(|a, b| b.0.rate().total_cmp(&a.0.rate()));
+        descending_by(&mut found, |b| b.0.rate());
         let (exponents, means) = found.into_iter().unzip();
         Ok(LyapunovExponents { exponents, means, time, state: end.state })
     }

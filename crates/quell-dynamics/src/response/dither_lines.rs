@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use quell_model::{Belt, Direction, Dither, Waveform};
+use quell_numerics::order::{ascending, ascending_by};
 
 /// Lines whose displacement, that of a free mass, is smaller than this share of the largest are left out: the share of the ninth
 /// harmonic under a square.
@@ -60,10 +61,10 @@ pub(super) fn groups(belt: &Belt, record_periods: u32) -> Result<Vec<LineGroup>,
         }
     }
     for group in &mut groups {
-        group.frequencies.sort_by(f64::total_cmp);
+        ascending(&mut group.frequencies);
         group.frequencies.dedup();
     }
-    groups.sort_by(|a, b| a.repetition.total_cmp(&b.repetition));
+    ascending_by(&mut groups, |a| a.repetition);
     Ok(groups)
 }
 

@@ -12,6 +12,7 @@
 //! m(α/v_m) = 2v_mζe^{w}/(F(μ_s − μ_m)). Normal dither: the same with α_T → μ(v₀)α_N.
 
 use quell_model::{Belt, Direction, Dither};
+use quell_numerics::order::ascending;
 
 use super::criterion::Criterion;
 use super::dithers::AveragingOptions;
@@ -85,7 +86,7 @@ pub fn critical_amplitudes_up_to(
         .fold(belt.friction().velocity_scale().max(belt.belt_velocity()), |m, c| m.max(*c));
     let mut points = scan_points(&corners, scale, belt.belt_velocity() == 0.0);
     points.extend(probe.noise_points()?);
-    points.sort_unstable_by(f64::total_cmp);
+    ascending(&mut points);
     points.dedup();
     // Two points beyond it, so that a dip just below it is seen.
     points.truncate(points.partition_point(|point| *point <= largest) + 2);
@@ -134,7 +135,7 @@ fn scan_points(corners: &[f64], scale: f64, at_rest: bool) -> Vec<f64> {
         point = grown(point, if point < 1e2 * scale { 1.15 } else { 2.0 });
         points.push(point);
     }
-    points.sort_unstable_by(f64::total_cmp);
+    ascending(&mut points);
     points.dedup();
     points
 }
@@ -202,7 +203,7 @@ impl Probe<'_> {
             let extrema = Signal::new(group)?.turning_values();
             let corners = extrema.into_iter().filter(|extremum| *extremum > 0.0);
             let mut corners: Vec<f64> = corners.map(|extremum| v / extremum).collect();
-            corners.sort_unstable_by(f64::total_cmp);
+            ascending(&mut corners);
             return Ok(corners);
         }
         let scale = v.max(self.belt.friction().velocity_scale());

@@ -21,6 +21,7 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use quell_model::Belt;
+use quell_numerics::order::ascending;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
 use super::averaged_law::AveragedLaw;
@@ -156,7 +157,7 @@ impl DescribingFunction {
         let v0 = self.velocity;
         let mut found: Vec<f64> = self.corners.iter().map(|corner| (corner - v0).abs()).collect();
         found.retain(|amplitude| *amplitude > 0.0);
-        found.sort_unstable_by(f64::total_cmp);
+        ascending(&mut found);
         found.dedup();
         found
     }
@@ -188,7 +189,7 @@ impl DescribingFunction {
             from = end;
         }
         points.retain(|point| *point > 0.0 && *point <= largest);
-        points.sort_unstable_by(f64::total_cmp);
+        ascending(&mut points);
         points.dedup();
         let balance = |amplitude: f64| -> Result<f64, E> { balance(self.at(amplitude)?.gain) };
         let changes = sign_changes(balance, &points, &[])?;

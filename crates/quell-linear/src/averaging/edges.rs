@@ -16,6 +16,7 @@ use std::fmt;
 
 use quell_model::friction::{SlidingLaw, Stribeck};
 use quell_model::{Belt, Friction, Waveform};
+use quell_numerics::order::ascending;
 use quell_numerics::special::ln;
 
 use super::criterion::{AveragedVerdict, Criterion, UndecidedBecause};
@@ -208,7 +209,7 @@ pub fn unstable_bands(
     points.extend((1..=60).map(|k| reach + vm * 0.05 * f64::from(k)));
     points.extend((0..30).map(|k| reach + 3.0 * vm * libm::exp(0.15 * f64::from(k))));
     points.retain(|v| *v > 0.0);
-    points.sort_unstable_by(f64::total_cmp);
+    ascending(&mut points);
     points.dedup();
     let excess = |v: f64| -> Result<f64, AveragingError> { Ok(v - motion(v)?.largest_slip()?) };
     let still = motion(vm)?;
@@ -226,7 +227,7 @@ pub fn unstable_bands(
         points.extend((0..24).map(|k| corner * (1.0 - libm::exp(-30.0 + 1.2 * f64::from(k)))));
     }
     points.retain(|v| *v > 0.0);
-    points.sort_unstable_by(f64::total_cmp);
+    ascending(&mut points);
     let changes = sign_changes(value, &points, &corners)?;
     let mut bands = Vec::new();
     let starts_unstable = value(points[0])? < 0.0;

@@ -11,6 +11,7 @@ use num_complex::Complex64;
 use quell_model::profile::Wave;
 use quell_model::system::{Contact, InputTarget};
 use quell_model::{System, Waveform};
+use quell_numerics::order::ascending;
 use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 
 use super::averaged_law::{AveragedLaw, curvature};
@@ -245,7 +246,7 @@ impl FastInputs {
             corners.extend(changes.into_iter().map(|change| change.location));
         }
         corners.retain(|corner| corner.is_finite() && *corner > 0.0);
-        corners.sort_unstable_by(f64::total_cmp);
+        ascending(&mut corners);
         corners.dedup_by(|a, b| (*a - *b).abs() <= 1e-14 * b.abs());
         Ok(corners)
     }
@@ -266,7 +267,7 @@ impl FastInputs {
             let distances = (1..=AROUND).map(|k| 2f64.powi(-k));
             points.extend(distances.flat_map(|d| [corner * (1.0 - d), corner * (1.0 + d)]));
         }
-        points.sort_unstable_by(f64::total_cmp);
+        ascending(&mut points);
         points.dedup();
         points
     }

@@ -1,5 +1,7 @@
 //! Fast motion of a mass: groups of incommensurate frequencies, each of them periodic, and noise.
 
+use quell_numerics::order::ascending;
+
 use super::error::AveragingError;
 use super::periodic::Signal;
 use super::periodic_motion::{PeriodicMotion, SlipTerm};
@@ -94,7 +96,7 @@ impl FastMotion {
                 None => Signal::new(group)?.turning_values(),
             };
             sums = extrema.iter().flat_map(|own| sums.iter().map(move |sum| own + sum)).collect();
-            sums.sort_unstable_by(f64::total_cmp);
+            ascending(&mut sums);
             sums.dedup();
         }
         Ok(sums)

@@ -11,6 +11,7 @@
 
 use core::f64::consts::TAU;
 use quell_model::Friction;
+use quell_numerics::order::{ascending, ascending_by};
 use quell_numerics::quadrature::{QuadratureError, QuadratureOptions, integrate};
 
 use super::effective::{Effective, SlopeSide};
@@ -74,7 +75,7 @@ pub(super) fn effective(
     let reach = |group: &PeriodicMotion| {
         group.single_term().map_or(-1.0, |(wave, amplitude)| amplitude.abs() * wave.peak())
     };
-    order.sort_by(|a, b| reach(a).total_cmp(&reach(b)));
+    ascending_by(&mut order, |a| reach(a));
     let mut levels = Vec::new();
     for (depth, group) in order.iter().enumerate() {
         levels.push(match group.single_term() {
@@ -111,7 +112,7 @@ fn corner_sums(levels: &[NestedLevel<'_>]) -> Vec<Vec<f64>> {
         for extremum in level.extrema() {
             sums.extend(inner.iter().map(|c| c + extremum));
         }
-        sums.sort_unstable_by(f64::total_cmp);
+        ascending(&mut sums);
         sums.dedup();
         corners[depth].clone_from(&sums);
         inner = sums;
@@ -151,7 +152,7 @@ impl NestedMean<'_> {
         for corner in &self.corners[depth + 1] {
             cuts.extend(signal.crossings(v - corner));
         }
-        cuts.sort_unstable_by(f64::total_cmp);
+        ascending(&mut cuts);
         cuts.dedup_by(|a, b| (*a - *b).abs() < 1e-14);
         let scale = match quantity {
             AveragedQuantity::Coefficient => self.law.static_coefficient(),

@@ -14,6 +14,7 @@
 
 use core::f64::consts::TAU;
 use quell_model::Friction;
+use quell_numerics::order::ascending;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::roots::{Closeness, find_root};
 
@@ -90,7 +91,7 @@ impl<'a> Signal<'a> {
     /// Values of s at its extrema, which are the corners of the effective friction of this group.
     pub(super) fn extrema(&self) -> Vec<f64> {
         let mut values: Vec<f64> = self.ends.iter().map(|end| end.1).collect();
-        values.sort_unstable_by(f64::total_cmp);
+        ascending(&mut values);
         values.dedup_by(|a, b| (*a - *b).abs() <= 1e-14 * (a.abs() + b.abs()));
         values
     }
@@ -109,7 +110,7 @@ impl<'a> Signal<'a> {
             (here - before) * (after - here) <= 0.0
         };
         let mut found: Vec<f64> = (0..last).filter(turns).map(values).collect();
-        found.sort_unstable_by(f64::total_cmp);
+        ascending(&mut found);
         found.dedup_by(|a, b| (*a - *b).abs() <= 1e-14 * (a.abs() + b.abs()));
         found
     }

@@ -4,6 +4,7 @@ use core::f64::consts::TAU;
 use std::sync::Arc;
 
 use quell_model::Waveform;
+use quell_numerics::order::ascending;
 use quell_numerics::periodic_polynomial::PeriodicPolynomial;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
@@ -173,7 +174,7 @@ impl PeriodicMotion {
                 breaks.extend(locations.map(|location| location.rem_euclid(TAU)));
             }
         }
-        breaks.sort_unstable_by(f64::total_cmp);
+        ascending(&mut breaks);
         breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-13);
         breaks
     }

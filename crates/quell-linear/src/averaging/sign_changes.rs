@@ -7,6 +7,7 @@
 //!
 //! A change is a jump if the function does not become small on both sides of it.
 
+use quell_numerics::order::ascending_by;
 use quell_numerics::roots::{Closeness, try_find_root, try_minimise};
 
 /// How a function changes sign.
@@ -77,7 +78,7 @@ fn both_sides(corners: &[f64], (first, last): (f64, f64)) -> Vec<(f64, f64)> {
     let sides = corners.iter().map(|corner| (corner * (1.0 - BESIDE), corner * (1.0 + BESIDE)));
     let mut sides: Vec<_> =
         sides.filter(|(before, beyond)| *before > first && *beyond < last).collect();
-    sides.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    ascending_by(&mut sides, |a| a.0);
     sides.dedup_by(|next, known| {
         let coincide = next.0 <= known.1;
         if coincide {

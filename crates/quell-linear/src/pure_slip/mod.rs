@@ -16,6 +16,7 @@ use quell_model::profile::Wave;
 use quell_numerics::eigen::{Decomposition, EigenError, modulus};
 use quell_numerics::extrapolation::{Unintegrated, integrate};
 use quell_numerics::matrix::Matrix;
+use quell_numerics::order::ascending;
 
 use crate::averaging::{DitheredSystem, NoAverage, commensurate_groups};
 use crate::growth::Growth;
@@ -289,7 +290,7 @@ fn breaks(system: &System, period: f64) -> Vec<f64> {
             }
         }
     }
-    breaks.sort_unstable_by(f64::total_cmp);
+    ascending(&mut breaks);
     breaks.dedup_by(|a, b| (*a - *b).abs() <= 1e-12 * period);
     breaks
 }

@@ -10,6 +10,7 @@
 
 use num_complex::Complex64;
 use quell_numerics::eigen::modulus;
+use quell_numerics::order::{ascending, ascending_by};
 
 use super::family::{Family, TrackedPoint, at};
 
@@ -125,7 +126,7 @@ impl<'a, F: Family> Search<'a, F> {
                 self.of_pair(piece, (first, second), &mut values);
             }
         }
-        values.sort_unstable_by(f64::total_cmp);
+        ascending(&mut values);
         let given = |value: f64| piece.iter().any(|point| point.value == value);
         values.retain(|value| !given(*value));
         values.dedup_by(|a, b| (*a - *b).abs() <= self.shortest);
@@ -198,7 +199,7 @@ impl<'a, F: Family> Search<'a, F> {
                 let sample = self.sample(target, ends)?;
                 samples.push(sample);
             }
-            samples.sort_by(|a, b| (a.value - target).abs().total_cmp(&(b.value - target).abs()));
+            ascending_by(&mut samples, |a| (a.value - target).abs());
             samples.truncate(3);
             let [best, second, third] = samples.as_slice() else { return None };
             let parabola = Parabola::through([second, best, third]);
@@ -231,7 +232,7 @@ impl<'a, F: Family> Search<'a, F> {
         let mut values = at(self.family, value).ok()?.eigenvalues;
         let share = (value - a.value) / (b.value - a.value);
         let mean = a.mean + (b.mean - a.mean) * share;
-        values.sort_by(|x, y| modulus(x - mean).total_cmp(&modulus(y - mean)));
+        ascending_by(&mut values, |x| modulus(x - mean));
         match values.as_slice() {
             [first, second, ..] => Some(PairSample::of(value, [*first, *second])),
             _ => None,

@@ -6,6 +6,7 @@
 
 use num_complex::Complex64;
 use quell_numerics::eigen::modulus;
+use quell_numerics::order::ascending_by;
 use quell_numerics::roots::{Closeness, find_root};
 
 use super::family::{Family, TrackedPoint, at};
@@ -82,7 +83,7 @@ fn is_candidate(a: &TrackedPoint, b: &TrackedPoint, (i, j): (usize, usize)) -> b
 fn square_near<F: Family>(family: &F, value: f64, middle: Complex64) -> f64 {
     let Ok(point) = at(family, value) else { return f64::NAN };
     let mut values = point.eigenvalues;
-    values.sort_by(|a, b| modulus(a - middle).total_cmp(&modulus(b - middle)));
+    ascending_by(&mut values, |a| modulus(a - middle));
     match values.as_slice() {
         [first, second, ..] => ((first - second) * (first - second)).re,
         _ => f64::NAN,

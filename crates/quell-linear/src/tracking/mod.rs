@@ -15,6 +15,7 @@ mod thresholds;
 use approach::Search;
 use family::at;
 pub use family::{Family, TrackedPoint};
+use quell_numerics::order::{ascending, ascending_by};
 pub use thresholds::{StabilityChange, ThresholdOfStability};
 
 /// Shortest step over the width of the window: below it two eigenvalues count as one.
@@ -75,7 +76,7 @@ pub fn track<F: Family>(
     gaps.retain(|(gap, _)| *gap > from + aside && *gap < to - aside);
     grid.retain(|value| gaps.iter().all(|(gap, _)| (value - gap).abs() > aside));
     grid.extend(gaps.iter().flat_map(|(gap, _)| [gap - aside, gap + aside]));
-    grid.sort_by(f64::total_cmp);
+    ascending(&mut grid);
     let mut gaps = gaps.into_iter().peekable();
     let mut is_gap = false;
     let mut pieces: Vec<Vec<TrackedPoint>> = Vec::new();
@@ -123,12 +124,12 @@ pub fn track<F: Family>(
                 break;
             }
             piece.extend(further);
-            piece.sort_by(|a, b| a.value.total_cmp(&b.value));
+            ascending_by(piece, |a| a.value);
             *piece = matching::followed(family, std::mem::take(piece), shortest, most);
         }
         unexamined += search.unexamined;
         thresholds.extend(thresholds::of_piece(family, piece)?);
     }
-    thresholds.sort_by(|a, b| a.value.total_cmp(&b.value));
+    ascending_by(&mut thresholds, |a| a.value);
     Ok(Tracked { pieces, unknown, thresholds, unexamined })
 }

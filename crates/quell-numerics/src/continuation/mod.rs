@@ -36,6 +36,7 @@ use num_complex::Complex64;
 use crate::eigen::eigenvalues;
 pub use crate::eigen::modulus;
 use crate::matrix::Matrix;
+use crate::order::descending_by;
 
 /// A map of the state over one period, which depends on parameters.
 pub trait PeriodMap {
@@ -113,7 +114,7 @@ pub fn multipliers(derivative: &Matrix) -> Option<Vec<Complex64>> {
     if found.iter().any(|z| !z.re.is_finite() || !z.im.is_finite()) {
         return None;
     }
-    found.sort_by(|a, b| modulus(*b).total_cmp(&modulus(*a)));
+    descending_by(&mut found, |b| modulus(*b));
     Some(found)
 }
 

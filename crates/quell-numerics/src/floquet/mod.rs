@@ -31,6 +31,7 @@ use num_complex::Complex64;
 
 use crate::eigen::{Decomposition, EigenError, eigenvalues, modulus};
 use crate::matrix::Matrix;
+use crate::order::descending_by;
 use processing::Generator;
 use shared::TrackedMultiplier;
 use steps::Steps;
@@ -204,7 +205,7 @@ impl Floquet {
             .map(one)
             .filter(|exponent| exponent.growth_rate > exponent.error)
             .collect();
-        found.sort_by(|a, b| b.growth_rate.total_cmp(&a.growth_rate));
+        descending_by(&mut found, |b| b.growth_rate);
         Ok(found)
     }
 
@@ -236,7 +237,7 @@ impl Floquet {
             let (mut found, differences): (Vec<Exponent>, Vec<f64>) = all.unzip();
             let largest = differences.into_iter().fold(0.0, f64::max);
             if largest <= effort.at_least || 2 * count > effort.finest {
-                found.sort_by(|a, b| b.growth_rate.total_cmp(&a.growth_rate));
+                descending_by(&mut found, |b| b.growth_rate);
                 return Ok(found);
             }
             count *= 2;

@@ -6,6 +6,7 @@
 
 use crate::eigen::{Decomposition, EigenError, modulus};
 use crate::matrix::Matrix;
+use crate::order::descending_by;
 
 use super::steps::exponential_of_matrix;
 use super::{Exponent, FLOOR, conditions};
@@ -67,7 +68,7 @@ pub(super) fn exponents_of(
             }
         })
         .collect();
-    found.sort_by(|a, b| b.growth_rate.total_cmp(&a.growth_rate));
+    descending_by(&mut found, |b| b.growth_rate);
     Ok(found)
 }
 

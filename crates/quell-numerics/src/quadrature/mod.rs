@@ -25,6 +25,8 @@ use std::collections::BinaryHeap;
 pub use integral::{Integral, QuadratureError};
 use rule::{QuadraturePanel, panel};
 
+use crate::order::ascending;
+
 /// Tolerances of a quadrature, and limits on its cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct QuadratureOptions {
@@ -87,7 +89,7 @@ fn first_panels(low: f64, high: f64, breaks: &[f64], count: usize) -> Vec<[f64; 
     let mut cuts: Vec<f64> = breaks.iter().copied().filter(|b| *b > low && *b < high).collect();
     cuts.push(low);
     cuts.push(high);
-    cuts.sort_unstable_by(f64::total_cmp);
+    ascending(&mut cuts);
     cuts.dedup();
     let count = count.max(1);
     let panels = cuts.windows(2).flat_map(|pair| {

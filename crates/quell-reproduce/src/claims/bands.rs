@@ -1,11 +1,11 @@
 //! Statements of chapter 5 about bands of instability, by exact growth: which speeds have one, how wide it is, what removes it.
 
+use quell::parallel::Parallel;
 use quell_disc::growing::{GrowingSpeeds, growing_speeds};
 use quell_disc::plate::{ModeSet, Plate, PlateMaterial, Reference};
 use quell_disc::undithered;
 use quell_model::Disc;
 use quell_model::disc::{DiscDither, Load};
-use rayon::prelude::*;
 
 use super::super::disc::STRENGTH_PER_PRINTED;
 use super::super::failure::failed;
@@ -34,8 +34,7 @@ const FRICTIONS: [f64; 8] = [0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0];
 fn induced_bands(disc: &Disc) -> Result<Vec<Option<(f64, GrowingSpeeds)>>, Failure> {
     let speeds: Vec<f64> = meetings(disc, true)?.iter().map(|meeting| meeting.speed).collect();
     let rows = FRICTIONS
-        .par_iter()
-        .map(|&friction| Ok((friction, growing(disc, (0.28, 1.0), friction, 90)?)))
+        .in_parallel(|&friction| Ok((friction, growing(disc, (0.28, 1.0), friction, 90)?)))
         .collect::<Result<Vec<_>, Failure>>()?;
     let mut found: Vec<Option<(f64, GrowingSpeeds)>> = vec![None; speeds.len()];
     for (friction, band) in rows.iter().flat_map(|(f, bands)| bands.iter().map(|band| (*f, *band)))
@@ -57,8 +56,7 @@ fn induced_bands(disc: &Disc) -> Result<Vec<Option<(f64, GrowingSpeeds)>>, Failu
 pub(super) fn induced(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let sizes = [0.1, 0.2, 0.3];
     let bands = sizes
-        .into_par_iter()
-        .map(|size| induced_bands(&disc([1, 2], size, 0.0, TANGENTIAL)?))
+        .in_parallel(|&size| induced_bands(&disc([1, 2], size, 0.0, TANGENTIAL)?))
         .collect::<Result<Vec<_>, Failure>>()?;
     let present = |bands: &[Option<(f64, GrowingSpeeds)>]| -> Vec<usize> {
         (1..=bands.len()).filter(|number| bands[number - 1].is_some()).collect()
@@ -133,8 +131,7 @@ pub(super) fn more_bands(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let friction = 0.15;
     let sets = [([1, 2], reference(2)?), ([1, 5], reference(5)?), ([2, 5], reference(5)?)];
     let bands = sets
-        .into_par_iter()
-        .map(|(modes, own)| -> Result<Vec<(f64, f64)>, Failure> {
+        .in_parallel(|&(modes, own)| -> Result<Vec<(f64, f64)>, Failure> {
             let disc = disc(modes, 0.1, 0.0, DiscDither::None)?;
             let scale = own / unit;
             // The same speeds in radians per second.
@@ -224,8 +221,7 @@ pub(super) fn friction_alone(sheet: &mut ClaimSheet) -> Result<(), Failure> {
 /// "The importance of plate damping in stabilizing the system is also clearly evident": figures 5.7 and 5.8.
 pub(super) fn plate_damping(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let shares = [0.0, 1e-3]
-        .into_par_iter()
-        .map(|damping| -> Result<f64, Failure> {
+        .in_parallel(|&damping| -> Result<f64, Failure> {
             let disc = disc([1, 2], 0.3, damping, DiscDither::None)?;
             let mut unstable = 0.0;
             for k in 1..=20 {
@@ -341,8 +337,7 @@ pub(super) fn chosen_speed(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     // Above the friction at which every speed squeals without dither.
     let friction = 0.2;
     let found = speeds
-        .into_par_iter()
-        .map(|speed| -> Result<(f64, usize, f64), Failure> {
+        .in_parallel(|&speed| -> Result<(f64, usize, f64), Failure> {
             let still = growth(&disc([1, 2], 0.1, 0.0, DiscDither::None)?, speed, friction)?;
             let (mut clear, mut least) = (0, f64::INFINITY);
             for k in 0..=80 {

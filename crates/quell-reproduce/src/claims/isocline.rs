@@ -4,13 +4,13 @@
 //! E decreases continuously to 0 at the threshold of averaging, so that 5 % is reached below it, also for
 //! R → ∞; the ratio D(5 %)/(α*R) measures by how much.
 
+use quell::parallel::Parallel;
 use quell_dynamics::response::{
     Observables, ResponseCase, SUPPRESSED, Solver, amplitude_at_residual_vibration, compare_many,
 };
 use quell_dynamics::simulation::Start;
 use quell_linear::averaging::{Becomes, FastResponse};
 use quell_model::{Direction, LawKind, Waveform};
-use rayon::prelude::*;
 
 use super::super::failure::failed;
 use super::chapter2::{LIGHT, belt, critical};
@@ -57,8 +57,7 @@ struct Crossing {
 fn crossings(direction: Direction, points: &[IsolinePoint]) -> Result<Vec<Crossing>, Failure> {
     let solver = Solver { settle: SETTLE, ..Solver::default() };
     points
-        .par_iter()
-        .map(|(kind, waveform, velocity, ratio)| {
+        .in_parallel(|(kind, waveform, velocity, ratio)| {
             let (kind, velocity, ratio) = (*kind, *velocity, *ratio);
             let missing = |what: &str| failed("claims", &format!("{what} at R = {ratio}"));
             // This amplitude is ignored: both methods set it.
@@ -295,8 +294,7 @@ fn levels(contours: &ContourFigure) -> Vec<f64> {
 /// isoclines become less straight as the performance worsens; for example, when E = 0.5, the contours are fairly distorted".
 pub(super) fn straight(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let deviations = CONTOURS
-        .par_iter()
-        .map(|contours| {
+        .in_parallel(|contours| {
             levels(contours).into_iter().map(|level| deviation(contours, level)).collect()
         })
         .collect::<Result<Vec<Vec<f64>>, Failure>>()?;

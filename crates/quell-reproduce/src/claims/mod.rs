@@ -4,7 +4,7 @@
 //! by the rules of [`ClaimVerdict`]. The verdicts on record are in [`LEDGER`]; a test compares every claim with it, so that no
 //! verdict changes unnoticed. `statements` groups the claims by the statements that they measure.
 
-use rayon::prelude::*;
+use quell::parallel::Parallel;
 use serde_json::{Value as Json, json};
 
 use super::product::{Cell, DataTable, Product};
@@ -109,8 +109,7 @@ pub fn measure() -> Result<Vec<Claim>, Failure> {
 /// The same, sharing measurements with the figures.
 fn measure_with(shared: &SharedMeasurements) -> Result<Vec<Claim>, Failure> {
     let sections: Result<Vec<Vec<Claim>>, Failure> = SECTIONS
-        .par_iter()
-        .map(|section| {
+        .in_parallel(|section| {
             let mut sheet = ClaimSheet { shared: shared.clone(), ..ClaimSheet::default() };
             section(&mut sheet).map(|()| sheet.claims)
         })

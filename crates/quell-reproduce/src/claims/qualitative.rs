@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use quell::parallel::Parallel;
 use quell_dynamics::attractor::AttractorSettings;
 use quell_dynamics::response::{Solver, respond};
 use quell_dynamics::simulation::Start;
@@ -11,7 +12,6 @@ use quell_linear::averaging::{
 use quell_model::waveform::Burst;
 use quell_model::{Belt, Direction, LawKind, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
-use rayon::prelude::*;
 
 use super::super::failure::failed;
 use super::chapter2::{LIGHT, belt, critical, law};
@@ -27,8 +27,7 @@ pub(super) fn equilibrium(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         effective(&friction, &motion, speed).map_err(|error| failed("claims", &error))?.coefficient;
     let ratios = [20.0, 40.0, 80.0];
     let means = ratios
-        .into_par_iter()
-        .map(|ratio| -> Result<f64, Failure> {
+        .in_parallel(|&ratio| -> Result<f64, Failure> {
             let dither = (Direction::Tangential, Waveform::Sine, alpha * ratio, ratio);
             let belt = belt(LawKind::Stribeck, LIGHT, speed, Some(dither))?;
             let response = respond(&belt, Start::REST, &Solver::default())
@@ -54,8 +53,7 @@ pub(super) fn equilibrium(sheet: &mut ClaimSheet) -> Result<(), Failure> {
 pub(super) fn transients(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let amplitudes = [3.5, 4.0, 4.2, 4.3, 4.32];
     let times = amplitudes
-        .into_par_iter()
-        .map(|amplitude| -> Result<f64, Failure> {
+        .in_parallel(|&amplitude| -> Result<f64, Failure> {
             let dither = (Direction::Tangential, Waveform::Sine, amplitude, 10.0);
             let belt = belt(LawKind::Decreasing, LIGHT, 1.0, Some(dither))?;
             let settings = AttractorSettings::new(&belt).map_err(|why| failed("claims", &why))?;
@@ -100,10 +98,12 @@ pub(super) fn upper_edge(sheet: &mut ClaimSheet) -> Result<(), Failure> {
 /// chapters 2 and 6, the decreasing law.
 pub(super) fn always_quenched(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let speeds: Vec<f64> = (1..=40).map(|k| 0.02 * f64::from(k)).collect();
-    let found = speeds
-        .par_iter()
-        .flat_map(|speed| Waveform::NAMED.par_iter().map(move |waveform| (*speed, waveform)))
-        .map(|(speed, waveform)| -> Result<f64, Failure> {
+    let cases: Vec<(f64, &Waveform)> = speeds
+        .iter()
+        .flat_map(|speed| Waveform::NAMED.iter().map(move |waveform| (*speed, waveform)))
+        .collect();
+    let found = cases
+        .in_parallel(|&(speed, waveform)| -> Result<f64, Failure> {
             let ratio = 20.0;
             let with = |amplitude: f64| {
                 let dither = (Direction::Tangential, waveform.clone(), amplitude, ratio);
@@ -229,8 +229,7 @@ pub(super) fn bursts(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let cases: Vec<(f64, (u32, u32))> =
         ratios.iter().flat_map(|ratio| shapes.map(|shape| (*ratio, shape))).collect();
     let found = cases
-        .par_iter()
-        .map(|(ratio, (on, off))| -> Result<f64, Failure> {
+        .in_parallel(|(ratio, (on, off))| -> Result<f64, Failure> {
             let burst = Burst::new(Waveform::Sine, *on, *off)
                 .map_err(|why| failed("claims", &why))?
                 .into_waveform();
@@ -316,8 +315,7 @@ pub(super) fn change_of_slope(sheet: &mut ClaimSheet) -> Result<(), Failure> {
     let ratios = [4.0, 5.0, 7.0, 10.0, 14.0];
     for (kind, figure) in [(LawKind::Stribeck, "4.5"), (LawKind::Decreasing, "4.6")] {
         let found = ratios
-            .into_par_iter()
-            .map(|ratio| {
+            .in_parallel(|&ratio| {
                 let dither = Some((Direction::Normal, Waveform::Sine, 0.9, ratio));
                 tops_of(&belt(kind, LIGHT, 0.05, dither)?)
             })

@@ -1,6 +1,7 @@
 //! Growth of a disc over speed and friction.
 
 use quell::complaint::Failure;
+use quell::parallel::Parallel;
 use quell_disc::dithered;
 use quell_disc::equations::linearised;
 use quell_linear::eigenvalues;
@@ -10,7 +11,6 @@ use quell_linear::linearised::Linearised;
 use quell_model::Disc;
 use quell_model::disc::Contributions;
 use quell_numerics::floquet::Effort;
-use rayon::prelude::*;
 
 use super::super::failure::failed;
 
@@ -60,8 +60,7 @@ pub(crate) fn growths(
     frictions: Vec<f64>,
 ) -> Result<Growths, Failure> {
     let rows: Result<Vec<Vec<Growth>>, Failure> = speeds
-        .par_iter()
-        .map(|&speed| {
+        .in_parallel(|&speed| {
             let disc = DiscGrowth::at(name, disc, speed)?;
             frictions.iter().map(|&friction| disc.growth(name, friction)).collect()
         })

@@ -8,11 +8,12 @@
 use std::ops::RangeInclusive;
 
 use quell::complaint::Failure;
+use quell::parallel::Parallel;
 use quell::plot::isolines;
 use quell_disc::resonance::{Resonance, Waves};
 use quell_model::Disc;
+use quell_numerics::order::ascending;
 use quell_numerics::roots::{Closeness, try_find_root};
-use rayon::prelude::*;
 
 use super::growth::{DiscGrowth, Growths};
 
@@ -44,7 +45,7 @@ pub(super) fn zero_lines(
         .collect();
     let lines = isolines(speeds, frictions, &values, 0.0);
     let exact = lines.into_iter().map(|line| {
-        line.points.into_par_iter().map(|point| refined(source, growths, disc, point)).collect()
+        line.points.in_parallel(|&point| refined(source, growths, disc, point)).collect()
     });
     exact.collect()
 }
@@ -126,8 +127,9 @@ fn growing(
         })
     };
     let rates: Result<Vec<Option<f64>>, Failure> = speeds
-        .par_iter()
-        .map(|&speed| is_near(speed).then(|| rate(source, disc, speed, friction)).transpose())
+        .in_parallel(|&speed| {
+            is_near(speed).then(|| rate(source, disc, speed, friction)).transpose()
+        })
         .collect();
     let rates = rates?;
     let grows = |index: usize| rates[index].is_some_and(|rate| rate > 0.0);
@@ -161,7 +163,7 @@ fn rate(source: &str, disc: &Disc, speed: f64, friction: f64) -> Result<f64, Fai
 
 /// Sorts speeds and removes repetitions.
 fn sort(speeds: &mut Vec<f64>, last: f64) {
-    speeds.sort_by(f64::total_cmp);
+    ascending(speeds);
     speeds.dedup_by(|one, other| (*one - *other).abs() < SAME_SPEED * last);
 }
 

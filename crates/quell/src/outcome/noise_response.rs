@@ -1,6 +1,7 @@
 //! `response` under noise, of belts and systems.
 
 use quell_model::units::Quantity;
+use quell_numerics::order::ascending;
 use serde_json::Value as Json;
 
 use super::Presented;
@@ -70,7 +71,7 @@ impl Presented<SystemSetup> for NoiseResponse {
         for (contact, name) in self.contacts.iter().enumerate() {
             let mut stuck: Vec<f64> =
                 self.runs.iter().map(|run| run.contacts[contact].stick_fraction).collect();
-            stuck.sort_by(f64::total_cmp);
+            ascending(&mut stuck);
             let [least, most] = [0, stuck.len() - 1].map(|place| digits(stuck[place]));
             text.word(
                 &format!("contact {name}, share of time in stick"),

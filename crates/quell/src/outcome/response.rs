@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use quell_model::units::Quantity;
+use quell_numerics::order::descending_by;
 use serde_json::Value as Json;
 
 use super::Presented;
@@ -65,7 +66,7 @@ fn table(study: &BeltStudy, done: &MeasuredResponse) -> String {
     if !response.peaks.is_empty() {
         text.push_str("\nPeaks of the spectrum, largest first:\n");
         let mut peaks = response.peaks.clone();
-        peaks.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+        descending_by(&mut peaks, |b| b.amplitude);
         let hertz = study.scales().map(|scales| scales.si_per_unit(Quantity::FrequencyRatio));
         for peak in peaks.iter().take(PEAKS) {
             let hertz = hertz.map(|hertz| format!(" ({} Hz)", figure(peak.frequency * hertz)));

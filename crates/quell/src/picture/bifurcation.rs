@@ -3,6 +3,7 @@
 use quell_dynamics::attractor::Attractor;
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::units::Quantity;
+use quell_numerics::order::ascending_by;
 
 use super::caption::{VariedNumber, caption_of_run, with_varied};
 use super::ruler::Ruler;
@@ -132,7 +133,7 @@ fn unstable(done: &Bifurcation) -> Vec<(f64, f64)> {
         .iter()
         .map(|point| (point.value, point.local == Ok(OrbitVerdict::Unstable)))
         .collect();
-    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ascending_by(&mut values, |a| a.0);
     intervals(&values)
 }
 

@@ -1,6 +1,7 @@
 //! The friction law and the effective friction over the slip velocity.
 
 use quell_model::units::Quantity;
+use quell_numerics::order::ascending_by;
 
 use super::caption::{caption, caption_of_system};
 use super::ruler::{Ruler, words};
@@ -51,7 +52,7 @@ fn panel(
     let line = |role, values: Vec<f64>| {
         let mut points: Vec<(f64, f64)> =
             slip.iter().zip(values).map(|(&v, value)| (ruler.place(v), value)).collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ascending_by(&mut points, |a| a.0);
         // The law is discontinuous at zero slip velocity.
         let (left, right): (Vec<_>, Vec<_>) = points.into_iter().partition(|(v, _)| *v <= 0.0);
         Polyline::pieces(role, [left, right])
@@ -59,7 +60,7 @@ fn panel(
     let whole = |role, values: Vec<f64>| {
         let mut points: Vec<(f64, f64)> =
             slip.iter().zip(values).map(|(&v, value)| (ruler.place(v), value)).collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ascending_by(&mut points, |a| a.0);
         Polyline::new(role, points)
     };
     let mut panel = Panel::new(

@@ -7,6 +7,8 @@
 
 use std::ops::Range;
 
+use quell_numerics::order::ascending_by;
+
 use super::ruler::short;
 use crate::plot::{
     Colouring, Contours, Field, Figure, Fill, Heatmap, Layer, Legend, Palette, Panel, PlotAxis,
@@ -161,7 +163,7 @@ fn heading(others: &[MapAxis], number: usize) -> String {
 /// Indices of the values in ascending order, and the sorted values.
 fn rising(axis: &MapAxis) -> (Vec<usize>, Vec<f64>) {
     let mut order: Vec<usize> = (0..axis.values.len()).collect();
-    order.sort_by(|one, other| axis.values[*one].total_cmp(&axis.values[*other]));
+    ascending_by(&mut order, |one| axis.values[*one]);
     let values = order.iter().map(|place| axis.values[*place]).collect();
     (order, values)
 }

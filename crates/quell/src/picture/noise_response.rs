@@ -1,5 +1,7 @@
 //! The residual vibration of runs under noise, in ascending order.
 
+use quell_numerics::order::ascending;
+
 use super::caption::{caption_of_run, caption_of_system};
 use crate::plot::{Figure, Panel, PlotAxis, PlotRole, Polyline, ReferenceLine};
 use crate::run::noise_response::{NoiseResponse, QUIET};
@@ -18,7 +20,7 @@ pub(crate) fn of_system(study: &SystemStudy, done: &NoiseResponse) -> Figure {
 /// E of the runs against the share of runs that do not exceed it.
 fn figure(done: &NoiseResponse) -> Figure {
     let mut each = done.residual_vibrations().unwrap_or_default();
-    each.sort_by(f64::total_cmp);
+    ascending(&mut each);
     let count = each.len().max(1) as f64;
     let mut points = vec![(0.0, 0.0)];
     for (place, residual_vibration) in each.iter().enumerate() {

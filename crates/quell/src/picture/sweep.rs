@@ -5,6 +5,7 @@
 //! where a number is unknown; the legend shows the reason.
 
 use quell_linear::averaging::{Becomes, FastResponse};
+use quell_numerics::order::ascending;
 
 use super::caption::{VariedNumber, caption_of, with_varied};
 use super::map::{self, MapAxis, MapKind, MappedQuantity};
@@ -250,7 +251,7 @@ fn over(done: &FinishedMap) -> Vec<Layer> {
 /// The values of an axis in ascending order, and the borders of the outermost cells, at which the frame of a map ends.
 fn to_the_frame(axis: &GridAxis) -> Vec<f64> {
     let mut values = axis.values.clone();
-    values.sort_by(f64::total_cmp);
+    ascending(&mut values);
     if let [first, second, .., before, last] = values[..] {
         let (lower, upper) = if axis.logarithmic {
             (first * (first / second).sqrt(), last * (last / before).sqrt())

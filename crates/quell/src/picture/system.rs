@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use quell_numerics::order::ascending_by;
+
 use super::ruler::Ruler;
 use super::thresholds::filled;
 use crate::plot::{
@@ -103,7 +105,7 @@ fn lowest_rate(done: &TrackedStability) -> Option<f64> {
         let width = pair[1].value - pair[0].value;
         rates.extend(pair[1].eigenvalues.iter().map(|z| (z.re, width)));
     }
-    rates.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ascending_by(&mut rates, |a| a.0);
     let (lowest, highest) = rates.first().zip(rates.last())?;
     let whole: f64 = rates.iter().map(|(_, width)| width).sum();
     let mut below = 0.0;

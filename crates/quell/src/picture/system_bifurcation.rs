@@ -1,6 +1,7 @@
 //! The bifurcation diagram of a system: stroboscopic section and peak-to-peak over the parameter, swept up and down.
 
 use quell_model::units::Quantity;
+use quell_numerics::order::ascending_by;
 
 use super::bifurcation::intervals;
 use super::caption::{caption_of_system, with_varied};
@@ -32,7 +33,7 @@ pub fn bifurcation(study: &SystemStudy, done: &SystemBifurcation) -> Figure {
             .iter()
             .map(|point| (point.value, point.local.as_ref().is_ok_and(|word| *word == "unstable")))
             .collect();
-        values.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ascending_by(&mut values, |a| a.0);
         let scaled = intervals(&values).into_iter();
         scaled.map(|(from, to)| (varied.place(from), varied.place(to))).collect::<Vec<_>>()
     };

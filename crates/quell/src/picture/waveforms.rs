@@ -1,5 +1,7 @@
 //! The cost of quenching over the duty cycle of bursts, with the continuous waveforms.
 
+use quell_numerics::order::ascending_by;
+
 use super::caption::{caption, caption_of_system};
 use super::ruler::Ruler;
 use crate::plot::{Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, SharedLegend};
@@ -99,7 +101,7 @@ fn panel(panel: &CostPanel<'_>) -> Panel {
         let own = marks.iter().filter(|mark| mark.of_carrier);
         let mut points: Vec<(f64, f64)> =
             own.filter_map(|mark| Some((mark.duty_cycle, ruler.place(of(mark)?)))).collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ascending_by(&mut points, |a| a.0);
         points
     };
     let bursts = over_duty(|mark| mark.value);

@@ -6,13 +6,14 @@ use quell_dynamics::response::{SteadyFriction, steady_effective_friction};
 use quell_linear::averaging::{AveragingOptions, Effective, FastMotion, SlopeSide, effective};
 use quell_model::units::Quantity;
 use quell_model::{Belt, Direction, Friction};
-use rayon::prelude::*;
+use quell_numerics::order::ascending;
 use serde_json::Value as Json;
 
 use crate::contact_state;
 use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::noise::few_lines;
+use crate::parallel::Parallel;
 use crate::range;
 use crate::study::BeltStudy;
 use crate::words::in_words;
@@ -76,7 +77,7 @@ pub(crate) fn grid_of(law: &Friction, velocity: f64, fast: f64) -> Vec<f64> {
         let crowd = (1..=CORNER).map(|k| fast * (1.0 - 0.5f64.powi(k))).chain([fast]);
         side.extend(crowd.filter(|&v| v <= end));
     }
-    side.sort_by(f64::total_cmp);
+    ascending(&mut side);
     side.dedup();
     let left = side.iter().rev().map(|v| -v);
     left.chain([0.0]).chain(side.iter().copied()).collect()
@@ -101,7 +102,7 @@ pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
             .and_then(|motion| effective(law, &motion, v))
             .map_err(|why| why.to_string())
     };
-    let points = at.par_iter().map(|&v| FrictionPoint {
+    let points = at.in_parallel(|&v| FrictionPoint {
         slip_velocity: v,
         coefficient: coefficient_at(law, v),
         effective: if belt.has_contact_state() && has_noise {
@@ -114,14 +115,14 @@ pub fn run(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
     });
     let in_the_limit = |v: &f64| averaged(*v, AveragingOptions::LIMIT);
     let has_limit = !belt.dithers().is_empty() && !belt.has_contact_state();
-    let limit = has_limit.then(|| at.par_iter().map(in_the_limit).collect());
+    let limit = has_limit.then(|| at.in_parallel(in_the_limit).collect());
     FrictionCurve { points: points.collect(), limit, measured: None }
 }
 
 /// The same with friction measured on steady responses (4.30), (4.31), in parallel on all cores.
 pub fn run_measured(study: &BeltStudy, at: &[f64]) -> FrictionCurve {
     let tolerance = study.solver().tolerance;
-    let measured = at.par_iter().map(|&v| {
+    let measured = at.in_parallel(|&v| {
         if v == 0.0 {
             return Err("at zero slip velocity the belt does not move".to_owned());
         }

@@ -7,6 +7,7 @@ use quell_design::substitute::{
     ExponentialDecay, SlipRateTable, SpeedCurve, TranslationalFriction,
 };
 use quell_model::units::Quantity;
+use quell_numerics::order::ascending;
 
 use super::friction;
 use crate::complaint::Failure;
@@ -91,7 +92,7 @@ fn averaged(study: &BeltStudy, fastest: f64) -> Result<(Vec<f64>, Vec<f64>), Fai
     let steps = (0..=STEPS).map(|k| fastest * f64::from(k) / f64::from(STEPS));
     let grid = friction::grid(study.belt()).into_iter().filter(|speed| *speed > 0.0);
     let mut ends: Vec<f64> = grid.filter(|speed| *speed < fastest).chain(steps).collect();
-    ends.sort_by(f64::total_cmp);
+    ascending(&mut ends);
     ends.dedup_by(|later, earlier| *later - *earlier < NEAR * fastest);
     let mut speeds = vec![ends[0]];
     for pair in ends.windows(2) {

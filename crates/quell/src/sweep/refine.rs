@@ -5,6 +5,7 @@
 //! the peak of the predicted tongue. An axis given by its values is left unchanged.
 
 use quell_disc::resonance::{Resonance, Tongue, Waves};
+use quell_numerics::order::ascending;
 
 use crate::study::{Axis, DiscStudy, Sweep};
 
@@ -23,7 +24,7 @@ pub(super) fn values(study: &DiscStudy, sweep: &Sweep) -> Vec<f64> {
     };
     if sweep.target.key().is_some_and(|address| address.key.path() == "disc.load.speed") {
         values.extend(beside(study, range));
-        values.sort_by(f64::total_cmp);
+        ascending(&mut values);
         values.dedup_by(|a, b| (*a - *b).abs() <= 1e-9);
         if range.0 > range.1 {
             values.reverse();

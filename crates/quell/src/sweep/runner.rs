@@ -1,13 +1,14 @@
 //! Computes chunks on threads; can be stopped between chunks.
 
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::plan::Plan;
 use super::sheet::Data;
 use crate::complaint::Failure;
+use crate::parallel::Parallel;
 
 /// Largest number of threads that can be requested.
 pub const MOST_THREADS: usize = 1024;
@@ -69,15 +70,18 @@ pub(crate) fn run(
     keep: impl Fn(usize, Vec<Data>) -> Result<(), Failure> + Sync,
 ) -> Result<(), Failure> {
     let pool = running.pool()?;
-    pool.install(|| {
-        // One chunk at a time: the next free thread takes the next chunk.
-        todo.par_iter().with_max_len(1).try_for_each(|&number| {
-            if running.stop.load(Ordering::Relaxed) {
-                return Ok(());
-            }
-            keep(number, plan.compute(number))?;
-            running.progress.advance(plan.chunks().points(number).len());
-            Ok(())
-        })
-    })
+    let failure = OnceLock::new();
+    // One chunk at a time: the next free thread takes the next chunk.
+    let compute = |&number: &usize| {
+        if running.stop.load(Ordering::Relaxed) || failure.get().is_some() {
+            return;
+        }
+        match keep(number, plan.compute(number)) {
+            Ok(()) => running.progress.advance(plan.chunks().points(number).len()),
+            // Another failure at the same moment is one like it.
+            Err(why) => drop(failure.set(why)),
+        }
+    };
+    pool.install(|| todo.in_parallel(compute));
+    failure.into_inner().map_or(Ok(()), Err)
 }

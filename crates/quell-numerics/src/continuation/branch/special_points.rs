@@ -5,6 +5,7 @@ use super::super::threshold::{BifurcationKind, ON_THE_CIRCLE, SMOOTH, Tests, con
 use super::super::{PeriodMap, modulus, spectral_radius};
 use super::points::{BranchSide, SpecialPoint};
 use super::run::{BranchSolution, ContinuationRun, MaybeSolution};
+use crate::order::ascending_by;
 use crate::roots::{Closeness, find_root, minimise};
 
 /// First and last distance beyond a grazing point at which the branch is searched for, in the scaled parameter.
@@ -100,7 +101,7 @@ impl<F: PeriodMap> ContinuationRun<'_, F> {
         if found.is_empty() && only.is_none() {
             found.extend(self.even_crossing(a, b));
         }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ascending_by(&mut found, |a| a.0);
         let mut before = a.clone();
         for number in 0..found.len() {
             let (_, kind, solution, error) = &found[number];

@@ -12,6 +12,7 @@ use std::sync::Arc;
 use quell_model::Contact;
 use quell_model::parameter::Bounds;
 use quell_model::system::{Input, InputTarget};
+use quell_numerics::order::ascending_by;
 
 use super::units::SystemUnits;
 use crate::complaint::{Complaint, Fault};
@@ -192,7 +193,7 @@ fn ordered(
 ) -> Result<FrequencyResponse, String> {
     let mut found = FrequencyResponse { names, in_hertz, ..FrequencyResponse::default() };
     for (pair, mut values) in series {
-        values.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ascending_by(&mut values, |a| a.0);
         let of = format!("{} over {}", found.names[pair.0], found.names[pair.1]);
         let (frequencies, values): (Vec<f64>, Vec<[f64; 2]>) = values.into_iter().unzip();
         if frequencies.windows(2).any(|two| two[0] == two[1]) {

@@ -12,7 +12,7 @@ use quell_design::actuator::{Actuator, ActuatorAtFrequency, ActuatorCoverage, co
 use quell_design::least_dither::{BeltPlant, DesignStart, OperatingPoint, Plant};
 use quell_model::Waveform;
 use quell_model::parameter::DITHER_FREQUENCY_RATIO;
-use rayon::prelude::*;
+use quell_numerics::order::{ascending, ascending_by};
 use serde_json::Value as Json;
 
 pub(crate) use demand::{
@@ -22,6 +22,7 @@ pub(crate) use demand::{
 use super::design::StudyWithDesign;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::refused_of_belt;
+use crate::parallel::Parallel;
 use crate::run::system::stability::FAR;
 use crate::study::BeltStudy;
 
@@ -158,8 +159,9 @@ impl ActuatorQuestion<'_> {
             ));
         }
         let at = |frequency: f64| self.at(frequency);
+        let frequencies = self.frequencies((from, to));
         let samples: Vec<ActuatorAtFrequency> =
-            self.frequencies((from, to)).into_par_iter().map(at).collect();
+            frequencies.in_parallel(|frequency| at(*frequency)).collect();
         if let Some(why) = unknown_everywhere(&samples) {
             return Err(Failure::Failed { key: "actuator".to_owned(), why });
         }
@@ -224,7 +226,7 @@ impl ActuatorQuestion<'_> {
         let special = self.resonances.iter().chain(measured).chain([&self.own.0]).copied();
         let special = special.filter(|frequency| from < *frequency && *frequency < to);
         let mut frequencies: Vec<f64> = even.chain(special).collect();
-        frequencies.sort_by(f64::total_cmp);
+        ascending(&mut frequencies);
         frequencies.dedup();
         frequencies
     }
@@ -285,6 +287,6 @@ fn notable(
         (format!("resonance, {helps}"), resonance.at.clone())
     }));
     places.extend(found.best.iter().map(|best| ("largest margin".to_owned(), best.clone())));
-    places.sort_by(|a, b| a.1.frequency.total_cmp(&b.1.frequency));
+    ascending_by(&mut places, |a| a.1.frequency);
     places
 }

@@ -12,7 +12,6 @@ use quell_design::atlas::{
 use quell_design::quench::quench_of_belt;
 use quell_dynamics::simulation::within;
 use quell_model::units::Quantity;
-use rayon::prelude::*;
 use serde_json::Value as Json;
 use std::sync::atomic::Ordering;
 
@@ -22,6 +21,7 @@ pub(crate) use round_numbers::{
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_A_SEARCH;
+use crate::parallel::Parallel;
 use crate::study::BeltStudy;
 use crate::study::vocabulary::in_system;
 use crate::sweep::Running;
@@ -166,7 +166,7 @@ pub fn recomputed(running: Running<'_>) -> Result<AtlasTables, Failure> {
             running.progress.advance(1);
             found
         };
-        pool.install(|| places.par_iter().with_max_len(8).map(value).collect())
+        pool.install(|| places.in_parallel(value).collect())
     };
     let mut atlas = Atlas::default();
     let mut differences = Vec::new();

@@ -23,7 +23,6 @@ use quell_dynamics::attractor::{
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::simulation::{Stalled, within};
 use quell_model::units::Scales;
-use rayon::prelude::*;
 
 use super::attractor::{settings, unknown};
 use super::varied::{Range, Varied};
@@ -31,6 +30,7 @@ use super::{failed, moves, stopped};
 use crate::complaint::{Complaint, Failure};
 use crate::contact_state::refused_of_belt;
 use crate::effort::{STEPS_OF_A_SEARCH, STEPS_OF_MANY_SEARCHES};
+use crate::parallel::Parallel;
 use crate::range::{self, SlipMet};
 use crate::study::BeltStudy;
 use crate::sweep::Running;
@@ -175,17 +175,14 @@ fn portraits(
     running: Running<'_>,
 ) -> Result<Vec<Portrait>, Failure> {
     let scenes: Vec<AttractorSettings<'_>> = studies
-        .par_iter()
-        .map(|(_, study)| within(STEPS_OF_A_SEARCH, || settings(study.belt())))
+        .in_parallel(|(_, study)| within(STEPS_OF_A_SEARCH, || settings(study.belt())))
         .collect::<Result<_, Failure>>()?;
     let chunks: Vec<_> = starts.states().chunks(CHUNK).collect();
     let tasks: Vec<(usize, usize)> = (0..scenes.len())
         .flat_map(|value| (0..chunks.len()).map(move |chunk| (value, chunk)))
         .collect();
     let done: Vec<Vec<Result<Settled, Stalled>>> = tasks
-        .par_iter()
-        .with_max_len(1)
-        .map(|&(value, chunk)| {
+        .in_parallel(|&(value, chunk)| {
             if running.stop.load(Ordering::Relaxed) {
                 return Err(stopped("basins"));
             }
@@ -199,10 +196,9 @@ fn portraits(
         })
         .collect::<Result<_, Failure>>()?;
     let whole = |value: usize| done[value * chunks.len()..(value + 1) * chunks.len()].concat();
-    scenes
-        .par_iter()
-        .enumerate()
-        .map(|(place, settings)| {
+    let numbered: Vec<(usize, &AttractorSettings<'_>)> = scenes.iter().enumerate().collect();
+    numbered
+        .in_parallel(|&(place, settings)| {
             let gather = || gather(settings, &whole(place));
             let gathered = within(STEPS_OF_MANY_SEARCHES, gather).map_err(failed)?;
             let (value, study) = &studies[place];

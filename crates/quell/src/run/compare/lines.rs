@@ -1,5 +1,6 @@
 //! Lines of a measured and of a computed spectrum, set against each other.
 
+use quell_numerics::order::{ascending_by, descending_by};
 use quell_numerics::spectrum::Peak;
 
 use super::spectra::ComparedSpectrum;
@@ -58,7 +59,7 @@ pub(super) fn compared(
     let mut theirs = computed.peaks(FLOOR);
     let mut lines: Vec<ComparedLine> = Vec::new();
     let mut by_size = measured.peaks(FLOOR);
-    by_size.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+    descending_by(&mut by_size, |b| b.amplitude);
     for peak in by_size {
         let near = resolution.max(SAME * peak.frequency);
         let away = |other: &Peak| (other.frequency - peak.frequency).abs();
@@ -71,9 +72,9 @@ pub(super) fn compared(
     lines.extend(
         theirs.into_iter().map(|peak| ComparedLine { measured: None, computed: Some(peak) }),
     );
-    lines.sort_by(|a, b| b.size().total_cmp(&a.size()));
+    descending_by(&mut lines, ComparedLine::size);
     lines.truncate(MOST_LINES);
-    lines.sort_by(|a, b| a.frequency().total_cmp(&b.frequency()));
+    ascending_by(&mut lines, ComparedLine::frequency);
     lines
 }
 

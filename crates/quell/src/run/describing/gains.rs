@@ -2,10 +2,11 @@
 
 use quell_linear::averaging::{AveragingError, DescribingFunction, EquivalentGain};
 use quell_model::units::Quantity;
-use rayon::prelude::*;
+use quell_numerics::order::ascending;
 
 use crate::dataset::Dataset;
 use crate::fields::Fields;
+use crate::parallel::Parallel;
 
 /// Equal steps of the amplitude up to the largest one.
 const STEPS: u32 = 100;
@@ -43,12 +44,12 @@ impl GainCurve {
             (1..=STEPS).map(|k| largest * f64::from(k) / f64::from(STEPS)).collect();
         // Where a corner of the averaged law enters, the gain has a kink.
         amplitudes.extend(function.corner_amplitudes().into_iter().filter(|a| *a < largest));
-        amplitudes.sort_unstable_by(f64::total_cmp);
+        ascending(&mut amplitudes);
         // A corner at one of the equal steps differs from it by rounding alone.
         amplitudes.dedup_by(|a, b| (*a - *b).abs() <= 1e-12 * largest);
         let over = |function: &DescribingFunction| -> Result<Vec<EquivalentGain>, AveragingError> {
             let found: Vec<Result<EquivalentGain, AveragingError>> =
-                amplitudes.par_iter().map(|amplitude| function.at(*amplitude)).collect();
+                amplitudes.in_parallel(|amplitude| function.at(*amplitude)).collect();
             found.into_iter().collect()
         };
         let (points, undithered) = (over(function)?, over(without)?);

@@ -2,6 +2,7 @@
 
 use quell_design::actuator::{Actuator, ActuatorDemand, SignalSize};
 use quell_model::units::Quantity;
+use quell_numerics::order::descending_by;
 
 use super::found::LeastDitherFound;
 use super::study_with_design::StudyWithDesign;
@@ -26,7 +27,7 @@ impl LeastDitherFound {
         if used.is_empty() {
             return String::new();
         }
-        used.sort_by(|a, b| b.0.total_cmp(&a.0));
+        descending_by(&mut used, |b| b.0);
         let shares: Vec<String> = used
             .iter()
             .map(|(used, path)| format!("{} % of {path}", digits(100.0 * used)))

@@ -7,7 +7,6 @@ use quell_design::least_dither::{
 };
 use quell_dynamics::simulation::{apart, within};
 use quell_linear::averaging::DitheredSystem;
-use rayon::prelude::*;
 use serde_json::Value as Json;
 
 use super::found::{DesignNumber, DesignNumbers, DesignedDither, LeastDitherFound, TriedDither};
@@ -16,7 +15,7 @@ use super::study_with_design::StudyWithDesign;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::averaged_without_states;
 use crate::effort::STEPS_OF_MANY_SEARCHES;
-use crate::parallel::InParallel;
+use crate::parallel::{InParallel, Parallel};
 use crate::run::evenly;
 use crate::study::Design;
 
@@ -121,7 +120,7 @@ pub(crate) fn least_dither<P: Plant + Sync>(
         start: asked.start,
         tasks: &InParallel,
     };
-    let designed = tried.par_iter().map(|tried| {
+    let designed = tried.in_parallel(|tried| {
         let (designed, _) = apart(STEPS_OF_MANY_SEARCHES, || fast_first(problem(&tried.plant)));
         let waveform = tried.waveform.clone();
         let is_slow = designed
@@ -262,5 +261,6 @@ fn within_range(problem: DesignProblem<'_>) -> Designed {
 /// The exact least dithers along a box of one coordinate.
 fn schedule(problem: DesignProblem<'_>, range: (f64, f64), others: &[f64]) -> Vec<ScheduledDither> {
     let at = |point: f64| apart(STEPS_OF_MANY_SEARCHES, || problem.scheduled(&[point], others)).0;
-    evenly(range, SCHEDULE).into_par_iter().map(at).collect()
+    let points = evenly(range, SCHEDULE);
+    points.in_parallel(|point| at(*point)).collect()
 }

@@ -6,13 +6,13 @@ use quell_design::least_dither::{
 };
 use quell_design::tasks::InTurn;
 use quell_dynamics::simulation::within;
-use rayon::prelude::*;
 use serde_json::Value as Json;
 
 use super::found::{ConfidentDither, DesignNumber, DesignNumbers};
 use super::study_with_design::StudyWithDesign;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_MANY_SEARCHES;
+use crate::parallel::Parallel;
 use crate::study::{Confidence, Design, Uncertainty};
 use crate::words::digits;
 
@@ -170,7 +170,8 @@ impl DrawnSamples<'_> {
                     !problem.is_quiet_by_averaging(&sample, design, quantile.value)
                 })
         };
-        let loud_again = (0..samples.valid.len()).into_par_iter().filter(loud).count();
+        let places: Vec<usize> = (0..samples.valid.len()).collect();
+        let loud_again = places.in_parallel(loud).filter(|is_loud| *is_loud).count();
         let counted = |whys: Vec<String>| (whys.len(), whys.into_iter().next());
         Ok(Quantile {
             amplitude: quantile.value,
@@ -208,7 +209,7 @@ impl AveragedSamples {
         design: &DesignPoint,
         drawn: &SampleByNumber<'_, '_>,
     ) -> Result<Self, String> {
-        let averaged = |number: usize| match drawn(number) {
+        let averaged = |number: &usize| match drawn(*number) {
             Err(why) => Averaged::Invalid(why),
             Ok(sample) => match problem.averaged_least_of(&sample, design) {
                 Ok(least) => Averaged::Least(least),
@@ -216,7 +217,8 @@ impl AveragedSamples {
                 Err(NoLeast::Failed { why, .. }) => Averaged::Unknown(why),
             },
         };
-        let all: Vec<Averaged> = (0..count).into_par_iter().map(averaged).collect();
+        let numbers: Vec<usize> = (0..count).collect();
+        let all: Vec<Averaged> = numbers.in_parallel(averaged).collect();
         let is_valid = |number: &usize| !matches!(all[*number], Averaged::Invalid(_));
         let valid: Vec<usize> = (0..count).filter(is_valid).collect();
         match all.first() {
@@ -257,7 +259,7 @@ impl AveragedSamples {
         });
         let least = |place: usize| self.least(place);
         let mut known = SampledLeast::new((0..self.valid.len()).map(least).collect());
-        let exactly = |place: usize| -> (usize, Result<f64, NoLeast>) {
+        let exactly = |&place: &usize| -> (usize, Result<f64, NoLeast>) {
             let Averaged::Least(least) = &self.all[self.valid[place]] else {
                 return (place, Ok(f64::INFINITY));
             };
@@ -272,7 +274,7 @@ impl AveragedSamples {
             if needed.is_empty() {
                 return (known, unknown);
             }
-            let found: Vec<_> = needed.into_par_iter().map(exactly).collect();
+            let found: Vec<_> = needed.in_parallel(exactly).collect();
             for (place, exact) in found {
                 let exact = exact.unwrap_or_else(|why| {
                     if let NoLeast::Failed { why, .. } = why {

@@ -2,6 +2,7 @@
 
 use quell_design::least_dither::{DesignStart, LeastAmplitude, LeastAmplitudeSensitivity};
 use quell_model::{System, Waveform};
+use quell_numerics::order::descending_by;
 use serde_json::Value as Json;
 
 use super::found::{AmplitudeRate, DesignNumber, DesignSensitivity, LeastDitherFound};
@@ -218,7 +219,7 @@ impl LeastDitherFound {
                 Some((rate.path.as_str(), relative))
             })
             .collect();
-        most.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+        descending_by(&mut most, |b| b.1.abs());
         let words: Vec<String> = most
             .iter()
             .take(2)

@@ -11,6 +11,7 @@ use quell_model::disc::Contributions;
 use quell_model::disc::DiscDither;
 use quell_model::units::Quantity;
 use quell_numerics::floquet::Effort;
+use quell_numerics::order::ascending_by;
 use serde_json::{Map, Value as Json, json};
 
 use super::critical::{self, Critical};
@@ -177,7 +178,7 @@ fn sign_of_friction(study: &DiscStudy) -> f64 {
 }
 
 fn ascending(mut changes: Vec<MarginalFriction>) -> Vec<MarginalFriction> {
-    changes.sort_by(|a, b| a.friction.total_cmp(&b.friction));
+    ascending_by(&mut changes, |a| a.friction);
     changes
 }
 

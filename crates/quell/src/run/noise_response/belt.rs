@@ -6,11 +6,11 @@ use quell_linear::growth::of_criterion;
 use quell_linear::linear_cost::{NoiseCost, noise_cost};
 use quell_model::waveform::Noise;
 use quell_model::{Belt, Direction, Waveform};
-use rayon::prelude::*;
 
 use super::{NoiseResponse, NoisyContact, NoisyRun, number_of_runs};
 use crate::complaint::Failure;
 use crate::contact_state::complaint_of_belt;
+use crate::parallel::Parallel;
 use crate::range;
 use crate::run::{failed, start};
 use crate::study::BeltStudy;
@@ -35,10 +35,9 @@ pub fn of_belt(study: &BeltStudy, seeds: Option<usize>) -> Result<NoiseResponse,
         (0..count as u64).map(|by| ResponseCase { belt: belt.reseeded(by), start }).collect();
     // The power of noise is that of its linear response; the stroke has no largest value.
     let observables = Observables { dither_cost: false };
-    let found: Vec<Result<Compared, _>> = cases
-        .par_chunks(ABREAST)
-        .flat_map_iter(|cases| compare_many(cases, study.solver(), observables))
-        .collect();
+    let abreast: Vec<&[ResponseCase]> = cases.chunks(ABREAST).collect();
+    let compared = |cases: &&[ResponseCase]| compare_many(cases, study.solver(), observables);
+    let found: Vec<Result<Compared, _>> = abreast.in_parallel(compared).flatten().collect();
     let found: Vec<Compared> = found.into_iter().collect::<Result<_, _>>().map_err(failed)?;
     let runs = found.iter().zip(&cases).map(|(run, case)| {
         let first = case.belt.dithers().iter().find_map(|dither| dither.waveform.noise());

@@ -13,6 +13,7 @@ mod system;
 
 use quell_linear::linear_cost::NoiseCost;
 use quell_model::units::Quantity;
+use quell_numerics::order::ascending;
 use serde_json::Value as Json;
 
 use super::basins::{Share, StartLayout};
@@ -112,7 +113,7 @@ fn number_of_runs(seeds: Option<usize>, is_noise: bool) -> Result<usize, Failure
 /// Least, median and largest of some values.
 fn spread(values: &[f64]) -> Option<[f64; 3]> {
     let mut values = values.to_vec();
-    values.sort_by(f64::total_cmp);
+    ascending(&mut values);
     let (first, last) = (*values.first()?, *values.last()?);
     let middle = values.len() / 2;
     let median = if values.len().is_multiple_of(2) {

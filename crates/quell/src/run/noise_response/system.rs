@@ -7,10 +7,10 @@ use quell_linear::linear_cost::NoiseCost;
 use quell_linear::linearised::Linearised;
 use quell_model::waveform::Noise;
 use quell_model::{Input, System, Waveform};
-use rayon::prelude::*;
 
 use super::{NoiseResponse, NoisyContact, NoisyRun, number_of_runs};
 use crate::complaint::Failure;
+use crate::parallel::Parallel;
 use crate::run::system::has_equations;
 use crate::run::system::response::{ResponseRequest, plan_of, refused, undefined};
 use crate::run::system::simulate::beyond_laws;
@@ -34,8 +34,7 @@ pub fn of_system(
     let without = UnditheredResponse::new(system, &start, &plan).map_err(failed)?;
     let seeded: Vec<System> = (0..count as u64).map(|by| system.reseeded(by)).collect();
     let found: Vec<Result<(NoisyRun, Vec<f64>), Failure>> = seeded
-        .par_iter()
-        .map(|system| Ok(run_of(system, &without.with_dither(system).map_err(failed)?)))
+        .in_parallel(|system| Ok(run_of(system, &without.with_dither(system).map_err(failed)?)))
         .collect();
     let runs: Vec<(NoisyRun, Vec<f64>)> = found.into_iter().collect::<Result<_, _>>()?;
     let largest = |contact: usize| runs.iter().map(|(_, slip)| slip[contact]).fold(0.0, f64::max);

@@ -10,8 +10,9 @@ mod thresholds;
 
 use std::sync::atomic::Ordering;
 
+use crate::parallel::Parallel;
 use quell_design::probability::{SobolIndices, binomial_interval, quantile, sobol_indices};
-use rayon::prelude::*;
+use quell_numerics::order::ascending;
 
 pub use sampled::{AveragedGrowth, JudgedGrowth, SampledBelt, SampledKind};
 pub use thresholds::SampledThresholds;
@@ -278,7 +279,7 @@ where
         Some(done)
     };
     let found: Option<Vec<Vec<Result<JudgedSample, String>>>> =
-        pool.install(|| chunks.par_iter().map(of_chunk).collect());
+        pool.install(|| chunks.in_parallel(of_chunk).collect());
     running.progress.end();
     let Some(found) = found else { return Err(super::stopped("probability")) };
     let mut valid: Vec<JudgedSample> = Vec::with_capacity(samples);
@@ -341,7 +342,7 @@ fn growth(
 ) -> SampledGrowth {
     let rate = |growth: &AveragedGrowth| Some(of(growth)?.as_ref().ok()?.rate);
     let mut rates: Vec<f64> = samples.iter().filter_map(|sample| rate(&sample.first)).collect();
-    rates.sort_by(f64::total_cmp);
+    ascending(&mut rates);
     let unknown = samples.len() - rates.len();
     let why = samples.iter().find_map(|sample| of(&sample.first)?.as_ref().err().cloned());
     let indices = (0..groups.len()).map(|group| {

@@ -1,6 +1,7 @@
 //! The least quiet amplitudes of samples, and their quantiles.
 
 use quell_design::probability::quantile;
+use quell_numerics::order::ascending;
 
 /// Samples of which the threshold is computed by averaging, at most.
 const MOST: usize = 10_000;
@@ -34,7 +35,7 @@ impl SampledThresholds {
                 }
             }
         }
-        found.amplitudes.sort_by(f64::total_cmp);
+        ascending(&mut found.amplitudes);
         found
     }
 

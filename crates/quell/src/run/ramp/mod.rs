@@ -16,6 +16,7 @@ use std::fmt::Write as _;
 use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::profile::Knots;
 use quell_model::units::Quantity;
+use quell_numerics::order::ascending_by;
 use quell_numerics::roots::{Closeness, find_root};
 use serde_json::Value as Json;
 
@@ -251,7 +252,7 @@ impl Ramp {
                 })
             })
             .collect();
-        crossings.sort_by(|a, b| a.time.total_cmp(&b.time));
+        ascending_by(&mut crossings, |a| a.time);
         crossings
     }
 

@@ -12,6 +12,7 @@ use std::sync::atomic::AtomicBool;
 
 use quell_design::estimates::{Estimates, Freedom};
 use quell_numerics::damped_least_squares::{DampedMinimum, DampedSearch, FittedFunction, fitted};
+use quell_numerics::order::ascending_by;
 use quell_study::record::{RecordRequest, TimeSeries};
 
 pub use request::{FreeNumber, FreeStart, MEASUREMENT};
@@ -212,7 +213,7 @@ fn search(
 
 /// Sorts the minima, drops those that another one equals, and keeps a few.
 fn keep_least(minima: &mut Vec<DampedMinimum>) {
-    minima.sort_by(|a, b| a.rss.total_cmp(&b.rss));
+    ascending_by(minima, |a| a.rss);
     let mut kept: Vec<DampedMinimum> = Vec::new();
     for found in minima.drain(..) {
         let is_known = kept.iter().any(|other| {

@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 
 use quell_design::decay::dominant_frequency;
 use quell_numerics::damped_least_squares::FittedFunction;
+use quell_numerics::order::ascending_by;
 use quell_numerics::random::SplitMix;
 use quell_study::record::TimeSeries;
 
@@ -84,7 +85,7 @@ pub(super) fn starts(
             Some((if place == 0 { -1.0 } else { distance? }, point))
         })
         .collect();
-    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ascending_by(&mut ranked, |a| a.0);
     ranked.truncate(KEPT);
     let points = ranked.into_iter().map(|(_, point)| point);
     let shift = free.iter().position(|one| one.number == FreeNumber::Shift && one.start.is_none());
@@ -139,7 +140,7 @@ fn shifted(model: &mut RecordModel<'_>, point: &[f64], place: usize, period: f64
         })
         .map(|k| each[k])
         .collect();
-    least.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ascending_by(&mut least, |a| a.0);
     least.truncate(KEPT_SHIFTS);
     least.into_iter().map(|(_, shift)| at(shift)).collect()
 }

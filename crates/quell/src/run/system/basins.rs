@@ -5,7 +5,6 @@ use std::sync::atomic::Ordering;
 
 use quell_dynamics::motion::orbit::sliding_state;
 use quell_model::System;
-use rayon::prelude::*;
 
 use super::attractor::{EndOfRun, SystemAttractor, ends_of_runs, local_verdict};
 use super::protocol::SystemProtocol;
@@ -13,6 +12,7 @@ use super::start::{state_names, state_quantity};
 use super::tracked::{TrackRequest, understood};
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Complaints, Failure, Origin};
+use crate::parallel::Parallel;
 use crate::quantity;
 use crate::run::basins::{BasinsRequest, MOST_STARTS, Share, StartLayout};
 use crate::run::varied::{MOST_VALUES, Range};
@@ -236,9 +236,7 @@ pub fn run(
         .collect();
     let ends = running.pool()?.install(|| {
         tasks
-            .into_par_iter()
-            .with_max_len(1)
-            .map(|(system, begun, part)| {
+            .in_parallel(|(system, begun, part)| {
                 if running.stop.load(Ordering::Relaxed) {
                     return Err(stopped("basins"));
                 }

@@ -9,7 +9,6 @@ use quell_model::System;
 use quell_model::profile::Profile;
 use quell_model::system::{Contact, Input, InputTarget};
 use quell_model::units::Quantity;
-use rayon::prelude::*;
 use serde_json::Value as Json;
 
 use super::has_equations;
@@ -18,6 +17,7 @@ use crate::contact_state::passivity_of_system;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::noise::few_lines_of_system;
+use crate::parallel::Parallel;
 use crate::range;
 use crate::run::friction::{FrictionCurve, FrictionPoint, coefficient_at, grid_of};
 use crate::study::SystemStudy;
@@ -59,7 +59,7 @@ pub fn run(study: &SystemStudy, at: Option<&[f64]>) -> Result<SystemFriction, Fa
         let velocity = contact.surface_velocity.mean();
         let own = || grid_of(&contact.friction, velocity, *fast_velocity.as_ref().unwrap_or(&0.0));
         let at = at.map_or_else(own, <[f64]>::to_vec);
-        let points = at.par_iter().map(|&v| FrictionPoint {
+        let points = at.in_parallel(|&v| FrictionPoint {
             slip_velocity: v,
             coefficient: coefficient_at(&contact.friction, v),
             effective: mean_at(system, index, law.clone(), v),

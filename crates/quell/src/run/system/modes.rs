@@ -4,6 +4,7 @@ use quell_linear::linearised::{FrictionSlopes, Linearised};
 use quell_linear::spectrum::{SmallMotion, spectrum};
 use quell_model::System;
 use quell_model::units::Quantity;
+use quell_numerics::order::ascending_by;
 use serde_json::Value as Json;
 
 use super::{failed, has_equations};
@@ -39,7 +40,7 @@ pub(crate) fn of(system: &System) -> Result<SystemModes, Failure> {
     let found = found.map_err(|why| failed("modes", why))?;
     let mut modes: Vec<SmallMotion> =
         found.motions.into_iter().filter(|motion| motion.eigenvalue.im >= 0.0).collect();
-    modes.sort_by(|a, b| natural(a).total_cmp(&natural(b)));
+    ascending_by(&mut modes, natural);
     Ok(SystemModes { modes })
 }
 

@@ -9,7 +9,6 @@ use quell_dynamics::orbit::threshold::BranchEnding;
 use quell_dynamics::response::{BAND_END, vibration_frequency};
 use quell_model::System;
 use quell_model::profile::Wave;
-use rayon::prelude::*;
 use serde_json::Value as Json;
 
 use super::protocol::SystemProtocol;
@@ -18,6 +17,7 @@ use super::tracked::{TrackRequest, understood};
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_A_SEARCH;
+use crate::parallel::Parallel;
 use crate::run::thresholds::{ThresholdsRequest, can_ramp};
 use crate::study::SystemStudy;
 
@@ -149,8 +149,8 @@ pub fn run(
 fn side_by_side(run: &VariedRun<'_>, window: (f64, f64)) -> RunSwitches {
     let values: Vec<f64> = values_tried(window, STEPS_TRIED).collect();
     let outcomes: Vec<(f64, RunOutcome)> =
-        values.into_par_iter().map(|value| (value, run.outcome(value))).collect();
-    RunSwitches::of(&outcomes, |pairs| pairs.par_iter().map(|[a, b]| run.change(*a, *b)).collect())
+        values.in_parallel(|value| (*value, run.outcome(*value))).collect();
+    RunSwitches::of(&outcomes, |pairs| pairs.in_parallel(|[a, b]| run.change(*a, *b)).collect())
 }
 
 /// The reason of a failure.

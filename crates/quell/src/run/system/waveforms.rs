@@ -11,7 +11,6 @@ use quell_linear::spectrum::spectrum;
 use quell_model::System;
 use quell_model::profile::{Profile, Wave};
 use quell_model::units::Quantity;
-use rayon::prelude::*;
 use serde_json::Value as Json;
 
 use super::modes::natural;
@@ -22,6 +21,7 @@ use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::{averaged_without_states, averages_are_a_start, passivity_of_system};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::parallel::Parallel;
 use crate::run::waveforms::{
     Candidates, ComparedWaveform, LeastDither, NoAveragedDither, WaveformComparison, WaveformCost,
     duty_cycle, exact_of_system, in_the_band, searched,
@@ -48,7 +48,7 @@ pub fn run(study: &SystemStudy) -> Result<WaveformComparison, Failure> {
     let motions =
         spectrum(&sliding, &sliding.friction()).map_err(|why| failed("waveforms", why))?;
     let highest = motions.motions.iter().map(natural).fold(0.0, f64::max);
-    let rows = waveforms.into_par_iter().map(|waveform| {
+    let rows = waveforms.in_parallel(|waveform| {
         let wave = Wave { waveform: waveform.clone(), amplitude: 1.0, ..first.clone() };
         let acting = |amplitude: f64| with_wave(system, &Wave { amplitude, ..wave.clone() });
         let unit = acting(1.0);
@@ -63,8 +63,8 @@ pub fn run(study: &SystemStudy) -> Result<WaveformComparison, Failure> {
         let cost = input_cost(&unit, &sliding, &unit.inputs[0].target, &wave);
         let cost = cost.map_err(|why| why.to_string());
         ComparedWaveform {
-            own: waveform == first.waveform,
-            duty_cycle: duty_cycle(&waveform),
+            own: *waveform == first.waveform,
+            duty_cycle: duty_cycle(waveform),
             slow: wave.repetition() < FAR * highest,
             exact: prepared
                 .as_ref()
@@ -78,7 +78,7 @@ pub fn run(study: &SystemStudy) -> Result<WaveformComparison, Failure> {
                 power: cost.map(|cost| cost.power),
             },
             without_state,
-            waveform,
+            waveform: waveform.clone(),
         }
     });
     Ok(WaveformComparison { rows: rows.collect(), carrier })

@@ -21,7 +21,6 @@ use quell_linear::linear_cost::linear_cost;
 use quell_model::units::Quantity;
 use quell_model::waveform::Burst;
 use quell_model::{Belt, Dither, Parametrisation, System, Waveform};
-use rayon::prelude::*;
 use serde_json::Value as Json;
 
 pub(crate) use comparison::{COLUMNS, CostColumn};
@@ -34,6 +33,7 @@ use crate::contact_state::{
 use crate::dataset::{Array, Dataset};
 use crate::effort::STEPS_OF_AN_ALTERNATIVE;
 use crate::fields::Fields;
+use crate::parallel::Parallel;
 use crate::study::BeltStudy;
 use crate::words::{digits, in_words};
 
@@ -69,7 +69,7 @@ pub fn run(study: &BeltStudy) -> Result<WaveformComparison, Failure> {
     };
     super::moves(study, "sliding on it is to be stable")?;
     let Candidates { waveforms, carrier } = Candidates::beside(&first.waveform);
-    let rows = waveforms.into_par_iter().map(|waveform| compared(belt, first, waveform)).collect();
+    let rows = waveforms.in_parallel(|waveform| compared(belt, first, waveform.clone())).collect();
     Ok(WaveformComparison { rows, carrier })
 }
 

@@ -1,5 +1,7 @@
 //! What is drawn of a system: its bodies, links and their positions.
 
+use quell_numerics::order::descending_by;
+
 use super::body::SketchBody;
 use super::grid::BodyGrid;
 use super::link::SketchLink;
@@ -30,7 +32,7 @@ impl SystemDrawing<'_> {
                 None => touched.push((body, factor)),
             }
         }
-        touched.sort_by(|one, other| other.1.abs().total_cmp(&one.1.abs()));
+        descending_by(&mut touched, |other| other.1.abs());
         touched
     }
 }

@@ -13,6 +13,7 @@ use quell_model::parameter::BELT_VELOCITY;
 use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov};
 use quell_numerics::eigen::EigenError;
 use quell_numerics::matrix::Matrix;
+use quell_numerics::order::ascending_by;
 use quell_numerics::roots::{Closeness, find_root};
 
 use super::validity::ContactRanges;
@@ -157,7 +158,7 @@ fn rests(
             found.push(SurfaceAtRest { value: root.location, contact: contact.name.clone() });
         }
     }
-    found.sort_by(|a, b| a.value.total_cmp(&b.value));
+    ascending_by(&mut found, |a| a.value);
     found
 }
 
