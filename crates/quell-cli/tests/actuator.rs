@@ -1,12 +1,10 @@
 //! `[actuator]`: what a designed dither demands, against closed forms of a sine, and complaints.
 
-#[expect(dead_code, reason = "other files of tests use the rest of it")]
-mod place;
-
 use std::f64::consts::{SQRT_2, TAU};
 
-use place::Place;
 use serde_json::Value as Json;
+
+use crate::place::Place;
 
 /// A pad of 0.4 kg on 2 kN/mm whose dither has a range of 3 to 12 kHz.
 const BELT: &str = r#"

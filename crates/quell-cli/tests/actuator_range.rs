@@ -1,11 +1,10 @@
 //! `quell actuator`: closed forms of a sine, agreement of belt and system and with `design`, and what is said where nothing suffices.
 
-mod place;
-
 use std::f64::consts::TAU;
 
-use place::Place;
 use serde_json::Value as Json;
+
+use crate::place::Place;
 
 /// A pad of 0.1 kg on 370 N/µm, its stack included.
 const BELT: &str = r#"

@@ -1,10 +1,8 @@
 //! Tests of the binary: bifurcation diagrams and basins.
 
-#[path = "place/repository.rs"]
-mod repository;
-
-use repository::{quell, words};
 use serde_json::Value as Json;
+
+use crate::repository::{quell, words};
 
 /// Decreasing law, v₀ = 1, ζ = 0.005, sine tangential dither with R = 10, D = 2.5.
 const STUDY: &str = "studies/will-every-start-fall-quiet.toml";

@@ -1,14 +1,13 @@
 //! Tests of the binary: exit statuses, exactly one JSON object, no files left behind.
 
-mod place;
-
 use std::fs;
 use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use place::Place;
 use serde_json::Value as Json;
+
+use crate::place::Place;
 
 const STUDY: &str = r#"schema = 1
 title = "Stribeck belt"

@@ -1,11 +1,10 @@
 //! Tests of the binary with studies of a disc: names in JSON, exit statuses, files that read back.
 
-mod place;
-
 use std::fs;
 
-use place::Place;
 use serde_json::Value as Json;
+
+use crate::place::Place;
 
 const STUDY: &str = r#"schema = 1
 title = "Disc under a pad"

@@ -1,11 +1,10 @@
 //! Amplitudes as root mean square and peak to peak, in volts, amperes and per cent of what the actuator can give.
 
-mod place;
-
 use std::f64::consts::{SQRT_2, TAU};
 
-use place::Place;
 use serde_json::Value as Json;
+
+use crate::place::Place;
 
 /// A pad whose stack is part of the structure, without the amplitude of its dither.
 const BELT: &str = r#"

@@ -1,11 +1,10 @@
 //! New studies, help with its examples, completions, BibTeX; and sentences that answer the question.
 
-mod place;
-
 use std::collections::BTreeSet;
 
-use place::Place;
 use quell::template::TEMPLATES;
+
+use crate::place::Place;
 
 /// A folder with a file of every template.
 fn place(name: &str) -> Place {

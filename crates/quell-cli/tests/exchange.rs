@@ -1,11 +1,9 @@
 //! Files of other programs: matrices in, tables of MATLAB and NetCDF and friction models of Abaqus and Simscape out.
 
-mod place;
-
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
 
-use place::Place;
+use crate::place::Place;
 
 /// Coulomb friction under a tangential sine, whose average is (2/π) μ asin(v/α) below α and μ above.
 const SINE: &str = "[belt]\nmass_kg = 2.0\nstiffness_n_per_m = 200.0\ndamping_ratio = 0.01\nnormal_force_n = 20.0\n\

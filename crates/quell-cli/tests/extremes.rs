@@ -3,13 +3,10 @@
 //! A generator sets one to three parameters to their smallest or largest values and runs one verb. The test runs a few such
 //! cases with a fixed seed, and cases that once did not terminate; `QUELL_EXTREMES=2000` runs 2000 random cases.
 
-#[expect(dead_code, reason = "other files of tests use the rest of it")]
-mod place;
-
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-use place::Place;
+use crate::place::Place;
 
 const BELT: &str = "schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.05\n\
     [friction]\nlaw = \"LAW\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n\

@@ -1,14 +1,11 @@
 //! `quell fit`: answers, refusals, files.
 
-#[expect(dead_code, reason = "other files of tests use the rest of it")]
-mod place;
-
 use std::fmt::Write as _;
-
 use std::fs;
 
-use place::Place;
 use serde_json::Value as Json;
+
+use crate::place::Place;
 
 /// The stored case with this index as a file.
 fn place(name: &str, index: usize) -> (Place, Json) {

@@ -2,15 +2,13 @@
 //! kept, and limits and signals leave no partial files.
 #![cfg(unix)]
 
-mod place;
-
 use std::fs;
 use std::io::Read;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use place::Place;
+use crate::place::Place;
 
 const MEASURED: &str = "schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.1\n\
     [friction]\nlaw = \"samples\"\nfile = \"data.csv\"\n\

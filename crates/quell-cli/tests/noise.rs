@@ -1,8 +1,6 @@
 //! Verbs under noise: those about a response that repeats refuse it by name, and say what answers instead.
 
-mod place;
-
-use place::Place;
+use crate::place::Place;
 
 const NOISE: &str = r#"
 [belt]

@@ -1,12 +1,11 @@
 //! Files about a study: `sketch` and `report`.
 
-mod place;
-
 use std::fs;
 
-use place::Place;
 use quell::template::Template;
 use serde_json::Value as Json;
+
+use crate::place::Place;
 
 fn place(name: &str) -> Place {
     let text = Template::find("quench").expect("a template").text;

@@ -1,11 +1,10 @@
 //! A study in SI: options without units are in SI, units are accepted for every number with a dimension, tables are in SI.
 
-mod place;
-
 use std::fs;
 
-use place::Place;
 use serde_json::Value as Json;
+
+use crate::place::Place;
 
 const PAD: &str = r#"schema = 1
 title = "A pad in SI"

@@ -1,11 +1,10 @@
 //! `quell simulate --save run.wav`: the file, what the answer says about it, and what is refused.
 
-mod place;
-
 use std::fs;
 
-use place::Place;
 use quell::template::TEMPLATES;
+
+use crate::place::Place;
 
 /// A folder with a belt in the units of the equations and one in SI.
 fn place(name: &str) -> Place {

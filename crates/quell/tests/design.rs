@@ -1,14 +1,12 @@
 //! `design` of a belt: units, complaints with their keys, and several waveforms.
 
-mod designs;
-
 use quell::Study;
 use quell::kind::verbs;
 use quell::run::protocol::Protocol;
 use quell::run::thresholds::ThresholdsRequest;
 use serde_json::Value as Json;
 
-use designs::{complaint, facts};
+use crate::designs::{complaint, facts};
 
 const BELT: &str = "[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.1\n[friction]\nlaw = \"stribeck\"\n\
                     static_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\n\

@@ -1,12 +1,10 @@
 //! What a design tries in turn: places of the dither, and bursts of several numbers of periods. Each choice is the design of a study that
 //! is written with it.
 
-mod designs;
-
 use quell::Study;
 use serde_json::Value as Json;
 
-use designs::{complaint, facts};
+use crate::designs::{complaint, facts};
 
 /// A motor that drives a carriage with friction, dithered at one of them.
 fn two_masses(dither: &str, design: &str) -> String {

@@ -1,12 +1,10 @@
 //! `design` of a disc: its answer as JSON, speeds and frequencies in SI, other waveforms, and refusals.
 
-mod designs;
-
 use quell::Study;
 use quell::kind::verbs;
 use serde_json::Value as Json;
 
-use designs::{complaint, facts};
+use crate::designs::{complaint, facts};
 
 /// A friction just above that of a backward wave, which normal dither of this frequency quenches.
 const DISC: &str = "[disc]\ninner_radius_ratio = 0.5\npoisson_ratio = 0.3\nradial_modes = 1\nnodal_diameters = 2\n\

@@ -1,12 +1,10 @@
 //! `design` of a system: the belt written as a system against independent numbers, dither on one of two masses, and refusals.
 
-mod designs;
-
 use quell::Study;
 use quell::kind::verbs;
 use serde_json::Value as Json;
 
-use designs::{complaint, facts};
+use crate::designs::{complaint, facts};
 
 /// The belt with ζ = 0.005 and F = 1 as a system of one mass.
 const BELT: &str = "[system]\ncoordinates = [\"x\"]\nmass = [1.0]\ndamping = [0.01]\nstiffness = [1.0]\n[[contact]]\n\

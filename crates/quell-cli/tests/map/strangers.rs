@@ -116,7 +116,7 @@ fn links_in_a_store_are_not_followed() {
 
 #[test]
 fn a_store_of_another_map_is_left_as_it_is() {
-    let (place, _) = whole("refused");
+    let (place, _) = whole("of-another-map");
     place.write("m.zarr/.quell/unfinished/theirs", "half");
     fs::remove_file(place.folder.join("m.zarr/.quell/lock")).expect("a lock");
     let before = files(&place.folder.join("m.zarr"));

@@ -1,8 +1,11 @@
 //! The binary in a fresh folder, for several test files.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::sync::Mutex;
+use std::thread::{self, ThreadId};
 
 use serde_json::Value as Json;
 
@@ -14,6 +17,10 @@ pub(crate) struct Place {
 impl Place {
     /// A fresh folder with these files.
     pub(crate) fn with(name: &str, files: &[(&str, &str)]) -> Self {
+        static USERS: Mutex<BTreeMap<String, ThreadId>> = Mutex::new(BTreeMap::new());
+        let test = thread::current().id();
+        let user = USERS.lock().map(|mut users| *users.entry(name.to_owned()).or_insert(test));
+        assert_eq!(user.ok(), Some(test), "two tests use the folder {name}");
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
         // The folder may remain from an earlier run.
         let _ = fs::remove_dir_all(&folder);

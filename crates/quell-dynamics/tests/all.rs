@@ -1,0 +1,33 @@
+//! The tests of motions, orbits and attractors.
+//!
+//! One program: each links the whole workspace, and its tests share the processors.
+
+mod actuator_in_series;
+mod attractors;
+mod averaging_errata;
+mod contact_states;
+mod criticality;
+mod curves;
+mod cycles;
+mod disc_at_varying_speed;
+mod isocline;
+mod judge;
+mod lengths;
+mod load_over_time;
+mod lyapunov;
+mod measured_friction;
+mod motion_energy;
+mod motion_errata;
+mod motion_refusals;
+mod motion_thresholds;
+mod orbits;
+mod own_laws;
+mod reasons;
+mod reference_trajectories;
+mod response;
+mod side_by_side;
+mod sliders_at_rest;
+mod state_variation;
+mod threshold_windows;
+mod traps;
+mod work_balance;
