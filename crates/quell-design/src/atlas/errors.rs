@@ -1,6 +1,7 @@
 //! The errors of a table, measured at random points of the range.
 
 use quell_model::Waveform;
+use quell_numerics::order::ascending;
 use quell_numerics::random::SplitMix;
 
 use super::point::{AtlasRange, RANGE};
@@ -57,7 +58,7 @@ impl AtlasErrors {
                 })
             })
             .collect();
-        errors.sort_by(f64::total_cmp);
+        ascending(&mut errors);
         let last = errors.len().checked_sub(1)?;
         let quantile = |percent: usize| errors[(percent * last).div_ceil(100)];
         Some(Self {

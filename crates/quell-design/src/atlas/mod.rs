@@ -34,7 +34,7 @@
 //! | `node` | the exact value at a node |
 //! | `answer` | the amplitudes at which the verdict changes |
 //! | `errors` | random points, and the errors of a table at them |
-//! | `text` | the file `data/atlas-1.txt` |
+//! | `text` | the file `data/atlas-1.txt.gz` |
 
 mod answer;
 mod errors;
@@ -45,8 +45,10 @@ mod point;
 mod table;
 mod text;
 
+use std::io::Read as _;
 use std::sync::OnceLock;
 
+use flate2::read::GzDecoder;
 use quell_model::Waveform;
 
 pub use answer::{AtlasAnswer, AtlasChange, NeutralDampings};
@@ -74,8 +76,12 @@ impl Atlas {
     /// The atlas of this version. A test reads it whole.
     pub fn shipped() -> &'static Self {
         static ATLAS: OnceLock<Atlas> = OnceLock::new();
-        ATLAS
-            .get_or_init(|| Self::parse(include_str!("../../data/atlas-1.txt")).unwrap_or_default())
+        ATLAS.get_or_init(|| {
+            let mut text = String::new();
+            let file = GzDecoder::new(&include_bytes!("../../data/atlas-1.txt.gz")[..])
+                .read_to_string(&mut text);
+            file.ok().and_then(|_| Self::parse(&text).ok()).unwrap_or_default()
+        })
     }
 
     /// The table of a surface; `None` for an atlas that lacks it.

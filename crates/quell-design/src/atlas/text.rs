@@ -1,4 +1,4 @@
-//! The atlas as text: `data/atlas-1.txt`.
+//! The atlas as text: `data/atlas-1.txt.gz`.
 //!
 //! The first line is the name of the format and its version. Each table is preceded by its axes (`axis NAME LOW HIGH NODES`), named
 //! by `table LAW WAVEFORM SURFACE`, and followed by its values, one a line, the last axis fastest. After the tables come their errors:

@@ -11,9 +11,9 @@
 //! record (a parabola is not). The remaining error is the leakage of other tones, which decreases with the third power of
 //! their distance in bins.
 //!
-//! Limits: tones closer than two bins 2π/(nh) form one peak. The transform (`realfft`) selects the
-//! instruction set of the machine, so spectra of two machines may differ in the last digits
-//! (about 10⁻¹⁶ of the largest line); trajectories do not.
+//! Limits: tones closer than two bins 2π/(nh) form one peak. The transform (`realfft`) is its
+//! scalar code, with the same bits on any instruction set; its table of sines is the platform's, whose last digit may differ
+//! between C libraries (10⁻¹⁶ of the largest line).
 //!
 //! Reference: F. J. Harris, *Proc. IEEE* 66 (1978) 51–83; T. Grandke, *IEEE Trans. Instrum. Meas.* 32 (1983) 350.
 
