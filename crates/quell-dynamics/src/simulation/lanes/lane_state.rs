@@ -130,6 +130,7 @@ impl LaneState {
     }
 
     /// Writes the start of the next step.
+    #[inline(always)]
     pub(super) fn load(&mut self, lane: usize, engine: &Engine<'_>, due: SlipDue) {
         self.sign.0[lane] = due.sign;
         self.stop.0[lane] = due.stop;

@@ -40,24 +40,29 @@ impl RootSearch {
         batches: &mut [Batch<'_>],
         laws: &[LawLanes<V, L>],
     ) {
-        self.find::<V>(batches);
-        for (batch, laws) in batches.iter_mut().zip(laws).filter(|(batch, _)| !batch.all_clear) {
-            batch.lanes.cut_at_roots(&laws.series);
-        }
-    }
-
-    /// Gathers the candidates, finds their roots and gives them back: one function for every law.
-    #[inline(never)]
-    fn find<V: Lane>(&mut self, batches: &mut [Batch<'_>]) {
-        let lanes = V::LANES;
         self.candidates.clear();
         for (number, batch) in batches.iter().enumerate() {
             if batch.all_clear {
                 continue;
             }
-            let unproven = (0..lanes).filter(|&lane| batch.lanes.is_unproven(lane));
-            self.candidates.extend(unproven.map(|lane| (number, lane)));
+            for lane in 0..V::LANES {
+                if batch.lanes.is_unproven(lane) {
+                    self.candidates.push((number, lane));
+                }
+            }
         }
+        if !self.candidates.is_empty() {
+            self.find::<V>(batches);
+        }
+        for (batch, laws) in batches.iter_mut().zip(laws).filter(|(batch, _)| !batch.all_clear) {
+            batch.lanes.cut_at_roots(&laws.series);
+        }
+    }
+
+    /// Finds the roots of the candidates and gives them back: one function for every law.
+    #[inline(never)]
+    fn find<V: Lane>(&mut self, batches: &mut [Batch<'_>]) {
+        let lanes = V::LANES;
         for first in (0..self.candidates.len()).step_by(lanes) {
             let last = self.candidates.len().min(first + lanes);
             self.wanted = LaneRow::ZERO;
