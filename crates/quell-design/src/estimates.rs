@@ -142,7 +142,7 @@ impl Estimates {
             let mut shares: Vec<(usize, f64)> =
                 visible.iter().copied().zip(pair.vector.iter().copied()).collect();
             shares.retain(|(_, share)| share.abs() > NAMED);
-            descending_by(&mut shares, |b| b.1.abs());
+            descending_by(&mut shares, |a| a.1.abs());
             self.weak.push(WeakCombination { ratio: (pair.value / largest).max(0.0), shares });
         }
         self.condition = lost.is_empty().then(|| largest / pairs[0].value);

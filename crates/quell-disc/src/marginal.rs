@@ -276,7 +276,7 @@ impl<E> Line<'_, E> {
                 exponents.push(exponent);
             }
         }
-        descending_by(&mut exponents, |b| b.rate);
+        descending_by(&mut exponents, |a| a.rate);
         Ok(LinePoint { at, exponents })
     }
 

@@ -18,16 +18,17 @@ pub fn ascending(numbers: &mut [f64]) {
 /// assert_eq!(peaks.map(|peak| peak.0), ["a", "b", "c"]);
 /// ```
 pub fn ascending_by<T>(items: &mut [T], number: impl Fn(&T) -> f64) {
-    let numbers: Vec<f64> = items.iter().map(number).collect();
-    for (one, other) in swaps(&numbers, false) {
-        items.swap(one, other);
-    }
+    sort_by(items, number, false);
 }
 
 /// Sorts items from the largest number to the least, by [`f64::total_cmp`]; items with equal numbers keep their order.
 pub fn descending_by<T>(items: &mut [T], number: impl Fn(&T) -> f64) {
+    sort_by(items, number, true);
+}
+
+fn sort_by<T>(items: &mut [T], number: impl Fn(&T) -> f64, is_descending: bool) {
     let numbers: Vec<f64> = items.iter().map(number).collect();
-    for (one, other) in swaps(&numbers, true) {
+    for (one, other) in swaps(&numbers, is_descending) {
         items.swap(one, other);
     }
 }

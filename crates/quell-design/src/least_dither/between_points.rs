@@ -103,7 +103,7 @@ impl DesignProblem<'_> {
         judge: impl Fn(f64) -> (Option<f64>, T) + Sync,
     ) -> Vec<(f64, T)> {
         let mut peaks = brackets(points, multipliers);
-        descending_by(&mut peaks, |b| b.0);
+        descending_by(&mut peaks, |a| a.0);
         peaks.truncate(PEAKS);
         let judged = answers(self.tasks, &peaks, |(_, (low, high))| {
             let closeness =

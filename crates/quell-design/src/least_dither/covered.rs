@@ -44,7 +44,7 @@ pub fn covered(problem: DesignProblem<'_>, none: &InfeasibleDesign) -> Result<Co
     let lines = grid(problem.others, CHOICES, true).into_iter();
     let lines = lines.map(|others| AveragedLine::new(problem, others, &points));
     let mut ranked: Vec<_> = lines.filter_map(|line| Some((line.best()?, line))).collect();
-    descending_by(&mut ranked, |b| b.0.length);
+    descending_by(&mut ranked, |a| a.0.length);
     ranked.truncate(JUDGED);
     let nearest = none.nearest.as_ref();
     let of_nearest = nearest.map(|point| Tried {

@@ -1,6 +1,6 @@
 //! One step of one run: its series, its length, the first guard that ends it, and the state at its end.
 //!
-//! The equations (`step_recurrence`) are compiled for small systems and for all others.
+//! The equations (`step_recurrence`) are compiled for the numbers of states of small systems.
 
 use quell_model::friction::FrictionConstants;
 use quell_numerics::dispatch::{
@@ -56,7 +56,7 @@ impl<'a> StepExpansion<'a> {
                 return FewStatesStep(self, storage).fused();
             }
         }
-        with_fused_multiply_add(ManyStatesStep(self, false))
+        with_fused_multiply_add(ManyStatesStep { step: self, by_halves: false })
     }
 
     /// The step.
@@ -124,7 +124,7 @@ impl<S: StateStorage<f64, Row = RowEntries>> FewStatesStep<'_, S> {
     /// The step with fused multiply-add; without, with the same bits by the one function for any number of states.
     fn fused(self) -> ExpandedStep {
         only_with_fused_multiply_add(self).unwrap_or_else(|Self(step, _)| {
-            with_scalar_of(InstructionSet::Baseline, ManyStatesStep(step, true))
+            with_scalar_of(InstructionSet::Baseline, ManyStatesStep { step, by_halves: true })
         })
     }
 }
@@ -146,15 +146,18 @@ impl<S: StateStorage<f64, Row = RowEntries>> Work for FewStatesStep<'_, S> {
     }
 }
 
-/// The step of any system; with the bits of [`FewStatesStep`] or not.
-struct ManyStatesStep<'a>(StepExpansion<'a>, bool);
+/// The step of any system; `by_halves` with the bits of [`FewStatesStep`].
+struct ManyStatesStep<'a> {
+    step: StepExpansion<'a>,
+    by_halves: bool,
+}
 
 impl Work for ManyStatesStep<'_> {
     type Output = ExpandedStep;
 
     #[inline(always)]
     fn run(self) -> ExpandedStep {
-        let Self(step, by_halves) = self;
+        let Self { step, by_halves } = self;
         let MotionEquations { size, ref matrix, .. } = *step.equations;
         let storage = ManyStates { size, matrix, by_halves };
         let mut branches: Vec<SlipRecurrence<'_>> = (0..step.now.len()).map(|_| None).collect();

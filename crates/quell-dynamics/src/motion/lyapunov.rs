@@ -329,7 +329,7 @@ impl Motion<'_> {
         }
         let mut found: Vec<(LyapunovExponent, Vec<f64>)> =
             (0..count).map(|index| growth.exponent(index)).collect();
-        descending_by(&mut found, |b| b.0.rate());
+        descending_by(&mut found, |a| a.0.rate());
         let (exponents, means) = found.into_iter().unzip();
         Ok(LyapunovExponents { exponents, means, time, state: end.state })
     }

@@ -114,7 +114,7 @@ pub fn multipliers(derivative: &Matrix) -> Option<Vec<Complex64>> {
     if found.iter().any(|z| !z.re.is_finite() || !z.im.is_finite()) {
         return None;
     }
-    descending_by(&mut found, |b| modulus(*b));
+    descending_by(&mut found, |a| modulus(*a));
     Some(found)
 }
 

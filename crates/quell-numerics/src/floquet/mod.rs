@@ -205,7 +205,7 @@ impl Floquet {
             .map(one)
             .filter(|exponent| exponent.growth_rate > exponent.error)
             .collect();
-        descending_by(&mut found, |b| b.growth_rate);
+        descending_by(&mut found, |a| a.growth_rate);
         Ok(found)
     }
 
@@ -237,7 +237,7 @@ impl Floquet {
             let (mut found, differences): (Vec<Exponent>, Vec<f64>) = all.unzip();
             let largest = differences.into_iter().fold(0.0, f64::max);
             if largest <= effort.at_least || 2 * count > effort.finest {
-                descending_by(&mut found, |b| b.growth_rate);
+                descending_by(&mut found, |a| a.growth_rate);
                 return Ok(found);
             }
             count *= 2;

@@ -68,7 +68,7 @@ pub(super) fn exponents_of(
             }
         })
         .collect();
-    descending_by(&mut found, |b| b.growth_rate);
+    descending_by(&mut found, |a| a.growth_rate);
     Ok(found)
 }
 

@@ -66,7 +66,7 @@ fn table(study: &BeltStudy, done: &MeasuredResponse) -> String {
     if !response.peaks.is_empty() {
         text.push_str("\nPeaks of the spectrum, largest first:\n");
         let mut peaks = response.peaks.clone();
-        descending_by(&mut peaks, |b| b.amplitude);
+        descending_by(&mut peaks, |a| a.amplitude);
         let hertz = study.scales().map(|scales| scales.si_per_unit(Quantity::FrequencyRatio));
         for peak in peaks.iter().take(PEAKS) {
             let hertz = hertz.map(|hertz| format!(" ({} Hz)", figure(peak.frequency * hertz)));

@@ -59,7 +59,7 @@ pub(super) fn compared(
     let mut theirs = computed.peaks(FLOOR);
     let mut lines: Vec<ComparedLine> = Vec::new();
     let mut by_size = measured.peaks(FLOOR);
-    descending_by(&mut by_size, |b| b.amplitude);
+    descending_by(&mut by_size, |a| a.amplitude);
     for peak in by_size {
         let near = resolution.max(SAME * peak.frequency);
         let away = |other: &Peak| (other.frequency - peak.frequency).abs();

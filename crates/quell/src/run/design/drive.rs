@@ -27,7 +27,7 @@ impl LeastDitherFound {
         if used.is_empty() {
             return String::new();
         }
-        descending_by(&mut used, |b| b.0);
+        descending_by(&mut used, |a| a.0);
         let shares: Vec<String> = used
             .iter()
             .map(|(used, path)| format!("{} % of {path}", digits(100.0 * used)))

@@ -219,7 +219,7 @@ impl LeastDitherFound {
                 Some((rate.path.as_str(), relative))
             })
             .collect();
-        descending_by(&mut most, |b| b.1.abs());
+        descending_by(&mut most, |a| a.1.abs());
         let words: Vec<String> = most
             .iter()
             .take(2)

@@ -32,7 +32,7 @@ impl SystemDrawing<'_> {
                 None => touched.push((body, factor)),
             }
         }
-        descending_by(&mut touched, |other| other.1.abs());
+        descending_by(&mut touched, |one| one.1.abs());
         touched
     }
 }
