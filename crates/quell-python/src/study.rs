@@ -1,6 +1,6 @@
 //! A checked study and its verbs.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use numpy::PyReadonlyArray1;
@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use quell::run::basins::{BasinsRequest, StartLayout};
 use quell::run::bifurcation::SweepRequest;
 use quell::run::varied::Range;
+use quell::study::Files;
 use quell::study::document::{Node, Table};
 use quell::{Change, Complaints, Failure, Study};
 use quell_model::units::Quantity;
@@ -29,8 +30,6 @@ use crate::{call, convert, errors};
 #[pyclass(name = "NativeStudy", module = "quell._quell", frozen)]
 pub(crate) struct NativeStudy {
     inner: Arc<Study>,
-    /// Folder in which a file of modes is searched.
-    folder: PathBuf,
     changes: Vec<(String, String)>,
     /// Axes in place of those of the text, each as (key, value).
     axes: Option<Vec<AxisKeys>>,
@@ -43,35 +42,63 @@ pub(crate) struct NativeStudy {
 /// Keys and values of an axis.
 type AxisKeys = Vec<(String, String)>;
 
-/// Everything needed to rebuild a study: text, folder, changes, axes, whether it has lines, and the file from which it was read.
-type Parts = (String, PathBuf, Vec<(String, String)>, Option<Vec<AxisKeys>>, bool, Option<PathBuf>);
+/// Everything needed to rebuild a study: text, folder, changes, axes, whether it has lines, the file from which it was read, and path
+/// and contents of the files that it names.
+type Parts = (
+    String,
+    PathBuf,
+    Vec<(String, String)>,
+    Option<Vec<AxisKeys>>,
+    bool,
+    Option<PathBuf>,
+    Vec<(PathBuf, String)>,
+);
 
 impl NativeStudy {
     fn made(py: Python<'_>, parts: Parts) -> PyResult<Self> {
-        let (text, folder, changes, axes, has_lines, file) = parts;
-        let (place, made, swept) = (folder.clone(), changes.clone(), axes.clone());
-        let source = file.clone();
+        let (text, folder, changes, axes, has_lines, file, held) = parts;
+        let (made, swept, source) = (changes.clone(), axes.clone(), file.clone());
         let study = call::here(py, move || {
             let changes: Vec<Change> = made.iter().map(change).collect();
-            let study = Study::parse_in(&text, &changes, &place);
+            let study = Study::parse_with(&text, &changes, &Files::holding(&folder, held));
             let study = study.and_then(|study| sweeping(study, swept.as_deref()));
-            let study = study.map_err(|complaints| {
-                let complaints =
-                    if has_lines { complaints } else { errors::without_lines(complaints) };
-                Failure::Wrong(complaints)
-            })?;
+            let study = lines_as_known(study, has_lines)?;
             Ok(match source {
                 Some(file) => study.read_from(file),
                 None => study,
             })
         })?;
-        Ok(Self { inner: Arc::new(study), folder, changes, axes, has_lines, file })
+        Ok(Self { inner: Arc::new(study), changes, axes, has_lines, file })
+    }
+
+    /// The same text with these changes and axes; its files are not read again.
+    fn remade(
+        &self,
+        py: Python<'_>,
+        changes: Vec<(String, String)>,
+        axes: Option<Vec<AxisKeys>>,
+    ) -> PyResult<Self> {
+        let (study, has_lines) = (self.study(), self.has_lines);
+        let (made, swept) = (changes.clone(), axes.clone());
+        let study = call::here(py, move || {
+            let changes: Vec<Change> = made.iter().map(change).collect();
+            let study = study.changed(&changes);
+            lines_as_known(study.and_then(|study| sweeping(study, swept.as_deref())), has_lines)
+        })?;
+        Ok(Self { inner: Arc::new(study), changes, axes, has_lines, file: self.file.clone() })
     }
 
     /// The study itself.
     pub(crate) fn study(&self) -> Arc<Study> {
         Arc::clone(&self.inner)
     }
+}
+
+/// A study, or complaints with the lines of its text only if the user knows this text.
+fn lines_as_known(study: Result<Study, Complaints>, has_lines: bool) -> Result<Study, Failure> {
+    study.map_err(|complaints| {
+        Failure::Wrong(if has_lines { complaints } else { errors::without_lines(complaints) })
+    })
 }
 
 fn sweeping(study: Study, axes: Option<&[AxisKeys]>) -> Result<Study, Complaints> {
@@ -105,36 +132,45 @@ impl NativeStudy {
         let made = changes.clone();
         // The working directory may differ when the study is changed later.
         let file = std::path::absolute(&path).ok();
-        let folder = file.as_deref().unwrap_or(&path).parent().unwrap_or(Path::new("")).to_owned();
         let study = call::here(py, move || {
             let changes: Vec<Change> = made.iter().map(change).collect();
             Study::read(&path, &changes)
         })?;
-        Ok(Self { inner: Arc::new(study), folder, changes, axes: None, has_lines: true, file })
+        Ok(Self { inner: Arc::new(study), changes, axes: None, has_lines: true, file })
     }
 
     /// The same study with values changed as by `--set path=value`.
     fn changed(&self, py: Python<'_>, changes: Vec<(String, String)>) -> PyResult<Self> {
-        let (text, folder, mut all, axes, has_lines, file) = self.parts();
-        all.extend(changes);
-        Self::made(py, (text, folder, all, axes, has_lines, file))
+        let all = self.changes.iter().cloned().chain(changes).collect();
+        self.remade(py, all, self.axes.clone())
+    }
+
+    /// The study of another text, without lines, that names the files of this one, which are not read again.
+    fn rewritten(&self, py: Python<'_>, text: String) -> PyResult<Self> {
+        let files = self.inner.files().clone();
+        let study =
+            call::here(py, move || lines_as_known(Study::parse_with(&text, &[], &files), false))?;
+        Ok(Self {
+            inner: Arc::new(study),
+            changes: Vec::new(),
+            axes: None,
+            has_lines: false,
+            file: None,
+        })
     }
 
     /// The same study with these axes in place of its own.
     fn swept(&self, py: Python<'_>, axes: Vec<AxisKeys>) -> PyResult<Self> {
-        let (text, folder, changes, _, has_lines, file) = self.parts();
-        Self::made(py, (text, folder, changes, Some(axes), has_lines, file))
+        self.remade(py, self.changes.clone(), Some(axes))
     }
 
-    /// Everything needed to rebuild this study: text, folder, changes, axes, whether it has lines, and the file from which it
-    /// was read.
+    /// Everything needed to rebuild this study, as [`parse`](Self::parse) takes it.
     fn parts(&self) -> Parts {
-        let text = self.inner.text().to_owned();
-        // The study may be rebuilt in another working directory.
-        let folder = std::env::current_dir()
-            .map_or_else(|_| self.folder.clone(), |here| here.join(&self.folder));
-        let file = self.file.clone();
-        (text, folder, self.changes.clone(), self.axes.clone(), self.has_lines, file)
+        let (text, files) = (self.inner.text().to_owned(), self.inner.files());
+        let folder = files.folder().to_owned();
+        let held = files.held().map(|(path, text)| (path.to_owned(), text.to_owned())).collect();
+        let (changes, axes) = (self.changes.clone(), self.axes.clone());
+        (text, folder, changes, axes, self.has_lines, self.file.clone(), held)
     }
 
     /// "belt", "disc" or "system".
@@ -274,7 +310,7 @@ impl NativeStudy {
     /// The folder in which the files that the study names are searched.
     #[getter]
     fn folder(&self) -> PathBuf {
-        self.folder.clone()
+        self.inner.files().folder().to_owned()
     }
 
     /// `seeds`: number of runs under noise; `settle` and `record`: times of the response of a system.

@@ -160,7 +160,7 @@ fn the_studies_of_own_laws_are_valid() {
     let again = measured.at([("friction.static_coefficient", 0.42)]).expect("valid");
     assert_eq!(again.belt(), measured.belt());
     assert_eq!(
-        measured.settings().iter().filter(|(path, _)| path == "friction.fit").count(),
+        measured.settings().iter().filter(|(path, _)| path == "friction.file.contents").count(),
         1,
         "what decides a map is in its settings"
     );

@@ -31,15 +31,15 @@ class CheckedStudy(Frozen):
 
     _native: NativeStudy
 
-    _folder: ClassVar[str] = ""
-    """Folder of the files that the study names, while it is made."""
+    _earlier: ClassVar[NativeStudy | None] = None
+    """The study whose files this one names, while it is made."""
 
     _own: ClassVar[str] = ""
     """Name of the table of its own numbers."""
 
     def _build(self, **tables: Any) -> None:
         text = _toml.study(tables)
-        self._keep(_native=NativeStudy.parse((text, self._folder, [], None, False, None)))
+        self._keep(_native=written(text, self._earlier))
 
     def _other(self, name: str) -> str:
         given = name if name in self._names() else "…"
@@ -97,7 +97,7 @@ class CheckedStudy(Frozen):
         given = arguments.text("text", text, "the text of a study")
         changes = changes_of(set, arguments)
         arguments.done()
-        return Study._of(NativeStudy.parse((given, "", changes, None, True, None)))
+        return Study._of(NativeStudy.parse((given, "", changes, None, True, None, [])))
 
     def set(self: Self, changes: Mapping[str, Any]) -> Self:
         """Returns the study with changed values: ``study.set({"dither.amplitude": 0.5})``.
@@ -116,7 +116,7 @@ class CheckedStudy(Frozen):
         removes an argument. The text of the new study has no comments.
         """
         study: Self = object.__new__(type(self))
-        study._keep(_folder=self._native.folder)
+        study._keep(_earlier=self._native)
         study.__init__(**{**self._arguments(), **changes})  # type: ignore[misc]
         return study
 
@@ -250,6 +250,13 @@ class CheckedStudy(Frozen):
         from ._html import study
 
         return study(self)
+
+
+def written(text: str, earlier: NativeStudy | None = None) -> NativeStudy:
+    """The study of a text that was made from objects, whose files are those of an earlier study."""
+    if earlier is None:
+        return NativeStudy.parse((text, "", [], None, False, None, []))
+    return earlier.rewritten(text)
 
 
 def study_of(parts: Any) -> Study:

@@ -276,7 +276,7 @@ class Study(CheckedStudy):
         document = self._native.document_at(moment)
         document.pop("schema", None)
         study = object.__new__(type(self))
-        study._keep(_folder=self._native.folder)
+        study._keep(_earlier=self._native)
         study._build(**document)
         return study
 

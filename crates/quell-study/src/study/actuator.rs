@@ -1,7 +1,5 @@
 //! `[actuator]`: what gives the dither, by the numbers of its data sheet or a measured frequency response.
 
-use std::path::Path;
-
 use quell_design::actuator::{Actuator, ActuatorKind, CoilActuator, MeasuredActuator, PiezoStack};
 use quell_model::digits::digits;
 use quell_model::parameter::Parameter;
@@ -51,67 +49,28 @@ const OF_A_COIL: &[Parameter] = &[
 
 const OF_A_MEASUREMENT: &[Parameter] = &[MAXIMUM_VOLTAGE, MAXIMUM_CURRENT, RMS_CURRENT];
 
-/// An actuator and the file that it was read from.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct GivenActuator {
-    actuator: Actuator,
-    file: Option<ActuatorFile>,
-}
-
-impl GivenActuator {
-    /// The actuator.
-    pub(super) fn actuator(&self) -> &Actuator {
-        &self.actuator
-    }
-
-    /// The file.
-    pub(super) fn path(&self) -> Option<&Path> {
-        self.file.as_ref().map(|file| file.path.as_path())
-    }
-
-    /// What identifies the contents of the file.
-    pub(super) fn settings(&self) -> Option<(String, String)> {
-        self.file.as_ref().map(ActuatorFile::settings)
-    }
-}
-
-/// The study of an actuator.
-#[derive(Clone, Copy)]
-pub(super) struct ActuatorContext<'a> {
-    /// The folder of the files that the study names.
-    pub(super) folder: &'a Path,
-    /// The actuator before a change, whose file is not read again.
-    pub(super) known: Option<&'a GivenActuator>,
-    /// The numbers of a system.
-    pub(super) system: Option<CourseNumbers<'a>>,
-}
-
-/// Reads `[actuator]`: `Some(None)` without it, `None` if it is invalid.
+/// Reads `[actuator]`, of a system with its numbers: `Some(None)` without it, `None` if it is invalid.
 #[expect(clippy::option_option, reason = "invalid, absent, given")]
 pub(super) fn read(
     reader: &mut Reader,
     root: &Table,
-    context: ActuatorContext<'_>,
-) -> Option<Option<GivenActuator>> {
+    system: Option<CourseNumbers<'_>>,
+) -> Option<Option<Actuator>> {
     let Some(node) = root.get(PATH) else { return Some(None) };
     let table = reader.table(PATH, node)?;
     let before = reader.complaints_so_far();
     reader.unknown_keys(table, Section::Actuator, PATH, &[]);
     let name = reader.needed_choice(table, PATH, node.origin, "kind", Choice::ActuatorKind)?;
     let kind = ActuatorKind::ALL.into_iter().find(|kind| kind.name() == name)?;
-    let mut given = GivenNumbers { reader, table, header: node.origin, context, kind };
+    let mut given = GivenNumbers { reader, table, header: node.origin, system, kind };
     given.refuse_others();
     let actuator = match kind {
         ActuatorKind::Piezo => given.piezo().map(Actuator::Piezo),
         ActuatorKind::VoiceCoil => given.coil().map(Actuator::VoiceCoil),
         ActuatorKind::Motor => given.coil().map(Actuator::Motor),
-        ActuatorKind::FrequencyResponse => {
-            let measured = given.measured();
-            return measured.filter(|_| reader.complaints_so_far() == before).map(Some);
-        }
+        ActuatorKind::FrequencyResponse => given.measured(),
     };
-    let actuator = actuator.filter(|_| reader.complaints_so_far() == before)?;
-    Some(Some(GivenActuator { actuator, file: None }))
+    actuator.filter(|_| reader.complaints_so_far() == before).map(Some)
 }
 
 /// The numbers of the table.
@@ -119,7 +78,8 @@ struct GivenNumbers<'r, 'a> {
     reader: &'r mut Reader,
     table: &'a Table,
     header: Origin,
-    context: ActuatorContext<'a>,
+    /// The numbers of a system.
+    system: Option<CourseNumbers<'a>>,
     kind: ActuatorKind,
 }
 
@@ -132,7 +92,7 @@ impl GivenNumbers<'_, '_> {
 
     /// A number, if it is given and right.
     fn number(&mut self, parameter: Parameter) -> Option<f64> {
-        let found = match self.context.system {
+        let found = match self.system {
             Some(numbers) => numbers.optional(self.reader, self.table, PATH, parameter),
             None => self.reader.optional(self.table, PATH, parameter, None),
         };
@@ -245,7 +205,7 @@ impl GivenNumbers<'_, '_> {
                 break;
             }
         }
-        let watts = match self.context.system {
+        let watts = match self.system {
             Some(numbers) => 1.0 / numbers.factor(Quantity::Power, true),
             None => self.reader.si_per_unit(Quantity::Power).unwrap_or(1.0),
         };
@@ -265,7 +225,7 @@ impl GivenNumbers<'_, '_> {
         Some(CoilActuator { force_per_ampere: force_per_ampere?, ..coil })
     }
 
-    fn measured(&mut self) -> Option<GivenActuator> {
+    fn measured(&mut self) -> Option<Actuator> {
         let [maximum_voltage, maximum_current, rms_current] =
             [MAXIMUM_VOLTAGE, MAXIMUM_CURRENT, RMS_CURRENT].map(|limit| self.number(limit));
         let Some(node) = self.table.get("file") else {
@@ -273,21 +233,16 @@ impl GivenNumbers<'_, '_> {
             return None;
         };
         let name = self.reader.text("actuator.file", node)?;
-        let path = self.context.folder.join(&name);
-        let known = self.context.known.and_then(|known| known.file.as_ref());
-        let file = match known.filter(|known| known.path == path) {
-            Some(known) => Ok(known.clone()),
-            None => ActuatorFile::read(&path),
-        };
-        let series = file.and_then(|file| Ok((self.series(&file)?, file)));
-        let ([frequencies, per_volt, per_ampere, most], file) = match series {
-            Ok(series) => series,
-            Err(why) => {
-                let key = "actuator.file";
-                self.reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));
-                return None;
-            }
-        };
+        let file = ActuatorFile::read(self.reader.files(), "actuator.file", &name);
+        let [frequencies, per_volt, per_ampere, most] =
+            match file.and_then(|file| self.series(&file)) {
+                Ok(series) => series,
+                Err(why) => {
+                    let key = "actuator.file";
+                    self.reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));
+                    return None;
+                }
+            };
         let needs = [
             (MAXIMUM_VOLTAGE, per_volt.is_some(), COLUMNS[1].0),
             (MAXIMUM_CURRENT, per_ampere.is_some(), COLUMNS[2].0),
@@ -309,7 +264,7 @@ impl GivenNumbers<'_, '_> {
                            without a limit gives any dither";
             self.missing(MAXIMUM_VOLTAGE.key(), allowed);
         }
-        let actuator = Actuator::Measured(MeasuredActuator {
+        Some(Actuator::Measured(MeasuredActuator {
             frequencies: frequencies?,
             force_per_volt: per_volt,
             force_per_ampere: per_ampere,
@@ -317,8 +272,7 @@ impl GivenNumbers<'_, '_> {
             maximum_voltage,
             maximum_current,
             rms_current,
-        });
-        Some(GivenActuator { actuator, file: Some(file) })
+        }))
     }
 
     /// The columns of a file in numbers of the equations.
@@ -328,7 +282,7 @@ impl GivenNumbers<'_, '_> {
             let Some(GivenColumn { si, values }) = column else { continue };
             let quantity = if place == 0 { Quantity::FrequencyRatio } else { Quantity::Force };
             let (plain_name, si_name) = COLUMNS[place];
-            let (has_units, plain_allowed, factor) = if let Some(numbers) = self.context.system {
+            let (has_units, plain_allowed, factor) = if let Some(numbers) = self.system {
                 (numbers.has_units(), true, numbers.factor(quantity, true))
             } else {
                 let per_unit = self.reader.si_per_unit(quantity);

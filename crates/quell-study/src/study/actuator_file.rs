@@ -3,10 +3,10 @@
 //! Columns `frequency` (in the unit of the study) or `frequency_hz`, and at least one of `force_per_volt`, `force_per_ampere` and
 //! `maximum_force` (with the suffixes `_n_per_v`, `_n_per_a`, `_n` in SI): magnitudes, at ascending frequencies.
 
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::study::data_file::{self, DataFile};
+use crate::study::files::{Files, WantedFile};
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of an actuator's frequency response";
@@ -28,32 +28,19 @@ pub(super) struct GivenColumn {
     pub(super) values: Vec<f64>,
 }
 
-/// A file that has been read, one place for each of [`COLUMNS`].
-#[derive(Clone, Debug, PartialEq)]
+/// The columns of a file, one place for each of [`COLUMNS`].
+#[derive(Debug)]
 pub(super) struct ActuatorFile {
-    /// The file.
-    pub(super) path: PathBuf,
-    /// Its columns.
-    pub(super) columns: Arc<[Option<GivenColumn>; 4]>,
+    pub(super) columns: [Option<GivenColumn>; 4],
 }
 
 impl ActuatorFile {
-    /// Reads a file.
+    /// The file that `key` names.
     ///
     /// # Errors
     /// Why it cannot be read, or the line that is wrong.
-    pub(super) fn read(path: &Path) -> Result<Self, String> {
-        let columns = parse(&data_file::text(path, WHAT)?)?;
-        Ok(Self { path: path.to_path_buf(), columns: Arc::new(columns) })
-    }
-
-    /// Its numbers as one text, with enough digits to read back the same ones.
-    pub(super) fn settings(&self) -> (String, String) {
-        let columns = COLUMNS.iter().zip(&*self.columns).filter_map(|((name, _), column)| {
-            let GivenColumn { si, values } = column.as_ref()?;
-            Some(format!("{name} {si} {values:?}"))
-        });
-        ("actuator.file".to_owned(), columns.collect::<Vec<_>>().join("; "))
+    pub(super) fn read(files: &mut Files, key: &str, name: &str) -> Result<Arc<Self>, String> {
+        files.parsed(key, name, WantedFile::of(WHAT), |text| Ok(Self { columns: parse(text)? }))
     }
 }
 

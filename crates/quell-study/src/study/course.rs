@@ -2,8 +2,6 @@
 //!
 //! A table has knots (`time` and values, or a file of both) or, for drives and loads, an oscillation about the constant value.
 
-use std::path::{Path, PathBuf};
-
 use quell_model::parameter::Bounds;
 use quell_model::profile::{KnotShape, Knots, Profile, Wave};
 use quell_model::units::Quantity;
@@ -12,6 +10,7 @@ use serde_json::Value as Json;
 
 use super::data_file::DataFile;
 use super::document::{Node, Table, Value};
+use super::files::WantedFile;
 use super::reader::Reader;
 use super::system::CourseNumbers;
 use super::vocabulary::{Choice, CourseKey, CourseTable, join};
@@ -45,7 +44,6 @@ pub(super) enum Course {
 pub(super) struct CoursePlace<'a> {
     pub(super) what: CourseTable,
     pub(super) units: CourseUnits<'a>,
-    pub(super) folder: &'a Path,
 }
 
 /// A list of numbers with the key that it has in the file.
@@ -429,8 +427,7 @@ impl CoursePlace<'_> {
             }
         }
         let name = reader.text(&key, node)?;
-        let path = self.folder.join(&name);
-        match self.knots_of(reader, path, shape) {
+        match self.knots_of(reader, &key, &name, shape) {
             Ok(knots) => Some(Course::Over(knots?)),
             Err(why) => {
                 reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));
@@ -443,10 +440,11 @@ impl CoursePlace<'_> {
     fn knots_of(
         &self,
         reader: &mut Reader,
-        path: PathBuf,
+        key: &str,
+        name: &str,
         shape: KnotShape,
     ) -> Result<Option<Knots>, String> {
-        let text = reader.course_file(path, WHAT)?;
+        let text = reader.files().text(key, name, WantedFile::of(WHAT))?;
         let file = DataFile::new(&text, WHAT)?;
         let CourseTable { value, quantity, bounds, .. } = self.what;
         let column = |name: &'static str, si_name: Option<&'static str>, si_only: bool| {

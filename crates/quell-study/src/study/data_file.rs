@@ -10,7 +10,7 @@ use std::path::Path;
 use crate::input::read_regular;
 
 /// The largest file that is read, in MiB.
-const LARGEST: u64 = 16;
+pub(super) const LARGEST: u64 = 16;
 
 /// Maximum number of characters of a cell that are shown.
 const SHOWN: usize = 24;
@@ -33,11 +33,10 @@ pub(crate) fn text_up_to(path: &Path, what: &str, most: u64) -> Result<String, S
     String::from_utf8(bytes).map_err(|_| format!("{what}; this file is not text"))
 }
 
-/// A checksum of numbers: the 64-bit FNV-1a of their bits.
-pub(crate) fn checksum(values: &[f64]) -> u64 {
-    let bytes = values.iter().flat_map(|value| value.to_bits().to_le_bytes());
-    bytes.fold(0xcbf2_9ce4_8422_2325, |sum: u64, byte| {
-        (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+/// The 64-bit FNV-1a checksum of bytes.
+pub(crate) fn checksum(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum: u64, byte| {
+        (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
     })
 }
 

@@ -7,7 +7,6 @@ use std::path::{self, Path, PathBuf};
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::input::Inputs;
 
 /// The largest study file that is read; larger files are not studies, and some files never end.
 const LARGEST: u64 = 16 << 20;
@@ -16,18 +15,6 @@ const LARGEST: u64 = 16 << 20;
 pub(super) fn place(path: &Path) -> PathBuf {
     let here = if path == Path::new("-") { None } else { path::absolute(path).ok() };
     here.unwrap_or_else(|| path.to_owned())
-}
-
-/// The files that a study was read from: the study file, at its [`place`], and the data files that it names, which were
-/// searched in `folder`, next to the study file.
-pub(super) fn inputs(file: Option<&Path>, folder: &Path, data: &[&Path]) -> Inputs {
-    let home = file.filter(|file| *file != Path::new("-")).and_then(Path::parent);
-    let place = |data: &&Path| match home {
-        Some(home) => home.join(data.strip_prefix(folder).unwrap_or(data)),
-        None => (*data).to_owned(),
-    };
-    let data: Vec<PathBuf> = data.iter().map(place).collect();
-    Inputs::of(file.into_iter().chain(data.iter().map(PathBuf::as_path)))
 }
 
 /// Reads a study file; `-` is standard input.

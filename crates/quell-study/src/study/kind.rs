@@ -1,7 +1,5 @@
 //! The kinds of study, listed and matched here alone.
 
-use std::path::Path;
-
 use quell_model::units::Scales;
 
 use super::StudyOf;
@@ -9,7 +7,7 @@ use super::belt::{BeltSetup, BeltStudy};
 use super::disc::{DiscSetup, DiscStudy};
 use super::document::Table;
 use super::reader::Reader;
-use super::study_kind::{Given, StudyKind, wrong_kind};
+use super::study_kind::{StudyKind, wrong_kind};
 use super::system::{self, SystemSetup, SystemStudy};
 use crate::complaint::{Complaint, Origin};
 
@@ -75,49 +73,13 @@ impl StudyKind for Kind {
         }
     }
 
-    fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
-        let folder = given.folder;
+    fn read(reader: &mut Reader, document: &Table) -> Option<Self> {
         match DocumentKind::by(document) {
-            DocumentKind::Belt => {
-                let known = given.known.and_then(|kind| match kind {
-                    Self::Belt(setup) => Some(&**setup),
-                    _ => None,
-                });
-                let setup = BeltSetup::read(reader, document, Given { folder, known })?;
-                Some(Self::Belt(Box::new(setup)))
-            }
-            DocumentKind::Disc => {
-                let known = given.known.and_then(|kind| match kind {
-                    Self::Disc(setup) => Some(&**setup),
-                    _ => None,
-                });
-                let setup = DiscSetup::read(reader, document, Given { folder, known })?;
-                Some(Self::Disc(Box::new(setup)))
-            }
+            DocumentKind::Belt => BeltSetup::read(reader, document).map(Box::new).map(Self::Belt),
+            DocumentKind::Disc => DiscSetup::read(reader, document).map(Box::new).map(Self::Disc),
             DocumentKind::System => {
-                let known = given.known.and_then(|kind| match kind {
-                    Self::System(setup) => Some(&**setup),
-                    _ => None,
-                });
-                let setup = SystemSetup::read(reader, document, Given { folder, known })?;
-                Some(Self::System(Box::new(setup)))
+                SystemSetup::read(reader, document).map(Box::new).map(Self::System)
             }
-        }
-    }
-
-    fn data_files(&self) -> Vec<&Path> {
-        match self {
-            Self::Belt(setup) => setup.data_files(),
-            Self::Disc(setup) => setup.data_files(),
-            Self::System(setup) => setup.data_files(),
-        }
-    }
-
-    fn file_settings(&self) -> Vec<(String, String)> {
-        match self {
-            Self::Belt(setup) => setup.file_settings(),
-            Self::Disc(setup) => setup.file_settings(),
-            Self::System(setup) => setup.file_settings(),
         }
     }
 }

@@ -14,13 +14,16 @@ use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::input::Inputs;
+use computed::Computed;
 use document::{Table, Value};
+use reader::Reader;
 use vocabulary::SCHEMA_VERSION;
 
 mod actuator;
 mod actuator_file;
 pub mod belt;
 mod change;
+mod computed;
 mod course;
 pub(crate) mod data_file;
 mod design;
@@ -28,6 +31,7 @@ pub mod disc;
 pub(crate) mod dither_size;
 pub mod document;
 mod file;
+mod files;
 mod kind;
 mod measures;
 pub mod plausible;
@@ -48,11 +52,12 @@ pub use change::Change;
 pub use design::{BurstNumber, Confidence, Design, DesignRange, DitherPlace};
 pub use disc::{DiscSetup, DiscStudy};
 pub use dither_size::GivenSize;
+pub use files::Files;
 pub use kind::{Kind, Study};
 pub use quell_dynamics::response::Solver;
 pub use quell_dynamics::start::InitialState;
 pub use steady::{not_periodic, varies_in_time};
-pub use study_kind::{Given, StudyKind, not_available};
+pub use study_kind::{StudyKind, not_available};
 pub use sweep::{Axis, AxisTarget, Sweep};
 pub use system::{
     DescribedSystem, FrequencyResponse, NumberedStudy, ScaledTime, SystemAddress, SystemOrigin,
@@ -77,18 +82,20 @@ struct StudySource {
     uncertainty: Option<Uncertainty>,
     document: Table,
     text: Arc<str>,
-    /// The folder of the files that the study names.
-    folder: PathBuf,
+    /// The files that the study names.
+    files: Files,
+    computed: Computed,
     /// The file that it was read from; `-` is standard input.
     file: Option<PathBuf>,
     changes: Vec<String>,
 }
 
-/// Where a document comes from.
+/// Where a document comes from, and what is known of it before it is read.
 #[derive(Clone, Debug)]
 struct DocumentOrigin {
     text: Arc<str>,
-    folder: PathBuf,
+    files: Files,
+    computed: Computed,
     file: Option<PathBuf>,
     changes: Vec<String>,
 }
@@ -131,7 +138,35 @@ impl<K: StudyKind> StudyOf<K> {
     /// # Errors
     /// All errors together, those of the changes and those of the check.
     pub fn parse_in(text: &str, changes: &[Change], folder: &Path) -> Result<Self, Complaints> {
-        let mut document = Table::parse(text)?;
+        Self::parse_with(text, changes, &Files::in_folder(folder))
+    }
+
+    /// Checks the text of a study after changing it; files that it names are taken from `files`, where they are held.
+    ///
+    /// # Errors
+    /// All errors together, those of the changes and those of the check.
+    pub fn parse_with(text: &str, changes: &[Change], files: &Files) -> Result<Self, Complaints> {
+        let from = DocumentOrigin {
+            text: text.into(),
+            files: files.to_read_again(),
+            computed: Computed::default(),
+            file: None,
+            changes: changes.iter().map(Change::to_string).collect(),
+        };
+        Self::compile(from, changes)
+    }
+
+    /// The text of this study with these changes in place of its own; files are not read again.
+    ///
+    /// # Errors
+    /// All errors together, those of the changes and those of the check.
+    pub fn changed(&self, changes: &[Change]) -> Result<Self, Complaints> {
+        Self::compile(self.origin_with(changes.iter().map(Change::to_string).collect()), changes)
+    }
+
+    /// Changes and checks a text.
+    fn compile(from: DocumentOrigin, changes: &[Change]) -> Result<Self, Complaints> {
+        let mut document = Table::parse(&from.text)?;
         let mut refused: Vec<Complaint> = changes
             .iter()
             .filter_map(|change| change.apply(&mut document).err())
@@ -139,13 +174,7 @@ impl<K: StudyKind> StudyOf<K> {
             .collect();
         document.unprintable("", &mut refused);
         measures::resolve(&mut document);
-        let from = DocumentOrigin {
-            text: text.into(),
-            folder: folder.to_owned(),
-            file: None,
-            changes: changes.iter().map(Change::to_string).collect(),
-        };
-        match Self::check(document, from, None) {
+        match Self::check(document, from) {
             Ok(study) if refused.is_empty() => Ok(study),
             Ok(_) => Err(refused.into()),
             Err(complaints) => Err(complaints.and(refused)),
@@ -162,8 +191,8 @@ impl<K: StudyKind> StudyOf<K> {
 
     /// The files that it was read from, which outputs must not overwrite.
     pub fn inputs(&self) -> Inputs {
-        let StudySource { file, folder, .. } = &*self.source;
-        file::inputs(file.as_deref(), folder, &self.kind.data_files())
+        let StudySource { file, files, .. } = &*self.source;
+        Inputs::of(file.as_deref().into_iter().chain(files.paths()))
     }
 
     /// The same study with one number changed, by any path of the file, SI twins included; its axes stay.
@@ -213,27 +242,34 @@ impl<K: StudyKind> StudyOf<K> {
 
     /// Checks the changed document of this study; files are not read again.
     fn check_again(&self, document: Table, changes: Vec<String>) -> Result<Self, Complaints> {
-        let StudySource { text, folder, file, .. } = &*self.source;
-        let (text, folder, file) = (Arc::clone(text), folder.clone(), file.clone());
-        Self::check(document, DocumentOrigin { text, folder, file, changes }, Some(&self.kind))
+        Self::check(document, self.origin_with(changes))
     }
 
-    fn check(document: Table, from: DocumentOrigin, known: Option<&K>) -> Result<Self, Complaints> {
-        let mut reader = K::reader(&document);
+    fn check(document: Table, from: DocumentOrigin) -> Result<Self, Complaints> {
+        let DocumentOrigin { text, files, computed, file, changes } = from;
+        let mut reader = K::reader(&document).with(files, computed);
         let title = root::read(&mut reader, &document, K::tables(&document));
-        let kind = K::read(&mut reader, &document, Given { folder: &from.folder, known });
+        let kind = K::read(&mut reader, &document);
         let sweeps = sweep::read(&mut reader, &document);
         let uncertainty = uncertainty::read(&mut reader, &document);
-        let complaints = reader.into_complaints();
+        let (complaints, files, computed) = reader.into_parts();
         let (Some(kind), Some(sweeps), Some(uncertainty)) = (kind, sweeps, uncertainty) else {
             return Err(some_of(complaints).into());
         };
         if !complaints.is_empty() {
             return Err(complaints.into());
         }
-        let DocumentOrigin { text, folder, file, changes } = from;
-        let source =
-            StudySource { title, sweeps, uncertainty, document, text, folder, file, changes };
+        let source = StudySource {
+            title,
+            sweeps,
+            uncertainty,
+            document,
+            text,
+            files,
+            computed,
+            file,
+            changes,
+        };
         let study = Self { kind, source: Arc::new(source) };
         study.ends_are_valid()?;
         study.distributions_are_valid()?;
@@ -299,13 +335,30 @@ impl<K: StudyKind> StudyOf<K> {
         if !document.has("schema") {
             settings.push(("schema".to_owned(), format!("{:?}", f64::from(SCHEMA_VERSION))));
         }
-        settings.extend(self.kind.file_settings());
+        settings.extend(self.source.files.settings());
         settings.sort();
         settings
     }
 }
 
 impl<K> StudyOf<K> {
+    /// What a reading of this study with other changes begins with.
+    fn origin_with(&self, changes: Vec<String>) -> DocumentOrigin {
+        let StudySource { text, files, computed, file, .. } = &*self.source;
+        let (text, files) = (Arc::clone(text), files.to_read_again());
+        DocumentOrigin { text, files, computed: computed.clone(), file: file.clone(), changes }
+    }
+
+    /// A reader that knows what this study has read and computed.
+    fn reading_again(&self, reader: Reader) -> Reader {
+        reader.with(self.source.files.to_read_again(), self.source.computed.clone())
+    }
+
+    /// The files that the study names.
+    pub fn files(&self) -> &Files {
+        &self.source.files
+    }
+
     /// Every key and value after the changes as JSON, with title and axes: the document that would give this study without
     /// changes.
     pub fn document(&self) -> Json {

@@ -1,7 +1,5 @@
 //! What a kind of study is to the reader of study files.
 
-use std::path::Path;
-
 use serde_json::Value as Json;
 
 use super::document::Table;
@@ -17,22 +15,7 @@ pub trait StudyKind: Clone {
     fn tables(document: &Table) -> &'static [&'static str];
 
     /// Reads the tables of this kind; `None` if something is invalid, which has then been reported to the reader.
-    fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self>;
-
-    /// The data files that the study names and that have been read.
-    fn data_files(&self) -> Vec<&Path>;
-
-    /// What such files contribute to the settings, as `path = value`.
-    fn file_settings(&self) -> Vec<(String, String)>;
-}
-
-/// What is known before a document is read.
-#[derive(Clone, Copy, Debug)]
-pub struct Given<'a, K> {
-    /// The folder of the files that the study names.
-    pub folder: &'a Path,
-    /// The same study before a change: its files are not read again, and unchanged parts are kept.
-    pub known: Option<&'a K>,
+    fn read(reader: &mut Reader, document: &Table) -> Option<Self>;
 }
 
 /// The error of a verb or command that studies of this kind do not have.

@@ -3,10 +3,8 @@
 //! The file has one number per line, or is a CSV file whose header line names the column `value` (a single column may have any name).
 //! Comment lines begin with `#`. The samples are at equal distances, so that no line may be left out.
 
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
-
 use crate::study::data_file;
+use crate::study::files::{Files, WantedFile};
 
 /// What the file must be.
 const WHAT: &str = "a file of samples, one number per line, or a CSV file with a column value";
@@ -21,67 +19,17 @@ const TIMES: [&str; 2] = ["time", "time_s"];
 /// digits for each step stay within it; a gap of one sample is a difference of 100 %. Smaller jitter is not noticed.
 const UNEQUAL: f64 = 0.1;
 
-/// A file of samples that has been read.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct WaveFile {
-    path: PathBuf,
-    values: Arc<[f64]>,
-}
+/// The samples of a file.
+struct FileSamples(Vec<f64>);
 
-impl WaveFile {
-    /// The file.
-    pub(super) fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// What identifies its samples: their number and a checksum.
-    pub(super) fn settings(&self, index: usize) -> (String, String) {
-        let sum = data_file::checksum(&self.values);
-        (format!("dither.file[{index}]"), format!("{} samples, {sum:016x}", self.values.len()))
-    }
-}
-
-/// The files of samples of a study: those that are known from before a change are not read again.
-#[derive(Debug)]
-pub(super) struct WaveFiles<'a> {
-    folder: &'a Path,
-    known: &'a [WaveFile],
-    found: Vec<WaveFile>,
-}
-
-impl<'a> WaveFiles<'a> {
-    /// The folder in which the files are.
-    pub(super) fn folder(&self) -> &'a Path {
-        self.folder
-    }
-
-    /// Files in a folder.
-    pub(super) fn new(folder: &'a Path, known: &'a [WaveFile]) -> Self {
-        Self { folder, known, found: Vec::new() }
-    }
-
-    /// The files that the study names.
-    pub(super) fn into_found(self) -> Vec<WaveFile> {
-        self.found
-    }
-
-    /// The samples of a file.
-    ///
-    /// # Errors
-    /// Why it cannot be read, or the line that is wrong.
-    pub(super) fn values(&mut self, name: &str) -> Result<Vec<f64>, String> {
-        let path = self.folder.join(name);
-        let known = self.known.iter().chain(&self.found).find(|known| known.path == path);
-        let file = if let Some(known) = known {
-            known.clone()
-        } else {
-            let values = parse(&data_file::text(&path, WHAT)?)?.into();
-            WaveFile { path, values }
-        };
-        let values = file.values.to_vec();
-        self.found.push(file);
-        Ok(values)
-    }
+/// The samples of the file that `key` names.
+///
+/// # Errors
+/// Why it cannot be read, or the line that is wrong.
+pub(super) fn values(files: &mut Files, key: &str, name: &str) -> Result<Vec<f64>, String> {
+    let samples =
+        files.parsed(key, name, WantedFile::of(WHAT), |text| parse(text).map(FileSamples))?;
+    Ok(samples.0.clone())
 }
 
 /// The samples of a text. Messages show nothing of it: a study may name any file.

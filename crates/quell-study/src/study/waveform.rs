@@ -11,7 +11,7 @@ use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::vocabulary::{Choice, WAVE_KEYS, join};
-use crate::study::wave_file::WaveFiles;
+use crate::study::wave_file;
 
 /// Lines of noise by default.
 const LINES: f64 = 64.0;
@@ -33,11 +33,10 @@ pub(super) fn read(
     reader: &mut Reader,
     table: &Table,
     (prefix, header): (&str, Origin),
-    files: &mut WaveFiles<'_>,
     band: impl FnOnce(&mut Reader) -> Option<Option<[f64; 2]>>,
 ) -> Option<(Waveform, Option<f64>)> {
     let name = reader.needed_choice(table, prefix, header, "waveform", Choice::Waveform)?;
-    described(reader, table, (prefix, header), (name, files), band)
+    described(reader, table, (prefix, header), name, band)
 }
 
 /// As [`read`], a sine where no waveform is named, and periodic waveforms only.
@@ -46,7 +45,6 @@ pub(super) fn read_or_sine(
     table: &Table,
     prefix: &str,
     header: Origin,
-    files: &mut WaveFiles<'_>,
 ) -> Option<Waveform> {
     let name = match table.get("waveform") {
         None => Waveform::Sine.name(),
@@ -57,8 +55,7 @@ pub(super) fn read_or_sine(
         reader.wrong(&join(prefix, "waveform"), node, allowed);
         return None;
     }
-    described(reader, table, (prefix, header), (name, files), |_| None)
-        .map(|(waveform, _)| waveform)
+    described(reader, table, (prefix, header), name, |_| None).map(|(waveform, _)| waveform)
 }
 
 /// The waveform of a name, by the keys that describe it, and of noise the middle of its band.
@@ -66,7 +63,7 @@ fn described(
     reader: &mut Reader,
     table: &Table,
     (prefix, header): (&str, Origin),
-    (name, files): (&str, &mut WaveFiles<'_>),
+    name: &str,
     band: impl FnOnce(&mut Reader) -> Option<Option<[f64; 2]>>,
 ) -> Option<(Waveform, Option<f64>)> {
     let mut fits = true;
@@ -97,7 +94,7 @@ fn described(
     let place = WavePlace { table, prefix, header };
     let waveform = match name {
         FOURIER => place.fourier(reader),
-        SAMPLES => place.samples(reader, files),
+        SAMPLES => place.samples(reader),
         BURST => place.burst(reader),
         NOISE => return place.noise(reader, band),
         _ => Waveform::from_name(name),
@@ -156,7 +153,7 @@ impl<'a> WavePlace<'a> {
         }
     }
 
-    fn samples(&self, reader: &mut Reader, files: &mut WaveFiles<'_>) -> Option<Waveform> {
+    fn samples(&self, reader: &mut Reader) -> Option<Waveform> {
         let hold = match self.table.get("hold") {
             None => Hold::default(),
             Some(node) => {
@@ -165,7 +162,7 @@ impl<'a> WavePlace<'a> {
             }
         };
         let values = match self.table.get("file") {
-            Some(node) => self.samples_of_file(reader, node, files)?,
+            Some(node) => self.samples_of_file(reader, node)?,
             None => self.listed_samples(reader)?,
         };
         match SampledWave::new(values, hold) {
@@ -180,12 +177,7 @@ impl<'a> WavePlace<'a> {
     }
 
     /// The samples in a file of their own.
-    fn samples_of_file(
-        &self,
-        reader: &mut Reader,
-        node: &Node,
-        files: &mut WaveFiles<'_>,
-    ) -> Option<Vec<f64>> {
+    fn samples_of_file(&self, reader: &mut Reader, node: &Node) -> Option<Vec<f64>> {
         let key = join(self.prefix, "file");
         if let Some(other) = self.table.get("values") {
             let allowed = format!("the samples are already given by {key}; remove this key");
@@ -196,7 +188,7 @@ impl<'a> WavePlace<'a> {
             return None;
         }
         let name = reader.text(&key, node)?;
-        match files.values(&name) {
+        match wave_file::values(reader.files(), &key, &name) {
             Ok(values) => Some(values),
             Err(why) => {
                 reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));

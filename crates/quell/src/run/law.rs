@@ -46,7 +46,7 @@ pub(super) fn fields(study: &BeltStudy) -> Fields {
                 .number("slip_velocity_to", Quantity::Velocity, fit.range.1 * unit);
             let file = study.measured().and_then(|measured| measured.file.as_ref());
             if let Some(file) = file {
-                fields.plain("file", file.display().to_string());
+                fields.plain("file", file.clone());
             }
             fields.nested("fit", inner);
         }

@@ -10,7 +10,6 @@ from typing import Any
 
 from .. import _toml
 from .._errors import QuellError, StudyError
-from .._quell import NativeStudy
 from .._study import Study
 from .._tables import Number
 from ._numbers import whole_lists
@@ -156,9 +155,9 @@ class State:
 
 
 def rebuilt(study: Study, document: Mapping[str, Any]) -> Study:
-    """The study of a document whose files are in the folder of another study."""
+    """The study of a document whose files are those of another study."""
     text = _toml.study({name: table for name, table in document.items() if name != "schema"})
-    return Study._of(NativeStudy.parse((text, study._native.folder, [], None, False, None)))
+    return Study._of(study._native.rewritten(text))
 
 
 def opened(study: Study | str | os.PathLike[str]) -> tuple[Study, Source]:

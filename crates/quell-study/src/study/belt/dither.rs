@@ -13,23 +13,19 @@ use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::size::SizedSignal;
 use crate::study::vocabulary::{Choice, ENVELOPE, Section, join};
-use crate::study::wave_file::WaveFiles;
 use crate::study::waveform;
 
 /// Reads every dither; `None` if one of them is invalid.
 pub(super) fn read(
     reader: &mut Reader,
     root: &Table,
-    files: &mut WaveFiles<'_>,
 ) -> Option<Vec<(Dither, String, SizedAmplitude)>> {
     let Some(node) = root.get("dither") else {
         return Some(Vec::new());
     };
     let has_actuator = root.has("actuator");
     match &node.value {
-        Value::Table(_) => {
-            one(reader, node, ("dither", has_actuator), files).map(|dither| vec![dither])
-        }
+        Value::Table(_) => one(reader, node, ("dither", has_actuator)).map(|dither| vec![dither]),
         Value::List(list) => {
             let single = list.len() == 1;
             let dithers: Vec<Option<_>> = list
@@ -37,7 +33,7 @@ pub(super) fn read(
                 .enumerate()
                 .map(|(index, node)| {
                     let prefix = if single { "dither".into() } else { format!("dither[{index}]") };
-                    one(reader, node, (&prefix, has_actuator), files)
+                    one(reader, node, (&prefix, has_actuator))
                 })
                 .collect();
             dithers.into_iter().collect()
@@ -57,7 +53,6 @@ fn one(
     reader: &mut Reader,
     node: &Node,
     (prefix, has_actuator): (&str, bool),
-    files: &mut WaveFiles<'_>,
 ) -> Option<(Dither, String, SizedAmplitude)> {
     let Some(table) = node.table() else {
         reader.wrong(prefix, node, format!("a table; got {}", node.kind()));
@@ -68,7 +63,7 @@ fn one(
         .needed_choice(table, prefix, node.origin, "direction", Choice::Direction)
         .and_then(Direction::from_name);
     let is_noise = waveform::is_noise(table);
-    let wave = waveform::read(reader, table, (prefix, node.origin), files, |reader| {
+    let wave = waveform::read(reader, table, (prefix, node.origin), |reader| {
         band::given(reader, table, prefix)
     });
     let (waveform, middle) = wave.unzip();
@@ -80,7 +75,7 @@ fn one(
         let frequency_ratio = reader.number(table, prefix, node.origin, DITHER_FREQUENCY_RATIO);
         (frequency_ratio, reader.optional(table, prefix, DITHER_PHASE, None).or(0.0))
     };
-    let place = CoursePlace { what: ENVELOPE, units: CourseUnits::Belt, folder: files.folder() };
+    let place = CoursePlace { what: ENVELOPE, units: CourseUnits::Belt };
     let envelope = place.optional(reader, table, prefix, "envelope").map(Course::knots);
     let amplitude = amplitude?;
     let dither = Dither {

@@ -8,8 +8,6 @@ mod origin;
 mod solver;
 mod table;
 
-use crate::study::wave_file::{WaveFile, WaveFiles};
-use std::path::Path;
 use std::sync::Arc;
 
 use quell_design::actuator::Actuator;
@@ -21,13 +19,13 @@ use quell_model::{Belt, Dither, Friction, Invalid, LawKind, Parametrisation, Sys
 use serde_json::Value as Json;
 
 use super::StudyOf;
-use super::actuator::{self, ActuatorContext, GivenActuator};
+use super::actuator;
 use super::design::{self, Design, DesignContext};
 use super::disc::DiscSetup;
 use super::dither_size::GivenSize;
 use super::document::Table;
-use super::reader::{CourseFile, Reader};
-use super::study_kind::{Given, StudyKind, wrong_kind};
+use super::reader::Reader;
+use super::study_kind::{StudyKind, wrong_kind};
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
 
 use super::system::{DescribedSystem, SystemSetup, SystemStudy};
@@ -48,14 +46,10 @@ pub struct BeltSetup {
     band: Option<[f64; 2]>,
     /// The samples of a measured law.
     measured: Option<Arc<Measured>>,
-    /// Files of drives, loads and envelopes.
-    courses: Arc<[CourseFile]>,
-    /// Files of sampled waveforms.
-    waves: Vec<WaveFile>,
     /// The design that is asked for.
     design: Option<Design>,
     /// The actuator that gives the dither.
-    actuator: Option<GivenActuator>,
+    actuator: Option<Actuator>,
     /// Amplitudes that are given by another size than a peak force.
     sizes: Arc<[GivenSize]>,
 }
@@ -81,7 +75,7 @@ impl StudyKind for BeltSetup {
         ]
     }
 
-    fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
+    fn read(reader: &mut Reader, document: &Table) -> Option<Self> {
         if let Some(node) = document.get("disc") {
             reader.complain(wrong_kind(Self::NAME, DiscSetup::NAME, node.origin));
             return None;
@@ -90,18 +84,9 @@ impl StudyKind for BeltSetup {
             reader.complain(wrong_kind(Self::NAME, SystemSetup::NAME, node.origin));
             return None;
         }
-        if let Some(known) = given.known {
-            reader.knows(&known.courses);
-        }
-        let mut belt = table::read(reader, document, given.folder);
-        let known = given.known.and_then(|setup| setup.measured.as_deref());
-        let context =
-            friction::LawContext { folder: given.folder, known, normal_load: belt.normal_load };
-        let friction = friction::read(reader, document, context);
-        let known = given.known.map_or(&[][..], |setup| &setup.waves);
-        let mut files = WaveFiles::new(given.folder, known);
-        let read_dithers = dither::read(reader, document, &mut files);
-        let waves = files.into_found();
+        let mut belt = table::read(reader, document);
+        let friction = friction::read(reader, document, belt.normal_load);
+        let read_dithers = dither::read(reader, document);
         let dithers: Option<Vec<Dither>> = read_dithers
             .as_ref()
             .map(|read| read.iter().map(|(dither, ..)| dither.clone()).collect());
@@ -120,10 +105,8 @@ impl StudyKind for BeltSetup {
             places: &[],
         };
         let design = design::read(reader, document, context);
-        let known = given.known.and_then(|setup| setup.actuator.as_ref());
-        let context = ActuatorContext { folder: given.folder, known, system: None };
-        let actuator = actuator::read(reader, document, context);
-        let known = actuator.as_ref().and_then(Option::as_ref).map(GivenActuator::actuator);
+        let actuator = actuator::read(reader, document, None);
+        let known = actuator.as_ref().and_then(Option::as_ref);
         let sized =
             read_dithers.and_then(|read| dither::sized(reader, read, known, belt.damping_ratio));
         let (dithers, sizes) = sized.unzip();
@@ -135,28 +118,11 @@ impl StudyKind for BeltSetup {
             initial: initial?,
             solver: solver?,
             band: band?,
-            measured: measured.map(Arc::new),
-            courses: reader.take_files(),
-            waves,
+            measured,
             design: design?,
             actuator: actuator?,
             sizes: sizes?.into(),
         })
-    }
-
-    fn data_files(&self) -> Vec<&Path> {
-        let samples = self.measured.iter().filter_map(|measured| measured.file.as_deref());
-        let waves = self.waves.iter().map(WaveFile::path);
-        let actuator = self.actuator.iter().filter_map(GivenActuator::path);
-        let courses = self.courses.iter().map(|file| file.path.as_path());
-        samples.chain(waves).chain(courses).chain(actuator).collect()
-    }
-
-    fn file_settings(&self) -> Vec<(String, String)> {
-        let samples = self.measured.iter().map(|measured| measured.settings());
-        let waves = self.waves.iter().enumerate().map(|(index, wave)| wave.settings(index));
-        let actuator = self.actuator.iter().filter_map(GivenActuator::settings);
-        samples.chain(waves).chain(CourseFile::settings(&self.courses)).chain(actuator).collect()
     }
 }
 
@@ -229,7 +195,7 @@ impl BeltStudy {
 
     /// The actuator that gives the dither.
     pub fn actuator(&self) -> Option<&Actuator> {
-        self.kind().actuator.as_ref().map(GivenActuator::actuator)
+        self.kind().actuator.as_ref()
     }
 
     /// The amplitudes that the study gives by another size than a peak force.

@@ -1,7 +1,5 @@
 //! `[belt]` and `[belt.initial]`.
 
-use std::path::Path;
-
 use quell_dynamics::start::InitialState;
 use quell_model::parameter::{
     BELT_VELOCITY, DAMPING_RATIO, INITIAL_DISPLACEMENT, INITIAL_VELOCITY, NORMAL_LOAD,
@@ -35,7 +33,7 @@ pub(super) struct BeltTable {
 }
 
 /// Reads `[belt]`.
-pub(super) fn read(reader: &mut Reader, root: &Table, folder: &Path) -> BeltTable {
+pub(super) fn read(reader: &mut Reader, root: &Table) -> BeltTable {
     let Some(node) = root.get("belt") else {
         let allowed =
             "a table [belt] with damping_ratio, normal_load, belt_velocity (or their SI keys)";
@@ -47,7 +45,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table, folder: &Path) -> BeltTabl
     };
     reader.unknown_keys(table, Section::Belt, "belt", &["initial", "drive", "load"]);
     let course = |reader: &mut Reader, name, what| {
-        let place = CoursePlace { what, units: CourseUnits::Belt, folder };
+        let place = CoursePlace { what, units: CourseUnits::Belt };
         place.optional(reader, table, "belt", name)
     };
     let drive = course(reader, "drive", DRIVE);

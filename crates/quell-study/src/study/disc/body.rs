@@ -1,7 +1,5 @@
 //! The table `[disc]`: its modes, its loads, and the contributions to the equations that are omitted.
 
-use std::path::Path;
-
 use quell_disc::plate::PlateMaterial;
 use quell_model::disc::{Contribution, Contributions};
 use quell_model::disc::{Load, Mode, Patch};
@@ -34,18 +32,12 @@ pub(super) struct Body {
 }
 
 impl Body {
-    pub(super) fn read(
-        reader: &mut Reader,
-        table: &Table,
-        header: Origin,
-        folder: &Path,
-        known: Option<&ModeSource>,
-    ) -> Option<Self> {
+    pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option<Self> {
         reader.unknown_keys(table, Section::Disc, "disc", &["mode", "load", loads::DRIVE]);
         let damping = reader.optional(table, "disc", MODAL_DAMPING, None).or(0.0);
         let parts = without(reader, table);
         let material = plate::material(reader, table, header);
-        let source = modes::read(reader, table, header, folder, known);
+        let source = modes::read(reader, table, header);
         let centrifugal = rotation::read(reader, table, source.as_ref());
         let metal = material.as_ref().and_then(|given| given.as_ref().map(|(metal, _)| metal));
         let scales = match (&source, &material) {
@@ -53,10 +45,10 @@ impl Body {
             // The error has been reported already; the loads are still checked.
             _ => LoadScales { disc: Some(UNIT), outer_radius_m: Some(1.0) },
         };
-        let pads = loads::read(reader, table, scales, folder);
+        let pads = loads::read(reader, table, scales);
         reader.set_disc_scales(scales.disc);
         let (pads, source) = (pads?, source?);
-        let drive = rotation::drive(reader, table, folder, &pads).ok()?;
+        let drive = rotation::drive(reader, table, &pads).ok()?;
         let (damping, parts, material) = (damping?, parts?, material?);
         let centrifugal = centrifugal?;
         let radii: Vec<Option<f64>> = pads.iter().map(|pad| pad.radius).collect();
@@ -110,7 +102,7 @@ fn patches(
     modes: &[Mode],
 ) -> Option<Vec<Option<Patch>>> {
     let plate = match source {
-        ModeSource::Plate(plate) => Some(plate),
+        ModeSource::Plate(plate) => Some(&**plate),
         ModeSource::List(_) | ModeSource::File { .. } => None,
     };
     let diameters = modes.iter().map(|mode| mode.diameters).max().unwrap_or(0);

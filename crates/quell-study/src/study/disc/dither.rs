@@ -11,7 +11,6 @@ use crate::study::document::{Table, Value};
 use crate::study::reader::{Found, Reader};
 use crate::study::suggest;
 use crate::study::vocabulary::{Choice, ENVELOPE, WAVE_KEYS, join};
-use crate::study::wave_file::WaveFiles;
 use crate::study::waveform;
 
 /// The keys that do not describe the waveform.
@@ -19,11 +18,7 @@ const KEYS: [&str; 6] =
     ["direction", "waveform", "amplitude", "frequency_ratio", "frequency_hz", "envelope"];
 
 /// Reads the dither of all loads; `None` if it is invalid, which has been reported.
-pub(super) fn read(
-    reader: &mut Reader,
-    document: &Table,
-    files: &mut WaveFiles<'_>,
-) -> Option<(DiscDither, DitherShape)> {
+pub(super) fn read(reader: &mut Reader, document: &Table) -> Option<(DiscDither, DitherShape)> {
     let Some(node) = document.get("dither") else {
         return Some((DiscDither::None, DitherShape::default()));
     };
@@ -36,14 +31,14 @@ pub(super) fn read(
     let direction = reader
         .needed_choice(table, "dither", node.origin, "direction", Choice::Direction)
         .and_then(Direction::from_name);
-    let waveform = waveform::read_or_sine(reader, table, "dither", node.origin, files);
+    let waveform = waveform::read_or_sine(reader, table, "dither", node.origin);
     let amplitude = match reader.optional(table, "dither", DISC_DITHER_AMPLITUDE, None) {
         // The dissertation's tangential dither.
         Found::Absent => Some(1.0),
         found => found.or(1.0),
     };
     let frequency_ratio = reader.number(table, "dither", node.origin, DITHER_FREQUENCY_RATIO);
-    let place = CoursePlace { what: ENVELOPE, units: CourseUnits::Disc, folder: files.folder() };
+    let place = CoursePlace { what: ENVELOPE, units: CourseUnits::Disc };
     let envelope = place.optional(reader, table, "dither", "envelope").map(Course::knots);
     let shape = DitherShape { waveform: waveform?, envelope: envelope.ok()? };
     let (amplitude, frequency_ratio) = (amplitude?, frequency_ratio?);

@@ -1,7 +1,5 @@
 //! `[disc.load]` and `[[disc.load]]`.
 
-use std::path::Path;
-
 use quell_model::disc::Load;
 use quell_model::parameter::disc::{
     DISC_SPEED, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_HALF_THICKNESS,
@@ -56,23 +54,18 @@ pub(super) struct Pad {
 }
 
 /// Reads every load; a disc without loads is free.
-pub(super) fn read(
-    reader: &mut Reader,
-    disc: &Table,
-    scales: LoadScales,
-    folder: &Path,
-) -> Option<Vec<Pad>> {
+pub(super) fn read(reader: &mut Reader, disc: &Table, scales: LoadScales) -> Option<Vec<Pad>> {
     let Some(node) = disc.get("load") else { return Some(Vec::new()) };
     let pads: Vec<Option<Pad>> = match &node.value {
         Value::List(list) if list.len() > 1 => list
             .iter()
             .enumerate()
-            .map(|(index, node)| one(reader, node, &format!("disc.load[{index}]"), scales, folder))
+            .map(|(index, node)| one(reader, node, &format!("disc.load[{index}]"), scales))
             .collect(),
         Value::List(list) => {
-            list.iter().map(|node| one(reader, node, "disc.load", scales, folder)).collect()
+            list.iter().map(|node| one(reader, node, "disc.load", scales)).collect()
         }
-        _ => vec![one(reader, node, "disc.load", scales, folder)],
+        _ => vec![one(reader, node, "disc.load", scales)],
     };
     let pads: Vec<Pad> = pads.into_iter().collect::<Option<_>>()?;
     let mut speeds = pads.iter().filter_map(|pad| Some((pad.speed?, &pad.path)));
@@ -90,13 +83,7 @@ pub(super) fn read(
     Some(pads)
 }
 
-fn one(
-    reader: &mut Reader,
-    node: &Node,
-    path: &str,
-    scales: LoadScales,
-    folder: &Path,
-) -> Option<Pad> {
+fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Option<Pad> {
     let table = reader.table(path, node)?;
     refuse_drive(reader, table, path);
     reader.unknown_keys(table, Section::DiscLoad, path, &["envelope", DRIVE]);
@@ -128,7 +115,7 @@ fn one(
         Found::Absent => None,
         Found::Wrong => return None,
     };
-    let place = CoursePlace { what: LOAD_ENVELOPE, units: CourseUnits::Disc, folder };
+    let place = CoursePlace { what: LOAD_ENVELOPE, units: CourseUnits::Disc };
     let share = place.optional(reader, table, path, "envelope").ok()?;
     let patch = PatchSize::read(reader, table, path)?;
     let twins = DISC_SPEED.si.iter().map(|twin| twin.key);

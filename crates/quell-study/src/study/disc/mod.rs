@@ -17,8 +17,6 @@ mod patch;
 mod plate;
 mod rotation;
 
-use std::fmt::Write as _;
-use std::path::Path;
 use std::sync::Arc;
 
 use quell_disc::plate::PlateMaterial;
@@ -31,11 +29,10 @@ use serde_json::Value as Json;
 use super::StudyOf;
 use super::design::{self, Design, DesignContext};
 use super::document::Table;
-use super::reader::{CourseFile, Reader};
-use super::study_kind::{Given, StudyKind};
+use super::reader::Reader;
+use super::study_kind::StudyKind;
 use super::system::{DescribedSystem, SystemStudy};
 use super::vocabulary::{self, Role};
-use super::wave_file::{WaveFile, WaveFiles};
 use crate::complaint::{Complaint, Fault, Origin};
 
 pub use modes::{Listed, ModeSource};
@@ -52,10 +49,6 @@ pub struct DiscSetup {
     disc: Disc,
     parts: Contributions,
     plate: Arc<PlateSetup>,
-    /// Files of loads and envelopes.
-    courses: Arc<[CourseFile]>,
-    /// Files of sampled waveforms.
-    waves: Vec<WaveFile>,
     /// The design that is asked for.
     design: Option<Design>,
 }
@@ -78,7 +71,7 @@ impl StudyKind for DiscSetup {
         &["schema", "title", "disc", "friction", "dither", "design", "uncertainty", "sweep"]
     }
 
-    fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
+    fn read(reader: &mut Reader, document: &Table) -> Option<Self> {
         for name in ["belt", "solver", "system"] {
             if let Some(node) = document.get(name) {
                 let other = if name == "system" { "a system" } else { "a belt" };
@@ -90,19 +83,12 @@ impl StudyKind for DiscSetup {
                 reader.complain(complaint);
             }
         }
-        if let Some(known) = given.known {
-            reader.knows(&known.courses);
-        }
         let table = document.get("disc").and_then(|node| reader.table("disc", node));
-        let known = given.known.map(|setup| &setup.plate.source);
         let read = table.map(|table| {
             let origin = document.get("disc").map_or(Origin::Whole, |node| node.origin);
-            Body::read(reader, table, origin, given.folder, known)
+            Body::read(reader, table, origin)
         });
-        let known = given.known.map_or(&[][..], |setup| &setup.waves);
-        let mut files = WaveFiles::new(given.folder, known);
-        let dither = dither::read(reader, document, &mut files);
-        let waves = files.into_found();
+        let dither = dither::read(reader, document);
         let read = read.flatten();
         let law = law::read(reader, document, read.as_ref());
         let waveform = dither.as_ref().map(|(_, shape)| &shape.waveform);
@@ -135,8 +121,6 @@ impl StudyKind for DiscSetup {
                 disc: disc.in_si(scales.disc, scales.outer_radius_m),
                 parts,
                 plate: Arc::new(PlateSetup { source, material, radii, warnings }),
-                courses: reader.take_files(),
-                waves,
                 design,
             }),
             Err(invalid) => {
@@ -153,35 +137,6 @@ impl StudyKind for DiscSetup {
                 None
             }
         }
-    }
-
-    fn data_files(&self) -> Vec<&Path> {
-        let modes = match &self.plate.source {
-            ModeSource::File { path, .. } => Some(path.as_path()),
-            ModeSource::Plate(_) | ModeSource::List(_) => None,
-        };
-        let waves = self.waves.iter().map(WaveFile::path);
-        let courses = self.courses.iter().map(|file| file.path.as_path());
-        modes.into_iter().chain(waves).chain(courses).collect()
-    }
-
-    fn file_settings(&self) -> Vec<(String, String)> {
-        let listed = match self.plate.source {
-            ModeSource::File { .. } => self.disc.modes(),
-            _ => &[],
-        };
-        let modes = listed.iter().enumerate().map(|(index, mode)| {
-            let mut numbers = format!(
-                "{} {:?} {:?} {:?}",
-                mode.diameters, mode.ratio, mode.shape_at_load, mode.damping
-            );
-            if self.disc.is_stiffened() {
-                let _ = write!(numbers, " {:?}", self.disc.centrifugal(index));
-            }
-            (format!("disc.modes_file[{index}]"), numbers)
-        });
-        let waves = self.waves.iter().enumerate().map(|(index, wave)| wave.settings(index));
-        modes.chain(waves).chain(CourseFile::settings(&self.courses)).collect()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Modes of a disc: computed, listed, or read from a file; and their shapes at the loads.
 
-use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use quell_disc::plate::PlateMaterial;
 use quell_model::disc::Mode;
@@ -22,13 +22,13 @@ use crate::study::vocabulary::Section;
 #[derive(Clone, Debug, PartialEq)]
 pub enum ModeSource {
     /// Computed from the plate.
-    Plate(PlateModes),
+    Plate(Arc<PlateModes>),
     /// Listed as `[[disc.mode]]`.
     List(Listed),
     /// Read from a CSV file.
     File {
-        /// The file.
-        path: PathBuf,
+        /// The name of the file, as the study gives it.
+        name: String,
         /// The modes in the file.
         listed: Listed,
     },
@@ -69,21 +69,11 @@ pub struct ListedMode {
 }
 
 /// Reads the modes: computed, listed, or from a file.
-pub(super) fn read(
-    reader: &mut Reader,
-    table: &Table,
-    header: Origin,
-    folder: &Path,
-    known: Option<&ModeSource>,
-) -> Option<ModeSource> {
+pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option<ModeSource> {
     let (list, file) = (table.get("mode"), table.get("modes_file"));
     let given = list.map(|node| ("disc.mode", node)).or(file.map(|node| ("disc.modes_file", node)));
     let Some((key, node)) = given else {
-        let known = match known {
-            Some(ModeSource::Plate(plate)) => Some(plate),
-            _ => None,
-        };
-        return plate::read(reader, table, header, known).map(ModeSource::Plate);
+        return plate::read(reader, table, header).map(ModeSource::Plate);
     };
     let plate = ["inner_radius_ratio", "poisson_ratio", "radial_modes", "nodal_diameters"];
     let others = plate.into_iter().chain(["reference_frequency"]);
@@ -106,15 +96,9 @@ pub(super) fn read(
         return listed(reader, node).map(ModeSource::List);
     }
     let name = reader.text(key, node)?;
-    let path = folder.join(&name);
-    if let Some(ModeSource::File { path: same, listed }) = known
-        && *same == path
-    {
-        return Some(ModeSource::File { path, listed: listed.clone() });
-    }
-    let read = modes_file::read(&path).and_then(|lines| together(&lines));
-    match read {
-        Ok(listed) => Some(ModeSource::File { path, listed }),
+    let parse = |text: &str| together(&modes_file::parse(text)?);
+    match reader.files().parsed(key, &name, modes_file::WANTED, parse) {
+        Ok(listed) => Some(ModeSource::File { name, listed: Listed::clone(&listed) }),
         Err(why) => {
             reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));
             None

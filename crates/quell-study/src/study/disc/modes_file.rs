@@ -3,28 +3,26 @@
 //! Comment lines begin with `#`; the first other line names the columns: `diameters`, `ratio` or `frequency_hz`,
 //! `shape_at_load`, and optionally `damping` and `centrifugal`. Other columns are ignored. If both are given, `ratio` is used.
 
-use std::path::Path;
-
 use quell_model::parameter::Parameter;
 use quell_model::parameter::disc::{
     MODE_CENTRIFUGAL, MODE_DAMPING, MODE_DIAMETERS, MODE_FREQUENCY, MODE_RATIO, MODE_SHAPE_AT_LOAD,
 };
 
 use super::mode_line::ModeLine;
-use crate::study::data_file::{self, DataFile, Row};
+use crate::study::data_file::{DataFile, Row};
+use crate::study::files::WantedFile;
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of modes";
 
-/// Reads the lines of a file.
+/// The file.
+pub(super) const WANTED: WantedFile = WantedFile::of(WHAT);
+
+/// The lines of a text.
 ///
 /// # Errors
 /// What is wrong, with its line.
-pub(super) fn read(path: &Path) -> Result<Vec<ModeLine>, String> {
-    parse(&data_file::text(path, WHAT)?)
-}
-
-fn parse(text: &str) -> Result<Vec<ModeLine>, String> {
+pub(super) fn parse(text: &str) -> Result<Vec<ModeLine>, String> {
     let file = DataFile::new(text, WHAT)?;
     let column = |parameter: Parameter| file.column(parameter.key());
     let needed = |parameter: Parameter| {

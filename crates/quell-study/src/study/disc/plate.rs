@@ -1,5 +1,7 @@
 //! The plate of `[disc]`, its modes and its material.
 
+use std::sync::Arc;
+
 use quell_disc::plate::{ModeSet, ModeSetError, Plate, PlateMaterial, Reference};
 use quell_model::parameter::Bounds;
 use quell_model::parameter::disc::{
@@ -27,13 +29,8 @@ pub struct PlateModes {
     pub set: ModeSet,
 }
 
-/// Reads the plate and computes its modes, unless they are already `known`.
-pub(super) fn read(
-    reader: &mut Reader,
-    table: &Table,
-    header: Origin,
-    known: Option<&PlateModes>,
-) -> Option<PlateModes> {
+/// Reads the plate and computes its modes, unless they are known from another reading.
+pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option<Arc<PlateModes>> {
     let inner = reader.number(table, "disc", header, INNER_RADIUS_RATIO);
     let poisson = reader.optional(table, "disc", POISSON_RATIO, None).or(0.3);
     let radial = reader.optional(table, "disc", RADIAL_MODES, None).or(1.0);
@@ -47,15 +44,17 @@ pub(super) fn read(
         reason = "whole numbers within the bounds of the registry"
     )]
     let (radial_modes, nodal_diameters) = (radial? as usize, diameters? as u32);
-    if let Some(known) = known
-        && known.plate == plate
-        && (known.radial_modes, known.nodal_diameters) == (radial_modes, nodal_diameters)
-        && known.reference == reference
-    {
-        return Some(known.clone());
-    }
-    match ModeSet::new(&plate, radial_modes, nodal_diameters, reference) {
-        Ok(set) => Some(PlateModes { plate, radial_modes, nodal_diameters, reference, set }),
+    let same = |known: &PlateModes| {
+        known.plate == plate
+            && (known.radial_modes, known.nodal_diameters) == (radial_modes, nodal_diameters)
+            && known.reference == reference
+    };
+    let modes = reader.computed().get(same, || {
+        let set = ModeSet::new(&plate, radial_modes, nodal_diameters, reference)?;
+        Ok(PlateModes { plate, radial_modes, nodal_diameters, reference, set })
+    });
+    match modes {
+        Ok(modes) => Some(modes),
         Err(why) => {
             let node = table.get("nodal_diameters");
             let origin = node.map_or(header, |node| node.origin);

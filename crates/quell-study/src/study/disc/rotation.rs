@@ -1,7 +1,5 @@
 //! Which part rotates, at which speed over time, and how centrifugal stress stiffens the disc.
 
-use std::path::Path;
-
 use quell_model::parameter::disc::CENTRIFUGAL;
 
 use super::loads::{DRIVE, Pad};
@@ -18,7 +16,6 @@ use crate::study::vocabulary::{Choice, DISC_DRIVE};
 pub(super) fn drive(
     reader: &mut Reader,
     table: &Table,
-    folder: &Path,
     pads: &[Pad],
 ) -> Result<Option<Course>, ()> {
     let Some(node) = table.get(DRIVE) else { return Ok(None) };
@@ -36,7 +33,7 @@ pub(super) fn drive(
             reader.complain(Complaint::new(Fault::Conflict, key, origin, speed, allowed));
         }
     }
-    let place = CoursePlace { what: DISC_DRIVE, units: CourseUnits::Disc, folder };
+    let place = CoursePlace { what: DISC_DRIVE, units: CourseUnits::Disc };
     place.optional(reader, table, "disc", DRIVE)
 }
 

@@ -5,15 +5,15 @@
 //! `belt.stiffness_n_per_m` is given, or if all its quantities are in SI; then a dimensionless
 //! key that has an SI twin is rejected, and vice versa.
 
-use std::path::PathBuf;
-use std::sync::Arc;
+use std::mem;
 
 use quell_model::InvalidValues;
 use quell_model::units::{DiscScales, Quantity, Scales};
 use serde_json::Value as Json;
 
-use super::data_file;
+use super::computed::Computed;
 use super::document::{Node, Table, Value, given_number};
+use super::files::Files;
 use super::suggest;
 use super::vocabulary::{self, Key, Role, Section, join};
 use crate::complaint::{Complaint, Fault, Origin};
@@ -53,29 +53,25 @@ pub struct Reader {
     units: Units,
     complaints: Vec<Complaint>,
     written: Vec<Written>,
-    /// Files that the study names.
-    files: Vec<CourseFile>,
-    /// Files that the study has read before.
-    known_files: Arc<[CourseFile]>,
-}
-
-/// A file of a drive, a load or an envelope.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct CourseFile {
-    pub(super) path: PathBuf,
-    pub(super) text: Arc<str>,
+    files: Files,
+    computed: Computed,
 }
 
 impl Reader {
-    /// Determines the unit system of a study and reads its scales.
-    pub(super) fn new(root: &Table) -> Self {
-        let mut reader = Self {
-            units: Units::Scaled,
+    /// A reader in these units, which holds no file.
+    fn in_units(units: Units) -> Self {
+        Self {
+            units,
             complaints: Vec::new(),
             written: Vec::new(),
-            files: Vec::new(),
-            known_files: Arc::default(),
-        };
+            files: Files::default(),
+            computed: Computed::default(),
+        }
+    }
+
+    /// Determines the unit system of a study and reads its scales.
+    pub(super) fn new(root: &Table) -> Self {
+        let mut reader = Self::in_units(Units::Scaled);
         if is_si(root) {
             reader.units = Units::Si(None);
             if let Some(belt) = root.get("belt") {
@@ -87,56 +83,52 @@ impl Reader {
 
     /// A reader for a study of a disc, whose scales are not known yet.
     pub(super) fn of_a_disc() -> Self {
-        Self {
-            units: Units::Disc(None),
-            complaints: Vec::new(),
-            written: Vec::new(),
-            files: Vec::new(),
-            known_files: Arc::default(),
-        }
+        Self::in_units(Units::Disc(None))
     }
 
     /// A reader whose numbers are those of the file.
     pub(super) fn as_written() -> Self {
-        Self {
-            units: Units::Scaled,
-            complaints: Vec::new(),
-            written: Vec::new(),
-            files: Vec::new(),
-            known_files: Arc::default(),
-        }
+        Self::in_units(Units::Scaled)
     }
 
     /// A reader of keys in SI with these scales.
     pub(super) fn in_si(scales: Option<Scales>) -> Self {
-        Self {
-            units: Units::Si(scales),
-            complaints: Vec::new(),
-            written: Vec::new(),
-            files: Vec::new(),
-            known_files: Arc::default(),
-        }
+        Self::in_units(Units::Si(scales))
     }
 
-    /// Files whose text need not be read again.
-    pub(super) fn knows(&mut self, files: &Arc<[CourseFile]>) {
-        self.known_files = Arc::clone(files);
+    /// The reader with what an earlier reading left.
+    pub(super) fn with(self, files: Files, computed: Computed) -> Self {
+        Self { files, computed, ..self }
     }
 
-    /// The text of a file that the study names; it is noted.
-    pub(super) fn course_file(&mut self, path: PathBuf, what: &str) -> Result<Arc<str>, String> {
-        let known = self.known_files.iter().find(|file| file.path == path);
-        let text = match known {
-            Some(file) => Arc::clone(&file.text),
-            None => data_file::text(&path, what)?.into(),
+    /// Reads with `inner` in place of this reader, which lends it the files and results. Its keys below `table` are those below `path`
+    /// here; its complaints stay its own.
+    pub(super) fn lend<T>(
+        &mut self,
+        inner: &mut Self,
+        (table, path): (&str, &str),
+        read: impl FnOnce(&mut Self) -> T,
+    ) -> T {
+        let swap = |one: &mut Self, other: &mut Self| {
+            mem::swap(&mut one.files, &mut other.files);
+            mem::swap(&mut one.computed, &mut other.computed);
         };
-        self.files.push(CourseFile { path, text: Arc::clone(&text) });
-        Ok(text)
+        let earlier = self.files.named().len();
+        swap(self, inner);
+        let read = read(inner);
+        swap(self, inner);
+        self.files.rename(earlier, table, path);
+        read
     }
 
-    /// The files noted since the last call.
-    pub(super) fn take_files(&mut self) -> Arc<[CourseFile]> {
-        std::mem::take(&mut self.files).into()
+    /// The files that the study names.
+    pub(super) fn files(&mut self) -> &mut Files {
+        &mut self.files
+    }
+
+    /// What was costly to compute.
+    pub(super) fn computed(&mut self) -> &mut Computed {
+        &mut self.computed
     }
 
     /// Whether a key has been complained about.
@@ -187,9 +179,14 @@ impl Reader {
     }
 
     /// All complaints, in the order of the text.
-    pub(super) fn into_complaints(mut self) -> Vec<Complaint> {
+    pub(super) fn into_complaints(self) -> Vec<Complaint> {
+        self.into_parts().0
+    }
+
+    /// All complaints, in the order of the text, and what a later reading need not read or compute again.
+    pub(super) fn into_parts(mut self) -> (Vec<Complaint>, Files, Computed) {
         self.complaints.sort_by_key(|complaint| complaint.origin.line().unwrap_or(usize::MAX));
-        self.complaints
+        (self.complaints, self.files, self.computed)
     }
 
     /// Reports keys that a table does not have.
@@ -268,16 +265,6 @@ impl Reader {
     /// Records where a number of the registry was written, for errors of the model.
     pub(super) fn remember(&mut self, path: &str, key: &str, origin: Origin, factor: f64) {
         self.written.push(Written { path: path.to_owned(), key: key.to_owned(), origin, factor });
-    }
-}
-
-impl CourseFile {
-    /// What files contribute to the values of a study.
-    pub(super) fn settings(files: &[Self]) -> impl Iterator<Item = (String, String)> {
-        files
-            .iter()
-            .enumerate()
-            .map(|(index, file)| (format!("course[{index}]"), file.text.to_string()))
     }
 }
 

@@ -1,7 +1,5 @@
 //! `[[contact]]`: rows, load, moving surface and friction law.
 
-use std::path::Path;
-
 use quell_model::friction::Surroundings;
 use quell_model::parameter::Parameter;
 use quell_model::parameter::system::{
@@ -17,7 +15,6 @@ use super::names::{MOST_COORDINATES, NAME, is_plain_name};
 use super::numbers::{CourseNumbers, Numbers, missing, unknown_keys};
 use super::rows::RowBasis;
 use crate::complaint::{Complaint, Fault};
-use crate::study::belt::friction::Measured;
 use crate::study::belt::one_state;
 use crate::study::course::{CoursePlace, CourseUnits, no_constant, replaces_constant};
 use crate::study::document::{Node, Table, Value};
@@ -35,8 +32,6 @@ pub(super) struct ContactContext<'a> {
     pub(super) measured: bool,
     /// The law of contacts without one of their own.
     pub(super) shared: Option<&'a Node>,
-    pub(super) folder: &'a Path,
-    pub(super) known: &'a [Option<Measured>],
 }
 
 /// Each table of a list with its prefix; a single one has no index.
@@ -75,8 +70,6 @@ pub(super) fn listed<'t>(
 /// A contact as it was read.
 pub(super) struct ReadContact {
     pub(super) contact: Contact,
-    /// The samples of a measured law.
-    pub(super) measured: Option<Measured>,
     /// Whether its friction coefficient was negative.
     pub(super) reversed: bool,
 }
@@ -182,11 +175,11 @@ fn one(
     let (stiffness, damping) = (number(CONTACT_NORMAL_STIFFNESS), number(CONTACT_NORMAL_DAMPING));
     let spring = number(CONTACT_TANGENTIAL_STIFFNESS);
     without_normal(reader, table, prefix, &["normal_stiffness", "normal_damping"]);
-    let law = law(reader, table, node, prefix, index, tangent.is_some(), context);
+    let law = law(reader, table, node, prefix, tangent.is_some(), context);
     if !rows_are_right {
         return None;
     }
-    let (LawRead { law, measured, reversed }, velocity) = (law?, velocity?);
+    let (LawRead { law, reversed }, velocity) = (law?, velocity?);
     // Negative friction is friction of a surface that moves in the other direction; it exists only without a tangent,
     // where the slip velocity is that of the surface.
     let velocity = if reversed { velocity.reversed() } else { velocity };
@@ -216,7 +209,7 @@ fn one(
         tangential_stiffness,
         varying_load: (load != Profile::constant(steady)).then_some(load),
     };
-    Some(ReadContact { contact, measured, reversed })
+    Some(ReadContact { contact, reversed })
 }
 
 /// Load and surface velocity of a contact, constant or over time; `None` if wrong.
@@ -227,10 +220,10 @@ fn over_time(
     node: &Node,
     context: ContactContext<'_>,
 ) -> (Option<Profile>, Option<Profile>) {
-    let ContactContext { numbers, folder, .. } = context;
+    let ContactContext { numbers, .. } = context;
     let mut profile = |name: &str, what, parameter: Parameter| {
         let units = CourseUnits::System(CourseNumbers(numbers));
-        let place = CoursePlace { what, units, folder };
+        let place = CoursePlace { what, units };
         let course = place.optional(reader, table, prefix, name);
         if replaces_constant(table.get(name)) {
             let twins = parameter.si.iter().map(|twin| twin.key);
@@ -328,11 +321,9 @@ fn law(
     table: &Table,
     contact: &Node,
     prefix: &str,
-    index: usize,
     has_tangent: bool,
     context: ContactContext<'_>,
 ) -> Option<LawRead> {
-    let known = context.known.get(index).and_then(Option::as_ref);
     let (path, node) = match (table.get("friction"), context.shared) {
         (Some(node), _) => (join(prefix, "friction"), node),
         (None, Some(node)) => ("friction".to_owned(), node),
@@ -342,7 +333,7 @@ fn law(
             return None;
         }
     };
-    friction::read(reader, node, &path, context.numbers, has_tangent, context.folder, known)
+    friction::read(reader, node, &path, context.numbers, has_tangent)
 }
 
 /// The law in the surroundings of its contact: a formula is proven up to the slip speeds that are expected there.

@@ -1,7 +1,5 @@
 //! `[[dither]]`: forces on coordinates and modulations of the load of a contact, periodic or noise.
 
-use std::path::Path;
-
 use quell_model::parameter::system::SYSTEM_DITHER_FREQUENCY;
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE};
 use quell_model::profile::{Profile, Wave};
@@ -24,7 +22,6 @@ use crate::study::reader::Reader;
 use crate::study::suggest;
 use crate::study::vocabulary::size::{DITHER_SIZES, SizeKey, SizedSignal, measure_of};
 use crate::study::vocabulary::{Choice, ENVELOPE, join};
-use crate::study::wave_file::WaveFiles;
 use crate::study::waveform;
 
 /// The contacts that a dither can modulate.
@@ -36,8 +33,6 @@ pub(super) struct DitherContext<'a> {
     pub(super) names: &'a [String],
     /// The contacts, if all are right.
     pub(super) contacts: Option<&'a [Contact]>,
-    /// The folder of the files that the study names.
-    pub(super) folder: &'a Path,
     /// Whether the study has a table `[actuator]`.
     pub(super) has_actuator: bool,
 }
@@ -50,13 +45,12 @@ pub(super) fn read(
     reader: &mut Reader,
     document: &Table,
     context: DitherContext<'_>,
-    files: &mut WaveFiles<'_>,
 ) -> Option<ReadDithers> {
     let tables = listed(reader, document, "", "dither");
     let (inputs, sizes): (Vec<Option<Input>>, Vec<_>) = tables
         .iter()
         .map(|(prefix, node, table)| {
-            let read = one(reader, (prefix, *node, *table), context, files);
+            let read = one(reader, (prefix, *node, *table), context);
             let (input, size) = read.unzip();
             (input, size.map(|size| (prefix.clone(), size)))
         })
@@ -169,13 +163,12 @@ fn one(
     reader: &mut Reader,
     (prefix, node, table): (&str, &Node, &Table),
     context: DitherContext<'_>,
-    files: &mut WaveFiles<'_>,
 ) -> Option<(Input, SizedAmplitude)> {
     unknown_keys_of_dither(reader, table, prefix);
     let target = target(reader, prefix, node, table, context);
     let numbers = context.numbers;
     let is_noise = waveform::is_noise(table);
-    let read = waveform::read(reader, table, (prefix, node.origin), files, |reader| {
+    let read = waveform::read(reader, table, (prefix, node.origin), |reader| {
         band(reader, prefix, table, numbers)
     });
     let (waveform, middle) = read.unzip();
@@ -189,7 +182,7 @@ fn one(
         (frequency, numbers.optional(reader, table, prefix, DITHER_PHASE))
     };
     let units = CourseUnits::System(CourseNumbers(numbers));
-    let place = CoursePlace { what: ENVELOPE, units, folder: context.folder };
+    let place = CoursePlace { what: ENVELOPE, units };
     let envelope = place.optional(reader, table, prefix, "envelope").map(Course::knots);
     let wave = Wave {
         waveform: waveform?,

@@ -6,7 +6,6 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use quell_model::Contact;
@@ -16,8 +15,9 @@ use quell_numerics::order::ascending_by;
 
 use super::units::SystemUnits;
 use crate::complaint::{Complaint, Fault};
-use crate::study::data_file::{self, DataFile, Row};
+use crate::study::data_file::{DataFile, Row};
 use crate::study::document::Node;
+use crate::study::files::WantedFile;
 use crate::study::reader::Reader;
 
 /// What the file must be.
@@ -41,7 +41,6 @@ pub struct FrequencyResponse {
     /// Real and imaginary part at each frequency, one series for each pair: displacement over force in the units of the
     /// file.
     pub data: Vec<Vec<[f64; 2]>>,
-    file: PathBuf,
     in_hertz: bool,
 }
 
@@ -51,40 +50,16 @@ impl FrequencyResponse {
         let pair = self.pairs.iter().position(|pair| *pair == (output, input))?;
         self.data.get(pair).map(Vec::as_slice)
     }
-
-    /// The file that it was read from.
-    pub fn file(&self) -> &Path {
-        &self.file
-    }
-
-    /// The series as one text for each pair, with enough digits to read back the same numbers.
-    pub(super) fn settings(&self) -> Vec<(String, String)> {
-        let series = self.pairs.iter().zip(&self.data).map(|(&(output, input), series)| {
-            let key = format!("{KEY}[{}][{}]", self.names[output], self.names[input]);
-            let values = self.frequencies.iter().zip(series);
-            let texts = values.map(|(f, [re, im])| format!("{f:?} {re:?} {im:?}"));
-            (key, texts.collect::<Vec<_>>().join("; "))
-        });
-        series.collect()
-    }
 }
 
-/// Reads the file of the key; one that is known is not read again.
+/// Reads the file of the key.
 pub(super) fn read(
     reader: &mut Reader,
     node: &Node,
-    folder: &Path,
     units: SystemUnits,
-    known: Option<&Arc<FrequencyResponse>>,
 ) -> Option<Arc<FrequencyResponse>> {
     let name = reader.text(KEY, node)?;
-    let path = folder.join(&name);
-    let found = match known.filter(|known| known.file == path) {
-        Some(known) => Ok(Arc::clone(known)),
-        None => data_file::text(&path, WHAT)
-            .and_then(|text| parse(&text))
-            .map(|found| Arc::new(FrequencyResponse { file: path, ..found })),
-    };
+    let found = reader.files().parsed(KEY, &name, WantedFile::of(WHAT), parse);
     let found = found.and_then(|found| {
         if found.in_hertz && units == SystemUnits::None {
             return Err("a CSV file with a column frequency: the study has no units, but frequency_hz is in hertz; or \

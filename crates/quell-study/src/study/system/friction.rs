@@ -3,8 +3,6 @@
 //! Its numbers may have units, twins in SI and formulas; with these resolved the table is one that the reader of a belt's
 //! law understands, so every law is read in one place.
 
-use std::path::Path;
-
 use quell_model::Friction;
 use quell_model::parameter::{COEFFICIENT, STATIC_COEFFICIENT, VISCOUS};
 use quell_model::units::{Quantity, Scales};
@@ -12,8 +10,7 @@ use quell_model::units::{Quantity, Scales};
 use super::numbers::{Keyed, Numbers, WantedNumber};
 use super::units::SystemUnits;
 use crate::complaint::{Complaint, Fault};
-use crate::study::belt::friction::{self, LawContext, Measured};
-use crate::study::data_file::{self, DataFile};
+use crate::study::belt::friction;
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::vocabulary::{self, Role, Section, join};
@@ -21,7 +18,6 @@ use crate::study::vocabulary::{self, Role, Section, join};
 /// A law as it was read.
 pub(super) struct LawRead {
     pub(super) law: Friction,
-    pub(super) measured: Option<Measured>,
     /// Whether the coefficient was negative: the law is that of the positive one, for a surface that moves in the other
     /// direction.
     pub(super) reversed: bool,
@@ -34,8 +30,6 @@ pub(super) fn read(
     path: &str,
     numbers: &Numbers,
     has_tangent: bool,
-    folder: &Path,
-    known: Option<&Measured>,
 ) -> Option<LawRead> {
     let table = reader.table(path, node)?;
     let before = reader.complaints_so_far();
@@ -49,10 +43,10 @@ pub(super) fn read(
             }
         }
     }
-    let mut inner = inner_reader(numbers.units, table, folder);
-    let context = LawContext { folder, known, normal_load: None };
+    let mut inner = inner_reader(reader, numbers.units, table, path);
     let plain = Node { value: Value::Table(plain), origin: node.origin };
-    let found = friction::read_table(&mut inner, &plain, context);
+    let found = reader
+        .lend(&mut inner, ("friction", path), |inner| friction::read_table(inner, &plain, None));
     let complaints = inner.into_complaints();
     let wrong = !complaints.is_empty() || !right;
     for complaint in complaints {
@@ -62,7 +56,7 @@ pub(super) fn read(
         }
     }
     let found = found.filter(|_| !wrong)?;
-    Some(LawRead { law: found.law, measured: found.measured, reversed })
+    Some(LawRead { law: found.law, reversed })
 }
 
 /// Whether a Coulomb law has a negative coefficient and nothing that a change of direction would not carry over.
@@ -80,19 +74,16 @@ fn is_reversed(table: &Table) -> bool {
 
 /// A reader for the resolved table. Measured slip speeds in metres per second stay in SI, where the belt's reader knows
 /// them; its scales then convert them to the units of the file.
-fn inner_reader(units: SystemUnits, table: &Table, folder: &Path) -> Reader {
-    let column = "slip_velocity_m_per_s";
-    let in_file = || {
+fn inner_reader(reader: &mut Reader, units: SystemUnits, table: &Table, path: &str) -> Reader {
+    let mut in_file = || {
         let Some(Value::Text(name)) = table.get("file").map(|node| &node.value) else {
             return false;
         };
-        let Ok(text) = data_file::text(&folder.join(name), "") else { return false };
-        DataFile::new(&text, "").is_ok_and(|file| {
-            file.column(column).is_some() && file.column("slip_velocity").is_none()
-        })
+        let file = friction::in_file(reader.files(), &join(path, "file"), name);
+        file.is_ok_and(|file| file.is_in_si())
     };
     let unit = units.si_per_unit(Quantity::Velocity);
-    match unit.filter(|_| table.has(column) || in_file()) {
+    match unit.filter(|_| table.has("slip_velocity_m_per_s") || in_file()) {
         // ω₀ is the size of the unit of velocity.
         Some(unit) => Reader::in_si(Scales::new(1.0, unit * unit).ok()),
         None => Reader::as_written(),

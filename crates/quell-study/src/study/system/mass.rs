@@ -5,7 +5,6 @@ use quell_numerics::matrix::Matrix;
 use serde_json::Value as Json;
 
 use super::matrices::matrix;
-use super::matrix_file::MatrixFiles;
 use super::names::PREFIX;
 use super::numbers::{Numbers, missing};
 
@@ -24,10 +23,9 @@ pub(super) fn read(
     table: &Table,
     header: Origin,
     names: &[String],
-    files: &mut MatrixFiles<'_>,
 ) -> Option<MassMatrix> {
     let n = names.len();
-    let Some(matrix) = matrix(reader, numbers, table, "mass", n, files).ok()? else {
+    let Some(matrix) = matrix(reader, numbers, table, "mass", n).ok()? else {
         let allowed = format!("a diagonal of {n} numbers, or {n} rows of {n} numbers");
         missing(reader, join(PREFIX, "mass"), header, allowed);
         return None;

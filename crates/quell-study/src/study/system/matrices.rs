@@ -1,13 +1,16 @@
 //! Square matrices: a diagonal, rows, or a file.
 
+use std::sync::Arc;
+
 use quell_model::units::Quantity;
 use quell_numerics::matrix::Matrix;
 
-use super::matrix_file::MatrixFiles;
+use super::matrix_market;
 use super::names::PREFIX;
 use super::numbers::{Keyed, Numbers, Reported, WantedNumber};
 use crate::complaint::{Complaint, Fault};
 use crate::study::document::{Node, Table, Value};
+use crate::study::files::{Files, WantedFile};
 use crate::study::reader::Reader;
 use crate::study::vocabulary::join;
 
@@ -18,7 +21,6 @@ pub(super) fn matrix(
     table: &Table,
     name: &'static str,
     n: usize,
-    files: &mut MatrixFiles<'_>,
 ) -> Result<Option<Matrix>, Reported> {
     let quantity = match name {
         "mass" => Some(Quantity::LoadMass),
@@ -33,7 +35,7 @@ pub(super) fn matrix(
     };
     let wanted = WantedNumber { twin, ..WantedNumber::finite(quantity) };
     if let Value::Table(given) = &node.value {
-        let found = in_file(reader, &key, node, given, n, files);
+        let found = in_file(reader, &key, node, given, n);
         return found
             .map(|matrix| Some(scaled(matrix, numbers.file_units(wanted))))
             .ok_or(Reported);
@@ -42,15 +44,30 @@ pub(super) fn matrix(
     entries(reader, numbers, &key, node, wanted, n, diagonal_allowed).map(Some).ok_or(Reported)
 }
 
-/// The matrix of a table with the name of a file.
-fn in_file(
-    reader: &mut Reader,
+/// What the file of a matrix must be: at most a dense matrix of the largest number of coordinates, with some twenty characters an
+/// entry.
+const MATRIX_FILE: WantedFile = WantedFile { what: "a Matrix Market file", largest: 128 };
+
+/// The matrix of `n` rows and columns in a file.
+///
+/// # Errors
+/// Why it cannot be read, or the line that is wrong.
+fn entries_in_file(
+    files: &mut Files,
     key: &str,
-    node: &Node,
-    given: &Table,
+    name: &str,
     n: usize,
-    files: &mut MatrixFiles<'_>,
-) -> Option<Matrix> {
+) -> Result<Arc<Matrix>, String> {
+    let matrix = files.parsed(key, name, MATRIX_FILE, |text| matrix_market::parse(text, n))?;
+    if matrix.rows() != n {
+        // It was read for another table; the parser says what is wrong here.
+        return matrix_market::parse(&files.text(key, name, MATRIX_FILE)?, n).map(Arc::new);
+    }
+    Ok(matrix)
+}
+
+/// The matrix of a table with the name of a file.
+fn in_file(reader: &mut Reader, key: &str, node: &Node, given: &Table, n: usize) -> Option<Matrix> {
     const FILE: &str = "file";
     let Some(name) = given.get(FILE).filter(|_| given.iter().count() == 1) else {
         let allowed = "a table with the key file alone, such as { file = \"matrix.mtx\" }";
@@ -59,8 +76,8 @@ fn in_file(
     };
     let key = join(key, FILE);
     let text = reader.text(&key, name)?;
-    match files.matrix(&text, n) {
-        Ok(matrix) => Some(matrix),
+    match entries_in_file(reader.files(), &key, &text, n) {
+        Ok(matrix) => Some(Matrix::clone(&matrix)),
         Err(why) => {
             reader.complain(Complaint::new(Fault::Path, key, name.origin, text, why));
             None

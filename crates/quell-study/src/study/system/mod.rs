@@ -13,7 +13,6 @@ mod initial;
 pub mod keys;
 mod mass;
 mod matrices;
-mod matrix_file;
 mod matrix_market;
 mod modes;
 mod modes_file;
@@ -32,8 +31,6 @@ mod unused;
 mod walk;
 mod walk_entries;
 
-use crate::study::wave_file::WaveFile;
-use std::path::Path;
 use std::sync::Arc;
 
 use crate::study::vocabulary::size::{
@@ -44,12 +41,11 @@ use quell_model::System;
 use quell_model::parameter::DITHER_AMPLITUDE;
 
 use super::StudyOf;
-use super::actuator::GivenActuator;
 use super::design::{Design, DitherPlace};
 use super::dither_size::GivenSize;
 use super::document::{Node, Table, Value};
-use super::reader::{CourseFile, Reader};
-use super::study_kind::{Given, StudyKind};
+use super::reader::Reader;
+use super::study_kind::StudyKind;
 use crate::complaint::{Complaint, Complaints, Origin};
 
 pub use frequency_response::FrequencyResponse;
@@ -75,48 +71,8 @@ impl StudyKind for SystemSetup {
         keys::TABLES
     }
 
-    fn read(reader: &mut Reader, document: &Table, given: Given<'_, Self>) -> Option<Self> {
-        if let Some(known) = given.known {
-            reader.knows(&known.courses);
-        }
-        read::study(reader, document, &given)
-    }
-
-    fn data_files(&self) -> Vec<&Path> {
-        let samples = self.measured.iter().flatten();
-        let samples = samples.filter_map(|measured| measured.file.as_deref());
-        let modes = self.modes.iter().filter_map(|list| list.file.as_deref());
-        let modes = modes.chain(self.matrices.iter().map(|file| file.path()));
-        let response = self.response.iter().map(|response| response.file());
-        let waves = self.waves.iter().map(WaveFile::path);
-        let courses = self.courses.iter().map(|file| file.path.as_path());
-        let actuator = self.actuator.iter().filter_map(GivenActuator::path);
-        samples.chain(modes).chain(response).chain(waves).chain(courses).chain(actuator).collect()
-    }
-
-    fn file_settings(&self) -> Vec<(String, String)> {
-        let samples = self.measured.iter().enumerate().filter_map(|(index, measured)| {
-            let (key, value) = measured.as_ref()?.settings();
-            Some((format!("contact[{index}].{key}"), value))
-        });
-        let modes = self.modes.iter().enumerate().flat_map(|(file, list)| {
-            let points = list.points.join(" ");
-            let modes = list.modes.iter().enumerate().map(move |(index, mode)| {
-                let numbers = format!(
-                    "{:?} {:?} {:?} {:?}",
-                    mode.frequency, mode.damping_ratio, mode.modal_mass, mode.shape
-                );
-                (format!("system.modes[{file}][{index}]"), numbers)
-            });
-            modes.chain([(format!("system.modes[{file}].points"), points)])
-        });
-        let matrices = self.matrices.iter().enumerate();
-        let modes = modes.chain(matrices.map(|(index, file)| file.settings(index)));
-        let response = self.response.iter().flat_map(|response| response.settings());
-        let waves = self.waves.iter().enumerate().map(|(index, wave)| wave.settings(index));
-        let courses = CourseFile::settings(&self.courses);
-        let actuator = self.actuator.iter().filter_map(GivenActuator::settings);
-        samples.chain(modes).chain(response).chain(waves).chain(courses).chain(actuator).collect()
+    fn read(reader: &mut Reader, document: &Table) -> Option<Self> {
+        read::study(reader, document)
     }
 }
 
@@ -181,7 +137,7 @@ impl SystemStudy {
 
     /// The actuator that gives the dither.
     pub fn actuator(&self) -> Option<&Actuator> {
-        self.kind().actuator.as_ref().map(GivenActuator::actuator)
+        self.kind().actuator.as_ref()
     }
 
     /// The dither, counted from 0, whose amplitude a path names; `None` for any other number.
@@ -274,9 +230,8 @@ impl SystemStudy {
             let node = Node { value: Value::Number(*value), origin: Origin::Whole };
             set(&mut document, path, &node)?;
         }
-        let mut reader = Reader::as_written();
-        let given = Given { folder: &self.source.folder, known: Some(self.kind()) };
-        let setup = read::study(&mut reader, &document, &given);
+        let mut reader = self.reading_again(Reader::as_written());
+        let setup = read::study(&mut reader, &document);
         let complaints: Vec<Complaint> = reader.into_complaints();
         match setup {
             Some(setup) if complaints.is_empty() => Ok(Arc::unwrap_or_clone(setup.system)),

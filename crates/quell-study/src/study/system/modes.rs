@@ -3,7 +3,6 @@
 //! Modal coordinates have unit mass: with mass-normalised shapes as they are, with others after division by √(modal mass).
 //! Rows of contacts and inputs name points, which the shapes turn into rows over the modal coordinates.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use quell_model::parameter::Bounds;
@@ -27,37 +26,28 @@ use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::vocabulary::{Choice, join};
 
-/// What modes are read with.
-#[derive(Clone, Copy)]
-pub(super) struct ModesContext<'a> {
-    pub(super) numbers: &'a Numbers,
-    pub(super) folder: &'a Path,
-    /// Files of an earlier reading, which are not read again.
-    pub(super) known: &'a [Arc<ModeList>],
-}
-
 /// Modes with the name of their component; without a name for a structure of one component.
 type ModalComponent = (Option<String>, Arc<ModeList>);
 
-/// Reads a structure given by its modes, and the files that it names.
+/// Reads a structure given by its modes, in the study or in files.
 pub(super) fn read(
     reader: &mut Reader,
     table: &Table,
     header: Origin,
-    context: ModesContext<'_>,
-) -> (ReadStructure, Vec<Arc<ModeList>>) {
+    numbers: &Numbers,
+) -> ReadStructure {
     let components = if table.has("component") {
-        components(reader, table, context)
+        components(reader, table, numbers)
     } else {
-        let list = list(reader, table, PREFIX, header, context);
+        let list = list(reader, table, PREFIX, header, numbers);
         list.map(|list| vec![(None, list)])
     };
-    let Some(components) = components else { return (ReadStructure::default(), Vec::new()) };
+    let Some(components) = components else { return ReadStructure::default() };
     let count: usize = components.iter().map(|(_, list)| list.modes.len()).sum();
     if count > MOST_COORDINATES {
         let allowed = format!("at most {MOST_COORDINATES} modes in all; got {count}");
         reader.complain(Complaint::new(Fault::Value, PREFIX, header, count, allowed));
-        return (ReadStructure::default(), Vec::new());
+        return ReadStructure::default();
     }
     let basis = basis(&components, count);
     let modes = || components.iter().flat_map(|(_, list)| &list.modes);
@@ -70,12 +60,11 @@ pub(super) fn read(
     };
     let damping = diagonal(&|mode| 2.0 * mode.damping_ratio * mode.frequency);
     let stiffness = diagonal(&|mode| mode.frequency * mode.frequency);
-    let structure = force(reader, context.numbers, table, &basis).map(|force| {
+    let structure = force(reader, numbers, table, &basis).map(|force| {
         let mass = MassMatrix::identity(count);
         Mechanical::new(basis.names.clone(), mass, damping, stiffness).under(force).into()
     });
-    let files = components.into_iter().map(|(_, list)| list).filter(|list| list.file.is_some());
-    (ReadStructure { basis: Some(basis), structure }, files.collect())
+    ReadStructure { basis: Some(basis), structure }
 }
 
 /// Names of the modal coordinates and the rows of the points.
@@ -112,7 +101,7 @@ fn basis(components: &[ModalComponent], count: usize) -> RowBasis {
 fn components(
     reader: &mut Reader,
     table: &Table,
-    context: ModesContext<'_>,
+    numbers: &Numbers,
 ) -> Option<Vec<ModalComponent>> {
     let mut names: Vec<String> = Vec::new();
     let read: Vec<Option<ModalComponent>> = listed(reader, table, PREFIX, "component")
@@ -133,7 +122,7 @@ fn components(
                 None
             };
             names.extend(name.clone());
-            let list = list(reader, table, &prefix, node.origin, context);
+            let list = list(reader, table, &prefix, node.origin, numbers);
             Some((Some(name?), list?))
         })
         .collect();
@@ -146,7 +135,7 @@ fn list(
     table: &Table,
     prefix: &str,
     header: Origin,
-    context: ModesContext<'_>,
+    numbers: &Numbers,
 ) -> Option<Arc<ModeList>> {
     let normalisation = match table.get("normalisation") {
         Some(node) => {
@@ -163,8 +152,8 @@ fn list(
             reader.complain(complaint);
             return None;
         }
-        (Some(node), None) => file(reader, node, &join(prefix, "modes"), context)?,
-        (None, Some(node)) => Arc::new(inline(reader, table, node, prefix, context.numbers)?),
+        (Some(node), None) => file(reader, node, &join(prefix, "modes"), numbers)?,
+        (None, Some(node)) => Arc::new(inline(reader, table, node, prefix, numbers)?),
         (None, None) => {
             let allowed = "a CSV file of modes, or modes as tables [[system.mode]]";
             missing(reader, join(prefix, "modes"), header, allowed);
@@ -202,21 +191,11 @@ fn normalised(
 }
 
 /// Modes of a file.
-fn file(
-    reader: &mut Reader,
-    node: &Node,
-    key: &str,
-    context: ModesContext<'_>,
-) -> Option<Arc<ModeList>> {
+fn file(reader: &mut Reader, node: &Node, key: &str, numbers: &Numbers) -> Option<Arc<ModeList>> {
     let name = reader.text(key, node)?;
-    let path = context.folder.join(&name);
-    let known = context.known.iter().find(|list| list.file.as_ref() == Some(&path));
-    let list = match known.map(|list| Ok(Arc::clone(list))) {
-        Some(list) => list,
-        None => ModeList::read(&path).map(Arc::new),
-    };
+    let list = ModeList::read(reader.files(), key, &name);
     let list = list.and_then(|list| {
-        if list.in_hertz && context.numbers.units == SystemUnits::None {
+        if list.in_hertz && numbers.units == SystemUnits::None {
             return Err("a CSV file with a column frequency: the study has no units, but frequency_hz is in hertz; or \
                         add system.units = \"SI\" or \"mm-t-s\""
                 .to_owned());

@@ -4,7 +4,7 @@
 //! point, and its numbers are the displacements of the point in the modes.
 
 use std::f64::consts::TAU;
-use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use quell_model::parameter::system::{
     SYSTEM_MODAL_MASS, SYSTEM_MODE_DAMPING, SYSTEM_MODE_FREQUENCY,
@@ -12,7 +12,8 @@ use quell_model::parameter::system::{
 use quell_model::parameter::{Bounds, Parameter};
 
 use super::names::MOST_COORDINATES;
-use crate::study::data_file::{self, DataFile};
+use crate::study::data_file::DataFile;
+use crate::study::files::{Files, WantedFile};
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of modes";
@@ -34,8 +35,6 @@ pub(super) struct SystemMode {
 /// The modes of a structure or of one of its components.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ModeList {
-    /// The file that it was read from.
-    pub(super) file: Option<PathBuf>,
     /// Whether the file gives frequencies in hertz.
     pub(super) in_hertz: bool,
     pub(super) points: Vec<String>,
@@ -43,13 +42,12 @@ pub(super) struct ModeList {
 }
 
 impl ModeList {
-    /// Reads a file.
+    /// The modes of the file that `key` names.
     ///
     /// # Errors
     /// What is wrong, with its line.
-    pub(super) fn read(path: &Path) -> Result<Self, String> {
-        let list = parse(&data_file::text(path, WHAT)?)?;
-        Ok(Self { file: Some(path.to_owned()), ..list })
+    pub(super) fn read(files: &mut Files, key: &str, name: &str) -> Result<Arc<Self>, String> {
+        files.parsed(key, name, WantedFile::of(WHAT), parse)
     }
 }
 
@@ -113,7 +111,7 @@ fn parse(text: &str) -> Result<ModeList, String> {
         return Err("a CSV file with at least one mode".to_owned());
     }
     let points = points.into_iter().map(|(_, name)| name.to_owned()).collect();
-    Ok(ModeList { file: None, in_hertz, points, modes })
+    Ok(ModeList { in_hertz, points, modes })
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! Reads the tables of a system.
 
-use crate::study::wave_file::WaveFiles;
 use std::sync::Arc;
 
 use quell_model::system::Input;
@@ -11,9 +10,7 @@ use super::contact::{self, ContactContext, ReadContact};
 use super::dither::{self, DitherContext};
 use super::frequency_response::{self, FrequencyResponse};
 use super::keys::{OTHER_KINDS, SystemTable};
-use super::matrix_file::{MatrixFile, MatrixFiles};
-use super::modes::{self, ModesContext};
-use super::modes_file::ModeList;
+use super::modes;
 use super::numbers::{CourseNumbers, Numbers, missing, unknown_keys};
 use super::path::amplitude_of;
 use super::setup::SystemSetup;
@@ -21,20 +18,15 @@ use super::structure::{self, ReadStructure};
 use super::units::SystemUnits;
 use super::{initial, parameters, sized, unused};
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::actuator::{self, ActuatorContext, GivenActuator};
+use crate::study::actuator;
 use crate::study::design::{self, DesignContext};
 use crate::study::document::{Table, Value};
 use crate::study::plausible;
 use crate::study::reader::Reader;
-use crate::study::study_kind::Given;
 use crate::study::vocabulary::Choice;
 
 /// Reads the study of a system; `None` if something is wrong, which has then been reported.
-pub(super) fn study(
-    reader: &mut Reader,
-    document: &Table,
-    given: &Given<'_, SystemSetup>,
-) -> Option<SystemSetup> {
+pub(super) fn study(reader: &mut Reader, document: &Table) -> Option<SystemSetup> {
     conflicts(reader, document);
     let units = units(reader, document);
     let numbers = parameters::read(reader, document, units);
@@ -46,44 +38,31 @@ pub(super) fn study(
     };
     let table = reader.table("system", node)?;
     unknown_keys(reader, table, "system", SystemTable::System);
-    let read = body(reader, &numbers, table, header, given);
-    let Read { body: ReadStructure { basis, structure }, matrices, modes, response } = read;
+    let (ReadStructure { basis, structure }, response) = body(reader, &numbers, table, header);
     // Without names no row can be read.
     let basis = basis?;
     let first_order = table.has("states");
-    let known = given.known.map_or(&[][..], |setup| &setup.measured);
     let context = ContactContext {
         numbers: &numbers,
         basis: &basis,
         first_order,
         measured: response.is_some(),
         shared: document.get("friction"),
-        folder: given.folder,
-        known,
     };
     let contacts = contact::read(reader, document, context);
     let of_contacts = contacts.iter().flatten().filter_map(ReadContact::warning);
     let of_contacts: Vec<String> = of_contacts.collect();
-    let (contacts, measured): (Option<Vec<Contact>>, Vec<_>) = match contacts {
-        Some(read) => {
-            let parts = read.into_iter().map(|read| (read.contact, read.measured));
-            let (contacts, measured): (Vec<_>, Vec<_>) = parts.unzip();
-            (Some(contacts), measured)
-        }
-        None => (None, Vec::new()),
-    };
+    let contacts: Option<Vec<Contact>> =
+        contacts.map(|read| read.into_iter().map(|read| read.contact).collect());
     let names = contact::names(document);
     let context = DitherContext {
         numbers: &numbers,
         basis: &basis,
         names: &names,
         contacts: contacts.as_deref(),
-        folder: given.folder,
         has_actuator: document.has("actuator"),
     };
-    let known = given.known.map_or(&[][..], |setup| &setup.waves);
-    let mut files = WaveFiles::new(given.folder, known);
-    let dithers = dither::read(reader, document, context, &mut files);
+    let dithers = dither::read(reader, document, context);
     let (inputs, sizes) = dithers.unzip();
     let places = dither::places(reader, document, context);
     let context = DesignContext {
@@ -92,16 +71,13 @@ pub(super) fn study(
         places: places.as_deref().unwrap_or(&[]),
     };
     let design = design::read(reader, document, context);
-    let known = given.known.and_then(|setup| setup.actuator.as_ref());
-    let context =
-        ActuatorContext { folder: given.folder, known, system: Some(CourseNumbers(&numbers)) };
-    let actuator = actuator::read(reader, document, context);
+    let actuator = actuator::read(reader, document, Some(CourseNumbers(&numbers)));
     let observe = initial::observe(reader, table, &numbers, &basis);
     let initial = initial::read(reader, table, &numbers, &basis, first_order);
     let (structure, contacts, inputs) = (structure?, contacts?, inputs?);
     let observe = observe.ok()?.unwrap_or_else(|| initial::default_row(&contacts, &structure));
     let mut system = System { structure, contacts, inputs };
-    let known = actuator.as_ref().and_then(Option::as_ref).map(GivenActuator::actuator);
+    let known = actuator.as_ref().and_then(Option::as_ref);
     let sizes = sized::amplitudes(reader, &mut system, known, sizes?)?;
     let system = Arc::new(system);
     if let (Some(response), Some(node)) = (&response, table.get("frequency_response")) {
@@ -117,12 +93,7 @@ pub(super) fn study(
         initial: initial?,
         numbers,
         warnings,
-        measured: measured.into(),
-        modes: modes.into(),
-        matrices: matrices.into(),
-        waves: files.into_found().into(),
         response,
-        courses: reader.take_files(),
         design: design.filter(|_| places.is_some())?,
         actuator: actuator?,
         sizes: sizes.into(),
@@ -195,57 +166,34 @@ const FORMS: &[(&[&str], &[&str])] = &[
     (&["frequency_response"], &[]),
 ];
 
-/// A structure and the files that it was read from.
-#[derive(Default)]
-struct Read {
-    body: ReadStructure,
-    matrices: Vec<Arc<MatrixFile>>,
-    modes: Vec<Arc<ModeList>>,
-    response: Option<Arc<FrequencyResponse>>,
-}
-
-/// Reads the structure in the form that its keys choose.
+/// Reads the structure in the form that its keys choose, and its measured response in that form.
 fn body(
     reader: &mut Reader,
     numbers: &Numbers,
     table: &Table,
     header: Origin,
-    given: &Given<'_, SystemSetup>,
-) -> Read {
+) -> (ReadStructure, Option<Arc<FrequencyResponse>>) {
     let chosen = FORMS.iter().find(|(first, _)| first.iter().any(|name| table.has(name)));
     let Some(form @ (first, _)) = chosen else {
         let allowed = "the names of the coordinates, with mass and stiffness; or states and matrix, mode or modes, \
                        component, or frequency_response";
         missing(reader, "system.coordinates", header, allowed);
-        return Read::default();
+        return (ReadStructure::default(), None);
     };
     other_forms(reader, table, form);
     match first[0] {
-        "coordinates" | "states" => {
-            let known = given.known.map_or(&[][..], |setup| &setup.matrices);
-            let mut files = MatrixFiles::new(given.folder, known);
-            let read =
-                if first[0] == "states" { structure::first_order } else { structure::mechanical };
-            let body = read(reader, numbers, table, header, &mut files);
-            Read { body, matrices: files.into_found(), ..Read::default() }
-        }
+        "coordinates" => (structure::mechanical(reader, numbers, table, header), None),
+        "states" => (structure::first_order(reader, numbers, table, header), None),
         "frequency_response" => {
-            let known = given.known.and_then(|setup| setup.response.as_ref());
             let node = table.get("frequency_response");
-            let response = node.and_then(|node| {
-                frequency_response::read(reader, node, given.folder, numbers.units, known)
-            });
+            let response =
+                node.and_then(|node| frequency_response::read(reader, node, numbers.units));
             let body = response.as_ref().map(|response| {
                 structure::of_names(reader, numbers, table, response.names.clone())
             });
-            Read { body: body.unwrap_or_default(), response, ..Read::default() }
+            (body.unwrap_or_default(), response)
         }
-        _ => {
-            let known = given.known.map_or(&[][..], |setup| &setup.modes);
-            let context = ModesContext { numbers, folder: given.folder, known };
-            let (body, modes) = modes::read(reader, table, header, context);
-            Read { body, modes, ..Read::default() }
-        }
+        _ => (modes::read(reader, table, header, numbers), None),
     }
 }
 

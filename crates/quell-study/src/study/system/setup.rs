@@ -2,21 +2,16 @@
 
 use std::sync::Arc;
 
+use quell_design::actuator::Actuator;
 use quell_model::System;
 
 use super::frequency_response::FrequencyResponse;
 use super::initial::SystemStart;
-use super::matrix_file::MatrixFile;
-use super::modes_file::ModeList;
 use super::numbers::Numbers;
 use super::origin::SystemOrigin;
 use super::units::SystemUnits;
-use crate::study::actuator::GivenActuator;
-use crate::study::belt::friction::Measured;
 use crate::study::design::Design;
 use crate::study::dither_size::GivenSize;
-use crate::study::reader::CourseFile;
-use crate::study::wave_file::WaveFile;
 
 /// The parts of a study that only a system has.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,21 +21,11 @@ pub struct SystemSetup {
     pub(super) initial: SystemStart,
     pub(super) numbers: Numbers,
     pub(super) warnings: Vec<String>,
-    /// Samples of the measured laws, contact by contact.
-    pub(super) measured: Arc<[Option<Measured>]>,
-    /// Files of modes.
-    pub(super) modes: Arc<[Arc<ModeList>]>,
-    /// Files of matrices.
-    pub(super) matrices: Arc<[Arc<MatrixFile>]>,
-    /// Files of sampled waveforms.
-    pub(super) waves: Arc<[WaveFile]>,
     pub(super) response: Option<Arc<FrequencyResponse>>,
-    /// Files of drives, loads and envelopes.
-    pub(super) courses: Arc<[CourseFile]>,
     /// The design that is requested.
     pub(super) design: Option<Design>,
     /// The actuator that gives a dither.
-    pub(super) actuator: Option<GivenActuator>,
+    pub(super) actuator: Option<Actuator>,
     /// Amplitudes that are given by another size than a peak force.
     pub(super) sizes: Arc<[GivenSize]>,
     /// Time of numbers without units in seconds; `None` where the study does not determine it.
@@ -86,12 +71,7 @@ impl From<DescribedSystem> for SystemSetup {
             initial,
             numbers: Numbers { units, ..Numbers::default() },
             warnings,
-            measured: Arc::default(),
-            waves: Arc::default(),
-            modes: Arc::default(),
-            matrices: Arc::default(),
             response: None,
-            courses: Arc::default(),
             design: None,
             actuator: None,
             sizes: Arc::default(),

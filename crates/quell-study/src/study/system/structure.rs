@@ -6,7 +6,6 @@ use quell_numerics::matrix::Matrix;
 
 use super::mass;
 use super::matrices::matrix;
-use super::matrix_file::MatrixFiles;
 use super::names::{PREFIX, names};
 use super::numbers::{Keyed, Numbers, WantedNumber, missing};
 use super::rows::RowBasis;
@@ -29,13 +28,12 @@ pub(super) fn mechanical(
     numbers: &Numbers,
     table: &Table,
     header: Origin,
-    files: &mut MatrixFiles<'_>,
 ) -> ReadStructure {
     let Some(names) = names(reader, table, "coordinates") else { return ReadStructure::default() };
     let n = names.len();
-    let mass = mass::read(reader, numbers, table, header, &names, files);
-    let damping = matrix(reader, numbers, table, "damping", n, files);
-    let stiffness = matrix(reader, numbers, table, "stiffness", n, files);
+    let mass = mass::read(reader, numbers, table, header, &names);
+    let damping = matrix(reader, numbers, table, "damping", n);
+    let stiffness = matrix(reader, numbers, table, "stiffness", n);
     if matches!(stiffness, Ok(None)) {
         let allowed = "a diagonal or rows; 0 for a body without springs";
         missing(reader, join(PREFIX, "stiffness"), header, allowed);
@@ -57,11 +55,10 @@ pub(super) fn first_order(
     numbers: &Numbers,
     table: &Table,
     header: Origin,
-    files: &mut MatrixFiles<'_>,
 ) -> ReadStructure {
     let Some(names) = names(reader, table, "states") else { return ReadStructure::default() };
     let n = names.len();
-    let matrix = matrix(reader, numbers, table, "matrix", n, files);
+    let matrix = matrix(reader, numbers, table, "matrix", n);
     if matches!(matrix, Ok(None)) {
         missing(reader, join(PREFIX, "matrix"), header, format!("{n} rows of {n} numbers"));
     }

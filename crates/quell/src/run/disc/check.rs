@@ -156,7 +156,7 @@ pub fn source(study: &DiscStudy) -> String {
     match study.source() {
         ModeSource::Plate(_) => "plate".to_owned(),
         ModeSource::List(_) => "study".to_owned(),
-        ModeSource::File { path, .. } => path.display().to_string(),
+        ModeSource::File { name, .. } => name.clone(),
     }
 }
 

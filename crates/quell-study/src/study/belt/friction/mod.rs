@@ -1,7 +1,5 @@
 //! `[friction]`: a law and its parameters, or a user-defined law.
 
-use std::path::Path;
-
 use quell_model::friction::Otherwise;
 use quell_model::parameter::{COEFFICIENT, STATIC_COEFFICIENT};
 use quell_model::{Friction, LawKind};
@@ -13,6 +11,7 @@ use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::{self, Choice, Role, Section};
 pub(super) use forces::{in_newtons, needs_no_normal_force};
 pub use measured::Measured;
+pub(in crate::study) use samples::in_file;
 
 mod expression;
 mod forces;
@@ -22,19 +21,8 @@ mod samples;
 
 use read_law::ReadLaw;
 
-/// What is known before a law is read.
-#[derive(Clone, Copy)]
-pub(in crate::study) struct LawContext<'a> {
-    /// Folder of sample files.
-    pub(in crate::study) folder: &'a Path,
-    /// Samples of an earlier reading: they are neither read nor fitted again.
-    pub(in crate::study) known: Option<&'a Measured>,
-    /// The normal load F, if given and valid.
-    pub(in crate::study) normal_load: Option<f64>,
-}
-
-/// Reads `[friction]`.
-pub(super) fn read(reader: &mut Reader, root: &Table, context: LawContext<'_>) -> Option<ReadLaw> {
+/// Reads `[friction]`; `normal_load` is the normal load F, if given and valid.
+pub(super) fn read(reader: &mut Reader, root: &Table, normal_load: Option<f64>) -> Option<ReadLaw> {
     let Some(node) = root.get("friction") else {
         let allowed = "a table [friction] with law and its parameters";
         reader.complain(Complaint::new(
@@ -46,14 +34,14 @@ pub(super) fn read(reader: &mut Reader, root: &Table, context: LawContext<'_>) -
         ));
         return None;
     };
-    read_table(reader, node, context)
+    read_table(reader, node, normal_load)
 }
 
 /// Reads the table of a law; its keys are reported as those of `[friction]`.
 pub(in crate::study) fn read_table(
     reader: &mut Reader,
     node: &Node,
-    context: LawContext<'_>,
+    normal_load: Option<f64>,
 ) -> Option<ReadLaw> {
     let table = reader.table("friction", node)?;
     let name = reader.needed_choice(table, "friction", node.origin, "law", Choice::Law);
@@ -61,11 +49,9 @@ pub(in crate::study) fn read_table(
     unknown_keys(reader, table, kind);
     match kind {
         Some(LawKind::Expression) => expression::read(reader, table, node.origin).map(ReadLaw::of),
-        Some(LawKind::Samples) => {
-            samples::read(reader, table, node.origin, context.folder, context.known)
-        }
+        Some(LawKind::Samples) => samples::read(reader, table, node.origin),
         Some(kind) if forces::are_given(table) => {
-            forces::read(reader, table, node.origin, kind, context.normal_load)
+            forces::read(reader, table, node.origin, kind, normal_load)
         }
         kind => numeric_law(reader, table, node, kind).map(ReadLaw::of),
     }

@@ -1,5 +1,7 @@
 //! What `[friction]` gives.
 
+use std::sync::Arc;
+
 use quell_model::Friction;
 
 use super::measured::Measured;
@@ -9,7 +11,7 @@ pub(in crate::study) struct ReadLaw {
     /// The law.
     pub(in crate::study) law: Friction,
     /// The samples that it was fitted to.
-    pub(in crate::study) measured: Option<Measured>,
+    pub(in crate::study) measured: Option<Arc<Measured>>,
     /// The normal load F of friction in newtons where the study gives none.
     pub(in crate::study) own_load: Option<f64>,
 }

@@ -3,7 +3,7 @@
 //! The file: comment lines begin with `#`; the first other line names the columns, `slip_velocity` (in a study in SI
 //! `slip_velocity_m_per_s`) and `coefficient`. Other columns are ignored.
 
-use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use quell_model::friction::samples::{COEFFICIENTS, MOST_TERMS, SPEEDS, TERMS};
 use quell_model::parameter::{Bounds, STATIC_COEFFICIENT};
@@ -14,8 +14,9 @@ use super::expression::{complain, velocity_unit};
 use super::measured::Measured;
 use super::read_law::ReadLaw;
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::data_file::{self, DataFile, Row};
+use crate::study::data_file::{DataFile, Row};
 use crate::study::document::{Node, Table, Value};
+use crate::study::files::{Files, WantedFile};
 use crate::study::reader::{Found, Reader};
 
 /// What the file must be.
@@ -24,14 +25,12 @@ const WHAT: &str = "a CSV file of samples";
 /// Path of the file's key.
 const FILE: &str = "friction.file";
 
+/// Column of slip velocities in the units of the study, and in SI.
+const SPEED: &str = "slip_velocity";
+const SI_SPEED: &str = "slip_velocity_m_per_s";
+
 /// Reads the samples and fits them.
-pub(super) fn read(
-    reader: &mut Reader,
-    table: &Table,
-    header: Origin,
-    folder: &Path,
-    known: Option<&Measured>,
-) -> Option<ReadLaw> {
+pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option<ReadLaw> {
     let level = reader.optional(table, "friction", STATIC_COEFFICIENT, None);
     let terms = match table.get("terms") {
         None => Some(None),
@@ -46,28 +45,33 @@ pub(super) fn read(
             whole.map(Some)
         }
     };
-    let (origin, file, samples) = given(reader, table, header, folder, known)?;
+    let (origin, file, samples) = given(reader, table, header)?;
     let static_coefficient = match level {
         Found::Value(level) => Some(level),
         Found::Absent => None,
         Found::Wrong => return None,
     };
     let (terms, unit) = (terms?, velocity_unit(reader));
-    let same = known.filter(|known| {
+    let same = |known: &Measured| {
         known.samples == samples
             && known.static_coefficient == static_coefficient
             && known.terms == terms
-    });
-    let made = match same {
-        Some(known) => Samples::of_fit(known.fit.clone(), static_coefficient, unit),
-        None => Samples::new(&samples, static_coefficient, terms, unit),
+            && known.file == file
     };
+    let fitted = reader.computed().get(same, || {
+        let law = Samples::new(&samples, static_coefficient, terms, unit)?;
+        let (file, samples) = (file.clone(), samples.clone());
+        let fit = law.fit().clone();
+        Ok(Measured { file, samples, static_coefficient, terms, fit })
+    });
+    let made = fitted.and_then(|measured| {
+        let law = Samples::of_fit(measured.fit.clone(), static_coefficient, unit)?;
+        Ok((measured, law))
+    });
     match made {
-        Ok(law) => {
+        Ok((measured, law)) => {
             let key = if file.is_some() { FILE } else { COEFFICIENTS };
             reader.remember(COEFFICIENTS, key, origin.origin, 1.0);
-            let fit = law.fit().clone();
-            let measured = Measured { file, samples, static_coefficient, terms, fit };
             Some(ReadLaw { measured: Some(measured), ..ReadLaw::of(Friction::Samples(law)) })
         }
         Err(invalid) => {
@@ -93,18 +97,11 @@ fn report(reader: &mut Reader, table: &Table, place: &Node, in_file: bool, inval
 }
 
 /// Where the samples were written, the file that holds them, and the samples.
-type GivenSamples<'t> = (&'t Node, Option<PathBuf>, Vec<(f64, f64)>);
+type GivenSamples<'t> = (&'t Node, Option<String>, Vec<(f64, f64)>);
 
 /// The samples, from the study or from its file.
-fn given<'t>(
-    reader: &mut Reader,
-    table: &'t Table,
-    header: Origin,
-    folder: &Path,
-    known: Option<&Measured>,
-) -> Option<GivenSamples<'t>> {
-    let column = if reader.is_si() { "slip_velocity_m_per_s" } else { "slip_velocity" };
-    let other = if reader.is_si() { "slip_velocity" } else { "slip_velocity_m_per_s" };
+fn given<'t>(reader: &mut Reader, table: &'t Table, header: Origin) -> Option<GivenSamples<'t>> {
+    let (column, other) = if reader.is_si() { (SI_SPEED, SPEED) } else { (SPEED, SI_SPEED) };
     if let Some(node) = table.get(other) {
         let allowed = format!("does not match the units of this study: use friction.{column}");
         let key = format!("friction.{other}");
@@ -128,12 +125,8 @@ fn given<'t>(
             }
         }
         let name = reader.text(FILE, node)?;
-        let path = folder.join(&name);
-        if let Some(known) = known.filter(|known| known.file.as_deref() == Some(&path)) {
-            return Some((node, Some(path), known.samples.clone()));
-        }
-        return match from_file(&path, column) {
-            Ok(samples) => Some((node, Some(path), samples)),
+        return match in_file(reader.files(), FILE, &name).and_then(|file| file.samples(column)) {
+            Ok(samples) => Some((node, Some(name), samples)),
             Err(why) => {
                 reader.complain(Complaint::new(Fault::Path, FILE, node.origin, name, why));
                 None
@@ -181,22 +174,59 @@ fn list<'t>(
     Some((node, numbers.into_iter().collect::<Option<_>>()?))
 }
 
-/// Reads the samples of a file; errors name the line.
-fn from_file(path: &Path, column: &str) -> Result<Vec<(f64, f64)>, String> {
-    parse(&data_file::text(path, WHAT)?, column)
+/// A file of samples: those of each column of slip velocities that it has, or what is wrong with them.
+#[derive(Debug)]
+pub(in crate::study) struct SampleFile {
+    plain: Option<Result<Vec<(f64, f64)>, String>>,
+    si: Option<Result<Vec<(f64, f64)>, String>>,
 }
 
-fn parse(text: &str, column: &str) -> Result<Vec<(f64, f64)>, String> {
+impl SampleFile {
+    /// Whether its slip velocities are in SI alone.
+    pub(in crate::study) fn is_in_si(&self) -> bool {
+        self.si.is_some() && self.plain.is_none()
+    }
+
+    /// Slip velocity of a column, and coefficient.
+    fn samples(&self, column: &str) -> Result<Vec<(f64, f64)>, String> {
+        let (own, other, name) = if column == SPEED {
+            (&self.plain, &self.si, SI_SPEED)
+        } else {
+            (&self.si, &self.plain, SPEED)
+        };
+        own.clone().unwrap_or_else(|| {
+            // Only a column in the other unit system is named; other column names are not shown.
+            let other = other.as_ref().map_or_else(String::new, |_| {
+                format!("; its column {name} does not match the units of this study")
+            });
+            Err(format!("a CSV file with columns {column} and coefficient{other}"))
+        })
+    }
+}
+
+/// The samples of the file that `key` names.
+///
+/// # Errors
+/// Why it cannot be read.
+pub(in crate::study) fn in_file(
+    files: &mut Files,
+    key: &str,
+    name: &str,
+) -> Result<Arc<SampleFile>, String> {
+    files.parsed(key, name, WantedFile::of(WHAT), parse)
+}
+
+fn parse(text: &str) -> Result<SampleFile, String> {
     let file = DataFile::new(text, WHAT)?;
-    let (Some(speed), Some(coefficient)) = (file.column(column), file.column("coefficient")) else {
-        // Only a column in the other unit system is named; other column names are not shown.
-        let other = ["slip_velocity", "slip_velocity_m_per_s"];
-        let other = other.iter().find(|name| **name != column && file.column(name).is_some());
-        let other = other.map_or_else(String::new, |name| {
-            format!("; its column {name} does not match the units of this study")
-        });
-        return Err(format!("a CSV file with columns {column} and coefficient{other}"));
-    };
+    let column = |name| Some(file.column(name)?).map(|at| samples(&file, at, name));
+    Ok(SampleFile { plain: column(SPEED), si: column(SI_SPEED) })
+}
+
+/// Slip velocities of a column with coefficients; errors name the line.
+fn samples(file: &DataFile<'_>, speed: usize, column: &str) -> Result<Vec<(f64, f64)>, String> {
+    let coefficient = file
+        .column("coefficient")
+        .ok_or_else(|| format!("a CSV file with columns {column} and coefficient"))?;
     let value = |row: &Row<'_>, at: usize, name: &str| {
         let number = row.number(at, name, "a finite number ≥ 0", |number| {
             number.is_finite() && number >= 0.0
@@ -220,11 +250,15 @@ fn parse(text: &str, column: &str) -> Result<Vec<(f64, f64)>, String> {
 mod tests {
     use super::*;
 
+    fn read(text: &str, column: &str) -> Result<Vec<(f64, f64)>, String> {
+        parse(text)?.samples(column)
+    }
+
     #[test]
     fn columns_are_found_by_name_and_wrong_cells_by_line() {
         let text = "# synthetic\ncoefficient, note, slip_velocity\n0.4,a,0\n\n0.3,b,0.5\n";
-        assert_eq!(parse(text, "slip_velocity"), Ok(vec![(0.0, 0.4), (0.5, 0.3)]));
-        let wrong = parse(text, "slip_velocity_m_per_s").expect_err("no such column");
+        assert_eq!(read(text, "slip_velocity"), Ok(vec![(0.0, 0.4), (0.5, 0.3)]));
+        let wrong = read(text, "slip_velocity_m_per_s").expect_err("no such column");
         assert!(
             wrong.contains(
                 "columns slip_velocity_m_per_s and coefficient; its column slip_velocity"
@@ -237,7 +271,7 @@ mod tests {
             ("1", "line 3"),
         ] {
             let text = format!("slip_velocity,coefficient\n0,0.4\n{row}\n");
-            let wrong = parse(&text, "slip_velocity").expect_err(row);
+            let wrong = read(&text, "slip_velocity").expect_err(row);
             assert!(wrong.contains(part), "{row}: {wrong}");
         }
     }
