@@ -27,6 +27,8 @@ pub enum NoAverage {
     },
     /// A wave has no periodic response in the structure.
     NoResponse(NoPeriodicResponse),
+    /// A dither is a factor on the friction force of a contact.
+    FrictionFactor,
     /// The mean friction has no value.
     Mean(AveragingError),
     /// The state matrix overflows.
@@ -52,6 +54,10 @@ impl std::fmt::Display for NoAverage {
             Self::NoResponse(why) => {
                 write!(f, "the fast motion under the dither has no value: {why}")
             }
+            Self::FrictionFactor => f.write_str(
+                "a dither is a factor on a friction force, whose product with the fast motion of the contact no average has: exact \
+                 exponents and motions have it",
+            ),
             Self::Mean(why) => why.fmt(f),
             Self::Eigenvalues(why) => why.fmt(f),
         }

@@ -12,7 +12,7 @@
 
 use num_complex::Complex64;
 use quell_model::profile::Wave;
-use quell_model::system::InputTarget;
+use quell_model::system::{Input, InputTarget};
 use quell_model::waveform::NoiseLine;
 use quell_model::{System, Waveform};
 use quell_numerics::eigen::EigenError;
@@ -68,8 +68,21 @@ impl<'a> DitheredSystem<'a> {
     /// Prepares a system.
     ///
     /// # Errors
-    /// [`NoAverage`] without steady sliding, at an undamped resonance, and for more than [`super::MOST_FREQUENCIES`].
+    /// [`NoAverage`] without steady sliding, at an undamped resonance, for more than [`super::MOST_FREQUENCIES`], and for a factor on
+    /// friction.
     pub fn new(system: &'a System) -> Result<Self, NoAverage> {
+        let is_factor = |input: &Input| {
+            matches!(input.target, InputTarget::Friction { .. })
+                && !input.profile.waves().is_empty()
+        };
+        if system.inputs.iter().any(is_factor) {
+            return Err(NoAverage::FrictionFactor);
+        }
+        Self::with_fast_motion(system)
+    }
+
+    /// As [`Self::new`] for the fast motion alone, which a factor on friction excites too.
+    pub(crate) fn with_fast_motion(system: &'a System) -> Result<Self, NoAverage> {
         let sliding = Linearised::new(system)?;
         let mut waves = Vec::new();
         for (input, given) in system.inputs.iter().enumerate() {

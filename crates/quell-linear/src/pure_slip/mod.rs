@@ -166,7 +166,7 @@ pub fn period(system: &System) -> Option<f64> {
 pub fn orbit(system: &System) -> Result<SlipOrbit, NoPureSlip> {
     let period = period(system).ok_or(NoPureSlip::NoPeriod)?;
     let equations = PureSlip::new(system)?;
-    let mut state = DitheredSystem::new(system)?.fast_state()?;
+    let mut state = DitheredSystem::with_fast_motion(system)?.fast_state()?;
     let breaks = breaks(system, period);
     let mut previous = f64::INFINITY;
     for _ in 0..MOST_NEWTON_STEPS {

@@ -110,6 +110,26 @@ pub const SYSTEM_DITHER_FREQUENCY: Parameter = number(
     &[si("frequency_hz", "Hz")],
 );
 
+/// Amplitude of a dither that is a factor on the friction of a contact.
+pub const FRICTION_FACTOR: Parameter = number(
+    DITHER_AMPLITUDE.path,
+    "α",
+    "amplitude of the factor on the friction of the contact",
+    Quantity::Ratio,
+    Bounds::NOT_NEGATIVE,
+    &[],
+);
+
+/// Mean of a dither that is a factor on the friction of a contact.
+pub const FRICTION_FACTOR_MEAN: Parameter = number(
+    "dither.mean",
+    "m",
+    "mean of the factor on the friction of the contact",
+    Quantity::Ratio,
+    Bounds::FINITE,
+    &[],
+);
+
 /// Every parameter of a study of a system, in the order of the study file; those of the friction laws are in their files.
 pub const SYSTEM: &[Parameter] = &[
     SYSTEM_MODE_FREQUENCY,
@@ -121,6 +141,7 @@ pub const SYSTEM: &[Parameter] = &[
     CONTACT_TANGENTIAL_STIFFNESS,
     CONTACT_BELT_VELOCITY,
     DITHER_AMPLITUDE,
+    FRICTION_FACTOR_MEAN,
     SYSTEM_DITHER_FREQUENCY,
     DITHER_PHASE,
     TOLERANCE,

@@ -123,15 +123,17 @@ class SystemDither(Table):
     at :
         Row of the force over the coordinates.
     contact, direction :
-        Instead of ``at``: the name of a contact, and "normal" for a modulation of its load or "tangential" for a force along
-        its tangent.
+        Instead of ``at``: the name of a contact, and "normal" for a modulation of its load, "tangential" for a force along
+        its tangent, or "friction" for a factor on its friction.
     reaction :
         Whether the structure bears the modulation of the load [default: True].
     waveform :
         "sine", "triangle" or "square"; "fourier", "samples", "burst" or "noise" with the keys below; or a function of the phase in
         radians, which is sampled over one period.
     amplitude, frequency, phase :
-        Peak of the force, angular frequency, and phase at time 0 in radians [default: 0].
+        Peak of the force or of the factor, angular frequency, and phase at time 0 in radians [default: 0].
+    mean :
+        "friction": mean of the factor [default: 1]; factors on one contact are added.
     amplitude_n, amplitude_n_rms, frequency_hz :
         The same in N (peak, or root mean square) and Hz, in a study with units.
     amplitude_rms, amplitude_peak_to_peak, amplitude_n_peak_to_peak :
@@ -162,6 +164,7 @@ class SystemDither(Table):
     direction: str | None
     reaction: bool | None
     amplitude: float | str | None
+    mean: float | str | None
     frequency: float | str | None
     phase: float | str | None
     amplitude_n: float | str | None
@@ -198,9 +201,10 @@ class SystemDither(Table):
         | None = None,
         *,
         contact: str | None = None,
-        direction: Literal["tangential", "normal"] | None = None,
+        direction: Literal["tangential", "normal", "friction"] | None = None,
         reaction: bool | None = None,
         amplitude: Number | None = None,
+        mean: Number | None = None,
         frequency: Number | None = None,
         phase: Number | None = None,
         amplitude_n: Number | None = None,

@@ -27,6 +27,7 @@ const OF_QUENCH: &[Status] = &[
     Status::OnlyMeasured,
     Status::NoBaseResponse,
     Status::NoAverageOfWaveform,
+    Status::FrictionFactor,
     Status::QuietWithoutDither,
     Status::NeverQuiet,
     Status::StaysQuiet,

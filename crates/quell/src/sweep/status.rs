@@ -80,6 +80,8 @@ pub enum Status {
     NoReach = 42,
     /// Stroke: the lines of the dither are not measured ([`quell_dynamics::response::stroke_is_measured`]).
     LinesUnknown = 43,
+    /// A dither is a factor on a friction force, which averaging does not describe.
+    FrictionFactor = 44,
     /// Not computed yet, or lost: the fill value of a store.
     Missing = 255,
 }
@@ -122,6 +124,7 @@ impl Status {
         Self::LoudAtLimit,
         Self::NoReach,
         Self::LinesUnknown,
+        Self::FrictionFactor,
         Self::Missing,
     ];
 
@@ -178,6 +181,7 @@ impl Status {
             Self::LoudAtLimit => "loud_at_limit",
             Self::NoReach => "no_reach",
             Self::LinesUnknown => "lines_unknown",
+            Self::FrictionFactor => "friction_factor",
             Self::Missing => "missing",
         }
     }
@@ -238,6 +242,9 @@ impl Status {
             }
             Self::NoBaseResponse => {
                 "the response that continues steady sliding ends before the dither reaches its amplitude, or could not be followed"
+            }
+            Self::FrictionFactor => {
+                "a dither is a factor on a friction force, which averaging does not describe"
             }
             Self::NoAverageOfWaveform => {
                 "the structure has no periodic response to the waveform that averaging could use"
@@ -313,6 +320,7 @@ impl From<&NoAverage> for Status {
         match why {
             NoAverage::NoSteadySliding(_) => Self::NoSteadySliding,
             NoAverage::Resonance { .. } => Self::Resonance,
+            NoAverage::FrictionFactor => Self::FrictionFactor,
             NoAverage::TooManyFrequencies { .. } => Self::TooManyGroups,
             NoAverage::NoResponse(_) => Self::NoAverageOfWaveform,
             NoAverage::Mean(why) => why.into(),

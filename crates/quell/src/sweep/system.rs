@@ -235,6 +235,7 @@ const OF_AVERAGE: &[Status] = &[
     Status::Resonance,
     Status::OnlyMeasured,
     Status::Opens,
+    Status::FrictionFactor,
 ];
 
 /// Statuses of verdicts other than known.
@@ -248,6 +249,7 @@ const OF_VERDICT: &[Status] = &[
     Status::Resonance,
     Status::OnlyMeasured,
     Status::Opens,
+    Status::FrictionFactor,
 ];
 
 /// Statuses of critical amplitudes other than known.
@@ -262,6 +264,7 @@ const OF_CRITICAL: &[Status] = &[
     Status::Resonance,
     Status::OnlyMeasured,
     Status::Opens,
+    Status::FrictionFactor,
 ];
 
 /// Statuses of base responses other than known.

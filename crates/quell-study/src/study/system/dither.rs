@@ -1,6 +1,8 @@
 //! `[[dither]]`: forces on coordinates and modulations of the load of a contact, periodic or noise.
 
-use quell_model::parameter::system::SYSTEM_DITHER_FREQUENCY;
+use quell_model::parameter::system::{
+    FRICTION_FACTOR, FRICTION_FACTOR_MEAN, SYSTEM_DITHER_FREQUENCY,
+};
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE};
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Input, InputTarget};
@@ -13,7 +15,7 @@ use super::keys::{PLACES, SystemTable, system_keys};
 use super::numbers::{CourseNumbers, Numbers, WantedNumber, missing, unknown_keys};
 use super::rows::RowBasis;
 use super::units::SystemUnits;
-use crate::complaint::{Complaint, Fault};
+use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::course::{Course, CoursePlace, CourseUnits};
 use crate::study::design::DitherPlace;
 use crate::study::dither_size::{self, SizedAmplitude};
@@ -21,7 +23,7 @@ use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::suggest;
 use crate::study::vocabulary::size::{DITHER_SIZES, SizeKey, SizedSignal, measure_of};
-use crate::study::vocabulary::{Choice, ENVELOPE, join};
+use crate::study::vocabulary::{Choice, ENVELOPE, FRICTION, join};
 use crate::study::waveform;
 
 /// The contacts that a dither can modulate.
@@ -55,6 +57,7 @@ pub(super) fn read(
             (input, size.map(|size| (prefix.clone(), size)))
         })
         .unzip();
+    one_mean(reader, &tables, &inputs);
     let whole: Option<Vec<Input>> = inputs.iter().cloned().collect();
     if let Some(contacts) = context.contacts {
         stays_pressed(reader, &tables, &inputs, contacts);
@@ -173,7 +176,12 @@ fn one(
     });
     let (waveform, middle) = read.unzip();
     let wave = (waveform.as_ref(), context.has_actuator);
-    let amplitude = amplitude(reader, (prefix, node, table), wave, numbers);
+    let mean = mean(reader, (prefix, node, table), target.as_ref(), numbers);
+    let amplitude = if is_factor(table) {
+        factor(reader, (prefix, node, table), numbers)
+    } else {
+        amplitude(reader, (prefix, node, table), wave, numbers)
+    };
     let (frequency, phase) = if is_noise {
         (middle.flatten(), Ok(None))
     } else {
@@ -191,7 +199,7 @@ fn one(
         phase: phase.ok()?.unwrap_or(0.0),
         envelope: envelope.ok()?,
     };
-    Some((Input { target: target?, profile: Profile::constant(0.0).with(wave) }, amplitude?))
+    Some((Input { target: target?, profile: Profile::constant(mean?).with(wave) }, amplitude?))
 }
 
 /// The band of noise, in the unit of `frequency`; `Some(None)` without one, `None` if it is wrong.
@@ -248,6 +256,57 @@ fn amplitude(
     let value = numbers.number(reader, || found.key.clone(), found.node, wanted)?;
     let of_unit = if found.twin { measure_of(*twin).of_unit(waveform?)? } else { 1.0 };
     Some(SizedAmplitude::Known(value / of_unit, None))
+}
+
+/// Whether a dither is a factor on the friction of its contact, so that its amplitude is no force.
+pub(super) fn is_factor(table: &Table) -> bool {
+    !table.has("at")
+        && matches!(table.get("direction").map(|node| &node.value), Some(Value::Text(word)) if word == FRICTION)
+}
+
+/// The amplitude of a factor on friction.
+fn factor(
+    reader: &mut Reader,
+    (prefix, node, table): (&str, &Node, &Table),
+    numbers: &Numbers,
+) -> Option<SizedAmplitude> {
+    let twins = DITHER_AMPLITUDE.si.iter().map(|twin| twin.key);
+    let of_a_force = twins.chain(DITHER_SIZES.iter().map(|size| size.key));
+    for name in of_a_force.filter(|name| table.has(name)) {
+        let Some(other) = table.get(name) else { continue };
+        let allowed = format!(
+            "left out: a factor on friction has no force; its amplitude is {}",
+            join(prefix, FRICTION_FACTOR.key())
+        );
+        let key = join(prefix, name);
+        reader.complain(Complaint::new(Fault::Conflict, key, other.origin, other.given(), allowed));
+        return None;
+    }
+    let amplitude = numbers.needed(reader, table, prefix, node.origin, FRICTION_FACTOR)?;
+    Some(SizedAmplitude::Known(amplitude, None))
+}
+
+/// The mean of what a dither adds: that of a factor on friction, and zero of a force or a load.
+fn mean(
+    reader: &mut Reader,
+    (prefix, _, table): (&str, &Node, &Table),
+    target: Option<&InputTarget>,
+    numbers: &Numbers,
+) -> Option<f64> {
+    let given = numbers.optional(reader, table, prefix, FRICTION_FACTOR_MEAN).ok()?;
+    match (given, target?) {
+        (mean, InputTarget::Friction { .. }) => Some(mean.unwrap_or(1.0)),
+        (None, _) => Some(0.0),
+        (Some(mean), _) => {
+            let key = join(prefix, FRICTION_FACTOR_MEAN.key());
+            let origin =
+                table.get(FRICTION_FACTOR_MEAN.key()).map_or(Origin::Whole, |node| node.origin);
+            let allowed =
+                "left out: only a factor on friction (direction = \"friction\") has a mean";
+            reader.complain(Complaint::new(Fault::Conflict, key, origin, mean, allowed));
+            None
+        }
+    }
 }
 
 /// The number of another size: in the units of the file, in volts, in amperes or in per cent.
@@ -328,7 +387,7 @@ fn of_contact(
     context: DitherContext<'_>,
 ) -> Option<InputTarget> {
     let direction =
-        reader.needed_choice(table, prefix, node.origin, "direction", Choice::Direction);
+        reader.needed_choice(table, prefix, node.origin, "direction", Choice::ContactDirection);
     let key = join(prefix, "contact");
     let name = reader.text(&key, contact)?;
     let Some(index) = context.names.iter().position(|known| *known == name) else {
@@ -354,7 +413,17 @@ fn of_contact(
         }
     };
     let found = context.contacts?.get(index)?;
-    if direction? == "tangential" {
+    let direction = direction?;
+    if direction == FRICTION {
+        if let (Some(flag), Some(node)) = (reaction, table.get("reaction")) {
+            let allowed = "left out: a factor on friction adds no load";
+            let key = join(prefix, "reaction");
+            reader.complain(Complaint::new(Fault::Conflict, key, node.origin, flag, allowed));
+            return None;
+        }
+        return Some(InputTarget::Friction { contact: index });
+    }
+    if direction == "tangential" {
         let along = found.force.as_ref().or(found.tangent.as_ref());
         if along.is_none() {
             reader.wrong(&key, contact, "a contact with a tangent, along which the force acts");
@@ -372,6 +441,23 @@ fn of_contact(
     }
     let reaction = compliant && reaction.unwrap_or(true);
     Some(InputTarget::NormalLoad { contact: index, reaction })
+}
+
+/// Reports a second factor on the friction of a contact that has a mean: factors are added, and their mean is given once.
+fn one_mean(reader: &mut Reader, tables: &[(String, &Node, &Table)], inputs: &[Option<Input>]) {
+    let mut seen = Vec::new();
+    for (input, (prefix, node, _)) in inputs.iter().zip(tables) {
+        let Some(Input { target: InputTarget::Friction { contact }, profile }) = input else {
+            continue;
+        };
+        if seen.contains(contact) && profile.mean() != 0.0 {
+            let key = join(prefix, FRICTION_FACTOR_MEAN.key());
+            let allowed = "0 for a further factor on the friction of a contact: the factors are added, and the first has their mean";
+            let given = profile.mean();
+            reader.complain(Complaint::new(Fault::Conflict, key, node.origin, given, allowed));
+        }
+        seen.push(*contact);
+    }
 }
 
 /// Reports loads that are prescribed and modulated so much that they would vanish.

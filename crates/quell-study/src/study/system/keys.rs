@@ -7,8 +7,8 @@ use quell_model::parameter::actuator::ACTUATOR;
 use quell_model::parameter::design::LIMITS;
 use quell_model::parameter::system::{
     CONTACT_BELT_VELOCITY, CONTACT_NORMAL_DAMPING, CONTACT_NORMAL_LOAD, CONTACT_NORMAL_STIFFNESS,
-    CONTACT_TANGENTIAL_STIFFNESS, SYSTEM_DITHER_FREQUENCY, SYSTEM_MODAL_MASS, SYSTEM_MODE_DAMPING,
-    SYSTEM_MODE_FREQUENCY,
+    CONTACT_TANGENTIAL_STIFFNESS, FRICTION_FACTOR_MEAN, SYSTEM_DITHER_FREQUENCY, SYSTEM_MODAL_MASS,
+    SYSTEM_MODE_DAMPING, SYSTEM_MODE_FREQUENCY,
 };
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE, Parameter};
 use quell_model::units::Quantity;
@@ -403,8 +403,8 @@ const DITHER: &[SystemKey] = &[
     key("contact", SystemRole::Text, "name of the contact whose load is modulated, instead of at"),
     key(
         "direction",
-        SystemRole::Choice(Choice::Direction),
-        "normal: on the load of the contact; tangential: a force along its tangent",
+        SystemRole::Choice(Choice::ContactDirection),
+        "normal: on the load of the contact; tangential: a force along its tangent; friction: a factor on its friction force",
     ),
     key(
         "reaction",
@@ -423,6 +423,11 @@ const DITHER: &[SystemKey] = &[
     wave(8),
     wave(9),
     number(DITHER_AMPLITUDE, "amplitude"),
+    key(
+        "mean",
+        SystemRole::Number(FRICTION_FACTOR_MEAN),
+        "mean of a factor on friction [default: 1]",
+    ),
     size(0),
     size(1),
     size(2),

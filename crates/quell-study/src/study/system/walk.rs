@@ -2,6 +2,9 @@
 
 use std::fmt::Write as _;
 
+use quell_model::parameter::system::FRICTION_FACTOR;
+
+use super::dither::is_factor;
 use super::found::{FoundPath, LostPath, PathStep};
 use super::keys::{SystemKey, SystemRole, SystemTable, system_keys};
 use crate::study::document::{Node, Table, Value};
@@ -105,6 +108,13 @@ impl<'d> Walk<'d> {
             SystemRole::Row(_) => self.row(key, twin, which, node, segment, rest),
             _ if rest.is_empty() && segment.indices.is_empty() => {
                 let mut found = self.found(key, twin);
+                let is_amplitude =
+                    key.parameter().is_some_and(|known| known.path == FRICTION_FACTOR.path);
+                if which == SystemTable::Dither && is_amplitude && table.is_some_and(is_factor) {
+                    found.parameter = Some(FRICTION_FACTOR);
+                    found.quantity = Some(FRICTION_FACTOR.quantity);
+                    found.about = FRICTION_FACTOR.about;
+                }
                 if which == SystemTable::Initial {
                     let others = system_keys(which).iter().map(|key| key.name.to_owned());
                     found.replaces.extend(others);

@@ -13,7 +13,7 @@ pub use course::{CourseKey, CourseTable, DISC_DRIVE, DRIVE, ENVELOPE, LOAD, LOAD
 pub use key::{Key, Role, SCHEMA_ABOUT, Section, WAVE_KEYS, WaveKey, join};
 pub use keys::{key, keys, keys_of};
 pub use resolve::{Address, in_system, resolve};
-pub use words::Choice;
+pub use words::{Choice, FRICTION};
 
 /// Version of the study file that this program reads.
 pub const SCHEMA_VERSION: u32 = 1;

@@ -7,6 +7,9 @@ use quell_model::profile::KnotShape;
 use quell_model::waveform::Hold;
 use quell_model::{Direction, LawKind, Waveform};
 
+/// The direction of a dither that is a factor on the friction of a contact.
+pub const FRICTION: &str = "friction";
+
 /// A list of words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Choice {
@@ -16,6 +19,8 @@ pub enum Choice {
     Law,
     /// Directions of dither.
     Direction,
+    /// What a dither of a contact acts on.
+    ContactDirection,
     /// Waveforms of dither.
     Waveform,
     /// Waveforms of the carrier of bursts.
@@ -51,6 +56,9 @@ impl Choice {
             Self::State => vec!["rest", "sliding", "squealing"],
             Self::Law => LawKind::ALL.iter().map(|law| law.name()).collect(),
             Self::Direction => Direction::ALL.iter().map(|direction| direction.name()).collect(),
+            Self::ContactDirection => {
+                Self::Direction.names().into_iter().chain([FRICTION]).collect()
+            }
             Self::Waveform => Waveform::NAMES.to_vec(),
             Self::Carrier => Waveform::NAMED.iter().map(Waveform::name).collect(),
             Self::Hold => Hold::ALL.iter().map(|hold| hold.name()).collect(),

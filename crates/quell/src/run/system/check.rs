@@ -90,7 +90,9 @@ fn dithers(study: &SystemStudy) -> Vec<Json> {
             InputTarget::NormalLoad { contact, reaction } => {
                 json!({ "contact": name(*contact), "reaction": reaction })
             }
-            InputTarget::Friction { contact } => json!({ "contact": name(*contact) }),
+            InputTarget::Friction { contact } => {
+                json!({ "contact": name(*contact), "friction": true, "mean": input.profile.mean() })
+            }
         };
         for wave in input.profile.waves() {
             let mut object = target.clone();
