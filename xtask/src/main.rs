@@ -10,6 +10,7 @@ mod english;
 mod layers;
 mod licences;
 mod manifest;
+mod meaning;
 mod names;
 mod package;
 mod python;
@@ -31,12 +32,17 @@ tasks:
   names [OPTION]     check that the names of types are unique in the workspace
   package            pack every crate for publication, in order
   python             build the wheel, install it into target/python, and run the Python tests
+  snapshot [OPTION]  compare the answers of every study in studies/, through every verb, with those on record
   test               check everything that must hold before a change is merged, tests last;
                      --quick omits lints, documentation, licences, slow tests and Python
+  twins [OPTION]     ask 200 studies, written as a kind of their own and as a system, for differences beyond the known ones
 
 options of cycles, english and names:
   --bless            record counts that have fallen, in xtask/TASK.toml
-  --list             print all that is counted, with files and lines";
+  --list             print all that is counted, with files and lines
+
+option of snapshot and twins:
+  --bless            write the answers again, or remove differences that are gone  --list             print all that is counted, with files and lines";
 
 fn main() -> ExitCode {
     if std::env::var_os(coverage::COMPILES).is_some() {
@@ -75,6 +81,9 @@ fn run(root: &Path, arguments: &[&str]) -> Option<Result<(), String>> {
         ("cycles", _) => cycles::run(root, mode?),
         ("english", _) => english::run(root, mode?),
         ("names", _) => names::run(root, mode?),
+        ("snapshot" | "twins", None | Some("--bless")) => {
+            meaning::run(root, task, option.is_some())
+        }
         ("test", Some("--quick")) => test::run(root, true),
         ("book", None) => book::run(root),
         ("layers", None) => layers::run(root),
@@ -99,6 +108,7 @@ mod tests {
             &["layers", "--bless"],
             &["cycles", "--all"],
             &["coverage", "--all"],
+            &["twins", "--list"],
             &["test", "--quick", "more"],
         ] {
             assert!(run(Path::new("."), arguments).is_none(), "{arguments:?}");

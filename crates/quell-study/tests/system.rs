@@ -409,3 +409,36 @@ fn a_negative_coefficient_is_said() {
     assert!(warning.contains("contact load is negative"), "{warning}");
     assert!(study(&text.replace("-0.4", "0.4")).warnings().is_empty());
 }
+
+/// A dither with `direction = "friction"` is a factor on the friction of its contact: a share with a mean, and no force.
+#[test]
+fn a_factor_on_friction_is_a_share() {
+    let text = "[system]\nunits = 'SI'\ncoordinates = ['x']\nmass = [1]\nstiffness = [1]\n[[contact]]\nname = 'pad'\n\
+                tangent = {x = 1}\nnormal_load = 1\nbelt_velocity = 1\n[friction]\nlaw = 'coulomb'\ncoefficient = 0.3\n\
+                [[dither]]\ncontact = 'pad'\ndirection = 'friction'\nwaveform = 'sine'\namplitude = 1.5\nfrequency_hz = 5\n";
+    let read = |text: &str| SystemStudy::parse(text, &[]);
+    let study = read(text).expect("valid: the factor may change its sign");
+    let input = &study.system().inputs[0];
+    assert_eq!(input.target, InputTarget::Friction { contact: 0 });
+    assert_eq!((input.profile.mean(), input.profile.waves()[0].amplitude), (1.0, 1.5));
+    assert_eq!(study.unit_of("dither.amplitude"), Some("1"));
+    let other = study.with("dither.amplitude", 0.5).expect("valid");
+    assert_eq!(other.system().inputs[0].profile.waves()[0].amplitude, 0.5);
+    let mean = read(&format!("{text}mean = 0\n")).expect("valid");
+    assert_eq!(mean.system().inputs[0].profile.mean(), 0.0);
+    let second = "[[dither]]\ncontact = 'pad'\ndirection = 'friction'\nwaveform = 'sine'\namplitude = 1\nfrequency_hz = 9\n";
+    assert!(read(&format!("{text}{second}mean = 0\n")).is_ok());
+    for (wrong, key) in [
+        (format!("{text}{second}"), "dither[1].mean"),
+        (format!("{text}reaction = true\n"), "dither.reaction"),
+        (text.replace("amplitude =", "amplitude_n ="), "dither.amplitude_n"),
+        (text.replace("amplitude =", "amplitude_rms ="), "dither.amplitude_rms"),
+        (
+            format!("{}mean = 1\n", text.replace("'friction'\nwave", "'normal'\nwave")),
+            "dither.mean",
+        ),
+    ] {
+        let complaints = read(&wrong).expect_err(key);
+        assert!(complaints.iter().any(|complaint| complaint.key == key), "{key}: {complaints}");
+    }
+}
