@@ -1,7 +1,7 @@
 //! The same equations written twice have one answer: random studies as `[belt]` or `[disc]` and as `[system]`, through every verb.
 //!
 //! What still differs is listed in `known.txt`: a difference that is not there fails, and `cargo xtask twins`, which asks
-//! many studies, also fails where a listed one is gone. So the list can only shrink. `QUELL_BLESS=1 cargo xtask twins`
+//! many studies, also fails where a listed one is gone. So the list can only shrink. `cargo xtask twins --bless`
 //! removes what is gone; nothing adds to the list.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -152,7 +152,7 @@ fn a_study_written_twice_has_one_answer() {
         let gone: Vec<_> = known.iter().filter(|line| !found.contains_key(**line)).collect();
         assert!(
             gone.is_empty(),
-            "{} differences are gone, remove them by `QUELL_BLESS=1 cargo xtask twins`: {gone:#?}",
+            "{} differences are gone, remove them by `cargo xtask twins --bless`: {gone:#?}",
             gone.len()
         );
     }

@@ -65,6 +65,19 @@ impl Samples {
         terms: Option<usize>,
         velocity_unit: f64,
     ) -> Result<Self, InvalidValues> {
+        let fit = Self::fitted(samples, static_coefficient, terms)?;
+        Self::of_fit(fit, static_coefficient, velocity_unit)
+    }
+
+    /// The fit of samples (slip speed, coefficient), from which [`of_fit`](Self::of_fit) makes the law.
+    ///
+    /// # Errors
+    /// Samples that are not finite or negative, by index; fewer than [`FEWEST`] distinct speeds; samples that do not determine a fit.
+    pub fn fitted(
+        samples: &[(f64, f64)],
+        static_coefficient: Option<f64>,
+        terms: Option<usize>,
+    ) -> Result<Fit, InvalidValues> {
         let mut complaints: Vec<Invalid> = Vec::new();
         for (index, (speed, coefficient)) in samples.iter().enumerate() {
             if !(speed.is_finite() && *speed >= 0.0) {
@@ -94,12 +107,11 @@ impl Samples {
             let allowed = format!("at least {FEWEST} distinct speeds");
             return Err(InvalidValues::from(Invalid::new(SPEEDS, speeds.len(), allowed)));
         }
-        let fit = fit::fit(samples, static_coefficient, terms).ok_or_else(|| {
+        fit::fit(samples, static_coefficient, terms).ok_or_else(|| {
             let allowed =
                 "a smaller number of terms, or give more samples: these do not determine the fit";
             InvalidValues::from(Invalid::new(TERMS, terms.unwrap_or(1), allowed))
-        })?;
-        Self::of_fit(fit, static_coefficient, velocity_unit)
+        })
     }
 
     /// From a fit that was made before.

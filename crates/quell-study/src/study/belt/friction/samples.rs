@@ -59,9 +59,8 @@ pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option
             && known.file == file
     };
     let fitted = reader.computed().get(same, || {
-        let law = Samples::new(&samples, static_coefficient, terms, unit)?;
+        let fit = Samples::fitted(&samples, static_coefficient, terms)?;
         let (file, samples) = (file.clone(), samples.clone());
-        let fit = law.fit().clone();
         Ok(Measured { file, samples, static_coefficient, terms, fit })
     });
     let made = fitted.and_then(|measured| {
