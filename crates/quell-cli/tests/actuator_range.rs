@@ -110,16 +110,18 @@ fn a_stack_gives_what_its_voltage_and_its_current_allow() {
         let done = place.good(&["actuator", study, RANGE[0], RANGE[1]]);
         let changes = done["changes"].as_array().expect("a list");
         assert_eq!(changes.len(), 1, "{done}");
-        close(number(&changes[0], "frequency_hz"), change, 1e-12, study);
+        close(number(&changes[0], "frequency") / TAU, change, 1e-12, study);
         assert_eq!(changes[0]["below"], "actuator.maximum_voltage");
         assert_eq!(changes[0]["above"], "actuator.maximum_current");
-        close(number(&done, "own.amplitude_n"), by_current(20000.0), 1e-12, study);
+        close(number(&done, "own.amplitude"), by_current(20000.0), 1e-12, study);
         close(number(&done, "own.used"), 1000.0 / by_current(20000.0), 1e-12, study);
         // The slip velocity of a sine is Fω/|k + iωd − mω²|.
         let omega = TAU * 20000.0;
         let (re, im) = (370e6 - 0.1 * omega * omega, omega * 60.8276253029822);
-        let slip = by_current(20000.0) * omega / re.hypot(im);
-        close(number(&done, "own.contacts.0.slip_velocity_m_per_s"), slip, 1e-9, study);
+        // The system is in millimetres.
+        let millimetres = if study == "system.toml" { 1e3 } else { 1.0 };
+        let slip = millimetres * by_current(20000.0) * omega / re.hypot(im);
+        close(number(&done, "own.contacts.0.slip_velocity"), slip, 1e-9, study);
         answers.push(done);
     }
     let [belt, system] = &answers[..] else { panic!("two answers") };
@@ -128,12 +130,17 @@ fn a_stack_gives_what_its_voltage_and_its_current_allow() {
         let ratio = TAU * hertz / (370e6_f64 / 0.1).sqrt();
         (ratio * ratio - 1.0).hypot(0.01 * ratio) / (ratio * ratio - 1.0)
     };
-    let needed = number(system, "own.needed_n") / number(belt, "own.needed_n");
+    let needed = number(system, "own.needed") / number(belt, "own.needed");
     close(needed, damped(20000.0), 1e-9, "needed");
     let margin = number(belt, "best.margin") / number(system, "best.margin");
-    close(margin, damped(number(belt, "best.frequency_hz")), 1e-9, "margin");
-    close(number(belt, "best.frequency_hz"), 12000.0, 1e-12, "the resonance is below the range");
-    close(number(system, "best.frequency_hz"), 12000.0, 1e-12, "the resonance is below the range");
+    close(margin, damped(number(belt, "best.frequency") / TAU), 1e-9, "margin");
+    close(number(belt, "best.frequency") / TAU, 12000.0, 1e-12, "the resonance is below the range");
+    close(
+        number(system, "best.frequency") / TAU,
+        12000.0,
+        1e-12,
+        "the resonance is below the range",
+    );
 }
 
 /// At the ends of a band inside the range the margin is 1; the requirement is that of a design at one operating point.
@@ -145,9 +152,9 @@ fn ends_are_exact_and_the_requirement_is_that_of_design() {
     let bands = done["sufficient"].as_array().expect("a list");
     let mut inner = 0;
     for band in bands {
-        for end in ["from_hz", "to_hz"] {
-            let at = number(band, end);
-            if at == 12000.0 || at == 40000.0 {
+        for end in ["from", "to"] {
+            let at = number(band, end) / TAU;
+            if [12000.0, 40000.0].iter().any(|end| (at / end - 1.0).abs() < 1e-12) {
                 continue;
             }
             inner += 1;
@@ -159,7 +166,7 @@ fn ends_are_exact_and_the_requirement_is_that_of_design() {
     assert!(inner > 0, "{done}");
     let designed = place.good(&["design", "belt.toml", "--set", "actuator.maximum_current=1000"]);
     let averaged = &designed["averaged"]["dither.amplitude_n"];
-    let needed = number(&done, "own.needed_n");
+    let needed = number(&done, "own.needed");
     close(averaged.as_f64().expect("a number"), needed, 1e-9, "averaged");
 }
 
@@ -168,9 +175,9 @@ fn a_controller_gives_nothing_beyond_half_its_rate() {
     let motor = "[actuator]\nkind = \"motor\"\nforce_per_ampere_n_per_a = 40\nrms_current = 100\nsample_rate_hz = 60000\n";
     let place = Place::with("range-motor", &[("belt.toml", &format!("{BELT}{motor}"))]);
     let done = place.good(&["actuator", "belt.toml", RANGE[0], RANGE[1]]);
-    close(number(&done, "changes.0.frequency_hz"), 30000.0, 1e-12, "half the rate");
+    close(number(&done, "changes.0.frequency") / TAU, 30000.0, 1e-12, "half the rate");
     assert_eq!(done["changes"][0]["above"], "actuator.sample_rate");
-    close(number(&done, "own.amplitude_n"), 40.0 * 100.0 * 2f64.sqrt(), 1e-12, "amplitude");
+    close(number(&done, "own.amplitude"), 40.0 * 100.0 * 2f64.sqrt(), 1e-12, "amplitude");
     let warnings = done["warnings"].to_string();
     assert!(warnings.contains("fewer than 10 samples"), "{warnings}");
     // A third harmonic needs three times the rate.
@@ -185,7 +192,7 @@ fn a_controller_gives_nothing_beyond_half_its_rate() {
         )],
     );
     let done = place.good(&["actuator", "belt.toml", "--frequency", "5kHz:40kHz"]);
-    close(number(&done, "changes.0.frequency_hz"), 10000.0, 1e-12, "a sixth of the rate");
+    close(number(&done, "changes.0.frequency") / TAU, 10000.0, 1e-12, "a sixth of the rate");
 }
 
 #[test]
@@ -247,11 +254,11 @@ fn a_measured_actuator_has_the_range_of_its_file() {
         ],
     );
     let done = place.good(&["actuator", "belt.toml"]);
-    close(number(&done, "from_hz"), 13000.0, 1e-12, "from");
-    close(number(&done, "to_hz"), 30000.0, 1e-12, "to");
+    close(number(&done, "from") / TAU, 13000.0, 1e-12, "from");
+    close(number(&done, "to") / TAU, 30000.0, 1e-12, "to");
     // Up to 20 kHz 3000 + 375 x N by the voltage against 3500 − 500 x N; beyond 3375 − 1875 y N against 3000 N.
     let changes = done["changes"].as_array().expect("a list");
-    let at: Vec<f64> = changes.iter().map(|change| number(change, "frequency_hz")).collect();
+    let at: Vec<f64> = changes.iter().map(|change| number(change, "frequency") / TAU).collect();
     assert_eq!(at.len(), 2, "{done}");
     close(at[0], 13000.0 + 7000.0 * 500.0 / 875.0, 1e-10, "the force binds");
     close(at[1], 22000.0, 1e-10, "the voltage binds");

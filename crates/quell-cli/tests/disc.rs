@@ -371,7 +371,8 @@ fn a_disc_may_be_in_si() {
     let errors = place.refused(&["check", "bare.toml"]);
     let allowed = errors[0]["allowed"].as_str().unwrap_or_default();
     assert!(
-        errors[0]["key"] == "disc.load.speed_rpm" && allowed.contains("values in hertz require"),
+        errors[0]["key"] == "disc.load.speed_rpm"
+            && allowed.contains("the size and material of the plate"),
         "{errors:?}"
     );
 }

@@ -103,9 +103,8 @@ fn every_size_gives_its_force() {
             let checked = place.good(&["check", "study.toml"]);
             close(newtons(&checked), exact, given);
             let sizes = checked["given_amplitudes"].as_array().expect("a list");
-            // A peak and a root mean square in newtons are the amplitude in SI, as ever.
-            let in_si = given.starts_with("amplitude_n =") || given.starts_with("amplitude_n_rms");
-            assert_eq!(sizes.len(), usize::from(!in_si), "{given}: {checked}");
+            let is_peak = given.starts_with("amplitude_n =");
+            assert_eq!(sizes.len(), usize::from(!is_peak), "{given}: {checked}");
             if let Some(size) = sizes.first() {
                 let key = given.split(' ').next().expect("a key");
                 assert_eq!(size["key"], format!("dither.{key}"));
@@ -163,7 +162,7 @@ fn wrong_sizes_are_complained_about() {
         ("amplitude_v = 12", "", "dither.amplitude_v", "[actuator]"),
         ("amplitude_v = 12\namplitude_n = 3", STACK, "dither.amplitude_v", "not both"),
         ("amplitude_v = 12\namplitude_a_rms = 3", STACK, "dither.amplitude_v", "not both"),
-        ("amplitude_rms = 12", STACK, "dither.amplitude_rms", "amplitude_n_rms"),
+        ("amplitude_rms = 12\namplitude = 3", STACK, "dither.amplitude_rms", "not both"),
         ("amplitude_v = \"12 A\"", STACK, "dither.amplitude_v", "another quantity"),
         ("amplitude_v = -3", STACK, "dither.amplitude_v", "≥ 0"),
         ("amplitude_percent = 50\nphase = \"x\"", "", "dither.amplitude_percent", "[actuator]"),
@@ -201,5 +200,5 @@ fn wrong_sizes_are_complained_about() {
         "2",
     ];
     let wrong = place.refused(&varied);
-    assert_eq!(wrong[0]["suggestion"], "dither.amplitude_n", "{wrong:?}");
+    assert_eq!(wrong[0]["suggestion"], "dither.amplitude", "{wrong:?}");
 }

@@ -64,11 +64,11 @@ fn a_cycle_has_its_least_period_from_every_start() {
     let start = "x=4.58037e-6,z=2.06785e-7,r=3.14115e-8,velocity.x=0.2,velocity.z=-0.0354456,velocity.r=-0.0657394";
     let from_rest = answer(PAD, &["attractor"]);
     let from_there = answer(PAD, &["attractor", "--start", start]);
-    let period = |found: &Json| number(&found["attractor"]["period_s"]);
+    let period = |found: &Json| number(&found["attractor"]["period"]);
     let (one, other) = (period(&from_rest), period(&from_there));
     assert!((one - other).abs() < 1e-9 * one, "{one} {other}");
     // Extremes are exact, not those of samples, so that both starts show the same.
-    let size = |found: &Json| number(&found["attractor"]["peak_to_peak_m"]);
+    let size = |found: &Json| number(&found["attractor"]["peak_to_peak"]);
     assert!((size(&from_rest) - size(&from_there)).abs() < 1e-9 * size(&from_rest));
 }
 

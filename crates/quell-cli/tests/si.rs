@@ -1,5 +1,6 @@
 //! A study in SI: options without units are in SI, units are accepted for every number with a dimension, tables are in SI.
 
+use std::f64::consts::TAU;
 use std::fs;
 
 use serde_json::Value as Json;
@@ -53,16 +54,13 @@ fn options_without_units_are_in_si() {
         &["--at", "0.1,-0.02"],
         &["--at", "0.36km/h,-20 mm/s"],
     );
-    assert_eq!(
-        at["slip_velocity_m_per_s"][0].as_f64().map(|v| (v - 0.1).abs() < 1e-16),
-        Some(true)
-    );
+    assert_eq!(at["slip_velocity"][0].as_f64().map(|v| (v - 0.1).abs() < 1e-16), Some(true));
     let run = same(&place, &["simulate", "pad.toml"], &["--until", "0.002"], &["--until", "2ms"]);
-    let end = run["final"]["time_s"].as_f64().expect("a time");
+    let end = run["final"]["time"].as_f64().expect("a time");
     assert!((end - 0.002).abs() < 1e-17, "{end}");
     let run = ["simulate", "pad.toml", "--until", "2ms"];
     let begun = same(&place, &run, &["--start", "1e-6,0.05"], &["--start", "0.001 mm, 5cm/s"]);
-    let begin = begun["start"]["velocity_m_per_s"].as_f64().expect("a velocity");
+    let begin = begun["start"]["velocity"].as_f64().expect("a velocity");
     assert!((begin - 0.05).abs() < 1e-17, "{begin}");
     let start = ["orbit", "pad.toml", "--set", "dither.amplitude_n=6.5kN"];
     same(&place, &start, &["--near", "1e-6,0.05"], &["--near", "1um,50mm/s"]);
@@ -74,7 +72,7 @@ fn options_without_units_are_in_si() {
         &["--from", "5000", "--to", "6500"],
         &["--from", "5kN", "--to", "0.0065MN"],
     );
-    assert_eq!(found["from_n"].as_f64().map(|n| (n - 5000.0).abs() < 1e-9), Some(true), "{found}");
+    assert_eq!(found["from"].as_f64().map(|n| (n - 5000.0).abs() < 1e-9), Some(true), "{found}");
     let basins = ["basins", "pad.toml", "--set", "dither.amplitude_n=6.5kN", "--grid", "2x2"];
     let window = ["--displacement", "-1e-6:5e-6", "--velocity", "0:0.1"];
     let units = ["--displacement=-1um:5um", "--velocity", "0:10cm/s"];
@@ -121,7 +119,7 @@ fn quenched_means_the_same_in_every_verb() {
     let found = place.good(&[&["thresholds", "drive.toml", "--from-rest"][..], &range].concat());
     let changes = found["from_rest"].as_array().expect("changes");
     assert_eq!((changes.len(), &changes[0]["becomes"]), (1, &"quenched".into()), "{found}");
-    let value = changes[0]["value_n"].as_f64().expect("newtons");
+    let value = changes[0]["value"].as_f64().expect("newtons");
     assert!((value - 39.673).abs() < 0.01, "{value}");
     let swept = ["bifurcation", "drive.toml", "--points", "4", "--up"];
     let swept = place.good(&[&swept[..], &range].concat());
@@ -153,11 +151,8 @@ fn swept_scales_are_those_of_each_value() {
         let alone = ["bifurcation", "pad.toml", "--up", "--points", "2", "--set", &set];
         let alone = place.good(&[&alone[..], &amplitude].concat());
         let number = |point: &Json, name: &str| point[name].as_f64().expect(name);
-        let (one, other) = (number(point, "frequency_hz"), number(&alone["up"][0], "frequency_hz"));
+        let (one, other) = (number(point, "frequency"), number(&alone["up"][0], "frequency"));
         assert!((one / other - 1.0).abs() < 1e-2, "{hertz}: {one} {other}");
-        let omega = number(point, "velocity_m_per_s") / number(point, "velocity");
-        let expected = std::f64::consts::TAU * number(point, "value");
-        assert!((omega / expected - 1.0).abs() < 1e-12, "{hertz}: {omega}");
     }
     place.write(
         "sweep.toml",
@@ -172,7 +167,7 @@ fn swept_scales_are_those_of_each_value() {
     };
     let csv = fs::read_to_string(place.folder.join("map.csv")).expect("saved");
     let mut rows = csv.lines().filter(|line| !line.starts_with('#')).map(|row| row.split(','));
-    let at = rows.next().expect("names").position(|name| name == "mean_friction_n").expect("N");
+    let at = rows.next().expect("names").position(|name| name == "mean_friction").expect("N");
     let all: Vec<f64> = rows.map(|mut row| row.nth(at).expect("N").parse().expect("N")).collect();
     let (least, most) = all.iter().fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(*x), b.max(*x)));
     assert!((number("min") / least - 1.0).abs() < 1e-6, "{text}{all:?}");
@@ -209,7 +204,7 @@ fn runs_are_classified_without_a_base_response() {
         let range = ["--parameter", "dither.amplitude_n", "--from", from, "--to", "45"];
         [&["thresholds", "drive.toml"][..], &range, more].concat()
     };
-    let value = |found: &Json| found["from_rest"][0]["value_n"].as_f64().expect("a threshold");
+    let value = |found: &Json| found["from_rest"][0]["value"].as_f64().expect("a threshold");
     let without = place.good(&ask("38", &["--from-rest"]));
     let with = place.good(&ask("35", &["--from-rest"]));
     assert!((value(&without) / value(&with) - 1.0).abs() < 1e-4);
@@ -264,7 +259,8 @@ fn the_level_of_a_band_is_reported() {
     let reduced = ["response", "drive.toml", "--set", "dither.amplitude_n=20"];
     let found = place.good(&reduced);
     let number = |name: &str| found[format!("band_{name}")].as_f64().expect(name);
-    assert!((number("from_hz") - 10.0).abs() < 1e-12 && (number("to_hz") - 50.0).abs() < 1e-12);
+    let ends = [("from", 10.0), ("to", 50.0)];
+    assert!(ends.iter().all(|(end, hertz)| (number(end) / TAU - hertz).abs() < 1e-12));
     let level = 20.0 * (number("displacement_rms") / number("undithered_displacement_rms")).log10();
     assert!((number("displacement_level_db") - level).abs() < 1e-12);
     assert!(
@@ -274,7 +270,7 @@ fn the_level_of_a_band_is_reported() {
             .contains("From 10 Hz to 50 Hz the displacement level")
     );
     let in_ratios = place.good(
-        &[&reduced[..], &["--set", "response.band=[0.3333333333333333, 1.6666666666666667]"]]
+        &[&reduced[..], &["--set", "response.band=[62.83185307179586, 314.1592653589793]"]]
             .concat(),
     );
     assert!(
@@ -322,8 +318,16 @@ fn wrong_units_are_rejected_with_the_expected_ones() {
         (&["check", "pad.toml", "--set", "belt.mass_kg=5N"], "belt.mass_kg", "in kg"),
         (&range("5m"), "--from", "in N"),
         (&range("5 furlong"), "--from", "furlong is not a unit"),
-        (&["friction", "scaled.toml", "--at", "20mm/s"], "--at", "units require a study in SI"),
-        (&["orbit", "scaled.toml", "--near", "1um,0"], "--near", "units require a study in SI"),
+        (
+            &["friction", "scaled.toml", "--at", "20mm/s"],
+            "--at",
+            "units require a study with units",
+        ),
+        (
+            &["orbit", "scaled.toml", "--near", "1um,0"],
+            "--near",
+            "units require a study with units",
+        ),
         (
             &[
                 "thresholds",
@@ -336,12 +340,12 @@ fn wrong_units_are_rejected_with_the_expected_ones() {
                 "6",
             ],
             "--from",
-            "units require a study in SI",
+            "units require a study with units",
         ),
         (
             &["check", "scaled.toml", "--set", "dither.amplitude=5kN"],
             "dither.amplitude",
-            "units require a study in SI",
+            "units require belt.mass and belt.stiffness",
         ),
     ];
     for (arguments, key, printed) in cases {
@@ -352,14 +356,12 @@ fn wrong_units_are_rejected_with_the_expected_ones() {
     }
 }
 
-/// Ranges reject the same values as `--set`: the key of the other system of units, a value out of bounds.
+/// Ranges reject the same values as `--set`: a unit in a study without units, a value out of bounds.
 #[test]
 fn ranges_reject_the_same_values_as_changes() {
     let place = place("si_ranges");
     for (study, path, from, to, hint) in [
-        ("pad.toml", "dither.amplitude", "1", "2", Some("dither.amplitude_n")),
-        ("pad.toml", "belt.belt_velocity", "0", "1", Some("belt.belt_velocity_m_per_s")),
-        ("pad.toml", "dither.amplitud", "1", "2", Some("dither.amplitude_n")),
+        ("pad.toml", "dither.amplitud", "1", "2", Some("dither.amplitude")),
         ("scaled.toml", "dither.amplitude_n_rms", "1", "2", Some("dither.amplitude")),
         ("scaled.toml", "dither.amplitude_n", "1", "2", Some("dither.amplitude")),
         ("pad.toml", "dither.amplitude_n", "-1", "2", None),
@@ -376,15 +378,13 @@ fn ranges_reject_the_same_values_as_changes() {
                 assert_eq!(errors[0]["suggestion"], hint, "{verb} {path}: {errors:?}");
             }
             let text = Json::from(errors.clone()).to_string();
-            // Messages for a study in SI name keys in SI.
-            let foreign = study == "pad.toml" && text.contains("such as dither.amplitude or");
-            assert!(!foreign, "{text}");
+            assert!(!text.contains("such as dither.amplitude_n or"), "{text}");
         }
     }
     // Thresholds are peak values: the root mean square depends on the waveform.
     let rms = ["--parameter", "dither.amplitude_n_rms", "--from", "1", "--to", "2"];
     let errors = place.refused(&[&["thresholds", "pad.toml"][..], &rms].concat());
-    assert_eq!(errors[0]["suggestion"], "dither.amplitude_n");
+    assert_eq!(errors[0]["suggestion"], "dither.amplitude");
 }
 
 #[test]
@@ -405,11 +405,7 @@ fn tables_are_in_si_with_machine_readable_units() {
         place.good(&["simulate", "pad.toml", "--until", "2ms", "--events", "--save", "run.csv"]);
     assert_eq!(run["saved"], serde_json::json!(["run.csv", "run_events.csv"]));
     let (run_csv, events) = (read("run.csv"), read("run_events.csv"));
-    assert!(
-        run_csv.contains("# units: time [s], time_s [s], displacement [m]"),
-        "{}",
-        &run_csv[..400]
-    );
+    assert!(run_csv.contains("# units: time [s], displacement [m]"), "{}", &run_csv[..400]);
     let last = number(column(&run_csv, "time").last().expect("rows"));
     assert!((last - 0.002).abs() < 1e-17, "{last}");
     // Events: time, kind, sign and state, one row each, as in JSON.
@@ -418,11 +414,11 @@ fn tables_are_in_si_with_machine_readable_units() {
     let times = column(&events, "time");
     assert_eq!(times.len(), listed.len());
     for (k, event) in listed.iter().enumerate() {
-        assert_eq!(event["time_s"].as_f64(), Some(number(&times[k])));
+        assert_eq!(event["time"].as_f64(), Some(number(&times[k])));
         assert_eq!(event["kind"], column(&events, "kind")[k].as_str());
         assert_eq!(event["slip_sign"].as_f64(), Some(number(&column(&events, "slip_sign")[k])));
         assert_eq!(
-            event["displacement_m"].as_f64(),
+            event["displacement"].as_f64(),
             Some(number(&column(&events, "displacement")[k]))
         );
         assert!((number(&column(&events, "velocity")[k]) - 0.1).abs() < 1e-16);
@@ -482,14 +478,13 @@ fn an_orbit_has_extremes_and_a_table() {
             .map(|row| row.split(',').nth(at).expect("a cell").parse().expect("a number"))
             .collect()
     };
-    let period = found["period_s"].as_f64().expect("a period");
+    let period = found["period"].as_f64().expect("a period");
     let times = column("time");
     assert!((times[times.len() - 1] / period - 1.0).abs() < 1e-12);
     assert_eq!(column("sticking").len(), times.len());
-    for (name, low, high) in [
-        ("displacement", "lowest_m", "highest_m"),
-        ("velocity", "lowest_velocity_m_per_s", "highest_velocity_m_per_s"),
-    ] {
+    for (name, low, high) in
+        [("displacement", "lowest", "highest"), ("velocity", "lowest_velocity", "highest_velocity")]
+    {
         let (low, high) = (found[low].as_f64().expect(low), found[high].as_f64().expect(high));
         let values = column(name);
         let (least, most) = values
@@ -512,10 +507,10 @@ fn stability_reports_growth_and_forces() {
     let place = place("si_stability");
     let found = place.good(&["stability", "pad.toml"]);
     let finite = &found;
-    let rate = finite["growth_rate_per_s"].as_f64().expect("a rate");
+    let rate = finite["growth_rate"].as_f64().expect("a rate");
     let decibels = finite["growth_rate_db_per_s"].as_f64().expect("a rate");
     assert!((decibels / rate - 20.0 * std::f64::consts::LOG10_E).abs() < 1e-12);
-    let force = finite["critical_amplitudes"][0]["amplitude_n"].as_f64().expect("a force");
+    let force = finite["critical_amplitudes"][0]["amplitude"].as_f64().expect("a force");
     let sentence = found["sentence"].as_str().expect("a sentence");
     assert!(sentence.starts_with("By finite-R averaging"), "{sentence}");
     assert!(

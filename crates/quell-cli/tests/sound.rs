@@ -100,7 +100,7 @@ fn a_study_in_si_sounds_in_real_time() {
     assert!(sentence.contains(" m/s (gain ") && sentence.contains(" s/m)"), "{sentence}");
     assert_eq!(place.files(), ["pad.WAV", "pad.toml", "quench.toml"]);
     assert_eq!(samples(&place, "pad.WAV").len(), 13_230);
-    let gain = object["sound"]["gain_s_per_m"].to_string();
+    let gain = object["sound"]["gain"].to_string();
     let again = place.good(&with(&run, &["--gain", &gain]));
     assert_eq!(object["sound"]["clipped"], again["sound"]["clipped"]);
     let slow = place.good(&with(&run, &["--transpose", "0.5"]));

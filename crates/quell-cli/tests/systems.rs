@@ -249,7 +249,7 @@ fn every_study_of_a_system_can_be_simulated() {
 fn times_and_starts_of_simulations_have_units() {
     let study = "bowed-string.toml";
     let found = answer(&["simulate", study, "--until", "5ms", "--start", "velocity.mode.1=2mm/s"]);
-    assert_eq!(found["final"]["time_s"], 0.005);
+    assert_eq!(found["final"]["time"], 0.005);
     assert_eq!(found["start"]["state"][40], 0.002);
     for (options, part) in [
         (&["--until", "5m"][..], "in s"),
@@ -404,9 +404,9 @@ fn verbs_agree_about_where_a_run_ends() {
 fn the_bowed_string_sings() {
     let found = answer(&["orbit", "bowed-string.toml"]);
     assert_eq!(found["verdict"], "stable", "{}", found["sentence"]);
-    close(&found["period_s"], 0.015_234_04, 1e-8);
+    close(&found["period"], 0.015_234_04, 1e-8);
     // The pitch is that of the lowest mode within a fiftieth of a semitone's frequency ratio, and the modes are inharmonic.
-    let pitch = 1.0 / found["period_s"].as_f64().expect("a period");
+    let pitch = 1.0 / found["period"].as_f64().expect("a period");
     assert!((pitch / 65.43011 - 1.0).abs() < 0.004, "{pitch}");
     assert_eq!(found["events"].as_array().map(Vec::len), Some(2), "one stick and one release");
 }

@@ -505,7 +505,7 @@ impl Parametrisation for Belt {
     }
 
     fn si_per_unit(&self, path: &str) -> Option<f64> {
-        Some(self.scales?.si_per_unit(Self::parameter(self, path)?.quantity))
+        Some(self.scales?.per_unit(Self::parameter(self, path)?.quantity))
     }
 
     fn system(&self) -> System {
@@ -568,7 +568,7 @@ mod tests {
             .and_then(|belt| belt.with_tangential_stiffness(Some(40.0)))
             .expect("valid")
             .in_si(Some(scales));
-        let (scaled, si) = (belt.system(), belt.system_in_si().expect("in SI").expect("a law"));
+        let (scaled, si) = (belt.system(), belt.system_in_units().expect("in SI").expect("a law"));
         let close = |found: f64, expected: f64| {
             assert!((found - expected).abs() <= 1e-14 * expected.abs(), "{found} {expected}");
         };

@@ -4,6 +4,7 @@
 //! all use it.
 
 pub mod actuator;
+pub mod course;
 pub mod design;
 pub mod disc;
 pub mod system;
@@ -43,7 +44,7 @@ pub struct Parameter {
     pub quantity: Quantity,
     /// Allowed values.
     pub bounds: Bounds,
-    /// Keys that give the same value in SI units.
+    /// Other keys that give it: with the unit as a suffix, or in the units of the study where its own is a ratio.
     pub si: &'static [SiTwin],
 }
 
@@ -58,9 +59,14 @@ impl Parameter {
         self.path.split('.').next().unwrap_or(self.path)
     }
 
-    /// Whether a study in SI may give it directly instead of its SI twin, as a ratio of quantities of one dimension.
+    /// Whether its key gives a ratio of quantities of one dimension, which has no unit in any study.
     pub fn is_pure(&self) -> bool {
-        self.quantity == Quantity::DampingRatio
+        self.quantity == Quantity::DampingRatio || self.key().ends_with("ratio")
+    }
+
+    /// All keys that give it: its own, and those of [`Parameter::si`].
+    pub fn keys(&self) -> impl Iterator<Item = &'static str> + use<> {
+        [self.key()].into_iter().chain(self.si.iter().map(|other| other.key))
     }
 
     /// Checks a value against the bounds.
@@ -76,15 +82,13 @@ impl Parameter {
     }
 }
 
-/// The key that gives a parameter in SI units.
+/// Another key that gives a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SiTwin {
     /// Key in the same table, such as `amplitude_n`.
     pub key: &'static str,
-    /// Its unit, such as `N`.
+    /// Its unit, such as `N`; empty for the unit of the study.
     pub unit: &'static str,
-    /// Whether it is a root mean square, which the waveform converts to a peak.
-    pub rms: bool,
     /// Symbol and description in SI where they differ from those of the parameter: A, a force, instead of D = A/k.
     pub own: Option<(&'static str, &'static str)>,
 }
@@ -151,7 +155,7 @@ impl fmt::Display for Bounds {
 }
 
 const fn si(key: &'static str, unit: &'static str) -> SiTwin {
-    SiTwin { key, unit, rms: false, own: None }
+    SiTwin { key, unit, own: None }
 }
 
 /// Damping ratio.
@@ -161,7 +165,10 @@ pub const DAMPING_RATIO: Parameter = Parameter {
     about: "damping ratio c/(2mω₀)",
     quantity: Quantity::DampingRatio,
     bounds: Bounds::NOT_NEGATIVE,
-    si: &[si("damping_n_s_per_m", "N·s/m").named("c", "damping coefficient")],
+    si: &[
+        si("damping", "").named("c", "damping coefficient"),
+        si("damping_n_s_per_m", "N·s/m").named("c", "damping coefficient"),
+    ],
 };
 
 /// Normal load.
@@ -171,7 +178,10 @@ pub const NORMAL_LOAD: Parameter = Parameter {
     about: "steady normal load N₀/k",
     quantity: Quantity::Force,
     bounds: Bounds::POSITIVE,
-    si: &[si("normal_force_n", "N").named("N₀", "steady normal load")],
+    si: &[
+        si("normal_load_n", "N").named("N₀", "steady normal load"),
+        si("normal_force_n", "N").named("N₀", "steady normal load"),
+    ],
 };
 
 /// Belt velocity.
@@ -313,10 +323,7 @@ pub const DITHER_AMPLITUDE: Parameter = Parameter {
     about: "peak dither force over stiffness",
     quantity: Quantity::Force,
     bounds: Bounds::NOT_NEGATIVE,
-    si: &[
-        si("amplitude_n", "N").named("A", "peak dither force"),
-        SiTwin { rms: true, ..si("amplitude_n_rms", "N (rms)").named("A_{rms}", "dither force") },
-    ],
+    si: &[si("amplitude_n", "N").named("A", "peak dither force")],
 };
 
 /// Dither frequency over the natural frequency.
@@ -328,7 +335,10 @@ pub const DITHER_FREQUENCY_RATIO: Parameter = Parameter {
     // Time of a run and memory of its record grow with R: beyond this a slow period alone takes minutes, and the response
     // differs from the limit of high frequency by less than 10⁻¹⁰.
     bounds: Bounds { lower: 0.0, lower_included: false, upper: 1e5 },
-    si: &[si("frequency_hz", "Hz").named("f", "dither frequency")],
+    si: &[
+        si("frequency", "").named("ω", "angular frequency of the dither"),
+        si("frequency_hz", "Hz").named("f", "dither frequency"),
+    ],
 };
 
 /// Dither phase.
@@ -371,57 +381,41 @@ pub const RECORD_PERIODS: Parameter = Parameter {
     si: &[],
 };
 
-/// A number that exists only in a study in SI and defines its scales.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScaleKey {
-    /// Path in a study file, such as `belt.mass_kg`.
-    pub path: &'static str,
-    /// Symbol in the equations.
-    pub symbol: &'static str,
-    /// Description, in one line.
-    pub about: &'static str,
-    /// Its unit.
-    pub unit: &'static str,
-    /// Allowed values.
-    pub bounds: Bounds,
-}
-
-impl ScaleKey {
-    /// Last part of the path, the key inside its table.
-    pub fn key(&self) -> &'static str {
-        self.path.rsplit('.').next().unwrap_or(self.path)
-    }
-}
-
-/// Mass m of an SI study.
-pub const MASS: ScaleKey = ScaleKey {
-    path: "belt.mass_kg",
+/// Mass m of a study with units.
+pub const MASS: Parameter = Parameter {
+    path: "belt.mass",
     symbol: "m",
-    about: "mass on the belt; if given, the study is in SI",
-    unit: "kg",
+    about: "mass on the belt; with it the study has units",
+    quantity: Quantity::LoadMass,
     bounds: Bounds::POSITIVE,
+    si: &[si("mass_kg", "kg")],
 };
 
-/// Stiffness k of an SI study.
-pub const STIFFNESS: ScaleKey = ScaleKey {
-    path: "belt.stiffness_n_per_m",
+/// Stiffness k of a study with units.
+pub const STIFFNESS: Parameter = Parameter {
+    path: "belt.stiffness",
     symbol: "k",
-    about: "stiffness of the spring that holds the mass; if given, the study is in SI",
-    unit: "N/m",
+    about: "stiffness of the spring that holds the mass; with it the study has units",
+    quantity: Quantity::LoadStiffness,
     bounds: Bounds::POSITIVE,
+    si: &[si("stiffness_n_per_m", "N/m")],
 };
 
-/// Natural frequency ω₀/2π of an SI study, instead of its stiffness.
-pub const NATURAL_FREQUENCY: ScaleKey = ScaleKey {
-    path: "belt.natural_frequency_hz",
-    symbol: "f₀",
-    about: "natural frequency ω₀/2π, instead of the stiffness; if given, the study is in SI",
-    unit: "Hz",
+/// Natural frequency ω₀/2π of a study with units, instead of its stiffness.
+pub const NATURAL_FREQUENCY: Parameter = Parameter {
+    path: "belt.natural_frequency",
+    symbol: "ω₀",
+    about: "natural frequency, instead of the stiffness; with it the study has units",
+    quantity: Quantity::FrequencyRatio,
     bounds: Bounds::POSITIVE,
+    si: &[si("natural_frequency_hz", "Hz").named(
+        "f₀",
+        "natural frequency ω₀/2π, instead of the stiffness; with it the study has units",
+    )],
 };
 
-/// The numbers that define the scales of a study in SI: the mass, and either stiffness or natural frequency.
-pub const SCALES: &[ScaleKey] = &[MASS, STIFFNESS, NATURAL_FREQUENCY];
+/// The numbers that define the scales of a study with units: the mass, and either stiffness or natural frequency.
+pub const SCALES: &[Parameter] = &[MASS, STIFFNESS, NATURAL_FREQUENCY];
 
 /// Every parameter of a belt study, in the order of the study file. The friction law's own
 /// parameters are those of its file ([`crate::friction::LawKind::parameters`]).

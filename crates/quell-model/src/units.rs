@@ -6,6 +6,9 @@
 use crate::{Invalid, InvalidValues};
 
 pub mod measure;
+mod unit_system;
+
+pub use unit_system::UnitSystem;
 
 /// The kind of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -50,6 +53,8 @@ pub enum Quantity {
     Density,
     /// A length of the plate, always in metres.
     Length,
+    /// The mass of the plate, always in kilograms.
+    PlateMass,
     /// A frequency, always in hertz.
     Frequency,
     /// An angle, always in degrees.
@@ -93,6 +98,7 @@ impl Quantity {
             Self::Modulus => "Pa",
             Self::Density => "kg/m³",
             Self::Length => "m",
+            Self::PlateMass => "kg",
             Self::Frequency => "Hz",
             Self::Degrees => "degrees",
             Self::Mass => "1 (mass/m)",
@@ -111,6 +117,7 @@ impl Quantity {
             Self::Modulus => "Pa",
             Self::Density => "kg/m³",
             Self::Length => "m",
+            Self::PlateMass => "kg",
             Self::Frequency => "Hz",
             Self::Degrees => "deg",
             Self::Voltage => "V",
@@ -129,6 +136,7 @@ impl Quantity {
             | Self::Modulus
             | Self::Density
             | Self::Length
+            | Self::PlateMass
             | Self::Frequency
             | Self::Degrees
             | Self::Voltage
@@ -152,11 +160,12 @@ impl Quantity {
     }
 }
 
-/// Mass and stiffness of an SI study: the scales that convert SI to dimensionless numbers.
+/// Mass and stiffness of a study with units: the scales that convert its numbers to those of the equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scales {
-    mass_kg: f64,
-    stiffness_n_per_m: f64,
+    units: UnitSystem,
+    mass: f64,
+    stiffness: f64,
     /// ω₀, rad/s.
     angular_frequency: f64,
 }
@@ -167,31 +176,47 @@ impl Scales {
     /// # Errors
     /// An error for each value that is not finite and positive.
     pub fn new(mass_kg: f64, stiffness_n_per_m: f64) -> Result<Self, InvalidValues> {
-        let complaints: Vec<_> =
-            [("belt.mass_kg", mass_kg), ("belt.stiffness_n_per_m", stiffness_n_per_m)]
-                .into_iter()
-                .filter(|(_, value)| !(value.is_finite() && *value > 0.0))
-                .map(|(key, value)| Invalid::new(key, value, "a finite number > 0"))
-                .collect();
-        if !complaints.is_empty() {
-            return Err(InvalidValues::of(complaints));
-        }
-        let angular_frequency = (stiffness_n_per_m / mass_kg).sqrt();
-        Ok(Self { mass_kg, stiffness_n_per_m, angular_frequency })
+        Self::in_units_of(UnitSystem::Si, mass_kg, stiffness_n_per_m)
     }
 
-    /// From mass in kilograms and natural frequency ω₀/2π in hertz: k = mω₀².
+    /// From mass and stiffness in these units; [`UnitSystem::None`] stands for SI.
     ///
     /// # Errors
     /// An error for each value that is not finite and positive.
-    pub fn of_natural_frequency(mass_kg: f64, hertz: f64) -> Result<Self, InvalidValues> {
-        let angular_frequency = std::f64::consts::TAU * hertz;
-        let stiffness = mass_kg * angular_frequency * angular_frequency;
-        if !(hertz.is_finite() && hertz > 0.0) {
-            let key = "belt.natural_frequency_hz";
-            return Err(InvalidValues::from(Invalid::new(key, hertz, "a finite number > 0")));
+    pub fn in_units_of(
+        units: UnitSystem,
+        mass: f64,
+        stiffness: f64,
+    ) -> Result<Self, InvalidValues> {
+        let complaints: Vec<_> = [("belt.mass", mass), ("belt.stiffness", stiffness)]
+            .into_iter()
+            .filter(|(_, value)| !(value.is_finite() && *value > 0.0))
+            .map(|(key, value)| Invalid::new(key, value, "a finite number > 0"))
+            .collect();
+        if !complaints.is_empty() {
+            return Err(InvalidValues::of(complaints));
         }
-        let scales = Self::new(mass_kg, stiffness)?;
+        let units = if units.is_none() { UnitSystem::Si } else { units };
+        let angular_frequency = (stiffness / mass).sqrt();
+        Ok(Self { units, mass, stiffness, angular_frequency })
+    }
+
+    /// From mass in these units and natural frequency ω₀ in radians per second: k = mω₀².
+    ///
+    /// # Errors
+    /// An error for each value that is not finite and positive.
+    pub fn of_angular_frequency(
+        units: UnitSystem,
+        mass: f64,
+        angular_frequency: f64,
+    ) -> Result<Self, InvalidValues> {
+        let stiffness = mass * angular_frequency * angular_frequency;
+        if !(angular_frequency.is_finite() && angular_frequency > 0.0) {
+            let allowed = "a finite number > 0";
+            let invalid = Invalid::new("belt.natural_frequency", angular_frequency, allowed);
+            return Err(InvalidValues::from(invalid));
+        }
+        let scales = Self::in_units_of(units, mass, stiffness)?;
         Ok(Self { angular_frequency, ..scales })
     }
 
@@ -200,18 +225,47 @@ impl Scales {
         self.angular_frequency
     }
 
-    /// Stiffness k, N/m.
-    pub fn stiffness_n_per_m(&self) -> f64 {
-        self.stiffness_n_per_m
+    /// Stiffness k, in the units of the study.
+    pub fn stiffness(&self) -> f64 {
+        self.stiffness
     }
 
-    /// Mass m, kg.
-    pub fn mass_kg(&self) -> f64 {
-        self.mass_kg
+    /// Mass m, in the units of the study.
+    pub fn mass(&self) -> f64 {
+        self.mass
     }
 
-    /// SI value of one dimensionless unit of a quantity.
-    pub fn si_per_unit(&self, quantity: Quantity) -> f64 {
+    /// The units of the study; not [`UnitSystem::None`].
+    pub fn units(&self) -> UnitSystem {
+        self.units
+    }
+
+    /// Unit of a quantity in the study, hertz of a frequency; `None` for a quantity without a unit, and for one whose unit every study
+    /// has.
+    pub fn unit(&self, quantity: Quantity) -> Option<&'static str> {
+        let (hertz, _) = quantity.si_unit()?;
+        match quantity {
+            Quantity::FrequencyRatio => Some(hertz),
+            quantity => self.units.unit(quantity),
+        }
+    }
+
+    /// What one number of the equations is in the units of the study, with the unit; `None` as of [`Scales::unit`].
+    pub fn one(&self, quantity: Quantity) -> Option<(f64, &'static str)> {
+        Some((self.per_unit(quantity), self.unit(quantity)?))
+    }
+
+    /// What one number of the equations is in the units of the study, with the unit, as a bare number gives it: a frequency is angular.
+    pub fn own(&self, quantity: Quantity) -> Option<(f64, &'static str)> {
+        let unit = self.units.unit(quantity).filter(|_| quantity.si_unit().is_some())?;
+        Some(match quantity {
+            Quantity::FrequencyRatio => (self.angular_frequency, unit),
+            quantity => (self.per_unit(quantity), unit),
+        })
+    }
+
+    /// What one number of the equations is in the units of the study, hertz of a frequency.
+    pub fn per_unit(&self, quantity: Quantity) -> f64 {
         let omega = self.angular_frequency();
         match quantity {
             Quantity::Ratio
@@ -222,38 +276,39 @@ impl Scales {
             | Quantity::Modulus
             | Quantity::Density
             | Quantity::Length
+            | Quantity::PlateMass
             | Quantity::Frequency
             | Quantity::Degrees
             | Quantity::Voltage
             | Quantity::Current
             | Quantity::Resistance => 1.0,
-            Quantity::DampingRatio => 2.0 * self.mass_kg * omega,
+            Quantity::DampingRatio => 2.0 * self.mass * omega,
             // Stiffness and friction of a load: a force over a length of 1 m.
             Quantity::Force
             | Quantity::Stiffness
             | Quantity::LoadStiffness
             | Quantity::LoadFriction
-            | Quantity::ForcePerCurrent => self.stiffness_n_per_m,
+            | Quantity::ForcePerCurrent => self.stiffness,
             Quantity::Velocity => omega,
             Quantity::FrequencyRatio => omega / std::f64::consts::TAU,
             Quantity::Time
             | Quantity::PerVelocity
             | Quantity::Capacitance
             | Quantity::Inductance => 1.0 / omega,
-            Quantity::Power => self.stiffness_n_per_m * omega,
-            Quantity::Mass | Quantity::LoadMass => self.mass_kg,
-            Quantity::LoadDamping => self.mass_kg * omega,
+            Quantity::Power => self.stiffness * omega,
+            Quantity::Mass | Quantity::LoadMass => self.mass,
+            Quantity::LoadDamping => self.mass * omega,
         }
     }
 
-    /// Converts from SI to the dimensionless number.
-    pub fn from_si(&self, quantity: Quantity, value: f64) -> f64 {
-        value / self.si_per_unit(quantity)
+    /// Converts from the units of the study to the number of the equations.
+    pub fn from_units(&self, quantity: Quantity, value: f64) -> f64 {
+        value / self.per_unit(quantity)
     }
 
-    /// Converts from the dimensionless number to SI.
-    pub fn to_si(&self, quantity: Quantity, value: f64) -> f64 {
-        value * self.si_per_unit(quantity)
+    /// Converts from the number of the equations to the units of the study.
+    pub fn to_units(&self, quantity: Quantity, value: f64) -> f64 {
+        value * self.per_unit(quantity)
     }
 }
 
@@ -292,6 +347,7 @@ impl DiscScales {
             | Quantity::Modulus
             | Quantity::Density
             | Quantity::Length
+            | Quantity::PlateMass
             | Quantity::Frequency
             | Quantity::Degrees
             | Quantity::Voltage
@@ -340,23 +396,24 @@ mod tests {
         // 2 kg on 200 N/m: ω₀ = 10 rad/s.
         let scales = Scales::new(2.0, 200.0).expect("valid");
         assert_eq!(scales.angular_frequency(), 10.0);
-        assert_eq!(scales.from_si(Quantity::DampingRatio, 4.0), 0.1);
-        assert_eq!(scales.from_si(Quantity::Force, 50.0), 0.25);
-        assert_eq!(scales.from_si(Quantity::Velocity, 5.0), 0.5);
-        let ratio = scales.from_si(Quantity::FrequencyRatio, 100.0 / std::f64::consts::TAU);
+        assert_eq!(scales.from_units(Quantity::DampingRatio, 4.0), 0.1);
+        assert_eq!(scales.from_units(Quantity::Force, 50.0), 0.25);
+        assert_eq!(scales.from_units(Quantity::Velocity, 5.0), 0.5);
+        let ratio = scales.from_units(Quantity::FrequencyRatio, 100.0 / std::f64::consts::TAU);
         assert!((ratio - 10.0).abs() < 1e-14);
-        assert_eq!(scales.to_si(Quantity::Time, 30.0), 3.0);
+        assert_eq!(scales.to_units(Quantity::Time, 30.0), 3.0);
     }
 
     #[test]
     fn a_natural_frequency_replaces_a_stiffness() {
-        let scales = Scales::of_natural_frequency(2.0, 5.0).expect("valid");
+        let angular = 10.0 * std::f64::consts::PI;
+        let scales = Scales::of_angular_frequency(UnitSystem::Si, 2.0, angular).expect("valid");
         assert_eq!(scales.angular_frequency(), 10.0 * std::f64::consts::PI);
-        assert_eq!(scales.si_per_unit(Quantity::FrequencyRatio), 5.0);
+        assert_eq!(scales.per_unit(Quantity::FrequencyRatio), 5.0);
         let stiffness = 200.0 * std::f64::consts::PI * std::f64::consts::PI;
-        assert!((scales.stiffness_n_per_m() / stiffness - 1.0).abs() < 1e-15);
-        assert!(Scales::of_natural_frequency(2.0, 0.0).is_err());
-        assert!(Scales::of_natural_frequency(-2.0, 5.0).is_err());
+        assert!((scales.stiffness() / stiffness - 1.0).abs() < 1e-15);
+        assert!(Scales::of_angular_frequency(UnitSystem::Si, 2.0, 0.0).is_err());
+        assert!(Scales::of_angular_frequency(UnitSystem::Si, -2.0, 5.0).is_err());
     }
 
     #[test]

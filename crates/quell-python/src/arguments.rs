@@ -1,5 +1,6 @@
 //! Arguments shared by several verbs: pairs of numbers, states, ends of a range.
 
+use quell::study::Study;
 use quell::{Failure, quantity};
 use quell_model::units::{Quantity, Scales};
 
@@ -32,8 +33,12 @@ pub(crate) fn state(
 }
 
 /// The ends of a range of a parameter, in the unit of its key.
-pub(crate) fn ends(parameter: &str, (from, to): &Pair) -> Result<(f64, f64), Failure> {
-    let from = quantity::value_of_key(from, parameter, "--from")?;
-    let to = quantity::value_of_key(to, parameter, "--to")?;
+pub(crate) fn ends(
+    study: &Study,
+    parameter: &str,
+    (from, to): &Pair,
+) -> Result<(f64, f64), Failure> {
+    let from = quantity::value_of(Some(study), from, parameter, "--from")?;
+    let to = quantity::value_of(Some(study), to, parameter, "--to")?;
     Ok((from, to))
 }

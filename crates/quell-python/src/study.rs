@@ -458,8 +458,9 @@ impl NativeStudy {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<NativeAnswer> {
         let (up, down) = ways;
+        let study = self.study();
         let range = call::here(py, move || {
-            let (from, to) = ends(&parameter, &range)?;
+            let (from, to) = ends(&study, &parameter, &range)?;
             Ok(Range { parameter, from, to, points })
         })?;
         let request = SweepRequest { range, up, down };
@@ -488,7 +489,7 @@ impl NativeStudy {
             Ok((
                 read(displacement, Quantity::Displacement, "--displacement")?,
                 read(velocity, Quantity::Velocity, "--velocity")?,
-                range_over(over)?,
+                range_over(&study, over)?,
             ))
         })?;
         let layout = match layout {
@@ -510,7 +511,8 @@ impl NativeStudy {
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<NativeAnswer> {
-        let over = call::here(py, move || range_over(over))?;
+        let study = self.study();
+        let over = call::here(py, move || range_over(&study, over))?;
         let layout = match layout {
             (_, Some((count, seed))) => StartLayout::Sample { count, seed },
             (Some((columns, rows)), None) => StartLayout::Grid { columns, rows },
@@ -616,9 +618,12 @@ impl NativeStudy {
 }
 
 /// The parameter of `over` with its range.
-fn range_over(over: Option<(String, Pair, usize)>) -> Result<Option<Range>, Failure> {
+fn range_over(
+    study: &Study,
+    over: Option<(String, Pair, usize)>,
+) -> Result<Option<Range>, Failure> {
     let Some((parameter, range, points)) = over else { return Ok(None) };
-    let (from, to) = ends(&parameter, &range)?;
+    let (from, to) = ends(study, &parameter, &range)?;
     Ok(Some(Range { parameter, from, to, points }))
 }
 

@@ -72,7 +72,7 @@ def test_runs_begin_at_a_given_state() -> None:
     later = belt.simulate(5.0, start={"displacement": 0.2, "velocity": -0.1, "time": 1.0})
     assert later.start == {"time": 1.0, "displacement": 0.2, "velocity": -0.1} and "from x = 0.2, x′ = -0.1 at τ = 1" in later.sentence
     in_si = gallery.belt_in_si().simulate(1.0, start=("20mm", "-0.1 m/s"))
-    assert in_si.start["displacement_m"] == pytest.approx(0.02) and in_si.start["velocity_m_per_s"] == pytest.approx(-0.1)
+    assert in_si.start["displacement"] == pytest.approx(0.02) and in_si.start["velocity"] == pytest.approx(-0.1)
     assert in_si.facts == gallery.belt_in_si().simulate(1.0, start={"displacement": 0.02, "velocity": -0.1}).facts
     given = gallery.study("hoffmann").simulate(3.0, start={"velocity.x": 0.1})
     assert given.start["state"] == [0.0, 0.0, 0.1, 0.0]

@@ -86,11 +86,11 @@ def test_the_file_of_columns_is_up_to_date() -> None:
 
 def test_facts_come_before_arrays_and_every_name_is_an_entry() -> None:
     orbit = gallery.result("orbit in SI")
-    # A fact is the number of the equations, an entry the variable with its unit.
-    assert orbit.displacement_m == float(orbit["displacement_value"]) and orbit["displacement"].dims == ("time",)
+    # A fact is a number, an entry the variable with its unit.
+    assert orbit.displacement == float(orbit["displacement_value"]) and orbit["displacement"].dims == ("time",)
     assert isinstance(orbit.displacement, float)  # type: ignore[attr-defined]
     run = gallery.result("simulate in SI")
-    assert isinstance(run.time, np.ndarray) and run.time[-1] == run.final["time_s"]  # type: ignore[attr-defined]
+    assert isinstance(run.time, np.ndarray) and run.time[-1] == run.final["time"]  # type: ignore[attr-defined]
     for name in run:
         assert name in run and name in dir(run) and run[name] is not None
     assert len(run) == len(list(run)) == len(run.keys())

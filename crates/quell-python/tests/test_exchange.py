@@ -107,7 +107,7 @@ def test_quantities_are_converted_to_the_unit_of_the_key() -> None:
         assert given.settings[path] == (pytest.approx(value, rel=1e-15) if isinstance(value, float) else value), path
     at = plain.friction([20, 30] * UNITS("mm/s"))
     assert np.allclose(at.slip_velocity, [0.02, 0.03], rtol=1e-15)
-    assert plain.simulate(1500 * UNITS.millisecond).final["time_s"] == pytest.approx(1.5, rel=1e-15)
+    assert plain.simulate(1500 * UNITS.millisecond).final["time"] == pytest.approx(1.5, rel=1e-15)
     assert plain.simulate(t_eval=[100, 200] * UNITS.millisecond).time.tolist() == pytest.approx([0.1, 0.2])
     swept = plain.map("growth", {"belt.belt_velocity_m_per_s": [50, 100] * UNITS("mm/s")})
     assert swept.arrays["belt_velocity_m_per_s"].values.tolist() == pytest.approx([0.05, 0.1])

@@ -9,12 +9,15 @@ use quell_model::units::{Quantity, Scales};
 use serde_json::Value as Json;
 
 use crate::complaint::Complaint;
-use crate::study::{DiscStudy, Kind, Study, SystemUnits, vocabulary};
+use crate::study::{DiscStudy, Kind, Study, UnitSystem, vocabulary};
 
-/// Unit of a quantity in the numbers of the equations. The lengths of a study in SI are metres.
-pub fn unit_of(quantity: Quantity, si: bool) -> String {
+/// Unit of a quantity in the numbers of the equations; lengths are those of the study.
+pub fn unit_of(quantity: Quantity, scales: Option<Scales>) -> String {
     let unit = quantity.scaled_unit();
-    if si { unit.replacen("length", "m", 1) } else { unit.to_owned() }
+    match scales.and_then(|scales| scales.unit(Quantity::Displacement)) {
+        Some(length) => unit.replacen("length", length, 1),
+        None => unit.to_owned(),
+    }
 }
 
 /// Reads an angular frequency of a system, or a frequency with its unit where the study has units.
@@ -23,7 +26,7 @@ pub fn unit_of(quantity: Quantity, si: bool) -> String {
 /// A complaint about `option` where the text is neither.
 pub fn system_frequency(
     text: &str,
-    units: SystemUnits,
+    units: UnitSystem,
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
     if let Ok(number) = text.trim().parse::<f64>()
@@ -31,13 +34,13 @@ pub fn system_frequency(
     {
         return Ok(number);
     }
-    if units != SystemUnits::None
+    if units != UnitSystem::None
         && let Ok(hertz) = measure::read(text.trim(), Some("Hz"))
     {
         return Ok(std::f64::consts::TAU * hertz);
     }
     let allowed = match units {
-        SystemUnits::None => "an angular frequency in the units of the study",
+        UnitSystem::None => "an angular frequency in the units of the study",
         _ => "an angular frequency in rad/s, or a frequency with its unit such as 2kHz",
     };
     Err(Box::new(Complaint::option(option, text, allowed)))
@@ -50,7 +53,7 @@ pub fn system_frequency(
 pub fn of_system(
     text: &str,
     quantity: Option<Quantity>,
-    units: SystemUnits,
+    units: UnitSystem,
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
     let unit = quantity.and_then(|quantity| units.unit(quantity));
@@ -74,7 +77,7 @@ pub fn of_system(
 /// As [`of_system`], and for a negative time.
 pub fn duration_of_system(
     text: &str,
-    units: SystemUnits,
+    units: UnitSystem,
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
     let time = of_system(text, Some(Quantity::Time), units, option)?;
@@ -96,14 +99,13 @@ pub fn parse(
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
     let text = text.trim();
-    let unit = match (quantity, quantity.si_unit()) {
-        (Quantity::Angle, _) => Some("rad"),
-        (Quantity::Ratio, _) => Some("1"),
-        (_, Some((unit, _))) => Some(unit).filter(|_| scales.is_some()),
-        (_, None) => None,
+    let unit = match quantity {
+        Quantity::Angle => Some("rad"),
+        Quantity::Ratio => Some("1"),
+        _ => scales.and_then(|scales| scales.unit(quantity)),
     };
     let found = measured(text, unit, quantity.scaled_unit(), option)?;
-    let found = scales.map_or(found, |scales| scales.from_si(quantity, found));
+    let found = scales.map_or(found, |scales| scales.from_units(quantity, found));
     if found.is_finite() {
         return Ok(found);
     }
@@ -153,7 +155,8 @@ pub fn dither_frequency(
     }
 }
 
-/// Reads a value of the number that a path of this study names, in the unit of its key.
+/// Reads a value of the number that a path of this study names, in the unit of its key. If the path names no number, which its own reader
+/// rejects, it must still be a number.
 ///
 /// # Errors
 /// As [`parse`].
@@ -163,25 +166,16 @@ pub fn value_of(
     path: &str,
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
-    match study {
-        Some(study) if matches!(study.kind(), Kind::System(_)) => {
-            let unit = study.measured_in(path).unwrap_or_default();
-            measured(text, Some(unit).filter(|unit| !unit.is_empty()), unit, option)
+    let (wanted, unit) = match (study.map(|study| study.address(path)), vocabulary::resolve(path)) {
+        (Some(Ok(address)), _) => (address.measured_in, address.unit),
+        // Whether a study that could not be read has units is unknown: they are accepted then.
+        (None, Ok(address)) => {
+            let units = UnitSystem::Si;
+            (address.key.measured_in(units), address.key.unit_in_words(units))
         }
-        _ => value_of_key(text, path, option),
-    }
-}
-
-/// Reads a value of the number that a path of a belt or a disc names, in the unit of its key. If the path names no key, which
-/// its own reader rejects, it must still be a number.
-///
-/// # Errors
-/// As [`parse`].
-pub fn value_of_key(text: &str, path: &str, option: &'static str) -> Result<f64, Box<Complaint>> {
-    let Ok(address) = vocabulary::resolve(path) else {
-        return measured(text, Some("1"), "", option);
+        (Some(Err(_)), _) | (None, Err(_)) => (Some("1"), ""),
     };
-    measured(text, address.key.measured_in(), address.key.unit_in_words(), option)
+    measured(text, wanted, unit, option)
 }
 
 /// A finite number in `unit`; `otherwise` describes numbers without a unit.
@@ -208,7 +202,9 @@ fn measured(
     let allowed = match why {
         None => wanted,
         Some(why @ Unread::NoUnitHere(_)) => {
-            format!("{wanted}: {why}; units require a study in SI, with belt.mass_kg and SI keys")
+            format!(
+                "{wanted}: {why}; units require a study with units, such as that of a belt with its mass"
+            )
         }
         Some(why) => format!("{wanted}: {why}"),
     };
@@ -229,7 +225,7 @@ pub fn duration(
 ) -> Result<f64, Box<Complaint>> {
     let time = parse(text, Quantity::Time, scales, option)?;
     let longest =
-        scales.map(|scales| format!("{} s", digits(scales.to_si(Quantity::Time, MOST_TIME), 6)));
+        scales.map(|scales| format!("{} s", digits(scales.to_units(Quantity::Time, MOST_TIME), 6)));
     bearable_up_to(time, text, option, longest)
 }
 
@@ -285,19 +281,41 @@ mod tests {
 
     #[test]
     fn a_value_is_in_the_unit_of_its_key() {
-        let of =
-            |text, path| value_of_key(text, path, "--from").map_err(|complaint| complaint.allowed);
+        let study = Study::parse(
+            "[belt]
+mass = 2
+stiffness = 200
+damping_ratio = 0
+normal_load = 1
+belt_velocity = 1
+[friction]
+law = \"coulomb\"
+\
+             coefficient = 0.3
+[dither]
+direction = \"tangential\"
+waveform = \"sine\"
+amplitude = 1
+frequency_hz = 50
+",
+            &[],
+        )
+        .expect("valid");
+        let of = |text, path| {
+            value_of(Some(&study), text, path, "--from").map_err(|complaint| complaint.allowed)
+        };
+        assert_eq!(of("5kN", "dither.amplitude"), Ok(5000.0));
         assert_eq!(of("5kN", "dither.amplitude_n"), Ok(5000.0));
         assert_eq!(of("5000", "dither.amplitude_n"), Ok(5000.0));
         assert_eq!(of("90deg", "dither.phase"), Ok(std::f64::consts::FRAC_PI_2));
         assert_eq!(of("2%", "belt.damping_ratio"), Ok(0.02));
         assert!(of("5m", "dither.amplitude_n").expect_err("a length").contains("in N"));
-        assert!(of("5kN", "dither.amplitude").expect_err("no unit").contains("mass_kg"));
+        assert!(of("5kN", "dither.waveform").is_err());
     }
 
     #[test]
     fn units_need_a_study_in_si() {
         let complaint = parse("3s", Quantity::Time, None, "--until").expect_err("no scales");
-        assert!(complaint.allowed.contains("mass_kg") && complaint.key == "--until");
+        assert!(complaint.allowed.contains("study with units") && complaint.key == "--until");
     }
 }

@@ -1,9 +1,11 @@
 //! Valid and invalid studies: the values that are read, and the errors that are reported.
 
 use std::f64::consts::{PI, TAU};
+use std::fmt::Write as _;
 
+use quell_model::units::Quantity;
 use quell_study::study::{Axis, InitialState};
-use quell_study::{BeltStudy, Change, Complaints, Fault};
+use quell_study::{BeltStudy, Change, Complaints, DiscStudy, Fault};
 
 const GOOD: &str = r#"schema = 1
 title = "Stribeck belt"
@@ -229,7 +231,7 @@ fn normal_dither_beyond_the_load_is_refused() {
     let text = SI.replace("amplitude_n_rms = 60.0", "amplitude_n_rms = 300.0");
     let reported = complaints(&text, &[]);
     assert_eq!((reported.len(), reported[0].key.as_str()), (1, "dither[0].amplitude_n_rms"));
-    assert!(reported[0].allowed.contains("normal_force_n = 350 N"), "{}", reported[0]);
+    assert!(reported[0].allowed.contains("normal_load = 350 N"), "{}", reported[0]);
     let given = reported[0].value.as_f64().expect("a number");
     assert!((given - 300.0).abs() < 1e-10, "{given}");
 }
@@ -301,6 +303,73 @@ fn a_disc_is_no_study_of_a_belt() {
 }
 
 #[test]
+fn bare_numbers_of_a_disc_in_si_are_those_of_its_keys_in_si() {
+    let body = "inner_radius_ratio = 0.5\npoisson_ratio = 0.3\nradial_modes = 1\nnodal_diameters = 2\n\
+        youngs_modulus_pa = 2.1e11\ndensity_kg_per_m3 = 7800\nthickness_m = 0.01\nouter_radius_m = 0.15\n";
+    let twins = format!(
+        "schema = 1\n[disc]\n{body}[disc.load]\nradius_ratio = 0.75\nmass_kg = 0.1\n\
+         damping_n_s_per_m = 10\nstiffness_n_per_m = 1e6\nfriction_n = 2e4\nspeed_hz = 50\n\
+         [dither]\ndirection = \"normal\"\namplitude = 0.5\nfrequency_hz = 5000\n"
+    );
+    let bare = format!(
+        "schema = 1\n[disc]\nunits = \"SI\"\n{body}[disc.load]\nradius_ratio = 0.75\nmass = 0.1\n\
+         damping = 10\nstiffness = \"1000 N/mm\"\nfriction = 2e4\nspeed = {:?}\n\
+         [dither]\ndirection = \"normal\"\namplitude = 0.5\nfrequency = \"5 kHz\"\n",
+        TAU * 50.0
+    );
+    let read = |text: &str| DiscStudy::parse(text, &[]).unwrap_or_else(|wrong| panic!("{wrong:?}"));
+    let (twins, bare) = (read(&twins), read(&bare));
+    assert_eq!(bare.disc(), twins.disc());
+    for (path, twin, value, in_twin) in [
+        ("disc.load.friction", "disc.load.friction_n", 3e4, 3e4),
+        ("disc.load.speed", "disc.load.speed_hz", TAU * 60.0, 60.0),
+        ("dither.frequency", "dither.frequency_hz", TAU * 7000.0, 7000.0),
+        ("dither.amplitude", "dither.amplitude", 0.25, 0.25),
+    ] {
+        let at = bare.disc_at(&[(path, value)]).expect(path);
+        assert_eq!(Some(at), twins.disc_at(&[(twin, in_twin)]), "{path}");
+    }
+}
+
+#[test]
+fn loads_of_listed_modes_may_be_given_in_si() {
+    let load = "[disc.load]\nradius_ratio = 0.75\nmass_kg = 0.1\ndamping_n_s_per_m = 10\n\
+        stiffness = \"1 kN/mm\"\nfriction_n = 2e4\nspeed_rpm = 3000\n";
+    let computed = format!(
+        "schema = 1\n[disc]\ninner_radius_ratio = 0.5\npoisson_ratio = 0.3\nradial_modes = 1\n\
+         nodal_diameters = 2\nyoungs_modulus_pa = 2.1e11\ndensity_kg_per_m3 = 7800\n\
+         thickness_m = 0.01\nouter_radius_m = 0.15\n{load}"
+    );
+    let read = |text: &str| DiscStudy::parse(text, &[]).unwrap_or_else(|wrong| panic!("{wrong:?}"));
+    let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-13, "{a} {b}");
+    let computed = read(&computed);
+    let hertz = computed.reference_hz().expect("a material");
+    let mut modes = String::new();
+    for mode in computed.disc().modes() {
+        let (diameters, hertz, shape) = (mode.diameters, mode.ratio * hertz, mode.shape_at_load);
+        let _ = writeln!(
+            modes,
+            "[[disc.mode]]\ndiameters = {diameters}\nfrequency_hz = {hertz:?}\nshape_at_load = {shape:?}"
+        );
+    }
+    // M_p = ρhπ(a² − b²).
+    let mass = 7800.0 * 0.01 * PI * 0.15 * 0.15 * (1.0 - 0.25);
+    let plate = format!("plate_mass_kg = {mass:?}\nouter_radius_m = \"150 mm\"\n");
+    let listed = read(&format!("schema = 1\n[disc]\n{plate}{load}{modes}"));
+    close(listed.disc().plate_mass_kg().expect("given"), mass);
+    for path in ["mass", "damping", "stiffness", "friction", "speed"] {
+        let path = format!("disc.load.{path}");
+        close(listed.disc().get(&path).expect(&path), computed.disc().get(&path).expect(&path));
+    }
+    let wrong = |text: &str| DiscStudy::parse(text, &[]).expect_err(text);
+    let without = wrong(&format!("schema = 1\n[disc]\nouter_radius_m = 0.15\n{load}{modes}"));
+    let told = without.iter().find(|complaint| complaint.key == "disc.load.mass_kg");
+    assert!(told.is_some_and(|told| told.allowed.contains("disc.plate_mass_kg")), "{without:?}");
+    let both = wrong("schema = 1\n[disc]\ninner_radius_ratio = 0.5\nplate_mass_kg = 3\n");
+    assert!(both.iter().any(|one| one.key == "disc.plate_mass_kg" && one.origin.line() == Some(4)));
+}
+
+#[test]
 fn si_and_the_numbers_of_the_equations_give_the_same_belt() {
     let si = BeltStudy::parse(SI, &[]).unwrap_or_else(|errors| panic!("{errors:?}"));
     let (mass, stiffness) = (2.5_f64, 1.0e6_f64);
@@ -338,7 +407,7 @@ fn si_and_the_numbers_of_the_equations_give_the_same_belt() {
         let (a, b) = a.zip(b).expect(path);
         assert!((a - b).abs() <= 1e-15 * b.abs(), "{path}: {a} {b}");
     }
-    assert_eq!(si.scales().map(|scales| scales.mass_kg()), Some(2.5));
+    assert_eq!(si.scales().map(|scales| scales.mass()), Some(2.5));
 }
 
 #[test]
@@ -355,7 +424,7 @@ fn a_belt_in_si_may_give_its_natural_frequency_and_damping_ratio() {
     let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 4e-15, "{a} {b}");
     assert_eq!(other.belt().damping_ratio(), ratio);
     close(other.belt().normal_load(), plain.belt().normal_load());
-    close(other.scales().expect("in SI").stiffness_n_per_m(), scales.stiffness_n_per_m());
+    close(other.scales().expect("in SI").stiffness(), scales.stiffness());
     // Each may stand alone, and `--set` takes one in the place of the other.
     let half = SI.replace("damping_n_s_per_m = 15.8", "damping_ratio = 0.005");
     assert_eq!(BeltStudy::parse(&half, &[]).expect("valid").belt().damping_ratio(), 0.005);
@@ -366,7 +435,7 @@ fn a_belt_in_si_may_give_its_natural_frequency_and_damping_ratio() {
     // Both at once is a contradiction.
     for (line, more, key) in [
         (stiffness, "natural_frequency_hz = 100", "belt.natural_frequency_hz"),
-        ("damping_n_s_per_m = 15.8", "damping_ratio = 0.01", "belt.damping_ratio"),
+        ("damping_n_s_per_m = 15.8", "damping_ratio = 0.01", "belt.damping_n_s_per_m"),
     ] {
         let both = SI.replace(line, &format!("{line}\n{more}"));
         let complaints = BeltStudy::parse(&both, &[]).expect_err("both are given");
@@ -421,19 +490,22 @@ fn numbers_may_have_units() {
         assert!(complaints[0].allowed.contains(part), "{text}: {}", complaints[0].allowed);
     }
     let complaints = BeltStudy::parse(GOOD, &set(&["belt.normal_load=5N"])).expect_err("no SI");
-    assert!(complaints[0].allowed.contains("units require a study in SI"), "{complaints:?}");
+    assert!(
+        complaints[0].allowed.contains("units require belt.mass and belt.stiffness"),
+        "{complaints:?}"
+    );
 }
 
 #[test]
 fn hints_are_keys_that_the_study_has() {
-    for (path, si, scaled) in [
-        ("belt.normal_laod", "belt.normal_force_n", "belt.normal_load"),
-        ("belt.initial.displacment", "belt.initial.displacement_m", "belt.initial.displacement"),
-        ("belt.initial.velocty", "belt.initial.velocity_m_per_s", "belt.initial.velocity"),
-        ("solver.setle", "solver.settle_s", "solver.settle"),
-        ("dither[0].amplitud", "dither[0].amplitude_n", "dither[0].amplitude"),
+    for (path, wanted) in [
+        ("belt.normal_laod", "belt.normal_load"),
+        ("belt.initial.displacment", "belt.initial.displacement"),
+        ("belt.initial.velocty", "belt.initial.velocity"),
+        ("solver.setle", "solver.settle"),
+        ("dither[0].amplitud", "dither[0].amplitude"),
     ] {
-        for (text, wanted) in [(SI, si), (GOOD, scaled)] {
+        for text in [SI, GOOD] {
             let complaints =
                 BeltStudy::parse(text, &set(&[&format!("{path}=1")])).expect_err("no such key");
             let hint = complaints.iter().find_map(|complaint| complaint.suggestion.as_deref());
@@ -443,28 +515,24 @@ fn hints_are_keys_that_the_study_has() {
 }
 
 #[test]
-fn systems_do_not_mix() {
-    let mixed = SI.replace("normal_force_n", "normal_load");
-    let line = 1 + SI.lines().position(|line| line.starts_with("normal_force_n")).expect("there");
-    check(
-        &mixed,
-        &[(
-            Fault::Mixed,
-            "belt.normal_load",
-            Some(line),
-            "normal_force_n",
-            Some("belt.normal_force_n"),
-        )],
-    );
+fn a_bare_number_is_in_the_units_of_the_study() {
+    let bare = SI
+        .replace("normal_force_n", "normal_load")
+        .replace("belt_velocity_m_per_s = 0.02", "belt_velocity = '20 mm/s'")
+        .replace("damping_n_s_per_m", "damping")
+        .replace("amplitude_n = 40.0", "amplitude = '0.04 kN'")
+        .replace("frequency_hz = 3000.0", "frequency = '3 kHz'")
+        .replace("reference_velocity_m_per_s", "reference_velocity");
+    let belt = |text: &str| BeltStudy::parse(text, &[]).expect("valid").belt().clone();
+    assert_eq!(belt(&bare), belt(SI));
     let both = SI.replace("amplitude_n = 40.0", "amplitude_n = 40.0\namplitude_n_rms = 40.0");
     check(&both, &[(Fault::Conflict, "dither[1].amplitude_n_rms", Some(22), "not both", None)]);
-    let solver = format!("{SI}[solver]\nsettle = 100\n");
-    check(
-        &solver,
-        &[(Fault::Mixed, "solver.settle", Some(25), "settle_s", Some("solver.settle_s"))],
-    );
+    let solver = format!("{SI}[solver]\nsettle = 2\n");
+    let study = BeltStudy::parse(&solver, &[]).expect("valid");
+    let seconds = study.scales().expect("in SI").to_units(Quantity::Time, study.solver().settle);
+    assert!((seconds - 2.0).abs() < 1e-15, "{seconds}");
     let no_mass = SI.replace("mass_kg = 2.5\n", "");
-    check(&no_mass, &[(Fault::Missing, "belt.mass_kg", Some(2), "kg", None)]);
+    check(&no_mass, &[(Fault::Missing, "belt.mass", Some(2), "kg", None)]);
     let negative = SI.replace("mass_kg = 2.5", "mass_kg = -2.5").replace("= 350.0", "= -3");
     check(
         &negative,
@@ -476,7 +544,7 @@ fn systems_do_not_mix() {
 }
 
 #[test]
-fn suggestions_are_in_the_system_of_the_study() {
+fn suggestions_are_keys_of_every_study() {
     let reported = complaints(&SI.replace("damping_n_s_per_m", "dampng_ratio"), &[]);
     let unknown =
         reported.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
@@ -485,11 +553,11 @@ fn suggestions_are_in_the_system_of_the_study() {
     let reported = complaints(&SI.replace("normal_force_n", "normal_laod"), &[]);
     let unknown =
         reported.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
-    assert_eq!(unknown.suggestion.as_deref(), Some("belt.normal_force_n"));
+    assert_eq!(unknown.suggestion.as_deref(), Some("belt.normal_load"));
     let reported = complaints(&GOOD.replace("amplitude = 0.4", "amplitud_n = 0.4"), &[]);
     let unknown =
         reported.iter().find(|complaint| complaint.fault == Fault::Unknown).expect("unknown");
-    assert_eq!(unknown.suggestion.as_deref(), Some("dither.amplitude"));
+    assert_eq!(unknown.suggestion.as_deref(), Some("dither.amplitude_n"));
 }
 
 #[test]
@@ -536,7 +604,7 @@ fn set_complains_about_what_it_cannot_reach() {
     assert_eq!(one(&["disc.inner_radius_ratio=1"]).fault, Fault::Conflict);
     assert_eq!(one(&["belt.normal_load=-1"]).key, "belt.normal_load");
     assert_eq!(one(&["belt.normal_force_n=3"]).fault, Fault::Mixed);
-    let reported = complaints(SI, &["dither.phase=1", "belt.belt_velocity=1"]);
+    let reported = complaints(SI, &["dither.phase=1", "belt.belt_velocity=-1"]);
     assert!(
         reported
             .iter()
@@ -545,7 +613,7 @@ fn set_complains_about_what_it_cannot_reach() {
     assert!(
         reported
             .iter()
-            .any(|complaint| complaint.fault == Fault::Mixed
+            .any(|complaint| complaint.fault == Fault::Value
                 && complaint.key == "belt.belt_velocity")
     );
     assert!(Change::parse("belt.belt_velocity", "--set").is_err());

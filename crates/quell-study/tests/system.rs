@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use quell_model::system::{InputTarget, Structure};
 use quell_model::units::Quantity;
-use quell_study::study::{Change, SystemStart, SystemStudy, SystemUnits};
+use quell_study::study::{Change, SystemStart, SystemStudy, UnitSystem};
 use quell_study::{Complaints, Fault, Study};
 
 /// Mode coupling with dither, every key that is common.
@@ -88,7 +88,7 @@ fn a_mechanical_system_is_read_as_written() {
     assert_eq!(system.inputs[1].profile.waves()[0].phase, 0.5);
     assert_eq!(study.observe(), [1.0, 0.0]);
     assert_eq!(*study.initial(), SystemStart::Values(vec![0.25, 0.0, 0.0, -1.0]));
-    assert_eq!(study.units(), SystemUnits::None);
+    assert_eq!(study.units(), UnitSystem::None);
     assert!(study.warnings().is_empty());
 }
 
@@ -336,7 +336,7 @@ fn changes_and_axes_reach_words_and_units() {
         + "[[sweep]]\nparameter = \"dither[0].frequency_hz\"\nfrom = \"1kHz\"\nto = 2000\npoints = 2\n";
     let study = study(&text);
     assert_eq!(study.sweeps()[0].axis.value(0), 1000.0);
-    assert_eq!(study.sweeps()[0].target.unit(), "Hz");
+    assert_eq!(study.sweeps()[0].target.unit, "Hz");
     let same = text
         + "[[sweep]]\nparameter = \"dither[0].amplitude\"\nvalues = [1]\n[[sweep]]\nparameter = \
                        \"dither[0].amplitude\"\nvalues = [2]\n";

@@ -99,7 +99,7 @@ pub(crate) fn refused_where_averaged(system: &System, verb: &str) -> Result<(), 
 fn not_passive(law: &Friction, of: &str, scales: Option<Scales>) -> Option<String> {
     let Friction::Lugre(law) = law else { return None };
     let (most, damping) = (law.largest_passive_damping()?, law.bristle_damping());
-    let per_unit = scales.map_or(1.0, |scales| scales.si_per_unit(BRISTLE_DAMPING.quantity));
+    let per_unit = scales.map_or(1.0, |scales| scales.per_unit(BRISTLE_DAMPING.quantity));
     let unit = scales.map_or("", |_| " s/m");
     (damping > most).then(|| {
         format!(

@@ -12,7 +12,7 @@ use std::path::Path;
 use quell_model::units::{Quantity, Scales};
 
 use crate::fields::PER_VELOCITY;
-use crate::study::{BeltStudy, Kind, Study, SystemUnits};
+use crate::study::{BeltStudy, Kind, Study, UnitSystem};
 
 /// One array with its name and unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +75,7 @@ pub struct Dataset {
     provenance: Provenance,
     scales: Option<Scales>,
     /// The units of a study of a system.
-    units: Option<SystemUnits>,
+    units: Option<UnitSystem>,
     axes: Vec<Array>,
     arrays: Vec<Array>,
 }
@@ -130,45 +130,28 @@ impl Dataset {
         self
     }
 
-    /// Adds an axis of numbers of the equations, converted to SI in a study in SI. A single axis is also added as an array
-    /// under its name with the suffix of the unit.
+    /// Adds an axis of numbers of the equations, in the units of the study.
     #[must_use]
     pub fn axis(mut self, name: &str, quantity: Quantity, values: Vec<f64>) -> Self {
-        let (axis, suffix) = self.in_units(name, quantity, values);
-        match self.axes.first().map(|first| format!("{}_", first.name)) {
-            // With several axes, an array of the length of one axis would be invalid.
-            Some(twin) => self.arrays.retain(|array| !array.name.starts_with(&twin)),
-            None => self.arrays.extend(twin(&axis, suffix)),
-        }
-        self.axes.push(axis);
+        self.axes.push(self.in_units(name, quantity, values));
         self
     }
 
-    /// Adds an array of numbers of the equations; in a study in SI converted to SI, and also under its name with the suffix of
-    /// the unit.
+    /// Adds an array of numbers of the equations, in the units of the study.
     #[must_use]
     pub fn array(mut self, name: &str, quantity: Quantity, values: Vec<f64>) -> Self {
-        let (array, suffix) = self.in_units(name, quantity, values);
-        self.push_both(array, suffix);
+        self.arrays.push(self.in_units(name, quantity, values));
         self
     }
 
-    /// Adds slopes per unit velocity; per m/s in a study in SI.
+    /// Adds slopes per unit velocity.
     #[must_use]
-    pub fn per_velocity(mut self, name: &str, mut values: Vec<f64>) -> Self {
-        let (unit, si_unit, suffix) = PER_VELOCITY;
-        let Some(scales) = self.scales else {
-            let of_system =
-                self.units.map(|units| units.unit(Quantity::PerVelocity).unwrap_or("1"));
-            let unit = of_system.unwrap_or(unit);
-            self.arrays.push(Array::new(name, unit, values));
-            return self;
-        };
-        let omega = scales.si_per_unit(Quantity::Velocity);
-        for value in &mut values {
-            *value /= omega;
+    pub fn per_velocity(mut self, name: &str, values: Vec<f64>) -> Self {
+        let mut array = self.in_units(name, Quantity::PerVelocity, values);
+        if self.scales.is_none() && self.units.is_none() {
+            (array.unit, array.scaling) = readable(PER_VELOCITY);
         }
-        self.push_both(Array::new(name, si_unit, values), Some(suffix));
+        self.arrays.push(array);
         self
     }
 
@@ -206,31 +189,18 @@ impl Dataset {
         &self.provenance
     }
 
-    /// An array in the units of the study, and the suffix of its SI unit.
-    fn in_units(
-        &self,
-        name: &str,
-        quantity: Quantity,
-        mut values: Vec<f64>,
-    ) -> (Array, Option<&'static str>) {
+    /// An array in the units of the study.
+    fn in_units(&self, name: &str, quantity: Quantity, mut values: Vec<f64>) -> Array {
         if let Some(units) = self.units {
-            return (Array::new(name, units.unit(quantity).unwrap_or("1"), values), None);
+            return Array::new(name, units.unit(quantity).unwrap_or("1"), values);
         }
-        let Some((scales, (unit, suffix))) = self.scales.zip(quantity.si_unit()) else {
-            return (Array::new(name, quantity.scaled_unit(), values), None);
+        let Some((one, unit)) = self.scales.and_then(|scales| scales.own(quantity)) else {
+            return Array::new(name, quantity.scaled_unit(), values);
         };
-        let factor = scales.si_per_unit(quantity);
         for value in &mut values {
-            *value *= factor;
+            *value *= one;
         }
-        (Array::new(name, unit, values), Some(suffix))
-    }
-
-    /// Adds an array, and a copy under its name with the suffix.
-    fn push_both(&mut self, array: Array, suffix: Option<&str>) {
-        let twin = twin(&array, suffix);
-        self.arrays.push(array);
-        self.arrays.extend(twin);
+        Array::new(name, unit, values)
     }
 
     /// The dataset as CSV.
@@ -294,11 +264,6 @@ impl Dataset {
     }
 }
 
-/// A copy of an array under its name with the suffix of its unit.
-fn twin(array: &Array, suffix: Option<&str>) -> Option<Array> {
-    suffix.map(|suffix| Array { name: format!("{}_{suffix}", array.name), ..array.clone() })
-}
-
 /// A unit in the notation of unit packages such as pint, and the scale of the numbers.
 pub fn readable(unit: &str) -> (String, String) {
     let (head, inner) = unit.split_once(" (").unwrap_or((unit, ""));
@@ -358,8 +323,8 @@ mod tests {
             .array("sticking", Quantity::Count, vec![1.0])
             .csv();
         let rows: Vec<&str> = csv.lines().filter(|line| !line.starts_with('#')).collect();
-        assert_eq!(rows, ["time,time_s,velocity,velocity_m_per_s,sticking", "1.0,1.0,5.0,5.0,1.0"]);
-        let units = "# units: time [s], time_s [s], velocity [m/s], velocity_m_per_s [m/s], sticking [dimensionless]";
+        assert_eq!(rows, ["time,velocity,sticking", "1.0,5.0,1.0"]);
+        let units = "# units: time [s], velocity [m/s], sticking [dimensionless]";
         assert!(csv.contains(units), "{csv}");
         let plane = Dataset::new(&study, "basins")
             .axis("velocity", Quantity::Velocity, vec![0.1, 0.2])

@@ -1,30 +1,27 @@
-//! Fields of a result in JSON: names, units, SI values, and reasons for null values.
+//! Fields of a result in JSON: names, values in the units of the study, and reasons for null values.
 //!
-//! In a study in SI, each field is accompanied by a second one in SI, whose name has the unit as a suffix (`time`, `time_s`).
 //! `units` contains the unit of every field, and `why` the reason for every null.
 
-use crate::quantity::unit_of;
-use crate::study::SystemUnits;
+use crate::study::UnitSystem;
 use quell_model::units::{Quantity, Scales};
 use serde_json::{Map, Value as Json};
 
-/// A slope per unit velocity: its unit, its SI unit, and the suffix of the SI unit.
-pub(crate) const PER_VELOCITY: (&str, &str, &str) =
-    ("1/length (per velocity/ω₀)", "s/m", "s_per_m");
+/// The unit of a slope per unit velocity of a study without units.
+pub(crate) const PER_VELOCITY: &str = "1/length (per velocity/ω₀)";
 
-/// The SI values of a study's numbers.
+/// The units of a study's numbers.
 #[derive(Clone, Copy, Debug)]
-enum SiValues {
-    /// Numbers of the equations of one mass, scaled by its mass and stiffness.
-    Scaled(Scales),
+enum FieldUnits {
+    /// Numbers of the equations of one mass, scaled by its mass and stiffness in a study with units.
+    Scaled(Option<Scales>),
     /// Numbers of a system in the units of its file.
-    System(SystemUnits),
+    System(UnitSystem),
 }
 
 /// An object under construction.
 #[derive(Clone, Debug)]
 pub struct Fields {
-    si: Option<SiValues>,
+    of: FieldUnits,
     object: Map<String, Json>,
     units: Map<String, Json>,
     why: Map<String, Json>,
@@ -33,20 +30,20 @@ pub struct Fields {
 impl Fields {
     /// An empty object for a study with these scales.
     pub fn new(scales: Option<Scales>) -> Self {
-        let si = scales.map(SiValues::Scaled);
-        Self { si, object: Map::new(), units: Map::new(), why: Map::new() }
+        let of = FieldUnits::Scaled(scales);
+        Self { of, object: Map::new(), units: Map::new(), why: Map::new() }
     }
 
     /// An empty object for a study of a system in these units.
-    pub fn of_system(units: SystemUnits) -> Self {
-        Self { si: Some(SiValues::System(units)), ..Self::new(None) }
+    pub fn of_system(units: UnitSystem) -> Self {
+        Self { of: FieldUnits::System(units), ..Self::new(None) }
     }
 
     /// The scales of the study of one mass.
     pub fn scales(&self) -> Option<Scales> {
-        match self.si {
-            Some(SiValues::Scaled(scales)) => Some(scales),
-            _ => None,
+        match self.of {
+            FieldUnits::Scaled(scales) => scales,
+            FieldUnits::System(_) => None,
         }
     }
 
@@ -67,7 +64,7 @@ impl Fields {
         self.plain(name, value)
     }
 
-    /// Adds a quantity, and in a study in SI also its SI value.
+    /// Adds a quantity.
     pub fn number(&mut self, name: &str, quantity: Quantity, value: f64) -> &mut Self {
         self.known(name, quantity, Ok(value))
     }
@@ -79,115 +76,70 @@ impl Fields {
         quantity: Quantity,
         value: Result<f64, String>,
     ) -> &mut Self {
-        let value = value
-            .and_then(|value| if value.is_finite() { Ok(value) } else { Err(beyond_range(value)) });
-        let twin = self.twin(name, quantity);
-        self.name_units(name, quantity, twin.as_ref());
-        match value {
-            Ok(value) => {
-                self.object.insert(name.to_owned(), value.into());
-                if let Some((key, factor, _)) = twin {
-                    self.object.insert(key, (value * factor).into());
-                }
-            }
-            Err(why) => {
-                self.unknown(name, why);
-                if let Some((key, ..)) = twin {
-                    self.object.insert(key, Json::Null);
-                }
-            }
-        }
-        self
+        let (one, unit) = self.one(name, quantity);
+        self.units.insert(name.to_owned(), unit.into());
+        self.finite(name, value.map(|value| value * one))
     }
 
     /// Adds an array of a quantity; values that are not finite become null.
     pub fn numbers(&mut self, name: &str, quantity: Quantity, values: &[f64]) -> &mut Self {
-        let twin = self.twin(name, quantity);
-        self.name_units(name, quantity, twin.as_ref());
-        self.object.insert(name.to_owned(), values.into());
-        if let Some((key, factor, _)) = twin {
-            let values: Vec<f64> = values.iter().map(|value| value * factor).collect();
-            self.object.insert(key, values.into());
-        }
-        self
-    }
-
-    /// Adds an array of slopes per unit velocity, in SI per m/s.
-    pub fn per_velocity(&mut self, name: &str, values: &[f64]) -> &mut Self {
-        if matches!(self.si, Some(SiValues::System(_))) {
-            return self.numbers(name, Quantity::PerVelocity, values);
-        }
-        self.object.insert(name.to_owned(), values.into());
-        self.units.insert(name.to_owned(), PER_VELOCITY.0.into());
-        if let Some(scales) = self.scales() {
-            let (_, unit, suffix) = PER_VELOCITY;
-            let omega = scales.si_per_unit(Quantity::Velocity);
-            let values: Vec<f64> = values.iter().map(|value| value / omega).collect();
-            self.object.insert(format!("{name}_{suffix}"), values.into());
-            self.units.insert(format!("{name}_{suffix}"), unit.into());
-        }
-        self
-    }
-
-    /// Adds rates per unit τ, in SI per second; null with the reason for a missing value.
-    pub fn rates(&mut self, name: &str, values: &[Option<f64>], why: &str) -> &mut Self {
-        let (unit, per_second) = self.unit_of_rates();
-        self.measured(name, unit, values);
-        let twin = per_second.map(|omega| (format!("{name}_per_s"), omega));
-        if let Some((key, omega)) = &twin {
-            let values: Vec<Option<f64>> =
-                values.iter().map(|value| value.map(|value| value * omega)).collect();
-            self.measured(key, "1/s", values);
-        }
-        let names = std::iter::once(name.to_owned()).chain(twin.map(|(key, _)| key));
-        for name in names {
-            if values.contains(&None) {
-                self.why(&name, why);
-            }
-            for (index, _) in values.iter().enumerate().filter(|(_, value)| value.is_none()) {
-                self.why(&format!("{name}[{index}]"), why);
-            }
-        }
-        self
-    }
-
-    /// The unit of rates, and how many of them are one per second in a study in SI.
-    fn unit_of_rates(&self) -> (&'static str, Option<f64>) {
-        match self.si {
-            None => ("ω₀", None),
-            Some(SiValues::Scaled(scales)) => ("ω₀", Some(scales.angular_frequency())),
-            Some(SiValues::System(SystemUnits::None)) => ("1 (per unit of time)", None),
-            // Both systems of units have the second.
-            Some(SiValues::System(_)) => ("1/s", None),
-        }
-    }
-
-    /// Adds a growth rate per unit τ, in SI per second; or null with the reason.
-    pub fn rate(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
-        let (unit, per_second) = self.unit_of_rates();
+        let (one, unit) = self.one(name, quantity);
         self.units.insert(name.to_owned(), unit.into());
-        let twin = per_second.map(|factor| (format!("{name}_per_s"), factor));
-        if let Some((key, _)) = &twin {
-            self.units.insert(key.clone(), "1/s".into());
-        }
-        let finite = |value: f64| {
-            if value.is_finite() { Ok(value) } else { Err(beyond_range(value)) }
-        };
-        match value.and_then(finite) {
-            Ok(value) => {
-                self.object.insert(name.to_owned(), value.into());
-                if let Some((key, omega)) = twin {
-                    self.object.insert(key, (value * omega).into());
-                }
-            }
-            Err(why) => {
-                self.unknown(name, why);
-                if let Some((key, _)) = twin {
-                    self.object.insert(key, Json::Null);
-                }
-            }
+        let values: Vec<f64> = values.iter().map(|value| value * one).collect();
+        self.object.insert(name.to_owned(), values.into());
+        self
+    }
+
+    /// Adds an array of slopes per unit velocity.
+    pub fn per_velocity(&mut self, name: &str, values: &[f64]) -> &mut Self {
+        self.numbers(name, Quantity::PerVelocity, values);
+        if matches!(self.of, FieldUnits::Scaled(None)) {
+            self.units.insert(name.to_owned(), PER_VELOCITY.into());
         }
         self
+    }
+
+    /// Adds rates; null with the reason for a missing value.
+    pub fn rates(&mut self, name: &str, values: &[Option<f64>], why: &str) -> &mut Self {
+        let (one, unit) = self.one_rate();
+        let own: Vec<Option<f64>> =
+            values.iter().map(|value| value.map(|value| value * one)).collect();
+        self.measured(name, unit, own);
+        if values.contains(&None) {
+            self.why(name, why);
+        }
+        for (index, _) in values.iter().enumerate().filter(|(_, value)| value.is_none()) {
+            self.why(&format!("{name}[{index}]"), why);
+        }
+        self
+    }
+
+    /// What one rate of the equations is in the units of the study, with the unit.
+    fn one_rate(&self) -> (f64, &'static str) {
+        match self.of {
+            FieldUnits::Scaled(None) => (1.0, "ω₀"),
+            FieldUnits::Scaled(Some(scales)) => (scales.angular_frequency(), "1/s"),
+            FieldUnits::System(UnitSystem::None) => (1.0, "1 (per unit of time)"),
+            // Both systems of units have the second.
+            FieldUnits::System(_) => (1.0, "1/s"),
+        }
+    }
+
+    /// Adds a growth rate; or null with the reason.
+    pub fn rate(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
+        let (one, unit) = self.one_rate();
+        self.units.insert(name.to_owned(), unit.into());
+        self.finite(name, value.map(|value| value * one))
+    }
+
+    /// Adds a finite value, or null with the reason.
+    fn finite(&mut self, name: &str, value: Result<f64, String>) -> &mut Self {
+        let finite =
+            |value: f64| if value.is_finite() { Ok(value) } else { Err(beyond_range(value)) };
+        match value.and_then(finite) {
+            Ok(value) => self.plain(name, value),
+            Err(why) => self.unknown(name, why),
+        }
     }
 
     /// Adds a growth rate in decibels per second, of a study in SI; or null with the reason.
@@ -225,7 +177,7 @@ impl Fields {
 
     /// The finished object, with `units` and `why`.
     pub fn finish(mut self) -> Json {
-        if matches!(self.si, Some(SiValues::System(_))) {
+        if matches!(self.of, FieldUnits::System(_)) {
             let lists = self.object.iter().flat_map(|(name, value)| arrays(name, value));
             let without: Vec<String> = lists.filter(|path| !self.why.contains_key(path)).collect();
             for path in without {
@@ -241,33 +193,28 @@ impl Fields {
         Json::Object(self.object)
     }
 
-    /// Factor and unit of a quantity in SI; `None` of a study without units.
-    pub(crate) fn in_si(&self, quantity: Quantity) -> Option<(f64, &'static str)> {
-        self.twin("", quantity).map(|(_, factor, unit)| (factor, unit))
+    /// What one number of the equations is in the units of the study, with the unit; `None` in a study without units.
+    pub(crate) fn one_with_unit(&self, quantity: Quantity) -> Option<(f64, &'static str)> {
+        match self.of {
+            FieldUnits::Scaled(scales) => scales?.own(quantity),
+            FieldUnits::System(units) => {
+                quantity.si_unit().and_then(|_| Some((1.0, units.unit(quantity)?)))
+            }
+        }
     }
 
-    fn twin(&self, name: &str, quantity: Quantity) -> Option<(String, f64, &'static str)> {
-        let (unit, suffix) = quantity.si_unit()?;
-        let factor = match self.si? {
-            SiValues::Scaled(scales) => scales.si_per_unit(quantity),
-            SiValues::System(units) => units.si_per_unit(quantity)?,
-        };
-        Some((format!("{name}_{suffix}"), factor, unit))
-    }
-
-    fn name_units(
-        &mut self,
-        name: &str,
-        quantity: Quantity,
-        twin: Option<&(String, f64, &'static str)>,
-    ) {
-        let unit = match self.si {
-            Some(SiValues::System(units)) => units.unit(quantity).unwrap_or("1").to_owned(),
-            scaled => unit_of(quantity, scaled.is_some()),
-        };
-        self.units.insert(name.to_owned(), unit.into());
-        if let Some((key, _, unit)) = twin {
-            self.units.insert(key.clone(), (*unit).into());
+    /// What one number of the equations is in the units of the study, with the unit; a ratio has none.
+    fn one(&self, name: &str, quantity: Quantity) -> (f64, String) {
+        let is_ratio = matches!(quantity, Quantity::FrequencyRatio | Quantity::DampingRatio)
+            && name.ends_with("ratio");
+        match self.of {
+            FieldUnits::System(units) => (1.0, units.unit(quantity).unwrap_or("1").to_owned()),
+            FieldUnits::Scaled(scales) => {
+                match scales.and_then(|scales| scales.own(quantity)).filter(|_| !is_ratio) {
+                    Some((one, unit)) => (one, unit.to_owned()),
+                    None => (1.0, quantity.scaled_unit().to_owned()),
+                }
+            }
         }
     }
 
@@ -347,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn a_study_in_si_has_dimensionless_and_si_fields() {
+    fn a_study_in_si_has_its_numbers_in_si() {
         let scales = Scales::new(2.0, 200.0).expect("valid");
         let mut fields = Fields::new(Some(scales));
         fields.number("time", Quantity::Time, 30.0).number("stick_fraction", Quantity::Ratio, 0.5);
@@ -355,9 +302,9 @@ mod tests {
         inner.known("residual_vibration", Quantity::Ratio, Err("nothing to quench".into()));
         fields.list("points", [inner]);
         let json = fields.finish();
-        assert_eq!(json["time"], 30.0);
-        assert_eq!(json["time_s"], 3.0);
-        assert_eq!(json["units"]["time_s"], "s");
+        assert_eq!(json["time"], 3.0);
+        assert_eq!(json["units"]["time"], "s");
+        assert!(json.get("time_s").is_none());
         assert_eq!(json["units"]["stick_fraction"], "1");
         assert!(json["points"][0]["residual_vibration"].is_null());
         assert_eq!(json["why"]["points[0].residual_vibration"], "nothing to quench");

@@ -25,8 +25,8 @@ pub(crate) fn in_words(study: &BeltStudy, quantity: Quantity, value: f64) -> Str
 
 /// [`in_words`] for a study with these scales.
 pub(crate) fn in_scales(scales: Option<Scales>, quantity: Quantity, value: f64) -> String {
-    match scales.zip(quantity.si_unit()) {
-        Some((scales, (unit, _))) => format!("{} {unit}", digits(scales.to_si(quantity, value))),
+    match scales.and_then(|scales| scales.one(quantity)) {
+        Some((one, unit)) => format!("{} {unit}", digits(value * one)),
         None => digits(value),
     }
 }

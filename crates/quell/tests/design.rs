@@ -48,7 +48,7 @@ fn a_study_in_si_has_the_same_answer() {
     assert!((stroke / (2.0 * 1.4863197137178406 / 99.0) - 1.0).abs() < 1e-5, "{stroke}");
     assert_eq!(found["binding"].as_array().map(Vec::len), Some(0));
     // The exact response is about as large: 10 % above it nothing binds, and 10 % below it nothing is allowed.
-    let peak = found["response_peak_m"].as_f64().expect("a number");
+    let peak = found["response_peak"].as_f64().expect("a number");
     assert!((2.0 * peak / stroke - 1.0).abs() < 0.05, "{peak} {stroke}");
     let limited = |factor: f64| {
         let limit = format!("response_peak_m = {}", factor * peak);

@@ -45,16 +45,16 @@ fn a_confident_amplitude_is_that_of_the_quantile() {
     let found =
         designed(&in_si(1.0, &format!("confidence = 0.9\nsamples = 400\n{over}{uncertain}")));
     let confident = &found["confident"];
-    let of_mass = |mass: f64| number(&designed(&in_si(mass, over))["objective_n"]);
-    let (low, high) = (number(&confident["low_n"]), number(&confident["high_n"]));
-    let amplitude = number(&confident["amplitude_n"]);
+    let of_mass = |mass: f64| number(&designed(&in_si(mass, over))["objective"]);
+    let (low, high) = (number(&confident["low"]), number(&confident["high"]));
+    let amplitude = number(&confident["amplitude"]);
     assert_eq!(amplitude, number(&confident["parameters"]["dither.amplitude_n"]));
     assert!(low < amplitude && amplitude < high);
     let exact = of_mass(1.4);
     assert!(low < exact * 1.005 && exact < high, "{low} {exact} {high}");
     // The interval of a share of 0.9 of 400 samples is about 0.866 to 0.926.
     assert!(low > of_mass(1.355) && high < of_mass(1.435) * 1.005, "{low} {amplitude} {high}");
-    let ratio = amplitude / number(&found["objective_n"]);
+    let ratio = amplitude / number(&found["objective"]);
     assert!((number(&confident["over_least"]) / ratio - 1.0).abs() < 1e-12);
     assert_eq!(confident["allowed"], true);
 }

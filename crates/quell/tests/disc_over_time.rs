@@ -229,7 +229,10 @@ fn wrong_tables_are_named() {
             "[disc.load.envelope]\noscillation = { amplitude = 1.2, frequency_ratio = 1.0 }\n",
             "above 0 at all times",
         ),
-        ("[disc.load.envelope]\ntime_s = [0.0]\nshare = [1.0]\n", "in seconds and hertz require"),
+        (
+            "[disc.load.envelope]\ntime_s = [0.0]\nshare = [1.0]\n",
+            "the size and material of the plate",
+        ),
         ("[disc.load.envelope]\ntime = [0.0]\nload = [1.0]\n", "disc.load.envelope.load"),
         ("[disc.drive]\ntime = [0.0]\nvelocity = [0.3]\n", "disc.drive.velocity"),
         ("[disc.load.drive]\ntime = [0.0]\nspeed = [0.3]\n", "all loads rotate together"),

@@ -273,7 +273,11 @@ fn wrong_tables_are_named() {
         (LOAD, "[disc.drive]\ntime = [0.0, 1.0, 1.0]\nspeed = [0.1, 0.2, 0.3]\n", "cannot jump"),
         (LOAD, "[disc.drive]\ntime = [0.0]\nspeed = [2000.0]\n", "disc.drive"),
         (LOAD, "[disc.drive]\ntime = [0.0]\nspeed = [0.3, 0.4]\n", "disc.drive.speed"),
-        (LOAD, "[disc.drive]\ntime_s = [0.0]\nspeed = [0.3]\n", "in seconds and hertz require"),
+        (
+            LOAD,
+            "[disc.drive]\ntime_s = [0.0]\nspeed = [0.3]\n",
+            "the size and material of the plate",
+        ),
         (LOAD, "[disc.drive]\ntime = [0.0]\nvelocity = [0.3]\n", "disc.drive.velocity"),
         (LOAD, "[disc.load.drive]\ntime = [0.0]\nspeed = [0.3]\n", "all loads rotate together"),
         ("", "[disc.drive]\ntime = [0.0]\nspeed = [0.3]\n", "without loads has no speed"),

@@ -148,7 +148,7 @@ fn friction_in_newtons_is_independent_of_the_normal_force() {
         .replace("viscous_n_s_per_m = 0.2", &format!("viscous_s_per_m = {:?}", 0.2 / 6.0));
     let same = study(&same);
     let force = |study: &BeltStudy, v: f64| {
-        let newtons = study.scales().expect("SI").si_per_unit(quell_model::units::Quantity::Force);
+        let newtons = study.scales().expect("SI").per_unit(quell_model::units::Quantity::Force);
         let belt = study.belt();
         let unit = study.scales().expect("SI").angular_frequency();
         newtons * belt.normal_load() * belt.friction().coefficient(v / unit)
@@ -193,7 +193,7 @@ fn friction_in_newtons_is_never_guessed() {
             "friction_force_n = 2.0\ncoefficient = 0.3",
             &["friction.coefficient", "not both"][..],
         ),
-        ("friction_force_n = 2.0\n", "", &["friction.friction_force_n", "in N"]),
+        ("friction_force_n = 2.0\n", "", &["friction.coefficient_n", "in N"]),
         (
             "mass_kg = 0.538\nstiffness_n_per_m = 6957.0\ndamping_n_s_per_m = 5.746\nbelt_velocity_m_per_s",
             "damping_ratio = 0.1\nbelt_velocity",
@@ -212,7 +212,7 @@ fn friction_in_newtons_is_never_guessed() {
     }
     let dither = "[dither]\ndirection = \"normal\"\nwaveform = \"sine\"\namplitude_n = 1.0\nfrequency_hz = 500.0\n";
     let said = refused(&format!("{DRIVE}{dither}"));
-    assert!(said.contains("belt.normal_force_n"), "{said}");
+    assert!(said.contains("belt.normal_load"), "{said}");
     let coulomb = DRIVE
         .replace("stribeck-exponential", "coulomb")
         .replace("reference_velocity_m_per_s = 0.1\nexponent = 1.0\n", "");

@@ -462,16 +462,6 @@ fn belts_with_a_state_are_answered_in_si() {
         }
         assert_eq!(a["parameter"], "dither.amplitude_n");
     }
-    let [[si, _], ..] = in_both_forms();
-    let refused = verbs(&Study::from(&si)).thresholds(ThresholdsRequest {
-        parameter: "dither.amplitude".to_owned(),
-        from: 0.3,
-        to: 1.6,
-        protocols: Vec::new(),
-        ramp: 0.0,
-    });
-    let why = refused.err().expect("a key of another form").to_string();
-    assert!(why.contains("did you mean dither.amplitude_n"), "{why}");
 }
 
 /// A slider under a falling law, whose base response first adheres at D = 0.991 and becomes stable at D = 1.016: long steps of the

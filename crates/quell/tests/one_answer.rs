@@ -68,13 +68,13 @@ fn designs_waveforms_and_thresholds_of_a_slider_agree() {
     let least = number(&design["critical"]["dither.amplitude_n"]);
     assert!((least / values[0] - 1.0).abs() < 1e-6, "{least}");
     let rows = verbs.waveforms().expect("waveforms").facts();
-    let sine = number(&rows["waveforms"][0]["exact_amplitude_n"]);
+    let sine = number(&rows["waveforms"][0]["exact_amplitude"]);
     assert!((sine / values[0] - 1.0).abs() < 1e-6, "{sine}");
     // The quantity of maps.
     let belt = study.belt().expect("a belt");
     let scales = belt.scales().expect("in SI");
     let quench = quench_of_belt(belt.belt()).expect("a branch");
-    let least = quench.least().expect("a quench").amplitude * scales.si_per_unit(Quantity::Force);
+    let least = quench.least().expect("a quench").amplitude * scales.per_unit(Quantity::Force);
     assert!((least / values[0] - 1.0).abs() < 1e-6, "{least}");
 }
 
@@ -172,10 +172,7 @@ fn map(text: &str, quantities: &[&str]) -> Json {
 #[test]
 fn verdicts_by_averaging_are_those_of_the_sentence() {
     for (text, amplitude) in [(NEAR, "dither.amplitude"), (BRAKE, "dither.amplitude_n")] {
-        let own = number(
-            &verbs(&study(text)).check().facts()["dithers"][0]
-                [if text == NEAR { "amplitude" } else { "amplitude_n" }],
-        );
+        let own = number(&verbs(&study(text)).check().facts()["dithers"][0]["amplitude"]);
         let stability = verbs(&study(text)).stability().expect("averages").facts();
         assert_eq!(stability["verdict"], "stable", "{stability}");
         assert_eq!(stability["limit"]["verdict"], "unstable", "{stability}");
@@ -293,5 +290,5 @@ fn every_number_has_its_own_unit() {
     let facts = verbs(&study(&text)).actuator(None).expect("an actuator").facts();
     assert_eq!(facts["units"]["voltage.peak"], "V", "{}", facts["units"]);
     assert_eq!(facts["units"]["current.peak"], "A", "{}", facts["units"]);
-    assert_eq!(facts["units"]["peak_n"], "N", "{}", facts["units"]);
+    assert_eq!(facts["units"]["peak"], "N", "{}", facts["units"]);
 }

@@ -170,7 +170,7 @@ fn bistability_of_the_block_of_veraszto_and_stepan() {
     let scales = study.scales().expect("SI");
     let hopf = &found.local.thresholds[0];
     assert_eq!((found.local.thresholds.len(), hopf.kind), (1, ThresholdKind::Hopf));
-    close(scales.to_si(Quantity::Velocity, hopf.value), number(&case, "printed", "hopf"), 1e-9);
+    close(scales.to_units(Quantity::Velocity, hopf.value), number(&case, "printed", "hopf"), 1e-9);
 
     // Cycles at this velocity: the squeal and the smaller unstable cycle, or none.
     let count = |velocity: f64| {

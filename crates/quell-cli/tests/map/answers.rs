@@ -188,15 +188,15 @@ values = [1, 2.5]
     place.write("si.toml", study);
     let map = place.good(&["map", "si.toml", "--quantity", "mean-friction,growth"]);
     assert_eq!(map["axes"][0]["unit"], "Hz");
-    assert_eq!(map["units"]["mean_friction_n"], "N");
+    assert_eq!(map["units"]["mean_friction"], "N");
     for (i, frequency) in [1000.0, 2000.0, 4000.0].into_iter().enumerate() {
         let written = map["axes"][0]["values"][i].as_f64().expect("a frequency");
         assert!((written / frequency - 1.0).abs() < 1e-14);
         for (j, mass) in [1.0, 2.5].into_iter().enumerate() {
             let set = [format!("dither.frequency_hz={written:?}"), format!("belt.mass_kg={mass}")];
             let alone = |verb| place.good(&[verb, "si.toml", "--set", &set[0], "--set", &set[1]]);
-            assert_eq!(map["mean_friction_n"][i][j], alone("response")["mean_friction_n"]);
-            assert_eq!(map["growth_per_s"][i][j], alone("stability")["growth_rate_per_s"]);
+            assert_eq!(map["mean_friction"][i][j], alone("response")["mean_friction"]);
+            assert_eq!(map["growth"][i][j], alone("stability")["growth_rate"]);
         }
     }
 }

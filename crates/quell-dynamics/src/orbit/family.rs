@@ -11,7 +11,10 @@ use super::no_orbit::NoOrbit;
 use super::period::common_period;
 use super::period_map::{TOLERANCE, dense};
 use super::variation::Variation;
-use crate::simulation::{EventKind, Start, continue_slip, simulate};
+use crate::simulation::{EventKind, Start, continue_slip, count_taken, simulate};
+
+/// Steps of a run that take as long as the variation of one step.
+const VARIATION: u64 = 16;
 
 /// The sequence of events in a period.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -141,6 +144,7 @@ impl PeriodMap for Forced<'_> {
             simulate(&belt, start, until, TOLERANCE, &mut variation)
         }
         .map_err(NoOrbit::Stalled)?;
+        count_taken(VARIATION * end.steps);
         let signature = match held {
             Some(Signature::PureSlip(sign)) => Signature::PureSlip(*sign),
             _ => Signature::of(&variation.events, variation.stuck, end.slip_sign),

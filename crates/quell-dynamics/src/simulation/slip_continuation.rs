@@ -63,6 +63,7 @@ impl Work for SlipContinuation<'_> {
         let mut series = SlipSeries { displacement: [0.0; ORDER + 1], slip: [0.0; ORDER + 1] };
         let mut table = [LaneRow::ZERO; ORDER + 1];
         let fastest = tangential.highest_rate().max(normal.highest_rate());
+        StepBudget::begin().map_err(|why| Stalled { time: start.time, why })?;
         let mut budget = StepBudget::new(start.time, until, fastest);
         let tolerance = step_tolerance(tolerance, (&tangential, &normal), displacement, slip);
         let mut steps = 0;
@@ -114,6 +115,8 @@ impl Work for SlipContinuation<'_> {
                 budget.check(steps, clock.time()).map_err(stalled)?;
             }
         }
+        // The steps are counted, but a run that has ended is not stopped for them.
+        let _ = budget.spend(steps);
         Ok(FinalState {
             time: clock.time(),
             displacement: unit * displacement,

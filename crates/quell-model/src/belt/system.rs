@@ -22,7 +22,7 @@ impl UnitValues {
     const SCALED: Self = Self { mass: 1.0, force: 1.0, velocity: 1.0, time: 1.0 };
 
     fn in_si(scales: &Scales) -> Self {
-        let of = |quantity| scales.si_per_unit(quantity);
+        let of = |quantity| scales.per_unit(quantity);
         Self {
             mass: of(Quantity::Mass),
             force: of(Quantity::Force),
@@ -43,7 +43,7 @@ impl Belt {
     ///
     /// # Errors
     /// A law whose numbers are out of their bounds in metres per second.
-    pub fn system_in_si(&self) -> Option<Result<System, InvalidValues>> {
+    pub fn system_in_units(&self) -> Option<Result<System, InvalidValues>> {
         let scales = self.scales?;
         let unit = UnitValues::in_si(&scales);
         let Surroundings { normal_load, slip } = self.surroundings();

@@ -109,6 +109,11 @@ impl Disc {
         self.scales.map(|scales| DiscScales { load_radius_m, ..scales })
     }
 
+    /// Mass M_p of the plate, kg, if the study determines it and its reference frequency in hertz.
+    pub fn plate_mass_kg(&self) -> Option<f64> {
+        self.scales?.plate_mass_kg
+    }
+
     /// A valid disc of these parts in the scales of this one.
     fn rebuilt(
         &self,

@@ -287,7 +287,7 @@ impl Friction {
     /// # Errors
     /// Numbers that are out of their bounds in SI.
     pub fn in_si(&self, scales: &Scales) -> Result<Self, InvalidValues> {
-        let velocity = scales.si_per_unit(Quantity::Velocity);
+        let velocity = scales.per_unit(Quantity::Velocity);
         match self {
             Self::Expression(law) => {
                 Ok(Self::Expression(law.in_unit(velocity * law.velocity_unit())))
@@ -298,8 +298,9 @@ impl Friction {
             law => {
                 let (kind, values) = (law.kind(), law.values());
                 let numbers = kind.parameters().iter().zip(values);
-                let in_si =
-                    |(parameter, value): (&Parameter, f64)| scales.to_si(parameter.quantity, value);
+                let in_si = |(parameter, value): (&Parameter, f64)| {
+                    scales.to_units(parameter.quantity, value)
+                };
                 kind.build(&numbers.map(in_si).collect::<Vec<f64>>())
             }
         }

@@ -91,7 +91,7 @@ pub const FORCE_PER_AMPERE: Parameter = of(
     "K_f",
     "force of a coil or motor per ampere",
     Quantity::ForcePerCurrent,
-    &[si("force_per_ampere_n_per_a", "N/A")],
+    &[si("force_per_ampere_n", "N/A"), si("force_per_ampere_n_per_a", "N/A")],
 );
 
 /// Resistance of the windings.

@@ -86,6 +86,15 @@ pub const THICKNESS: Parameter = disc(
 pub const OUTER_RADIUS: Parameter =
     disc("disc.outer_radius_m", "a", "outer radius", Quantity::Length, Bounds::POSITIVE);
 
+/// Mass of the plate whose modes are listed.
+pub const PLATE_MASS: Parameter = disc(
+    "disc.plate_mass_kg",
+    "M_p",
+    "mass of the plate between clamp and edge, whose modes are listed",
+    Quantity::PlateMass,
+    Bounds::POSITIVE,
+);
+
 /// Modal damping of the disc.
 pub const MODAL_DAMPING: Parameter = disc(
     "disc.modal_damping",
@@ -258,6 +267,7 @@ pub const DISC: &[Parameter] = &[
     DENSITY,
     THICKNESS,
     OUTER_RADIUS,
+    PLATE_MASS,
     MODE_DIAMETERS,
     MODE_RATIO,
     MODE_FREQUENCY,

@@ -107,7 +107,7 @@ pub const SYSTEM_DITHER_FREQUENCY: Parameter = number(
     "angular frequency of the dither",
     Quantity::FrequencyRatio,
     Bounds::POSITIVE,
-    &[si("frequency_hz", "Hz")],
+    &[si("frequency_hz", "Hz"), si("frequency_ratio", "")],
 );
 
 /// Amplitude of a dither that is a factor on the friction of a contact.

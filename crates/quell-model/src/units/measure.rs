@@ -120,6 +120,15 @@ pub fn convert(value: f64, from: &str, to: &str) -> Option<f64> {
     (from.dimension == to.dimension).then_some(value * size)
 }
 
+/// A number with a unit multiplied by a factor, in the same unit; `None` if the text is something else.
+pub fn scaled(text: &str, factor: f64) -> Option<String> {
+    let text = text.trim();
+    let (number, unit) = text.split_at(length_of_number(text));
+    let known = !unit.trim().is_empty() && Unit::parse(unit.trim()).is_some();
+    let number: f64 = number.parse().ok().filter(|_| known)?;
+    Some(format!("{:?} {}", factor * number, unit.trim()))
+}
+
 /// Whether a text is a number followed by something that may be a unit.
 pub fn has_unit(text: &str) -> bool {
     let text = text.trim();

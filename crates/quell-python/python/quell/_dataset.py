@@ -202,44 +202,28 @@ def variable(dims: tuple[str, ...], array: Any, shape: tuple[int, ...] | None = 
     return Variable(dims, values if shape is None else values.reshape(shape), attrs)
 
 
-SUFFIXES = ("n_s_per_m", "n", "m_per_s", "m", "hz", "s", "w", "s_per_m", "per_s")
-"""Suffixes of the names of numbers in SI."""
-
-
-def twin_of(name: str, units: Mapping[str, str]) -> str | None:
-    """The name of the same number in SI, if it exists."""
-    twins = (f"{name}_{suffix}" for suffix in SUFFIXES)
-    return next((twin for twin in twins if twin in units), None)
-
-
 class Facts:
     """Facts as variables: numbers have no dimension, lists have one of their own."""
 
     def __init__(self, facts: Mapping[str, Any], given: set[str], found: Collection, attrs: dict[str, Any]) -> None:
         self.facts, self.given, self.found, self.attrs = facts, given, found, attrs
-        given_units: Mapping[str, str] = facts.get("units") or {}
-        self.twins = {name: twin for name in given_units if (twin := twin_of(name, given_units)) is not None}
-        self.units = {name: given_units[self.twins.get(name, name)] for name in given_units}
+        self.units: Mapping[str, str] = facts.get("units") or {}
         self.why: Mapping[str, str] = facts.get("why") or {}
 
     def all(self) -> None:
         """Adds all facts."""
-        for name, value in self.in_units(self.facts).items():
+        for name, value in self.facts.items():
             # An array that was added already is not added again as a fact.
             of_array = name in self.given and isinstance(value, list)
             if name not in NOT_FACTS and not of_array:
                 self.add(name, name, name, value)
-
-    def in_units(self, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Facts in the units of the study: a number with an SI twin takes the value of the twin."""
-        return {name: values.get(self.twins.get(name, name), value) for name, value in values.items()}
 
     def add(self, label: str, former: str, name: str, value: Any) -> None:
         """Adds one fact, according to its type; ``former`` is its label in earlier versions."""
         if isinstance(value, str):
             self.attrs[label] = value
         elif isinstance(value, Mapping):
-            for inner, it in self.in_units(value).items():
+            for inner, it in value.items():
                 key = key_of(inner)
                 self.add(f"{label}_{key}", f"{former}_{key}", f"{name}/{inner}", it)
         elif isinstance(value, list):
@@ -252,7 +236,6 @@ class Facts:
         """A list: of numbers or words, or of objects with the same keys."""
         dim, old = singular(label), former.removesuffix("s")
         if values and all(isinstance(it, Mapping) for it in values):
-            values = [self.in_units(it) for it in values]
             for inner in dict.fromkeys(key for it in values for key in it):
                 column = [it.get(inner) for it in values]
                 if all(isinstance(it, (int, float, bool, str, type(None))) for it in column):

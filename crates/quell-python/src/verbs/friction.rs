@@ -33,7 +33,7 @@ pub(crate) fn run(
     if let Some(wrong) = at.iter().flatten().find(|v| !v.is_finite()) {
         return Err(refused("at", wrong.to_string(), "finite slip velocities"));
     }
-    let scaled = |v: f64| scales.map_or(v, |scales| scales.from_si(Quantity::Velocity, v));
+    let scaled = |v: f64| scales.map_or(v, |scales| scales.from_units(Quantity::Velocity, v));
     let read = |text: &String| velocity(study, text, "--at");
     let at = match (at, texts) {
         (Some(at), _) => Some(at.into_iter().map(scaled).collect()),

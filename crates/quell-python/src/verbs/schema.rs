@@ -2,6 +2,7 @@
 
 use pyo3::prelude::*;
 use quell::schema::schema as front_door;
+use quell::study::UnitSystem;
 use quell::study::vocabulary::{self, Section};
 use quell::sweep::QUANTITIES;
 
@@ -17,7 +18,8 @@ pub(crate) fn schema(py: Python<'_>) -> PyResult<Py<PyAny>> {
 #[pyfunction]
 pub(crate) fn keys() -> Vec<(&'static str, &'static str, &'static str, &'static str)> {
     let all = Section::ALL.iter().flat_map(|section| vocabulary::keys_of(*section));
-    all.map(|key| (key.section.path(), key.name, key.unit_in_words(), key.about)).collect()
+    all.map(|key| (key.section.path(), key.name, key.unit_in_words(UnitSystem::None), key.about))
+        .collect()
 }
 
 /// ("belt", "disc" or "system", name, description) of every quantity of a map.

@@ -21,10 +21,10 @@ pub(crate) fn run_tracked(
     range: &Pair,
     along: Option<(String, Pair)>,
 ) -> Result<NativeAnswer, Failure> {
-    let window = ends(&parameter, range)?;
+    let window = ends(study, &parameter, range)?;
     let along = match along {
         Some((path, between)) => {
-            let value = |text: &str| quantity::value_of_key(text, &path, "--between");
+            let value = |text: &str| quantity::value_of(Some(study), text, &path, "--between");
             let between = (value(&between.0)?, value(&between.1)?);
             Some((path, between))
         }

@@ -29,7 +29,7 @@ pub(crate) fn run(
 ) -> Result<NativeAnswer, Failure> {
     let verbs = verbs(study);
     let scales = study.scales();
-    let (from, to) = ends(&parameter, range)?;
+    let (from, to) = ends(study, &parameter, range)?;
     let begin = start.map(|pair| state(pair, scales, "--start")).transpose()?;
     let ramp = match study.system() {
         Ok(system) => start::duration(&system, ramp, "--ramp")?,
@@ -49,8 +49,8 @@ pub(crate) fn run_along(
     between: &Pair,
 ) -> Result<NativeAnswer, Failure> {
     let verbs = verbs(study);
-    let window = ends(&parameter, range)?;
-    let value = |text: &str| quantity::value_of_key(text, &along, "--between");
+    let window = ends(study, &parameter, range)?;
+    let value = |text: &str| quantity::value_of(Some(study), text, &along, "--between");
     let between = (value(&between.0)?, value(&between.1)?);
     let request = CurvesRequest { parameter, window, along, between };
     Ok(NativeAnswer::new(verbs.threshold_curves(&request)?))
@@ -65,7 +65,7 @@ pub(crate) fn run_of_system(
     (near, ramp): (Option<(&NamedNumbers, u32)>, &str),
 ) -> Result<NativeAnswer, Failure> {
     let system = study.system()?;
-    let window = ends(&parameter, range)?;
+    let window = ends(study, &parameter, range)?;
     let protocols = protocols(names, None).into_iter().map(SystemProtocol::of);
     let mut protocols = protocols.collect::<Result<Vec<_>, _>>()?;
     if let Some(pairs) = begin {

@@ -13,8 +13,7 @@ use serde_json::Value as Json;
 
 use super::actuator_file::{ActuatorFile, COLUMNS, GivenColumn};
 use super::document::{Node, Table};
-use super::reader::{Found, Reader};
-use super::system::CourseNumbers;
+use super::reader::{KeyUnit, Reader};
 use super::vocabulary::{Choice, Section, join};
 use crate::complaint::{Complaint, Fault, Origin};
 
@@ -49,20 +48,16 @@ const OF_A_COIL: &[Parameter] = &[
 
 const OF_A_MEASUREMENT: &[Parameter] = &[MAXIMUM_VOLTAGE, MAXIMUM_CURRENT, RMS_CURRENT];
 
-/// Reads `[actuator]`, of a system with its numbers: `Some(None)` without it, `None` if it is invalid.
+/// Reads `[actuator]`: `Some(None)` without it, `None` if it is invalid.
 #[expect(clippy::option_option, reason = "invalid, absent, given")]
-pub(super) fn read(
-    reader: &mut Reader,
-    root: &Table,
-    system: Option<CourseNumbers<'_>>,
-) -> Option<Option<Actuator>> {
+pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Option<Actuator>> {
     let Some(node) = root.get(PATH) else { return Some(None) };
     let table = reader.table(PATH, node)?;
     let before = reader.complaints_so_far();
     reader.unknown_keys(table, Section::Actuator, PATH, &[]);
     let name = reader.needed_choice(table, PATH, node.origin, "kind", Choice::ActuatorKind)?;
     let kind = ActuatorKind::ALL.into_iter().find(|kind| kind.name() == name)?;
-    let mut given = GivenNumbers { reader, table, header: node.origin, system, kind };
+    let mut given = GivenNumbers { reader, table, header: node.origin, kind };
     given.refuse_others();
     let actuator = match kind {
         ActuatorKind::Piezo => given.piezo().map(Actuator::Piezo),
@@ -78,28 +73,18 @@ struct GivenNumbers<'r, 'a> {
     reader: &'r mut Reader,
     table: &'a Table,
     header: Origin,
-    /// The numbers of a system.
-    system: Option<CourseNumbers<'a>>,
     kind: ActuatorKind,
 }
 
 impl GivenNumbers<'_, '_> {
     /// The node of a parameter, by any of its keys.
     fn node(&self, parameter: Parameter) -> Option<(&'static str, &Node)> {
-        let twins = parameter.si.iter().map(|twin| twin.key);
-        [parameter.key()].into_iter().chain(twins).find_map(|key| Some((key, self.table.get(key)?)))
+        parameter.keys().find_map(|key| Some((key, self.table.get(key)?)))
     }
 
     /// A number, if it is given and right.
     fn number(&mut self, parameter: Parameter) -> Option<f64> {
-        let found = match self.system {
-            Some(numbers) => numbers.optional(self.reader, self.table, PATH, parameter),
-            None => self.reader.optional(self.table, PATH, parameter, None),
-        };
-        match found {
-            Found::Value(value) => Some(value),
-            Found::Absent | Found::Wrong => None,
-        }
+        self.reader.optional(self.table, PATH, parameter).if_given().flatten()
     }
 
     fn needed(&mut self, parameter: Parameter, why: &str) -> Option<f64> {
@@ -205,10 +190,7 @@ impl GivenNumbers<'_, '_> {
                 break;
             }
         }
-        let watts = match self.system {
-            Some(numbers) => 1.0 / numbers.factor(Quantity::Power, true),
-            None => self.reader.si_per_unit(Quantity::Power).unwrap_or(1.0),
-        };
+        let watts = self.reader.units().of_si(Quantity::Power).map_or(1.0, f64::recip);
         let coil = CoilActuator {
             force_per_ampere: 1.0,
             stiffness: self.number(ACTUATOR_STIFFNESS).unwrap_or(0.0),
@@ -281,25 +263,19 @@ impl GivenNumbers<'_, '_> {
         for (place, column) in file.columns.iter().enumerate() {
             let Some(GivenColumn { si, values }) = column else { continue };
             let quantity = if place == 0 { Quantity::FrequencyRatio } else { Quantity::Force };
-            let (plain_name, si_name) = COLUMNS[place];
-            let (has_units, plain_allowed, factor) = if let Some(numbers) = self.system {
-                (numbers.has_units(), true, numbers.factor(quantity, true))
-            } else {
-                let per_unit = self.reader.si_per_unit(quantity);
-                let si = self.reader.is_si();
-                (si, !si, per_unit.map_or(1.0, f64::recip))
+            let (_, si_name) = COLUMNS[place];
+            let units = self.reader.units();
+            if *si && !units.take_suffixes() {
+                let (plain, _) = COLUMNS[place];
+                return Err(format!(
+                    "a CSV file with a column {plain}: the study has no units, but {si_name} is in SI"
+                ));
+            }
+            let unit = match quantity.si_unit() {
+                Some((unit, _)) if *si => KeyUnit::Suffix(unit),
+                _ => KeyUnit::Study,
             };
-            if *si && !has_units {
-                return Err(format!(
-                    "a CSV file with a column {plain_name}: the study has no units, but {si_name} is in SI"
-                ));
-            }
-            if !si && !plain_allowed {
-                return Err(format!(
-                    "a CSV file with a column {si_name}: the study is in SI, but {plain_name} is dimensionless"
-                ));
-            }
-            let factor = if *si { factor } else { 1.0 };
+            let factor = units.in_equations(1.0, quantity, unit).unwrap_or(1.0);
             series[place] = Some(values.iter().map(|value| value * factor).collect());
         }
         Ok(series)

@@ -3,12 +3,11 @@
 
 use std::fmt;
 
-use quell_model::parameter::MASS;
+use quell_model::parameter::{NATURAL_FREQUENCY, SCALES, STIFFNESS};
 
 use super::document::{Node, Table, Value};
-use super::reader;
 use super::system::{keys, path};
-use super::vocabulary::{self, Key, NOT_BUILT, Role, Section};
+use super::vocabulary::{self, Choice, Key, NOT_BUILT, Role, Section};
 use crate::complaint::{Complaint, Fault, Origin};
 
 /// One change.
@@ -47,15 +46,13 @@ impl Change {
         if keys::is_described(root) && !self.is_common() {
             return path::set(root, &self.path, &self.node);
         }
-        let address = vocabulary::resolve(&self.path)
-            .map_err(|nearest| self.unknown(nearest, reader::is_si(root)))?;
+        let address = vocabulary::resolve(&self.path).map_err(|nearest| self.unknown(nearest))?;
         let key = address.key;
-        let of_a_disc = root.has("disc");
         let Some(table) = self.section(root, key.section, address.index)? else {
             return Ok(());
         };
         for sibling in vocabulary::keys_of(key.section) {
-            if replaces(key, sibling, of_a_disc) {
+            if replaces(key, sibling) {
                 table.remove(sibling.name);
             }
         }
@@ -74,8 +71,8 @@ impl Change {
         ["schema", "title", "sweep"].contains(&first)
     }
 
-    /// An error with the nearest key in the unit system of the study.
-    fn unknown(&self, nearest: Option<String>, si: bool) -> Box<Complaint> {
+    /// An error with the nearest key.
+    fn unknown(&self, nearest: Option<String>) -> Box<Complaint> {
         let first = self.path.split(['.', '[']).next().unwrap_or_default();
         if NOT_BUILT.contains(&first) {
             let allowed = format!("[{first}] is not implemented yet");
@@ -83,14 +80,16 @@ impl Change {
         }
         if let Some(section) = self.table_itself() {
             let example = vocabulary::keys_of(section)
-                .find(|key| !matches!(key.role, Role::Scale(_)))
+                .find(|key| {
+                    let scale = key.parameter().is_some_and(|known| SCALES.contains(&known));
+                    !scale && key.role != Role::Choice(Choice::Units)
+                })
                 .map_or_else(|| vocabulary::join(section.path(), "a"), Key::path);
-            let example = vocabulary::in_system(&example, si);
             let allowed = format!("set key by key, such as {example}, because it is a table");
             return Box::new(self.complaint(Fault::Value, allowed));
         }
         let complaint = self.complaint(Fault::Unknown, "the keys listed by `quell schema`");
-        Box::new(complaint.suggesting(nearest.map(|path| vocabulary::in_system(&path, si))))
+        Box::new(complaint.suggesting(nearest))
     }
 
     /// The table that the path names, if it names a whole table.
@@ -238,29 +237,25 @@ impl fmt::Display for Change {
     }
 }
 
-/// Whether setting `key` replaces `sibling`: another SI key of the same parameter, a named state for numbers, the values of
-/// an axis for its ends, and vice versa. In a study of a disc each number may be in SI or not.
-fn replaces(key: &Key, sibling: &Key, of_a_disc: bool) -> bool {
+/// Whether setting `key` replaces `sibling`: another key of the same parameter, a named state for numbers, the values of an axis for its
+/// ends, and vice versa.
+fn replaces(key: &Key, sibling: &Key) -> bool {
     if key.name == sibling.name {
         return false;
     }
+    if let (Some(one), Some(other)) = (key.parameter(), sibling.parameter()) {
+        // Stiffness and natural frequency are alternatives to each other.
+        let alternatives = [STIFFNESS.path, NATURAL_FREQUENCY.path];
+        return one.path == other.path
+            || [one, other].iter().all(|number| alternatives.contains(&number.path));
+    }
     match (key.section, key.role, sibling.role) {
-        (_, Role::Twin(parameter, _), Role::Twin(other, _)) => parameter.path == other.path,
-        (_, Role::Size(parameter, _), _) => {
-            sibling.parameter().is_some_and(|other| other.path == parameter.path)
-        }
-        (_, _, Role::Size(other, _)) => {
-            key.parameter().is_some_and(|parameter| other.path == parameter.path)
-        }
-        (_, Role::Number(parameter), Role::Twin(other, _))
-        | (_, Role::Twin(parameter, _), Role::Number(other)) => {
-            parameter.path == other.path && (of_a_disc || parameter.is_pure())
-        }
-        // The mass is kept: only stiffness and natural frequency are alternatives to each other.
-        (_, Role::Scale(scale), Role::Scale(other)) => ![scale, other].contains(&MASS),
         (Section::Initial, role, other) => is_word(role) || is_word(other),
         (Section::Friction, Role::Speeds { .. }, Role::Speeds { .. })
         | (_, Role::Band { .. }, Role::Band { .. }) => true,
+        (Section::Friction, Role::FrictionForce(one, _), Role::FrictionForce(other, _)) => {
+            one.path == other.path
+        }
         (Section::Sweep, role, other) => {
             (role == Role::AxisValues) != (other == Role::AxisValues)
                 && key.name != "parameter"

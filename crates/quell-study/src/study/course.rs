@@ -2,7 +2,10 @@
 //!
 //! A table has knots (`time` and values, or a file of both) or, for drives and loads, an oscillation about the constant value.
 
-use quell_model::parameter::Bounds;
+use quell_model::parameter::course::{
+    OSCILLATION_AMPLITUDE, OSCILLATION_FREQUENCY, OSCILLATION_PHASE,
+};
+use quell_model::parameter::{Bounds, Parameter};
 use quell_model::profile::{KnotShape, Knots, Profile, Wave};
 use quell_model::units::Quantity;
 use quell_model::{Invalid, Waveform};
@@ -11,24 +14,12 @@ use serde_json::Value as Json;
 use super::data_file::DataFile;
 use super::document::{Node, Table, Value};
 use super::files::WantedFile;
-use super::reader::Reader;
-use super::system::CourseNumbers;
-use super::vocabulary::{Choice, CourseKey, CourseTable, join};
+use super::reader::{KeyUnit, Keyed, Reader, WantedNumber, suffixed};
+use super::vocabulary::{Choice, CourseTable, join};
 use crate::complaint::{Complaint, Fault};
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of times and values";
-
-/// How the numbers of a table are read.
-#[derive(Clone, Copy)]
-pub(super) enum CourseUnits<'a> {
-    /// Those of a belt: dimensionless, or by keys in SI.
-    Belt,
-    /// Those of a system: in the units of the file, or by keys in SI.
-    System(CourseNumbers<'a>),
-    /// Those of a disc: each key dimensionless or in SI.
-    Disc,
-}
 
 /// What a table over time gives.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,12 +30,9 @@ pub(super) enum Course {
     Oscillation(Wave),
 }
 
-/// Where a table over time is, and how it is read.
+/// A table over time, as it is read.
 #[derive(Clone, Copy)]
-pub(super) struct CoursePlace<'a> {
-    pub(super) what: CourseTable,
-    pub(super) units: CourseUnits<'a>,
-}
+pub(super) struct CoursePlace(pub(super) CourseTable);
 
 /// A list of numbers with the key that it has in the file.
 struct NumberList<'t> {
@@ -96,10 +84,10 @@ pub(super) fn no_constant(
     reader: &mut Reader,
     table: &Table,
     prefix: &str,
-    names: &[&str],
+    constant: Parameter,
     course: &str,
 ) {
-    for name in names {
+    for name in constant.keys() {
         if let Some(node) = table.get(name) {
             let allowed = format!("left out: {} gives it over time", join(prefix, course));
             let key = join(prefix, name);
@@ -109,7 +97,7 @@ pub(super) fn no_constant(
     }
 }
 
-impl CoursePlace<'_> {
+impl CoursePlace {
     /// Reads the table if it is there; `Err` if it is wrong, which has been reported.
     pub(super) fn optional(
         &self,
@@ -131,7 +119,7 @@ impl CoursePlace<'_> {
             None
         })?;
         self.unknown_keys(reader, table, prefix)?;
-        if let Some(inner) = table.get("oscillation").filter(|_| self.what.oscillates) {
+        if let Some(inner) = table.get("oscillation").filter(|_| self.0.oscillates) {
             return self.oscillation(reader, table, inner, prefix);
         }
         let shape = match table.get("shape") {
@@ -145,9 +133,12 @@ impl CoursePlace<'_> {
         if let Some(named) = table.get("file") {
             return self.in_file(reader, table, named, prefix, shape);
         }
-        let times = self.list(reader, table, node, prefix, "time", Quantity::Time, Bounds::FINITE);
-        let CourseTable { value, quantity, bounds, .. } = self.what;
-        let values = self.list(reader, table, node, prefix, value, quantity, bounds);
+        let place = (node, prefix);
+        let wanted = WantedNumber::finite(Some(Quantity::Time));
+        let times = self.list(reader, table, place, "time", wanted);
+        let CourseTable { value, quantity, bounds, .. } = self.0;
+        let wanted = WantedNumber { bounds, ..WantedNumber::finite(Some(quantity)) };
+        let values = self.list(reader, table, place, value, wanted);
         let (times, values) = (times?, values?);
         match self.knots(times.values.clone(), values.values.clone(), shape) {
             Ok(knots) => Some(Course::Over(knots)),
@@ -162,16 +153,13 @@ impl CoursePlace<'_> {
     /// The knots, which may not jump where a number cannot.
     fn knots(&self, times: Vec<f64>, values: Vec<f64>, shape: KnotShape) -> Result<Knots, Invalid> {
         let knots = Knots::new(times, values, shape)?;
-        match knots.first_jump().filter(|_| !self.what.jumps) {
+        match knots.first_jump().filter(|_| !self.0.jumps) {
             None => Ok(knots),
             Some(place) => {
-                let allowed = match self.units {
-                    CourseUnits::Disc => {
-                        "later than the time before it: the speed of a disc cannot jump"
-                    }
-                    _ => {
-                        "later than the time before it: a velocity cannot jump, no force could make a sticking mass follow"
-                    }
+                let allowed = if self.0.quantity == Quantity::FrequencyRatio {
+                    "later than the time before it: the speed of a disc cannot jump"
+                } else {
+                    "later than the time before it: a velocity cannot jump, no force could make a sticking mass follow"
                 };
                 Err(Invalid::new(format!("time[{place}]"), knots.times()[place], allowed))
             }
@@ -179,19 +167,13 @@ impl CoursePlace<'_> {
     }
 
     fn unknown_keys(&self, reader: &mut Reader, table: &Table, prefix: &str) -> Option<()> {
-        let keys = self.what.keys();
+        let keys = self.0.keys();
         let mut fits = true;
         for (name, node) in table.iter() {
             if keys.iter().any(|(known, _)| *known == name) {
                 continue;
             }
-            let si = match self.units {
-                CourseUnits::Belt => Some(reader.is_si()),
-                CourseUnits::System(_) | CourseUnits::Disc => None,
-            };
-            let fit = |key: &CourseKey| key.si().zip(si).is_none_or(|(own, si)| own == si);
-            let there: Vec<&str> =
-                keys.iter().filter(|(_, key)| fit(key)).map(|(name, _)| *name).collect();
+            let there: Vec<&str> = keys.iter().map(|(name, _)| *name).collect();
             let key = join(prefix, name);
             let complaint =
                 Complaint::new(Fault::Unknown, key, node.origin, node.given(), there.join(", "));
@@ -202,145 +184,52 @@ impl CoursePlace<'_> {
     }
 
     /// A list of numbers, by its key or by its key in SI.
-    #[expect(clippy::too_many_arguments, reason = "a place, and what is read there")]
     fn list<'t>(
         &self,
         reader: &mut Reader,
         table: &'t Table,
-        header: &Node,
-        prefix: &str,
+        (header, prefix): (&Node, &str),
         name: &str,
-        quantity: Quantity,
-        bounds: Bounds,
+        wanted: WantedNumber,
     ) -> Option<NumberList<'t>> {
-        let si_name = in_si(name, quantity);
-        let (node, name, twin) = self.keyed(reader, table, header, prefix, name, si_name)?;
-        let key = join(prefix, name);
+        let Keyed { node, key, unit } =
+            self.keyed(reader, table, (header, prefix), name, wanted.quantity)?;
         let Value::List(list) = &node.value else {
             reader.wrong(&key, node, format!("a list of numbers; got {}", node.kind()));
             return None;
         };
+        let wanted = WantedNumber { unit, ..wanted };
         let values: Vec<Option<f64>> = list
             .iter()
             .enumerate()
-            .map(|(place, node)| {
-                let key = format!("{key}[{place}]");
-                self.number(reader, &key, node, quantity, bounds, twin)
-            })
+            .map(|(place, node)| reader.quantity(|| format!("{key}[{place}]"), node, wanted))
             .collect();
         Some(NumberList { node, key, values: values.into_iter().collect::<Option<_>>()? })
     }
 
-    /// The key of a number or of a list that is given, and whether it is that in SI.
-    fn keyed<'t, 'n>(
+    /// The key of a number or of a list; reported where it is missing.
+    fn keyed<'t>(
         &self,
         reader: &mut Reader,
         table: &'t Table,
-        header: &Node,
-        prefix: &str,
-        name: &'n str,
-        si_name: Option<&'n str>,
-    ) -> Option<(&'t Node, &'n str, bool)> {
-        let plain = table.get(name);
-        let twin = si_name.and_then(|name| Some((table.get(name)?, name)));
-        let wants_si = match self.units {
-            CourseUnits::Belt if si_name.is_some() => Some(reader.is_si()),
-            CourseUnits::System(numbers) if !numbers.has_units() => Some(false),
-            _ => None,
-        };
-        let right = si_name.filter(|_| wants_si == Some(true)).unwrap_or(name);
-        let mixed = |node: &Node, given: &str| {
-            let allowed =
-                format!("does not match the units of this study: use {}", join(prefix, right));
-            let key = join(prefix, given);
-            Complaint::new(Fault::Mixed, key, node.origin, Json::Null, allowed)
-                .suggesting(Some(join(prefix, right)))
-        };
-        match (plain, twin) {
-            (Some(_), Some((node, si_name))) => {
-                let allowed = format!("give either {} or this key, not both", join(prefix, name));
-                let key = join(prefix, si_name);
-                let origin = node.origin;
-                reader.complain(Complaint::new(Fault::Conflict, key, origin, Json::Null, allowed));
-                None
-            }
-            (Some(node), None) if wants_si == Some(true) => {
-                reader.complain(mixed(node, name));
-                None
-            }
-            (None, Some((node, si_name))) if wants_si == Some(false) => {
-                reader.complain(mixed(node, si_name));
-                None
-            }
-            (Some(node), None) => Some((node, name, false)),
-            (None, Some((node, si_name))) => Some((node, si_name, true)),
-            (None, None) => {
-                let key = join(prefix, right);
-                let allowed = format!("given: {prefix} has {}", self.needs(wants_si));
-                let origin = header.origin;
-                reader.complain(Complaint::new(Fault::Missing, key, origin, Json::Null, allowed));
-                None
-            }
+        (header, prefix): (&Node, &str),
+        name: &str,
+        quantity: Option<Quantity>,
+    ) -> Option<Keyed<'t>> {
+        let found = reader.keyed(table, prefix, name, quantity).ok()?;
+        if found.is_none() {
+            let or = if self.0.oscillates {
+                "; or oscillation, a table of amplitude and frequency"
+            } else {
+                ""
+            };
+            let allowed = format!(
+                "given: {prefix} has time and {}, lists of equal length, or file, a CSV file of these columns{or}",
+                self.0.value
+            );
+            reader.missing(join(prefix, name), header.origin, allowed);
         }
-    }
-
-    /// What a table needs, in words.
-    fn needs(&self, wants_si: Option<bool>) -> String {
-        let si = wants_si == Some(true);
-        let value = self.what.value_in_si().filter(|_| si).unwrap_or(self.what.value);
-        let time = if si { "time_s" } else { "time" };
-        let or = if self.what.oscillates {
-            "; or oscillation, a table of amplitude and frequency"
-        } else {
-            ""
-        };
-        format!(
-            "{time} and {value}, lists of equal length, or file, a CSV file of these columns{or}"
-        )
-    }
-
-    fn number(
-        &self,
-        reader: &mut Reader,
-        key: &str,
-        node: &Node,
-        quantity: Quantity,
-        bounds: Bounds,
-        twin: bool,
-    ) -> Option<f64> {
-        match self.units {
-            CourseUnits::Belt => {
-                let unit = if twin { quantity.si_unit().map_or("", |(unit, _)| unit) } else { "" };
-                let given = reader.within(key, node, bounds, unit, false)?;
-                Some(given / self.per_unit(reader, quantity, twin)?)
-            }
-            CourseUnits::System(numbers) => {
-                numbers.number(reader, key, node, quantity, bounds, twin)
-            }
-            CourseUnits::Disc => {
-                let unit = if twin { quantity.si_unit().map_or("", |(unit, _)| unit) } else { "" };
-                let given = reader.within(key, node, bounds, unit, false)?;
-                let per_unit = self.per_unit(reader, quantity, twin);
-                if per_unit.is_none() {
-                    let allowed = "left out: values in seconds and hertz require disc.youngs_modulus_pa, density_kg_per_m3, \
-                                   thickness_m and outer_radius_m, or modes in hertz";
-                    let (origin, given) = (node.origin, node.given());
-                    let conflict = Complaint::new(Fault::Conflict, key, origin, given, allowed);
-                    reader.complain(conflict);
-                }
-                Some(given / per_unit?)
-            }
-        }
-    }
-
-    /// The number of a key or file over that of the equations; `None` if the scales are wrong, which has been reported.
-    fn per_unit(&self, reader: &Reader, quantity: Quantity, twin: bool) -> Option<f64> {
-        match self.units {
-            _ if !twin => Some(1.0),
-            CourseUnits::Belt => reader.known_scales().map(|scales| scales.si_per_unit(quantity)),
-            CourseUnits::System(numbers) => Some(1.0 / numbers.factor(quantity, twin)),
-            CourseUnits::Disc => reader.si_per_unit(quantity),
-        }
+        found
     }
 
     fn oscillation(
@@ -363,42 +252,27 @@ impl CoursePlace<'_> {
             reader.wrong(&prefix, node, allowed);
             return None;
         };
-        let is_ratio = matches!(self.units, CourseUnits::Belt | CourseUnits::Disc);
-        let frequency = if is_ratio { "frequency_ratio" } else { "frequency" };
-        let amplitude_in_si = match self.what.quantity {
-            Quantity::Velocity => Some("amplitude_m_per_s"),
-            Quantity::Force => Some("amplitude_n"),
-            Quantity::FrequencyRatio => Some("amplitude_hz"),
-            _ => None,
-        };
-        let mut known = vec!["amplitude"];
-        known.extend(amplitude_in_si);
-        known.extend([frequency, "frequency_hz", "phase"]);
+        let amplitude = Parameter { quantity: self.0.quantity, ..OSCILLATION_AMPLITUDE };
+        let parameters = [amplitude, OSCILLATION_FREQUENCY, OSCILLATION_PHASE];
+        let suffixed = suffixed(amplitude.key(), amplitude.quantity);
+        let mut known: Vec<&str> = parameters.iter().flat_map(Parameter::keys).collect();
+        known.extend(suffixed.as_ref().map(|(name, _)| name.as_str()));
         for (name, other) in inner.iter() {
             if !known.contains(&name) {
                 let key = join(&prefix, name);
                 let (origin, given) = (other.origin, other.given());
-                reader.complain(Complaint::new(
-                    Fault::Unknown,
-                    key,
-                    origin,
-                    given,
-                    known.join(", "),
-                ));
+                let there = known.join(", ");
+                reader.complain(Complaint::new(Fault::Unknown, key, origin, given, there));
                 return None;
             }
         }
-        let mut one = |name: &str, si_name: Option<&str>, quantity: Quantity, bounds: Bounds| {
-            let (found, name, twin) = self.keyed(reader, inner, node, &prefix, name, si_name)?;
-            self.number(reader, &join(&prefix, name), found, quantity, bounds, twin)
-        };
-        let amplitude = one("amplitude", amplitude_in_si, self.what.quantity, Bounds::NOT_NEGATIVE);
-        let hertz = Some("frequency_hz");
-        let frequency = one(frequency, hertz, Quantity::FrequencyRatio, Bounds::POSITIVE);
-        let phase = match inner.get("phase") {
-            None => Some(0.0),
-            Some(_) => one("phase", None, Quantity::Angle, Bounds::FINITE),
-        };
+        let found = self.keyed(reader, inner, (node, &prefix), "amplitude", Some(self.0.quantity));
+        let amplitude = found.and_then(|Keyed { node, key, unit }| {
+            let (quantity, bounds) = (Some(self.0.quantity), Bounds::NOT_NEGATIVE);
+            reader.quantity(|| key.clone(), node, WantedNumber { quantity, bounds, unit })
+        });
+        let frequency = reader.number(inner, &prefix, node.origin, OSCILLATION_FREQUENCY);
+        let phase = reader.optional(inner, &prefix, OSCILLATION_PHASE).or(0.0);
         let wave = Wave {
             waveform: Waveform::Sine,
             amplitude: amplitude?,
@@ -446,38 +320,29 @@ impl CoursePlace<'_> {
     ) -> Result<Option<Knots>, String> {
         let text = reader.files().text(key, name, WantedFile::of(WHAT))?;
         let file = DataFile::new(&text, WHAT)?;
-        let CourseTable { value, quantity, bounds, .. } = self.what;
-        let column = |name: &'static str, si_name: Option<&'static str>, si_only: bool| {
-            let plain = file.column(name).filter(|_| !(si_only && si_name.is_some()));
-            let twin = si_name.and_then(|name| Some((file.column(name)?, name, true)));
-            plain.map(|at| (at, name, false)).or(twin)
+        let CourseTable { value, quantity, bounds, .. } = self.0;
+        let may_be_si = reader.units().take_suffixes();
+        let column = |name: &str, quantity| {
+            let si = suffixed(name, quantity).filter(|_| may_be_si);
+            let si = si
+                .and_then(|(name, unit)| Some((file.column(&name)?, name, KeyUnit::Suffix(unit))));
+            let plain = || Some((file.column(name)?, name.to_owned(), KeyUnit::Study));
+            si.or_else(plain)
         };
-        let (si_only, may_be_si) = match self.units {
-            CourseUnits::Belt => (reader.is_si(), reader.is_si()),
-            CourseUnits::System(numbers) => (false, numbers.has_units()),
-            CourseUnits::Disc => (false, reader.si_per_unit(Quantity::Time).is_some()),
-        };
-        let si = |name: &'static str, quantity| in_si(name, quantity).filter(|_| may_be_si);
-        let time = column("time", si("time", Quantity::Time), si_only);
-        let values = column(value, si(value, quantity), si_only);
+        let time = column("time", Quantity::Time);
+        let values = column(value, quantity);
         let (Some(time), Some(values)) = (time, values) else {
-            let name = |name: &'static str, quantity| {
-                si(name, quantity).filter(|_| si_only).unwrap_or(name)
-            };
-            let (time, value) = (name("time", Quantity::Time), name(value, quantity));
-            return Err(format!("a CSV file with columns {time} and {value}"));
+            return Err(format!("a CSV file with columns time and {value}"));
         };
-        let read = |(at, name, twin): (usize, &str, bool), quantity, bounds: Bounds| {
+        let units = reader.units();
+        let read = |(at, name, unit): (usize, String, KeyUnit), quantity, bounds: Bounds| {
             let allowed = bounds.to_string();
             let rows = file.rows().iter();
             let given =
-                rows.map(|row| row.number(at, name, &allowed, |value| bounds.contains(value)));
+                rows.map(|row| row.number(at, &name, &allowed, |value| bounds.contains(value)));
             let given: Vec<f64> = given.collect::<Result<_, String>>()?;
-            let per_unit = self.per_unit(reader, quantity, twin);
-            Ok::<_, String>(
-                per_unit
-                    .map(|unit| given.into_iter().map(|value| value / unit).collect::<Vec<f64>>()),
-            )
+            let values = given.into_iter().map(|value| units.in_equations(value, quantity, unit));
+            Ok::<_, String>(values.collect::<Option<Vec<f64>>>())
         };
         let times: Option<Vec<f64>> = read(time, Quantity::Time, Bounds::FINITE)?;
         let values: Option<Vec<f64>> = read(values, quantity, bounds)?;
@@ -490,16 +355,5 @@ impl CoursePlace<'_> {
             format!("{at}{list}: {} must be {}", why.value, why.allowed)
         })?;
         Ok(Some(knots))
-    }
-}
-
-/// The key of a number in SI.
-fn in_si(name: &str, quantity: Quantity) -> Option<&'static str> {
-    match (name, quantity) {
-        ("time", _) => Some("time_s"),
-        ("velocity", _) => Some("velocity_m_per_s"),
-        ("load", _) => Some("load_n"),
-        ("speed", _) => Some("speed_hz"),
-        _ => None,
     }
 }

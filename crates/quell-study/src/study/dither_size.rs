@@ -9,10 +9,12 @@ use quell_design::actuator::{Actuator, ActuatorDemand, SignalSize};
 use quell_linear::driven_point::DrivenPoint;
 use quell_model::Waveform;
 use quell_model::parameter::{DITHER_AMPLITUDE, Parameter};
+use quell_model::units::Quantity;
+use quell_model::units::measure;
 use serde_json::Value as Json;
 
-use super::document::{Node, Table};
-use super::reader::Reader;
+use super::document::{Node, Table, Value};
+use super::reader::{KeyUnit, Reader, WantedNumber};
 use super::vocabulary::join;
 use super::vocabulary::size::{DITHER_SIZES, SignalMeasure, SizeKey, SizedSignal};
 use crate::complaint::{Complaint, Fault, Origin};
@@ -61,55 +63,72 @@ impl SizedAmplitude {
     }
 }
 
-/// The key of another size in the table of a dither: `Ok(None)` without one, `Err` where two keys give the amplitude, which has been
-/// reported.
-pub(super) fn key_in<'t>(
+/// Reads the amplitude of a dither by any of its keys, in a study with or without a table `[actuator]`; the waveform converts a root mean
+/// square and a peak-to-peak value, an actuator what it takes. `None` if it is wrong, which has been reported.
+pub(super) fn read(
     reader: &mut Reader,
-    table: &'t Table,
-    prefix: &str,
-) -> Result<Option<(SizeKey, &'t Node)>, ()> {
-    let mut sizes = DITHER_SIZES.iter().filter_map(|size| Some((*size, table.get(size.key)?)));
-    let Some((size, node)) = sizes.next() else { return Ok(None) };
-    let others = sizes.map(|(size, _)| size.key);
-    let twins = DITHER_AMPLITUDE.si.iter().map(|twin| twin.key).filter(|key| table.has(key));
-    let plain = [DITHER_AMPLITUDE.key()].into_iter().filter(|key| table.has(key));
-    let Some(other) = plain.chain(twins).chain(others).next() else {
-        return Ok(Some((size, node)));
-    };
-    let (first, second) = (join(prefix, other), join(prefix, size.key));
-    let allowed = format!("give either {first} or {second}, not both");
-    reader.complain(Complaint::new(Fault::Conflict, second, node.origin, node.given(), allowed));
-    Err(())
-}
-
-/// The amplitude of a size whose number has been read, in a study with or without a table `[actuator]`.
-pub(super) fn sized(
-    reader: &mut Reader,
-    prefix: &str,
-    (key, node): (SizeKey, &Node),
-    value: f64,
+    table: &Table,
+    (prefix, header): (&str, Origin),
     (waveform, has_actuator): (Option<&Waveform>, bool),
 ) -> Option<SizedAmplitude> {
+    let mut sizes = DITHER_SIZES.iter().filter_map(|size| Some((*size, table.get(size.key)?)));
+    let Some((key, node)) = sizes.next() else {
+        let amplitude = reader.number(table, prefix, header, DITHER_AMPLITUDE)?;
+        return Some(SizedAmplitude::Known(amplitude, None));
+    };
+    let path = join(prefix, key.key);
+    let plain = DITHER_AMPLITUDE.keys().filter(|name| table.has(name));
+    if let Some(other) = plain.chain(sizes.map(|(size, _)| size.key)).next() {
+        reader.not_both(&join(prefix, other), &path, node);
+        return None;
+    }
+    let (value, size) = number(reader, &path, node, key)?;
     if key.needs_actuator() {
         if !has_actuator {
             let force = join(prefix, DITHER_AMPLITUDE.key());
             let allowed = format!(
                 "a study with a table [actuator], whose equations make it a force; or {force}, the force itself"
             );
-            let path = join(prefix, key.key);
-            let complaint =
-                Complaint::new(Fault::Missing, path, node.origin, node.given(), allowed);
-            reader.complain(complaint);
+            let given = node.given();
+            reader.complain(Complaint::new(Fault::Missing, path, node.origin, given, allowed));
             return None;
         }
         let (prefix, origin, given) = (prefix.to_owned(), node.origin, node.given());
         return Some(SizedAmplitude::Driven(DrivenSize { prefix, key, value, origin, given }));
     }
     let Some(of_unit) = key.measure.of_unit(waveform?) else {
-        reader.wrong(&join(prefix, key.key), node, WITHOUT_PEAK_TO_PEAK);
+        reader.wrong(&path, node, WITHOUT_PEAK_TO_PEAK);
         return None;
     };
-    Some(SizedAmplitude::Known(value / of_unit, Some((key, value))))
+    let amplitude = value / of_unit;
+    let of_one = if amplitude == 0.0 { 1.0 } else { size / amplitude };
+    reader.remember(&join(prefix, DITHER_AMPLITUDE.key()), &path, node.origin, of_one);
+    Some(SizedAmplitude::Known(amplitude, Some((key, size))))
+}
+
+/// The number of a size in the numbers of the equations, and as it is written.
+fn number(reader: &mut Reader, path: &str, node: &Node, key: SizeKey) -> Option<(f64, f64)> {
+    let of_share = key.quantity().is_none()
+        && matches!(&node.value, Value::Text(text) if measure::has_unit(text));
+    let unit = match key.unit {
+        "" | "%" => KeyUnit::Study,
+        unit => KeyUnit::Suffix(unit),
+    };
+    // A text such as "80 %" is a share.
+    let quantity = key.quantity().or(of_share.then_some(Quantity::Ratio));
+    let wanted = WantedNumber { quantity, bounds: DITHER_AMPLITUDE.bounds, unit };
+    if key.signal == SizedSignal::Newtons && !reader.units().take_suffixes() {
+        let plain = path.replace("amplitude_n", DITHER_AMPLITUDE.key());
+        reader.without_units(path, node, Some(plain));
+        return None;
+    }
+    let value = reader.quantity(|| path.to_owned(), node, wanted)?;
+    let value = if of_share { 100.0 * value } else { value };
+    let written = match node.value {
+        Value::Number(number) => number,
+        _ => value,
+    };
+    Some((value, written))
 }
 
 /// Why noise has no peak-to-peak value.

@@ -134,22 +134,6 @@ impl Files {
         Ok(place)
     }
 
-    /// The keys that name a file, each with the place of its file.
-    pub(super) fn named(&self) -> &[(String, usize)] {
-        &self.named
-    }
-
-    /// Names the keys below `table`, apart from the `earlier` ones, as those below `path`.
-    pub(super) fn rename(&mut self, earlier: usize, table: &str, path: &str) {
-        for (key, place) in self.named.split_off(earlier) {
-            let rest = key.strip_prefix(table).filter(|rest| rest.starts_with('.'));
-            let name = (rest.map_or(key.clone(), |rest| format!("{path}{rest}")), place);
-            if !self.named.contains(&name) {
-                self.named.push(name);
-            }
-        }
-    }
-
     /// The paths of the files that the study names.
     pub(super) fn paths(&self) -> impl Iterator<Item = &Path> {
         self.named.iter().map(|(_, place)| self.held[*place].path.as_path())

@@ -10,6 +10,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use quell_model::units::measure;
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
@@ -21,6 +22,8 @@ use vocabulary::SCHEMA_VERSION;
 
 mod actuator;
 mod actuator_file;
+mod address;
+mod band;
 pub mod belt;
 mod change;
 mod computed;
@@ -32,8 +35,9 @@ pub(crate) mod dither_size;
 pub mod document;
 mod file;
 mod files;
+mod friction;
 mod kind;
-mod measures;
+mod number_path;
 pub mod plausible;
 mod reader;
 mod root;
@@ -47,21 +51,24 @@ pub mod vocabulary;
 mod wave_file;
 mod waveform;
 
-pub use belt::{BeltSetup, BeltStudy, Measured};
+pub use address::NumberAddress;
+pub use belt::{BeltSetup, BeltStudy};
 pub use change::Change;
 pub use design::{BurstNumber, Confidence, Design, DesignRange, DitherPlace};
 pub use disc::{DiscSetup, DiscStudy};
 pub use dither_size::GivenSize;
 pub use files::Files;
+pub use friction::Measured;
 pub use kind::{Kind, Study};
 pub use quell_dynamics::response::Solver;
 pub use quell_dynamics::start::InitialState;
+pub use quell_model::units::UnitSystem;
 pub use steady::{not_periodic, varies_in_time};
 pub use study_kind::{StudyKind, not_available};
-pub use sweep::{Axis, AxisTarget, Sweep};
+pub use sweep::{Axis, Sweep};
 pub use system::{
-    DescribedSystem, FrequencyResponse, NumberedStudy, ScaledTime, SystemAddress, SystemOrigin,
-    SystemSetup, SystemStart, SystemStudy, SystemUnits,
+    DescribedSystem, FrequencyResponse, NumberedStudy, ScaledTime, SystemOrigin, SystemSetup,
+    SystemStart, SystemStudy,
 };
 pub(crate) use uncertainty::DISTRIBUTIONS;
 pub use uncertainty::Uncertainty;
@@ -173,7 +180,6 @@ impl<K: StudyKind> StudyOf<K> {
             .map(|complaint| *complaint)
             .collect();
         document.unprintable("", &mut refused);
-        measures::resolve(&mut document);
         match Self::check(document, from) {
             Ok(study) if refused.is_empty() => Ok(study),
             Ok(_) => Err(refused.into()),
@@ -236,7 +242,6 @@ impl<K: StudyKind> StudyOf<K> {
     pub fn sweeping(&self, axes: &[Table]) -> Result<Self, Complaints> {
         let mut document = self.source.document.clone();
         sweep::replace(&mut document, axes);
-        measures::resolve(&mut document);
         self.check_again(document, sweep::changes(&self.source.changes, axes))
     }
 
@@ -332,6 +337,9 @@ impl<K: StudyKind> StudyOf<K> {
         for (name, node) in document.iter().filter(|(name, _)| !apart.contains(name)) {
             node.leaves(name, &mut settings);
         }
+        for (path, value) in &mut settings {
+            self.in_unit_of_key(path, value);
+        }
         if !document.has("schema") {
             settings.push(("schema".to_owned(), format!("{:?}", f64::from(SCHEMA_VERSION))));
         }
@@ -352,6 +360,33 @@ impl<K> StudyOf<K> {
     /// A reader that knows what this study has read and computed.
     fn reading_again(&self, reader: Reader) -> Reader {
         reader.with(self.source.files.to_read_again(), self.source.computed.clone())
+    }
+
+    /// Replaces a quoted number with a unit by the number in the unit of its key.
+    fn in_unit_of_key(&self, path: &str, value: &mut String) {
+        let Some(text) = value.strip_prefix('"').and_then(|text| text.strip_suffix('"')) else {
+            return;
+        };
+        if !measure::has_unit(text) {
+            return;
+        }
+        let unit = self.address(path).ok().and_then(|address| address.measured_in);
+        if let Some(number) = unit.and_then(|unit| measure::read(text, Some(unit)).ok()) {
+            *value = format!("{number:?}");
+        }
+    }
+
+    /// The units of the bare numbers of the study.
+    pub fn file_units(&self) -> UnitSystem {
+        address::units_of(&self.source.document)
+    }
+
+    /// The number that a path names.
+    ///
+    /// # Errors
+    /// The nearest path that names a number.
+    pub fn address(&self, path: &str) -> Result<NumberAddress, Option<String>> {
+        number_path::resolve(&self.source.document, path)
     }
 
     /// The files that the study names.

@@ -8,7 +8,7 @@ use quell_model::system::Mechanical;
 use quell_model::units::Quantity;
 use quell_numerics::matrix::Matrix;
 
-use super::system::SystemUnits;
+use quell_model::units::UnitSystem;
 
 /// Natural frequencies of structures that friction excites, Hz.
 const FREQUENCIES: (f64, f64) = (0.01, 1e7);
@@ -39,7 +39,7 @@ const GRAVITY: f64 = 9.81;
 
 /// The warnings about a system; numbers without units have none. `modal`: whether its structure is given by modes, whose shapes have
 /// the scale of a mass.
-pub fn warnings(system: &System, units: SystemUnits, modal: bool) -> Vec<String> {
+pub fn warnings(system: &System, units: UnitSystem, modal: bool) -> Vec<String> {
     let Some(length) = units.si_per_unit(Quantity::Displacement) else { return Vec::new() };
     let name = units.name();
     let mut warnings = of_magnitudes(system, units, length);
@@ -74,12 +74,12 @@ pub fn warnings(system: &System, units: SystemUnits, modal: bool) -> Vec<String>
 }
 
 /// The other system of units that the numbers may be in, where a study can have it.
-fn or_other(units: SystemUnits) -> &'static str {
-    if units == SystemUnits::MmTonneSecond { " or in SI" } else { " or in mm-t-s" }
+fn or_other(units: UnitSystem) -> &'static str {
+    if units == UnitSystem::MmTonneSecond { " or in SI" } else { " or in mm-t-s" }
 }
 
 /// Warnings about speeds, coefficients and forces that are larger than any likely one.
-fn of_magnitudes(system: &System, units: SystemUnits, length: f64) -> Vec<String> {
+fn of_magnitudes(system: &System, units: UnitSystem, length: f64) -> Vec<String> {
     let mut warnings = Vec::new();
     let newtons = units.si_per_unit(Quantity::Force).unwrap_or(1.0);
     for contact in &system.contacts {
@@ -122,7 +122,7 @@ fn of_magnitudes(system: &System, units: SystemUnits, length: f64) -> Vec<String
 
 /// Warnings about modes whose scale does not suit the contacts. Shapes that are normalised to unit mass in another unit of mass have a
 /// mass at the contact that is a thousand times too small or too large; natural frequencies do not show that.
-fn of_modes(system: &System, mechanical: &Mechanical, units: SystemUnits) -> Vec<String> {
+fn of_modes(system: &System, mechanical: &Mechanical, units: UnitSystem) -> Vec<String> {
     let kilograms = units.si_per_unit(Quantity::LoadMass).unwrap_or(1.0);
     let mass = mechanical.mass().matrix();
     let highest = (0..mass.rows())

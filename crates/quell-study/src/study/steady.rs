@@ -10,6 +10,7 @@ use serde_json::Value as Json;
 
 use super::document::{Node, Table, Value};
 use super::kind::{Kind, Study};
+use super::vocabulary::UNITS;
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
 
 impl Study {
@@ -79,20 +80,10 @@ impl Study {
                 let system = setup.system();
                 each(&mut document, "contact", |index, table| {
                     let Some(contact) = system.contacts.get(index) else { return Ok(()) };
-                    let keys = |parameter: Parameter| {
-                        let twins = parameter.si.iter().map(|twin| twin.key.to_owned());
-                        [parameter.key().to_owned()].into_iter().chain(twins).collect::<Vec<_>>()
-                    };
                     let steady = contact.steady_at(time);
                     let velocity = steady.surface_velocity.mean();
-                    replace(table, "drive", &keys(BELT_VELOCITY), BELT_VELOCITY.key(), velocity);
-                    replace(
-                        table,
-                        "load",
-                        &keys(NORMAL_LOAD),
-                        NORMAL_LOAD.key(),
-                        steady.normal_load,
-                    );
+                    replace(table, "drive", BELT_VELOCITY, velocity);
+                    replace(table, "load", NORMAL_LOAD, steady.normal_load);
                     Ok(())
                 })?;
                 each(&mut document, "dither", |index, table| {
@@ -112,15 +103,8 @@ fn belt_at(document: &mut Table, belt: &Belt, time: f64) -> Result<(), Complaint
     let scales = belt.scales();
     if let Some(Value::Table(table)) = document.get_mut("belt").map(|node| &mut node.value) {
         let mut set = |name: &str, parameter: Parameter, value: f64| {
-            let twins = parameter.si.iter().map(|twin| twin.key.to_owned());
-            let keys: Vec<String> = [parameter.key().to_owned()].into_iter().chain(twins).collect();
-            match (scales, parameter.si.first()) {
-                (Some(scales), Some(twin)) => {
-                    let si = scales.to_si(parameter.quantity, value);
-                    replace(table, name, &keys, twin.key, si);
-                }
-                _ => replace(table, name, &keys, parameter.key(), value),
-            }
+            let own = scales.map_or(value, |scales| scales.to_units(parameter.quantity, value));
+            replace(table, name, parameter, own);
         };
         set("drive", BELT_VELOCITY, belt.belt_velocity_at(time));
         let load = belt.load().map_or(belt.normal_load(), |load| load.value(time));
@@ -138,8 +122,9 @@ fn disc_at(document: &mut Table, disc: &Disc, time: f64) -> Result<(), Complaint
         if disc.drive().is_some() {
             table.remove("drive");
             let speed = disc.speed_at(time);
+            let has_units = table.has(UNITS);
             each(table, "load", |index, table| {
-                set_speed(table, speed, disc.scales(index));
+                set_speed(table, speed, disc.scales(index), has_units);
                 Ok(())
             })?;
         }
@@ -169,10 +154,10 @@ fn disc_at(document: &mut Table, disc: &Disc, time: f64) -> Result<(), Complaint
 }
 
 /// Sets the speed of a load, in hertz where it was given in SI.
-fn set_speed(table: &mut Table, speed: f64, scales: Option<DiscScales>) {
+fn set_speed(table: &mut Table, speed: f64, scales: Option<DiscScales>, has_units: bool) {
     let hertz = scales.and_then(|scales| scales.si_per_unit(DISC_SPEED.quantity));
     let twins = || DISC_SPEED.si.iter().map(|twin| twin.key);
-    let si = hertz.filter(|_| twins().any(|key| table.has(key)));
+    let si = hertz.filter(|_| has_units || twins().any(|key| table.has(key)));
     let (key, value) = match si {
         Some(hertz) => ("speed_hz", hertz * speed),
         None => (DISC_SPEED.key(), speed),
@@ -184,15 +169,18 @@ fn set_speed(table: &mut Table, speed: f64, scales: Option<DiscScales>) {
 }
 
 /// Replaces a table over time by the constant value of its moment.
-fn replace(table: &mut Table, course: &str, keys: &[String], key: &str, value: f64) {
+fn replace(table: &mut Table, course: &str, parameter: Parameter, value: f64) {
     if !table.has(course) {
         return;
     }
     table.remove(course);
-    for key in keys {
+    for key in parameter.keys() {
         table.remove(key);
     }
-    table.set(key, Node { value: Value::Number(value), origin: Origin::Argument("--at-time") });
+    table.set(
+        parameter.key(),
+        Node { value: Value::Number(value), origin: Origin::Argument("--at-time") },
+    );
 }
 
 /// Replaces an envelope by its share of the amplitude.
@@ -214,9 +202,10 @@ fn scale_by(
     for (name, node) in table.iter_mut().filter(|(name, _)| scales(name)) {
         node.value = match &node.value {
             Value::Number(amplitude) => Value::Number(share * amplitude),
-            Value::Text(text) if !measure::has_unit(text) => {
-                Value::Text(format!("({text}) * {share:?}"))
-            }
+            Value::Text(text) => match measure::scaled(text, share) {
+                Some(scaled) => Value::Text(scaled),
+                None => Value::Text(format!("({text}) * {share:?}")),
+            },
             _ => {
                 let allowed =
                     "a number or a formula, so that its share at --at-time is one as well";

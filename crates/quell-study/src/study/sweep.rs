@@ -3,11 +3,11 @@
 use quell_model::parameter::Bounds;
 use serde_json::Value as Json;
 
+use super::address::NumberAddress;
 use super::document::{Node, Table, Value};
+use super::number_path;
 use super::reader::Reader;
-use super::system::keys;
-use super::system::path::{SystemAddress, resolve_in};
-use super::vocabulary::{self, Address, Choice, MOST_POINTS, Role, Section, join};
+use super::vocabulary::{Choice, MOST_POINTS, Section, join};
 use crate::complaint::{Complaint, Fault, Origin};
 
 /// One axis of a map. Its values are in the unit of the key it names.
@@ -16,90 +16,9 @@ pub struct Sweep {
     /// Path of the number that is varied, as it was written.
     pub path: String,
     /// The number it names.
-    pub target: AxisTarget,
+    pub target: NumberAddress,
     /// Spacing of the values.
     pub axis: Axis,
-}
-
-/// The number that an axis varies.
-#[derive(Clone, Debug, PartialEq)]
-pub enum AxisTarget {
-    /// A key of a belt or a disc.
-    Key(Address),
-    /// A number of a system.
-    System(SystemAddress),
-}
-
-impl AxisTarget {
-    /// Description of the number, in one line.
-    pub fn about(&self) -> &'static str {
-        match self {
-            Self::Key(address) => address.key.about,
-            Self::System(address) => address.about,
-        }
-    }
-
-    /// Symbol in the equations, if it is a number of the registry.
-    pub fn symbol(&self) -> Option<&'static str> {
-        match self {
-            Self::Key(address) => address.key.symbol(),
-            Self::System(address) => address.symbol,
-        }
-    }
-
-    /// Unit of its values.
-    pub fn unit(&self) -> &'static str {
-        match self {
-            Self::Key(address) => address.key.unit(),
-            Self::System(address) => address.unit,
-        }
-    }
-
-    /// Unit of its values in words.
-    pub fn unit_in_words(&self) -> &'static str {
-        match self {
-            Self::Key(address) => address.key.unit_in_words(),
-            Self::System(address) => address.unit,
-        }
-    }
-
-    /// The key of a belt or a disc.
-    pub fn key(&self) -> Option<&Address> {
-        match self {
-            Self::Key(address) => Some(address),
-            Self::System(_) => None,
-        }
-    }
-
-    /// The unit to which values with a unit are converted.
-    pub(super) fn measured_in(&self) -> Option<&'static str> {
-        match self {
-            Self::Key(address) => address.key.measured_in(),
-            Self::System(address) => Some(address.unit),
-        }
-    }
-
-    /// Whether both name the same number; named constants share a key, and differ by their paths.
-    pub(super) fn is_as(&self, other: &Self, [path, other_path]: [&str; 2]) -> bool {
-        let constant =
-            |target: &Self| target.key().is_some_and(|address| address.key.role == Role::Constant);
-        self == other && (!constant(self) || path.trim() == other_path.trim())
-    }
-
-    /// What a path names in a document.
-    ///
-    /// # Errors
-    /// The nearest path that names a number.
-    pub(super) fn resolve(document: &Table, path: &str) -> Result<Self, Option<String>> {
-        if keys::is_described(document) {
-            return resolve_in(document, path).map(Self::System);
-        }
-        match vocabulary::resolve(path) {
-            Ok(address) if address.key.takes_number() => Ok(Self::Key(address)),
-            Ok(_) => Err(None),
-            Err(nearest) => Err(nearest),
-        }
-    }
 }
 
 /// The values of an axis.
@@ -180,12 +99,6 @@ impl Axis {
     }
 }
 
-impl Sweep {
-    fn sets_the_same_as(&self, other: &Self) -> bool {
-        self.target.is_as(&other.target, [&self.path, &other.path])
-    }
-}
-
 /// Replaces the axes of a study.
 pub(super) fn replace(root: &mut Table, axes: &[Table]) {
     let entry = |table: &Table| Node { value: Value::Table(table.clone()), origin: Origin::Whole };
@@ -217,8 +130,10 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Vec<Sweep>> {
         let prefix = format!("sweep[{index}]");
         let sweep = one(reader, root, node, &prefix);
         if let Some(sweep) = &sweep
-            && let Some(earlier) =
-                sweeps.iter().flatten().position(|earlier| earlier.sets_the_same_as(sweep))
+            && let Some(earlier) = sweeps
+                .iter()
+                .flatten()
+                .position(|earlier| earlier.target.number == sweep.target.number)
         {
             let allowed = format!("sweep[{earlier}] already varies {}", sweep.path);
             let key = join(&prefix, "parameter");
@@ -242,7 +157,7 @@ fn one(reader: &mut Reader, root: &Table, node: &Node, prefix: &str) -> Option<S
     };
     reader.unknown_keys(table, Section::Sweep, prefix, &[]);
     let named = parameter(reader, root, table, node, prefix);
-    let unit = named.as_ref().and_then(|(_, target)| target.measured_in());
+    let unit = named.as_ref().and_then(|(_, target)| target.measured_in);
     let unit = unit.filter(|unit| *unit != "1").unwrap_or_default();
     let axis = axis(reader, table, node, prefix, unit);
     let (path, target) = named?;
@@ -255,7 +170,7 @@ fn parameter(
     table: &Table,
     header: &Node,
     prefix: &str,
-) -> Option<(String, AxisTarget)> {
+) -> Option<(String, NumberAddress)> {
     let key = join(prefix, "parameter");
     let Some(node) = table.get("parameter") else {
         let allowed = "the path of a number in the study, such as \"dither.amplitude\"";
@@ -263,12 +178,12 @@ fn parameter(
         return None;
     };
     let path = reader.text(&key, node)?;
-    match AxisTarget::resolve(root, &path) {
+    match number_path::resolve(root, &path) {
         Ok(target) => Some((path, target)),
         Err(nearest) => {
             let allowed = "the path of a number in the study, such as \"dither.amplitude\"";
             let complaint = Complaint::new(Fault::Value, key, node.origin, path, allowed);
-            reader.complain(complaint.suggesting(nearest.map(|path| reader.in_system(&path))));
+            reader.complain(complaint.suggesting(nearest));
             None
         }
     }
@@ -279,7 +194,7 @@ fn axis(
     table: &Table,
     header: &Node,
     prefix: &str,
-    unit: &str,
+    unit: &'static str,
 ) -> Option<Axis> {
     let spacing = match table.get("spacing") {
         Some(node) => reader.choice(&join(prefix, "spacing"), node, Choice::Spacing),
@@ -336,7 +251,7 @@ fn axis(
     }
 }
 
-fn values(reader: &mut Reader, node: &Node, key: &str, unit: &str) -> Option<Vec<f64>> {
+fn values(reader: &mut Reader, node: &Node, key: &str, unit: &'static str) -> Option<Vec<f64>> {
     let Value::List(list) = &node.value else {
         reader.wrong(key, node, format!("an array of numbers; got {}", node.kind()));
         return None;

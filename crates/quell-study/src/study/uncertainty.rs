@@ -8,9 +8,10 @@ use quell_design::probability::{Distribution, JointDistribution};
 use quell_model::parameter::Bounds;
 use serde_json::Value as Json;
 
+use super::address::NumberAddress;
 use super::document::{Node, Table, Value};
+use super::number_path;
 use super::reader::Reader;
-use super::sweep::AxisTarget;
 use super::vocabulary::join;
 use crate::complaint::{Complaint, Fault, Origin};
 
@@ -40,7 +41,7 @@ pub struct Uncertainty {
 #[derive(Clone, Debug, PartialEq)]
 struct UncertainNumber {
     path: String,
-    target: AxisTarget,
+    target: NumberAddress,
     origin: Origin,
 }
 
@@ -178,24 +179,24 @@ impl Gathering<'_> {
         node: &Node,
         path: &str,
     ) -> Option<&'static str> {
-        let target = match AxisTarget::resolve(self.root, path) {
+        let target = match number_path::resolve(self.root, path) {
             Ok(target) => target,
             Err(nearest) => {
                 let allowed = "the path of a number in the study, such as \"belt.damping_ratio\"";
                 let complaint = Complaint::new(Fault::Value, key, node.origin, path, allowed);
-                reader.complain(complaint.suggesting(nearest.map(|path| reader.in_system(&path))));
+                reader.complain(complaint.suggesting(nearest));
                 return None;
             }
         };
         if let Some(earlier) =
-            self.numbers.iter().find(|number| number.target.is_as(&target, [&number.path, path]))
+            self.numbers.iter().find(|number| number.target.number == target.number)
         {
             let allowed =
                 format!("a number without a distribution; {} already has one", earlier.path);
             reader.complain(Complaint::new(Fault::Conflict, key, node.origin, path, allowed));
             return None;
         }
-        let unit = target.measured_in().filter(|unit| *unit != "1").unwrap_or_default();
+        let unit = target.measured_in.filter(|unit| *unit != "1").unwrap_or_default();
         self.numbers.push(UncertainNumber { path: path.to_owned(), target, origin: node.origin });
         Some(unit)
     }
@@ -278,7 +279,12 @@ fn is_table_of_paths(table: &Table) -> bool {
 }
 
 /// A distribution: one kind with two numbers.
-fn distribution(reader: &mut Reader, key: &str, node: &Node, unit: &str) -> Option<Distribution> {
+fn distribution(
+    reader: &mut Reader,
+    key: &str,
+    node: &Node,
+    unit: &'static str,
+) -> Option<Distribution> {
     let kinds = DISTRIBUTIONS.map(|(name, numbers)| format!("{{ {name} = {numbers} }}")).join(", ");
     let entries: Vec<(&str, &Node)> =
         node.table().map(|table| table.iter().collect()).unwrap_or_default();
@@ -302,7 +308,7 @@ fn distribution(reader: &mut Reader, key: &str, node: &Node, unit: &str) -> Opti
         return None;
     };
     let keys = [0, 1].map(|place| format!("{key}[{place}]"));
-    let mut number = |place: usize, node: &Node, bounds: Bounds, unit: &str| {
+    let mut number = |place: usize, node: &Node, bounds: Bounds, unit: &'static str| {
         reader.within(&keys[place], node, bounds, unit, false)
     };
     match name {

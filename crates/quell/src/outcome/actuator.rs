@@ -26,7 +26,7 @@ impl Presented<BeltSetup> for ActuatorFound {
     }
 
     fn table(&self, study: &BeltStudy) -> String {
-        let newtons = study.scales().map(|scales| (scales.si_per_unit(Quantity::Force), "/N"));
+        let newtons = study.scales().map(|scales| (scales.per_unit(Quantity::Force), "/N"));
         table(self, study, newtons.unwrap_or((1.0, "")))
     }
 

@@ -91,10 +91,8 @@ fn table(study: &BeltStudy, found: &AtlasFound) -> String {
         figure(point.frequency_ratio),
         figure(point.damping_per_cycle())
     );
-    let (unit, scale) = match study.scales().zip(Quantity::Force.si_unit()) {
-        Some((scales, (unit, _))) => {
-            (format!("amplitude/{unit}"), scales.si_per_unit(Quantity::Force))
-        }
+    let (unit, scale) = match study.scales().and_then(|scales| scales.one(Quantity::Force)) {
+        Some((one, unit)) => (format!("amplitude/{unit}"), one),
         None => ("amplitude D".to_owned(), 1.0),
     };
     let _ = writeln!(

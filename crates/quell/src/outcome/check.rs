@@ -14,7 +14,7 @@ use crate::run::law;
 use crate::run::system;
 use crate::study::{
     BeltSetup, BeltStudy, DiscSetup, DiscStudy, GivenSize, StudyOf, SystemSetup, SystemStudy,
-    SystemUnits,
+    UnitSystem,
 };
 
 /// Marks a valid study; the answer of `check` follows from the study alone.
@@ -187,9 +187,9 @@ fn table_of_system(study: &SystemStudy) -> String {
 }
 
 /// The frequency of a wave, of noise its band.
-fn frequency_of(units: SystemUnits, wave: &Wave) -> String {
+fn frequency_of(units: UnitSystem, wave: &Wave) -> String {
     let of = |frequency: f64| match units {
-        SystemUnits::None => figure(frequency),
+        UnitSystem::None => figure(frequency),
         _ => figure(frequency / std::f64::consts::TAU),
     };
     let noise = wave.waveform.noise().map(|noise| {
@@ -198,7 +198,7 @@ fn frequency_of(units: SystemUnits, wave: &Wave) -> String {
     });
     let (range, lines) = noise.unwrap_or_else(|| (of(wave.frequency), String::new()));
     match units {
-        SystemUnits::None => format!("angular frequency {range}{lines}"),
+        UnitSystem::None => format!("angular frequency {range}{lines}"),
         _ => format!("{range} Hz{lines}"),
     }
 }

@@ -45,9 +45,9 @@ fn table(study: &BeltStudy, done: &DescribedFriction) -> String {
         let label = if cycle.stable { "stable limit cycle" } else { "unstable limit cycle" };
         head.number(label, Quantity::Velocity, cycle.amplitude);
     }
-    let (unit, per_unit) = match study.scales() {
-        Some(scales) => ("m/s".to_owned(), scales.si_per_unit(Quantity::Velocity)),
-        None => (quantity::unit_of(Quantity::Velocity, false), 1.0),
+    let (unit, per_unit) = match study.scales().and_then(|scales| scales.one(Quantity::Velocity)) {
+        Some((one, unit)) => (unit.to_owned(), one),
+        None => (quantity::unit_of(Quantity::Velocity, None), 1.0),
     };
     let mut text = head.text();
     let _ = write!(

@@ -11,7 +11,7 @@ use super::Outcome;
 use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
-use crate::fields::{Fields, PER_VELOCITY};
+use crate::fields::Fields;
 use crate::input::Inputs;
 use crate::picture;
 use crate::plot::Figure;
@@ -53,7 +53,6 @@ impl Outcome for FrictionFit {
 /// Unit of a quantity of the file.
 fn unit(fit: &FrictionFit, quantity: Quantity) -> &'static str {
     match quantity {
-        Quantity::PerVelocity if fit.data.is_si() => PER_VELOCITY.1,
         quantity if fit.data.is_si() => quantity.si_unit().map_or("1", |(unit, _)| unit),
         quantity => quantity.scaled_unit(),
     }

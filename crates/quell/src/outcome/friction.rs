@@ -53,9 +53,9 @@ impl Presented<BeltSetup> for FrictionCurve {
 
 fn table(study: &BeltStudy, curve: &FrictionCurve) -> String {
     // In the units of the study; in SI velocities are in m/s and slopes per m/s.
-    let (unit, per_unit) = match study.scales() {
-        Some(scales) => ("m/s".to_owned(), scales.si_per_unit(Quantity::Velocity)),
-        None => (quantity::unit_of(Quantity::Velocity, false), 1.0),
+    let (unit, per_unit) = match study.scales().and_then(|scales| scales.one(Quantity::Velocity)) {
+        Some((one, unit)) => (unit.to_owned(), one),
+        None => (quantity::unit_of(Quantity::Velocity, None), 1.0),
     };
     let mut text = String::new();
     for (label, words) in law::words(study) {

@@ -67,10 +67,11 @@ fn table(study: &BeltStudy, done: &MeasuredResponse) -> String {
         text.push_str("\nPeaks of the spectrum, largest first:\n");
         let mut peaks = response.peaks.clone();
         descending_by(&mut peaks, |a| a.amplitude);
-        let hertz = study.scales().map(|scales| scales.si_per_unit(Quantity::FrequencyRatio));
+        let hertz = study.scales().map(|scales| scales.per_unit(Quantity::FrequencyRatio));
         for peak in peaks.iter().take(PEAKS) {
             let hertz = hertz.map(|hertz| format!(" ({} Hz)", figure(peak.frequency * hertz)));
-            let unit = if study.scales().is_some() { "m" } else { "length" };
+            let unit = study.scales().and_then(|scales| scales.unit(Quantity::Displacement));
+            let unit = unit.unwrap_or("length");
             let (frequency, amplitude) = (figure(peak.frequency), figure(peak.amplitude));
             let hertz = hertz.unwrap_or_default();
             let _ = writeln!(text, "  {amplitude:>12} {unit} at {frequency} ω₀{hertz}");

@@ -26,13 +26,12 @@ impl TextTable {
         if !value.is_finite() {
             return self.word(label, "undefined: beyond the range of floating-point numbers");
         }
-        let unit = unit_of(quantity, self.scales.is_some());
+        let unit = unit_of(quantity, self.scales);
         let unit = if unit == "1" { String::new() } else { unit };
-        let si = match (self.scales, quantity.si_unit()) {
-            (Some(scales), Some((unit, _))) if quantity != Quantity::Displacement => {
-                format!("{} {unit}", figure(scales.to_si(quantity, value)))
-            }
-            _ => String::new(),
+        let scales = self.scales.filter(|_| quantity != Quantity::Displacement);
+        let si = match scales.and_then(|scales| scales.one(quantity)) {
+            Some((one, unit)) => format!("{} {unit}", figure(value * one)),
+            None => String::new(),
         };
         self.rows.push([label.to_owned(), figure(value), unit, si]);
     }
@@ -90,8 +89,8 @@ fn is_word(row: &[String; 4]) -> bool {
 
 /// A quantity with [`DIGITS`] significant digits, in SI with its unit if the study is in SI.
 pub(super) fn figure_of(study: &BeltStudy, quantity: Quantity, value: f64) -> String {
-    match study.scales().zip(quantity.si_unit()) {
-        Some((scales, (unit, _))) => format!("{} {unit}", figure(scales.to_si(quantity, value))),
+    match study.scales().and_then(|scales| scales.one(quantity)) {
+        Some((one, unit)) => format!("{} {unit}", figure(value * one)),
         None => figure(value),
     }
 }

@@ -5,15 +5,14 @@ use std::fmt::Write as _;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::figure_of;
+use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::curves::{Curves, ThresholdCurve, ThresholdCurveEnd};
-use crate::run::thresholds::{
-    Signature, TRIED, Thresholds, becomes, path_in_words, quantity_of, side, value_in_words,
-};
+use crate::run::thresholds::{Signature, TRIED, Thresholds, becomes, side};
+use crate::run::varied::Named;
 use crate::study::{BeltSetup, BeltStudy};
 
 impl Presented<BeltSetup> for Thresholds {
@@ -57,8 +56,8 @@ impl Presented<BeltSetup> for Curves {
 }
 
 fn table_of_curves(study: &BeltStudy, done: &Curves) -> String {
-    let (parameter, across) = (&done.question.parameter, &done.question.along);
-    let names = [across, parameter].map(|path| path_in_words(study, path));
+    let [parameter, across] = &done.asked;
+    let names = [across, parameter].map(|named| named.key().to_owned());
     let figures: [&dyn Fn(f64) -> String; 2] =
         [&|along| figure_at(study, across, along), &|value| figure_at(study, parameter, value)];
     let curves = done.curves.iter().map(|curve| (curve.kind.name().to_owned(), curve));
@@ -87,17 +86,21 @@ pub(super) fn rows_of_curves<'a, S: 'a>(
     text
 }
 
-/// A value of a number of the equations, in SI if the study is in SI.
-fn figure_at(study: &BeltStudy, path: &str, value: f64) -> String {
-    figure_of(study, quantity_of(study, path), value)
+/// A value of a number of the equations as its key gives it, with its unit in a study with units.
+fn figure_at(study: &BeltStudy, named: &Named, value: f64) -> String {
+    match named.value(value) {
+        (unit, value) if study.scales().is_some() && unit != "1" => {
+            format!("{} {unit}", figure(value))
+        }
+        (_, value) => figure(value),
+    }
 }
 
 fn table(study: &BeltStudy, done: &Thresholds) -> String {
     let question = &done.question;
-    let given = question.parameter.as_str();
-    let path = path_in_words(study, given);
-    let figure = |value: f64| figure_at(study, given, value);
-    let whole = |value: f64| value_in_words(study, given, value);
+    let path = done.asked.key();
+    let figure = |value: f64| figure_at(study, &done.asked, value);
+    let whole = |value: f64| done.asked.words(study, value);
     let response =
         if study.belt().dithers().is_empty() { "steady sliding" } else { "the base response" };
     let mut text =

@@ -24,8 +24,8 @@ impl Presented<BeltSetup> for WaveformComparison {
     }
 
     fn table(&self, study: &BeltStudy) -> String {
-        table(self, |quantity| match study.scales().zip(quantity.si_unit()) {
-            Some((scales, (unit, _))) => (scales.si_per_unit(quantity), Some(unit)),
+        table(self, |quantity| match study.scales().and_then(|scales| scales.one(quantity)) {
+            Some((one, unit)) => (one, Some(unit)),
             None => (1.0, None),
         })
     }

@@ -9,7 +9,7 @@ use crate::plot::{
     Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Region,
 };
 use crate::run::describing::{DescribedContact, DescribedContacts, DescribedFriction, balance};
-use crate::study::{BeltStudy, SystemStudy, SystemUnits};
+use crate::study::{BeltStudy, SystemStudy, UnitSystem};
 
 /// 2ζ + FN₁ over the velocity amplitude, with the limit cycles.
 pub(crate) fn of_belt(study: &BeltStudy, done: &DescribedFriction) -> Figure {
@@ -40,8 +40,8 @@ pub(crate) fn of_system(study: &SystemStudy, done: &DescribedContacts) -> Figure
     let per_velocity = study.units().unit(Quantity::PerVelocity).unwrap_or_default();
     let vertical = PlotAxis::new("gain").symbol("N_1");
     let vertical = match study.units() {
-        SystemUnits::None => vertical,
-        SystemUnits::Si | SystemUnits::MmTonneSecond => vertical.unit(per_velocity),
+        UnitSystem::None => vertical,
+        UnitSystem::Si | UnitSystem::MmTonneSecond => vertical.unit(per_velocity),
     };
     let mut gains = Panel::new(axis(&ruler, done.largest), vertical);
     gains = gains.with(ReferenceLine::horizontal(0.0));
@@ -63,8 +63,8 @@ pub(crate) fn of_system(study: &SystemStudy, done: &DescribedContacts) -> Figure
     if let Ok(balance) = &done.balance {
         let rate = PlotAxis::new("growth rate");
         let rate = match study.units() {
-            SystemUnits::None => rate,
-            SystemUnits::Si | SystemUnits::MmTonneSecond => rate.unit("1/s"),
+            UnitSystem::None => rate,
+            UnitSystem::Si | UnitSystem::MmTonneSecond => rate.unit("1/s"),
         };
         let contact = &done.contacts[balance.contact];
         let growth = Panel::new(axis(&ruler, done.largest), rate)

@@ -10,6 +10,7 @@ use crate::plot::{
 };
 use crate::run::design::{LeastDitherFound, StudyWithDesign, quantity_of};
 use crate::run::varied::name_of;
+use crate::study::UnitSystem;
 use crate::study::vocabulary::resolve;
 use crate::study::{BeltStudy, DiscStudy, SystemStudy};
 
@@ -109,7 +110,7 @@ fn figure(study: &dyn StudyWithDesign, done: &LeastDitherFound, axis: &AxisOfPat
 /// An axis of a number, by its key.
 fn axis(study: &BeltStudy, path: &str) -> PlotAxis {
     let (about, symbol) = name_of(study, path).unwrap_or((path, ""));
-    let unit = resolve(path).map_or("", |address| address.key.unit_in_words());
+    let unit = study.address(path).map_or("", |address| address.unit);
     let axis = PlotAxis::new(about).symbol(symbol);
     if study.scales().is_some() && unit != "1" { axis.unit(unit) } else { axis }
 }
@@ -120,7 +121,7 @@ fn axis_of_key(path: &str, in_si: bool) -> PlotAxis {
     let parameter = address.key.parameter();
     let symbol = parameter.map_or("", |parameter| parameter.symbol);
     let about = parameter.map_or(path, |parameter| short_about(parameter.about));
-    let unit = address.key.unit_in_words();
+    let unit = address.key.unit_in_words(UnitSystem::None);
     let axis = PlotAxis::new(about).symbol(symbol);
     if in_si && unit != "1" { axis.unit(unit) } else { axis }
 }
@@ -311,8 +312,8 @@ fn frontier(
     let noun = PlotAxis::new(format!("least {}", minimise.name().replace('-', " ")));
     let (vertical, up) = match minimise {
         DesignObjective::Amplitude => (axis(&done.amplitude.path), done.amplitude.per_unit),
-        _ => match study.fields().in_si(quantity_of(study, minimise)) {
-            Some((factor, unit)) => (noun.unit(unit), factor),
+        _ => match study.fields().one_with_unit(quantity_of(study, minimise)) {
+            Some((one, unit)) => (noun.unit(unit), one),
             None => (noun, 1.0),
         },
     };

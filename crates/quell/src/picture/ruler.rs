@@ -3,7 +3,7 @@
 use quell_model::units::Quantity;
 
 use crate::plot::PlotAxis;
-use crate::study::{BeltStudy, SystemStudy, SystemUnits};
+use crate::study::{BeltStudy, SystemStudy, UnitSystem};
 
 /// Units that take a metric prefix; the other ones already have a scale, or are squares and quotients.
 const PREFIXED: &[&str] = &["N", "Hz", "W", "m", "m/s", "s"];
@@ -23,10 +23,9 @@ pub(super) struct Ruler {
 impl Ruler {
     /// A ruler for values up to `largest` in magnitude (dimensionless).
     pub(super) fn new(study: &BeltStudy, quantity: Quantity, largest: f64) -> Self {
-        let Some((scales, (unit, _))) = study.scales().zip(quantity.si_unit()) else {
+        let Some((si, unit)) = study.scales().and_then(|scales| scales.one(quantity)) else {
             return Self { factor: 1.0, unit: String::new() };
         };
-        let si = scales.si_per_unit(quantity);
         let ruler = Self::of_unit(unit, largest * si);
         Self { factor: si * ruler.factor, ..ruler }
     }
@@ -51,8 +50,8 @@ impl Ruler {
     ) -> Self {
         let unit = study.units().unit(quantity).unwrap_or_default();
         match study.units() {
-            SystemUnits::Si => Self::of_unit(unit, largest(values)),
-            SystemUnits::None | SystemUnits::MmTonneSecond => {
+            UnitSystem::Si => Self::of_unit(unit, largest(values)),
+            UnitSystem::None | UnitSystem::MmTonneSecond => {
                 Self { factor: 1.0, unit: unit.to_owned() }
             }
         }
@@ -62,8 +61,8 @@ impl Ruler {
     pub(super) fn of_path(study: &SystemStudy, path: &str, largest: f64) -> Self {
         let unit = study.unit_of(path).filter(|unit| *unit != "1").unwrap_or_default();
         match study.units() {
-            SystemUnits::Si => Self::of_unit(unit, largest),
-            SystemUnits::None | SystemUnits::MmTonneSecond => {
+            UnitSystem::Si => Self::of_unit(unit, largest),
+            UnitSystem::None | UnitSystem::MmTonneSecond => {
                 Self { factor: 1.0, unit: unit.to_owned() }
             }
         }

@@ -85,11 +85,11 @@ fn picture(done: &FinishedMap, entry: &VariableArrays, over: &[Layer]) -> Mapped
     unknown.sort_unstable();
     unknown.dedup();
     let value = |point: usize| {
-        number(done, entry, point)
+        done.number(entry, point)
             .ok_or_else(|| unknown.iter().position(|status| *status == states[point]).unwrap_or(0))
     };
     let variable = &entry.variable;
-    let array = entry.twin.unwrap_or(entry.value);
+    let array = entry.value;
     let unit = &plan.sheet().fields()[array].unit;
     let kind = match variable.kind {
         VariableKind::Word { words, .. } => {
@@ -170,7 +170,7 @@ fn exact_curves(done: &FinishedMap) -> Vec<Layer> {
         let upwards = second == amplitude;
         let height = second.values.len();
         let place = |index: usize| if upwards { index * height } else { index };
-        let value = |index: usize| number(done, entry, place(index));
+        let value = |index: usize| done.number(entry, place(index));
         let points = other.values.iter().enumerate().map(|(index, at)| {
             let value = value(index).unwrap_or(f64::NAN);
             if upwards { (*at, value) } else { (value, *at) }
@@ -285,13 +285,6 @@ fn role_of(word: &str, index: usize, count: usize) -> PlotRole {
     }
 }
 
-fn number(done: &FinishedMap, entry: &VariableArrays, point: usize) -> Option<f64> {
-    match entry.twin {
-        Some(_) => done.number_in_si(entry, point),
-        None => done.number(entry, point),
-    }
-}
-
 fn across(swept: &GridAxis) -> PlotAxis {
     let axis =
         labelled(PlotAxis::new(short_name(swept.about)), swept.symbol.unwrap_or(""), swept.unit);
@@ -305,7 +298,7 @@ fn panel(map: &FinishedMap, entry: &VariableArrays) -> Panel {
     };
     let across = across(swept);
     let variable = &entry.variable;
-    let array = entry.twin.unwrap_or(entry.value);
+    let array = entry.value;
     let unit = &plan.sheet().fields()[array].unit;
     let mut up = labelled(PlotAxis::new(short_name(variable.about)), variable.symbol, unit);
     if let VariableKind::Word { words, .. } = variable.kind {
@@ -314,7 +307,7 @@ fn panel(map: &FinishedMap, entry: &VariableArrays) -> Panel {
     }
     let mut pieces: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
     for (point, place) in swept.values.iter().enumerate() {
-        match (number(map, entry, point), pieces.last_mut()) {
+        match (map.number(entry, point), pieces.last_mut()) {
             (Some(value), Some(piece)) => piece.push((*place, value)),
             (None, Some(piece)) if !piece.is_empty() => pieces.push(Vec::new()),
             _ => {}

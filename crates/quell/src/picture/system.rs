@@ -12,7 +12,7 @@ use crate::plot::{
 use crate::run::system::reach::Reaches;
 use crate::run::system::stability::SystemStability;
 use crate::run::system::tracked::TrackedStability;
-use crate::study::{SystemStudy, SystemUnits};
+use crate::study::{SystemStudy, UnitSystem};
 
 /// Largest share of the growth rates that is hidden below the axis: overdamped motions just beyond a jump decay arbitrarily fast.
 const HIDDEN: f64 = 0.15;
@@ -23,7 +23,7 @@ const MARGIN: f64 = 0.1;
 /// The axis of an angular frequency, in hertz where the study has units, and the factor to it.
 pub(super) fn frequency_axis(study: &SystemStudy, symbol: &str) -> (PlotAxis, f64) {
     match study.units() {
-        SystemUnits::None => (PlotAxis::new("angular frequency").symbol(symbol), 1.0),
+        UnitSystem::None => (PlotAxis::new("angular frequency").symbol(symbol), 1.0),
         _ => (PlotAxis::new("frequency").unit("Hz"), 1.0 / std::f64::consts::TAU),
     }
 }
@@ -31,7 +31,7 @@ pub(super) fn frequency_axis(study: &SystemStudy, symbol: &str) -> (PlotAxis, f6
 fn growth_axis(study: &SystemStudy) -> PlotAxis {
     let axis = PlotAxis::new("growth rate").symbol("Re λ");
     match study.units() {
-        SystemUnits::None => axis,
+        UnitSystem::None => axis,
         _ => axis.unit("1/s"),
     }
 }
@@ -210,9 +210,9 @@ pub fn tracked(study: &SystemStudy, done: &TrackedStability) -> Figure {
 pub fn reach(study: &SystemStudy, done: &Reaches) -> Figure {
     let (frequency, factor) = frequency_axis(study, "ω");
     let slip = match study.units() {
-        SystemUnits::None => PlotAxis::new("slip amplitude per unit of dither"),
-        SystemUnits::Si => PlotAxis::new("slip amplitude per force").unit("m/s/N"),
-        SystemUnits::MmTonneSecond => PlotAxis::new("slip amplitude per force").unit("mm/s/N"),
+        UnitSystem::None => PlotAxis::new("slip amplitude per unit of dither"),
+        UnitSystem::Si => PlotAxis::new("slip amplitude per force").unit("m/s/N"),
+        UnitSystem::MmTonneSecond => PlotAxis::new("slip amplitude per force").unit("mm/s/N"),
     };
     let mut panel = Panel::new(frequency.log(), slip.log());
     for pair in &done.pairs {

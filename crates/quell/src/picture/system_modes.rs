@@ -6,7 +6,7 @@ use crate::plot::{
     Figure, Legend, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, ReferenceLine, Sharing,
 };
 use crate::run::system::modes::{SystemModes, natural};
-use crate::study::{SystemStudy, SystemUnits};
+use crate::study::{SystemStudy, UnitSystem};
 
 /// Maximum number of shapes in a picture.
 const MOST_SHAPES: usize = 12;
@@ -23,7 +23,7 @@ pub fn modes(study: &SystemStudy, done: &SystemModes) -> Figure {
         .enumerate()
         .map(|(place, motion)| {
             let (frequency, unit) = match study.units() {
-                SystemUnits::None => (natural(motion), ""),
+                UnitSystem::None => (natural(motion), ""),
                 _ => (natural(motion) / std::f64::consts::TAU, " Hz"),
             };
             let damping = short(motion.damping_ratio());

@@ -106,7 +106,7 @@ pub fn thresholds(study: &BeltStudy, done: &Thresholds) -> Figure {
 fn range<'a>(study: &BeltStudy, path: &'a str, (from, to): (f64, f64)) -> (Cow<'a, str>, f64, f64) {
     let quantity = study.belt().parameter(path).map(|parameter| parameter.quantity);
     let unit =
-        study.scales().zip(quantity).map_or(1.0, |(scales, quantity)| scales.si_per_unit(quantity));
+        study.scales().zip(quantity).map_or(1.0, |(scales, quantity)| scales.per_unit(quantity));
     (Cow::Owned(key_of(study, path)), unit * from, unit * to)
 }
 

@@ -254,21 +254,11 @@ fn anchor(report: &StudyReport, answer: &ReportedAnswer) -> String {
 }
 
 fn fact_table(rows: &[FactRow]) -> String {
-    let has_si = rows.iter().any(|row| !row.si.is_empty());
-    let names: &[&str] = if has_si {
-        &["quantity", "value", "unit", "in SI"]
-    } else {
-        &["quantity", "value", "unit"]
-    };
     let cells = rows.iter().map(|row| {
         let name = escape(&row.path).replace('_', "_<wbr>").replace('.', ".<wbr>");
-        let mut cells = vec![name, escape(&row.value), escape(&row.unit)];
-        if has_si {
-            cells.push(escape(&row.si));
-        }
-        cells
+        vec![name, escape(&row.value), escape(&row.unit)]
     });
-    table("facts", names, cells)
+    table("facts", &["quantity", "value", "unit"], cells)
 }
 
 fn warnings(texts: &[String]) -> String {

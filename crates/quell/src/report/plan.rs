@@ -87,7 +87,7 @@ fn of_belt(study: &BeltStudy) -> Vec<ReportStep> {
             }
         };
         let path = path_in_words(study, &belt.dither_path(place, "amplitude"));
-        let unit = study.scales().map_or(1.0, |scales| scales.si_per_unit(Quantity::Force));
+        let unit = study.scales().map_or(1.0, |scales| scales.per_unit(Quantity::Force));
         steps.extend(thresholds(&path, unit * dither.amplitude, unit * room));
     }
     if AtlasPoint::of_belt(belt).is_ok() {

@@ -18,7 +18,7 @@ use super::thresholds::ThresholdsRequest;
 use crate::complaint::Failure;
 use crate::contact_state::passivity;
 use crate::study::{
-    BeltStudy, DescribedSystem, Study, SystemOrigin, SystemStart, SystemStudy, SystemUnits,
+    BeltStudy, DescribedSystem, Study, SystemOrigin, SystemStart, SystemStudy, UnitSystem,
     not_periodic,
 };
 
@@ -42,7 +42,7 @@ pub(crate) fn of_state(study: &BeltStudy, verb: &str) -> Result<Option<SystemStu
 /// # Errors
 /// A law whose numbers are out of their bounds in SI.
 pub(crate) fn described(study: &BeltStudy) -> Result<SystemStudy, Failure> {
-    let units = if study.scales().is_some() { SystemUnits::Si } else { SystemUnits::None };
+    let units = if study.scales().is_some() { UnitSystem::Si } else { UnitSystem::None };
     let initial = match study.initial() {
         InitialState::Rest => SystemStart::Rest,
         InitialState::Sliding => SystemStart::Sliding,
@@ -65,7 +65,7 @@ pub(crate) fn described(study: &BeltStudy) -> Result<SystemStudy, Failure> {
 
 /// A velocity of the equations in the units of the system; displacements are lengths in both.
 fn in_units(study: &BeltStudy, velocity: f64) -> f64 {
-    study.scales().map_or(velocity, |scales| scales.to_si(Quantity::Velocity, velocity))
+    study.scales().map_or(velocity, |scales| scales.to_units(Quantity::Velocity, velocity))
 }
 
 /// Displacement and velocity as numbers of a state.

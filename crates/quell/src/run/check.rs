@@ -12,7 +12,7 @@ use crate::noise;
 use crate::range;
 use crate::removed_mean;
 use crate::run::actuator::beyond_actuator;
-use crate::study::{BeltStudy, GivenSize, SystemUnits, plausible};
+use crate::study::{BeltStudy, GivenSize, UnitSystem, plausible};
 
 /// The answer for a valid study.
 #[derive(Clone, Debug)]
@@ -91,7 +91,7 @@ impl Check<'_> {
             let mut inner = Fields::new(None);
             inner
                 .plain("parameter", sweep.path.as_str())
-                .plain("unit", sweep.target.unit())
+                .plain("unit", sweep.target.unit)
                 .plain("points", sweep.axis.len())
                 .plain("from", sweep.axis.value(0))
                 .plain("to", sweep.axis.value(usize::MAX));
@@ -99,8 +99,8 @@ impl Check<'_> {
         });
         fields.list("sweeps", axes.collect::<Vec<_>>());
         let warnings = range::averaged(study).into_iter().chain(passivity(study.belt()));
-        let in_si = belt.system_in_si().and_then(Result::ok);
-        let magnitudes = in_si.map(|system| plausible::warnings(&system, SystemUnits::Si, false));
+        let in_si = belt.system_in_units().and_then(Result::ok);
+        let magnitudes = in_si.map(|system| plausible::warnings(&system, UnitSystem::Si, false));
         let warnings = warnings.chain(magnitudes.into_iter().flatten());
         let warnings = warnings.chain(beyond_actuator(&belt.system(), study.actuator(), 0));
         let waveforms = belt.dithers().iter().map(|dither| &dither.waveform);

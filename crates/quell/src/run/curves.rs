@@ -8,7 +8,7 @@ use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
 use super::criticality;
-use super::thresholds::{ThresholdKind, path_in_words, quantity_of, refused, value_in_words};
+use super::thresholds::{ThresholdKind, refused};
 use super::varied::{Named, ascending};
 use crate::complaint::{Complaint, Failure};
 use crate::contact_state::refused_of_belt;
@@ -97,6 +97,8 @@ pub(super) fn why_it_ends(end: ThresholdCurveEnd) -> Option<&'static str> {
 pub struct Curves {
     /// The request, in numbers of the equations.
     pub question: CurvesRequest,
+    /// Both parameters as they were asked for.
+    pub asked: [Named; 2],
     /// The curves.
     pub curves: Vec<ThresholdCurve>,
     /// Lines across the second parameter on which curves may be missing.
@@ -109,7 +111,10 @@ pub struct Curves {
 ///
 /// # Errors
 /// Every complaint about it at once.
-fn understood(study: &BeltStudy, question: &CurvesRequest) -> Result<CurvesRequest, Failure> {
+fn understood(
+    study: &BeltStudy,
+    question: &CurvesRequest,
+) -> Result<([Named; 2], CurvesRequest), Failure> {
     let parameter = Named::new(study, "--parameter", &question.parameter)?;
     let along = Named::new(study, "--along", &question.along)?;
     if parameter.is(&along) {
@@ -136,14 +141,16 @@ fn understood(study: &BeltStudy, question: &CurvesRequest) -> Result<CurvesReque
     }
     let both = |named: &Named, (first, last)| (named.of(first), named.of(last));
     let (window, between) = (both(&parameter, question.window), both(&along, question.between));
-    Ok(CurvesRequest { window, between, parameter: parameter.path, along: along.path })
+    let paths = (parameter.path.clone(), along.path.clone());
+    let request = CurvesRequest { window, between, parameter: paths.0, along: paths.1 };
+    Ok(([parameter, along], request))
 }
 
 /// The problem on a line across the second parameter, as text.
-fn line_in_words(study: &BeltStudy, question: &CurvesRequest, line: &OpenLine) -> String {
-    let along = path_in_words(study, &question.along);
-    let place = value_in_words(study, &question.along, line.along);
-    let value = |value: f64| value_in_words(study, &question.parameter, value);
+fn line_in_words(study: &BeltStudy, [parameter, along]: &[Named; 2], line: &OpenLine) -> String {
+    let place = along.words(study, line.along);
+    let value = |value: f64| parameter.words(study, value);
+    let along = along.key();
     format!("on the line {along} = {place}: {}", line.why.words(value))
 }
 
@@ -158,7 +165,7 @@ pub fn run(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failur
 
 fn found(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failure> {
     let belt = study.belt();
-    let question = understood(study, question)?;
+    let (asked, question) = understood(study, question)?;
     let plane = ParameterPlane {
         path: &question.parameter,
         window: question.window,
@@ -170,11 +177,11 @@ fn found(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failure>
             Open::Begin(why) => refused(study, why, &question.parameter, "--from"),
             _ => Failure::Failed {
                 key: "thresholds".to_owned(),
-                why: line_in_words(study, &question, &line),
+                why: line_in_words(study, &asked, &line),
             },
         })?;
     let averaged = averaged(study, &question);
-    Ok(Curves { question, curves, open, averaged })
+    Ok(Curves { question, asked, curves, open, averaged })
 }
 
 /// The boundaries of averaging; none if the first parameter is not the amplitude of the first dither. A boundary is broken
@@ -213,10 +220,10 @@ impl Curves {
 
     /// The result in one sentence.
     pub fn sentence(&self, study: &BeltStudy) -> String {
-        let CurvesRequest { parameter, along, between: (first, last), .. } = &self.question;
-        let (first, last) =
-            (value_in_words(study, along, *first), value_in_words(study, along, *last));
-        let (parameter, along) = (path_in_words(study, parameter), path_in_words(study, along));
+        let (first, last) = self.question.between;
+        let [parameter, along] = &self.asked;
+        let [first, last] = [first, last].map(|end| along.words(study, end));
+        let (parameter, along) = (parameter.key(), along.key());
         match self.curves.len() {
             0 => format!(
                 "No threshold of {parameter} was found on {LINES} lines across {along} from {first} to {last}."
@@ -233,18 +240,21 @@ impl Curves {
     /// As JSON.
     pub fn json(&self, study: &BeltStudy) -> Json {
         let question = &self.question;
-        let value = quantity_of(study, &question.parameter);
-        let along = quantity_of(study, &question.along);
+        let [value, along] = &self.asked;
+        let put = |inner: &mut Fields, name: &str, named: &Named, numbers: &[f64]| {
+            let own: Vec<f64> = numbers.iter().map(|number| named.value(*number).1).collect();
+            inner.measured(name, named.value(0.0).0, own);
+        };
         let object = || Fields::new(study.scales());
         let curves = self.curves.iter().map(|curve| {
             let column = |of: &dyn Fn(&ThresholdCurvePoint) -> f64| -> Vec<f64> {
                 curve.points.iter().map(of).collect()
             };
             let mut inner = object();
+            put(&mut inner, "value", value, &column(&|point| point.value));
+            put(&mut inner, "along", along, &column(&|point| point.along));
             inner
                 .plain("kind", curve.kind.name())
-                .numbers("value", value, &column(&|point| point.value))
-                .numbers("along", along, &column(&|point| point.along))
                 .numbers(
                     "displacement",
                     Quantity::Displacement,
@@ -262,24 +272,27 @@ impl Curves {
         });
         let averaged = self.averaged.iter().map(|boundary| {
             let points = || boundary.pieces.iter().flatten();
-            let pairs: Vec<Json> = points().map(|(along, value)| json!([along, value])).collect();
+            let own = |(x, y): &(f64, f64)| json!([along.value(*x).1, value.value(*y).1]);
+            let pairs: Vec<Json> = points().map(own).collect();
             let mut inner = object();
-            inner
-                .plain("limit", boundary.limit)
-                .plain("points", pairs)
-                .numbers("along", along, &points().map(|(along, _)| *along).collect::<Vec<_>>())
-                .numbers("value", value, &points().map(|(_, value)| *value).collect::<Vec<_>>());
+            inner.plain("limit", boundary.limit).plain("points", pairs);
+            let [x, y] = [0, 1].map(|place| {
+                points().map(|(x, y)| if place == 0 { *x } else { *y }).collect::<Vec<f64>>()
+            });
+            put(&mut inner, "along", along, &x);
+            put(&mut inner, "value", value, &y);
             inner
         });
         let mut fields = object();
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
-            .plain("parameter", question.parameter.as_str())
-            .number("from", value, question.window.0)
-            .number("to", value, question.window.1)
-            .plain("along", question.along.as_str())
-            .numbers("between", along, &[question.between.0, question.between.1])
+            .plain("parameter", value.key())
+            .plain("along", along.key());
+        value.put(&mut fields, "from", question.window.0);
+        value.put(&mut fields, "to", question.window.1);
+        put(&mut fields, "between", along, &[question.between.0, question.between.1]);
+        fields
             .list("curves", curves)
             .list("averaged", averaged)
             .plain("warnings", self.warnings(study));
@@ -289,7 +302,7 @@ impl Curves {
     /// Warnings about lines on which curves may be missing.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
         let warning = |line: &OpenLine| {
-            format!("curves may be missing {}", line_in_words(study, &self.question, line))
+            format!("curves may be missing {}", line_in_words(study, &self.asked, line))
         };
         let mut slip = SlipMet::default();
         let question = &self.question;
@@ -318,7 +331,6 @@ impl Curves {
 
     /// The points of all curves, one after another.
     pub fn dataset(&self, study: &BeltStudy) -> Dataset {
-        let quantity = |path: &str| quantity_of(study, path);
         let numbered = || (0_u8..).zip(ThresholdKind::ALL);
         let code = |kind: ThresholdKind| {
             numbered().filter(move |(_, other)| *other == kind).map(|(code, _)| code)
@@ -337,15 +349,19 @@ impl Curves {
             .flat_map(|curve| curve.points.iter().flat_map(move |_| code(curve.kind)))
             .collect();
         let names = numbered().map(|(code, kind)| (code, kind.name()));
-        let (parameter, along) = (self.question.parameter.as_str(), self.question.along.as_str());
+        let own = |named: &Named, numbers: Vec<f64>| {
+            let values = numbers.into_iter().map(|number| named.value(number).1);
+            Array::new(named.key(), named.value(0.0).0, values.collect())
+        };
+        let [parameter, along] = &self.asked;
         let numbers = (0..self.points()).map(|number| number as f64).collect();
         let mut dataset = Dataset::new(study, "thresholds")
             .fact(self.sentence(study))
             .with_axis(Array::new("point", "1", numbers))
             .with(Array::new("curve", "1", per_curve(&|number| number as f64)))
             .with(Array::of_words("kind", names.collect(), &codes))
-            .array(along, quantity(along), each(&|point| point.along))
-            .array(parameter, quantity(parameter), each(&|point| point.value));
+            .with(own(along, each(&|point| point.along)))
+            .with(own(parameter, each(&|point| point.value)));
         let ratios: Option<Vec<f64>> = self
             .curves
             .iter()

@@ -55,7 +55,6 @@ use quell_model::parameter::BELT_VELOCITY;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_A_SEARCH;
-use crate::study::vocabulary::in_system;
 use crate::study::{BeltStudy, InitialState};
 
 /// The initial state of a study, in numbers.
@@ -106,7 +105,7 @@ fn moves(study: &BeltStudy, why: &str) -> Result<(), Failure> {
     if velocity > 0.0 {
         return Ok(());
     }
-    let key = in_system(BELT_VELOCITY.path, study.scales().is_some());
+    let key = BELT_VELOCITY.path;
     let allowed = format!("above 0: {why}");
     Err(Complaint::new(Fault::Value, key, Origin::Whole, velocity, allowed).into())
 }

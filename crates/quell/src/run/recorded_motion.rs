@@ -54,10 +54,13 @@ impl ObservedMotion {
         let system = study.belt().system();
         let start = motion_start(&system, begin(study)?);
         let scales = study.scales();
-        let rate = scales.map(|scales| 1.0 / scales.si_per_unit(Quantity::Time));
+        let rate = scales.map(|scales| 1.0 / scales.per_unit(Quantity::Time));
         let scales = RecordScales {
             second: rate,
-            metre: scales.map(|_| 1.0),
+            metre: scales.and_then(|scales| {
+                let metres = scales.units().si_per_unit(Quantity::Displacement)?;
+                Some(1.0 / metres)
+            }),
             plain_time: rate.unwrap_or(1.0),
         };
         Ok(Self { system, row: vec![1.0], start, scales, period: Some(NATURAL_PERIOD) })

@@ -1,13 +1,15 @@
 //! One number of a study varied over a range: `--parameter PATH --from A --to B --points N`.
 
-use quell_model::parameter::{BELT_VELOCITY, DITHER_AMPLITUDE};
+use quell_model::parameter::{BELT_VELOCITY, DITHER_AMPLITUDE, Parameter, SCALES};
 
 use super::evenly;
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
+use crate::fields::Fields;
 use crate::study::document::given_number;
-use crate::study::vocabulary::size::{SignalMeasure, measure_of};
-use crate::study::vocabulary::{Address, Role, in_system, join, resolve};
+use crate::study::vocabulary::size::SignalMeasure;
+use crate::study::vocabulary::{Address, Role, join, resolve, with_unit};
 use crate::study::{BeltStudy, suggest};
+use crate::words::digits;
 
 /// Most values of a range.
 pub const MOST_VALUES: usize = 100_000;
@@ -94,7 +96,7 @@ impl Varied {
             path: path.clone(),
             about: address.key.about,
             symbol: address.key.symbol(),
-            unit: address.key.unit_in_words(),
+            unit: address.key.unit_in_words(study.file_units()),
             values: evenly((from, to), points),
         })
     }
@@ -122,15 +124,17 @@ pub(super) fn ascending(from: f64, to: f64) -> Result<(), Box<Complaint>> {
     Err(Box::new(Complaint::option("--to", given_number(to), allowed)))
 }
 
-/// A number of the equations of a study, named by its own key or, in a study in SI, by its SI key.
+/// A number of the equations of a study, named by one of its keys.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Named {
+pub struct Named {
     /// Path of the number of the equations, such as `dither.amplitude`.
     pub(super) path: String,
     /// The key that names it.
     key: String,
-    /// Value of the named key that corresponds to 1 in the equations: 1, or the unit in SI.
+    /// What that key gives for one number of the equations.
     per_unit: f64,
+    /// The unit of that key.
+    unit: &'static str,
 }
 
 impl Named {
@@ -152,21 +156,13 @@ impl Named {
             Err(nearest) => nearest.clone(),
         };
         let meant = meant.or_else(|| Some(path.to_owned())).filter(|path| belt.get(path).is_some());
-        let per_unit = match (&meant, found.ok().map(|address| address.key.role), study.scales()) {
-            // A root mean square depends on the waveform, and the result is a peak value.
-            (Some(_), Some(Role::Twin(parameter, twin)), Some(scales)) if !twin.rms => {
-                Some(scales.si_per_unit(parameter.quantity))
-            }
-            (Some(_), Some(Role::Number(parameter)), scales) => {
-                let own = scales.is_none() || parameter.si.is_empty() || parameter.is_pure();
-                own.then_some(1.0)
-            }
-            (Some(_), Some(Role::Constant), _) => Some(1.0),
-            _ => None,
-        };
+        // A root mean square depends on the waveform, and the result is a peak value.
+        let per_unit = study.per_one(path).filter(|_| not_a_peak(path).is_none());
+        let per_unit = per_unit.map(|(_, per_unit)| per_unit);
         match (meant, per_unit) {
             (Some(number), Some(per_unit)) => {
-                Ok(Self { path: number, key: path.to_owned(), per_unit })
+                let unit = study.address(path).map_or("1", |address| address.unit);
+                Ok(Self { path: number, key: path.to_owned(), per_unit, unit })
             }
             (_, _) if is_of_several(path) => {
                 let allowed = format!(
@@ -196,6 +192,31 @@ impl Named {
         whole(&self.path) == whole(&other.path)
     }
 
+    /// The key that names it.
+    pub fn key(&self) -> &str {
+        &self.key
+    }
+
+    /// The unit of that key, and what it gives for a number of the equations.
+    pub fn value(&self, number: f64) -> (&'static str, f64) {
+        (self.unit, number * self.per_unit)
+    }
+
+    /// A number of the equations as the key gives it, with its unit in a study with units.
+    pub fn words(&self, study: &BeltStudy, number: f64) -> String {
+        let value = number * self.per_unit;
+        match study.scales() {
+            None => value.to_string(),
+            Some(_) if self.unit == "1" => digits(value),
+            Some(_) => format!("{} {}", digits(value), self.unit),
+        }
+    }
+
+    /// Adds a number of the equations to an answer, as the key gives it.
+    pub(super) fn put(&self, fields: &mut Fields, name: &str, number: f64) {
+        fields.measured(name, self.unit, number * self.per_unit);
+    }
+
     /// A value of the named key as a number of the equations.
     pub(super) fn of(&self, given: f64) -> f64 {
         given / self.per_unit
@@ -216,7 +237,6 @@ impl Named {
 fn not_a_peak(path: &str) -> Option<&'static str> {
     let role = resolve(path).ok()?.key.role;
     let measure = match role {
-        Role::Twin(_, twin) => measure_of(twin),
         Role::Size(_, size) if size.needs_actuator() => {
             return Some(
                 "the force of a voltage or current depends on the frequency and the waveform",
@@ -235,18 +255,27 @@ fn not_a_peak(path: &str) -> Option<&'static str> {
 /// Whether a key changes several numbers of the equations at once: mass, stiffness, friction in newtons.
 fn is_of_several(path: &str) -> bool {
     let role = resolve(path).map(|address| address.key.role);
-    matches!(role, Ok(Role::Scale(_) | Role::FrictionForce(..)))
+    let scale = |parameter: Parameter| SCALES.iter().any(|known| known.path == parameter.path);
+    match role {
+        Ok(Role::Number(parameter) | Role::Twin(parameter, _)) => scale(parameter),
+        role => matches!(role, Ok(Role::FrictionForce(..))),
+    }
 }
 
-/// The key by which a study gives a number of the equations: in SI if the study is in SI.
+/// The key by which a study gives a number of the equations: a frequency in hertz in a study with units.
 pub fn key_of(study: &BeltStudy, path: &str) -> String {
-    in_system(path, study.scales().is_some())
+    if study.scales().is_some() { with_unit(path) } else { path.to_owned() }
 }
 
-/// Description and symbol of a number of the equations as the study gives it: in SI if the study is in SI.
+/// Description and symbol of a number of the equations as the study gives it: those of the number with a unit in a study with units.
 pub(crate) fn name_of(study: &BeltStudy, path: &str) -> Option<(&'static str, &'static str)> {
     let key = resolve(&key_of(study, path)).ok()?.key;
-    Some((key.about, key.symbol().unwrap_or_default()))
+    let named = key
+        .parameter()
+        .and_then(|parameter| parameter.si.iter().find(|other| !other.unit.is_empty())?.own);
+    let with_unit = named.filter(|_| study.scales().is_some());
+    let (symbol, about) = with_unit.unwrap_or((key.symbol().unwrap_or_default(), key.about));
+    Some((about, symbol))
 }
 
 fn address(study: &BeltStudy, option: &'static str, path: &str) -> Result<Address, Box<Complaint>> {

@@ -5,8 +5,7 @@ use std::fmt::Write as _;
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
-use crate::study::vocabulary::{Address, Role};
-use crate::study::{Axis, AxisTarget, Study, Sweep};
+use crate::study::{Axis, Study, Sweep};
 
 /// Largest number of points of a map: their values are kept in memory until the map is done.
 pub const MOST_POINTS: usize = 100_000_000;
@@ -91,9 +90,9 @@ impl Grid {
         let axes = sweeps.iter().map(|sweep| GridAxis {
             name: name_of(&sweep.path),
             path: sweep.path.clone(),
-            about: sweep.target.about(),
-            symbol: sweep.target.symbol(),
-            unit: sweep.target.unit_in_words(),
+            about: sweep.target.about,
+            symbol: sweep.target.symbol,
+            unit: sweep.target.unit,
             values: values(sweep),
             logarithmic: matches!(sweep.axis, Axis::Logarithmic { .. }),
         });
@@ -175,20 +174,9 @@ impl Grid {
     }
 }
 
-/// Whether two axes set the same number, as a parameter and its SI key do. Named constants share one key and differ in
-/// their paths.
+/// Whether two axes set the same number, as a parameter and its key with a unit do.
 fn same(first: &Sweep, second: &Sweep) -> bool {
-    let (AxisTarget::Key(one), AxisTarget::Key(other)) = (&first.target, &second.target) else {
-        return first.target == second.target;
-    };
-    if one.key.role == Role::Constant {
-        return first.path.trim() == second.path.trim();
-    }
-    let parameter = |address: &Address| address.key.parameter().map(|parameter| parameter.path);
-    one.key.section == other.key.section
-        && one.index.unwrap_or(0) == other.index.unwrap_or(0)
-        && (one.key.name == other.key.name
-            || (parameter(one).is_some() && parameter(one) == parameter(other)))
+    first.target.number == second.target.number
 }
 
 /// `dither[1].amplitude` → `dither_1_amplitude`; `belt.belt_velocity` → `belt_velocity`.

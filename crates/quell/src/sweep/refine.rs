@@ -7,6 +7,8 @@
 use quell_disc::resonance::{Resonance, Tongue, Waves};
 use quell_numerics::order::ascending;
 
+use quell_model::parameter::disc::DISC_SPEED;
+
 use crate::study::{Axis, DiscStudy, Sweep};
 
 /// Distances from a meeting of waves, in Ω.
@@ -22,7 +24,7 @@ pub(super) fn values(study: &DiscStudy, sweep: &Sweep) -> Vec<f64> {
         Axis::Linear { from, to, .. } | Axis::Logarithmic { from, to, .. } => (from, to),
         Axis::Values(_) => return values,
     };
-    if sweep.target.key().is_some_and(|address| address.key.path() == "disc.load.speed") {
+    if sweep.path.ends_with(DISC_SPEED.key()) && study.file_units().is_none() {
         values.extend(beside(study, range));
         ascending(&mut values);
         values.dedup_by(|a, b| (*a - *b).abs() <= 1e-9);

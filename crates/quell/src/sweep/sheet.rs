@@ -10,8 +10,7 @@ use quell_model::units::{Quantity, Scales};
 use super::evaluate::{Computation, Results};
 use super::quantity::{MapQuantity, Variable, VariableKind};
 use super::status::Status;
-use crate::quantity::unit_of;
-use crate::study::{Study, SystemUnits};
+use crate::study::{Study, UnitSystem};
 
 /// Bits of the NaN for an unknown number, to which the code of its status is added.
 const UNKNOWN: u64 = 0x7ff8_0000_0000_0000;
@@ -98,8 +97,6 @@ pub struct VariableArrays {
     pub computation: Computation,
     /// Its values.
     pub value: usize,
-    /// Its values in SI.
-    pub twin: Option<usize>,
     /// Its statuses.
     pub status: usize,
 }
@@ -114,8 +111,11 @@ pub struct Sheet {
 impl Sheet {
     /// The arrays of `quantities` for a study.
     pub fn new(study: &Study, quantities: &[&MapQuantity]) -> Self {
-        let si = study.scales().is_some();
-        let units = study.system().map_or(SystemUnits::None, |study| study.units());
+        let scaled = study.scales().is_some();
+        let units = match study.system() {
+            Ok(study) => study.units(),
+            Err(_) => study.file_units(),
+        };
         let mut sheet = Self { entries: Vec::new(), fields: Vec::new() };
         let variables = quantities.iter().flat_map(|quantity| {
             quantity.variables.iter().map(|variable| (variable, quantity.computation))
@@ -135,26 +135,15 @@ impl Sheet {
                 }
             };
             let state = Some(format!("{name}_status"));
-            let unit = unit(variable.kind, si, units);
+            let unit = unit(variable.kind, units, scaled);
             let value = sheet.add(name.to_owned(), variable.about, unit, content, state.clone());
-            let twin = twin(variable.kind).filter(|_| si).map(|(unit, suffix)| {
-                let name = format!("{name}_{suffix}");
-                let unit = unit.to_owned();
-                sheet.add(name, variable.about, unit, Content::Numbers, state.clone())
-            });
             let states = variable.all_statuses(computation);
             let states = states.iter().map(|status| (status.code(), status.name())).collect();
             let about = format!("status of {name}: known, or why it is unknown");
             let content = Content::Codes(states);
             let name = format!("{name}_status");
             let status = sheet.add(name, &about, String::new(), content, None);
-            sheet.entries.push(VariableArrays {
-                variable: *variable,
-                computation,
-                value,
-                twin,
-                status,
-            });
+            sheet.entries.push(VariableArrays { variable: *variable, computation, value, status });
         }
         sheet
     }
@@ -199,18 +188,13 @@ impl Sheet {
                     }
                     None => (Err(Status::InvalidStudy), None),
                 };
+                let factor = scales.map_or(1.0, |scales| factor(entry.variable.kind, scales));
                 let (number, code, status) = match value {
-                    Ok((value, status)) => (value, whole(value), status),
+                    Ok((value, status)) => (value * factor, whole(value), status),
                     Err(status) => (unknown(status), unknown_word(entry.variable.kind), status),
                 };
                 arrays[entry.value].push(number, code);
                 arrays[entry.status].push(0.0, status.code());
-                if let Some(twin) = entry.twin {
-                    let factor = scales.map_or(1.0, |scales| factor(entry.variable.kind, scales));
-                    // A NaN times a factor may lose its code.
-                    let number = if status.has_number() { number * factor } else { number };
-                    arrays[twin].push(number, 0);
-                }
             }
         }
         arrays
@@ -244,14 +228,17 @@ fn whole(value: f64) -> u8 {
     value as u8
 }
 
-/// Unit of a variable in the numbers of the equations; the lengths of a study in SI are metres, and systems have those of their
-/// file.
-fn unit(kind: VariableKind, si: bool, units: SystemUnits) -> String {
+/// Unit of a variable in the units of the study; `scaled` says whether it has the scales of a belt.
+fn unit(kind: VariableKind, units: UnitSystem, scaled: bool) -> String {
     match kind {
-        VariableKind::Number(quantity) => unit_of(quantity, si),
+        VariableKind::Number(quantity) => {
+            let own = units.unit(quantity).filter(|_| scaled && quantity.si_unit().is_some());
+            own.unwrap_or_else(|| quantity.scaled_unit()).to_owned()
+        }
+        VariableKind::Rate if scaled => "1/s".to_owned(),
         VariableKind::Rate => "ω₀".to_owned(),
         VariableKind::DiscRate => "ω_ref".to_owned(),
-        VariableKind::SystemRate if units == SystemUnits::None => "1/time".to_owned(),
+        VariableKind::SystemRate if units == UnitSystem::None => "1/time".to_owned(),
         // Both systems of units have the second.
         VariableKind::SystemRate => "1/s".to_owned(),
         VariableKind::SystemNumber(quantity) => {
@@ -262,24 +249,10 @@ fn unit(kind: VariableKind, si: bool, units: SystemUnits) -> String {
     }
 }
 
-/// SI unit of a variable and the suffix for it.
-fn twin(kind: VariableKind) -> Option<(&'static str, &'static str)> {
-    match kind {
-        // A displacement is already in metres.
-        VariableKind::Number(Quantity::Displacement)
-        | VariableKind::DiscRate
-        | VariableKind::SystemRate
-        | VariableKind::SystemNumber(_)
-        | VariableKind::Word { .. } => None,
-        VariableKind::Number(quantity) => quantity.si_unit(),
-        VariableKind::Rate => Some(("1/s", "per_s")),
-    }
-}
-
-/// SI value of one unit of a variable.
+/// What one number of the equations is in the units of the study.
 fn factor(kind: VariableKind, scales: Scales) -> f64 {
     match kind {
-        VariableKind::Number(quantity) => scales.si_per_unit(quantity),
+        VariableKind::Number(quantity) => scales.own(quantity).map_or(1.0, |(one, _)| one),
         VariableKind::Rate => scales.angular_frequency(),
         VariableKind::DiscRate
         | VariableKind::SystemRate

@@ -2,16 +2,14 @@
 
 use quell_design::actuator::Actuator;
 use quell_linear::driven_point::DrivenPoint;
-use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE};
+use quell_model::parameter::{Bounds, DITHER_FREQUENCY_RATIO, DITHER_PHASE};
 use quell_model::{Direction, Dither, Waveform};
 
-use super::band;
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::course::{Course, CoursePlace, CourseUnits};
+use crate::study::band;
+use crate::study::course::{Course, CoursePlace};
 use crate::study::dither_size::{self, GivenSize, SizedAmplitude};
 use crate::study::document::{Node, Table, Value};
-use crate::study::reader::{Found, Reader};
-use crate::study::vocabulary::size::SizedSignal;
+use crate::study::reader::Reader;
 use crate::study::vocabulary::{Choice, ENVELOPE, Section, join};
 use crate::study::waveform;
 
@@ -64,19 +62,19 @@ fn one(
         .and_then(Direction::from_name);
     let is_noise = waveform::is_noise(table);
     let wave = waveform::read(reader, table, (prefix, node.origin), |reader| {
-        band::given(reader, table, prefix)
+        band::given(reader, table, prefix, Bounds::POSITIVE)
     });
     let (waveform, middle) = wave.unzip();
     let wave = (waveform.as_ref(), has_actuator);
-    let amplitude = amplitude(reader, table, (prefix, node.origin), wave);
+    let amplitude = dither_size::read(reader, table, (prefix, node.origin), wave);
     let (frequency_ratio, phase) = if is_noise {
         (middle.flatten(), Some(0.0))
     } else {
         let frequency_ratio = reader.number(table, prefix, node.origin, DITHER_FREQUENCY_RATIO);
-        (frequency_ratio, reader.optional(table, prefix, DITHER_PHASE, None).or(0.0))
+        (frequency_ratio, reader.optional(table, prefix, DITHER_PHASE).or(0.0))
     };
-    let place = CoursePlace { what: ENVELOPE, units: CourseUnits::Belt };
-    let envelope = place.optional(reader, table, prefix, "envelope").map(Course::knots);
+    let envelope =
+        CoursePlace(ENVELOPE).optional(reader, table, prefix, "envelope").map(Course::knots);
     let amplitude = amplitude?;
     let dither = Dither {
         direction: direction?,
@@ -87,44 +85,6 @@ fn one(
         envelope: envelope.ok()?,
     };
     Some((dither, prefix.to_owned(), amplitude))
-}
-
-/// The amplitude; the waveform converts a root mean square and a peak-to-peak value, an actuator what it takes.
-fn amplitude(
-    reader: &mut Reader,
-    table: &Table,
-    (prefix, header): (&str, Origin),
-    (waveform, has_actuator): (Option<&Waveform>, bool),
-) -> Option<SizedAmplitude> {
-    let Some((key, given)) = dither_size::key_in(reader, table, prefix).ok()? else {
-        let found = match reader.optional(table, prefix, DITHER_AMPLITUDE, waveform) {
-            Found::Value(value) => Some(value),
-            Found::Wrong => None,
-            Found::Absent => reader.number(table, prefix, header, DITHER_AMPLITUDE),
-        };
-        return Some(SizedAmplitude::Known(found?, None));
-    };
-    let path = join(prefix, key.key);
-    if !key.belongs(reader.is_si()) {
-        let right = reader.in_system(&path);
-        let (is, but) =
-            if reader.is_si() { ("in SI", "dimensionless") } else { ("dimensionless", "in SI") };
-        let allowed = format!("the study is {is}, but {path} is {but}: use {right}");
-        let complaint = Complaint::new(Fault::Mixed, path, given.origin, given.given(), allowed);
-        reader.complain(complaint.suggesting(Some(right)));
-        return None;
-    }
-    let value = reader.within(&path, given, DITHER_AMPLITUDE.bounds, key.unit, false)?;
-    let newtons = match key.signal {
-        SizedSignal::Newtons => reader.si_per_unit(DITHER_AMPLITUDE.quantity)?,
-        _ => 1.0,
-    };
-    match dither_size::sized(reader, prefix, (key, given), value, (waveform, has_actuator))? {
-        SizedAmplitude::Known(amplitude, by) => {
-            Some(SizedAmplitude::Known(amplitude / newtons, by))
-        }
-        driven @ SizedAmplitude::Driven(_) => Some(driven),
-    }
 }
 
 /// The dithers with the amplitudes that an actuator determines, and every amplitude that is given by another size than a peak force;

@@ -1,12 +1,11 @@
 //! The study of a mass on a moving belt: `[belt]`, `[friction]`, `[dither]`, `[solver]`, `[response]`.
 
-mod band;
 mod dither;
-pub(in crate::study) mod friction;
 mod number;
 mod origin;
 mod solver;
 mod table;
+pub(in crate::study) mod units;
 
 use std::sync::Arc;
 
@@ -20,17 +19,20 @@ use serde_json::Value as Json;
 
 use super::StudyOf;
 use super::actuator;
+use super::band;
 use super::design::{self, Design, DesignContext};
 use super::disc::DiscSetup;
 use super::dither_size::GivenSize;
 use super::document::Table;
+use super::friction;
 use super::reader::Reader;
 use super::study_kind::{StudyKind, wrong_kind};
+use super::vocabulary::resolve;
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
 
+use super::friction::Measured;
 use super::system::{DescribedSystem, SystemSetup, SystemStudy};
 
-pub use friction::Measured;
 use table::BeltTable;
 pub(in crate::study) use table::one_state;
 
@@ -56,7 +58,7 @@ pub struct BeltSetup {
 
 impl StudyKind for BeltSetup {
     fn reader(document: &Table) -> Reader {
-        Reader::new(document)
+        units::reader(document)
     }
 
     fn tables(_: &Table) -> &'static [&'static str] {
@@ -99,13 +101,10 @@ impl StudyKind for BeltSetup {
         let solver = solver::read(reader, document);
         let band = band::read(reader, document);
         let first = dithers.as_deref().and_then(<[Dither]>::first);
-        let context = DesignContext {
-            waveform: first.map(|dither| &dither.waveform),
-            system: None,
-            places: &[],
-        };
+        let context =
+            DesignContext { waveform: first.map(|dither| &dither.waveform), document, places: &[] };
         let design = design::read(reader, document, context);
-        let actuator = actuator::read(reader, document, None);
+        let actuator = actuator::read(reader, document);
         let known = actuator.as_ref().and_then(Option::as_ref);
         let sized =
             read_dithers.and_then(|read| dither::sized(reader, read, known, belt.damping_ratio));
@@ -168,13 +167,22 @@ impl BeltStudy {
         number::number(self.belt(), path)
     }
 
+    /// What the key at a path gives for one number of the equations, and the path of that number; `None` where the study has no such
+    /// number, or the key gives several.
+    pub fn per_one(&self, path: &str) -> Option<(String, f64)> {
+        let address = resolve(path).ok()?;
+        let number = number::number_of_the_equations(path, &address);
+        self.belt().get(&number)?;
+        Some((number, number::per_one(self.belt(), path)?))
+    }
+
     /// The system of the belt, in SI where the study is.
     ///
     /// # Errors
     /// A complaint about a law whose numbers are out of their bounds in SI.
     pub fn system(&self) -> Result<System, Complaints> {
         let belt = self.belt();
-        belt.system_in_si().unwrap_or_else(|| Ok(belt.system())).map_err(|invalid| {
+        belt.system_in_units().unwrap_or_else(|| Ok(belt.system())).map_err(|invalid| {
             let complaint = |invalid: Invalid| {
                 let Invalid { key, value, allowed } = invalid;
                 Complaint::new(Fault::Value, key, Origin::Whole, Json::String(value), allowed)
@@ -239,8 +247,9 @@ fn build(
     match loaded.and_then(|belt| belt.with_tangential_stiffness(stiffness)) {
         Ok(belt) => (known && courses_are_right).then_some(belt),
         Err(invalid) => {
-            // In SI the normal load is reported in newtons.
-            let newtons = reader.known_scales().map(|scales| scales.to_si(Quantity::Force, load));
+            // With units the normal load is reported in newtons.
+            let newtons =
+                reader.known_scales().map(|scales| scales.to_units(Quantity::Force, load));
             reader.adopt(invalid.map(|mut complaint| {
                 let amplitude =
                     complaint.key.starts_with("dither") && complaint.key.ends_with(".amplitude");
@@ -248,7 +257,7 @@ fn build(
                     complaint.allowed = format!(
                         "such that the sum of the normal dither peaks is at most {} = {newtons} N: more would pull the \
                          contact apart, which this model does not describe",
-                        NORMAL_LOAD.si.first().map_or(NORMAL_LOAD.path, |twin| twin.key)
+                        NORMAL_LOAD.key()
                     );
                 }
                 complaint

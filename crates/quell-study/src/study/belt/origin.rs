@@ -5,7 +5,7 @@ use quell_model::System;
 use super::BeltStudy;
 use crate::complaint::Complaints;
 use crate::study::system::NumberedStudy;
-use crate::study::vocabulary::{in_system, resolve};
+use crate::study::vocabulary::with_unit;
 
 impl NumberedStudy for BeltStudy {
     fn number(&self, path: &str) -> Option<f64> {
@@ -13,12 +13,11 @@ impl NumberedStudy for BeltStudy {
     }
 
     fn unit_of(&self, path: &str) -> &'static str {
-        let unit = resolve(path).ok().and_then(|address| address.key.measured_in());
-        unit.unwrap_or("1")
+        self.address(path).ok().and_then(|address| address.measured_in).unwrap_or("1")
     }
 
     fn key_of(&self, path: &str) -> String {
-        in_system(path, self.scales().is_some())
+        if self.scales().is_some() { with_unit(path) } else { path.to_owned() }
     }
 
     fn system_with(&self, numbers: &[(&str, f64)]) -> Result<System, Complaints> {

@@ -15,9 +15,9 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Solver> {
     };
     let table = reader.table("solver", node)?;
     reader.unknown_keys(table, Section::Solver, "solver", &[]);
-    let tolerance = reader.optional(table, "solver", TOLERANCE, None);
-    let settle = reader.optional(table, "solver", SETTLE, None);
-    let periods = reader.optional(table, "solver", RECORD_PERIODS, None);
+    let tolerance = reader.optional(table, "solver", TOLERANCE);
+    let settle = reader.optional(table, "solver", SETTLE);
+    let periods = reader.optional(table, "solver", RECORD_PERIODS);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

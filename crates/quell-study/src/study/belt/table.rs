@@ -9,10 +9,10 @@ use quell_model::units::Quantity;
 use quell_model::{Friction, LawKind};
 use serde_json::Value as Json;
 
-use super::friction;
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::course::{Course, CoursePlace, CourseUnits, no_constant, replaces_constant};
+use crate::study::course::{Course, CoursePlace, no_constant, replaces_constant};
 use crate::study::document::{Node, Table};
+use crate::study::friction;
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::{Choice, DRIVE, LOAD, Section};
 
@@ -44,44 +44,37 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> BeltTable {
         return BeltTable::default();
     };
     reader.unknown_keys(table, Section::Belt, "belt", &["initial", "drive", "load"]);
-    let course = |reader: &mut Reader, name, what| {
-        let place = CoursePlace { what, units: CourseUnits::Belt };
-        place.optional(reader, table, "belt", name)
-    };
+    let course =
+        |reader: &mut Reader, name, what| CoursePlace(what).optional(reader, table, "belt", name);
     let drive = course(reader, "drive", DRIVE);
     let load = course(reader, "load", LOAD);
     if let Some(node) = table.get("load") {
-        let newtons =
-            reader.known_scales().map_or(1.0, |scales| scales.si_per_unit(Quantity::Force));
+        let newtons = reader.known_scales().map_or(1.0, |scales| scales.per_unit(Quantity::Force));
         reader.remember("belt.load", "belt.load", node.origin, newtons);
     }
     let damping_ratio = reader.number(table, "belt", node.origin, DAMPING_RATIO);
     let belt_velocity = if replaces_constant(table.get("drive")) {
-        no_constant(reader, table, "belt", &["belt_velocity", "belt_velocity_m_per_s"], "drive");
+        no_constant(reader, table, "belt", BELT_VELOCITY, "drive");
         drive.as_ref().ok().map(|_| 0.0)
     } else {
         reader.number(table, "belt", node.origin, BELT_VELOCITY)
     };
     // With friction in newtons the normal force may be omitted.
-    let normal_load = match reader.optional(table, "belt", NORMAL_LOAD, None) {
+    let normal_load = match reader.optional(table, "belt", NORMAL_LOAD) {
         found if replaces_constant(table.get("load")) => {
-            let names: Vec<&str> = [NORMAL_LOAD.key()]
-                .into_iter()
-                .chain(NORMAL_LOAD.si.iter().map(|twin| twin.key))
-                .collect();
-            no_constant(reader, table, "belt", &names, "load");
+            no_constant(reader, table, "belt", NORMAL_LOAD, "load");
             let first = match &load {
                 Ok(Some(Course::Over(knots))) => Some(knots.value(0.0)),
                 _ => None,
             };
             first.filter(|_| found == Found::Absent)
         }
-        Found::Absent if friction::in_newtons(reader, root) => None,
+        Found::Absent if friction::in_newtons(root) => None,
         Found::Absent => reader.number(table, "belt", node.origin, NORMAL_LOAD),
         Found::Value(load) => Some(load),
         Found::Wrong => None,
     };
-    let tangential_stiffness = match reader.optional(table, "belt", TANGENTIAL_STIFFNESS, None) {
+    let tangential_stiffness = match reader.optional(table, "belt", TANGENTIAL_STIFFNESS) {
         Found::Value(stiffness) => Some(stiffness),
         Found::Absent | Found::Wrong => None,
     };
@@ -106,8 +99,11 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> BeltTable {
 /// Reports an elastic slider whose law has a state of its own.
 pub(super) fn slider_has_one_state(reader: &mut Reader, root: &Table, law: Option<&Friction>) {
     let Some(table) = root.get("belt").and_then(Node::table) else { return };
-    let keys = [TANGENTIAL_STIFFNESS.key(), "tangential_stiffness_n_per_m"];
-    let Some((name, node)) = table.iter().find(|(name, _)| keys.contains(name)) else { return };
+    let Some((name, node)) =
+        TANGENTIAL_STIFFNESS.keys().find_map(|name| Some((name, table.get(name)?)))
+    else {
+        return;
+    };
     if law.is_some_and(|law| law.bristles().is_some()) {
         let key = format!("belt.{name}");
         reader.complain(Complaint::new(
@@ -132,8 +128,8 @@ fn initial(reader: &mut Reader, node: &Node) -> Option<InitialState> {
     const PREFIX: &str = "belt.initial";
     let table = reader.table(PREFIX, node)?;
     reader.unknown_keys(table, Section::Initial, PREFIX, &[]);
-    let displacement = reader.optional(table, PREFIX, INITIAL_DISPLACEMENT, None);
-    let velocity = reader.optional(table, PREFIX, INITIAL_VELOCITY, None);
+    let displacement = reader.optional(table, PREFIX, INITIAL_DISPLACEMENT);
+    let velocity = reader.optional(table, PREFIX, INITIAL_VELOCITY);
     let numbers = [displacement, velocity].iter().any(|found| *found != Found::Absent);
     let Some(state) = table.get("state") else {
         return Some(InitialState::Explicit {

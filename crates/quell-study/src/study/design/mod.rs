@@ -9,9 +9,10 @@ use quell_model::parameter::design::{CONFIDENCE, CONFIDENT, LIMITS, SAMPLES, SEE
 use serde_json::Value as Json;
 
 use super::document::{Node, Table, Value};
+use super::number_path;
 use super::reader::{Found, Reader};
-use super::system::{CourseNumbers, PLACES, resolve_in};
-use super::vocabulary::{self, Choice, Section, join};
+use super::system::{PLACES, keys};
+use super::vocabulary::{Choice, Section, join};
 use crate::complaint::{Complaint, Fault};
 use tried::ChosenPeriods;
 
@@ -74,8 +75,8 @@ const DEFAULT_SEED: f64 = 1.0;
 pub(super) struct DesignContext<'a> {
     /// The waveform of the study's dither.
     pub(super) waveform: Option<&'a Waveform>,
-    /// Of a system its document and its numbers.
-    pub(super) system: Option<(&'a Table, CourseNumbers<'a>)>,
+    /// The document of the study.
+    pub(super) document: &'a Table,
     /// The places of the dither that are tried.
     pub(super) places: &'a [DitherPlace],
 }
@@ -86,17 +87,8 @@ impl DesignContext<'_> {
     /// # Errors
     /// The nearest path that names a number.
     fn unit_of(self, path: &str) -> Result<&'static str, Option<String>> {
-        let unit = match self.system {
-            Some((document, _)) => resolve_in(document, path)?.unit,
-            None => match vocabulary::resolve(path) {
-                Ok(address) if address.key.takes_number() => {
-                    address.key.measured_in().unwrap_or_default()
-                }
-                Ok(_) => return Err(None),
-                Err(nearest) => return Err(nearest),
-            },
-        };
-        Ok(if unit == "1" { "" } else { unit })
+        let address = number_path::resolve(self.document, path)?;
+        Ok(address.measured_in.filter(|unit| *unit != "1").unwrap_or_default())
     }
 }
 
@@ -111,7 +103,7 @@ pub(super) fn read(
     let table = reader.table("design", node)?;
     let before = reader.complaints_so_far();
     reader.unknown_keys(table, Section::Design, "design", &["limits", PLACES]);
-    if let Some(node) = table.get(PLACES).filter(|_| context.system.is_none()) {
+    if let Some(node) = table.get(PLACES).filter(|_| !keys::is_described(root)) {
         let allowed = "omitted: only in a system is there a choice of places; dither.direction says where the dither of a belt acts";
         let (key, null) = (join("design", PLACES), Json::Null);
         reader.complain(Complaint::new(Fault::Conflict, key, node.origin, null, allowed));
@@ -134,7 +126,7 @@ pub(super) fn read(
         }
         _ => None,
     };
-    let limits = limits(reader, table, context);
+    let limits = limits(reader, table);
     let confidence = confidence(reader, table);
     if let (Some(vary), Some(over)) = (&vary, &over)
         && let Some(both) =
@@ -293,10 +285,6 @@ fn named(
     };
     let allowed = "the path of a number in the study, such as \"dither.amplitude\"";
     let complaint = Complaint::new(Fault::Value, key, node.origin, path, allowed);
-    let nearest = nearest.map(|path| match context.system {
-        Some(_) => path,
-        None => reader.in_system(&path),
-    });
     reader.complain(complaint.suggesting(nearest));
     None
 }
@@ -329,7 +317,7 @@ fn range(
 )]
 fn confidence(reader: &mut Reader, table: &Table) -> Option<Option<Confidence>> {
     let given = CONFIDENT.iter().find_map(|parameter| table.get(parameter.key()));
-    let mut number = |parameter| reader.optional(table, "design", parameter, None);
+    let mut number = |parameter| reader.optional(table, "design", parameter);
     let (share, samples, seed) = (number(CONFIDENCE), number(SAMPLES), number(SEED));
     let Found::Value(share) = share else {
         let alone = matches!(share, Found::Absent);
@@ -351,22 +339,14 @@ fn confidence(reader: &mut Reader, table: &Table) -> Option<Option<Confidence>> 
 }
 
 /// `[design.limits]`.
-fn limits(
-    reader: &mut Reader,
-    table: &Table,
-    context: DesignContext<'_>,
-) -> Option<Vec<(LimitedQuantity, f64)>> {
+fn limits(reader: &mut Reader, table: &Table) -> Option<Vec<(LimitedQuantity, f64)>> {
     let Some(node) = table.get("limits") else { return Some(Vec::new()) };
     let prefix = Section::DesignLimits.path();
     let limits = reader.table(prefix, node)?;
     reader.unknown_keys(limits, Section::DesignLimits, prefix, &[]);
     let mut found = Vec::new();
     for (quantity, parameter) in LimitedQuantity::ALL.into_iter().zip(LIMITS) {
-        let limit = match context.system {
-            Some((_, numbers)) => numbers.optional(reader, limits, prefix, *parameter),
-            None => reader.optional(limits, prefix, *parameter, None),
-        };
-        match limit {
+        match reader.optional(limits, prefix, *parameter) {
             Found::Absent => {}
             Found::Wrong => return None,
             Found::Value(value) => found.push((quantity, value)),

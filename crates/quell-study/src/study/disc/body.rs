@@ -1,6 +1,5 @@
 //! The table `[disc]`: its modes, its loads, and the contributions to the equations that are omitted.
 
-use quell_disc::plate::PlateMaterial;
 use quell_model::disc::{Contribution, Contributions};
 use quell_model::disc::{Load, Mode, Patch};
 use quell_model::parameter::disc::MODAL_DAMPING;
@@ -12,13 +11,14 @@ use super::super::reader::Reader;
 use super::super::vocabulary::{Choice, Section};
 use super::loads::{LoadScales, Pad};
 use super::modes::{self, ModeSource};
-use super::{loads, plate, rotation};
+use super::plate::Metal;
+use super::{loads, rotation};
 use crate::complaint::Origin;
 
 /// The contents of `[disc]`.
 pub(super) struct Body {
     pub(super) source: ModeSource,
-    pub(super) material: Option<PlateMaterial>,
+    pub(super) metal: Metal,
     pub(super) modes: Vec<Mode>,
     pub(super) loads: Vec<Load>,
     pub(super) radii: Vec<Option<f64>>,
@@ -34,14 +34,13 @@ pub(super) struct Body {
 impl Body {
     pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option<Self> {
         reader.unknown_keys(table, Section::Disc, "disc", &["mode", "load", loads::DRIVE]);
-        let damping = reader.optional(table, "disc", MODAL_DAMPING, None).or(0.0);
+        let damping = reader.optional(table, "disc", MODAL_DAMPING).or(0.0);
         let parts = without(reader, table);
-        let material = plate::material(reader, table, header);
+        let metal = Metal::read(reader, table, header);
         let source = modes::read(reader, table, header);
         let centrifugal = rotation::read(reader, table, source.as_ref());
-        let metal = material.as_ref().and_then(|given| given.as_ref().map(|(metal, _)| metal));
-        let scales = match (&source, &material) {
-            (Some(source), Some(_)) => scales(source, metal),
+        let scales = match (&source, &metal) {
+            (Some(source), Some(metal)) => scales(source, metal),
             // The error has been reported already; the loads are still checked.
             _ => LoadScales { disc: Some(UNIT), outer_radius_m: Some(1.0) },
         };
@@ -49,7 +48,7 @@ impl Body {
         reader.set_disc_scales(scales.disc);
         let (pads, source) = (pads?, source?);
         let drive = rotation::drive(reader, table, &pads).ok()?;
-        let (damping, parts, material) = (damping?, parts?, material?);
+        let (damping, parts, metal) = (damping?, parts?, metal?);
         let centrifugal = centrifugal?;
         let radii: Vec<Option<f64>> = pads.iter().map(|pad| pad.radius).collect();
         let (modes, shapes, warnings) = modes::at_loads(reader, &source, &pads, damping)?;
@@ -57,7 +56,7 @@ impl Body {
         let speed = pads.iter().find_map(|pad| pad.speed.map(|(speed, _)| speed)).unwrap_or(0.0);
         let drive = drive.map(|course| course.profile(speed));
         let half_thickness = |pad: &Pad| {
-            let known = material.as_ref().zip(pad.radius).map(|((material, _), radius)| {
+            let known = metal.material.as_ref().zip(pad.radius).map(|(material, radius)| {
                 0.5 * material.thickness() / (radius * material.outer_radius())
             });
             // Only a friction law needs it.
@@ -77,11 +76,10 @@ impl Body {
                 ..load
             })
             .collect();
-        let material = material.map(|(material, _)| material);
         let centrifugal = rotation::stiffening(&source, centrifugal, modes.len());
         Some(Self {
             source,
-            material,
+            metal,
             modes,
             loads,
             radii,
@@ -121,18 +119,19 @@ const UNIT: DiscScales =
     DiscScales { reference_hz: 1.0, plate_mass_kg: Some(1.0), load_radius_m: Some(1.0) };
 
 /// Scales that convert the numbers of a disc to SI.
-pub(super) fn scales(source: &ModeSource, material: Option<&PlateMaterial>) -> LoadScales {
+pub(super) fn scales(source: &ModeSource, metal: &Metal) -> LoadScales {
     let plate = match source {
         ModeSource::Plate(plate) => Some(&plate.plate),
         _ => None,
     };
-    let known = plate.zip(material);
+    let material = metal.material.as_ref();
+    let computed = plate.zip(material).map(|(plate, material)| material.plate_mass(plate));
     let disc = source.reference_hz(material).map(|reference_hz| DiscScales {
         reference_hz,
-        plate_mass_kg: known.map(|(plate, material)| material.plate_mass(plate)),
+        plate_mass_kg: computed.or(metal.mass_kg),
         load_radius_m: None,
     });
-    LoadScales { disc, outer_radius_m: material.map(PlateMaterial::outer_radius) }
+    LoadScales { disc, outer_radius_m: metal.outer_radius_m }
 }
 
 /// `without = ["damper", …]`.

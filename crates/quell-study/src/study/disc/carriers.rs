@@ -48,7 +48,7 @@ fn one(
     }
     let [mass, damping, stiffness] = *names;
     let mass = reader.number(table, path, header, mass);
-    let damping = reader.optional(table, path, damping, None).or(0.0);
+    let damping = reader.optional(table, path, damping).or(0.0);
     let stiffness = reader.number(table, path, header, stiffness);
     Some(Some(Carrier { mass: mass?, damping: damping?, stiffness: stiffness? }))
 }

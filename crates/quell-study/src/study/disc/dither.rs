@@ -6,7 +6,7 @@ use quell_model::parameter::DITHER_FREQUENCY_RATIO;
 use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
 
 use crate::complaint::{Complaint, Fault};
-use crate::study::course::{Course, CoursePlace, CourseUnits};
+use crate::study::course::{Course, CoursePlace};
 use crate::study::document::{Table, Value};
 use crate::study::reader::{Found, Reader};
 use crate::study::suggest;
@@ -14,8 +14,7 @@ use crate::study::vocabulary::{Choice, ENVELOPE, WAVE_KEYS, join};
 use crate::study::waveform;
 
 /// The keys that do not describe the waveform.
-const KEYS: [&str; 6] =
-    ["direction", "waveform", "amplitude", "frequency_ratio", "frequency_hz", "envelope"];
+const KEYS: [&str; 4] = ["direction", "waveform", "amplitude", "envelope"];
 
 /// Reads the dither of all loads; `None` if it is invalid, which has been reported.
 pub(super) fn read(reader: &mut Reader, document: &Table) -> Option<(DiscDither, DitherShape)> {
@@ -32,14 +31,14 @@ pub(super) fn read(reader: &mut Reader, document: &Table) -> Option<(DiscDither,
         .needed_choice(table, "dither", node.origin, "direction", Choice::Direction)
         .and_then(Direction::from_name);
     let waveform = waveform::read_or_sine(reader, table, "dither", node.origin);
-    let amplitude = match reader.optional(table, "dither", DISC_DITHER_AMPLITUDE, None) {
+    let amplitude = match reader.optional(table, "dither", DISC_DITHER_AMPLITUDE) {
         // The dissertation's tangential dither.
         Found::Absent => Some(1.0),
         found => found.or(1.0),
     };
     let frequency_ratio = reader.number(table, "dither", node.origin, DITHER_FREQUENCY_RATIO);
-    let place = CoursePlace { what: ENVELOPE, units: CourseUnits::Disc };
-    let envelope = place.optional(reader, table, "dither", "envelope").map(Course::knots);
+    let envelope =
+        CoursePlace(ENVELOPE).optional(reader, table, "dither", "envelope").map(Course::knots);
     let shape = DitherShape { waveform: waveform?, envelope: envelope.ok()? };
     let (amplitude, frequency_ratio) = (amplitude?, frequency_ratio?);
     let dither = match direction? {
@@ -50,7 +49,9 @@ pub(super) fn read(reader: &mut Reader, document: &Table) -> Option<(DiscDither,
 }
 
 fn unknown_keys(reader: &mut Reader, table: &Table) {
-    let keys: Vec<&str> = KEYS.into_iter().chain(WAVE_KEYS.iter().map(|(name, _)| *name)).collect();
+    let wave = WAVE_KEYS.iter().map(|(name, _)| *name);
+    let keys: Vec<&str> =
+        KEYS.into_iter().chain(DITHER_FREQUENCY_RATIO.keys()).chain(wave).collect();
     for (name, node) in table.iter().filter(|(name, _)| !keys.contains(name)) {
         let nearest = suggest::word(name, keys.iter().copied()).map(|word| join("dither", &word));
         let complaint = Complaint::new(

@@ -6,8 +6,8 @@ use serde_json::Value as Json;
 
 use super::body::{self, Body};
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::belt::friction;
 use crate::study::document::Table;
+use crate::study::friction;
 use crate::study::reader::Reader;
 
 /// Reads the law; `Some(None)` where the loads have their friction as a force.
@@ -30,7 +30,7 @@ pub(super) fn read(
     };
     let scales = body.and_then(|body| {
         let first = body.radii.first().copied().flatten();
-        body::scales(&body.source, body.material.as_ref()).at(first)
+        body::scales(&body.source, &body.metal).at(first)
     });
     reader.set_disc_scales(scales);
     let law = friction::of_a_disc(reader, node)?;

@@ -27,9 +27,10 @@ use quell_model::units::DiscScales;
 use serde_json::Value as Json;
 
 use super::StudyOf;
+use super::address::units_of;
 use super::design::{self, Design, DesignContext};
 use super::document::Table;
-use super::reader::Reader;
+use super::reader::{EquationScale, Reader};
 use super::study_kind::StudyKind;
 use super::system::{DescribedSystem, SystemStudy};
 use super::vocabulary::{self, Role};
@@ -63,8 +64,8 @@ struct PlateSetup {
 }
 
 impl StudyKind for DiscSetup {
-    fn reader(_: &Table) -> Reader {
-        Reader::of_a_disc()
+    fn reader(document: &Table) -> Reader {
+        Reader::in_units(units_of(document), EquationScale::Disc(None))
     }
 
     fn tables(_: &Table) -> &'static [&'static str] {
@@ -93,7 +94,7 @@ impl StudyKind for DiscSetup {
         let law = law::read(reader, document, read.as_ref());
         let waveform = dither.as_ref().map(|(_, shape)| &shape.waveform);
         let design =
-            design::read(reader, document, DesignContext { waveform, system: None, places: &[] });
+            design::read(reader, document, DesignContext { waveform, document, places: &[] });
         let (body, (dither, shape), law, design) = (read?, dither?, law?, design?);
         let shaken = body.loads.iter().find_map(|load| load.slip_ratio);
         if let Some(ratio) = shaken.filter(|_| !matches!(dither, DiscDither::Tangential { .. })) {
@@ -104,8 +105,9 @@ impl StudyKind for DiscSetup {
         if reader.complaints_so_far() > 0 {
             return None;
         }
-        let Body { source, material, modes, loads, radii, parts, warnings, .. } = body;
-        let scales = body::scales(&source, material.as_ref());
+        let Body { source, metal, modes, loads, radii, parts, warnings, .. } = body;
+        let scales = body::scales(&source, &metal);
+        let material = metal.material;
         let disc = Disc::dithered_by(modes, loads, (dither, shape), body.speed);
         let disc = disc.and_then(|disc| match body.drive {
             Some(drive) => disc.driven(drive),
@@ -152,7 +154,7 @@ impl DiscSetup {
 
 impl DiscStudy {
     /// The disc at one point of a map, the same as that of [`StudyOf::at`], but without reading the study again if
-    /// the numbers are dimensionless. `None` if they do not give a valid study.
+    /// its numbers are the equations' own. `None` if they do not give a valid study.
     pub fn disc_at(&self, numbers: &[(&str, f64)]) -> Option<Disc> {
         let disc = self.disc();
         let direct = |path: &str| {
@@ -162,7 +164,8 @@ impl DiscStudy {
             load && (path.contains('[') || disc.loads().len() == 1)
                 || (path.starts_with("dither") && !path.contains('['))
         };
-        if numbers.iter().all(|(path, _)| direct(path) && disc.get(path).is_some()) {
+        let own = self.file_units().is_none();
+        if own && numbers.iter().all(|(path, _)| direct(path) && disc.get(path).is_some()) {
             let mut disc = disc.clone();
             for (path, value) in numbers {
                 disc = disc.with(path, *value).ok()?;
@@ -235,6 +238,6 @@ impl DiscStudy {
             let role = vocabulary::resolve(path).map(|address| address.key.role);
             matches!(role, Ok(Role::Twin(..)))
         };
-        self.settings().iter().any(|(path, _)| said(path))
+        !self.file_units().is_none() || self.settings().iter().any(|(path, _)| said(path))
     }
 }

@@ -135,7 +135,7 @@ fn listed(reader: &mut Reader, node: &Node) -> Option<Listed> {
 fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<ModeLine> {
     let table = reader.table(path, node)?;
     reader.unknown_keys(table, Section::DiscMode, path, &[]);
-    let mut maybe = |parameter| match reader.optional(table, path, parameter, None) {
+    let mut maybe = |parameter| match reader.optional(table, path, parameter) {
         Found::Value(value) => Some(Some(value)),
         Found::Absent => Some(None),
         Found::Wrong => None,

@@ -27,7 +27,7 @@ impl PatchSize {
     /// Reads the sizes; `Some(None)` for a load at a point.
     #[expect(clippy::option_option, reason = "invalid, absent, given")]
     pub(super) fn read(reader: &mut Reader, table: &Table, path: &str) -> Option<Option<Self>> {
-        let mut maybe = |parameter: Parameter| match reader.optional(table, path, parameter, None) {
+        let mut maybe = |parameter: Parameter| match reader.optional(table, path, parameter) {
             Found::Value(value) => Some(Some(value)),
             Found::Absent => Some(None),
             Found::Wrong => None,

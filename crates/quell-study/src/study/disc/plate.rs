@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use quell_disc::plate::{ModeSet, ModeSetError, Plate, PlateMaterial, Reference};
-use quell_model::parameter::Bounds;
 use quell_model::parameter::disc::{
-    DENSITY, INNER_RADIUS_RATIO, NODAL_DIAMETERS, OUTER_RADIUS, POISSON_RATIO, RADIAL_MODES,
-    THICKNESS, YOUNGS_MODULUS,
+    DENSITY, INNER_RADIUS_RATIO, NODAL_DIAMETERS, OUTER_RADIUS, PLATE_MASS, POISSON_RATIO,
+    RADIAL_MODES, THICKNESS, YOUNGS_MODULUS,
 };
+use quell_model::parameter::{Bounds, Parameter};
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Fault, Origin};
@@ -32,9 +32,9 @@ pub struct PlateModes {
 /// Reads the plate and computes its modes, unless they are known from another reading.
 pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option<Arc<PlateModes>> {
     let inner = reader.number(table, "disc", header, INNER_RADIUS_RATIO);
-    let poisson = reader.optional(table, "disc", POISSON_RATIO, None).or(0.3);
-    let radial = reader.optional(table, "disc", RADIAL_MODES, None).or(1.0);
-    let diameters = reader.optional(table, "disc", NODAL_DIAMETERS, None).or(2.0);
+    let poisson = reader.optional(table, "disc", POISSON_RATIO).or(0.3);
+    let radial = reader.optional(table, "disc", RADIAL_MODES).or(1.0);
+    let diameters = reader.optional(table, "disc", NODAL_DIAMETERS).or(2.0);
     let reference = reference(reader, table);
     let plate = Plate::new(inner?, poisson?).ok()?;
     let reference = reference?;
@@ -92,20 +92,62 @@ pub(super) fn reference(reader: &mut Reader, table: &Table) -> Option<Reference>
     }
 }
 
-/// Material and size of the plate, with their first line; either all four are given or none.
+/// What a study says of the metal and the size of its plate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Metal {
+    /// Material and size, where all four numbers are given.
+    pub(super) material: Option<PlateMaterial>,
+    /// Outer radius a, m.
+    pub(super) outer_radius_m: Option<f64>,
+    /// Mass M_p of the plate whose modes are listed, kg.
+    pub(super) mass_kg: Option<f64>,
+}
+
+impl Metal {
+    /// Listed modes may come with the mass and the outer radius alone.
+    pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option<Self> {
+        let listed = table.get("mode").is_some() || table.get("modes_file").is_some();
+        let mass_kg = match table.get(PLATE_MASS.key()) {
+            Some(node) if !listed => {
+                let allowed = "only with listed modes ([[disc.mode]] or disc.modes_file): the mass of a plate whose modes are \
+                               computed is that of its material";
+                let key = PLATE_MASS.path;
+                let given = node.given();
+                reader.complain(Complaint::new(Fault::Conflict, key, node.origin, given, allowed));
+                None
+            }
+            _ => optional(reader, table, PLATE_MASS),
+        };
+        let of_material = [YOUNGS_MODULUS, DENSITY, THICKNESS];
+        if listed && of_material.iter().all(|parameter| table.get(parameter.key()).is_none()) {
+            let outer_radius_m = optional(reader, table, OUTER_RADIUS)?;
+            return Some(Self { material: None, outer_radius_m, mass_kg: mass_kg? });
+        }
+        let material = material(reader, table, header)?;
+        let outer_radius_m = material.as_ref().map(PlateMaterial::outer_radius);
+        Some(Self { material, outer_radius_m, mass_kg: mass_kg? })
+    }
+}
+
+/// A number that may be absent.
 #[expect(clippy::option_option, reason = "invalid, absent, given")]
-pub(super) fn material(
-    reader: &mut Reader,
-    table: &Table,
-    header: Origin,
-) -> Option<Option<(PlateMaterial, Origin)>> {
+fn optional(reader: &mut Reader, table: &Table, parameter: Parameter) -> Option<Option<f64>> {
+    match reader.optional(table, "disc", parameter) {
+        Found::Value(value) => Some(Some(value)),
+        Found::Absent => Some(None),
+        Found::Wrong => None,
+    }
+}
+
+/// Material and size of the plate; either all four are given or none.
+#[expect(clippy::option_option, reason = "invalid, absent, given")]
+fn material(reader: &mut Reader, table: &Table, header: Origin) -> Option<Option<PlateMaterial>> {
     let parameters = [YOUNGS_MODULUS, DENSITY, THICKNESS, OUTER_RADIUS];
-    let Some(first) = parameters.iter().find_map(|parameter| table.get(parameter.key())) else {
+    if parameters.iter().all(|parameter| table.get(parameter.key()).is_none()) {
         return Some(None);
-    };
-    let origin = first.origin;
+    }
     let [modulus, density, thickness, radius] =
-        parameters.map(|parameter| match reader.optional(table, "disc", parameter, None) {
+        parameters.map(|parameter| match reader.optional(table, "disc", parameter) {
             Found::Value(value) => Some(value),
             Found::Wrong => None,
             Found::Absent => {
@@ -124,7 +166,7 @@ pub(super) fn material(
             }
         });
     if let Ok(material) = PlateMaterial::new(modulus?, density?, thickness?, radius?) {
-        return Some(Some((material, origin)));
+        return Some(Some(material));
     }
     let node = table.get(THICKNESS.key())?;
     // Each is already positive: the only remaining error is a plate as thick as it is wide.

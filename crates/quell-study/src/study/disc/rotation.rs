@@ -5,7 +5,7 @@ use quell_model::parameter::disc::CENTRIFUGAL;
 use super::loads::{DRIVE, Pad};
 use super::modes::{Listed, ModeSource};
 use crate::complaint::{Complaint, Fault};
-use crate::study::course::{Course, CoursePlace, CourseUnits, replaces_constant};
+use crate::study::course::{Course, CoursePlace, replaces_constant};
 use crate::study::document::Table;
 use crate::study::reader::Reader;
 use crate::study::vocabulary::{Choice, DISC_DRIVE};
@@ -33,13 +33,12 @@ pub(super) fn drive(
             reader.complain(Complaint::new(Fault::Conflict, key, origin, speed, allowed));
         }
     }
-    let place = CoursePlace { what: DISC_DRIVE, units: CourseUnits::Disc };
-    place.optional(reader, table, "disc", DRIVE)
+    CoursePlace(DISC_DRIVE).optional(reader, table, "disc", DRIVE)
 }
 
 /// Centrifugal stiffening κ of the disc, 0 if its loads rotate instead, as the dissertation has it.
 pub(super) fn read(reader: &mut Reader, table: &Table, source: Option<&ModeSource>) -> Option<f64> {
-    let stiffening = reader.optional(table, "disc", CENTRIFUGAL, None).or(0.0);
+    let stiffening = reader.optional(table, "disc", CENTRIFUGAL).or(0.0);
     let rotates = match table.get("rotating") {
         None => Some(false),
         Some(node) => {

@@ -1,22 +1,22 @@
-//! Numbers: bounds, SI twins, and keys of the wrong system.
+//! Numbers: bare in the units of the study, quoted with a unit, by a key with the unit as a suffix, or as a formula of parameters.
 
-use quell_model::Waveform;
-use quell_model::parameter::{
-    Bounds, MASS, NATURAL_FREQUENCY, Parameter, STIFFNESS, ScaleKey, SiTwin,
-};
+use quell_model::digits::digits;
+use quell_model::friction::expression::NumberFormula;
+use quell_model::parameter::{Bounds, Parameter};
+use quell_model::units::Quantity;
 use quell_model::units::measure::{self, Unread};
-use quell_model::units::{Quantity, Scales};
 use serde_json::Value as Json;
 
-use super::{Reader, Units};
+use super::Reader;
+use super::units::{EquationScale, KeyUnit};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
-use crate::study::vocabulary::{self, join};
+use crate::study::vocabulary::join;
 
 /// The result of reading the keys of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::study) enum Found {
-    /// A valid value, dimensionless.
+    /// A valid value, in the numbers of the equations.
     Value(f64),
     /// An invalid value, already reported.
     Wrong,
@@ -27,55 +27,85 @@ pub(in crate::study) enum Found {
 impl Found {
     /// The value, or the default if absent.
     pub(in crate::study) fn or(self, default: f64) -> Option<f64> {
+        self.if_given().map(|value| value.unwrap_or(default))
+    }
+
+    /// The value, `Some(None)` if absent, `None` if it is wrong.
+    #[expect(clippy::option_option, reason = "invalid, absent, given")]
+    pub(in crate::study) fn if_given(self) -> Option<Option<f64>> {
         match self {
-            Self::Value(value) => Some(value),
-            Self::Absent => Some(default),
+            Self::Value(value) => Some(Some(value)),
+            Self::Absent => Some(None),
             Self::Wrong => None,
         }
     }
 }
 
+/// What a number must be.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::study) struct WantedNumber {
+    /// What it measures; `None` for a number without a unit.
+    pub(in crate::study) quantity: Option<Quantity>,
+    /// The values that are allowed, in the numbers of the equations.
+    pub(in crate::study) bounds: Bounds,
+    /// The unit of its key.
+    pub(in crate::study) unit: KeyUnit,
+}
+
+impl WantedNumber {
+    /// Any finite number of a quantity in the unit of the study.
+    pub(in crate::study) fn finite(quantity: Option<Quantity>) -> Self {
+        Self { quantity, bounds: Bounds::FINITE, unit: KeyUnit::Study }
+    }
+
+    /// A number of the registry by one of its keys.
+    pub(in crate::study) fn of(parameter: Parameter, key: &str) -> Self {
+        let Parameter { quantity, bounds, .. } = parameter;
+        Self { quantity: Some(quantity), bounds, unit: KeyUnit::of(parameter, key) }
+    }
+}
+
+/// A key that was found.
+pub(in crate::study) struct Keyed<'t> {
+    pub(in crate::study) node: &'t Node,
+    pub(in crate::study) key: String,
+    pub(in crate::study) unit: KeyUnit,
+}
+
 impl Reader {
-    pub(super) fn scales(&mut self, belt: &Node) -> Option<Scales> {
-        let table = belt.table()?;
-        let mass = self.scale(table, MASS, belt.origin);
-        let Some(node) = table.get(NATURAL_FREQUENCY.key()) else {
-            let stiffness = self.scale(table, STIFFNESS, belt.origin);
-            return Scales::new(mass?, stiffness?).ok();
-        };
-        let hertz = self.scale(table, NATURAL_FREQUENCY, belt.origin);
-        if table.has(STIFFNESS.key()) {
-            self.not_both(STIFFNESS.path, NATURAL_FREQUENCY.path, node);
-            return None;
+    /// A number of the registry, by any of its keys.
+    pub(in crate::study) fn optional(
+        &mut self,
+        table: &Table,
+        prefix: &str,
+        parameter: Parameter,
+    ) -> Found {
+        let mut given = parameter.keys().filter_map(|key| Some((key, table.get(key)?)));
+        let Some((name, node)) = given.next() else { return Found::Absent };
+        if let Some((other, node)) = given.next() {
+            self.not_both(&join(prefix, name), &join(prefix, other), node);
+            return Found::Wrong;
         }
-        Scales::of_natural_frequency(mass?, hertz?).ok()
-    }
-
-    /// Reports the second of two keys for the same number.
-    fn not_both(&mut self, first: &str, second: &str, node: &Node) {
-        let allowed = format!("give either {first} or {second}, not both");
-        let given = node.given();
-        self.complain(Complaint::new(Fault::Conflict, second, node.origin, given, allowed));
-    }
-
-    fn scale(&mut self, table: &Table, scale: ScaleKey, header: Origin) -> Option<f64> {
-        let Some(node) = table.get(scale.key()) else {
-            let or = if scale == STIFFNESS {
-                format!("; or {}", NATURAL_FREQUENCY.path)
-            } else {
-                String::new()
-            };
-            let allowed = format!(
-                "{} in {} ({}, {}){or}; a study in SI requires mass and stiffness",
-                scale.bounds, scale.unit, scale.symbol, scale.about
+        let wanted = WantedNumber::of(parameter, name);
+        let key = || join(prefix, name);
+        if !self.may_have(wanted.unit) {
+            self.without_units(&key(), node, Some(join(prefix, parameter.key())));
+            return Found::Wrong;
+        }
+        let Some(value) = self.quantity(key, node, wanted) else { return Found::Wrong };
+        if !self.units().is_of_the_file() {
+            let of_one = self.units().written_per_one(parameter.quantity, wanted.unit);
+            self.remember(
+                &join(prefix, parameter.key()),
+                &key(),
+                node.origin,
+                of_one.unwrap_or(1.0),
             );
-            self.complain(Complaint::new(Fault::Missing, scale.path, header, Json::Null, allowed));
-            return None;
-        };
-        self.within(scale.path, node, scale.bounds, scale.unit, false)
+        }
+        Found::Value(value)
     }
 
-    /// A required parameter.
+    /// A required number of the registry.
     pub(in crate::study) fn number(
         &mut self,
         table: &Table,
@@ -83,244 +113,289 @@ impl Reader {
         header: Origin,
         parameter: Parameter,
     ) -> Option<f64> {
-        match self.optional(table, prefix, parameter, None) {
-            Found::Value(value) => Some(value),
-            Found::Wrong => None,
-            Found::Absent => {
-                let keys = self.right_keys(parameter);
-                let Parameter { bounds, symbol, about, .. } = parameter;
-                let or = keys.get(1).map(|key| format!("; or {}", join(prefix, key)));
-                let unit = match (self.units, parameter.si.first()) {
-                    (Units::Si(_), Some(twin)) => format!(", in {}", twin.unit),
-                    _ => String::new(),
-                };
-                let or = or.unwrap_or_default();
-                let allowed = format!("{bounds}{unit} ({symbol}, {about}){or}");
-                let key = join(prefix, &keys[0]);
-                self.complain(Complaint::new(Fault::Missing, key, header, Json::Null, allowed));
-                None
-            }
+        let found = self.optional(table, prefix, parameter);
+        if found == Found::Absent {
+            self.missing_number(prefix, header, parameter);
         }
+        found.if_given().flatten()
     }
 
-    /// An optional parameter. The waveform converts a root mean square to a peak.
-    pub(in crate::study) fn optional(
+    /// Reports a number that is missing, with all keys that could give it.
+    pub(in crate::study) fn missing_number(
         &mut self,
-        table: &Table,
         prefix: &str,
+        header: Origin,
         parameter: Parameter,
-        waveform: Option<&Waveform>,
-    ) -> Found {
-        let twins: Vec<SiTwin> =
-            parameter.si.iter().copied().filter(|twin| table.has(twin.key)).collect();
-        let plain = table.get(parameter.key());
-        let (si, disc) = (self.is_si(), self.is_of_a_disc());
-        match (plain, twins.as_slice()) {
-            (None, []) => Found::Absent,
-            (Some(node), []) if !si || parameter.si.is_empty() || parameter.is_pure() => {
-                self.plain(node, &join(prefix, parameter.key()), parameter)
-            }
-            (None, [twin]) if si || disc => self.twin(table, prefix, parameter, *twin, waveform),
-            (None, [first, .., last]) if si || disc => {
-                if let Some(node) = table.get(last.key) {
-                    self.not_both(&join(prefix, first.key), &join(prefix, last.key), node);
-                }
-                Found::Wrong
-            }
-            (Some(node), [twin, ..]) if disc || (si && parameter.is_pure()) => {
-                self.not_both(&join(prefix, twin.key), &join(prefix, parameter.key()), node);
-                Found::Wrong
-            }
-            (plain, twins) => {
-                self.mixed(table, prefix, parameter, plain, twins);
-                Found::Wrong
-            }
-        }
-    }
-
-    /// Complains about keys of the wrong system.
-    fn mixed(
-        &mut self,
-        table: &Table,
-        prefix: &str,
-        parameter: Parameter,
-        plain: Option<&Node>,
-        twins: &[SiTwin],
     ) {
-        let plain_key = join(prefix, parameter.key());
-        let twin_key = join(prefix, twins.first().unwrap_or(&parameter.si[0]).key);
-        if matches!(self.units, Units::Si(_)) {
-            let Some(node) = plain else { return };
-            // An option is set by the other key; a key in the file next to its twin is removed.
-            let is_set = matches!(node.origin, Origin::Argument(_));
-            let instead = if twins.is_empty() || is_set { "use" } else { "remove it and keep" };
-            let allowed = format!(
-                "the study is in SI, but {plain_key} is dimensionless: {instead} {twin_key} ({})",
-                parameter.si[0].unit
-            );
-            let complaint =
-                Complaint::new(Fault::Mixed, plain_key, node.origin, node.given(), allowed);
-            self.complain(complaint.suggesting(Some(twin_key)));
-            return;
-        }
-        for twin in twins {
-            let Some(node) = table.get(twin.key) else {
-                continue;
-            };
-            let key = join(prefix, twin.key);
-            let allowed = format!(
-                "the study is dimensionless, but {key} is in SI: use {plain_key}, or convert the whole study to SI with \
-                 belt.mass_kg and belt.stiffness_n_per_m"
-            );
-            let complaint = Complaint::new(Fault::Mixed, key, node.origin, node.given(), allowed);
-            self.complain(complaint.suggesting(Some(plain_key.clone())));
-        }
-    }
-
-    fn plain(&mut self, node: &Node, key: &str, parameter: Parameter) -> Found {
-        let count = parameter.quantity == Quantity::Count;
-        let value = self.within(key, node, parameter.bounds, "", count);
-        self.remember(key, key, node.origin, 1.0);
-        value.map_or(Found::Wrong, Found::Value)
-    }
-
-    fn twin(
-        &mut self,
-        table: &Table,
-        prefix: &str,
-        parameter: Parameter,
-        twin: SiTwin,
-        waveform: Option<&Waveform>,
-    ) -> Found {
-        let Some(node) = table.get(twin.key) else {
-            return Found::Absent;
-        };
-        let key = join(prefix, twin.key);
-        let rms = match (twin.rms, waveform) {
-            (true, Some(waveform)) => Some(waveform.root_mean_square()),
-            (true, None) => None,
-            (false, _) => Some(1.0),
-        };
-        // A key in rpm is not in the SI unit of its quantity.
-        let unit = twin.unit.trim_end_matches(" (rms)");
-        let (si_unit, _) = parameter.quantity.si_unit().unwrap_or((unit, ""));
-        let size = measure::convert(1.0, unit, si_unit).unwrap_or(1.0);
-        let per_unit = self.si_per_unit(parameter.quantity);
-        let factor = per_unit.zip(rms).map(|(per_unit, rms)| per_unit * rms / size);
-        // Without scales the sign can still be checked.
-        let scale = factor.unwrap_or(1.0);
-        let judged = factor.is_some()
-            || (parameter.bounds.lower == 0.0 && parameter.bounds.upper.is_infinite());
-        let bounds = if judged {
-            Bounds {
-                lower: parameter.bounds.lower * scale,
-                upper: parameter.bounds.upper * scale,
-                ..parameter.bounds
-            }
+        let Parameter { bounds, quantity, .. } = parameter;
+        let own = KeyUnit::of(parameter, parameter.key());
+        let unit = self.unit_of(Some(quantity), own).filter(|unit| *unit != "1");
+        let named = parameter.si.iter().find_map(|other| other.own).filter(|_| unit.is_some());
+        let (symbol, about) = named.unwrap_or((parameter.symbol, parameter.about));
+        let others = parameter.si.iter().filter(|_| self.units().take_suffixes());
+        let others: Vec<String> = others.map(|other| join(prefix, other.key)).collect();
+        let others = if others.is_empty() {
+            String::new()
         } else {
-            Bounds::FINITE
+            format!("; or {}", others.join(", or "))
         };
-        let Some(given) = self.within(&key, node, bounds, twin.unit, false) else {
-            return Found::Wrong;
-        };
-        let Some((per_unit, rms)) = per_unit.zip(rms) else {
-            self.without_scale(parameter, &key, node);
-            return Found::Wrong;
-        };
-        self.remember(&join(prefix, parameter.key()), &key, node.origin, scale);
-        Found::Value(given * size / rms / per_unit)
+        let unit = unit.map_or_else(String::new, |unit| format!(", in {unit}"));
+        let allowed = format!("{bounds}{unit} ({symbol}, {about}){others}");
+        self.missing(join(prefix, parameter.key()), header, allowed);
     }
 
-    /// Reports a number in SI of a disc whose scale is unknown; for a belt the missing mass or stiffness has already been
-    /// reported.
-    fn without_scale(&mut self, parameter: Parameter, key: &str, node: &Node) {
-        if !self.is_of_a_disc() {
-            return;
+    /// Reports the second of two keys for the same number.
+    pub(in crate::study) fn not_both(&mut self, first: &str, second: &str, node: &Node) {
+        let allowed = format!("give either {first} or {second}, not both");
+        let given = node.given();
+        self.complain(Complaint::new(Fault::Conflict, second, node.origin, given, allowed));
+    }
+
+    /// Reports a missing key.
+    pub(in crate::study) fn missing(
+        &mut self,
+        key: impl Into<String>,
+        header: Origin,
+        allowed: impl Into<String>,
+    ) {
+        self.complain(Complaint::new(Fault::Missing, key, header, Json::Null, allowed));
+    }
+
+    /// A list, row or matrix of a quantity, by its key or by the key with the suffix of the SI unit.
+    pub(in crate::study) fn keyed<'t>(
+        &mut self,
+        table: &'t Table,
+        prefix: &str,
+        name: &str,
+        quantity: Option<Quantity>,
+    ) -> Result<Option<Keyed<'t>>, Reported> {
+        let suffixed = quantity.and_then(|quantity| suffixed(name, quantity));
+        let other = suffixed.as_ref().and_then(|(name, unit)| Some((name, unit, table.get(name)?)));
+        let plain = table.get(name);
+        match (plain, other) {
+            (Some(_), Some((other, _, node))) => {
+                self.not_both(&join(prefix, name), &join(prefix, other), node);
+                Err(Reported)
+            }
+            (Some(node), None) => {
+                Ok(Some(Keyed { node, key: join(prefix, name), unit: KeyUnit::Study }))
+            }
+            (None, Some((other, unit, node))) => {
+                let key = join(prefix, other);
+                if !self.units().take_suffixes() {
+                    self.without_units(&key, node, Some(join(prefix, name)));
+                    return Err(Reported);
+                }
+                Ok(Some(Keyed { node, key, unit: KeyUnit::Suffix(unit) }))
+            }
+            (None, None) => Ok(None),
         }
-        let needed = match parameter.quantity {
-            Quantity::FrequencyRatio => {
-                "values in hertz require disc.youngs_modulus_pa, density_kg_per_m3, thickness_m and outer_radius_m, or \
-                 modes in hertz"
-            }
-            Quantity::LoadFriction => {
-                "values in newtons require radius_ratio of the load and modes computed from a plate with \
-                 disc.youngs_modulus_pa, density_kg_per_m3, thickness_m and outer_radius_m"
-            }
-            _ => {
-                "SI values require the mass of the plate: modes computed with disc.youngs_modulus_pa, density_kg_per_m3, \
-                 thickness_m and outer_radius_m"
-            }
-        };
-        let allowed = format!("{needed}; or give {} instead", parameter.key());
-        let complaint = Complaint::new(Fault::Conflict, key, node.origin, node.given(), allowed);
-        self.complain(complaint);
     }
 
-    /// A finite number within bounds.
+    /// The number of a node in the numbers of the equations; `None` if it is wrong, which has been reported.
+    pub(in crate::study) fn quantity(
+        &mut self,
+        key: impl Fn() -> String,
+        node: &Node,
+        wanted: WantedNumber,
+    ) -> Option<f64> {
+        let written = match self.written(node, wanted) {
+            Ok(written) => written,
+            Err(why) => {
+                let allowed = format!("{}{why}", self.range(wanted));
+                self.wrong(&key(), node, allowed);
+                return None;
+            }
+        };
+        let (number, unit) = written;
+        // The parameter that is wrong has been reported.
+        if number.is_nan() && self.named.has_wrong() {
+            return None;
+        }
+        let value = wanted
+            .quantity
+            .map_or(Some(number), |quantity| self.units().in_equations(number, quantity, unit));
+        // Without scales the sign can still be checked.
+        let signed = wanted.bounds.lower == 0.0 && wanted.bounds.upper.is_infinite();
+        let judged = value.or(signed.then_some(number)).or(number.is_finite().then_some(1.0));
+        let whole = wanted.quantity != Some(Quantity::Count) || number.fract() == 0.0;
+        let right =
+            whole && judged.is_some_and(|value| value.is_nan() || wanted.bounds.contains(value));
+        if !right || value.is_some_and(f64::is_nan) {
+            let is = match &node.value {
+                Value::Text(text) if !measure::has_unit(text) => {
+                    format!("; its value is {}", digits(number, 6))
+                }
+                _ => String::new(),
+            };
+            let allowed = format!("{}{is}", self.range(wanted));
+            self.wrong(&key(), node, allowed);
+            return None;
+        }
+        if value.is_none() && unit == KeyUnit::Ratio {
+            let allowed = "a frequency instead, such as dither.frequency: only a system of one coordinate with a spring has a natural \
+                           frequency to which a ratio refers";
+            self.wrong(&key(), node, allowed);
+        } else if value.is_none() {
+            self.without_units(&key(), node, None);
+        }
+        value
+    }
+
+    /// The number of a node as it is written, if it is one; nothing is reported.
+    pub(in crate::study) fn number_of(&self, node: &Node, quantity: Quantity) -> Option<f64> {
+        self.written(node, WantedNumber::finite(Some(quantity))).ok().map(|(number, _)| number)
+    }
+
+    /// A finite number within bounds, in `unit` if it is not empty: one that is no number of the equations.
     pub(in crate::study) fn within(
         &mut self,
         key: &str,
         node: &Node,
         bounds: Bounds,
-        unit: &str,
+        unit: &'static str,
         whole: bool,
     ) -> Option<f64> {
-        let range = if whole {
-            bounds.to_string().replacen("number", "whole number", 1)
+        let quantity = if whole { Some(Quantity::Count) } else { None };
+        let unit = if unit.is_empty() { KeyUnit::Study } else { KeyUnit::Suffix(unit) };
+        self.quantity(|| key.to_owned(), node, WantedNumber { quantity, bounds, unit })
+    }
+
+    /// What is allowed, in the unit of the key.
+    fn range(&self, wanted: WantedNumber) -> String {
+        let WantedNumber { quantity, bounds, unit } = wanted;
+        let of_one = quantity.and_then(|quantity| self.units().written_per_one(quantity, unit));
+        let size = |end: f64| if end == 0.0 { end } else { end * of_one.unwrap_or(1.0) };
+        let bounds = Bounds { lower: size(bounds.lower), upper: size(bounds.upper), ..bounds };
+        let text = bounds.to_string();
+        let text = if quantity == Some(Quantity::Count) {
+            text.replacen("number", "whole number", 1)
         } else {
-            bounds.to_string()
+            text
         };
-        let range = if unit.is_empty() { range } else { format!("{range}, in {unit}") };
-        let Value::Number(value) = node.value else {
-            self.wrong(key, node, format!("{range}{}", self.no_number(key, node, unit)));
-            return None;
-        };
-        if !bounds.contains(value) || (whole && value.fract() != 0.0) {
-            self.wrong(key, node, range);
-            return None;
+        match self.unit_of(quantity, unit) {
+            None | Some("1") => text,
+            Some(unit) => format!("{text}, in {unit}"),
         }
-        Some(value)
     }
 
-    /// Why a value is not a number for a key, in `unit` if given.
-    fn no_number(&self, key: &str, node: &Node, unit: &str) -> String {
-        let kind = node.kind();
-        let Value::Text(text) = &node.value else { return format!("; got {kind}") };
-        if text.trim().parse::<f64>().is_ok() {
-            return format!(", without quotes; got {kind}");
+    /// Unit of a number by a key, if it has one.
+    fn unit_of(&self, quantity: Option<Quantity>, unit: KeyUnit) -> Option<&'static str> {
+        match (quantity, unit) {
+            (_, KeyUnit::Suffix(unit)) => Some(unit),
+            (_, KeyUnit::Ratio) | (Some(Quantity::Ratio), _) => Some("1"),
+            (Some(Quantity::Angle), KeyUnit::Study) => Some("rad"),
+            (Some(quantity), KeyUnit::Study) => {
+                quantity.own_unit().or_else(|| self.units().file.unit(quantity))
+            }
+            (None, KeyUnit::Study) => None,
         }
+    }
+
+    /// The number that a node gives, and the unit in which it gives it.
+    fn written(&self, node: &Node, wanted: WantedNumber) -> Result<(f64, KeyUnit), String> {
+        let kind = || format!("; got {}", node.kind());
+        match &node.value {
+            Value::Number(number) => Ok((*number, wanted.unit)),
+            Value::Text(text) => match self.measured(text, wanted) {
+                Some(Ok(written)) => Ok(written),
+                Some(Err(why)) => Err(format!("; {why}")),
+                None if self.units().is_of_the_file() => Ok((self.formula(text)?, wanted.unit)),
+                None if text.trim().parse::<f64>().is_ok() => {
+                    Err(format!(", without quotes; got {}", node.kind()))
+                }
+                None => Err(kind()),
+            },
+            _ => Err(kind()),
+        }
+    }
+
+    /// The value of a formula of parameters.
+    fn formula(&self, text: &str) -> Result<f64, String> {
+        let names: Vec<&str> = self.named.names.iter().map(String::as_str).collect();
+        let formula = NumberFormula::parse(text, &names)
+            .map_err(|error| format!(", or a formula of parameters; {error}"))?;
+        Ok(formula.value(&self.named.values))
+    }
+
+    /// A number with a unit, such as `5.7kN`, and the unit to which it is converted; `None` if the text is something else.
+    fn measured(&self, text: &str, wanted: WantedNumber) -> Option<Result<(f64, KeyUnit), String>> {
         if !measure::has_unit(text) {
-            return format!("; got {kind}");
+            return None;
         }
-        let of_key = || vocabulary::resolve(key).ok()?.key.measured_in();
-        let given = Some(unit.trim_end_matches(" (rms)")).filter(|unit| !unit.is_empty());
-        match measure::read(text, given.or_else(of_key)) {
-            Err(why @ Unread::NoUnitHere(_)) if !self.is_si() => {
-                let instead = if self.is_of_a_disc() {
-                    "units require SI keys, such as disc.load.speed_rpm"
-                } else {
-                    "units require a study in SI, with belt.mass_kg"
-                };
-                format!("; {why}: {instead}")
+        let units = self.units();
+        // Frequencies are also given in cycles, and SI stands for the units of a study that has scales alone.
+        let other = wanted.quantity.filter(|_| wanted.unit == KeyUnit::Study);
+        let other = other.and_then(Quantity::si_unit).map(|(unit, _)| unit);
+        let other = other.filter(|unit| *unit == "Hz" || units.file.is_none());
+        if let Some(unit) = other.filter(|_| units.take_suffixes())
+            && let Ok(number) = measure::read(text, Some(unit))
+        {
+            return Some(Ok((number, KeyUnit::Suffix(unit))));
+        }
+        let unit = self.unit_of(wanted.quantity, wanted.unit);
+        match measure::read(text, unit) {
+            Ok(number) => Some(Ok((number, wanted.unit))),
+            Err(Unread::NotANumber | Unread::UnknownUnit(_)) if units.is_of_the_file() => None,
+            Err(why @ Unread::NoUnitHere(_)) if !units.take_suffixes() => {
+                Some(Err(format!("{why}: units require {}", units.needed())))
             }
-            Err(why) => format!("; {why}"),
-            Ok(_) => format!("; got {kind}"),
+            Err(why) => Some(Err(why.to_string())),
         }
     }
 
-    /// Keys that give a parameter in the system of this study.
-    fn right_keys(&self, parameter: Parameter) -> Vec<String> {
-        match self.units {
-            Units::Si(_) if !parameter.si.is_empty() => {
-                let twins = parameter.si.iter().map(|twin| twin.key.to_owned());
-                let pure = parameter.is_pure().then(|| parameter.key().to_owned());
-                twins.chain(pure).collect()
-            }
-            Units::Disc(_) => {
-                let twins = parameter.si.iter().map(|twin| twin.key);
-                [parameter.key()].into_iter().chain(twins).map(str::to_owned).collect()
-            }
-            _ => vec![parameter.key().to_owned()],
+    /// Whether a key with this unit can be read.
+    fn may_have(&self, unit: KeyUnit) -> bool {
+        match unit {
+            KeyUnit::Suffix(_) => self.units().take_suffixes(),
+            KeyUnit::Study | KeyUnit::Ratio => true,
         }
+    }
+
+    /// Reports a number with a unit in a study that has neither units nor the scales for it; `plain` is the key without the unit.
+    pub(in crate::study) fn without_units(
+        &mut self,
+        key: &str,
+        node: &Node,
+        plain: Option<String>,
+    ) {
+        let units = self.units();
+        let of_a_disc = matches!(units.scale, EquationScale::Disc(_));
+        // What is wrong with the scales of a study with units has been reported.
+        if !units.file.is_none() && !of_a_disc {
+            return;
+        }
+        let without = plain.as_ref().map(|plain| format!("{plain}, without a unit, or "));
+        let (fault, is) = if of_a_disc {
+            (Fault::Conflict, "what its unit is worth is not known")
+        } else {
+            (Fault::Mixed, "the study is dimensionless")
+        };
+        let allowed = format!("{}{}: {is}", without.unwrap_or_default(), units.needed());
+        let complaint = Complaint::new(fault, key, node.origin, node.given(), allowed);
+        self.complain(complaint.suggesting(plain.filter(|_| !of_a_disc)));
+    }
+}
+
+/// A value is wrong, which has been reported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::study) struct Reported;
+
+/// The key of a quantity with the suffix of its SI unit, and the unit.
+pub(in crate::study) fn suffixed(name: &str, quantity: Quantity) -> Option<(String, &'static str)> {
+    let (unit, suffix) = quantity.si_unit()?;
+    Some((format!("{name}_{suffix}"), unit))
+}
+
+/// Numbers that formulas use by name; those that are wrong are NaN.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::study) struct NumbersByName {
+    pub(in crate::study) names: Vec<String>,
+    pub(in crate::study) values: Vec<f64>,
+}
+
+impl NumbersByName {
+    fn has_wrong(&self) -> bool {
+        self.values.iter().any(|value| value.is_nan())
     }
 }

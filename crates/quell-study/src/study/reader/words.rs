@@ -71,6 +71,18 @@ impl Reader {
         self.complain(Complaint::new(Fault::Value, key, node.origin, node.given(), allowed));
     }
 
+    /// Reports an invalid value under a key that has not been reported.
+    pub(in crate::study) fn wrong_once(
+        &mut self,
+        key: &str,
+        node: &Node,
+        allowed: impl Into<String>,
+    ) {
+        if self.complaints.iter().all(|known| known.key != key) {
+            self.wrong(key, node, allowed);
+        }
+    }
+
     /// A table of the root or of `[belt]`; an error if it is something else.
     pub(in crate::study) fn table<'a>(&mut self, key: &str, node: &'a Node) -> Option<&'a Table> {
         let table = node.table();

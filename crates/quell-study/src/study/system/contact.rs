@@ -9,22 +9,21 @@ use quell_model::parameter::system::{
 use quell_model::profile::Profile;
 use quell_model::{Contact, Friction, LawKind};
 
-use super::friction::{self, LawRead};
 use super::keys::SystemTable;
+use super::keys::unknown_keys;
 use super::names::{MOST_COORDINATES, NAME, is_plain_name};
-use super::numbers::{CourseNumbers, Numbers, missing, unknown_keys};
 use super::rows::RowBasis;
 use crate::complaint::{Complaint, Fault};
 use crate::study::belt::one_state;
-use crate::study::course::{CoursePlace, CourseUnits, no_constant, replaces_constant};
+use crate::study::course::{CoursePlace, no_constant, replaces_constant};
 use crate::study::document::{Node, Table, Value};
-use crate::study::reader::Reader;
+use crate::study::friction::{self, LawPlace, ReadLaw};
+use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::{DRIVE, LOAD, join};
 
 /// What contacts need to know of the rest of the study.
 #[derive(Clone, Copy)]
 pub(super) struct ContactContext<'a> {
-    pub(super) numbers: &'a Numbers,
     pub(super) basis: &'a RowBasis,
     /// Whether the equations are of first order.
     pub(super) first_order: bool,
@@ -159,7 +158,7 @@ fn one(
     context: ContactContext<'_>,
 ) -> Option<ReadContact> {
     unknown_keys(reader, table, prefix, SystemTable::Contact);
-    let ContactContext { numbers, first_order, .. } = context;
+    let ContactContext { first_order, .. } = context;
     let before = reader.complaints_so_far();
     let rows = ["tangent", "normal", "slope", "force"]
         .map(|name| row(reader, table, prefix, name, index, context));
@@ -168,26 +167,31 @@ fn one(
     if first_order && tangent.is_some() && !table.has("force") {
         let allowed = "the effect of the friction force on each state, which stands for M⁻¹t: first-order equations have \
                        no mass matrix";
-        missing(reader, join(prefix, "force"), node.origin, allowed);
+        reader.missing(join(prefix, "force"), node.origin, allowed);
     }
-    let (load, velocity) = over_time(reader, table, prefix, node, context);
-    let mut number = |parameter| numbers.optional(reader, table, prefix, parameter);
+    let shared = context.shared.and_then(Node::table);
+    let friction = table.get("friction").and_then(Node::table).or(shared);
+    let needs_load = friction.is_none_or(|table| !friction::are_given_as_forces(table));
+    let (load, velocity) = over_time(reader, table, prefix, node, needs_load);
+    let mut number = |parameter| reader.optional(table, prefix, parameter).if_given();
     let (stiffness, damping) = (number(CONTACT_NORMAL_STIFFNESS), number(CONTACT_NORMAL_DAMPING));
     let spring = number(CONTACT_TANGENTIAL_STIFFNESS);
     without_normal(reader, table, prefix, &["normal_stiffness", "normal_damping"]);
-    let law = law(reader, table, node, prefix, tangent.is_some(), context);
+    let known = load.as_ref().and_then(Option::as_ref).map(|load| load.value(0.0));
+    let law = law(reader, table, node, prefix, (tangent.is_none(), known), context);
     if !rows_are_right {
         return None;
     }
-    let (LawRead { law, reversed }, velocity) = (law?, velocity?);
+    let (ReadLaw { law, reversed, own_load, .. }, velocity) = (law?, velocity?);
     // Negative friction is friction of a surface that moves in the other direction; it exists only without a tangent,
     // where the slip velocity is that of the surface.
     let velocity = if reversed { velocity.reversed() } else { velocity };
     let (least, most) = velocity.bounds();
-    let (load, fastest) = (load?, least.abs().max(most.abs()));
+    let fastest = least.abs().max(most.abs());
+    let load = load?.or(own_load.map(Profile::constant))?;
     let steady = load.value(0.0);
     let law = placed(reader, table, prefix, node, law, Some(steady), fastest)?;
-    let tangential_stiffness = spring.ok()?;
+    let tangential_stiffness = spring?;
     let name = "tangential_stiffness";
     let given = table.iter().find(|(known, _)| known.starts_with(name));
     if let Some((name, node)) = given.filter(|_| law.bristles().is_some()) {
@@ -202,8 +206,8 @@ fn one(
         normal,
         slope,
         normal_load: steady,
-        normal_stiffness: stiffness.ok()?.unwrap_or(0.0),
-        normal_damping: damping.ok()?.unwrap_or(0.0),
+        normal_stiffness: stiffness?.unwrap_or(0.0),
+        normal_damping: damping?.unwrap_or(0.0),
         surface_velocity: velocity,
         friction: law,
         tangential_stiffness,
@@ -212,35 +216,36 @@ fn one(
     Some(ReadContact { contact, reversed })
 }
 
-/// Load and surface velocity of a contact, constant or over time; `None` if wrong.
+/// Load and surface velocity of a contact, constant or over time; `None` if wrong. Friction that is given as forces needs no load.
+#[expect(clippy::option_option, reason = "invalid, absent, given")]
 fn over_time(
     reader: &mut Reader,
     table: &Table,
     prefix: &str,
     node: &Node,
-    context: ContactContext<'_>,
-) -> (Option<Profile>, Option<Profile>) {
-    let ContactContext { numbers, .. } = context;
-    let mut profile = |name: &str, what, parameter: Parameter| {
-        let units = CourseUnits::System(CourseNumbers(numbers));
-        let place = CoursePlace { what, units };
-        let course = place.optional(reader, table, prefix, name);
+    needs_load: bool,
+) -> (Option<Option<Profile>>, Option<Profile>) {
+    let mut profile = |name: &str, what, parameter: Parameter, needed: bool| {
+        let course = CoursePlace(what).optional(reader, table, prefix, name);
         if replaces_constant(table.get(name)) {
-            let twins = parameter.si.iter().map(|twin| twin.key);
-            let names: Vec<&str> = [parameter.key()].into_iter().chain(twins).collect();
-            no_constant(reader, table, prefix, &names, name);
-            return course.ok().flatten().map(|course| course.profile(0.0));
+            no_constant(reader, table, prefix, parameter, name);
+            return course.ok().flatten().map(|course| Some(course.profile(0.0)));
         }
-        let constant = numbers.needed(reader, table, prefix, node.origin, parameter)?;
-        Some(match course.ok()? {
-            Some(course) => course.profile(constant),
-            None => Profile::constant(constant),
+        let found = reader.optional(table, prefix, parameter);
+        if found == Found::Absent && needed {
+            reader.missing_number(prefix, node.origin, parameter);
+            return None;
+        }
+        let constant = found.if_given()?;
+        Some(match (course.ok()?, constant) {
+            (Some(course), Some(constant)) => Some(course.profile(constant)),
+            (_, constant) => constant.map(Profile::constant),
         })
     };
-    let load = profile("load", LOAD, CONTACT_NORMAL_LOAD);
-    let velocity = profile("drive", DRIVE, CONTACT_BELT_VELOCITY);
+    let load = profile("load", LOAD, CONTACT_NORMAL_LOAD, needs_load);
+    let velocity = profile("drive", DRIVE, CONTACT_BELT_VELOCITY, true).flatten();
     let before = reader.complaints_so_far();
-    if let Some(profile) = &load {
+    if let Some(Some(profile)) = &load {
         stays_loaded(reader, table, prefix, profile);
     }
     let right = reader.complaints_so_far() == before;
@@ -266,7 +271,7 @@ fn row(
     index: usize,
     context: ContactContext<'_>,
 ) -> Option<Vec<f64>> {
-    let ContactContext { numbers, basis, first_order, measured, .. } = context;
+    let ContactContext { basis, first_order, measured, .. } = context;
     let Some(node) = table.get(name) else {
         let own = match table.get("name").map(|node| &node.value) {
             Some(Value::Text(text)) => text.clone(),
@@ -290,7 +295,7 @@ fn row(
         reader.complain(Complaint::new(Fault::Conflict, key, node.origin, node.given(), allowed));
         return None;
     }
-    basis.row_not_zero(reader, numbers, &key, node)
+    basis.row_not_zero(reader, &key, node)
 }
 
 /// Reports stiffness and damping of a contact without a normal row.
@@ -321,19 +326,20 @@ fn law(
     table: &Table,
     contact: &Node,
     prefix: &str,
-    has_tangent: bool,
+    (may_be_reversed, normal_load): (bool, Option<f64>),
     context: ContactContext<'_>,
-) -> Option<LawRead> {
+) -> Option<ReadLaw> {
     let (path, node) = match (table.get("friction"), context.shared) {
         (Some(node), _) => (join(prefix, "friction"), node),
         (None, Some(node)) => ("friction".to_owned(), node),
         (None, None) => {
             let allowed = "a table [contact.friction] with law and its parameters, or one [friction] for all contacts";
-            missing(reader, join(prefix, "friction"), contact.origin, allowed);
+            reader.missing(join(prefix, "friction"), contact.origin, allowed);
             return None;
         }
     };
-    friction::read(reader, node, &path, context.numbers, has_tangent)
+    let place = LawPlace { path: &path, normal_load, may_be_reversed };
+    friction::read_table(reader, node, place)
 }
 
 /// The law in the surroundings of its contact: a formula is proven up to the slip speeds that are expected there.

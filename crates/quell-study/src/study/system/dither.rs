@@ -1,35 +1,32 @@
 //! `[[dither]]`: forces on coordinates and modulations of the load of a contact, periodic or noise.
 
+use quell_model::Contact;
 use quell_model::parameter::system::{
     FRICTION_FACTOR, FRICTION_FACTOR_MEAN, SYSTEM_DITHER_FREQUENCY,
 };
-use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE};
+use quell_model::parameter::{Bounds, DITHER_AMPLITUDE, DITHER_PHASE};
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Input, InputTarget};
-use quell_model::units::Quantity;
-use quell_model::units::measure;
-use quell_model::{Contact, Waveform};
 
 use super::contact::listed;
+use super::keys::unknown_keys;
 use super::keys::{PLACES, SystemTable, system_keys};
-use super::numbers::{CourseNumbers, Numbers, WantedNumber, missing, unknown_keys};
 use super::rows::RowBasis;
-use super::units::SystemUnits;
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::course::{Course, CoursePlace, CourseUnits};
+use crate::study::band;
+use crate::study::course::{Course, CoursePlace};
 use crate::study::design::DitherPlace;
 use crate::study::dither_size::{self, SizedAmplitude};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::suggest;
-use crate::study::vocabulary::size::{DITHER_SIZES, SizeKey, SizedSignal, measure_of};
+use crate::study::vocabulary::size::DITHER_SIZES;
 use crate::study::vocabulary::{Choice, ENVELOPE, FRICTION, join};
 use crate::study::waveform;
 
 /// The contacts that a dither can modulate.
 #[derive(Clone, Copy)]
 pub(super) struct DitherContext<'a> {
-    pub(super) numbers: &'a Numbers,
     pub(super) basis: &'a RowBasis,
     /// Names of all contacts.
     pub(super) names: &'a [String],
@@ -167,95 +164,37 @@ fn one(
     (prefix, node, table): (&str, &Node, &Table),
     context: DitherContext<'_>,
 ) -> Option<(Input, SizedAmplitude)> {
-    unknown_keys_of_dither(reader, table, prefix);
+    unknown_keys(reader, table, prefix, SystemTable::Dither);
     let target = target(reader, prefix, node, table, context);
-    let numbers = context.numbers;
     let is_noise = waveform::is_noise(table);
     let read = waveform::read(reader, table, (prefix, node.origin), |reader| {
-        band(reader, prefix, table, numbers)
+        band::given(reader, table, prefix, Bounds::POSITIVE)
     });
     let (waveform, middle) = read.unzip();
     let wave = (waveform.as_ref(), context.has_actuator);
-    let mean = mean(reader, (prefix, node, table), target.as_ref(), numbers);
+    let mean = mean(reader, (prefix, node, table), target.as_ref());
     let amplitude = if is_factor(table) {
-        factor(reader, (prefix, node, table), numbers)
+        factor(reader, (prefix, node, table))
     } else {
-        amplitude(reader, (prefix, node, table), wave, numbers)
+        dither_size::read(reader, table, (prefix, node.origin), wave)
     };
     let (frequency, phase) = if is_noise {
-        (middle.flatten(), Ok(None))
+        (middle.flatten(), Some(0.0))
     } else {
         let parameter = SYSTEM_DITHER_FREQUENCY;
-        let frequency = numbers.needed(reader, table, prefix, node.origin, parameter);
-        (frequency, numbers.optional(reader, table, prefix, DITHER_PHASE))
+        let frequency = reader.number(table, prefix, node.origin, parameter);
+        (frequency, reader.optional(table, prefix, DITHER_PHASE).or(0.0))
     };
-    let units = CourseUnits::System(CourseNumbers(numbers));
-    let place = CoursePlace { what: ENVELOPE, units };
-    let envelope = place.optional(reader, table, prefix, "envelope").map(Course::knots);
+    let envelope =
+        CoursePlace(ENVELOPE).optional(reader, table, prefix, "envelope").map(Course::knots);
     let wave = Wave {
         waveform: waveform?,
         amplitude: amplitude.as_ref()?.so_far(),
         frequency: frequency?,
-        phase: phase.ok()?.unwrap_or(0.0),
+        phase: phase?,
         envelope: envelope.ok()?,
     };
     Some((Input { target: target?, profile: Profile::constant(mean?).with(wave) }, amplitude?))
-}
-
-/// The band of noise, in the unit of `frequency`; `Some(None)` without one, `None` if it is wrong.
-#[expect(clippy::option_option, reason = "invalid, absent, given")]
-fn band(
-    reader: &mut Reader,
-    prefix: &str,
-    table: &Table,
-    numbers: &Numbers,
-) -> Option<Option<[f64; 2]>> {
-    let before = reader.complaints_so_far();
-    let Some(found) = numbers.keyed(reader, table, prefix, "band", Some("band_hz")) else {
-        return (reader.complaints_so_far() == before).then_some(None);
-    };
-    let ends = match &found.node.value {
-        Value::List(list) => <&[Node; 2]>::try_from(list.as_slice()).ok(),
-        _ => None,
-    };
-    let Some(ends) = ends else {
-        reader.wrong(&found.key, found.node, "two frequencies [low, high] with 0 < low < high");
-        return None;
-    };
-    let wanted = WantedNumber { twin: found.twin, ..WantedNumber::of(SYSTEM_DITHER_FREQUENCY) };
-    let [low, high] = [0, 1].map(|place: usize| {
-        numbers.number(reader, || format!("{}[{place}]", found.key), &ends[place], wanted)
-    });
-    Some(Some([low?, high?]))
-}
-
-fn unknown_keys_of_dither(reader: &mut Reader, table: &Table, prefix: &str) {
-    unknown_keys(reader, table, prefix, SystemTable::Dither);
-}
-
-/// The amplitude; the waveform converts a root mean square and a peak-to-peak value, an actuator what it takes.
-fn amplitude(
-    reader: &mut Reader,
-    (prefix, node, table): (&str, &Node, &Table),
-    (waveform, has_actuator): (Option<&Waveform>, bool),
-    numbers: &Numbers,
-) -> Option<SizedAmplitude> {
-    if let Some((key, given)) = dither_size::key_in(reader, table, prefix).ok()? {
-        let value = size(reader, prefix, (key, given), numbers)?;
-        return dither_size::sized(reader, prefix, (key, given), value, (waveform, has_actuator));
-    }
-    let twins = DITHER_AMPLITUDE.si;
-    let Some(twin) = twins.iter().find(|twin| twin.rms && table.has(twin.key)) else {
-        let amplitude = numbers.needed(reader, table, prefix, node.origin, DITHER_AMPLITUDE)?;
-        return Some(SizedAmplitude::Known(amplitude, None));
-    };
-    let peak = twins.iter().map(|twin| twin.key).find(|key| table.has(key) && *key != twin.key);
-    let first = peak.unwrap_or(DITHER_AMPLITUDE.key());
-    let found = numbers.keyed(reader, table, prefix, first, Some(twin.key))?;
-    let wanted = WantedNumber { twin: found.twin, ..WantedNumber::of(DITHER_AMPLITUDE) };
-    let value = numbers.number(reader, || found.key.clone(), found.node, wanted)?;
-    let of_unit = if found.twin { measure_of(*twin).of_unit(waveform?)? } else { 1.0 };
-    Some(SizedAmplitude::Known(value / of_unit, None))
 }
 
 /// Whether a dither is a factor on the friction of its contact, so that its amplitude is no force.
@@ -268,7 +207,6 @@ pub(super) fn is_factor(table: &Table) -> bool {
 fn factor(
     reader: &mut Reader,
     (prefix, node, table): (&str, &Node, &Table),
-    numbers: &Numbers,
 ) -> Option<SizedAmplitude> {
     let twins = DITHER_AMPLITUDE.si.iter().map(|twin| twin.key);
     let of_a_force = twins.chain(DITHER_SIZES.iter().map(|size| size.key));
@@ -282,7 +220,7 @@ fn factor(
         reader.complain(Complaint::new(Fault::Conflict, key, other.origin, other.given(), allowed));
         return None;
     }
-    let amplitude = numbers.needed(reader, table, prefix, node.origin, FRICTION_FACTOR)?;
+    let amplitude = reader.number(table, prefix, node.origin, FRICTION_FACTOR)?;
     Some(SizedAmplitude::Known(amplitude, None))
 }
 
@@ -291,9 +229,8 @@ fn mean(
     reader: &mut Reader,
     (prefix, _, table): (&str, &Node, &Table),
     target: Option<&InputTarget>,
-    numbers: &Numbers,
 ) -> Option<f64> {
-    let given = numbers.optional(reader, table, prefix, FRICTION_FACTOR_MEAN).ok()?;
+    let given = reader.optional(table, prefix, FRICTION_FACTOR_MEAN).if_given()?;
     match (given, target?) {
         (mean, InputTarget::Friction { .. }) => Some(mean.unwrap_or(1.0)),
         (None, _) => Some(0.0),
@@ -309,40 +246,6 @@ fn mean(
     }
 }
 
-/// The number of another size: in the units of the file, in volts, in amperes or in per cent.
-fn size(
-    reader: &mut Reader,
-    prefix: &str,
-    (key, node): (SizeKey, &Node),
-    numbers: &Numbers,
-) -> Option<f64> {
-    let path = || join(prefix, key.key);
-    if key.signal == SizedSignal::Newtons && numbers.units == SystemUnits::None {
-        let allowed = "omitted: the study has no units, but the key is in SI; add system.units = \"SI\" or \"mm-t-s\"";
-        let complaint = Complaint::new(Fault::Mixed, path(), node.origin, node.given(), allowed);
-        reader.complain(complaint);
-        return None;
-    }
-    let mut wanted = WantedNumber {
-        quantity: None,
-        bounds: DITHER_AMPLITUDE.bounds,
-        twin: key.signal == SizedSignal::Newtons,
-    };
-    wanted.quantity = match key.signal {
-        SizedSignal::Force | SizedSignal::Newtons => Some(DITHER_AMPLITUDE.quantity),
-        SizedSignal::Voltage => Some(Quantity::Voltage),
-        SizedSignal::Current => Some(Quantity::Current),
-        SizedSignal::Rated => match &node.value {
-            Value::Text(text) if measure::has_unit(text) => Some(Quantity::Ratio),
-            _ => None,
-        },
-    };
-    let value = numbers.number(reader, path, node, wanted)?;
-    // A text such as "80 %" is a share.
-    let of_share = key.signal == SizedSignal::Rated && wanted.quantity.is_some();
-    Some(if of_share { 100.0 * value } else { value })
-}
-
 /// Where a dither enters: `at`, or `contact`.
 fn target(
     reader: &mut Reader,
@@ -355,7 +258,7 @@ fn target(
         let Some(contact) = table.get("contact") else {
             let allowed = "a row over the coordinates, such as { x = 1.0 }, or contact, the name of the contact whose load \
                            is modulated";
-            missing(reader, join(prefix, "at"), node.origin, allowed);
+            reader.missing(join(prefix, "at"), node.origin, allowed);
             return None;
         };
         return of_contact(reader, prefix, node, table, contact, context);
@@ -374,7 +277,7 @@ fn target(
         }
     }
     let key = join(prefix, "at");
-    let row = context.basis.row_not_zero(reader, context.numbers, &key, at)?;
+    let row = context.basis.row_not_zero(reader, &key, at)?;
     Some(InputTarget::Force(row))
 }
 

@@ -4,6 +4,8 @@ use quell_model::parameter::Parameter;
 use quell_model::units::Quantity;
 
 use crate::study::document::{Node, Table, Value};
+use crate::study::reader::{KeyUnit, WantedNumber};
+use crate::study::vocabulary::size::{DITHER_SIZES, SizedSignal};
 
 /// A step from a value of the document to one inside it.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +28,37 @@ pub(super) struct FoundPath {
 }
 
 impl FoundPath {
+    /// The unit of the key at its end.
+    pub(super) fn unit(&self) -> KeyUnit {
+        match self.steps.last() {
+            Some(PathStep::Key(name)) => self.unit_of(name),
+            _ if self.twin => self.suffix(),
+            _ => KeyUnit::Study,
+        }
+    }
+
+    /// The unit of another key of the same number.
+    pub(super) fn unit_of(&self, name: &str) -> KeyUnit {
+        match self.parameter {
+            Some(parameter) if parameter.keys().any(|key| key == name) => {
+                WantedNumber::of(parameter, name).unit
+            }
+            _ if DITHER_SIZES
+                .iter()
+                .any(|size| size.key == name && size.signal == SizedSignal::Newtons) =>
+            {
+                self.suffix()
+            }
+            _ if self.twin => self.suffix(),
+            _ => KeyUnit::Study,
+        }
+    }
+
+    fn suffix(&self) -> KeyUnit {
+        let unit = self.quantity.and_then(Quantity::si_unit);
+        unit.map_or(KeyUnit::Study, |(unit, _)| KeyUnit::Suffix(unit))
+    }
+
     /// The value at its end.
     pub(super) fn node<'d>(&self, document: &'d Table) -> Option<&'d Node> {
         node_at(document, &self.steps)

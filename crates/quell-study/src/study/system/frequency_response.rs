@@ -13,7 +13,6 @@ use quell_model::parameter::Bounds;
 use quell_model::system::{Input, InputTarget};
 use quell_numerics::order::ascending_by;
 
-use super::units::SystemUnits;
 use crate::complaint::{Complaint, Fault};
 use crate::study::data_file::{DataFile, Row};
 use crate::study::document::Node;
@@ -53,15 +52,12 @@ impl FrequencyResponse {
 }
 
 /// Reads the file of the key.
-pub(super) fn read(
-    reader: &mut Reader,
-    node: &Node,
-    units: SystemUnits,
-) -> Option<Arc<FrequencyResponse>> {
+pub(super) fn read(reader: &mut Reader, node: &Node) -> Option<Arc<FrequencyResponse>> {
     let name = reader.text(KEY, node)?;
+    let has_units = reader.units().take_suffixes();
     let found = reader.files().parsed(KEY, &name, WantedFile::of(WHAT), parse);
     let found = found.and_then(|found| {
-        if found.in_hertz && units == SystemUnits::None {
+        if found.in_hertz && !has_units {
             return Err("a CSV file with a column frequency: the study has no units, but frequency_hz is in hertz; or \
                         add system.units = \"SI\" or \"mm-t-s\""
                 .to_owned());

@@ -4,11 +4,11 @@ use quell_model::units::Quantity;
 use quell_model::{Contact, Structure};
 
 use super::keys::SystemTable;
-use super::numbers::{Keyed, Numbers, Reported, WantedNumber, unknown_keys};
+use super::keys::unknown_keys;
 use super::rows::RowBasis;
 use crate::complaint::{Complaint, Fault};
 use crate::study::document::Table;
-use crate::study::reader::Reader;
+use crate::study::reader::{Keyed, Reader, Reported, WantedNumber};
 use crate::study::vocabulary::{Choice, join};
 
 /// Where a run begins.
@@ -40,7 +40,6 @@ const PREFIX: &str = "system.initial";
 pub(super) fn read(
     reader: &mut Reader,
     system: &Table,
-    numbers: &Numbers,
     basis: &RowBasis,
     first_order: bool,
 ) -> Option<SystemStart> {
@@ -74,25 +73,25 @@ pub(super) fn read(
     }
     let basis = basis.without_points();
     if first_order {
-        return of_states(reader, table, numbers, &basis);
+        return of_states(reader, table, &basis);
     }
     if let Some(node) = table.get("values") {
         let velocities = basis.names.iter().map(|name| format!("velocity.{name}"));
         let whole = basis.names.iter().cloned().chain(velocities).collect();
         let state = RowBasis::of(whole, "displacement and velocity");
         let wanted = WantedNumber::finite(None);
-        let values = state.row(reader, numbers, &join(PREFIX, "values"), node, wanted)?;
+        let values = state.row(reader, &join(PREFIX, "values"), node, wanted)?;
         return Some(SystemStart::Values(values));
     }
-    let mut half = |name: &str, quantity: Quantity| {
-        let before = reader.complaints_so_far();
-        match numbers.array(reader, table, PREFIX, name, Some(quantity)) {
-            Some(Keyed { node, key, twin }) => {
-                let wanted = WantedNumber { twin, ..WantedNumber::finite(Some(quantity)) };
-                basis.row(reader, numbers, &key, node, wanted)
-            }
-            None => (reader.complaints_so_far() == before).then(|| vec![0.0; basis.names.len()]),
+    let mut half = |name: &str, quantity: Quantity| match reader
+        .keyed(table, PREFIX, name, Some(quantity))
+        .ok()?
+    {
+        Some(Keyed { node, key, unit }) => {
+            let wanted = WantedNumber { unit, ..WantedNumber::finite(Some(quantity)) };
+            basis.row(reader, &key, node, wanted)
         }
+        None => Some(vec![0.0; basis.names.len()]),
     };
     let displacements = half("displacements", Quantity::Displacement);
     let velocities = half("velocities", Quantity::Velocity);
@@ -100,12 +99,7 @@ pub(super) fn read(
     Some(if kinds == [false; 4] { SystemStart::Rest } else { SystemStart::Values(values) })
 }
 
-fn of_states(
-    reader: &mut Reader,
-    table: &Table,
-    numbers: &Numbers,
-    basis: &RowBasis,
-) -> Option<SystemStart> {
+fn of_states(reader: &mut Reader, table: &Table, basis: &RowBasis) -> Option<SystemStart> {
     for name in ["displacements", "velocities"] {
         if let Some(node) = table.get(name) {
             let allowed = "first-order equations have states: give values = { … }";
@@ -118,7 +112,7 @@ fn of_states(
     }
     let Some(node) = table.get("values") else { return Some(SystemStart::Rest) };
     let key = join(PREFIX, "values");
-    let values = basis.row(reader, numbers, &key, node, WantedNumber::finite(None))?;
+    let values = basis.row(reader, &key, node, WantedNumber::finite(None))?;
     Some(SystemStart::Values(values))
 }
 
@@ -126,11 +120,10 @@ fn of_states(
 pub(super) fn observe(
     reader: &mut Reader,
     system: &Table,
-    numbers: &Numbers,
     basis: &RowBasis,
 ) -> Result<Option<Vec<f64>>, Reported> {
     let Some(node) = system.get("observe") else { return Ok(None) };
-    basis.row_not_zero(reader, numbers, "system.observe", node).map(Some).ok_or(Reported)
+    basis.row_not_zero(reader, "system.observe", node).map(Some).ok_or(Reported)
 }
 
 /// The row that is observed where the study gives none: a tangent, else a normal, else the first coordinate.

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use crate::study::vocabulary::size::{DITHER_SIZES, SizeKey, SizedSignal};
+use crate::study::vocabulary::size::{DITHER_SIZES, SizeKey};
 use quell_model::parameter::actuator::ACTUATOR;
 use quell_model::parameter::design::LIMITS;
 use quell_model::parameter::system::{
@@ -13,10 +13,14 @@ use quell_model::parameter::system::{
 use quell_model::parameter::{DITHER_AMPLITUDE, DITHER_PHASE, Parameter};
 use quell_model::units::Quantity;
 
+use crate::complaint::{Complaint, Fault};
 use crate::study::dither_size::parameter_of;
 use crate::study::document::Table;
+use crate::study::reader::Reader;
+use crate::study::suggest;
 use crate::study::vocabulary::{
     self, Choice, CourseKey, CourseTable, DRIVE, ENVELOPE, LOAD, Role, Section, WAVE_KEYS, WaveKey,
+    join,
 };
 
 /// Whether a document is the study of a system.
@@ -135,15 +139,23 @@ impl SystemKey {
     pub fn quantity(&self) -> Option<Quantity> {
         match self.role {
             SystemRole::Number(parameter) => Some(parameter.quantity),
-            SystemRole::Size(size) => match size.signal {
-                SizedSignal::Force | SizedSignal::Newtons => Some(DITHER_AMPLITUDE.quantity),
-                SizedSignal::Voltage => Some(Quantity::Voltage),
-                SizedSignal::Current => Some(Quantity::Current),
-                SizedSignal::Rated => None,
-            },
+            SystemRole::Size(size) => size.quantity(),
             SystemRole::Matrix(quantity) | SystemRole::Row(quantity) => quantity,
             SystemRole::Wave(WaveKey::Band) => Some(Quantity::FrequencyRatio),
             _ => None,
+        }
+    }
+
+    /// Whether a key of this name gives the same value in another unit.
+    pub(super) fn has_twin(&self, name: &str) -> bool {
+        match self.role {
+            SystemRole::Number(parameter) => parameter.si.iter().any(|twin| twin.key == name),
+            SystemRole::Size(_) => false,
+            _ => {
+                let suffix = name.strip_prefix(self.name).and_then(|rest| rest.strip_prefix('_'));
+                let unit = suffix.and_then(|_| self.quantity()?.si_unit());
+                unit.is_some_and(|(_, known)| suffix == Some(known))
+            }
         }
     }
 
@@ -325,7 +337,7 @@ const SYSTEM: &[SystemKey] = &[
         SystemRole::Text,
         "CSV file of a measured receptance, relative to the study file",
     ),
-    key("units", SystemRole::Choice(Choice::SystemUnits), "unit of bare numbers [default: none]"),
+    key("units", SystemRole::Choice(Choice::Units), "unit of bare numbers [default: none]"),
     key(
         "observe",
         SystemRole::Row(None),
@@ -438,7 +450,28 @@ const DITHER: &[SystemKey] = &[
     size(7),
     size(8),
     size(9),
+    size(10),
     number(SYSTEM_DITHER_FREQUENCY, "frequency"),
     number(DITHER_PHASE, "phase"),
     key("envelope", SystemRole::Table(SystemTable::Envelope), "share of the amplitude over time"),
 ];
+
+/// Reports keys that a table of a system does not have.
+pub(super) fn unknown_keys(reader: &mut Reader, table: &Table, prefix: &str, which: SystemTable) {
+    let keys = system_keys(which);
+    for (name, node) in table.iter() {
+        if keys.iter().any(|key| key.name == name || key.has_twin(name)) {
+            continue;
+        }
+        let there: Vec<&str> = keys.iter().map(|key| key.name).collect();
+        let nearest = suggest::word(name, there.iter().copied());
+        let complaint = Complaint::new(
+            Fault::Unknown,
+            join(prefix, name),
+            node.origin,
+            node.given(),
+            there.join(", "),
+        );
+        reader.complain(complaint.suggesting(nearest.map(|name| join(prefix, &name))));
+    }
+}

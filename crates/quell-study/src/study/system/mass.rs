@@ -6,7 +6,6 @@ use serde_json::Value as Json;
 
 use super::matrices::matrix;
 use super::names::PREFIX;
-use super::numbers::{Numbers, missing};
 
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
@@ -19,15 +18,14 @@ const SYMMETRIC: f64 = 1e-12;
 /// Reads `mass`.
 pub(super) fn read(
     reader: &mut Reader,
-    numbers: &Numbers,
     table: &Table,
     header: Origin,
     names: &[String],
 ) -> Option<MassMatrix> {
     let n = names.len();
-    let Some(matrix) = matrix(reader, numbers, table, "mass", n).ok()? else {
+    let Some(matrix) = matrix(reader, table, "mass", n).ok()? else {
         let allowed = format!("a diagonal of {n} numbers, or {n} rows of {n} numbers");
-        missing(reader, join(PREFIX, "mass"), header, allowed);
+        reader.missing(join(PREFIX, "mass"), header, allowed);
         return None;
     };
     let (key, node) = ["mass", "mass_kg"]

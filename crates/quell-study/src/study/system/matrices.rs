@@ -7,17 +7,15 @@ use quell_numerics::matrix::Matrix;
 
 use super::matrix_market;
 use super::names::PREFIX;
-use super::numbers::{Keyed, Numbers, Reported, WantedNumber};
 use crate::complaint::{Complaint, Fault};
 use crate::study::document::{Node, Table, Value};
 use crate::study::files::{Files, WantedFile};
-use crate::study::reader::Reader;
+use crate::study::reader::{KeyUnit, Keyed, Reader, Reported, WantedNumber};
 use crate::study::vocabulary::join;
 
 /// A square matrix of size `n`, if it is given: a diagonal, rows or a file.
 pub(super) fn matrix(
     reader: &mut Reader,
-    numbers: &Numbers,
     table: &Table,
     name: &'static str,
     n: usize,
@@ -28,20 +26,21 @@ pub(super) fn matrix(
         "stiffness" => Some(Quantity::LoadStiffness),
         _ => None,
     };
-    let before = reader.complaints_so_far();
-    let found = numbers.array(reader, table, PREFIX, name, quantity);
-    let Some(Keyed { node, key, twin }) = found else {
-        return if reader.complaints_so_far() == before { Ok(None) } else { Err(Reported) };
-    };
-    let wanted = WantedNumber { twin, ..WantedNumber::finite(quantity) };
+    let found = reader.keyed(table, PREFIX, name, quantity)?;
+    let Some(Keyed { node, key, unit }) = found else { return Ok(None) };
+    let wanted = WantedNumber { unit, ..WantedNumber::finite(quantity) };
     if let Value::Table(given) = &node.value {
         let found = in_file(reader, &key, node, given, n);
-        return found
-            .map(|matrix| Some(scaled(matrix, numbers.file_units(wanted))))
-            .ok_or(Reported);
+        let one = match (quantity, unit) {
+            (Some(quantity), KeyUnit::Suffix(_)) => {
+                reader.units().in_equations(1.0, quantity, unit)
+            }
+            _ => None,
+        };
+        return found.map(|matrix| Some(scaled(matrix, one.unwrap_or(1.0)))).ok_or(Reported);
     }
     let diagonal_allowed = name != "matrix" || n == 1;
-    entries(reader, numbers, &key, node, wanted, n, diagonal_allowed).map(Some).ok_or(Reported)
+    entries(reader, &key, node, wanted, n, diagonal_allowed).map(Some).ok_or(Reported)
 }
 
 /// What the file of a matrix must be: at most a dense matrix of the largest number of coordinates, with some twenty characters an
@@ -97,7 +96,6 @@ fn scaled(mut matrix: Matrix, factor: f64) -> Matrix {
 
 fn entries(
     reader: &mut Reader,
-    numbers: &Numbers,
     key: &str,
     node: &Node,
     wanted: WantedNumber,
@@ -124,7 +122,7 @@ fn entries(
     let mut right = true;
     for (i, node) in list.iter().enumerate() {
         if is_diagonal {
-            let number = numbers.number(reader, || format!("{key}[{i}]"), node, wanted);
+            let number = reader.quantity(|| format!("{key}[{i}]"), node, wanted);
             right &= number.is_some();
             matrix[(i, i)] = number.unwrap_or(f64::NAN);
             continue;
@@ -138,7 +136,7 @@ fn entries(
             continue;
         }
         for (j, node) in row.iter().enumerate() {
-            let number = numbers.number(reader, || format!("{key}[{i}][{j}]"), node, wanted);
+            let number = reader.quantity(|| format!("{key}[{i}][{j}]"), node, wanted);
             right &= number.is_some();
             matrix[(i, j)] = number.unwrap_or(f64::NAN);
         }

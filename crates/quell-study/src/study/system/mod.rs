@@ -2,13 +2,12 @@
 //!
 //! A structure is given by matrices over named coordinates, by first-order equations, by modes, or by a measured frequency
 //! response; `[[contact]]` and `[[dither]]` name its coordinates in their rows. Numbers are in the units of the file
-//! ([`SystemUnits`]), and any of them may be a formula of `[parameters]`.
+//! ([`UnitSystem`]), and any of them may be a formula of `[parameters]`.
 
 mod contact;
 mod dither;
 mod found;
 mod frequency_response;
-mod friction;
 mod initial;
 pub mod keys;
 mod mass;
@@ -17,7 +16,6 @@ mod matrix_market;
 mod modes;
 mod modes_file;
 mod names;
-mod numbers;
 mod origin;
 mod parameters;
 pub(in crate::study) mod path;
@@ -26,36 +24,31 @@ mod rows;
 mod setup;
 mod sized;
 mod structure;
-mod units;
 mod unused;
 mod walk;
 mod walk_entries;
 
 use std::sync::Arc;
 
-use crate::study::vocabulary::size::{
-    DITHER_SIZES, SignalMeasure, SizeKey, SizedSignal, measure_of,
-};
+use crate::study::vocabulary::size::{DITHER_SIZES, SignalMeasure, SizeKey, SizedSignal};
 use quell_design::actuator::Actuator;
 use quell_model::System;
 use quell_model::parameter::DITHER_AMPLITUDE;
+use quell_model::units::UnitSystem;
 
 use super::StudyOf;
 use super::design::{Design, DitherPlace};
 use super::dither_size::GivenSize;
 use super::document::{Node, Table, Value};
-use super::reader::Reader;
+use super::reader::{EquationScale, Reader};
 use super::study_kind::StudyKind;
 use crate::complaint::{Complaint, Complaints, Origin};
 
 pub use frequency_response::FrequencyResponse;
 pub use initial::SystemStart;
 pub(in crate::study) use keys::PLACES;
-pub(in crate::study) use numbers::CourseNumbers;
 pub use origin::{NumberedStudy, SystemOrigin};
-pub use path::{SystemAddress, resolve_in};
 pub use setup::{DescribedSystem, ScaledTime, SystemSetup};
-pub use units::SystemUnits;
 
 use path::set;
 
@@ -64,7 +57,7 @@ pub type SystemStudy = StudyOf<SystemSetup>;
 
 impl StudyKind for SystemSetup {
     fn reader(_: &Table) -> Reader {
-        Reader::as_written()
+        Reader::in_units(UnitSystem::None, EquationScale::OfTheFile)
     }
 
     fn tables(_: &Table) -> &'static [&'static str] {
@@ -83,8 +76,8 @@ impl SystemStudy {
     }
 
     /// The units of the bare numbers of the file.
-    pub fn units(&self) -> SystemUnits {
-        self.kind().numbers.units
+    pub fn units(&self) -> UnitSystem {
+        self.kind().units
     }
 
     /// The unit of time in seconds, where the study determines it although its numbers have no units.
@@ -95,9 +88,9 @@ impl SystemStudy {
     /// Units of time in one second; `None` for a study without seconds.
     pub fn time_per_second(&self) -> Option<f64> {
         match self.units() {
-            SystemUnits::None => self.kind().time.map(|time| time.per_second),
+            UnitSystem::None => self.kind().time.map(|time| time.per_second),
             // Both systems of units have the second.
-            SystemUnits::Si | SystemUnits::MmTonneSecond => Some(1.0),
+            UnitSystem::Si | UnitSystem::MmTonneSecond => Some(1.0),
         }
     }
 
@@ -156,8 +149,8 @@ impl SystemStudy {
         if let Some(origin) = self.origin() {
             return origin.number(path);
         }
-        self.amplitude_at(path)
-            .or_else(|| path::number(&self.source.document, &self.kind().numbers, path))
+        let number = || path::number(&self.source.document, &mut self.kind().reader(), path);
+        self.amplitude_at(path).or_else(number)
     }
 
     /// The amplitude of a dither by a key that need not be the one in the file; `None` for other numbers, and for what an actuator takes.
@@ -168,10 +161,10 @@ impl SystemStudy {
         if size.is_some_and(SizeKey::needs_actuator) {
             return None;
         }
-        let twin = DITHER_AMPLITUDE.si.iter().find(|twin| twin.key == key);
-        let measure = size.map(|size| size.measure).or(twin.map(|twin| measure_of(*twin)));
-        let of_unit = measure.unwrap_or(SignalMeasure::Peak).of_unit(&wave.waveform)?;
-        let in_si = twin.is_some() || size.is_some_and(|size| size.signal == SizedSignal::Newtons);
+        let measure = size.map_or(SignalMeasure::Peak, |size| size.measure);
+        let of_unit = measure.of_unit(&wave.waveform)?;
+        let in_si = DITHER_AMPLITUDE.si.iter().any(|other| other.key == key)
+            || size.is_some_and(|size| size.signal == SizedSignal::Newtons);
         let factor = if in_si { self.units().si_per_unit(DITHER_AMPLITUDE.quantity)? } else { 1.0 };
         Some(wave.amplitude * of_unit * factor)
     }
@@ -230,7 +223,8 @@ impl SystemStudy {
             let node = Node { value: Value::Number(*value), origin: Origin::Whole };
             set(&mut document, path, &node)?;
         }
-        let mut reader = self.reading_again(Reader::as_written());
+        let mut reader =
+            self.reading_again(Reader::in_units(UnitSystem::None, EquationScale::OfTheFile));
         let setup = read::study(&mut reader, &document);
         let complaints: Vec<Complaint> = reader.into_complaints();
         match setup {

@@ -5,7 +5,6 @@
 
 use std::sync::Arc;
 
-use quell_model::parameter::Bounds;
 use quell_model::parameter::system::{
     SYSTEM_MODAL_MASS, SYSTEM_MODE_DAMPING, SYSTEM_MODE_FREQUENCY,
 };
@@ -15,31 +14,25 @@ use serde_json::Value as Json;
 
 use super::contact::listed;
 use super::keys::SystemTable;
+use super::keys::unknown_keys;
 use super::modes_file::{ModeList, SystemMode};
 use super::names::{MOST_COORDINATES, NAME, PREFIX, is_plain_name};
-use super::numbers::{Numbers, WantedNumber, missing, unknown_keys};
 use super::rows::{RowBasis, ShapePoints};
 use super::structure::{ReadStructure, force};
-use super::units::SystemUnits;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
-use crate::study::reader::Reader;
+use crate::study::reader::{Reader, WantedNumber};
 use crate::study::vocabulary::{Choice, join};
 
 /// Modes with the name of their component; without a name for a structure of one component.
 type ModalComponent = (Option<String>, Arc<ModeList>);
 
 /// Reads a structure given by its modes, in the study or in files.
-pub(super) fn read(
-    reader: &mut Reader,
-    table: &Table,
-    header: Origin,
-    numbers: &Numbers,
-) -> ReadStructure {
+pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> ReadStructure {
     let components = if table.has("component") {
-        components(reader, table, numbers)
+        components(reader, table)
     } else {
-        let list = list(reader, table, PREFIX, header, numbers);
+        let list = list(reader, table, PREFIX, header);
         list.map(|list| vec![(None, list)])
     };
     let Some(components) = components else { return ReadStructure::default() };
@@ -60,7 +53,7 @@ pub(super) fn read(
     };
     let damping = diagonal(&|mode| 2.0 * mode.damping_ratio * mode.frequency);
     let stiffness = diagonal(&|mode| mode.frequency * mode.frequency);
-    let structure = force(reader, numbers, table, &basis).map(|force| {
+    let structure = force(reader, table, &basis).map(|force| {
         let mass = MassMatrix::identity(count);
         Mechanical::new(basis.names.clone(), mass, damping, stiffness).under(force).into()
     });
@@ -98,11 +91,7 @@ fn basis(components: &[ModalComponent], count: usize) -> RowBasis {
 }
 
 /// Every component; `None` if one is wrong.
-fn components(
-    reader: &mut Reader,
-    table: &Table,
-    numbers: &Numbers,
-) -> Option<Vec<ModalComponent>> {
+fn components(reader: &mut Reader, table: &Table) -> Option<Vec<ModalComponent>> {
     let mut names: Vec<String> = Vec::new();
     let read: Vec<Option<ModalComponent>> = listed(reader, table, PREFIX, "component")
         .into_iter()
@@ -118,11 +107,11 @@ fn components(
                     right
                 })
             } else {
-                missing(reader, key, node.origin, NAME);
+                reader.missing(key, node.origin, NAME);
                 None
             };
             names.extend(name.clone());
-            let list = list(reader, table, &prefix, node.origin, numbers);
+            let list = list(reader, table, &prefix, node.origin);
             Some((Some(name?), list?))
         })
         .collect();
@@ -130,13 +119,7 @@ fn components(
 }
 
 /// The modes of a table: listed, or in a file.
-fn list(
-    reader: &mut Reader,
-    table: &Table,
-    prefix: &str,
-    header: Origin,
-    numbers: &Numbers,
-) -> Option<Arc<ModeList>> {
+fn list(reader: &mut Reader, table: &Table, prefix: &str, header: Origin) -> Option<Arc<ModeList>> {
     let normalisation = match table.get("normalisation") {
         Some(node) => {
             Some(reader.choice(&join(prefix, "normalisation"), node, Choice::Normalisation)?)
@@ -152,11 +135,11 @@ fn list(
             reader.complain(complaint);
             return None;
         }
-        (Some(node), None) => file(reader, node, &join(prefix, "modes"), numbers)?,
-        (None, Some(node)) => Arc::new(inline(reader, table, node, prefix, numbers)?),
+        (Some(node), None) => file(reader, node, &join(prefix, "modes"))?,
+        (None, Some(node)) => Arc::new(inline(reader, table, node, prefix)?),
         (None, None) => {
             let allowed = "a CSV file of modes, or modes as tables [[system.mode]]";
-            missing(reader, join(prefix, "modes"), header, allowed);
+            reader.missing(join(prefix, "modes"), header, allowed);
             return None;
         }
     };
@@ -191,11 +174,12 @@ fn normalised(
 }
 
 /// Modes of a file.
-fn file(reader: &mut Reader, node: &Node, key: &str, numbers: &Numbers) -> Option<Arc<ModeList>> {
+fn file(reader: &mut Reader, node: &Node, key: &str) -> Option<Arc<ModeList>> {
     let name = reader.text(key, node)?;
+    let has_units = reader.units().take_suffixes();
     let list = ModeList::read(reader.files(), key, &name);
     let list = list.and_then(|list| {
-        if list.in_hertz && numbers.units == SystemUnits::None {
+        if list.in_hertz && !has_units {
             return Err("a CSV file with a column frequency: the study has no units, but frequency_hz is in hertz; or \
                         add system.units = \"SI\" or \"mm-t-s\""
                 .to_owned());
@@ -212,13 +196,7 @@ fn file(reader: &mut Reader, node: &Node, key: &str, numbers: &Numbers) -> Optio
 }
 
 /// Modes that the study lists.
-fn inline(
-    reader: &mut Reader,
-    table: &Table,
-    node: &Node,
-    prefix: &str,
-    numbers: &Numbers,
-) -> Option<ModeList> {
+fn inline(reader: &mut Reader, table: &Table, node: &Node, prefix: &str) -> Option<ModeList> {
     if let Value::List(list) = &node.value
         && (list.is_empty() || list.len() > MOST_COORDINATES)
     {
@@ -230,7 +208,7 @@ fn inline(
     let mut points: Vec<String> = Vec::new();
     let read: Vec<Option<InlineMode>> = listed(reader, table, prefix, "mode")
         .into_iter()
-        .map(|(prefix, node, table)| one(reader, table, node, &prefix, numbers, &mut points))
+        .map(|(prefix, node, table)| one(reader, table, node, &prefix, &mut points))
         .collect();
     let read: Vec<InlineMode> = read.into_iter().collect::<Option<_>>()?;
     let modes = read.into_iter().map(|(mode, entries)| {
@@ -253,17 +231,16 @@ fn one(
     table: &Table,
     node: &Node,
     prefix: &str,
-    numbers: &Numbers,
     points: &mut Vec<String>,
 ) -> Option<InlineMode> {
     unknown_keys(reader, table, prefix, SystemTable::Mode);
-    let frequency = numbers.needed(reader, table, prefix, node.origin, SYSTEM_MODE_FREQUENCY);
-    let damping = numbers.needed(reader, table, prefix, node.origin, SYSTEM_MODE_DAMPING);
-    let mass = numbers.optional(reader, table, prefix, SYSTEM_MODAL_MASS);
+    let frequency = reader.number(table, prefix, node.origin, SYSTEM_MODE_FREQUENCY);
+    let damping = reader.number(table, prefix, node.origin, SYSTEM_MODE_DAMPING);
+    let mass = reader.optional(table, prefix, SYSTEM_MODAL_MASS);
     let key = join(prefix, "shape");
     let Some(shape) = table.get("shape") else {
         let allowed = "the displacement of each point, such as { pad_x = 0.3, pad_y = 1.1 }";
-        missing(reader, key, node.origin, allowed);
+        reader.missing(key, node.origin, allowed);
         return None;
     };
     let Some(inner) = shape.table() else {
@@ -274,8 +251,8 @@ fn one(
     let mut entries = Vec::new();
     let mut right = true;
     for (name, node) in inner.iter() {
-        let wanted = WantedNumber { bounds: Bounds::FINITE, ..WantedNumber::finite(None) };
-        let entry = numbers.number(reader, || format!("{key}.{name}"), node, wanted);
+        let wanted = WantedNumber::finite(None);
+        let entry = reader.quantity(|| format!("{key}.{name}"), node, wanted);
         right &= entry.is_some();
         let at = points.iter().position(|known| known == name).unwrap_or_else(|| {
             points.push(name.to_owned());
@@ -283,7 +260,7 @@ fn one(
         });
         entries.extend(entry.map(|entry| (at, entry)));
     }
-    let (frequency, damping_ratio, modal_mass) = (frequency?, damping?, mass.ok()?);
+    let (frequency, damping_ratio, modal_mass) = (frequency?, damping?, mass.if_given()?);
     let mode = SystemMode { frequency, damping_ratio, modal_mass, shape: Vec::new() };
     right.then_some((mode, entries))
 }

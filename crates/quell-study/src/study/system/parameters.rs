@@ -3,11 +3,9 @@
 use quell_model::friction::expression::{NumberFormula, is_name, is_taken};
 use quell_model::parameter::Bounds;
 
-use super::numbers::Numbers;
-use super::units::SystemUnits;
 use crate::complaint::{Complaint, Fault};
 use crate::study::document::{Node, Table, Value};
-use crate::study::reader::Reader;
+use crate::study::reader::{NumbersByName, Reader};
 
 /// A parameter while it is evaluated.
 enum ParameterStep<'t> {
@@ -18,8 +16,8 @@ enum ParameterStep<'t> {
 }
 
 /// Reads the parameters. A parameter that is wrong is reported and has the value NaN.
-pub(super) fn read(reader: &mut Reader, document: &Table, units: SystemUnits) -> Numbers {
-    let none = Numbers { units, ..Numbers::default() };
+pub(super) fn read(reader: &mut Reader, document: &Table) -> NumbersByName {
+    let none = NumbersByName::default();
     let Some(table) = document.get("parameters").and_then(|node| reader.table("parameters", node))
     else {
         return none;
@@ -33,7 +31,7 @@ pub(super) fn read(reader: &mut Reader, document: &Table, units: SystemUnits) ->
         evaluate(reader, &names, &steps, &mut values, index);
     }
     let values = values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect();
-    Numbers { units, names, values }
+    NumbersByName { names, values }
 }
 
 fn step<'t>(reader: &mut Reader, name: &str, node: &'t Node, known: &[&str]) -> ParameterStep<'t> {

@@ -8,66 +8,55 @@ use std::fmt::Write as _;
 use quell_model::parameter::DITHER_AMPLITUDE;
 use quell_model::units::Quantity;
 
-use super::found::{PathStep, node_at};
-use super::numbers::{Numbers, WantedNumber};
-use super::units::SystemUnits;
+use super::found::{FoundPath, PathStep, node_at};
 use super::walk::follow;
 use crate::complaint::{Complaint, Fault};
+use crate::study::address::{NumberAddress, units_of};
 use crate::study::document::{Node, Table, Value};
-
-/// A number of a study of a system.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SystemAddress {
-    /// Its path with every index, the same for all ways to write it.
-    pub path: String,
-    /// Description, in one line.
-    pub about: &'static str,
-    /// Symbol in the equations, if it is a number of the registry.
-    pub symbol: Option<&'static str>,
-    /// Its quantity, if it has one.
-    pub quantity: Option<Quantity>,
-    /// Unit of its value; `1` without a unit.
-    pub unit: &'static str,
-    /// Whether a value of the path is in SI regardless of the units of the file.
-    pub twin: bool,
-}
+use crate::study::reader::{KeyUnit, Reader, WantedNumber};
 
 /// Finds the number that a path names in a document.
 ///
 /// # Errors
 /// The nearest existing path, if any is close enough.
-pub fn resolve_in(document: &Table, path: &str) -> Result<SystemAddress, Option<String>> {
+pub(in crate::study) fn resolve_in(
+    document: &Table,
+    path: &str,
+) -> Result<NumberAddress, Option<String>> {
     let found = follow(document, path).map_err(|lost| lost.nearest)?;
     if !found.is_number {
         return Err(None);
     }
-    let mut canonical = String::new();
-    for step in &found.steps {
-        match step {
-            PathStep::Key(name) if canonical.is_empty() => canonical.push_str(name),
-            PathStep::Key(name) => {
-                let _ = write!(canonical, ".{name}");
+    let mut number = String::new();
+    let last = found.steps.len().saturating_sub(1);
+    for (place, step) in found.steps.iter().enumerate() {
+        match (step, found.parameter) {
+            (PathStep::Key(_), Some(parameter)) if place == last => {
+                let _ = write!(number, ".{}", parameter.key());
             }
-            PathStep::Index(index) => {
-                let _ = write!(canonical, "[{index}]");
+            (PathStep::Key(name), _) => {
+                let _ = write!(number, ".{name}");
+            }
+            (PathStep::Index(index), _) => {
+                let _ = write!(number, "[{index}]");
             }
         }
     }
-    Ok(SystemAddress {
-        unit: unit(document, found.quantity, found.twin).unwrap_or("1"),
-        path: canonical,
+    let unit = unit(document, &found);
+    Ok(NumberAddress {
+        number,
         about: found.about,
         symbol: found.parameter.map(|parameter| parameter.symbol),
         quantity: found.quantity,
-        twin: found.twin,
+        unit: unit.unwrap_or("1"),
+        measured_in: unit.or((found.quantity == Some(Quantity::Ratio)).then_some("1")),
     })
 }
 
 /// The dither, counted from 0, whose amplitude a path names as a peak force; `None` for any other number.
 pub(in crate::study) fn amplitude_of(document: &Table, path: &str) -> Option<usize> {
     let (dither, key) = amplitude_key(document, path)?;
-    let peak = DITHER_AMPLITUDE.si.iter().filter(|twin| !twin.rms).map(|twin| twin.key);
-    [DITHER_AMPLITUDE.key()].into_iter().chain(peak).any(|known| known == key).then_some(dither)
+    DITHER_AMPLITUDE.keys().any(|known| known == key).then_some(dither)
 }
 
 /// The dither, counted from 0, whose amplitude a path names by any key, and the key.
@@ -88,24 +77,17 @@ pub(super) fn amplitude_key(document: &Table, path: &str) -> Option<(usize, Stri
 
 /// The unit to which values of a path are converted.
 pub(in crate::study) fn measured_in(document: &Table, path: &str) -> Option<&'static str> {
-    let found = follow(document, path).ok()?;
-    match found.quantity {
-        Some(Quantity::Ratio) => Some("1"),
-        quantity => unit(document, quantity, found.twin),
-    }
+    resolve_in(document, path).ok()?.measured_in
 }
 
-fn unit(document: &Table, quantity: Option<Quantity>, twin: bool) -> Option<&'static str> {
-    let quantity = quantity?;
-    if twin {
-        return quantity.si_unit().map(|(unit, _)| unit);
+/// The unit of the key of a number, if it has one.
+fn unit(document: &Table, found: &FoundPath) -> Option<&'static str> {
+    let quantity = found.quantity?;
+    match (found.unit(), quantity.si_unit()) {
+        (KeyUnit::Suffix(unit), _) => Some(unit),
+        (KeyUnit::Ratio, _) => None,
+        (KeyUnit::Study, _) => units_of(document).unit(quantity).or(quantity.own_unit()),
     }
-    let system = document.get("system").and_then(Node::table);
-    let units = match system.and_then(|table| table.get("units")).map(|node| &node.value) {
-        Some(Value::Text(name)) => SystemUnits::from_name(name).unwrap_or_default(),
-        _ => SystemUnits::None,
-    };
-    units.unit(quantity)
 }
 
 /// Sets the value of a path.
@@ -152,31 +134,31 @@ pub(in crate::study) fn set(
     Ok(())
 }
 
-/// The number at a path; `None` if the study has none there.
-pub(super) fn number(document: &Table, numbers: &Numbers, path: &str) -> Option<f64> {
+/// The number at a path, in the unit of its key; `None` if the study has none there.
+pub(super) fn number(document: &Table, reader: &mut Reader, path: &str) -> Option<f64> {
     let found = follow(document, path).ok().filter(|found| found.is_number)?;
-    let wanted = WantedNumber { twin: found.twin, ..WantedNumber::finite(found.quantity) };
-    let size = numbers.file_units(wanted);
-    let node = found.node(document);
-    if let Some(node) = node {
-        return numbers.value(node, wanted).ok().map(|value| value / size);
-    }
-    // The number may be given by another key in other units, or have a default.
-    let (Some(PathStep::Key(last)), Some(parameter)) = (found.steps.last(), found.parameter) else {
-        return None;
+    let mut value = |node: &Node, unit: KeyUnit| {
+        let wanted = WantedNumber { unit, ..WantedNumber::finite(found.quantity) };
+        reader.quantity(String::new, node, wanted)
     };
-    for other in found.replaces.iter().filter(|name| *name != last) {
+    let Some(PathStep::Key(last)) = found.steps.last() else {
+        return value(found.node(document)?, KeyUnit::Study);
+    };
+    // The number may be given by another key in another unit, or have a default.
+    let others = found.replaces.iter().filter(|name| *name != last);
+    let equal = [last].into_iter().chain(others).find_map(|name| {
         let mut steps = found.steps.clone();
         steps.pop();
-        steps.push(PathStep::Key(other.clone()));
-        let twin = other != parameter.key();
-        if let Some(node) = node_at(document, &steps) {
-            let wanted = WantedNumber { twin, ..wanted };
-            return numbers.value(node, wanted).ok().map(|value| value / size);
-        }
-    }
+        steps.push(PathStep::Key(name.clone()));
+        value(node_at(document, &steps)?, found.unit_of(name))
+    });
+    let of_one = match found.quantity {
+        Some(quantity) => reader.units().in_equations(1.0, quantity, found.unit())?,
+        None => 1.0,
+    };
     let optional = ["normal_stiffness", "normal_damping", "phase"];
-    optional.contains(&parameter.key()).then_some(0.0)
+    let default = found.parameter.is_some_and(|known| optional.contains(&known.key()));
+    equal.map(|value| value / of_one).or(default.then_some(0.0))
 }
 
 /// A value of the document that is changed.

@@ -9,41 +9,43 @@ use serde_json::Value as Json;
 use super::contact::{self, ContactContext, ReadContact};
 use super::dither::{self, DitherContext};
 use super::frequency_response::{self, FrequencyResponse};
+use super::keys::unknown_keys;
 use super::keys::{OTHER_KINDS, SystemTable};
 use super::modes;
-use super::numbers::{CourseNumbers, Numbers, missing, unknown_keys};
 use super::path::amplitude_of;
-use super::setup::SystemSetup;
+use super::setup::{SystemSetup, natural_frequency};
 use super::structure::{self, ReadStructure};
-use super::units::SystemUnits;
 use super::{initial, parameters, sized, unused};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::actuator;
 use crate::study::design::{self, DesignContext};
 use crate::study::document::{Table, Value};
 use crate::study::plausible;
-use crate::study::reader::Reader;
+use crate::study::reader::{NumbersByName, Reader};
 use crate::study::vocabulary::Choice;
+use quell_model::units::UnitSystem;
 
 /// Reads the study of a system; `None` if something is wrong, which has then been reported.
 pub(super) fn study(reader: &mut Reader, document: &Table) -> Option<SystemSetup> {
     conflicts(reader, document);
     let units = units(reader, document);
-    let numbers = parameters::read(reader, document, units);
+    reader.set_file_units(units);
+    let named = parameters::read(reader, document);
+    reader.set_named(named.clone());
     let node = document.get("system");
     let header = node.map_or(Origin::Whole, |node| node.origin);
     let Some(node) = node else {
-        missing(reader, "system", header, "a table [system] with coordinates, mass and stiffness");
+        reader.missing("system", header, "a table [system] with coordinates, mass and stiffness");
         return None;
     };
     let table = reader.table("system", node)?;
     unknown_keys(reader, table, "system", SystemTable::System);
-    let (ReadStructure { basis, structure }, response) = body(reader, &numbers, table, header);
+    let (ReadStructure { basis, structure }, response) = body(reader, table, header);
+    reader.set_natural_frequency(structure.as_ref().and_then(natural_frequency));
     // Without names no row can be read.
     let basis = basis?;
     let first_order = table.has("states");
     let context = ContactContext {
-        numbers: &numbers,
         basis: &basis,
         first_order,
         measured: response.is_some(),
@@ -56,7 +58,6 @@ pub(super) fn study(reader: &mut Reader, document: &Table) -> Option<SystemSetup
         contacts.map(|read| read.into_iter().map(|read| read.contact).collect());
     let names = contact::names(document);
     let context = DitherContext {
-        numbers: &numbers,
         basis: &basis,
         names: &names,
         contacts: contacts.as_deref(),
@@ -67,13 +68,13 @@ pub(super) fn study(reader: &mut Reader, document: &Table) -> Option<SystemSetup
     let places = dither::places(reader, document, context);
     let context = DesignContext {
         waveform: inputs.as_deref().and_then(|inputs| designed_wave(document, inputs)),
-        system: Some((document, CourseNumbers(&numbers))),
+        document,
         places: places.as_deref().unwrap_or(&[]),
     };
     let design = design::read(reader, document, context);
-    let actuator = actuator::read(reader, document, Some(CourseNumbers(&numbers)));
-    let observe = initial::observe(reader, table, &numbers, &basis);
-    let initial = initial::read(reader, table, &numbers, &basis, first_order);
+    let actuator = actuator::read(reader, document);
+    let observe = initial::observe(reader, table, &basis);
+    let initial = initial::read(reader, table, &basis, first_order);
     let (structure, contacts, inputs) = (structure?, contacts?, inputs?);
     let observe = observe.ok()?.unwrap_or_else(|| initial::default_row(&contacts, &structure));
     let mut system = System { structure, contacts, inputs };
@@ -85,13 +86,14 @@ pub(super) fn study(reader: &mut Reader, document: &Table) -> Option<SystemSetup
         frequency_response::check_pairs(reader, node, response, contacts, inputs);
     }
     let known = KnownSystem { system: &system, measured: response.is_some() };
-    let mut warnings = warnings(document, table, &numbers, known);
+    let mut warnings = warnings(document, table, (units, &named), known);
     warnings.extend(of_contacts);
     Some(SystemSetup {
         system,
         observe,
         initial: initial?,
-        numbers,
+        units,
+        named,
         warnings,
         response,
         design: design.filter(|_| places.is_some())?,
@@ -124,15 +126,15 @@ struct KnownSystem<'a> {
 fn warnings(
     document: &Table,
     table: &Table,
-    numbers: &Numbers,
+    (units, named): (UnitSystem, &NumbersByName),
     known: KnownSystem<'_>,
 ) -> Vec<String> {
     let KnownSystem { system, measured } = known;
     let modal = table.has("mode") || table.has("modes") || table.has("component");
-    let plausible = (!measured).then(|| plausible::warnings(system, numbers.units, modal));
+    let plausible = (!measured).then(|| plausible::warnings(system, units, modal));
     let half = table.has("coordinates").then(|| plausible::half_symmetric(system));
     let listed = plausible.into_iter().chain(half).flatten();
-    listed.chain(unused::warning(document, numbers)).collect()
+    listed.chain(unused::warning(document, named)).collect()
 }
 
 /// Reports tables of the other kinds.
@@ -148,13 +150,13 @@ fn conflicts(reader: &mut Reader, document: &Table) {
     }
 }
 
-fn units(reader: &mut Reader, document: &Table) -> SystemUnits {
+fn units(reader: &mut Reader, document: &Table) -> UnitSystem {
     let system = document.get("system").and_then(|node| node.table());
     let Some(node) = system.and_then(|table| table.get("units")) else {
-        return SystemUnits::None;
+        return UnitSystem::None;
     };
-    let name = reader.choice("system.units", node, Choice::SystemUnits);
-    name.and_then(SystemUnits::from_name).unwrap_or_default()
+    let name = reader.choice("system.units", node, Choice::Units);
+    name.and_then(UnitSystem::from_name).unwrap_or_default()
 }
 
 /// The keys that a form of the structure has, the first of which choose it.
@@ -169,7 +171,6 @@ const FORMS: &[(&[&str], &[&str])] = &[
 /// Reads the structure in the form that its keys choose, and its measured response in that form.
 fn body(
     reader: &mut Reader,
-    numbers: &Numbers,
     table: &Table,
     header: Origin,
 ) -> (ReadStructure, Option<Arc<FrequencyResponse>>) {
@@ -177,23 +178,22 @@ fn body(
     let Some(form @ (first, _)) = chosen else {
         let allowed = "the names of the coordinates, with mass and stiffness; or states and matrix, mode or modes, \
                        component, or frequency_response";
-        missing(reader, "system.coordinates", header, allowed);
+        reader.missing("system.coordinates", header, allowed);
         return (ReadStructure::default(), None);
     };
     other_forms(reader, table, form);
     match first[0] {
-        "coordinates" => (structure::mechanical(reader, numbers, table, header), None),
-        "states" => (structure::first_order(reader, numbers, table, header), None),
+        "coordinates" => (structure::mechanical(reader, table, header), None),
+        "states" => (structure::first_order(reader, table, header), None),
         "frequency_response" => {
             let node = table.get("frequency_response");
-            let response =
-                node.and_then(|node| frequency_response::read(reader, node, numbers.units));
-            let body = response.as_ref().map(|response| {
-                structure::of_names(reader, numbers, table, response.names.clone())
-            });
+            let response = node.and_then(|node| frequency_response::read(reader, node));
+            let body = response
+                .as_ref()
+                .map(|response| structure::of_names(reader, table, response.names.clone()));
             (body.unwrap_or_default(), response)
         }
-        _ => (modes::read(reader, table, header, numbers), None),
+        _ => (modes::read(reader, table, header), None),
     }
 }
 

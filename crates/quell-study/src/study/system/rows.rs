@@ -2,10 +2,9 @@
 
 use quell_numerics::matrix::Matrix;
 
-use super::numbers::{Numbers, WantedNumber};
 use crate::complaint::{Complaint, Fault};
 use crate::study::document::{Node, Table, Value};
-use crate::study::reader::Reader;
+use crate::study::reader::{Reader, WantedNumber};
 use crate::study::suggest;
 
 /// The names over which rows are written.
@@ -42,16 +41,15 @@ impl RowBasis {
     pub(super) fn row(
         &self,
         reader: &mut Reader,
-        numbers: &Numbers,
         key: &str,
         node: &Node,
         wanted: WantedNumber,
     ) -> Option<Vec<f64>> {
         match &node.value {
-            Value::List(list) => self.array(reader, numbers, key, node, list, wanted),
+            Value::List(list) => self.array(reader, key, node, list, wanted),
             Value::Table(table) => {
                 let mut row = vec![0.0; self.names.len()];
-                self.table(reader, numbers, key, "", table, wanted, &mut row).then_some(row)
+                self.table(reader, key, "", table, wanted, &mut row).then_some(row)
             }
             _ => {
                 let allowed = format!(
@@ -70,11 +68,10 @@ impl RowBasis {
     pub(super) fn row_not_zero(
         &self,
         reader: &mut Reader,
-        numbers: &Numbers,
         key: &str,
         node: &Node,
     ) -> Option<Vec<f64>> {
-        let row = self.row(reader, numbers, key, node, WantedNumber::finite(None))?;
+        let row = self.row(reader, key, node, WantedNumber::finite(None))?;
         if row.iter().all(|entry| *entry == 0.0) {
             let allowed = format!("a row with at least one {} whose number is not 0", self.what);
             reader.wrong(key, node, allowed);
@@ -86,7 +83,6 @@ impl RowBasis {
     fn array(
         &self,
         reader: &mut Reader,
-        numbers: &Numbers,
         key: &str,
         node: &Node,
         list: &[Node],
@@ -106,17 +102,15 @@ impl RowBasis {
         let row: Vec<Option<f64>> = list
             .iter()
             .enumerate()
-            .map(|(index, node)| numbers.number(reader, || format!("{key}[{index}]"), node, wanted))
+            .map(|(index, node)| reader.quantity(|| format!("{key}[{index}]"), node, wanted))
             .collect();
         row.into_iter().collect()
     }
 
     /// Adds the entries of a table; nested tables are names with a dot, such as `rotor.pad_x`.
-    #[expect(clippy::too_many_arguments, reason = "a recursion over nested tables")]
     fn table(
         &self,
         reader: &mut Reader,
-        numbers: &Numbers,
         key: &str,
         first: &str,
         table: &Table,
@@ -130,7 +124,7 @@ impl RowBasis {
             if let Value::Table(inner) = &node.value
                 && self.starts_a_name(&name)
             {
-                right &= self.table(reader, numbers, key, &name, inner, wanted, row);
+                right &= self.table(reader, key, &name, inner, wanted, row);
                 continue;
             }
             let Some(target) = self.find(&name) else {
@@ -138,7 +132,7 @@ impl RowBasis {
                 right = false;
                 continue;
             };
-            let Some(number) = numbers.number(reader, path, node, wanted) else {
+            let Some(number) = reader.quantity(path, node, wanted) else {
                 right = false;
                 continue;
             };

@@ -4,14 +4,15 @@ use std::sync::Arc;
 
 use quell_design::actuator::Actuator;
 use quell_model::System;
+use quell_model::system::Structure;
+use quell_model::units::UnitSystem;
 
 use super::frequency_response::FrequencyResponse;
 use super::initial::SystemStart;
-use super::numbers::Numbers;
 use super::origin::SystemOrigin;
-use super::units::SystemUnits;
 use crate::study::design::Design;
 use crate::study::dither_size::GivenSize;
+use crate::study::reader::{EquationScale, NumbersByName, Reader};
 
 /// The parts of a study that only a system has.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +20,8 @@ pub struct SystemSetup {
     pub(super) system: Arc<System>,
     pub(super) observe: Vec<f64>,
     pub(super) initial: SystemStart,
-    pub(super) numbers: Numbers,
+    pub(super) units: UnitSystem,
+    pub(super) named: NumbersByName,
     pub(super) warnings: Vec<String>,
     pub(super) response: Option<Arc<FrequencyResponse>>,
     /// The design that is requested.
@@ -49,7 +51,7 @@ pub struct DescribedSystem {
     /// The system, in these units.
     pub system: System,
     /// The units of its numbers.
-    pub units: SystemUnits,
+    pub units: UnitSystem,
     /// The row that is observed, over the coordinates.
     pub observe: Vec<f64>,
     /// Where a run begins.
@@ -69,7 +71,8 @@ impl From<DescribedSystem> for SystemSetup {
             system: Arc::new(system),
             observe,
             initial,
-            numbers: Numbers { units, ..Numbers::default() },
+            units,
+            named: NumbersByName::default(),
             warnings,
             response: None,
             design: None,
@@ -91,7 +94,24 @@ impl SystemSetup {
     }
 
     /// The units of the bare numbers of the file.
-    pub fn units(&self) -> SystemUnits {
-        self.numbers.units
+    pub fn units(&self) -> UnitSystem {
+        self.units
     }
+}
+
+impl SystemSetup {
+    /// A reader of numbers as those of this study.
+    pub(super) fn reader(&self) -> Reader {
+        let mut reader = Reader::in_units(self.units, EquationScale::OfTheFile);
+        reader.set_named(self.named.clone());
+        reader.set_natural_frequency(natural_frequency(&self.system.structure));
+        reader
+    }
+}
+
+/// The natural frequency √(k/m) of one coordinate with a spring.
+pub(super) fn natural_frequency(structure: &Structure) -> Option<f64> {
+    let mechanical = structure.mechanical().filter(|mechanical| mechanical.size() == 1)?;
+    let ratio = mechanical.stiffness()[(0, 0)] / mechanical.mass().matrix()[(0, 0)];
+    (ratio > 0.0).then(|| ratio.sqrt())
 }

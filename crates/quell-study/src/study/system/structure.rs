@@ -7,11 +7,10 @@ use quell_numerics::matrix::Matrix;
 use super::mass;
 use super::matrices::matrix;
 use super::names::{PREFIX, names};
-use super::numbers::{Keyed, Numbers, WantedNumber, missing};
 use super::rows::RowBasis;
 use crate::complaint::Origin;
 use crate::study::document::Table;
-use crate::study::reader::Reader;
+use crate::study::reader::{Keyed, Reader, WantedNumber};
 use crate::study::vocabulary::join;
 
 /// A structure as far as it could be read.
@@ -23,23 +22,18 @@ pub(super) struct ReadStructure {
 }
 
 /// Reads `coordinates`, `mass`, `damping`, `stiffness` and `force`.
-pub(super) fn mechanical(
-    reader: &mut Reader,
-    numbers: &Numbers,
-    table: &Table,
-    header: Origin,
-) -> ReadStructure {
+pub(super) fn mechanical(reader: &mut Reader, table: &Table, header: Origin) -> ReadStructure {
     let Some(names) = names(reader, table, "coordinates") else { return ReadStructure::default() };
     let n = names.len();
-    let mass = mass::read(reader, numbers, table, header, &names);
-    let damping = matrix(reader, numbers, table, "damping", n);
-    let stiffness = matrix(reader, numbers, table, "stiffness", n);
+    let mass = mass::read(reader, table, header, &names);
+    let damping = matrix(reader, table, "damping", n);
+    let stiffness = matrix(reader, table, "stiffness", n);
     if matches!(stiffness, Ok(None)) {
         let allowed = "a diagonal or rows; 0 for a body without springs";
-        missing(reader, join(PREFIX, "stiffness"), header, allowed);
+        reader.missing(join(PREFIX, "stiffness"), header, allowed);
     }
     let basis = RowBasis::of(names, "coordinate");
-    let force = force(reader, numbers, table, &basis);
+    let force = force(reader, table, &basis);
     let build = || {
         let damping = damping.ok()?.unwrap_or_else(|| Matrix::zeros(n, n));
         let structure = Mechanical::new(basis.names.clone(), mass?, damping, stiffness.ok()??);
@@ -50,37 +44,27 @@ pub(super) fn mechanical(
 }
 
 /// Reads `states`, `matrix` and `force`.
-pub(super) fn first_order(
-    reader: &mut Reader,
-    numbers: &Numbers,
-    table: &Table,
-    header: Origin,
-) -> ReadStructure {
+pub(super) fn first_order(reader: &mut Reader, table: &Table, header: Origin) -> ReadStructure {
     let Some(names) = names(reader, table, "states") else { return ReadStructure::default() };
     let n = names.len();
-    let matrix = matrix(reader, numbers, table, "matrix", n);
+    let matrix = matrix(reader, table, "matrix", n);
     if matches!(matrix, Ok(None)) {
-        missing(reader, join(PREFIX, "matrix"), header, format!("{n} rows of {n} numbers"));
+        reader.missing(join(PREFIX, "matrix"), header, format!("{n} rows of {n} numbers"));
     }
     let basis = RowBasis::of(names, "state");
-    let force = force(reader, numbers, table, &basis);
+    let force = force(reader, table, &basis);
     let build = || Some(StateSpace::new(basis.names.clone(), matrix.ok()??).under(force?).into());
     let structure = build();
     ReadStructure { structure, basis: Some(basis) }
 }
 
 /// A structure of which only the names are known: one of a measured frequency response.
-pub(super) fn of_names(
-    reader: &mut Reader,
-    numbers: &Numbers,
-    table: &Table,
-    names: Vec<String>,
-) -> ReadStructure {
+pub(super) fn of_names(reader: &mut Reader, table: &Table, names: Vec<String>) -> ReadStructure {
     let n = names.len();
     let zeros = || Matrix::zeros(n, n);
     let structure = Mechanical::new(names.clone(), MassMatrix::identity(n), zeros(), zeros());
     let basis = RowBasis::of(names, "point");
-    let force = force(reader, numbers, table, &basis);
+    let force = force(reader, table, &basis);
     ReadStructure {
         structure: force.map(|force| structure.under(force).into()),
         basis: Some(basis),
@@ -88,18 +72,12 @@ pub(super) fn of_names(
 }
 
 /// Constant forces; of first-order equations constant rates.
-pub(super) fn force(
-    reader: &mut Reader,
-    numbers: &Numbers,
-    table: &Table,
-    basis: &RowBasis,
-) -> Option<Vec<f64>> {
-    let before = reader.complaints_so_far();
-    let found = numbers.array(reader, table, PREFIX, "force", Some(Quantity::Force));
-    let Some(Keyed { node, key, twin }) = found else {
-        let right = reader.complaints_so_far() == before;
-        return right.then(|| vec![0.0; basis.names.len()]);
+pub(super) fn force(reader: &mut Reader, table: &Table, basis: &RowBasis) -> Option<Vec<f64>> {
+    let quantity = Some(Quantity::Force);
+    let Some(Keyed { node, key, unit }) = reader.keyed(table, PREFIX, "force", quantity).ok()?
+    else {
+        return Some(vec![0.0; basis.names.len()]);
     };
-    let wanted = WantedNumber { twin, ..WantedNumber::finite(Some(Quantity::Force)) };
-    basis.row(reader, numbers, &key, node, wanted)
+    let wanted = WantedNumber { unit, ..WantedNumber::finite(quantity) };
+    basis.row(reader, &key, node, wanted)
 }

@@ -1,7 +1,7 @@
 //! Warnings about parameters that no formula uses.
 
-use super::numbers::Numbers;
 use crate::study::document::{Node, Table, Value};
+use crate::study::reader::NumbersByName;
 
 /// Keys whose texts are no formulas.
 const WORDS: &[&str] = &[
@@ -25,7 +25,7 @@ const WORDS: &[&str] = &[
 ];
 
 /// The warning about parameters that are used nowhere in a document, not even by another parameter.
-pub(super) fn warning(document: &Table, numbers: &Numbers) -> Option<String> {
+pub(super) fn warning(document: &Table, numbers: &NumbersByName) -> Option<String> {
     let mut used = vec![false; numbers.names.len()];
     mark(document, &numbers.names, &mut used);
     let names = numbers.names.iter().zip(&used).filter(|(_, used)| !**used);

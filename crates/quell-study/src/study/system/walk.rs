@@ -91,10 +91,7 @@ impl<'d> Walk<'d> {
         let keys = system_keys(which);
         let plain = keys.iter().find(|key| key.name == segment.name).map(|key| (key, false));
         let (key, twin) = plain
-            .or_else(|| {
-                let twins = |key: &&SystemKey| key.twins().iter().any(|twin| twin == segment.name);
-                keys.iter().find(twins).map(|key| (key, true))
-            })
+            .or_else(|| keys.iter().find(|key| key.has_twin(segment.name)).map(|key| (key, true)))
             .ok_or_else(|| self.lost(which, segment, rest))?;
         let node = table.and_then(|table| table.get(segment.name));
         self.go(segment.name);

@@ -1,8 +1,8 @@
 //! A key of the study file: its table, its name and the values it takes.
 
 use quell_model::friction::expression;
-use quell_model::parameter::{COEFFICIENT, Parameter, ScaleKey, SiTwin};
-use quell_model::units::Quantity;
+use quell_model::parameter::{COEFFICIENT, Parameter, SiTwin};
+use quell_model::units::{Quantity, UnitSystem};
 
 use super::course::{CourseKey, CourseTable, DISC_DRIVE, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
 use super::size::SizeKey;
@@ -235,18 +235,18 @@ pub const WAVE_KEYS: [(&str, WaveKey); 11] = [
 /// The kind of value that a key takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Role {
-    /// A dimensionless parameter.
+    /// A parameter by its own key.
     Number(Parameter),
-    /// A parameter in SI.
+    /// A parameter by another key.
     Twin(Parameter, SiTwin),
     /// Another size of a signal than its peak, which gives this parameter.
     Size(Parameter, SizeKey),
-    /// A number that defines the scales of a study in SI.
-    Scale(ScaleKey),
     /// A word from a list.
     Choice(Choice),
     /// Free text.
     Text,
+    /// `true` or `false`.
+    Flag,
     /// The version of the file.
     Schema,
     /// Words from a list, as an array.
@@ -328,47 +328,55 @@ impl Key {
 
     /// Whether it takes a number that can be varied.
     pub fn takes_number(&self) -> bool {
-        let scale = matches!(self.role, Role::Scale(_) | Role::Constant | Role::FrictionForce(..));
-        scale || self.parameter().is_some()
+        let named = matches!(self.role, Role::Constant | Role::FrictionForce(..));
+        named || self.parameter().is_some()
     }
 
-    /// Unit of its value.
-    pub fn unit(&self) -> &'static str {
+    /// Unit of its value, in a study with these units.
+    pub fn unit(&self, units: UnitSystem) -> &'static str {
         match self.role {
-            Role::Number(parameter) => parameter.quantity.scaled_unit(),
-            Role::Twin(_, twin) => twin.unit,
-            Role::Size(parameter, size) if size.unit.is_empty() => parameter.quantity.scaled_unit(),
+            Role::Number(parameter) if parameter.is_pure() => parameter.quantity.scaled_unit(),
+            Role::Number(parameter) => own_unit(parameter.quantity, units),
+            Role::Twin(parameter, other) if other.unit.is_empty() => {
+                own_unit(parameter.quantity, units)
+            }
+            Role::Twin(_, other) => other.unit,
+            Role::Size(parameter, size) if size.unit.is_empty() => {
+                own_unit(parameter.quantity, units)
+            }
             Role::Size(_, size) => size.unit,
-            Role::Scale(scale) => scale.unit,
             Role::FrictionForce(_, unit) => unit,
             Role::Speeds { si: true } => "m/s",
-            Role::Speeds { si: false } => Quantity::Velocity.scaled_unit(),
+            Role::Speeds { si: false } => own_unit(Quantity::Velocity, units),
             Role::Band { hertz: true } => "Hz",
-            Role::Band { hertz: false } => Quantity::FrequencyRatio.scaled_unit(),
+            Role::Band { hertz: false } => own_unit(Quantity::FrequencyRatio, units),
             _ => "1",
         }
     }
 
     /// Unit in words; frequencies of a disc are in ω_ref.
-    pub fn unit_in_words(&self) -> &'static str {
-        if self.is_of_a_disc() && self.unit() == "ω₀" { "ω_ref" } else { self.unit() }
+    pub fn unit_in_words(&self, units: UnitSystem) -> &'static str {
+        let unit = self.unit(units);
+        if self.is_of_a_disc() && unit == "ω₀" { "ω_ref" } else { unit }
     }
 
     /// The unit to which a number with a unit is converted, such as `5.7kN` for a key in newtons; `None` for dimensionless
     /// numbers and other values without a unit.
-    pub fn measured_in(&self) -> Option<&'static str> {
+    pub fn measured_in(&self, units: UnitSystem) -> Option<&'static str> {
         match self.role {
             Role::Number(parameter) => match parameter.quantity {
                 Quantity::Ratio | Quantity::DampingRatio => Some("1"),
                 Quantity::Angle => Some("rad"),
-                quantity => quantity.own_unit(),
+                _ if parameter.is_pure() => Some("1"),
+                quantity => quantity.own_unit().or_else(|| units.unit(quantity)),
             },
-            Role::Twin(_, twin) => Some(twin.unit.trim_end_matches(" (rms)")),
-            Role::Size(_, size) => Some(size.unit).filter(|unit| !unit.is_empty()),
-            Role::Scale(scale) => Some(scale.unit),
+            Role::Twin(parameter, other) if other.unit.is_empty() => units.unit(parameter.quantity),
+            Role::Size(parameter, size) if size.unit.is_empty() => units.unit(parameter.quantity),
+            Role::Twin(_, SiTwin { unit, .. })
+            | Role::Size(_, SizeKey { unit, .. })
+            | Role::FrictionForce(_, unit) => Some(unit),
             Role::Speeds { si: true } => Some("m/s"),
             Role::Band { hertz: true } => Some("Hz"),
-            Role::FrictionForce(_, unit) => Some(unit),
             Role::Constant => Some("1"),
             _ => None,
         }
@@ -377,6 +385,11 @@ impl Key {
     fn is_of_a_disc(&self) -> bool {
         matches!(self.section, Section::Disc | Section::DiscMode | Section::DiscLoad)
     }
+}
+
+/// Unit of a bare number of a quantity.
+fn own_unit(quantity: Quantity, units: UnitSystem) -> &'static str {
+    units.unit(quantity).unwrap_or_else(|| quantity.scaled_unit())
 }
 
 /// `table.key`, or `key` alone at the root.

@@ -4,13 +4,15 @@ use std::sync::LazyLock;
 
 use quell_model::LawKind;
 use quell_model::parameter::{
-    self, COEFFICIENT, DITHER_AMPLITUDE, Parameter, STATIC_COEFFICIENT, VISCOUS,
+    self, COEFFICIENT, DITHER_AMPLITUDE, MINIMUM_COEFFICIENT, Parameter, STATIC_COEFFICIENT,
+    VISCOUS,
 };
 
 use super::course::{CourseKey, CourseTable};
 use super::key::{Key, Role, SCHEMA_ABOUT, Section, WAVE_KEYS, WaveKey};
 use super::size::DITHER_SIZES;
 use super::words::Choice;
+use super::{UNITS, UNITS_ABOUT};
 
 /// Every key, table by table.
 pub fn keys() -> &'static [Key] {
@@ -43,7 +45,7 @@ fn all() -> Vec<Key> {
 
 /// Keys that take words.
 fn words() -> Vec<Key> {
-    use Section::{Dither, Friction, Initial, Root};
+    use Section::{Belt, Disc, Dither, Friction, Initial, Root};
     let word =
         |section, name, choice, about| Key { section, name, role: Role::Choice(choice), about };
     let root = |name, role, about| Key { section: Root, name, role, about };
@@ -60,6 +62,8 @@ fn words() -> Vec<Key> {
     let words = vec![
         root("schema", Role::Schema, SCHEMA_ABOUT),
         root("title", Role::Text, "subject of the study"),
+        word(Belt, UNITS, Choice::Units, UNITS_ABOUT),
+        word(Disc, UNITS, Choice::Units, UNITS_ABOUT),
         word(Initial, "state", Choice::State, "a named state"),
         word(Friction, "law", Choice::Law, "the friction law"),
         word(Dither, "direction", Choice::Direction, "direction of the force"),
@@ -84,15 +88,9 @@ fn words() -> Vec<Key> {
 
 /// Keys that take a number of the registry, dimensionless or in SI.
 fn numbers() -> Vec<Key> {
-    let scales = parameter::SCALES.iter().map(|scale| Key {
-        section: Section::Belt,
-        name: scale.key(),
-        role: Role::Scale(*scale),
-        about: scale.about,
-    });
-    let mut keys: Vec<Key> = scales.collect();
     // Kinds may share keys (the dither of a disc has those of a belt): the first kind defines them.
-    let mut parameters: Vec<Parameter> = Vec::new();
+    let mut keys: Vec<Key> = Vec::new();
+    let mut parameters: Vec<Parameter> = parameter::SCALES.to_vec();
     // A study of a system has keys of its own (`study::system`), which only it knows.
     let of_kinds = parameter::BELT.iter().chain(parameter::disc::DISC);
     let of_designs = parameter::design::LIMITS.iter().chain(parameter::design::CONFIDENT);
@@ -133,6 +131,11 @@ fn numbers() -> Vec<Key> {
     keys
 }
 
+/// What keys of forces are.
+const SLIDING_FORCE: &str =
+    "friction force in sliding, instead of coefficient; the normal load may then be left out";
+const STATIC_FORCE: &str = "largest friction force at rest, instead of static_coefficient";
+
 /// Keys of a user-defined friction law.
 fn own_law() -> Vec<Key> {
     let key = |name, role, about| Key { section: Section::Friction, name, role, about };
@@ -144,20 +147,23 @@ fn own_law() -> Vec<Key> {
              named law",
         ),
         key(
-            "friction_force_n",
-            Role::FrictionForce(COEFFICIENT, "N"),
-            "friction force in sliding, instead of coefficient; without normal_force_n the normal force is the larger \
-             of this and the static one",
+            "friction_force",
+            Role::Flag,
+            "whether coefficient and levels are forces [default: false]",
         ),
+        key("coefficient_n", Role::FrictionForce(COEFFICIENT, "N"), SLIDING_FORCE),
+        key("friction_force_n", Role::FrictionForce(COEFFICIENT, "N"), SLIDING_FORCE),
+        key("static_coefficient_n", Role::FrictionForce(STATIC_COEFFICIENT, "N"), STATIC_FORCE),
+        key("static_friction_force_n", Role::FrictionForce(STATIC_COEFFICIENT, "N"), STATIC_FORCE),
         key(
-            "static_friction_force_n",
-            Role::FrictionForce(STATIC_COEFFICIENT, "N"),
-            "largest friction force at rest, instead of static_coefficient",
+            "minimum_coefficient_n",
+            Role::FrictionForce(MINIMUM_COEFFICIENT, "N"),
+            "least friction force, instead of minimum_coefficient",
         ),
         key(
             "viscous_n_s_per_m",
             Role::FrictionForce(VISCOUS, "N·s/m"),
-            "rise of the friction force with slip speed, instead of viscous_s_per_m",
+            "rise of the friction force with slip speed, instead of viscous",
         ),
         key(
             "file",

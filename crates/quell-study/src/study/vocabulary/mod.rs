@@ -9,10 +9,17 @@ mod resolve;
 pub mod size;
 mod words;
 
+/// What the key [`UNITS`] is.
+pub const UNITS_ABOUT: &str =
+    "units of bare numbers [default: none; SI where mass and stiffness of a belt are given]";
+
+/// The key of the units of bare numbers, in the table of a belt, a disc or a system.
+pub const UNITS: &str = "units";
+
 pub use course::{CourseKey, CourseTable, DISC_DRIVE, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
 pub use key::{Key, Role, SCHEMA_ABOUT, Section, WAVE_KEYS, WaveKey, join};
 pub use keys::{key, keys, keys_of};
-pub use resolve::{Address, in_system, resolve};
+pub use resolve::{Address, resolve, with_unit};
 pub use words::{Choice, FRICTION};
 
 /// Version of the study file that this program reads.

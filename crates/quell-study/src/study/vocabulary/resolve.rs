@@ -1,11 +1,9 @@
 //! Finds the key that a path names.
 
 use quell_model::friction::expression;
-use quell_model::parameter::DITHER_AMPLITUDE;
 
-use super::key::{Key, Role, Section, join};
+use super::key::{Key, Role, Section};
 use super::keys::key;
-use super::size::{DITHER_SIZES, SignalMeasure, SizedSignal, measure_of};
 use crate::study::suggest;
 
 /// The key of any named number of a formula.
@@ -54,45 +52,10 @@ pub fn resolve(path: &str) -> Result<Address, Option<String>> {
     }
 }
 
-/// The path of the same number in a study in SI or in a dimensionless one; an unknown path is returned unchanged.
-pub fn in_system(path: &str, si: bool) -> String {
-    let Ok(address) = resolve(path) else {
-        return path.to_owned();
-    };
-    let key = match (address.key.role, si) {
-        (Role::Number(parameter), true) if !parameter.is_pure() => {
-            parameter.si.iter().find(|twin| !twin.rms).map(|twin| twin.key)
-        }
-        (Role::Size(_, size), true) if size.signal == SizedSignal::Force => {
-            Some(in_newtons(size.measure))
-        }
-        (Role::Size(_, size), false) if size.signal == SizedSignal::Newtons => {
-            Some(without_units(size.measure))
-        }
-        (Role::Twin(_, twin), false) if twin.rms => Some(without_units(measure_of(twin))),
-        (Role::Twin(parameter, _), false) => Some(parameter.key()),
-        _ => None,
-    };
-    match (key, path.rsplit_once('.')) {
-        (Some(key), Some((table, _))) => join(table, key),
-        _ => path.to_owned(),
+/// The path that gives the same number in a study with units: a frequency ratio is given in hertz, and other paths are unchanged.
+pub fn with_unit(path: &str) -> String {
+    match path.strip_suffix("frequency_ratio") {
+        Some(table) => format!("{table}frequency_hz"),
+        None => path.to_owned(),
     }
-}
-
-/// The key of the amplitude of a dither in newtons.
-fn in_newtons(measure: SignalMeasure) -> &'static str {
-    let twin = DITHER_AMPLITUDE.si.iter().find(|twin| measure_of(**twin) == measure);
-    let size = DITHER_SIZES
-        .iter()
-        .find(|size| size.signal == SizedSignal::Newtons && size.measure == measure);
-    let key = twin.map(|twin| twin.key).or(size.map(|size| size.key));
-    key.unwrap_or(DITHER_AMPLITUDE.path)
-}
-
-/// The key of the amplitude of a dither in a study without units.
-fn without_units(measure: SignalMeasure) -> &'static str {
-    let size = DITHER_SIZES
-        .iter()
-        .find(|size| size.signal == SizedSignal::Force && size.measure == measure);
-    size.map_or("amplitude", |size| size.key)
 }

@@ -2,7 +2,7 @@
 //! current, or in per cent of what an actuator can give.
 
 use quell_model::Waveform;
-use quell_model::parameter::SiTwin;
+use quell_model::units::Quantity;
 
 /// How the size of a periodic signal is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,19 +67,15 @@ impl SizeKey {
         !matches!(self.signal, SizedSignal::Force | SizedSignal::Newtons)
     }
 
-    /// Whether a study that is in SI, or is not, may have it.
-    pub fn belongs(&self, si: bool) -> bool {
+    /// The quantity that it measures; `None` for a share of what the actuator can give.
+    pub fn quantity(&self) -> Option<Quantity> {
         match self.signal {
-            SizedSignal::Force => !si,
-            SizedSignal::Newtons => si,
-            SizedSignal::Voltage | SizedSignal::Current | SizedSignal::Rated => true,
+            SizedSignal::Force | SizedSignal::Newtons => Some(Quantity::Force),
+            SizedSignal::Voltage => Some(Quantity::Voltage),
+            SizedSignal::Current => Some(Quantity::Current),
+            SizedSignal::Rated => None,
         }
     }
-}
-
-/// How a key in SI gives the size of a signal.
-pub fn measure_of(twin: SiTwin) -> SignalMeasure {
-    if twin.rms { SignalMeasure::RootMeanSquare } else { SignalMeasure::Peak }
 }
 
 const fn size(
@@ -97,16 +93,23 @@ pub const DITHER_SIZES: &[SizeKey] = &[
     size(
         "amplitude_rms",
         "",
-        ("D_{rms}", "dither force over stiffness, as root mean square"),
+        ("D_{rms}", "dither force, as root mean square"),
         SizedSignal::Force,
         SignalMeasure::RootMeanSquare,
     ),
     size(
         "amplitude_peak_to_peak",
         "",
-        ("D_{pp}", "dither force over stiffness, peak to peak"),
+        ("D_{pp}", "dither force, peak to peak"),
         SizedSignal::Force,
         SignalMeasure::PeakToPeak,
+    ),
+    size(
+        "amplitude_n_rms",
+        "N",
+        ("A_{rms}", "dither force, as root mean square"),
+        SizedSignal::Newtons,
+        SignalMeasure::RootMeanSquare,
     ),
     size(
         "amplitude_n_peak_to_peak",

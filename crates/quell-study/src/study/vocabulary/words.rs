@@ -4,6 +4,7 @@ use quell_design::actuator::ActuatorKind;
 use quell_design::least_dither::{DesignObjective, DesignStart};
 use quell_model::disc::Contribution;
 use quell_model::profile::KnotShape;
+use quell_model::units::UnitSystem;
 use quell_model::waveform::Hold;
 use quell_model::{Direction, LawKind, Waveform};
 
@@ -35,8 +36,8 @@ pub enum Choice {
     Contribution,
     /// Initial states of a system.
     SystemState,
-    /// Units of the bare numbers of a system.
-    SystemUnits,
+    /// Units of bare numbers.
+    Units,
     /// Normalisations of mode shapes.
     Normalisation,
     /// The part of a disc study that rotates.
@@ -65,7 +66,7 @@ impl Choice {
             Self::KnotShape => KnotShape::ALL.iter().map(|shape| shape.name()).collect(),
             Self::Spacing => vec!["linear", "log"],
             Self::SystemState => vec!["rest", "sliding", "squealing", "base"],
-            Self::SystemUnits => vec!["none", "SI", "mm-t-s"],
+            Self::Units => UnitSystem::ALL.iter().map(|units| units.name()).collect(),
             Self::Normalisation => vec!["mass", "max"],
             Self::Contribution => Contribution::ALL.iter().map(|part| part.name()).collect(),
             Self::Rotating => vec!["loads", "disc"],

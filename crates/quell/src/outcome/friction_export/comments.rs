@@ -8,30 +8,34 @@ use crate::quantity;
 use crate::range::fast_velocity;
 use crate::run::friction_export::FrictionExport;
 use crate::run::law;
-use crate::study::BeltStudy;
+use crate::study::{BeltStudy, UnitSystem};
 use crate::words::digits;
 
-/// The units of the numbers of a file: SI for a study in SI, else those of the equations.
+/// The units of the numbers of a file: those of a study with units, else those of the equations.
 pub(super) struct ExportUnits {
     /// Unit of a slip speed, and that of the study in it.
     pub(super) speed: (String, f64),
     pub(super) force: (String, f64),
+    pub(super) has_units: bool,
     pub(super) is_si: bool,
 }
 
 impl ExportUnits {
     pub(super) fn of(study: &BeltStudy) -> Self {
-        let unit = |quantity: Quantity| match study.scales().zip(quantity.si_unit()) {
-            Some((scales, (unit, _))) => (unit.to_owned(), scales.si_per_unit(quantity)),
-            None => (quantity::unit_of(quantity, false), 1.0),
+        let unit = |quantity: Quantity| match study.scales().and_then(|scales| scales.one(quantity))
+        {
+            Some((one, unit)) => (unit.to_owned(), one),
+            None => (quantity::unit_of(quantity, None), 1.0),
         };
-        let is_si = study.scales().is_some();
-        Self { speed: unit(Quantity::Velocity), force: unit(Quantity::Force), is_si }
+        let has_units = study.scales().is_some();
+        let is_si = study.scales().is_some_and(|scales| scales.units() == UnitSystem::Si);
+        let (speed, force) = (unit(Quantity::Velocity), unit(Quantity::Force));
+        Self { speed, force, has_units, is_si }
     }
 
     /// A unit of a comment: that of a number without units is dimensionless.
     pub(super) fn named(&self, (unit, _): &(String, f64)) -> String {
-        if self.is_si { unit.clone() } else { format!("{unit}, dimensionless") }
+        if self.has_units { unit.clone() } else { format!("{unit}, dimensionless") }
     }
 }
 

@@ -25,7 +25,8 @@ pub(super) fn text(study: &BeltStudy, export: &FrictionExport, units: &ExportUni
         "Translational Friction, fitted: largest error {} of the force in {force}, at slip speeds from {least} up",
         digits(fit.largest_error * load)
     );
-    let viscous = if units.is_si { "N/(m/s)".to_owned() } else { format!("({force})/({speed})") };
+    let viscous =
+        if units.has_units { format!("{force}/({speed})") } else { format!("({force})/({speed})") };
     text.push('\n');
     comment(&mut text, MARK, &[about]);
     for (name, value, unit) in [

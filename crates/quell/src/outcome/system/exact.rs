@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use crate::outcome::Presented;
 use crate::outcome::table::figure;
 use crate::run::system::exact::ExactStability;
-use crate::study::{SystemSetup, SystemStudy, SystemUnits};
+use crate::study::{SystemSetup, SystemStudy, UnitSystem};
 
 impl Presented<SystemSetup> for ExactStability {
     const TITLED: bool = true;
@@ -22,7 +22,7 @@ impl Presented<SystemSetup> for ExactStability {
 
     fn table(&self, study: &SystemStudy) -> String {
         let (factor, rate, frequency) = match study.units() {
-            SystemUnits::None => (1.0, "growth rate", "frequency"),
+            UnitSystem::None => (1.0, "growth rate", "frequency"),
             _ => (1.0 / std::f64::consts::TAU, "rate/(1/s)", "frequency/Hz"),
         };
         let mut text = format!("  {rate:>14}  {:>14}  {frequency:>14}\n", "error at most");

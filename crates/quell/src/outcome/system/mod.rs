@@ -22,7 +22,7 @@ use quell_linear::spectrum::SmallMotion;
 use quell_numerics::eigen::modulus;
 
 use super::table::figure;
-use crate::study::SystemUnits;
+use crate::study::UnitSystem;
 
 /// Motions that a table lists.
 const MOST_MOTIONS: usize = 12;
@@ -38,11 +38,11 @@ enum ListedMotion {
 
 /// Small motions as text, the first [`MOST_MOTIONS`] of them. Rates that are zero within their error are printed as 0.
 fn motions<'a>(
-    units: SystemUnits,
+    units: UnitSystem,
     listed: ListedMotion,
     all: impl Iterator<Item = &'a SmallMotion>,
 ) -> String {
-    let hertz = units != SystemUnits::None;
+    let hertz = units != UnitSystem::None;
     let all: Vec<&SmallMotion> = all.collect();
     let heading = match (listed, hertz) {
         (ListedMotion::Damped, false) => "frequency |Im λ|",

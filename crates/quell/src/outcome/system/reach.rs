@@ -13,7 +13,7 @@ use crate::outcome::table::figure;
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::system::reach::{Reaches, UNBOUNDED_RESONANCE};
-use crate::study::{SystemSetup, SystemStudy, SystemUnits};
+use crate::study::{SystemSetup, SystemStudy, UnitSystem};
 
 impl Presented<SystemSetup> for Reaches {
     const TITLED: bool = true;
@@ -29,9 +29,9 @@ impl Presented<SystemSetup> for Reaches {
     fn table(&self, study: &SystemStudy) -> String {
         let mut text = String::new();
         let (factor, frequency, slip) = match study.units() {
-            SystemUnits::None => (1.0, "frequency", "slip/dither"),
-            SystemUnits::Si => (1.0 / TAU, "frequency/Hz", "slip/(m/s/N)"),
-            SystemUnits::MmTonneSecond => (1.0 / TAU, "frequency/Hz", "slip/(mm/s/N)"),
+            UnitSystem::None => (1.0, "frequency", "slip/dither"),
+            UnitSystem::Si => (1.0 / TAU, "frequency/Hz", "slip/(m/s/N)"),
+            UnitSystem::MmTonneSecond => (1.0 / TAU, "frequency/Hz", "slip/(mm/s/N)"),
         };
         for pair in &self.pairs {
             let contact = &study.system().contacts[pair.contact].name;

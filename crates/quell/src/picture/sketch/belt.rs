@@ -156,11 +156,17 @@ fn key(sheet: Sketch, study: &BeltStudy, letters: &Letters) -> Sketch {
     };
     let mass = match study.scales() {
         Some(scales) => {
-            let damping = scales.to_si(Quantity::DampingRatio, belt.damping_ratio());
+            let damping = scales.to_units(Quantity::DampingRatio, belt.damping_ratio());
+            let of = |quantity| scales.unit(quantity).unwrap_or_default().replace('·', " ");
             vec![
-                format!("$m$ = {} kg", number(scales.mass_kg())),
-                item("$k$", scales.stiffness_n_per_m(), Some("N/m")),
-                format!("$c$ = {} N s/m ($ζ$ = {})", number(damping), number(belt.damping_ratio())),
+                format!("$m$ = {} {}", number(scales.mass()), of(Quantity::LoadMass)),
+                item("$k$", scales.stiffness(), Some(&of(Quantity::LoadStiffness))),
+                format!(
+                    "$c$ = {} {} ($ζ$ = {})",
+                    number(damping),
+                    of(Quantity::LoadDamping),
+                    number(belt.damping_ratio())
+                ),
             ]
         }
         None => vec![

@@ -22,8 +22,8 @@ pub(crate) use round_numbers::{
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::parallel::Parallel;
+use crate::run::varied::key_of;
 use crate::study::BeltStudy;
-use crate::study::vocabulary::in_system;
 use crate::sweep::Running;
 use crate::words::in_words;
 
@@ -93,8 +93,7 @@ pub fn run(study: &BeltStudy, exact: bool) -> Result<AtlasFound, Failure> {
 fn complaint(study: &BeltStudy, outside: &OutsideAtlas) -> Complaint {
     let OutsideAtlas { key, value, word, range, allowed } = outside;
     let quantity = study.belt().parameter(key).map_or(Quantity::Ratio, |found| found.quantity);
-    let scale = study.scales().filter(|_| quantity.si_unit().is_some());
-    let scale = scale.map_or(1.0, |scales| scales.si_per_unit(quantity));
+    let scale = study.scales().and_then(|scales| scales.one(quantity)).map_or(1.0, |(one, _)| one);
     let words = |value: f64| in_words(study, quantity, value);
     let allowed = match range {
         None => allowed.clone(),
@@ -111,7 +110,7 @@ fn complaint(study: &BeltStudy, outside: &OutsideAtlas) -> Complaint {
     };
     let number = value.map(|value| Json::from(scale * value));
     let value = number.or(word.map(Json::from)).unwrap_or(Json::Null);
-    let key = in_system(key, study.scales().is_some());
+    let key = key_of(study, key);
     Complaint::new(fault, key, Origin::Whole, value, allowed)
 }
 

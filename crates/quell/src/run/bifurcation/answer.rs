@@ -158,7 +158,7 @@ impl Bifurcation {
                 let of = |value: Option<f64>| value.unwrap_or(f64::NAN);
                 // Columns use the scales of the unmodified study; this corrects for a varied mass or stiffness.
                 let other = |quantity: Quantity| match (point.scales, study.scales()) {
-                    (Some(own), Some(all)) => own.si_per_unit(quantity) / all.si_per_unit(quantity),
+                    (Some(own), Some(all)) => own.per_unit(quantity) / all.per_unit(quantity),
                     _ => 1.0,
                 };
                 let (velocity, hertz) =

@@ -20,7 +20,7 @@ use crate::fields::Fields;
 use crate::noise::few_lines_of_system;
 use crate::range;
 use crate::run::system::{has_equations, in_units, oscillating};
-use crate::study::{SystemStudy, SystemUnits};
+use crate::study::{SystemStudy, UnitSystem};
 
 /// Averaged friction of one contact under a slow sinusoid of its slip velocity.
 #[derive(Clone, Debug)]
@@ -279,7 +279,7 @@ impl DescribedContacts {
                 Ok(balance) if balance.contact == index => balance.growth.clone(),
                 _ => vec![f64::NAN; contact.curve.points.len()],
             });
-        let rate = if study.units() == SystemUnits::None { "1" } else { "1/s" };
+        let rate = if study.units() == UnitSystem::None { "1" } else { "1/s" };
         Dataset::of(&study.into(), "friction")
             .fact(self.sentence(study))
             .fact(format!("contacts: {}", names.join(", ")))

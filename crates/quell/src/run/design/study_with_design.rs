@@ -14,8 +14,7 @@ use super::waveform::{system_with_waveform, with_waveform};
 use crate::fields::Fields;
 use crate::range::{outside_of_laws, sentence, with_dither};
 use crate::run::system::in_units;
-use crate::study::vocabulary::resolve;
-use crate::study::{BeltStudy, Design, DiscStudy, SystemStudy, SystemUnits, Uncertainty};
+use crate::study::{BeltStudy, Design, DiscStudy, SystemStudy, Uncertainty, UnitSystem};
 use crate::words::{digits, in_words};
 
 /// A study with a design: its units and what it requests.
@@ -163,7 +162,7 @@ impl StudyWithDesign for BeltStudy {
     }
 
     fn frequency_scale(&self) -> FrequencyScale {
-        let hertz = self.scales().map(|scales| scales.si_per_unit(Quantity::FrequencyRatio));
+        let hertz = self.scales().map(|scales| scales.per_unit(Quantity::FrequencyRatio));
         FrequencyScale::new(hertz, "frequency ratio")
     }
 
@@ -176,7 +175,7 @@ impl StudyWithDesign for BeltStudy {
     }
 
     fn unit_at(&self, path: &str) -> String {
-        let unit = resolve(path).map_or("1", |address| address.key.unit_in_words());
+        let unit = self.address(path).map_or("1", |address| address.unit);
         if unit.is_empty() { "1".to_owned() } else { unit.to_owned() }
     }
 
@@ -217,7 +216,7 @@ impl StudyWithDesign for SystemStudy {
     }
 
     fn frequency_scale(&self) -> FrequencyScale {
-        let hertz = (self.units() != SystemUnits::None).then_some(1.0 / TAU);
+        let hertz = (self.units() != UnitSystem::None).then_some(1.0 / TAU);
         FrequencyScale::new(hertz, "angular frequency")
     }
 

@@ -68,7 +68,7 @@ pub fn json(study: &DiscStudy) -> Json {
         .map(|sweep| {
             json!({
                 "parameter": sweep.path,
-                "unit": sweep.target.unit_in_words(),
+                "unit": sweep.target.unit,
                 "points": sweep.axis.len(),
                 "from": sweep.axis.value(0),
                 "to": sweep.axis.value(usize::MAX),

@@ -124,7 +124,8 @@ impl DiscNumber {
         // The end that is not zero has the factor between them.
         let end = if range.to == 0.0 { range.from } else { range.to };
         let in_equations = || {
-            let path = parameter.filter(|path| range.path != *path)?;
+            let given = |path: &&str| range.path != **path || !study.file_units().is_none();
+            let path = parameter.filter(given)?;
             let value = study.at([(range.path.as_str(), end)]).ok()?.disc().get(path)?;
             (value != 0.0).then_some(end / value)
         };

@@ -99,8 +99,7 @@ pub fn run(study: &DiscStudy) -> Modes {
         critical,
         reference: plate.map(|plate| plate.set.reference()),
         reference_hz,
-        plate_mass: plate
-            .and_then(|plate| study.material().map(|material| material.plate_mass(&plate.plate))),
+        plate_mass: study.disc().plate_mass_kg(),
         rows,
     }
 }
@@ -138,11 +137,15 @@ impl Modes {
         let unlisted = "the modes are given, not computed from a plate";
         explain(self.reference.is_none(), "modes[].frequency_parameter", unlisted);
         explain(self.reference.is_none(), "reference_frequency", unlisted);
+        let listed = self.reference.is_none();
         let metal = "the study does not give youngs_modulus_pa, density_kg_per_m3, thickness_m and outer_radius_m";
+        let mass =
+            if listed { "the study does not give plate_mass_kg and modes in hertz" } else { metal };
+        let metal = if listed { "the listed modes are not in hertz" } else { metal };
         explain(self.reference_hz.is_none(), "modes[].frequency_hz", metal);
         explain(self.reference_hz.is_none(), "modes[].critical_speed_rpm", metal);
         explain(self.reference_hz.is_none(), "reference_hz", metal);
-        explain(self.plate_mass.is_none(), "plate_mass_kg", metal);
+        explain(self.plate_mass.is_none(), "plate_mass_kg", mass);
         explain(
             self.rows.iter().any(|row| row.critical_speed.is_none()),
             "modes[].critical_speed",

@@ -12,7 +12,7 @@ use super::overflowed;
 use super::watch::RowWatch;
 use crate::complaint::Failure;
 use crate::run::system::simulate::{MotionRequest, SystemSimulation, run_observed, slowest_period};
-use crate::study::{DescribedSystem, DiscStudy, ScaledTime, SystemStart, SystemStudy, SystemUnits};
+use crate::study::{DescribedSystem, DiscStudy, ScaledTime, SystemStart, SystemStudy, UnitSystem};
 use crate::words::digits;
 
 /// Least number of periods of the leading small motion that a run lasts if no duration is given.
@@ -72,7 +72,7 @@ fn described(study: &DiscStudy, system: System, initial: SystemStart) -> SystemS
         .reference_hz()
         .map(|hertz| ScaledTime { per_second: TAU * hertz, plain_in_seconds: study.is_si() });
     study.as_system(DescribedSystem {
-        units: SystemUnits::None,
+        units: UnitSystem::None,
         system,
         observe: observed_row(study),
         initial,

@@ -49,9 +49,8 @@ pub fn boundaries_at(grid: &Grid, values: &[f64]) -> Vec<Boundary> {
     let (Some((_, across)), Ok(study)) = (amplitude_and_other(grid), grid.study().belt()) else {
         return Vec::new();
     };
-    let force = |study: &BeltStudy| {
-        study.scales().map_or(1.0, |scales| scales.si_per_unit(Quantity::Force))
-    };
+    let force =
+        |study: &BeltStudy| study.scales().map_or(1.0, |scales| scales.per_unit(Quantity::Force));
     let at: Vec<(f64, BeltStudy)> = values
         .iter()
         .filter_map(|&value| Some((value, study.with(&across.path, value).ok()?)))

@@ -64,11 +64,6 @@ impl FinishedMap {
         self.value(entry.value, entry, point)
     }
 
-    /// [`FinishedMap::number`] in SI, if the variable has an SI array.
-    pub fn number_in_si(&self, entry: &VariableArrays, point: usize) -> Option<f64> {
-        self.value(entry.twin?, entry, point)
-    }
-
     fn value(&self, array: usize, entry: &VariableArrays, point: usize) -> Option<f64> {
         let known = self.status(entry, point).has_number();
         known.then(|| match &self.arrays[array] {
@@ -79,7 +74,7 @@ impl FinishedMap {
 
     /// The array of numbers to show: in SI if the study is in SI.
     pub fn shown(&self, entry: &VariableArrays) -> usize {
-        entry.twin.unwrap_or(entry.value)
+        entry.value
     }
 
     /// Summary of each variable, in the order of the sheet's entries.
@@ -203,7 +198,7 @@ impl FinishedMap {
         let shape = grid.shape();
         let fields = self.plan.sheet().fields();
         for entry in self.plan.sheet().entries() {
-            for array in [Some(entry.value), entry.twin, Some(entry.status)].into_iter().flatten() {
+            for array in [entry.value, entry.status] {
                 let states = array == entry.status;
                 let values = (0..grid.len()).map(|point| self.cell(entry, array, point, states));
                 object[fields[array].name.as_str()] = nested(&shape, values.collect());
@@ -236,7 +231,7 @@ impl FinishedMap {
         let summaries = self.summaries();
         for (entry, summary) in self.plan.sheet().entries().iter().zip(&summaries) {
             let fields = self.plan.sheet().fields();
-            for array in [Some(entry.value), entry.twin, Some(entry.status)].into_iter().flatten() {
+            for array in [entry.value, entry.status] {
                 let field = &fields[array];
                 if !field.unit.is_empty() {
                     units.insert(field.name.clone(), field.unit.clone().into());

@@ -19,7 +19,7 @@ use crate::run::stability::FAST;
 use crate::run::system::attractor::{MotionKind, end_of_run, local_verdict};
 use crate::run::system::protocol::SystemProtocol;
 use crate::run::system::{has_equations, in_units};
-use crate::study::{BeltStudy, DiscStudy, SystemStudy, SystemUnits};
+use crate::study::{BeltStudy, DiscStudy, SystemStudy, UnitSystem};
 use crate::sweep::{
     Status, growth_of_disc, growth_of_system, least_quiet_of_belt, least_quiet_of_system,
 };
@@ -127,7 +127,7 @@ impl SampledBelt {
     fn new(belt: Belt, scales: Option<(Scales, Scales)>) -> Self {
         let (mut rate, mut force) = (1.0, 1.0);
         if let Some((study, own)) = scales {
-            let force_of = |scales: &Scales| scales.si_per_unit(Quantity::Force);
+            let force_of = |scales: &Scales| scales.per_unit(Quantity::Force);
             rate = own.angular_frequency() / study.angular_frequency();
             force = force_of(&own) / force_of(&study);
         }
@@ -311,7 +311,7 @@ impl SampledKind for SystemStudy {
     }
 
     fn unit_of_rates(&self) -> (&'static str, f64) {
-        (if self.units() == SystemUnits::None { "1" } else { "1/s" }, 1.0)
+        (if self.units() == UnitSystem::None { "1" } else { "1/s" }, 1.0)
     }
 }
 

@@ -22,7 +22,6 @@ use super::named_estimates::{NamedEstimates, ReportedParameter};
 use super::recorded_motion::ObservedMotion;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::kind::verbs;
-use crate::study::vocabulary::resolve;
 use crate::study::{Change, Study};
 use model::RecordModel;
 use request::free_numbers;
@@ -288,9 +287,7 @@ fn finish(
 fn unit(study: &Study, record: &TimeSeries, number: &FreeNumber) -> String {
     match number {
         FreeNumber::OfStudy(path) => {
-            let of_key = || resolve(path).ok().map(|address| address.key.unit_in_words());
-            let unit = if study.system().is_ok() { study.measured_in(path) } else { of_key() };
-            unit.filter(|unit| !unit.is_empty()).unwrap_or("1").to_owned()
+            study.address(path).map_or("1", |address| address.unit).to_owned()
         }
         FreeNumber::Shift => record.time_unit.unwrap_or("time").to_owned(),
         FreeNumber::Offset => record.unit.unwrap_or("reading").to_owned(),

@@ -15,7 +15,7 @@ use super::cycle_samples::CycleSamples;
 use super::in_units;
 use super::passing::nearest_distance;
 use crate::fields::Fields;
-use crate::study::{SystemStudy, SystemUnits};
+use crate::study::{SystemStudy, UnitSystem};
 
 /// Periods of the dither over which a motion that is not periodic is measured.
 const MEASURED: f64 = 20.0;
@@ -225,7 +225,7 @@ impl SystemAttractor {
     }
 
     /// Its kind in words.
-    pub fn words(&self, units: SystemUnits) -> String {
+    pub fn words(&self, units: UnitSystem) -> String {
         match self.kind {
             MotionKind::Periodic { periods: 1, .. } => {
                 "period 1, in step with the dither".to_owned()

@@ -10,7 +10,7 @@ use crate::contact_state::passivity_of_system;
 use crate::noise;
 use crate::removed_mean;
 use crate::run::actuator::beyond_actuator;
-use crate::study::{SystemStart, SystemStudy, SystemUnits};
+use crate::study::{SystemStart, SystemStudy, UnitSystem};
 
 /// The study as JSON.
 pub fn json(study: &SystemStudy) -> Json {
@@ -27,7 +27,7 @@ pub fn json(study: &SystemStudy) -> Json {
         .map(|sweep| {
             json!({
                 "parameter": sweep.path,
-                "unit": sweep.target.unit(),
+                "unit": sweep.target.unit,
                 "points": sweep.axis.len(),
                 "from": sweep.axis.value(0),
                 "to": sweep.axis.value(usize::MAX),
@@ -39,7 +39,7 @@ pub fn json(study: &SystemStudy) -> Json {
         "title": study.title(),
         "kind": "system",
         "form": form,
-        "system": if study.units() == SystemUnits::None { "dimensionless" } else { "si" },
+        "system": if study.units() == UnitSystem::None { "dimensionless" } else { "si" },
         "unit_system": study.units().name(),
         "coordinates": names,
         "contacts": contacts,

@@ -12,7 +12,7 @@ use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::fields::Fields;
 use crate::run::exponents::{ExponentTimes, JudgedMotion, MeasuredExponents, MeasuredMotion};
-use crate::study::{SystemStudy, SystemUnits};
+use crate::study::{SystemStudy, UnitSystem};
 
 /// What to find.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -161,5 +161,5 @@ impl AttractorOfSystem {
 
 /// The unit of rates in datasets.
 pub fn unit_of_rates(study: &SystemStudy) -> &'static str {
-    if study.units() == SystemUnits::None { "1" } else { "1/s" }
+    if study.units() == UnitSystem::None { "1" } else { "1/s" }
 }

@@ -42,7 +42,7 @@ use serde_json::Value as Json;
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::refused_of_system;
 use crate::fields::Fields;
-use crate::study::{SystemStudy, SystemUnits};
+use crate::study::{SystemStudy, UnitSystem};
 use crate::words::digits;
 
 /// The failure of a verb with its reason.
@@ -68,41 +68,41 @@ pub(crate) fn has_equations(study: &SystemStudy, verb: &str) -> Result<(), Failu
 }
 
 /// A frequency after the noun: in hertz where the study has units.
-pub(crate) fn oscillating(units: SystemUnits, frequency: f64) -> String {
+pub(crate) fn oscillating(units: UnitSystem, frequency: f64) -> String {
     match units {
         _ if frequency == 0.0 => "without oscillation".to_owned(),
-        SystemUnits::None => format!("of angular frequency {}", digits(frequency)),
+        UnitSystem::None => format!("of angular frequency {}", digits(frequency)),
         _ => format!("of {} Hz", digits(frequency / std::f64::consts::TAU)),
     }
 }
 
 /// A frequency with its unit: in hertz where the study has units.
-fn frequency_in_words(units: SystemUnits, frequency: f64) -> String {
+fn frequency_in_words(units: UnitSystem, frequency: f64) -> String {
     match units {
-        SystemUnits::None => format!("the angular frequency {}", digits(frequency)),
+        UnitSystem::None => format!("the angular frequency {}", digits(frequency)),
         _ => format!("{} Hz", digits(frequency / std::f64::consts::TAU)),
     }
 }
 
 /// A quantity with its unit.
-pub(crate) fn in_units(units: SystemUnits, quantity: Quantity, value: f64) -> String {
+pub(crate) fn in_units(units: UnitSystem, quantity: Quantity, value: f64) -> String {
     let unit = units.unit(quantity).map_or(String::new(), |unit| format!(" {unit}"));
     format!("{}{unit}", digits(value))
 }
 
 /// A growth rate with its unit.
-pub(crate) fn rate_of(units: SystemUnits, rate: f64) -> String {
-    let unit = if units == SystemUnits::None { "" } else { " 1/s" };
+pub(crate) fn rate_of(units: UnitSystem, rate: f64) -> String {
+    let unit = if units == UnitSystem::None { "" } else { " 1/s" };
     format!("{}{unit}", digits(rate))
 }
 
 /// A force with its unit.
-fn force(units: SystemUnits, value: f64) -> String {
+fn force(units: UnitSystem, value: f64) -> String {
     in_units(units, Quantity::Force, value)
 }
 
 /// One small motion.
-fn put_motion(system: &System, units: SystemUnits, motion: &SmallMotion) -> Fields {
+fn put_motion(system: &System, units: UnitSystem, motion: &SmallMotion) -> Fields {
     let mut fields = Fields::of_system(units);
     fields
         .rate("growth_rate", Ok(motion.eigenvalue.re))

@@ -16,7 +16,7 @@ use crate::complaint::{Complaint, Complaints, Failure};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::disc::resonances::Order;
-use crate::study::{SystemStudy, SystemUnits};
+use crate::study::{SystemStudy, UnitSystem};
 use crate::words::{digits, plural};
 
 /// Frequencies of the response, at equal ratios.
@@ -228,7 +228,7 @@ impl Reaches {
             self.pairs.iter().flat_map(|pair| &pair.extremes).filter(|at| at.out_of_reach).count();
         let peaks = self.pairs.iter().flat_map(|pair| &pair.extremes).filter(|at| at.peak).count();
         let (factor, unit) = match study.units() {
-            SystemUnits::None => (1.0, ""),
+            UnitSystem::None => (1.0, ""),
             _ => (1.0 / std::f64::consts::TAU, " Hz"),
         };
         let [first, last] = [self.frequencies.first(), self.frequencies.last()]

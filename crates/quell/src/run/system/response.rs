@@ -15,7 +15,7 @@ use crate::complaint::{Complaint, Failure};
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::effect_words::{EffectWords, level_of, percent, residual_in_words};
-use crate::study::{SystemStudy, SystemUnits};
+use crate::study::{SystemStudy, UnitSystem};
 use crate::words::listed;
 
 /// Periods of the slowest oscillation that are discarded before the record.
@@ -366,7 +366,7 @@ fn put_record(fields: &mut Fields, prefix: &str, record: &SystemRecord) {
 }
 
 /// The cost of every dither.
-fn put_inputs(units: SystemUnits, record: &SystemRecord) -> Vec<Fields> {
+fn put_inputs(units: UnitSystem, record: &SystemRecord) -> Vec<Fields> {
     let inputs = record.inputs.iter().map(|cost| {
         let mut inner = Fields::of_system(units);
         let of = |pick: fn(&InputCost) -> f64| {

@@ -24,7 +24,7 @@ use crate::range;
 use crate::run::manoeuvre::{Manoeuvre, SampledMotion};
 use crate::run::sample_times;
 use crate::sound::{Sound, SoundOptions};
-use crate::study::{SystemStudy, SystemUnits};
+use crate::study::{SystemStudy, UnitSystem};
 use crate::words::{capital, listed, plural};
 
 /// Periods of the slowest oscillation that a run lasts if no duration is given.
@@ -458,7 +458,7 @@ impl SystemSimulation {
         fields.finish()
     }
 
-    fn put_end(&self, system: &System, units: SystemUnits) -> Fields {
+    fn put_end(&self, system: &System, units: UnitSystem) -> Fields {
         let mut fields = Fields::of_system(units);
         fields.number("time", Quantity::Time, self.end.time).plain("state", self.end.state.clone());
         let contacts = system.contacts.iter().zip(&self.end.contacts).map(|(contact, end)| {
@@ -484,7 +484,7 @@ impl SystemSimulation {
     }
 
     /// Counts and means of every contact over the run.
-    fn put_contacts(&self, system: &System, units: SystemUnits) -> Vec<Fields> {
+    fn put_contacts(&self, system: &System, units: UnitSystem) -> Vec<Fields> {
         let contacts = system.contacts.iter().enumerate().map(|(index, contact)| {
             let mut inner = Fields::of_system(units);
             inner
@@ -511,7 +511,7 @@ pub(crate) fn put_means(fields: &mut Fields, means: Result<ContactMeans, &'stati
 }
 
 /// Counts kind by kind.
-fn put_counts(units: SystemUnits, counts: &[u64; KINDS.len()]) -> Fields {
+fn put_counts(units: UnitSystem, counts: &[u64; KINDS.len()]) -> Fields {
     let mut fields = Fields::of_system(units);
     for (kind, count) in KINDS.iter().zip(counts) {
         fields.plain(kind.name(), *count);

@@ -18,7 +18,7 @@ use crate::fields::Fields;
 use crate::noise::few_lines_of_system;
 use crate::range::outside_of_laws;
 use crate::run::stability::{becomes, kind};
-use crate::study::{SystemStudy, SystemUnits};
+use crate::study::{SystemStudy, UnitSystem};
 use crate::words::digits;
 
 /// An eigenfrequency above the dither frequency divided by this is not far below it.
@@ -128,7 +128,7 @@ fn not_slow(study: &SystemStudy, undithered: &MotionSpectrum) -> Option<String> 
         ));
     }
     let (factor, unit) = match study.units() {
-        SystemUnits::None => (1.0, ""),
+        UnitSystem::None => (1.0, ""),
         _ => (1.0 / std::f64::consts::TAU, " Hz"),
     };
     Some(format!(
@@ -241,7 +241,7 @@ impl SystemStability {
         fields.finish()
     }
 
-    fn put_dither(&self, fields: &mut Fields, units: SystemUnits) {
+    fn put_dither(&self, fields: &mut Fields, units: UnitSystem) {
         let Some(UnderDither { undithered, critical }) = &self.dither else {
             let why = "the study has no dither";
             fields.unknown("undithered", why).unknown("critical_amplitudes", why);
@@ -261,7 +261,7 @@ impl SystemStability {
 /// Adds critical amplitudes with the error of each, or why they are unknown.
 pub(super) fn put_critical(
     fields: &mut Fields,
-    units: SystemUnits,
+    units: UnitSystem,
     critical: &Result<Vec<CriticalInput>, String>,
     error: impl Fn(usize, &CriticalInput) -> Result<f64, String>,
 ) {
@@ -287,7 +287,7 @@ pub(super) fn put_critical(
 }
 
 /// One contact.
-pub(super) fn put_contact(name: &str, units: SystemUnits, found: &SlidingContact) -> Fields {
+pub(super) fn put_contact(name: &str, units: UnitSystem, found: &SlidingContact) -> Fields {
     let mut fields = Fields::of_system(units);
     fields.plain("name", name).number("friction", Quantity::Force, found.friction).number(
         "normal",

@@ -7,7 +7,7 @@ use quell_model::{Contact, System};
 
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::quantity;
-use crate::study::{SystemStart, SystemStudy, SystemUnits, suggest};
+use crate::study::{SystemStart, SystemStudy, UnitSystem, suggest};
 use crate::words::digits;
 
 /// Numbers of a state by their places in it.
@@ -145,7 +145,7 @@ pub fn duration(
 ) -> Result<f64, Box<Complaint>> {
     match study.scaled_time() {
         Some(time) if time.plain_in_seconds || measure::has_unit(text) => {
-            let seconds = quantity::duration_of_system(text, SystemUnits::Si, option)?;
+            let seconds = quantity::duration_of_system(text, UnitSystem::Si, option)?;
             Ok(time.per_second * seconds)
         }
         _ => quantity::duration_of_system(text, study.units(), option),

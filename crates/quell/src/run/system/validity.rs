@@ -6,7 +6,7 @@ use quell_linear::averaging::DitheredContact;
 use quell_model::System;
 
 use super::force;
-use crate::study::{SystemStudy, SystemUnits};
+use crate::study::{SystemStudy, UnitSystem};
 use crate::words::{digits, plural};
 
 /// The contacts that the fast motion opens, by name.
@@ -30,7 +30,7 @@ pub(super) fn condition(opening: &[&str]) -> Option<String> {
 
 /// Warnings about contacts that the fast load opens.
 pub(super) fn opened(
-    units: SystemUnits,
+    units: UnitSystem,
     system: &System,
     contacts: &[DitheredContact],
 ) -> Vec<String> {

@@ -60,6 +60,8 @@ pub struct ThresholdsRequest {
 pub struct Thresholds {
     /// The request, in numbers of the equations.
     pub question: ThresholdsRequest,
+    /// The parameter as it was asked for.
+    pub asked: Named,
     /// Thresholds by multipliers, with the branch of responses that contains them.
     pub local: Local,
     /// Why no base response exists at the first value, if only runs are judged.
@@ -131,7 +133,7 @@ pub(super) fn refused(
 fn understood(
     study: &BeltStudy,
     question: ThresholdsRequest,
-) -> Result<ThresholdsRequest, Failure> {
+) -> Result<(Named, ThresholdsRequest), Failure> {
     let ThresholdsRequest { from, to, ramp, .. } = question;
     let named = Named::new(study, "--parameter", &question.parameter)?;
     let ends = [("--from", from), ("--to", to)];
@@ -144,7 +146,8 @@ fn understood(
     }
     slides(study, &named, from)?;
     let (from, to) = (named.of(from), named.of(to));
-    Ok(ThresholdsRequest { parameter: named.path, from, to, ..question })
+    let parameter = named.path.clone();
+    Ok((named, ThresholdsRequest { parameter, from, to, ..question }))
 }
 
 /// Rejects a time over which a dither cannot be ramped up, or that belongs to no run.
@@ -188,7 +191,7 @@ pub fn run(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds,
 
 fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, Failure> {
     let belt = study.belt();
-    let question = understood(study, question)?;
+    let (asked, question) = understood(study, question)?;
     let path = question.parameter.as_str();
     let (from, to) = (question.from, question.to);
     let (local, no_base) = match local(belt, path, from, to, STEPS) {
@@ -234,7 +237,7 @@ fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, F
             .is_some_and(|section| section.reaches_the_band())
     };
     let in_band = reaches(from) || reaches(to);
-    Ok(Thresholds { question, local, no_base, resumes, protocols, slip, in_band })
+    Ok(Thresholds { question, asked, local, no_base, resumes, protocols, slip, in_band })
 }
 
 /// Whether the continuation lost the base response, as opposed to its not existing.
@@ -299,21 +302,22 @@ impl Thresholds {
         let question = &self.question;
         let quantity = quantity_of(study, &question.parameter);
         let object = || Fields::new(study.scales());
+        let asked = &self.asked;
         let local = self.local.thresholds.iter().map(|threshold| {
             let mut inner = object();
+            asked.put(&mut inner, "value", threshold.value);
+            asked.put(&mut inner, "error", threshold.error);
             inner
-                .number("value", quantity, threshold.value)
-                .number("error", quantity, threshold.error)
                 .plain("kind", threshold.kind.name())
                 .plain("was", side(threshold.was))
                 .plain("becomes", side(threshold.becomes))
                 .number("displacement", Quantity::Displacement, threshold.state.displacement)
                 .number("velocity", Quantity::Velocity, threshold.state.velocity);
-            let length = if study.scales().is_some() { "m" } else { "length" };
+            let length = unit_of(Quantity::Displacement, study.scales());
             let found = threshold.first_lyapunov.map_err(|why| why.to_string());
-            criticality::put(&mut inner, length, &found);
-            let unit = unit_of(quantity, study.scales().is_some());
-            criticality::put_fold(&mut inner, [&unit, length], &threshold.fold);
+            criticality::put(&mut inner, &length, &found);
+            let unit = unit_of(quantity, study.scales());
+            criticality::put_fold(&mut inner, [&unit, &length], &threshold.fold);
             inner
         });
         let words = |signature: Option<&Signature>| {
@@ -321,8 +325,8 @@ impl Thresholds {
         };
         let changes = self.local.changes.iter().map(|change| {
             let mut inner = object();
+            asked.put(&mut inner, "value", change.value);
             inner
-                .number("value", quantity, change.value)
                 .plain("below", words(change.below.as_ref()))
                 .plain("above", words(change.above.as_ref()));
             inner
@@ -331,9 +335,10 @@ impl Thresholds {
         fields
             .plain("ok", true)
             .plain("sentence", self.sentence(study))
-            .plain("parameter", question.parameter.as_str())
-            .number("from", quantity, question.from)
-            .number("to", quantity, question.to)
+            .plain("parameter", asked.key());
+        asked.put(&mut fields, "from", question.from);
+        asked.put(&mut fields, "to", question.to);
+        fields
             .plain("covered", self.local.ending == BranchEnding::Covered)
             .plain("resumes", self.resumes)
             .list("local", local)
@@ -346,10 +351,9 @@ impl Thresholds {
             first.plain(protocol.name(), becomes(switches.first, self.in_band));
             let switches = switches.changes.iter().map(|switch| {
                 let mut inner = object();
-                inner
-                    .number("value", quantity, switch.value)
-                    .number("error", quantity, switch.error)
-                    .plain("becomes", becomes(switch.becomes, self.in_band));
+                asked.put(&mut inner, "value", switch.value);
+                asked.put(&mut inner, "error", switch.error);
+                inner.plain("becomes", becomes(switch.becomes, self.in_band));
                 inner
             });
             fields.list(protocol.name(), switches);
@@ -363,11 +367,10 @@ impl Thresholds {
 
     /// Warnings, among them values at which the outcome of runs is unknown.
     pub fn warnings(&self, study: &BeltStudy) -> Vec<String> {
-        let given = &self.question.parameter;
-        let path = path_in_words(study, given);
+        let path = self.asked.key();
         let warning = |(protocol, switches): &(Protocol, Switches)| {
             let (value, why) = switches.unknown.first()?;
-            let value = value_in_words(study, given, *value);
+            let value = self.asked.words(study, *value);
             let runs = protocol.name().replace('_', " ");
             let count = switches.unknown.len();
             let others = if count > 1 {

@@ -4,7 +4,7 @@ use quell_model::system::{Mechanical, StateSpace, Structure};
 
 use super::widths;
 use crate::picture::sketch::symbols::{indexed, number};
-use crate::study::{SystemStudy, SystemUnits};
+use crate::study::{SystemStudy, UnitSystem};
 use crate::words::plural;
 
 /// The most coordinates or states that are drawn one by one.
@@ -104,7 +104,7 @@ fn modes(
         }
     };
     let frequency = match study.units() {
-        SystemUnits::None => range(1.0, ""),
+        UnitSystem::None => range(1.0, ""),
         _ => range(std::f64::consts::TAU.recip(), " Hz"),
     };
     let count = counted(indices.len(), "mode");

@@ -15,7 +15,7 @@ use crate::picture::sketch::actuator;
 use crate::picture::sketch::symbols::{combination, index, indexed, item, number};
 use crate::plot::{Sketch, SketchKey};
 use crate::run::system::in_units;
-use crate::study::SystemUnits;
+use crate::study::UnitSystem;
 
 /// The most links between coordinates, contacts or inputs with a row each.
 const MOST_ROWS: usize = 12;
@@ -31,7 +31,7 @@ pub(super) fn add(sheet: Sketch, drawing: &SystemDrawing<'_>) -> Sketch {
         let words = |quantity: Quantity, value: f64| in_units(units, quantity, value);
         sheet = sheet.with_key(actuator::key(given, &words));
     }
-    if drawing.study.units() != SystemUnits::None {
+    if drawing.study.units() != UnitSystem::None {
         let words = format!("Numbers without a unit: units {}", drawing.study.units().name());
         sheet = sheet.with_key(SketchKey::new(words, Vec::<String>::new()));
     }
@@ -229,12 +229,12 @@ fn input_row(drawing: &SystemDrawing<'_>, input: &Input, symbol: &str) -> (Strin
         let noise = wave.waveform.noise();
         let ends = noise.map_or([wave.frequency; 2], |noise| noise.band(wave.frequency));
         let [low, high] = ends.map(|end| match units {
-            SystemUnits::None => number(end),
+            UnitSystem::None => number(end),
             _ => number(end / TAU),
         });
         let range = if noise.is_some() { format!("{low} to {high}") } else { low };
         items.push(match units {
-            SystemUnits::None => format!("$ω$ = {range}"),
+            UnitSystem::None => format!("$ω$ = {range}"),
             _ => format!("{range} Hz"),
         });
         items.extend(noise.map(lines_in_words));

@@ -13,7 +13,7 @@ use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::run::criticality;
 use crate::run::system::oscillating;
-use crate::study::{SystemStudy, SystemUnits};
+use crate::study::{SystemStudy, UnitSystem};
 use crate::words::{digits, plural};
 
 impl TrackedStability {
@@ -221,7 +221,7 @@ impl TrackedStability {
         let parameter = &self.request.parameter;
         let branches = (0..branches).map(|index| index as f64).collect();
         let frequency = study.units().unit(Quantity::FrequencyRatio).unwrap_or("1");
-        let rate = if study.units() == SystemUnits::None { "1" } else { "1/s" };
+        let rate = if study.units() == UnitSystem::None { "1" } else { "1/s" };
         Dataset::of(&study.into(), "stability")
             .fact(format!("parameter: {parameter}"))
             .with_axis(Array::new("parameter", study.unit_of(parameter).unwrap_or("1"), values))

@@ -1,12 +1,12 @@
-//! The unit of every bare number of a study of a system.
+//! The unit of every bare number of a study.
 
 use std::f64::consts::TAU;
 
-use quell_model::units::Quantity;
+use super::Quantity;
 
-/// The units in which a study of a system gives its bare numbers.
+/// The units in which a study gives its bare numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum SystemUnits {
+pub enum UnitSystem {
     /// Numbers without units.
     #[default]
     None,
@@ -16,7 +16,7 @@ pub enum SystemUnits {
     MmTonneSecond,
 }
 
-impl SystemUnits {
+impl UnitSystem {
     /// Every choice.
     pub const ALL: &'static [Self] = &[Self::None, Self::Si, Self::MmTonneSecond];
 
@@ -27,6 +27,11 @@ impl SystemUnits {
             Self::Si => "SI",
             Self::MmTonneSecond => "mm-t-s",
         }
+    }
+
+    /// Whether numbers have no units.
+    pub fn is_none(self) -> bool {
+        self == Self::None
     }
 
     /// The choice of a name.
@@ -40,10 +45,10 @@ impl SystemUnits {
             Quantity::Angle => return Some("rad"),
             Quantity::Displacement => ("m", "mm"),
             Quantity::Velocity => ("m/s", "mm/s"),
-            Quantity::Force => ("N", "N"),
+            Quantity::Force | Quantity::LoadFriction => ("N", "N"),
             Quantity::Mass | Quantity::LoadMass => ("kg", "Mg"),
             Quantity::Stiffness | Quantity::LoadStiffness => ("N/m", "N/mm"),
-            Quantity::LoadDamping => ("N·s/m", "N·s/mm"),
+            Quantity::LoadDamping | Quantity::DampingRatio => ("N·s/m", "N·s/mm"),
             Quantity::FrequencyRatio => ("rad/s", "rad/s"),
             Quantity::Time => ("s", "s"),
             Quantity::Power => ("W", "mW"),
@@ -81,6 +86,7 @@ impl SystemUnits {
                 | Quantity::Stiffness
                 | Quantity::LoadStiffness
                 | Quantity::LoadDamping
+                | Quantity::DampingRatio
                 | Quantity::PerVelocity
                 | Quantity::PerLength => 1e3,
                 _ => 1.0,
@@ -91,9 +97,8 @@ impl SystemUnits {
 
 #[cfg(test)]
 mod tests {
-    use quell_model::units::measure;
-
     use super::*;
+    use crate::units::measure;
 
     #[test]
     fn factors_agree_with_the_units() {
@@ -114,17 +119,17 @@ mod tests {
             Quantity::Capacitance,
             Quantity::Inductance,
         ] {
-            for units in [SystemUnits::Si, SystemUnits::MmTonneSecond] {
+            for units in [UnitSystem::Si, UnitSystem::MmTonneSecond] {
                 let unit = units.unit(quantity).expect("a unit");
                 let (si, _) = quantity.si_unit().expect("a unit");
                 let size = measure::convert(1.0, unit, si).expect("same dimension");
                 let factor = units.si_per_unit(quantity).expect("known");
                 assert!((factor / size - 1.0).abs() < 1e-15, "{quantity:?} {units:?}");
             }
-            assert_eq!(SystemUnits::None.si_per_unit(quantity), None);
+            assert_eq!(UnitSystem::None.si_per_unit(quantity), None);
         }
-        for units in SystemUnits::ALL {
-            assert_eq!(SystemUnits::from_name(units.name()), Some(*units));
+        for units in UnitSystem::ALL {
+            assert_eq!(UnitSystem::from_name(units.name()), Some(*units));
         }
     }
 }

@@ -1,0 +1,275 @@
+//! A law from measured samples, in the study or in a separate CSV file.
+//!
+//! The file: comment lines begin with `#`; the first other line names the columns, `slip_velocity` or, in a study with units,
+//! `slip_velocity_m_per_s`, and `coefficient`. Other columns are ignored.
+
+use quell_model::friction::samples::{COEFFICIENTS, MOST_TERMS, SPEEDS};
+use quell_model::parameter::{Bounds, STATIC_COEFFICIENT};
+use quell_model::units::Quantity;
+use quell_model::{Friction, InvalidValues, Samples};
+use serde_json::Value as Json;
+
+use super::expression::{complain, velocity_unit};
+use super::measured::Measured;
+use super::read_law::ReadLaw;
+use crate::complaint::{Complaint, Fault, Origin};
+use crate::study::data_file::{DataFile, Row};
+use crate::study::document::{Node, Table, Value};
+use crate::study::files::WantedFile;
+use crate::study::reader::{KeyUnit, Reader};
+use crate::study::vocabulary::join;
+
+/// What the file must be.
+const WHAT: &str = "a CSV file of samples";
+
+/// Keys and columns of slip velocities in the unit of the study, and in SI.
+const SPEED: &str = "slip_velocity";
+const SI_SPEED: &str = "slip_velocity_m_per_s";
+
+/// Reads the samples and fits them.
+pub(super) fn read(
+    reader: &mut Reader,
+    table: &Table,
+    path: &str,
+    header: Origin,
+) -> Option<ReadLaw> {
+    let level = reader.optional(table, path, STATIC_COEFFICIENT).if_given();
+    let terms = match table.get("terms") {
+        None => Some(None),
+        Some(node) => {
+            let bounds = Bounds { upper: MOST_TERMS as f64, ..Bounds::at_least(1.0) };
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a whole number from 1 to MOST_TERMS"
+            )]
+            let whole = reader
+                .within(&join(path, "terms"), node, bounds, "", true)
+                .map(|count| count as usize);
+            whole.map(Some)
+        }
+    };
+    let (origin, file, samples) = given(reader, table, path, header)?;
+    let (static_coefficient, terms, unit) = (level?, terms?, velocity_unit(reader));
+    let same = |known: &Measured| {
+        known.samples == samples
+            && known.static_coefficient == static_coefficient
+            && known.terms == terms
+            && known.file == file
+    };
+    let fitted = reader.computed().get(same, || {
+        let fit = Samples::fitted(&samples, static_coefficient, terms)?;
+        let (file, samples) = (file.clone(), samples.clone());
+        Ok(Measured { file, samples, static_coefficient, terms, fit })
+    });
+    let made = fitted.and_then(|measured| {
+        let law = Samples::of_fit(measured.fit.clone(), static_coefficient, unit)?;
+        Ok((measured, law))
+    });
+    match made {
+        Ok((measured, law)) => {
+            let key = join(path, if file.is_some() { "file" } else { "coefficient" });
+            reader.remember(COEFFICIENTS, &key, origin.origin, 1.0);
+            Some(ReadLaw { measured: Some(measured), ..ReadLaw::of(Friction::Samples(law)) })
+        }
+        Err(invalid) => {
+            report(reader, (table, path), origin, file.is_some(), invalid);
+            None
+        }
+    }
+}
+
+/// Reports errors of the model under the keys of the study.
+fn report(
+    reader: &mut Reader,
+    (table, path): (&Table, &str),
+    place: &Node,
+    in_file: bool,
+    invalid: InvalidValues,
+) {
+    let invalid = invalid.map(|mut invalid| {
+        // A number of a list is reported with the list.
+        let list = invalid.key.split('[').next().unwrap_or_default();
+        if list == SPEEDS || list == COEFFICIENTS {
+            invalid.allowed =
+                format!("{}: {} must be {}", invalid.key, invalid.value, invalid.allowed);
+            invalid.key = if in_file { "friction.file".to_owned() } else { list.to_owned() };
+        }
+        invalid
+    });
+    complain(reader, table, path, place, invalid);
+}
+
+/// Where the samples were written, the file that holds them, and the samples.
+type GivenSamples<'t> = (&'t Node, Option<String>, Vec<(f64, f64)>);
+
+/// The samples, from the study or from its file, their speeds in the unit of the study.
+fn given<'t>(
+    reader: &mut Reader,
+    table: &'t Table,
+    path: &str,
+    header: Origin,
+) -> Option<GivenSamples<'t>> {
+    let key = join(path, "file");
+    if let Some(node) = table.get("file") {
+        for name in [SPEED, SI_SPEED, "coefficient"] {
+            if let Some(other) = table.get(name) {
+                let allowed = format!("the samples are already given by {key}; remove this key");
+                let (key, origin) = (join(path, name), other.origin);
+                reader.complain(Complaint::new(Fault::Conflict, key, origin, Json::Null, allowed));
+                return None;
+            }
+        }
+        let name = reader.text(&key, node)?;
+        let may_be_si = reader.units().take_suffixes();
+        let file = reader.files().parsed(&key, &name, WantedFile::of(WHAT), parse);
+        return match file.and_then(|file| file.samples(may_be_si)) {
+            Ok((unit, samples)) => {
+                let own =
+                    |(speed, coefficient)| Some((in_study(reader, speed, unit)?, coefficient));
+                let samples = samples.into_iter().map(own).collect::<Option<_>>()?;
+                Some((node, Some(name), samples))
+            }
+            Err(why) => {
+                reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));
+                None
+            }
+        };
+    }
+    let found = reader.keyed(table, path, SPEED, Some(Quantity::Velocity)).ok()?;
+    let (name, unit) = match &found {
+        Some(found) if found.unit != KeyUnit::Study => (SI_SPEED, found.unit),
+        _ => (SPEED, KeyUnit::Study),
+    };
+    let speeds = list(reader, table, (path, header), name, unit);
+    let coefficients = list(reader, table, (path, header), "coefficient", KeyUnit::Study);
+    let ((node, speeds), (other, coefficients)) = (speeds?, coefficients?);
+    if speeds.len() != coefficients.len() {
+        let allowed = format!("{} values, as many as {} has", speeds.len(), join(path, name));
+        let (key, given) = (join(path, "coefficient"), coefficients.len());
+        reader.complain(Complaint::new(Fault::Value, key, other.origin, given, allowed));
+        return None;
+    }
+    let speeds: Option<Vec<f64>> =
+        speeds.into_iter().map(|speed| in_study(reader, speed, unit)).collect();
+    Some((node, None, speeds?.into_iter().zip(coefficients).collect()))
+}
+
+/// A speed in the unit of the study.
+fn in_study(reader: &Reader, speed: f64, unit: KeyUnit) -> Option<f64> {
+    reader.units().in_file(speed, Quantity::Velocity, unit)
+}
+
+/// An array of numbers.
+fn list<'t>(
+    reader: &mut Reader,
+    table: &'t Table,
+    (path, header): (&str, Origin),
+    name: &str,
+    unit: KeyUnit,
+) -> Option<(&'t Node, Vec<f64>)> {
+    let key = join(path, name);
+    let Some(node) = table.get(name) else {
+        let file = join(path, "file");
+        let allowed =
+            format!("an array of numbers; or give {file}, a CSV file with a column {name}");
+        reader.missing(key, header, allowed);
+        return None;
+    };
+    let Value::List(list) = &node.value else {
+        reader.wrong(&key, node, format!("an array of numbers; got {}", node.kind()));
+        return None;
+    };
+    let numbers: Vec<Option<f64>> = list
+        .iter()
+        .enumerate()
+        .map(|(index, node)| {
+            let unit = if let KeyUnit::Suffix(unit) = unit { unit } else { "" };
+            reader.within(&format!("{key}[{index}]"), node, Bounds::NOT_NEGATIVE, unit, false)
+        })
+        .collect();
+    Some((node, numbers.into_iter().collect::<Option<_>>()?))
+}
+
+/// A file of samples: those of each column of slip velocities that it has, or what is wrong with them.
+#[derive(Debug)]
+pub(in crate::study) struct SampleFile {
+    plain: Option<Result<Vec<(f64, f64)>, String>>,
+    si: Option<Result<Vec<(f64, f64)>, String>>,
+}
+
+impl SampleFile {
+    /// The unit of the slip velocities, and slip velocities with coefficients; `may_be_si` says whether the study has units.
+    fn samples(&self, may_be_si: bool) -> Result<(KeyUnit, Vec<(f64, f64)>), String> {
+        match (&self.si, &self.plain) {
+            (Some(si), _) if may_be_si => Ok((KeyUnit::Suffix("m/s"), si.clone()?)),
+            (_, Some(plain)) => Ok((KeyUnit::Study, plain.clone()?)),
+            // Only a column in SI is named; other column names are not shown.
+            (Some(_), None) => Err(format!(
+                "a CSV file with columns {SPEED} and coefficient; its column {SI_SPEED} needs a study with units"
+            )),
+            (None, None) => {
+                Err(format!("a CSV file with columns {SPEED} or {SI_SPEED}, and coefficient"))
+            }
+        }
+    }
+}
+
+fn parse(text: &str) -> Result<SampleFile, String> {
+    let file = DataFile::new(text, WHAT)?;
+    let column = |name| Some(file.column(name)?).map(|at| samples(&file, at, name));
+    Ok(SampleFile { plain: column(SPEED), si: column(SI_SPEED) })
+}
+
+/// Slip velocities of a column with coefficients; errors name the line.
+fn samples(file: &DataFile<'_>, speed: usize, column: &str) -> Result<Vec<(f64, f64)>, String> {
+    let coefficient = file
+        .column("coefficient")
+        .ok_or_else(|| format!("a CSV file with columns {column} and coefficient"))?;
+    let value = |row: &Row<'_>, at: usize, name: &str| {
+        let number = row.number(at, name, "a finite number ≥ 0", |number| {
+            number.is_finite() && number >= 0.0
+        });
+        number.map_err(|why| {
+            if row.is_negative(at) {
+                format!(
+                    "{why}; friction is assumed equal in both directions of slip: give samples of one direction, with \
+                     both values positive"
+                )
+            } else {
+                why
+            }
+        })
+    };
+    let sample = |row| Ok((value(row, speed, column)?, value(row, coefficient, "coefficient")?));
+    file.rows().iter().map(sample).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<(KeyUnit, Vec<(f64, f64)>), String> {
+        parse(text)?.samples(true)
+    }
+
+    #[test]
+    fn columns_are_found_by_name_and_wrong_cells_by_line() {
+        let text = "# synthetic\ncoefficient, note, slip_velocity\n0.4,a,0\n\n0.3,b,0.5\n";
+        assert_eq!(read(text), Ok((KeyUnit::Study, vec![(0.0, 0.4), (0.5, 0.3)])));
+        let si = text.replace("slip_velocity", "slip_velocity_m_per_s");
+        let unit = KeyUnit::Suffix("m/s");
+        assert_eq!(read(&si), Ok((unit, vec![(0.0, 0.4), (0.5, 0.3)])));
+        let wrong = parse(&si).expect("a table").samples(false).expect_err("a study without units");
+        assert!(wrong.contains("its column slip_velocity_m_per_s needs"), "{wrong}");
+        for (row, part) in [
+            ("-1,0.3", "one direction"),
+            ("x,0.3", "line 3, slip_velocity: \"x\""),
+            ("1", "line 3"),
+        ] {
+            let text = format!("slip_velocity,coefficient\n0,0.4\n{row}\n");
+            let wrong = read(&text).expect_err(row);
+            assert!(wrong.contains(part), "{row}: {wrong}");
+        }
+    }
+}
