@@ -166,14 +166,17 @@ pub fn value_of(
     path: &str,
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
-    let (wanted, unit) = match (study.map(|study| study.address(path)), vocabulary::resolve(path)) {
-        (Some(Ok(address)), _) => (address.measured_in, address.unit),
+    let unknown = (Some("1"), "");
+    let (wanted, unit) = match study {
+        Some(study) => {
+            let address = study.address(path);
+            address.map_or(unknown, |address| (address.measured_in, address.unit))
+        }
         // Whether a study that could not be read has units is unknown: they are accepted then.
-        (None, Ok(address)) => {
+        None => vocabulary::resolve(path).map_or(unknown, |address| {
             let units = UnitSystem::Si;
             (address.key.measured_in(units), address.key.unit_in_words(units))
-        }
-        (Some(Err(_)), _) | (None, Err(_)) => (Some("1"), ""),
+        }),
     };
     measured(text, wanted, unit, option)
 }

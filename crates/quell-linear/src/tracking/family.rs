@@ -21,9 +21,9 @@ pub trait Family {
     /// The error of a matrix whose eigenvalues cannot be computed.
     fn overflows(why: EigenError) -> Self::Error;
 
-    /// The values inside a window at which no matrix exists although it does next to them, such as those at which the velocity of a
+    /// The values in the window at which no matrix exists although it does next to them, such as those at which the velocity of a
     /// surface changes its sign, ascending, and why. A value at which this is not known may be passed over. None by default.
-    fn gaps(&self, _window: (f64, f64)) -> Vec<(f64, Self::Error)> {
+    fn gaps(&self) -> Vec<(f64, Self::Error)> {
         Vec::new()
     }
 }

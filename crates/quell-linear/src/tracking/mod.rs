@@ -72,7 +72,7 @@ pub fn track<F: Family>(
         .map(|k| if k + 1 == count { to } else { from + (to - from) * share(k) })
         .collect();
     let aside = NEXT_TO_A_GAP * (to - from).abs();
-    let mut gaps = family.gaps(window);
+    let mut gaps = family.gaps();
     gaps.retain(|(gap, _)| *gap > from + aside && *gap < to - aside);
     grid.retain(|value| gaps.iter().all(|(gap, _)| (value - gap).abs() > aside));
     grid.extend(gaps.iter().flat_map(|(gap, _)| [gap - aside, gap + aside]));

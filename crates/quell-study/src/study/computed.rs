@@ -23,17 +23,29 @@ impl Computed {
         same: impl Fn(&C) -> bool,
         compute: impl FnOnce() -> Result<C, E>,
     ) -> Result<Arc<C>, E> {
-        let of_type = |known: &Arc<dyn Any + Send + Sync>| Arc::clone(known).downcast::<C>().ok();
-        let known = self.results.iter().filter_map(of_type).find(|known| same(known));
-        if let Some(known) = known {
-            return Ok(known);
+        match self.known(same) {
+            Some(known) => Ok(known),
+            None => Ok(self.keep(compute()?)),
         }
-        let made = Arc::new(compute()?);
+    }
+
+    /// The result of a type that was computed from the same numbers.
+    pub(super) fn known<C: Send + Sync + 'static>(
+        &self,
+        same: impl Fn(&C) -> bool,
+    ) -> Option<Arc<C>> {
+        let known = self.results.iter().find(|known| known.downcast_ref().is_some_and(&same))?;
+        Arc::clone(known).downcast().ok()
+    }
+
+    /// Keeps a new result.
+    pub(super) fn keep<C: Send + Sync + 'static>(&mut self, made: C) -> Arc<C> {
+        let made = Arc::new(made);
         if self.results.len() == MOST {
             self.results.remove(0);
         }
         self.results.push(Arc::clone(&made) as Arc<dyn Any + Send + Sync>);
-        Ok(made)
+        made
     }
 }
 

@@ -118,9 +118,15 @@ def tokens(path: str) -> list[Token]:
 
 
 @functools.cache
+def schema() -> dict[str, Any]:
+    """The schema of a study."""
+    found: dict[str, Any] = _quell.schema()
+    return found
+
+
 def definitions() -> dict[str, Any]:
     """The definitions of the schema."""
-    found: dict[str, Any] = _quell.schema()["$defs"]
+    found: dict[str, Any] = schema()["$defs"]
     return found
 
 
@@ -180,9 +186,9 @@ def alternatives(node: Any, value: Any) -> Iterator[dict[str, Any]]:
 
 def described(study: Study, path: list[Token]) -> list[dict[str, Any]]:
     """The nodes of the schema that describe a value of the study, the best first."""
-    name = {"belt": ("study_scaled", "study_si"), "disc": ("study_disc",), "system": ("study_system",)}[study._native.kind]
     value: Any = study._native.document()
-    nodes = [one for it in name for one in alternatives(definitions()[it], value)]
+    of_kind = next(it for it in schema()["oneOf"] if study._native.kind in it["required"])
+    nodes: list[dict[str, Any]] = [of_kind, schema()]
     about = ""
     for token in path:
         inner = value[token] if not isinstance(token, int) or isinstance(value, list) else value

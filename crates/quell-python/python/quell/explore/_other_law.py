@@ -26,7 +26,7 @@ def tables_of_laws(study: Study) -> dict[str, str]:
 
 def laws() -> list[str]:
     """The laws that need no file and no formula of their own, and the law of a formula."""
-    names = [node["properties"]["law"]["const"] for node in definitions()["friction_scaled"]["oneOf"]]
+    names = [node["properties"]["law"]["const"] for node in definitions()["friction"]["oneOf"]]
     return [name for name in names if name != "samples"]
 
 
@@ -67,14 +67,19 @@ def table_of(study: Study, old: dict[str, Any], law: str) -> dict[str, Any]:
         formula = "{minimum_coefficient} + ({static_coefficient} - {minimum_coefficient})*exp(-abs(v)/{speed})"
         return {"law": law, "coefficient": formula.format(**known, speed=known[velocity])}
     table: dict[str, Any] = {"law": law}
-    # In SI a force may stand for a coefficient, so that the schema requires neither.
-    for node in definitions()["friction_scaled"]["oneOf"]:
+    for node in definitions()["friction"]["oneOf"]:
         if node["properties"]["law"]["const"] == law:
-            names = (velocity if key == "reference_velocity" else key for key in node["required"])
+            names = (velocity if key == "reference_velocity" else key for key in needed(node))
             table.update({key: known[key] for key in names if key in known})
     if law in ("coulomb", "stribeck-exponential") and "static_coefficient" in old:
         table["static_coefficient"] = static
     return table
+
+
+def needed(node: dict[str, Any]) -> list[str]:
+    """The numbers that a law needs, each by the first of the keys that give it."""
+    groups = (group.get("oneOf", [group])[0] for group in node.get("allOf", []))
+    return [key for group in groups for key in group.get("required", [])]
 
 
 def usual_speed(study: Study) -> float:

@@ -17,49 +17,29 @@ from .._frozen import Frozen
 class ActuatorColumns(Frozen):
     """Of :class:`quell.results.Actuator`."""
 
-    amplitude_n: npt.NDArray[np.float64]
     best_amplitude: float
-    best_amplitude_n: float
     best_contact_contact: npt.NDArray[np.str_]
     best_contact_slip_velocity: npt.NDArray[np.float64]
-    best_contact_slip_velocity_m_per_s: npt.NDArray[np.float64]
     best_contact_surface_velocity: npt.NDArray[np.float64]
-    best_contact_surface_velocity_m_per_s: npt.NDArray[np.float64]
     best_frequency: float
-    best_frequency_hz: float
     best_margin: float
     best_needed: float
-    best_needed_n: float
     binding_from: npt.NDArray[np.float64]
-    binding_from_hz: npt.NDArray[np.float64]
     binding_limit: npt.NDArray[np.str_]
     binding_to: npt.NDArray[np.float64]
-    binding_to_hz: npt.NDArray[np.float64]
-    frequency_hz: npt.NDArray[np.float64]
-    from_hz: float
-    needed_n: npt.NDArray[np.float64]
     own_amplitude: float
-    own_amplitude_n: float
     own_contact_contact: npt.NDArray[np.str_]
     own_contact_slip_velocity: npt.NDArray[np.float64]
-    own_contact_slip_velocity_m_per_s: npt.NDArray[np.float64]
     own_contact_surface_velocity: npt.NDArray[np.float64]
-    own_contact_surface_velocity_m_per_s: npt.NDArray[np.float64]
     own_drive_current_peak: float
     own_drive_current_peak_to_peak: float
     own_drive_current_rms: float
     own_drive_displacement_peak: float
-    own_drive_displacement_peak_m: float
     own_drive_displacement_peak_to_peak: float
-    own_drive_displacement_peak_to_peak_m: float
     own_drive_displacement_rms: float
-    own_drive_displacement_rms_m: float
     own_drive_force_peak: float
-    own_drive_force_peak_n: float
     own_drive_force_peak_to_peak: float
-    own_drive_force_peak_to_peak_n: float
     own_drive_force_rms: float
-    own_drive_force_rms_n: float
     own_drive_rated_limit: npt.NDArray[np.str_]
     own_drive_rated_used: npt.NDArray[np.float64]
     own_drive_samples_per_period: float
@@ -67,42 +47,28 @@ class ActuatorColumns(Frozen):
     own_drive_voltage_peak_to_peak: float
     own_drive_voltage_rms: float
     own_frequency: float
-    own_frequency_hz: float
     own_given: float
-    own_given_n: float
     own_margin: float
     own_needed: float
-    own_needed_n: float
     own_used: float
     resonance_amplitude: npt.NDArray[np.float64]
-    resonance_amplitude_n: npt.NDArray[np.float64]
     resonance_frequency: npt.NDArray[np.float64]
-    resonance_frequency_hz: npt.NDArray[np.float64]
     resonance_helps: npt.NDArray[Any]
     resonance_limit: npt.NDArray[np.str_]
     resonance_margin: npt.NDArray[np.float64]
     resonance_needed: npt.NDArray[np.float64]
-    resonance_needed_n: npt.NDArray[np.float64]
-    slip_velocity_m_per_s: npt.NDArray[np.float64]
-    stroke_m: npt.NDArray[np.float64]
     sufficient_from: npt.NDArray[np.float64]
-    sufficient_from_hz: npt.NDArray[np.float64]
     sufficient_narrow: npt.NDArray[Any]
     sufficient_to: npt.NDArray[np.float64]
-    sufficient_to_hz: npt.NDArray[np.float64]
-    to_hz: float
 
 
 class AtlasColumns(Frozen):
     """Of :class:`quell.results.Atlas`."""
 
     belt_velocity: npt.NDArray[np.float64]
-    belt_velocity_m_per_s: npt.NDArray[np.float64]
     change_amplitude: npt.NDArray[np.float64]
-    change_amplitude_n: npt.NDArray[np.float64]
     change_becomes_quiet: npt.NDArray[Any]
     change_exact_amplitude: npt.NDArray[np.float64]
-    change_exact_amplitude_n: npt.NDArray[np.float64]
     change_kind: npt.NDArray[np.str_]
     change_relative_amplitude: npt.NDArray[np.float64]
     change_relative_amplitude_ratio: npt.NDArray[np.float64]
@@ -110,19 +76,12 @@ class AtlasColumns(Frozen):
     change_relative_error: npt.NDArray[np.float64]
     change_sensitive: npt.NDArray[Any]
     grazing_amplitude: float
-    grazing_amplitude_n: float
     grazing_curve: npt.NDArray[np.float64]
-    grazing_curve_n: npt.NDArray[np.float64]
     grazing_relative_amplitude: float
     grazing_relative_amplitude_ratio: float
     grazing_relative_error: float
-    lost_amplitude_n: float | None
     lost_curve: npt.NDArray[np.float64]
-    lost_curve_n: npt.NDArray[np.float64]
-    quench_amplitude_n: float
     quench_curve: npt.NDArray[np.float64]
-    quench_curve_n: npt.NDArray[np.float64]
-    reference_velocity_m_per_s: float
 
 
 class AtlasTablesColumns(Frozen):
@@ -165,31 +124,23 @@ class AttractorColumns(Frozen):
     attractor_contact_name: npt.NDArray[np.str_]
     attractor_contact_stick_fraction: npt.NDArray[np.float64]
     attractor_displacement: float
-    attractor_displacement_m: float
     attractor_frequency: float
-    attractor_frequency_hz: float
     attractor_highest: float
-    attractor_highest_m: float
     attractor_locking: float
     attractor_locking_periods: Any
     attractor_locking_turns: Any
     attractor_lowest: float
-    attractor_lowest_m: float
     attractor_multiplier: float
     attractor_peak_to_peak: float
-    attractor_peak_to_peak_m: float
     attractor_periods: Any
     attractor_quiet: Any
     attractor_rotation_error: float
     attractor_rotation_number: float
-    attractor_section_displacement_m_value: npt.NDArray[np.float64]
     attractor_section_displacement_value: npt.NDArray[np.float64]
-    attractor_section_velocity_m_per_s: npt.NDArray[np.float64]
     attractor_section_velocity_value: npt.NDArray[np.float64]
     attractor_state_value: npt.NDArray[np.float64]
     attractor_stick_fraction: float
     attractor_velocity: float
-    attractor_velocity_m_per_s: float
     lyapunov_agrees_with_multipliers: Any
     lyapunov_contradiction: float
     lyapunov_deciding: float
@@ -210,22 +161,17 @@ class BasinsColumns(Frozen):
     attractor: npt.NDArray[np.float64]
     attractor_base_response: npt.NDArray[Any]
     attractor_displacement: npt.NDArray[np.float64]
-    attractor_displacement_m: npt.NDArray[np.float64]
     attractor_fraction: npt.NDArray[np.float64]
     attractor_fraction_error: npt.NDArray[np.float64]
     attractor_fraction_high: npt.NDArray[np.float64]
     attractor_fraction_low: npt.NDArray[np.float64]
     attractor_frequency: npt.NDArray[np.float64]
-    attractor_frequency_hz: npt.NDArray[np.float64]
     attractor_highest: npt.NDArray[np.float64]
-    attractor_highest_m: npt.NDArray[np.float64]
     attractor_kind: npt.NDArray[np.str_]
     attractor_locking: npt.NDArray[np.float64]
     attractor_lowest: npt.NDArray[np.float64]
-    attractor_lowest_m: npt.NDArray[np.float64]
     attractor_multiplier: npt.NDArray[np.float64]
     attractor_peak_to_peak: npt.NDArray[np.float64]
-    attractor_peak_to_peak_m: npt.NDArray[np.float64]
     attractor_period: npt.NDArray[np.float64]
     attractor_periods: npt.NDArray[np.float64]
     attractor_periods_to_settle: npt.NDArray[Any]
@@ -235,10 +181,8 @@ class BasinsColumns(Frozen):
     attractor_starts: npt.NDArray[Any]
     attractor_stick_fraction: npt.NDArray[np.float64]
     attractor_velocity: npt.NDArray[np.float64]
-    attractor_velocity_m_per_s: npt.NDArray[np.float64]
     attractor_words: npt.NDArray[np.str_]
     displacement: npt.NDArray[np.float64]
-    displacement_m: npt.NDArray[np.float64]
     layout_grid_value: npt.NDArray[Any]
     layout_sample: Any
     layout_seed: Any
@@ -256,13 +200,9 @@ class BasinsColumns(Frozen):
     unknown_starts_value: Any
     up_value: npt.NDArray[np.float64]
     velocity: npt.NDArray[np.float64]
-    velocity_m_per_s: npt.NDArray[np.float64]
     window_across_value: npt.NDArray[np.float64]
-    window_displacement_m: list[float | None]
-    window_displacement_m_value: npt.NDArray[np.float64]
     window_displacement_value: npt.NDArray[np.float64]
     window_up_value: npt.NDArray[np.float64]
-    window_velocity_m_per_s: list[float | None]
     window_velocity_value: npt.NDArray[np.float64]
 
 
@@ -272,19 +212,14 @@ class BifurcationColumns(Frozen):
     direction: npt.NDArray[np.uint8]
     down_base_response: npt.NDArray[Any]
     down_displacement: npt.NDArray[np.float64]
-    down_displacement_m: npt.NDArray[np.float64]
     down_frequency: npt.NDArray[np.float64]
-    down_frequency_hz: npt.NDArray[np.float64]
     down_highest: npt.NDArray[np.float64]
-    down_highest_m: npt.NDArray[np.float64]
     down_kind: npt.NDArray[np.str_]
     down_local_verdict: npt.NDArray[np.str_]
     down_locking: npt.NDArray[np.float64]
     down_lowest: npt.NDArray[np.float64]
-    down_lowest_m: npt.NDArray[np.float64]
     down_multiplier: npt.NDArray[np.float64]
     down_peak_to_peak: npt.NDArray[np.float64]
-    down_peak_to_peak_m: npt.NDArray[np.float64]
     down_period: npt.NDArray[np.float64]
     down_periods: npt.NDArray[np.float64]
     down_periods_to_settle: npt.NDArray[Any]
@@ -295,10 +230,8 @@ class BifurcationColumns(Frozen):
     down_stick_fraction: npt.NDArray[np.float64]
     down_value: npt.NDArray[np.float64]
     down_velocity: npt.NDArray[np.float64]
-    down_velocity_m_per_s: npt.NDArray[np.float64]
     down_words: npt.NDArray[np.str_]
     frequency: npt.NDArray[np.float64]
-    frequency_hz: npt.NDArray[np.float64]
     hysteresis_value: npt.NDArray[np.float64]
     jump_after: npt.NDArray[np.float64]
     jump_becomes: npt.NDArray[np.str_]
@@ -309,7 +242,6 @@ class BifurcationColumns(Frozen):
     locking_periods: npt.NDArray[np.float64]
     locking_turns: npt.NDArray[np.float64]
     peak_to_peak: npt.NDArray[np.float64]
-    peak_to_peak_m: npt.NDArray[np.float64]
     periods: npt.NDArray[np.float64]
     periods_to_settle: npt.NDArray[np.float64]
     quiet: npt.NDArray[np.uint8]
@@ -317,26 +249,19 @@ class BifurcationColumns(Frozen):
     rotation_number: npt.NDArray[np.float64]
     row: npt.NDArray[np.float64]
     section_displacement: npt.NDArray[np.float64]
-    section_displacement_m: npt.NDArray[np.float64]
     section_velocity: npt.NDArray[np.float64]
-    section_velocity_m_per_s: npt.NDArray[np.float64]
     state_of_section: npt.NDArray[np.float64]
     stick_fraction: npt.NDArray[np.float64]
     up_base_response: npt.NDArray[Any]
     up_displacement: npt.NDArray[np.float64]
-    up_displacement_m: npt.NDArray[np.float64]
     up_frequency: npt.NDArray[np.float64]
-    up_frequency_hz: npt.NDArray[np.float64]
     up_highest: npt.NDArray[np.float64]
-    up_highest_m: npt.NDArray[np.float64]
     up_kind: npt.NDArray[np.str_]
     up_local_verdict: npt.NDArray[np.str_]
     up_locking: npt.NDArray[np.float64]
     up_lowest: npt.NDArray[np.float64]
-    up_lowest_m: npt.NDArray[np.float64]
     up_multiplier: npt.NDArray[np.float64]
     up_peak_to_peak: npt.NDArray[np.float64]
-    up_peak_to_peak_m: npt.NDArray[np.float64]
     up_period: npt.NDArray[np.float64]
     up_periods: npt.NDArray[np.float64]
     up_periods_to_settle: npt.NDArray[Any]
@@ -347,7 +272,6 @@ class BifurcationColumns(Frozen):
     up_stick_fraction: npt.NDArray[np.float64]
     up_value: npt.NDArray[np.float64]
     up_velocity: npt.NDArray[np.float64]
-    up_velocity_m_per_s: npt.NDArray[np.float64]
     up_words: npt.NDArray[np.str_]
 
 
@@ -355,15 +279,10 @@ class CheckColumns(Frozen):
     """Of :class:`quell.results.Check`."""
 
     belt_belt_velocity: float
-    belt_belt_velocity_m_per_s: float
     belt_breakaway: float
-    belt_breakaway_m: float
     belt_damping_ratio: float
-    belt_damping_ratio_n_s_per_m: float
     belt_normal_load: float
-    belt_normal_load_n: float
     belt_tangential_stiffness: float
-    belt_tangential_stiffness_n_per_m: float
     contact_law_belt_velocity: npt.NDArray[np.float64]
     contact_law_belt_velocity_unit: npt.NDArray[np.str_]
     contact_law_law: npt.NDArray[np.str_]
@@ -389,24 +308,18 @@ class CheckColumns(Frozen):
     disc_speed_hz: float
     disc_speed_rpm: float
     dither_amplitude: Any
-    dither_amplitude_n: npt.NDArray[np.float64]
     dither_amplitude_ratio: npt.NDArray[np.float64]
-    dither_amplitude_ratio_m_per_s: npt.NDArray[np.float64]
     dither_direction: npt.NDArray[np.str_]
-    dither_frequency: npt.NDArray[np.float64]
+    dither_frequency: Any
     dither_frequency_hz: float
     dither_frequency_ratio: Any
-    dither_frequency_ratio_hz: npt.NDArray[np.float64]
     dither_has_envelope: npt.NDArray[Any]
     dither_phase: npt.NDArray[np.float64]
     dither_waveform: npt.NDArray[np.str_]
     friction_minimum_coefficient: float
     friction_range_from: float
-    friction_range_from_m_per_s: float
     friction_range_to: float
-    friction_range_to_m_per_s: float
     friction_reference_velocity: float
-    friction_reference_velocity_m_per_s: float
     friction_static_coefficient: float
     observe_value: npt.NDArray[np.float64]
 
@@ -427,11 +340,9 @@ class ContactFrictionColumns(Frozen):
 
     coefficient: npt.NDArray[np.float64]
     contact_fast_velocity: npt.NDArray[np.float64]
-    contact_fast_velocity_m_per_s: npt.NDArray[np.float64]
     contact_name: npt.NDArray[np.str_]
     contact_number: npt.NDArray[np.float64]
     contact_surface_velocity: npt.NDArray[np.float64]
-    contact_surface_velocity_m_per_s: npt.NDArray[np.float64]
     effective_coefficient: npt.NDArray[np.float64]
     effective_slope: npt.NDArray[np.float64]
     row: npt.NDArray[np.float64]
@@ -443,17 +354,11 @@ class ContactGainsColumns(Frozen):
 
     contact_name: npt.NDArray[np.str_]
     contact_normal_load: npt.NDArray[np.float64]
-    contact_normal_load_n: npt.NDArray[np.float64]
     contact_number: npt.NDArray[np.float64]
     contact_slip_velocity: npt.NDArray[np.float64]
-    contact_slip_velocity_m_per_s: npt.NDArray[np.float64]
     contact_small_gain: npt.NDArray[np.float64]
-    contact_small_gain_s_per_m: npt.NDArray[np.float64]
     gain: npt.NDArray[np.float64]
     growth_rate_value: float
-    limit_cycle_amplitude_m: float | None
-    limit_cycle_frequency_hz: float | None
-    limit_cycle_velocity_m_per_s: float | None
     mean_coefficient: npt.NDArray[np.float64]
     row: npt.NDArray[np.float64]
     undithered_gain: npt.NDArray[np.float64]
@@ -548,36 +453,18 @@ class DecayColumns(Frozen):
 class DescribingFunctionColumns(Frozen):
     """Of :class:`quell.results.DescribingFunction`."""
 
-    belt_velocity_m_per_s: float
-    gain_error_s_per_m: list[float | None]
-    gain_error_s_per_m_value: npt.NDArray[np.float64]
     gain_error_value: npt.NDArray[np.float64]
-    gain_s_per_m: list[float | None]
-    limit_cycle_amplitude_m: float
-    limit_cycle_amplitude_m_value: npt.NDArray[np.float64]
     limit_cycle_amplitude_value: npt.NDArray[np.float64]
     limit_cycle_stable: npt.NDArray[Any]
     limit_cycle_velocity_amplitude: npt.NDArray[np.float64]
     limit_cycle_velocity_amplitude_error: npt.NDArray[np.float64]
-    limit_cycle_velocity_amplitude_error_m_per_s: npt.NDArray[np.float64]
-    limit_cycle_velocity_amplitude_m_per_s: npt.NDArray[np.float64]
-    limit_cycle_velocity_m_per_s: float
     limit_limit_cycle_amplitude: float
-    limit_limit_cycle_amplitude_m: float
-    limit_limit_cycle_amplitude_m_value: npt.NDArray[np.float64]
     limit_limit_cycle_amplitude_value: npt.NDArray[np.float64]
     limit_limit_cycle_stable: npt.NDArray[Any]
     limit_limit_cycle_velocity: float
     limit_limit_cycle_velocity_amplitude: npt.NDArray[np.float64]
     limit_limit_cycle_velocity_amplitude_error: npt.NDArray[np.float64]
-    limit_limit_cycle_velocity_amplitude_error_m_per_s: npt.NDArray[np.float64]
-    limit_limit_cycle_velocity_amplitude_m_per_s: npt.NDArray[np.float64]
-    limit_limit_cycle_velocity_m_per_s: float
     limit_small_gain: float
-    limit_small_gain_s_per_m: float
-    small_gain_s_per_m: float
-    undithered_gain_s_per_m: list[float | None]
-    velocity_amplitude_m_per_s: list[float | None]
 
 
 class DesignColumns(Frozen):
@@ -589,25 +476,19 @@ class DesignColumns(Frozen):
     averaged_dither_frequency_hz: float
     averaged_dither_frequency_ratio: float
     basin_objective: npt.NDArray[np.float64]
-    basin_objective_m: npt.NDArray[np.float64]
-    basin_objective_w: npt.NDArray[np.float64]
     binding_value: npt.NDArray[np.str_]
     confident_allowed: Any
     confident_amplitude: float
-    confident_amplitude_n: float
     confident_confidence: float
     confident_exact: Any
     confident_high: float
-    confident_high_n: float
     confident_invalid: Any
     confident_limit_limit: npt.NDArray[np.str_]
     confident_limit_used: npt.NDArray[np.float64]
     confident_loud_again: Any
     confident_low: float
-    confident_low_n: float
     confident_never_quiet: Any
     confident_objective: float
-    confident_objective_m: float
     confident_over_least: float
     confident_parameters_dither_amplitude_n: float
     confident_samples: Any
@@ -624,17 +505,11 @@ class DesignColumns(Frozen):
     drive_current_peak_to_peak: float
     drive_current_rms: float
     drive_displacement_peak: float
-    drive_displacement_peak_m: float
     drive_displacement_peak_to_peak: float
-    drive_displacement_peak_to_peak_m: float
     drive_displacement_rms: float
-    drive_displacement_rms_m: float
     drive_force_peak: float
-    drive_force_peak_n: float
     drive_force_peak_to_peak: float
-    drive_force_peak_to_peak_n: float
     drive_force_rms: float
-    drive_force_rms_n: float
     drive_point_belt_belt_velocity_m_per_s: float
     drive_rated_limit: npt.NDArray[np.str_]
     drive_rated_used: npt.NDArray[np.float64]
@@ -646,30 +521,17 @@ class DesignColumns(Frozen):
     examined_points: Any
     frontier_limit: npt.NDArray[np.str_]
     frontier_objective: npt.NDArray[np.float64]
-    frontier_objective_m: npt.NDArray[np.float64]
-    frontier_objective_w: npt.NDArray[np.float64]
     frontier_value: npt.NDArray[np.float64]
-    frontier_value_m: npt.NDArray[np.float64]
     limit_limit: npt.NDArray[np.str_]
     limit_used: npt.NDArray[np.float64]
-    loud_from_n: float | None
     number: npt.NDArray[np.float64]
-    objective_m: float
-    objective_w: float
     parameters_dither_amplitude: float
     parameters_dither_amplitude_n: float
     parameters_dither_frequency_hz: float
     parameters_dither_frequency_ratio: float
-    response_peak_m: float
-    response_rms_m: float
     schedule_amplitude: npt.NDArray[np.float64]
-    schedule_amplitude_n: npt.NDArray[np.float64]
     schedule_objective: npt.NDArray[np.float64]
-    schedule_objective_m: npt.NDArray[np.float64]
-    schedule_objective_w: npt.NDArray[np.float64]
     threshold_meets: float
-    tone_amplitude_m: float | None
-    tone_frequency_hz: float | None
     verified_growth_rate: float
     verified_largest_multiplier: float
     verified_multiplier: float
@@ -679,8 +541,6 @@ class DesignColumns(Frozen):
     verified_point_disc_load_speed: float
     waveform_feasible: npt.NDArray[Any]
     waveform_objective: npt.NDArray[np.float64]
-    waveform_objective_m: npt.NDArray[np.float64]
-    waveform_objective_w: npt.NDArray[np.float64]
     waveform_waveform: npt.NDArray[np.str_]
     worst_belt_belt_velocity: float
     worst_belt_belt_velocity_m_per_s: float
@@ -690,11 +550,8 @@ class ExactStabilityColumns(Frozen):
     """Of :class:`quell.results.ExactStability`."""
 
     exponent_frequency: npt.NDArray[np.float64]
-    exponent_frequency_hz: npt.NDArray[np.float64]
     exponent_growth_rate: npt.NDArray[np.float64]
     exponent_growth_rate_error: npt.NDArray[np.float64]
-    frequency_hz: float
-    period_s: float
     state_value: npt.NDArray[np.float64]
 
 
@@ -702,23 +559,15 @@ class FrictionCurveColumns(Frozen):
     """Of :class:`quell.results.FrictionCurve`."""
 
     effective_coefficient_error_value: npt.NDArray[np.float64]
-    effective_slope_error_s_per_m: list[float | None]
-    effective_slope_error_s_per_m_value: npt.NDArray[np.float64]
     effective_slope_error_value: npt.NDArray[np.float64]
     effective_slope_one_sided_value: npt.NDArray[Any]
-    effective_slope_s_per_m: list[float | None]
     law_minimum_coefficient: float
     law_range_from: float
-    law_range_from_m_per_s: float
     law_range_to: float
-    law_range_to_m_per_s: float
     law_reference_velocity: float
-    law_reference_velocity_m_per_s: float
     law_static_coefficient: float
-    limit_effective_slope_s_per_m: list[float | None]
     measured_base_value: npt.NDArray[Any]
     measured_verdict_value: npt.NDArray[np.str_]
-    slip_velocity_m_per_s: list[float | None]
 
 
 class LawFitColumns(Frozen):
@@ -861,13 +710,8 @@ class ModesColumns(Frozen):
 class NoiseResponseColumns(Frozen):
     """Of :class:`quell.results.NoiseResponse`."""
 
-    amplitude_m: list[float | None]
-    amplitude_m_value: npt.NDArray[np.float64]
-    band_end_hz: float
     contact_mean_friction: npt.NDArray[np.float64]
-    contact_mean_friction_n: npt.NDArray[np.float64]
     contact_mean_friction_undithered: npt.NDArray[np.float64]
-    contact_mean_friction_undithered_n: npt.NDArray[np.float64]
     contact_name: npt.NDArray[np.str_]
     cost_displacement_rms: float
     cost_force_peak: float
@@ -876,22 +720,13 @@ class NoiseResponseColumns(Frozen):
     cost_stroke: float
     cost_velocity_rms: float
     dither_displacement_rms: npt.NDArray[np.float64]
-    dither_displacement_rms_m: npt.NDArray[np.float64]
     dither_force_peak: npt.NDArray[np.float64]
-    dither_force_peak_n: npt.NDArray[np.float64]
     dither_force_rms: npt.NDArray[np.float64]
-    dither_force_rms_n: npt.NDArray[np.float64]
     dither_power: npt.NDArray[np.float64]
-    dither_power_w: npt.NDArray[np.float64]
     dither_stroke: npt.NDArray[np.float64]
-    dither_stroke_m: npt.NDArray[np.float64]
     dither_velocity_rms: npt.NDArray[np.float64]
-    dither_velocity_rms_m_per_s: npt.NDArray[np.float64]
     mean_friction_value: float
-    record_length_s: float
     seed: npt.NDArray[np.float64]
-    settle_s: float
-    undithered_amplitude_m: float
 
 
 class OrbitColumns(Frozen):
@@ -919,30 +754,17 @@ class OrbitColumns(Frozen):
     cycle_stick_fraction: npt.NDArray[np.float64]
     cycle_velocity: npt.NDArray[np.float64]
     cycle_verdict: npt.NDArray[np.str_]
-    displacement_m: float
-    displacement_m_value: float
     displacement_value: float
     event_contact: npt.NDArray[Any]
     event_kind: npt.NDArray[np.str_]
     event_slip_sign: npt.NDArray[Any]
     event_time: npt.NDArray[np.float64]
-    highest_m: float
-    highest_velocity_m_per_s: float
-    least_slip_velocity_m_per_s: float
-    lowest_m: float
-    lowest_velocity_m_per_s: float
     monodromy_value: npt.NDArray[np.float64]
-    period_s: float
-    residual_m: float
     signature_kind: npt.NDArray[np.str_]
     signature_slip_sign: npt.NDArray[Any]
-    state_error_m: float
     state_value: npt.NDArray[np.float64]
     sticking: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]
-    time_s: npt.NDArray[np.float64]
-    velocity_m_per_s: float
-    velocity_m_per_s_value: float
     velocity_value: float
 
 
@@ -976,17 +798,10 @@ class ProbabilityColumns(Frozen):
     limit_indices_friction_static_coefficient_total_error: float
     limit_low: float
     limit_probability: float
-    limit_quantiles_growth_0_05_per_s: float
-    limit_quantiles_growth_0_5_per_s: float
-    limit_quantiles_growth_0_95_per_s: float
     limit_quiet: Any
     limit_unknown: Any
     limit_vibrating: Any
-    quantiles_growth_0_05_per_s: float
-    quantiles_growth_0_5_per_s: float
-    quantiles_growth_0_95_per_s: float
     threshold_amplitude: npt.NDArray[np.float64]
-    threshold_amplitude_n: npt.NDArray[np.float64]
     threshold_share: npt.NDArray[np.float64]
 
 
@@ -994,38 +809,23 @@ class RampColumns(Frozen):
     """Of :class:`quell.results.Ramp`."""
 
     displacement: npt.NDArray[np.float64]
-    largest_m_per_s: float
-    least_m_per_s: float
     manoeuvre_begins_above: float
-    manoeuvre_begins_above_m: float
     manoeuvre_dither_onset: float
-    manoeuvre_dither_onset_s: float
     manoeuvre_ends_below: float
-    manoeuvre_ends_below_m: float
     manoeuvre_overshoot: float
     manoeuvre_time_to_quench: float
-    manoeuvre_time_to_quench_s: float
     manoeuvre_vibration_amplitude: npt.NDArray[np.float64]
-    manoeuvre_vibration_amplitude_m: npt.NDArray[np.float64]
     manoeuvre_vibration_from: npt.NDArray[np.float64]
-    manoeuvre_vibration_from_s: npt.NDArray[np.float64]
     manoeuvre_vibration_to: npt.NDArray[np.float64]
-    manoeuvre_vibration_to_s: npt.NDArray[np.float64]
     switch_becomes: npt.NDArray[np.str_]
     switch_threshold: npt.NDArray[np.float64]
-    switch_threshold_m_per_s: npt.NDArray[np.float64]
     switch_threshold_time: npt.NDArray[np.float64]
-    switch_threshold_time_s: npt.NDArray[np.float64]
     switch_time: npt.NDArray[np.float64]
-    switch_time_s: npt.NDArray[np.float64]
     switch_value: npt.NDArray[np.float64]
-    switch_value_m_per_s: npt.NDArray[np.float64]
     threshold_becomes: npt.NDArray[np.str_]
     threshold_kind: npt.NDArray[np.str_]
     threshold_value: npt.NDArray[np.float64]
-    threshold_value_m_per_s: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]
-    until_s: float
     value: npt.NDArray[np.float64]
     velocity: npt.NDArray[np.float64]
 
@@ -1086,7 +886,6 @@ class ResonancesColumns(Frozen):
     dithered_width: npt.NDArray[np.float64]
     dithered_width_hz: npt.NDArray[np.float64]
     frequency: npt.NDArray[np.float64]
-    from_hz: float
     growing_explained_by: npt.NDArray[np.str_]
     growing_from: npt.NDArray[np.float64]
     growing_from_hz: npt.NDArray[np.float64]
@@ -1108,7 +907,6 @@ class ResonancesColumns(Frozen):
     speeds_hz: list[float | None]
     speeds_hz_value: npt.NDArray[np.float64]
     threshold: npt.NDArray[np.float64]
-    to_hz: float
     undithered_conjugate: npt.NDArray[Any]
     undithered_harmonic: npt.NDArray[Any]
     undithered_pair: npt.NDArray[np.str_]
@@ -1126,93 +924,45 @@ class ResonancesColumns(Frozen):
 class ResponseColumns(Frozen):
     """Of :class:`quell.results.Response`."""
 
-    amplitude_m: float
-    band_displacement_rms_m: float
-    band_end_hz: float
-    band_from_hz: float
-    band_to_hz: float
-    band_undithered_displacement_rms_m: float
-    band_undithered_velocity_rms_m_per_s: float
-    band_velocity_rms_m_per_s: float
     contact_friction_loss: npt.NDArray[np.float64]
     contact_friction_power: npt.NDArray[np.float64]
-    contact_friction_power_w: npt.NDArray[np.float64]
     contact_least_normal: npt.NDArray[np.float64]
-    contact_least_normal_n: npt.NDArray[np.float64]
     contact_mean_friction: npt.NDArray[np.float64]
-    contact_mean_friction_n: npt.NDArray[np.float64]
     contact_mean_friction_undithered: npt.NDArray[np.float64]
-    contact_mean_friction_undithered_n: npt.NDArray[np.float64]
     contact_mean_normal: npt.NDArray[np.float64]
-    contact_mean_normal_n: npt.NDArray[np.float64]
     contact_name: npt.NDArray[np.str_]
     contact_open_fraction: npt.NDArray[np.float64]
     contact_steady_sliding_friction: npt.NDArray[np.float64]
-    contact_steady_sliding_friction_n: npt.NDArray[np.float64]
     contact_stick_fraction: npt.NDArray[np.float64]
     displacement: npt.NDArray[np.float64]
-    displacement_m: npt.NDArray[np.float64]
     dither_actuator_power: npt.NDArray[np.float64]
-    dither_actuator_power_w: npt.NDArray[np.float64]
     dither_actuator_stroke: npt.NDArray[np.float64]
-    dither_actuator_stroke_m: npt.NDArray[np.float64]
-    dither_power_w: Any
-    dither_stroke_m: Any
     frequency: npt.NDArray[np.float64]
-    half_peak_to_peak_m: float
-    mean_friction_n: float
-    mean_friction_undithered_n: float
-    mean_m: float
-    minimum_normal_load_n: float
     observed: npt.NDArray[np.float64]
     peak_amplitude: npt.NDArray[np.float64]
-    peak_amplitude_m: npt.NDArray[np.float64]
     peak_frequency: npt.NDArray[np.float64]
-    peak_frequency_hz: npt.NDArray[np.float64]
-    period_s: float
-    record_length_s: float
-    rms_m: float
-    settle_s: float
     spectrum_amplitude: npt.NDArray[np.float64]
-    spectrum_amplitude_m: npt.NDArray[np.float64]
-    spectrum_frequency_hz: npt.NDArray[np.float64]
     spectrum_undithered_amplitude: npt.NDArray[np.float64]
-    spectrum_undithered_amplitude_m: npt.NDArray[np.float64]
-    steady_sliding_friction_n: float
     sticking: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]
-    time_s: npt.NDArray[np.float64]
-    undithered_amplitude_m: float
     undithered_displacement: npt.NDArray[np.float64]
-    undithered_displacement_m: npt.NDArray[np.float64]
-    undithered_half_peak_to_peak_m: float
-    undithered_mean_m: float
     undithered_observed: npt.NDArray[np.float64]
-    undithered_period_s: float
-    undithered_rms_m: float
     undithered_sticking: npt.NDArray[np.float64]
     undithered_velocity: npt.NDArray[np.float64]
-    undithered_velocity_m_per_s: npt.NDArray[np.float64]
     velocity: npt.NDArray[np.float64]
-    velocity_m_per_s: npt.NDArray[np.float64]
 
 
 class SimulationColumns(Frozen):
     """Of :class:`quell.results.Simulation`."""
 
     contact_friction_power: npt.NDArray[np.float64]
-    contact_friction_power_w: npt.NDArray[np.float64]
     contact_least_normal: npt.NDArray[np.float64]
-    contact_least_normal_n: npt.NDArray[np.float64]
     contact_mean_friction: npt.NDArray[np.float64]
-    contact_mean_friction_n: npt.NDArray[np.float64]
     contact_mean_normal: npt.NDArray[np.float64]
-    contact_mean_normal_n: npt.NDArray[np.float64]
     contact_name: npt.NDArray[np.str_]
     contact_open_fraction: npt.NDArray[np.float64]
     contact_stick_fraction: npt.NDArray[np.float64]
     displacement: npt.NDArray[np.float64]
-    displacement_m: npt.NDArray[np.float64]
     event_contact: npt.NDArray[Any]
     event_counts_landing: Any
     event_counts_release: Any
@@ -1220,25 +970,18 @@ class SimulationColumns(Frozen):
     event_counts_separation: Any
     event_counts_stick: Any
     event_displacement: npt.NDArray[np.float64]
-    event_displacement_m: npt.NDArray[np.float64]
     event_kind: npt.NDArray[np.str_]
     event_slip_sign: npt.NDArray[Any]
     event_time: npt.NDArray[np.float64]
-    event_time_s: npt.NDArray[np.float64]
     event_velocity: npt.NDArray[np.float64]
-    event_velocity_m_per_s: npt.NDArray[np.float64]
     final_contact_friction: npt.NDArray[np.float64]
-    final_contact_friction_n: npt.NDArray[np.float64]
     final_contact_name: npt.NDArray[np.str_]
     final_contact_normal: npt.NDArray[np.float64]
-    final_contact_normal_n: npt.NDArray[np.float64]
     final_contact_open: npt.NDArray[Any]
     final_contact_slip_sign: npt.NDArray[Any]
     final_contact_slip_velocity: npt.NDArray[np.float64]
-    final_contact_slip_velocity_m_per_s: npt.NDArray[np.float64]
     final_contact_sticking: npt.NDArray[Any]
     final_displacement: float
-    final_displacement_m: float
     final_friction: float
     final_normal_load: float
     final_slip_sign: Any
@@ -1247,7 +990,6 @@ class SimulationColumns(Frozen):
     final_time: float
     final_time_s: float
     final_velocity: float
-    final_velocity_m_per_s: float
     growth_observed_per_s: float | None
     leading_frequency_hz: float
     leading_growth_rate_per_s: float
@@ -1264,7 +1006,6 @@ class SimulationColumns(Frozen):
     manoeuvre_vibration_from: npt.NDArray[np.float64]
     manoeuvre_vibration_to: npt.NDArray[np.float64]
     slip_velocity: npt.NDArray[np.float64]
-    slip_velocity_m_per_s: npt.NDArray[np.float64]
     sound_clipped: Any
     sound_duration_s: float
     sound_gain: float
@@ -1274,17 +1015,13 @@ class SimulationColumns(Frozen):
     sound_transposition: float
     start_amplitude: float
     start_displacement: float
-    start_displacement_m: float
     start_state_value: npt.NDArray[np.float64]
     start_time: float
     start_time_s: float
     start_velocity: float
-    start_velocity_m_per_s: float
     sticking: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]
-    time_s: npt.NDArray[np.float64]
     velocity: npt.NDArray[np.float64]
-    velocity_m_per_s: npt.NDArray[np.float64]
 
 
 class StabilityColumns(Frozen):
@@ -1296,26 +1033,16 @@ class StabilityColumns(Frozen):
     change_friction_n: npt.NDArray[np.float64]
     contact_effective_coefficient: npt.NDArray[np.float64]
     contact_friction: npt.NDArray[np.float64]
-    contact_friction_n: npt.NDArray[np.float64]
     contact_load_amplitude: npt.NDArray[np.float64]
-    contact_load_amplitude_n: npt.NDArray[np.float64]
     contact_name: npt.NDArray[np.str_]
     contact_normal: npt.NDArray[np.float64]
-    contact_normal_n: npt.NDArray[np.float64]
     contact_ratchet_force: npt.NDArray[np.float64]
-    contact_ratchet_force_n: npt.NDArray[np.float64]
     contact_slip_amplitude: npt.NDArray[np.float64]
-    contact_slip_amplitude_m_per_s: npt.NDArray[np.float64]
     contact_slope_by_velocity: npt.NDArray[np.float64]
-    contact_slope_by_velocity_n_s_per_m: npt.NDArray[np.float64]
     critical_amplitude_amplitude: npt.NDArray[np.float64]
     critical_amplitude_amplitude_error: npt.NDArray[np.float64]
-    critical_amplitude_amplitude_error_n: npt.NDArray[np.float64]
-    critical_amplitude_amplitude_n: npt.NDArray[np.float64]
     critical_amplitude_amplitude_ratio: npt.NDArray[np.float64]
     critical_amplitude_amplitude_ratio_error: npt.NDArray[np.float64]
-    critical_amplitude_amplitude_ratio_error_m_per_s: npt.NDArray[np.float64]
-    critical_amplitude_amplitude_ratio_m_per_s: npt.NDArray[np.float64]
     critical_amplitude_becomes: npt.NDArray[np.str_]
     critical_amplitude_contact_stays_closed: npt.NDArray[Any]
     critical_amplitude_contacts_stay_closed: npt.NDArray[Any]
@@ -1326,54 +1053,40 @@ class StabilityColumns(Frozen):
     critical_speed_near: npt.NDArray[Any]
     critical_speed_speed: npt.NDArray[np.float64]
     critical_speed_speed_rpm: npt.NDArray[np.float64]
-    everywhere_stable_amplitude_n: float
-    everywhere_stable_amplitude_ratio_m_per_s: float
     frequency_hz: float
     growth_rate_db_per_s: float
     growth_rate_per_s: float
     limit_criterion: float
     limit_critical_amplitude_amplitude: npt.NDArray[np.float64]
-    limit_critical_amplitude_amplitude_n: npt.NDArray[np.float64]
     limit_critical_amplitude_amplitude_ratio: npt.NDArray[np.float64]
     limit_critical_amplitude_amplitude_ratio_error: npt.NDArray[np.float64]
-    limit_critical_amplitude_amplitude_ratio_error_m_per_s: npt.NDArray[np.float64]
-    limit_critical_amplitude_amplitude_ratio_m_per_s: npt.NDArray[np.float64]
     limit_critical_amplitude_becomes: npt.NDArray[np.str_]
     limit_critical_amplitude_contact_stays_closed: npt.NDArray[Any]
     limit_critical_amplitude_kind: npt.NDArray[np.str_]
     limit_effective_coefficient: float
     limit_error: float
     limit_everywhere_stable_amplitude: float
-    limit_everywhere_stable_amplitude_n: float
     limit_everywhere_stable_amplitude_ratio: float
-    limit_everywhere_stable_amplitude_ratio_m_per_s: float
     limit_growth_rate: float
     limit_growth_rate_db_per_s: float
-    limit_growth_rate_per_s: float
     limit_one_sided: Any
     limit_unstable_belt_velocity_lower: npt.NDArray[np.float64]
     limit_unstable_belt_velocity_lower_kind: npt.NDArray[np.str_]
-    limit_unstable_belt_velocity_lower_m_per_s: npt.NDArray[np.float64]
     limit_unstable_belt_velocity_upper: npt.NDArray[np.float64]
-    limit_unstable_belt_velocity_upper_m_per_s: npt.NDArray[np.float64]
     motion_damping_ratio: npt.NDArray[np.float64]
     motion_error: npt.NDArray[np.float64]
     motion_frequency: npt.NDArray[np.float64]
-    motion_frequency_hz: npt.NDArray[np.float64]
     motion_growth_rate: npt.NDArray[np.float64]
     speed_at_load_km_per_h: float
     speed_at_load_m_per_s: float
     speed_hz: float
     speed_rpm: float
     undithered_frequency: float
-    undithered_frequency_hz: float
     undithered_growth_rate: float
     undithered_growth_rate_error: float
     unstable_belt_velocity_lower: npt.NDArray[np.float64]
     unstable_belt_velocity_lower_kind: npt.NDArray[np.str_]
-    unstable_belt_velocity_lower_m_per_s: npt.NDArray[np.float64]
     unstable_belt_velocity_upper: npt.NDArray[np.float64]
-    unstable_belt_velocity_upper_m_per_s: npt.NDArray[np.float64]
 
 
 class ThresholdCurvesColumns(Frozen):
@@ -1401,7 +1114,6 @@ class ThresholdsColumns(Frozen):
 
     branch: npt.NDArray[np.float64]
     frequency: npt.NDArray[np.float64]
-    from_n: float
     from_rest_becomes: npt.NDArray[np.str_]
     from_rest_error: npt.NDArray[np.float64]
     from_rest_value: npt.NDArray[np.float64]
@@ -1420,9 +1132,7 @@ class ThresholdsColumns(Frozen):
     local_criticality: npt.NDArray[np.float64]
     local_criticality_reason: npt.NDArray[np.str_]
     local_displacement: npt.NDArray[np.float64]
-    local_displacement_m: npt.NDArray[np.float64]
     local_error: npt.NDArray[np.float64]
-    local_error_n: npt.NDArray[np.float64]
     local_first_lyapunov_coefficient: npt.NDArray[np.float64]
     local_first_lyapunov_coefficient_error: npt.NDArray[np.float64]
     local_frequency: npt.NDArray[np.float64]
@@ -1433,16 +1143,13 @@ class ThresholdsColumns(Frozen):
     local_radius_above: npt.NDArray[np.float64]
     local_radius_below: npt.NDArray[np.float64]
     local_value: npt.NDArray[np.float64]
-    local_value_n: npt.NDArray[np.float64]
     local_velocity: npt.NDArray[np.float64]
-    local_velocity_m_per_s: npt.NDArray[np.float64]
     local_was: npt.NDArray[np.str_]
     point: npt.NDArray[np.float64]
     radius: npt.NDArray[np.float64]
     signature_change_above: npt.NDArray[np.str_]
     signature_change_below: npt.NDArray[np.str_]
     signature_change_value: npt.NDArray[np.float64]
-    signature_change_value_n: npt.NDArray[np.float64]
     state_carriage: npt.NDArray[np.float64]
     state_motor: npt.NDArray[np.float64]
     state_velocity_carriage: npt.NDArray[np.float64]
@@ -1463,7 +1170,6 @@ class ThresholdsColumns(Frozen):
     threshold_radius_below: npt.NDArray[np.float64]
     threshold_value: npt.NDArray[np.float64]
     threshold_was: npt.NDArray[np.str_]
-    to_n: float
 
 
 class TrackedStabilityColumns(Frozen):
@@ -1506,67 +1212,38 @@ class TrackedStabilityColumns(Frozen):
 class WaveformsColumns(Frozen):
     """Of :class:`quell.results.Waveforms`."""
 
-    amplitude_n: npt.NDArray[np.float64]
-    exact_amplitude_n: npt.NDArray[np.float64]
     number: npt.NDArray[np.float64]
-    power_w: npt.NDArray[np.float64]
-    root_mean_square_n: npt.NDArray[np.float64]
-    stroke_m: npt.NDArray[np.float64]
-    velocity_m_per_s: npt.NDArray[np.float64]
     waveform: npt.NDArray[np.uint8]
     waveform_amplitude: npt.NDArray[np.float64]
-    waveform_amplitude_n: npt.NDArray[np.float64]
     waveform_amplitude_ratio: npt.NDArray[np.float64]
-    waveform_amplitude_ratio_m_per_s: npt.NDArray[np.float64]
     waveform_duty_cycle: npt.NDArray[np.float64]
     waveform_exact_amplitude: npt.NDArray[np.float64]
-    waveform_exact_amplitude_n: npt.NDArray[np.float64]
     waveform_exact_power: npt.NDArray[np.float64]
-    waveform_exact_power_w: npt.NDArray[np.float64]
     waveform_exact_root_mean_square: npt.NDArray[np.float64]
-    waveform_exact_root_mean_square_n: npt.NDArray[np.float64]
     waveform_exact_stroke: npt.NDArray[np.float64]
-    waveform_exact_stroke_m: npt.NDArray[np.float64]
     waveform_exact_velocity: npt.NDArray[np.float64]
-    waveform_exact_velocity_m_per_s: npt.NDArray[np.float64]
     waveform_label: npt.NDArray[np.str_]
     waveform_off: npt.NDArray[np.float64]
     waveform_on: npt.NDArray[np.float64]
     waveform_own: npt.NDArray[Any]
     waveform_power: npt.NDArray[np.float64]
-    waveform_power_w: npt.NDArray[np.float64]
     waveform_root_mean_square: npt.NDArray[np.float64]
-    waveform_root_mean_square_n: npt.NDArray[np.float64]
     waveform_slow: npt.NDArray[Any]
     waveform_stroke: npt.NDArray[np.float64]
-    waveform_stroke_m: npt.NDArray[np.float64]
     waveform_until: npt.NDArray[np.float64]
-    waveform_until_n: npt.NDArray[np.float64]
     waveform_velocity: npt.NDArray[np.float64]
-    waveform_velocity_m_per_s: npt.NDArray[np.float64]
     waveform_waveform: npt.NDArray[np.str_]
 
 
 class WindowColumns(Frozen):
     """Of :class:`quell.results.Window`."""
 
-    amplitude_m: float
     contact_friction_power: npt.NDArray[np.float64]
-    contact_friction_power_w: npt.NDArray[np.float64]
     contact_least_normal: npt.NDArray[np.float64]
-    contact_least_normal_n: npt.NDArray[np.float64]
     contact_mean_friction: npt.NDArray[np.float64]
-    contact_mean_friction_n: npt.NDArray[np.float64]
     contact_mean_normal: npt.NDArray[np.float64]
-    contact_mean_normal_n: npt.NDArray[np.float64]
     contact_name: npt.NDArray[np.str_]
     contact_open_fraction: npt.NDArray[np.float64]
     contact_stick_fraction: npt.NDArray[np.float64]
     displacement: npt.NDArray[np.float64]
-    from_s: float
-    mean_m: float
-    rms_m: float
-    strongest_amplitude_m: float
-    strongest_frequency_hz: float
     time: npt.NDArray[np.float64]
-    to_s: float

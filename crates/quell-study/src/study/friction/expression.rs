@@ -42,13 +42,36 @@ pub(super) fn read(
     reader.remember(FORMULA, &key, node.origin, 1.0);
     let mut constants = own?;
     constants.extend(parameters_in(reader, &text, &constants));
-    let law = Expression::new(&text, &constants, level, velocity_unit(reader));
+    let law = Formula { text, constants, level, unit: velocity_unit(reader) }.compiled(reader);
     match law.and_then(|law| law.with_maximum_velocity(maximum)) {
         Ok(law) => Some(Friction::Expression(law)),
         Err(invalid) => {
             complain(reader, table, path, node, invalid);
             None
         }
+    }
+}
+
+/// What determines the law of a formula.
+#[derive(Debug, PartialEq)]
+struct Formula {
+    text: String,
+    constants: Vec<(String, f64)>,
+    level: Option<f64>,
+    unit: f64,
+}
+
+impl Formula {
+    /// Its law, which is compiled once for all readings with the same numbers.
+    fn compiled(self, reader: &mut Reader) -> Result<Expression, InvalidValues> {
+        let same = |(known, _): &(Self, Expression)| *known == self;
+        if let Some(known) = reader.computed().known(same) {
+            return Ok(known.1.clone());
+        }
+        let Self { text, constants, level, unit } = &self;
+        let law = Expression::new(text, constants, *level, *unit)?;
+        reader.computed().keep((self, law.clone()));
+        Ok(law)
     }
 }
 

@@ -17,22 +17,15 @@ impl Reader {
         choice: Choice,
     ) -> Option<&'static str> {
         let names = choice.names();
-        let list = names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
         let Value::Text(text) = &node.value else {
-            self.wrong(key, node, format!("one of {list}; got {}", node.kind()));
+            self.wrong(key, node, format!("{}; got {}", one_of(choice), node.kind()));
             return None;
         };
         let found = names.iter().copied().find(|name| name == text);
         if found.is_none() {
-            let nearest =
-                suggest::word(text, names.iter().copied()).map(|name| format!("\"{name}\""));
-            let complaint = Complaint::new(
-                Fault::Value,
-                key,
-                node.origin,
-                node.given(),
-                format!("one of {list}"),
-            );
+            let nearest = suggest::word(text, names).map(|name| format!("\"{name}\""));
+            let (given, allowed) = (node.given(), one_of(choice));
+            let complaint = Complaint::new(Fault::Value, key, node.origin, given, allowed);
             self.complain(complaint.suggesting(nearest));
         }
         found
@@ -49,8 +42,7 @@ impl Reader {
     ) -> Option<&'static str> {
         let key = join(prefix, name);
         let Some(node) = table.get(name) else {
-            let list = choice.names().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>();
-            let allowed = format!("one of {}", list.join(", "));
+            let allowed = one_of(choice);
             self.complain(Complaint::new(Fault::Missing, key, header, Json::Null, allowed));
             return None;
         };
@@ -91,4 +83,11 @@ impl Reader {
         }
         table
     }
+}
+
+/// The words of a list, in words.
+fn one_of(choice: Choice) -> String {
+    let names = choice.names();
+    let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+    format!("one of {}", quoted.join(", "))
 }

@@ -65,7 +65,7 @@ impl StudyKind for SystemSetup {
     }
 
     fn read(reader: &mut Reader, document: &Table) -> Option<Self> {
-        read::study(reader, document)
+        read::study(reader, document).map(|setup| read::with_warnings(setup, document))
     }
 }
 

@@ -19,13 +19,22 @@ use super::{initial, parameters, sized, unused};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::actuator;
 use crate::study::design::{self, DesignContext};
-use crate::study::document::{Table, Value};
+use crate::study::document::{Node, Table, Value};
 use crate::study::plausible;
 use crate::study::reader::{NumbersByName, Reader};
 use crate::study::vocabulary::Choice;
 use quell_model::units::UnitSystem;
 
-/// Reads the study of a system; `None` if something is wrong, which has then been reported.
+/// Adds what is valid but unlikely, or without effect, to the study of a system that was read from a document.
+pub(super) fn with_warnings(setup: SystemSetup, document: &Table) -> SystemSetup {
+    let Some(table) = document.get("system").and_then(Node::table) else { return setup };
+    let known = KnownSystem { system: &setup.system, measured: setup.response.is_some() };
+    let mut warnings = warnings(document, table, (setup.units, &setup.named), known);
+    warnings.extend(setup.warnings);
+    SystemSetup { warnings, ..setup }
+}
+
+/// Reads the study of a system without its warnings; `None` if something is wrong, which has then been reported.
 pub(super) fn study(reader: &mut Reader, document: &Table) -> Option<SystemSetup> {
     conflicts(reader, document);
     let units = units(reader, document);
@@ -85,16 +94,13 @@ pub(super) fn study(reader: &mut Reader, document: &Table) -> Option<SystemSetup
         let System { contacts, inputs, .. } = &*system;
         frequency_response::check_pairs(reader, node, response, contacts, inputs);
     }
-    let known = KnownSystem { system: &system, measured: response.is_some() };
-    let mut warnings = warnings(document, table, (units, &named), known);
-    warnings.extend(of_contacts);
     Some(SystemSetup {
         system,
         observe,
         initial: initial?,
         units,
         named,
-        warnings,
+        warnings: of_contacts,
         response,
         design: design.filter(|_| places.is_some())?,
         actuator: actuator?,

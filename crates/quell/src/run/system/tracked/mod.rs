@@ -79,6 +79,8 @@ struct StudyFamily<'a> {
     path: &'a str,
     fixed: Option<(&'a str, f64)>,
     recorded: &'a RefCell<ContactRanges>,
+    /// Where surfaces come to rest in the window.
+    rests: Vec<SurfaceAtRest>,
 }
 
 impl Family for StudyFamily<'_> {
@@ -109,10 +111,9 @@ impl Family for StudyFamily<'_> {
         why.to_string()
     }
 
-    fn gaps(&self, window: (f64, f64)) -> Vec<(f64, String)> {
-        let at_rest = rests(self.study, (self.path, window), self.fixed).into_iter();
-        let why = |contact: String| NoSteadySliding::AtRest { contact }.to_string();
-        at_rest.map(|SurfaceAtRest { value, contact }| (value, why(contact))).collect()
+    fn gaps(&self) -> Vec<(f64, String)> {
+        let why = |contact: &str| NoSteadySliding::AtRest { contact: contact.to_owned() };
+        self.rests.iter().map(|rest| (rest.value, why(&rest.contact).to_string())).collect()
     }
 }
 
@@ -173,9 +174,11 @@ pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStabili
     let recorded = [RefCell::default(), RefCell::default()];
     let family = |fixed: Option<_>| {
         let recorded = &recorded[usize::from(fixed.is_some())];
-        StudyFamily { study, path: &request.parameter, fixed, recorded }
+        let rests = rests(study, (&request.parameter, request.window), fixed);
+        StudyFamily { study, path: &request.parameter, fixed, recorded, rests }
     };
-    let tracked = track(&family(None), request.window, POINTS);
+    let whole = family(None);
+    let tracked = track(&whole, request.window, POINTS);
     let tracked = tracked.map_err(|why| failed("stability", why))?;
     let mut curves = Vec::new();
     if let Some((along, (from, to))) = &request.along {
@@ -199,6 +202,7 @@ pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStabili
         }
     }
     let averaged = study.system().is_dithered();
+    let rests = whole.rests;
     let contacts = recorded.map(RefCell::into_inner);
     let first_lyapunov = tracked
         .thresholds
@@ -206,7 +210,6 @@ pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStabili
         .map(|found| criticality(study, &[(request.parameter.as_str(), found.value)], found));
     let first_lyapunov = first_lyapunov.collect();
     let request = request.clone();
-    let rests = rests(study, (&request.parameter, request.window), None);
     Ok(TrackedStability { request, averaged, tracked, rests, first_lyapunov, curves, contacts })
 }
 
