@@ -35,8 +35,8 @@ class Dither(Table):
         radians, which is sampled over one period.
     amplitude :
         D, the peak of the force over k: a length, ≥ 0; of noise its root mean square times √2. For a disc: the relative amplitude α.
-    frequency_ratio :
-        R, in units of ω₀ (belt) or ω_ref (disc), > 0.
+    frequency_ratio, frequency :
+        R, in units of ω₀ (belt) or ω_ref (disc), > 0; or the angular frequency in the unit of the study.
     phase :
         Phase at τ = 0, in radians.
     amplitude_n, amplitude_n_rms, frequency_hz :
@@ -67,6 +67,7 @@ class Dither(Table):
     waveform: str | None
     amplitude: float | str | None
     frequency_ratio: float | str | None
+    frequency: float | str | None
     phase: float | str | None
     amplitude_n: float | str | None
     amplitude_n_rms: float | str | None
@@ -103,6 +104,7 @@ class Dither(Table):
         *,
         amplitude: Number | None = None,
         frequency_ratio: Number | None = None,
+        frequency: Number | None = None,
         phase: Number | None = None,
         amplitude_n: Number | None = None,
         amplitude_n_rms: Number | None = None,
@@ -258,6 +260,10 @@ class Belt(Study):
         Axes of a map: see :meth:`Study.map`.
     title :
         Title of the study.
+    units :
+        "SI", "mm-t-s" or "none", the units of numbers without a unit [default: SI where a mass is given].
+    mass, stiffness, natural_frequency, damping :
+        m, k, ω₀ (angular) and c in the units of the study.
     mass_kg, stiffness_n_per_m :
         m in kg and k in N/m. With them the study is in SI.
     natural_frequency_hz :
@@ -275,14 +281,20 @@ class Belt(Study):
 
     _own = "belt"
 
+    units: str | None
     damping_ratio: float | None
+    damping: float | None
     normal_load: float | None
     belt_velocity: float | None
     tangential_stiffness: float | None
+    mass: float | None
+    stiffness: float | None
+    natural_frequency: float | None
     mass_kg: float | None
     stiffness_n_per_m: float | None
     natural_frequency_hz: float | None
     damping_n_s_per_m: float | None
+    normal_load_n: float | None
     normal_force_n: float | None
     belt_velocity_m_per_s: float | None
     tangential_stiffness_n_per_m: float | None
@@ -292,7 +304,9 @@ class Belt(Study):
     def __init__(
         self,
         *,
+        units: Literal["SI", "mm-t-s", "none"] | None = None,
         damping_ratio: Number | None = None,
+        damping: Number | None = None,
         normal_load: Number | None = None,
         belt_velocity: Number | None = None,
         tangential_stiffness: Number | None = None,
@@ -304,10 +318,14 @@ class Belt(Study):
         band_hz: tuple[Number, Number] | None = None,
         axes: Axes | None = None,
         title: str | None = None,
+        mass: Number | None = None,
+        stiffness: Number | None = None,
+        natural_frequency: Number | None = None,
         mass_kg: Number | None = None,
         stiffness_n_per_m: Number | None = None,
         natural_frequency_hz: Number | None = None,
         damping_n_s_per_m: Number | None = None,
+        normal_load_n: Number | None = None,
         normal_force_n: Number | None = None,
         belt_velocity_m_per_s: Number | None = None,
         tangential_stiffness_n_per_m: Number | None = None,

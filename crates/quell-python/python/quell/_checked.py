@@ -128,7 +128,8 @@ class CheckedStudy(Frozen):
         """Keys and values by table, after the changes."""
         document = self._native.document()
         document.pop("schema", None)
-        return document
+        found: dict[str, Any] = in_units_of_keys("", document, dict(self._native.settings))
+        return found
 
     def _common(self, document: dict[str, Any]) -> dict[str, Any]:
         """The arguments that all kinds share; their tables are taken from the document."""
@@ -169,7 +170,7 @@ class CheckedStudy(Frozen):
         document = self._native.document()
         for name in ("title", "sweep"):
             document.pop(name, None)
-        typed = dict(leaves("", document))
+        typed = dict(leaves("", in_units_of_keys("", document, dict(self._native.settings))))
         return {path: typed.get(path, 1 if path == "schema" else text) for path, text in self._native.settings}
 
     @keywords
@@ -274,6 +275,17 @@ def leaves(path: str, value: Any) -> list[tuple[str, Any]]:
     if isinstance(value, list):
         return [leaf for index, inner in enumerate(value) for leaf in leaves(f"{path}[{index}]", inner)]
     return [(path, value)]
+
+
+def in_units_of_keys(path: str, value: Any, settings: Mapping[str, str]) -> Any:
+    """A node of a document in which numbers with a unit are numbers in the units of their keys, as settings give them."""
+    if isinstance(value, dict):
+        dot = "." if path else ""
+        return {name: in_units_of_keys(f"{path}{dot}{name}", inner, settings) for name, inner in value.items()}
+    if isinstance(value, list):
+        return [in_units_of_keys(f"{path}[{index}]", inner, settings) for index, inner in enumerate(value)]
+    text = settings.get(path, '"')
+    return float(text) if isinstance(value, str) and not text.startswith('"') else value
 
 
 def rebased(document: Any, folder: str, target: str) -> bool:

@@ -214,8 +214,12 @@ class Disc(Study):
         "dither.frequency_ratio"], "from": [0, 2], "to": [1, 6], "over": {"disc.load.speed": [0.25, 0.9]}}``.
     without :
         Contributions that are left out of the equations.
+    units :
+        "SI", "mm-t-s" or "none", the units of numbers of loads and dither without a unit [default: "none"].
     youngs_modulus_pa, density_kg_per_m3, thickness_m, outer_radius_m :
         Material and size, with which frequencies are also given in Hz.
+    plate_mass_kg :
+        Mass of the plate whose modes are listed; with it their loads may be in SI.
     uncertainty :
         The table ``[uncertainty]`` of :meth:`Study.probability`, such as ``{"disc.load.friction": {"lognormal": [0.25, 0.1]}}``.
     axes :
@@ -231,6 +235,7 @@ class Disc(Study):
 
     _own = "disc"
 
+    units: str | None
     inner_radius_ratio: float | None
     poisson_ratio: float | None
     modal_damping: float | None
@@ -246,10 +251,12 @@ class Disc(Study):
     density_kg_per_m3: float | None
     thickness_m: float | None
     outer_radius_m: float | None
+    plate_mass_kg: float | None
 
     def __init__(
         self,
         *,
+        units: Literal["SI", "mm-t-s", "none"] | None = None,
         inner_radius_ratio: Number | None = None,
         poisson_ratio: Number | None = None,
         modal_damping: Number | None = None,
@@ -270,6 +277,7 @@ class Disc(Study):
         density_kg_per_m3: Number | None = None,
         thickness_m: Number | None = None,
         outer_radius_m: Number | None = None,
+        plate_mass_kg: Number | None = None,
         uncertainty: Mapping[str, Any] | None = None,
         axes: Axes | None = None,
         title: str | None = None,

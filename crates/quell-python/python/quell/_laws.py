@@ -85,6 +85,12 @@ class Stribeck(Friction):
         v_m, the slip velocity of least friction, as length per τ (velocity/ω₀).
     reference_velocity_m_per_s :
         The same in m/s, in a study in SI.
+    static_coefficient_n, minimum_coefficient_n :
+        Friction as forces in N instead, in a study with units. The normal load may then be left out.
+    friction_force :
+        Whether the coefficients are forces, in the unit of the study [default: False].
+    static_friction_force_n :
+        Older name of ``static_coefficient_n``.
     """
 
     def __init__(
@@ -94,6 +100,10 @@ class Stribeck(Friction):
         minimum_coefficient: Number | None = None,
         reference_velocity: Number | None = None,
         reference_velocity_m_per_s: Number | None = None,
+        friction_force: bool | None = None,
+        static_coefficient_n: Number | None = None,
+        minimum_coefficient_n: Number | None = None,
+        static_friction_force_n: Number | None = None,
         **unknown: Unknown,
     ) -> None:
         super().__init__("stribeck", **given(locals()))
@@ -110,6 +120,12 @@ class Decreasing(Friction):
         v_m, over which the excess of friction above μ_m falls to 1/e, as length per τ (velocity/ω₀).
     reference_velocity_m_per_s :
         The same in m/s, in a study in SI.
+    static_coefficient_n, minimum_coefficient_n :
+        Friction as forces in N instead, in a study with units. The normal load may then be left out.
+    friction_force :
+        Whether the coefficients are forces, in the unit of the study [default: False].
+    static_friction_force_n :
+        Older name of ``static_coefficient_n``.
     """
 
     def __init__(
@@ -119,6 +135,10 @@ class Decreasing(Friction):
         minimum_coefficient: Number | None = None,
         reference_velocity: Number | None = None,
         reference_velocity_m_per_s: Number | None = None,
+        friction_force: bool | None = None,
+        static_coefficient_n: Number | None = None,
+        minimum_coefficient_n: Number | None = None,
+        static_friction_force_n: Number | None = None,
         **unknown: Unknown,
     ) -> None:
         super().__init__("decreasing", **given(locals()))
@@ -135,8 +155,12 @@ class Coulomb(Friction):
         σ_v, the rise of the coefficient with slip speed, per length per τ [default: 0].
     viscous_s_per_m :
         The same in s/m, in a study in SI.
-    friction_force_n, static_friction_force_n, viscous_n_s_per_m :
-        Friction as forces in N and N·s/m instead, in a study in SI. The normal force may then be left out.
+    coefficient_n, static_coefficient_n, viscous_n_s_per_m :
+        Friction as forces in N and N·s/m instead, in a study with units. The normal load may then be left out.
+    friction_force :
+        Whether the coefficients are forces, in the unit of the study [default: False].
+    friction_force_n, static_friction_force_n :
+        Older names of ``coefficient_n`` and ``static_coefficient_n``.
     """
 
     def __init__(
@@ -146,6 +170,9 @@ class Coulomb(Friction):
         static_coefficient: float | None = None,
         viscous: float | None = None,
         viscous_s_per_m: float | None = None,
+        friction_force: bool | None = None,
+        coefficient_n: Number | None = None,
+        static_coefficient_n: Number | None = None,
         friction_force_n: float | None = None,
         static_friction_force_n: float | None = None,
         viscous_n_s_per_m: float | None = None,
@@ -169,8 +196,12 @@ class StribeckExponential(Friction):
         σ_v, the rise of the coefficient with slip speed, per length per τ [default: 0].
     reference_velocity_m_per_s, viscous_s_per_m :
         The same in m/s and s/m, in a study in SI.
-    friction_force_n, static_friction_force_n, viscous_n_s_per_m :
-        Friction as forces in N and N·s/m instead, in a study in SI. The normal force may then be left out.
+    coefficient_n, static_coefficient_n, viscous_n_s_per_m :
+        Friction as forces in N and N·s/m instead, in a study with units. The normal load may then be left out.
+    friction_force :
+        Whether the coefficients are forces, in the unit of the study [default: False].
+    friction_force_n, static_friction_force_n :
+        Older names of ``coefficient_n`` and ``static_coefficient_n``.
     """
 
     def __init__(
@@ -183,6 +214,9 @@ class StribeckExponential(Friction):
         viscous: float | None = None,
         reference_velocity_m_per_s: float | None = None,
         viscous_s_per_m: float | None = None,
+        friction_force: bool | None = None,
+        coefficient_n: Number | None = None,
+        static_coefficient_n: Number | None = None,
         friction_force_n: float | None = None,
         static_friction_force_n: float | None = None,
         viscous_n_s_per_m: float | None = None,
@@ -210,8 +244,12 @@ class Lugre(Friction):
         σ₂, the rise of the coefficient with slip speed, per length per τ [default: 0].
     reference_velocity_m_per_s, bristle_stiffness_per_m, bristle_damping_s_per_m, viscous_s_per_m :
         The same in m/s, 1/m and s/m, in a study in SI.
-    friction_force_n, static_friction_force_n, viscous_n_s_per_m :
-        Friction as forces in N and N·s/m instead, in a study in SI. The normal force may then be left out.
+    coefficient_n, static_coefficient_n, viscous_n_s_per_m :
+        Friction as forces in N and N·s/m instead, in a study with units. The normal load may then be left out.
+    friction_force :
+        Whether the coefficients are forces, in the unit of the study [default: False].
+    friction_force_n, static_friction_force_n :
+        Older names of ``coefficient_n`` and ``static_coefficient_n``.
     """
 
     def __init__(
@@ -227,6 +265,9 @@ class Lugre(Friction):
         bristle_stiffness_per_m: float | None = None,
         bristle_damping_s_per_m: float | None = None,
         viscous_s_per_m: float | None = None,
+        friction_force: bool | None = None,
+        coefficient_n: Number | None = None,
+        static_coefficient_n: Number | None = None,
         friction_force_n: float | None = None,
         static_friction_force_n: float | None = None,
         viscous_n_s_per_m: float | None = None,

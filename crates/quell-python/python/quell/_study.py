@@ -1008,7 +1008,7 @@ def begin_of(arguments: Arguments, start: Any, kind: str) -> Any:
     if not isinstance(start, Mapping):
         return (arguments.quantities("start", start, "two finite numbers (x, x′), or a dict of names and numbers"), None)
     if "sticking" in start or "contacts" in start:
-        # The end of a run, whose facts are numbers of the equations, also where they are given in SI as well.
+        # The end of a run, whose facts are numbers in the units of the study.
         state = start.get("state", [start.get("displacement"), start.get("velocity")])
         numbers = arguments.numbers("start", state, "final of an earlier run")
         return (arguments.number("start", start.get("time"), "final of an earlier run"), numbers.tolist())

@@ -132,6 +132,8 @@ class SystemDither(Table):
         radians, which is sampled over one period.
     amplitude, frequency, phase :
         Peak of the force or of the factor, angular frequency, and phase at time 0 in radians [default: 0].
+    frequency_ratio :
+        The frequency over the natural frequency, of a system of one coordinate.
     mean :
         "friction": mean of the factor [default: 1]; factors on one contact are added.
     amplitude_n, amplitude_n_rms, frequency_hz :
@@ -166,6 +168,7 @@ class SystemDither(Table):
     amplitude: float | str | None
     mean: float | str | None
     frequency: float | str | None
+    frequency_ratio: float | str | None
     phase: float | str | None
     amplitude_n: float | str | None
     amplitude_n_rms: float | str | None
@@ -206,6 +209,7 @@ class SystemDither(Table):
         amplitude: Number | None = None,
         mean: Number | None = None,
         frequency: Number | None = None,
+        frequency_ratio: Number | None = None,
         phase: Number | None = None,
         amplitude_n: Number | None = None,
         amplitude_n_rms: Number | None = None,

@@ -7,6 +7,7 @@ use quell::run::system::start;
 use quell::sound::SoundOptions;
 use quell::study::SystemStudy;
 use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
+use quell_model::units::Quantity;
 
 use crate::answer::NativeAnswer;
 use crate::arguments::{NamedNumbers, Pair, state};
@@ -17,7 +18,7 @@ pub(crate) type SoundTexts = (Option<String>, Option<String>);
 /// Where a run begins.
 #[derive(pyo3::FromPyObject)]
 pub(crate) enum Begin {
-    /// A time and a state in the numbers of the equations, such as those at the end of another run.
+    /// A time and a state in the units of the study, such as those at the end of another run.
     Exact((f64, Vec<f64>)),
     /// Displacement and velocity of a belt, as texts, and the time, if it is not 0.
     State((Pair, Option<String>)),
@@ -98,7 +99,16 @@ fn of_belt(study: &Study, begin: &Begin) -> Result<Start, Failure> {
     match begin {
         Begin::Exact((time, numbers)) => match numbers.as_slice() {
             [displacement, velocity] => {
-                Ok(Start { time: *time, displacement: *displacement, velocity: *velocity })
+                let scales = study.scales();
+                let number = |quantity, value: f64| match scales {
+                    Some(scales) => scales.from_units(quantity, value),
+                    None => value,
+                };
+                Ok(Start {
+                    time: number(Quantity::Time, *time),
+                    displacement: *displacement,
+                    velocity: number(Quantity::Velocity, *velocity),
+                })
             }
             _ => Err(refused("--start", Fault::Value, "two numbers (x, x′)")),
         },

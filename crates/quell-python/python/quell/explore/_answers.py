@@ -50,7 +50,7 @@ def times(study: Study) -> tuple[float, float]:
     kind = study._native.kind
     if kind == "belt":
         facts = study.check().facts
-        rate = natural_frequency(study, facts)
+        rate = natural_frequency(study)
         ratios = [highest(it) for it in facts["dithers"] if it["amplitude"]]
         slow = 2.0 * math.pi / rate
         return slow, slow / max(ratios) if ratios else 0.0
@@ -79,17 +79,18 @@ def frequency_of(dither: Mapping[str, Any]) -> float:
     return float(rate) if isinstance(rate, (int, float)) else 0.0
 
 
-def natural_frequency(study: Study, facts: Mapping[str, Any]) -> float:
+def natural_frequency(study: Study) -> float:
     """ω₀ of a belt in its unit of time: 1 if the study is dimensionless."""
-    if facts["system"] != "si":
-        return 1.0
-    tables = (facts["belt"], facts.get("friction") or {}, *facts["dithers"])
-    pairs = (("belt_velocity", "belt_velocity_m_per_s", 1.0), ("reference_velocity", "reference_velocity_m_per_s", 1.0))
-    for table in tables:
-        for scaled, measured, factor in (*pairs, ("frequency_ratio", "frequency_ratio_hz", 2.0 * math.pi)):
-            if table.get(scaled) and table.get(measured):
-                return float(factor * table[measured] / table[scaled])
-    return 1.0
+    given = study.settings
+    if hertz := given.get("belt.natural_frequency_hz"):
+        return float(2.0 * math.pi * hertz)
+    if angular := given.get("belt.natural_frequency"):
+        return float(angular)
+    # One tonne is 1000 kg, and one newton a millimetre 1000 N/m.
+    per_unit = 1e3 if given.get("belt.units") == "mm-t-s" else 1.0
+    mass = given.get("belt.mass_kg") or per_unit * given.get("belt.mass", 0.0)
+    stiffness = given.get("belt.stiffness_n_per_m") or per_unit * given.get("belt.stiffness", 0.0)
+    return math.sqrt(stiffness / mass) if mass and stiffness else 1.0
 
 
 def moments(study: Study) -> Array:

@@ -42,24 +42,27 @@ def response(study: Study) -> Answer:
     said = {"sentence": found.facts["sentence"], "loudness": loudness_of(study, found), "warnings": found.warnings}
     if isinstance(found, NoiseResponse):
         return {**spectra_of_noise(study, found), **said}
-    name = "spectrum_frequency_hz" if "spectrum_frequency_hz" in found.arrays else "frequency"
+    name = "frequency"
     frequency = values(found, name)
     after, before = values(found, "spectrum_amplitude"), values(found, "spectrum_undithered_amplitude")
-    in_hertz = unit(found, name) == "Hz"
+    angular = unit(found, name) == "rad/s"
+    in_hertz = angular or unit(found, name) == "Hz"
+    frequency = frequency / (2.0 * math.pi) if angular else frequency
     end = band_end(study, found.facts, in_hertz)
     _, fast = times(study)
     rate = 1.0 / fast if in_hertz and fast else 2.0 * math.pi / fast if fast else 0.0
-    peaks = [it.get("frequency_hz", it["frequency"]) if in_hertz else it["frequency"] for it in found.facts.get("peaks", [])]
+    per_hertz = 2.0 * math.pi if angular else 1.0
+    peaks = [it["frequency"] / per_hertz for it in found.facts.get("peaks", [])]
     top = 1.3 * rate if rate else 1.5 * max(peaks, default=float(frequency[-1]))
     inside = frequency <= min(top, float(frequency[-1]))
-    return {**in_db(frequency[inside], before[inside], after[inside], end), "unit": unit(found, name), **said}
+    return {**in_db(frequency[inside], before[inside], after[inside], end), "unit": "Hz" if in_hertz else unit(found, name), **said}
 
 
 def band_end(study: Study, facts: Mapping[str, Any], in_hertz: bool) -> float | None:
     """The upper end of the band of E in the unit of a spectrum, where it is known."""
     if study._native.kind == "system":
-        end = facts.get("band_end_hz" if in_hertz else "band_end")
-        return None if end is None else float(end)
+        end = facts.get("band_end")
+        return None if end is None else float(end) / (2.0 * math.pi if in_hertz else 1.0)
     slow, _ = times(study)
     return BAND_OF_A_BELT / slow if in_hertz else BAND_OF_A_BELT
 
@@ -86,11 +89,12 @@ def band_of(study: Study, facts: Mapping[str, Any]) -> str:
     """The band of E in words."""
     if study._native.kind == "belt":
         return f"below {BAND_OF_A_BELT} ω₀"
-    in_hertz = facts.get("band_end_hz") is not None
-    end = facts.get("band_end_hz" if in_hertz else "band_end")
+    end = facts.get("band_end")
     if end is None:
         return "below the dither"
-    return f"below {float(end):.4g} Hz" if in_hertz else f"below the angular frequency {float(end):.4g}"
+    if facts.get("units", {}).get("band_end") != "rad/s":
+        return f"below the angular frequency {float(end):.4g}"
+    return f"below {float(end) / (2.0 * math.pi):.4g} Hz"
 
 
 @of_a_moment
