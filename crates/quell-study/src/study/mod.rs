@@ -370,7 +370,12 @@ impl<K> StudyOf<K> {
         if !measure::has_unit(text) {
             return;
         }
+        let of_list = || {
+            let (list, _) = path.rsplit_once('[')?;
+            vocabulary::resolve(list).ok()?.key.measured_in(self.file_units())
+        };
         let unit = self.address(path).ok().and_then(|address| address.measured_in);
+        let unit = unit.or_else(of_list);
         if let Some(number) = unit.and_then(|unit| measure::read(text, Some(unit)).ok()) {
             *value = format!("{number:?}");
         }
