@@ -538,3 +538,55 @@ fn stability_reports_growth_and_forces() {
         (&"undecided".into(), &"stable".into())
     );
 }
+
+/// A belt whose contact has a state, in the units of the arguments: every number is given in them.
+fn bristles(units: &str, length: f64) -> String {
+    let mass = 1.0 / length;
+    let per_length = 1.0 / length;
+    format!(
+        "schema = 1\n[belt]\nunits = \"{units}\"\nmass = {mass:?}\nstiffness = {:?}\ndamping = {:?}\nnormal_load = 10.0\n\
+         belt_velocity = {:?}\n[friction]\nlaw = \"lugre\"\ncoefficient = 0.3\nstatic_coefficient = 0.4\n\
+         reference_velocity = {:?}\nbristle_stiffness = {:?}\n[dither]\ndirection = \"tangential\"\nwaveform = \"sine\"\n\
+         amplitude = 5.0\nfrequency_hz = 200\n",
+        1000.0 * per_length,
+        per_length,
+        0.05 * length,
+        0.02 * length,
+        1e5 * per_length,
+    )
+}
+
+#[test]
+fn a_belt_in_millimetres_is_that_in_metres() {
+    let texts = [bristles("SI", 1.0), bristles("mm-t-s", 1000.0)];
+    let place = Place::with("si_mm", &[("m.toml", &texts[0]), ("mm.toml", &texts[1])]);
+    for (verb, names) in [
+        (&["simulate", "--until", "0.2"][..], &["final.displacement", "final.velocity"][..]),
+        (&["orbit"], &["lowest", "highest", "lowest_velocity", "highest_velocity"]),
+        (&["response"], &["amplitude"]),
+    ] {
+        let [metres, millimetres] = ["m.toml", "mm.toml"].map(|file| {
+            let (verb, options) = verb.split_first().expect("a verb");
+            place.good(&[&[*verb, file], options].concat())
+        });
+        for name in names {
+            let at = |answer: &Json| {
+                let pointer = format!("/{}", name.replace('.', "/"));
+                answer.pointer(&pointer).and_then(Json::as_f64).expect(name)
+            };
+            let (one, other) = (at(&metres), at(&millimetres));
+            assert!((other / (1000.0 * one) - 1.0).abs() < 1e-9, "{verb:?} {name}: {one} {other}");
+            let unit = |answer: &Json| {
+                let key = name.rsplit('.').next().unwrap_or(name);
+                answer["units"][key].as_str().expect(name).to_owned()
+            };
+            assert_eq!(unit(&metres).replacen('m', "mm", 1), unit(&millimetres), "{verb:?} {name}");
+        }
+    }
+    let fast = ["--set", "belt.belt_velocity=200"];
+    let warnings = |file: &str| {
+        let told = place.good(&[&["check", file], &fast[..]].concat())["warnings"].to_string();
+        told.contains("moves at 200 m/s")
+    };
+    assert_eq!([warnings("m.toml"), warnings("mm.toml")], [true, false]);
+}

@@ -18,8 +18,7 @@ use super::thresholds::ThresholdsRequest;
 use crate::complaint::Failure;
 use crate::contact_state::passivity;
 use crate::study::{
-    BeltStudy, DescribedSystem, Study, SystemOrigin, SystemStart, SystemStudy, UnitSystem,
-    not_periodic,
+    BeltStudy, DescribedSystem, Study, SystemOrigin, SystemStart, SystemStudy, not_periodic,
 };
 
 /// The system of a belt whose contact has a state of its own, in SI where the study is, otherwise in the numbers of the equations;
@@ -37,12 +36,11 @@ pub(crate) fn of_state(study: &BeltStudy, verb: &str) -> Result<Option<SystemStu
     described(study).map(Some)
 }
 
-/// The belt as a system in SI where the study is, otherwise in the numbers of the equations.
+/// The belt as a system in the units of a study that has units, otherwise in the numbers of the equations.
 ///
 /// # Errors
-/// A law whose numbers are out of their bounds in SI.
+/// A law whose numbers are out of their bounds in these units.
 pub(crate) fn described(study: &BeltStudy) -> Result<SystemStudy, Failure> {
-    let units = if study.scales().is_some() { UnitSystem::Si } else { UnitSystem::None };
     let initial = match study.initial() {
         InitialState::Rest => SystemStart::Rest,
         InitialState::Sliding => SystemStart::Sliding,
@@ -54,7 +52,7 @@ pub(crate) fn described(study: &BeltStudy) -> Result<SystemStudy, Failure> {
     };
     Ok(study.as_system(DescribedSystem {
         system: study.system()?,
-        units,
+        units: study.units(),
         observe: vec![1.0],
         initial,
         warnings: passivity(study.belt()).into_iter().collect(),

@@ -12,7 +12,7 @@ use crate::noise;
 use crate::range;
 use crate::removed_mean;
 use crate::run::actuator::beyond_actuator;
-use crate::study::{BeltStudy, GivenSize, UnitSystem, plausible};
+use crate::study::{BeltStudy, GivenSize, plausible};
 
 /// The answer for a valid study.
 #[derive(Clone, Debug)]
@@ -99,8 +99,8 @@ impl Check<'_> {
         });
         fields.list("sweeps", axes.collect::<Vec<_>>());
         let warnings = range::averaged(study).into_iter().chain(passivity(study.belt()));
-        let in_si = belt.system_in_units().and_then(Result::ok);
-        let magnitudes = in_si.map(|system| plausible::warnings(&system, UnitSystem::Si, false));
+        let in_units = belt.system_in_units().and_then(Result::ok);
+        let magnitudes = in_units.map(|system| plausible::warnings(&system, study.units(), false));
         let warnings = warnings.chain(magnitudes.into_iter().flatten());
         let warnings = warnings.chain(beyond_actuator(&belt.system(), study.actuator(), 0));
         let waveforms = belt.dithers().iter().map(|dither| &dither.waveform);

@@ -13,7 +13,7 @@ use quell_design::actuator::Actuator;
 use quell_dynamics::response::Solver;
 use quell_dynamics::start::InitialState;
 use quell_model::parameter::NORMAL_LOAD;
-use quell_model::units::{Quantity, Scales};
+use quell_model::units::{Quantity, Scales, UnitSystem};
 use quell_model::{Belt, Dither, Friction, Invalid, LawKind, Parametrisation, System};
 use serde_json::Value as Json;
 
@@ -156,9 +156,14 @@ impl BeltStudy {
         self.kind().band
     }
 
-    /// Mass and stiffness of a study in SI.
+    /// Mass and stiffness of a study with units.
     pub fn scales(&self) -> Option<Scales> {
         self.kind().belt.scales()
+    }
+
+    /// The units of answers, and of the system of the belt.
+    pub fn units(&self) -> UnitSystem {
+        self.scales().map_or(UnitSystem::None, |scales| scales.units())
     }
 
     /// The number at a path, such as `dither.amplitude` or, of a study in SI, `dither.amplitude_n`, in the unit of its key; `None`
@@ -176,10 +181,10 @@ impl BeltStudy {
         Some((number, number::per_one(self.belt(), path)?))
     }
 
-    /// The system of the belt, in SI where the study is.
+    /// The system of the belt, in the units of a study that has units.
     ///
     /// # Errors
-    /// A complaint about a law whose numbers are out of their bounds in SI.
+    /// A complaint about a law whose numbers are out of their bounds in these units.
     pub fn system(&self) -> Result<System, Complaints> {
         let belt = self.belt();
         belt.system_in_units().unwrap_or_else(|| Ok(belt.system())).map_err(|invalid| {

@@ -28,7 +28,7 @@ impl ExportUnits {
             None => (quantity::unit_of(quantity, None), 1.0),
         };
         let has_units = study.scales().is_some();
-        let is_si = study.scales().is_some_and(|scales| scales.units() == UnitSystem::Si);
+        let is_si = study.units() == UnitSystem::Si;
         let (speed, force) = (unit(Quantity::Velocity), unit(Quantity::Force));
         Self { speed, force, has_units, is_si }
     }
