@@ -42,7 +42,7 @@ pub(super) fn read(
     reader.remember(FORMULA, &key, node.origin, 1.0);
     let mut constants = own?;
     constants.extend(parameters_in(reader, &text, &constants));
-    let law = Formula { text, constants, level, unit: velocity_unit(reader) }.compiled(reader);
+    let law = LawFormula { text, constants, level, unit: velocity_unit(reader) }.compiled(reader);
     match law.and_then(|law| law.with_maximum_velocity(maximum)) {
         Ok(law) => Some(Friction::Expression(law)),
         Err(invalid) => {
@@ -54,14 +54,14 @@ pub(super) fn read(
 
 /// What determines the law of a formula.
 #[derive(Debug, PartialEq)]
-struct Formula {
+struct LawFormula {
     text: String,
     constants: Vec<(String, f64)>,
     level: Option<f64>,
     unit: f64,
 }
 
-impl Formula {
+impl LawFormula {
     /// Its law, which is compiled once for all readings with the same numbers.
     fn compiled(self, reader: &mut Reader) -> Result<Expression, InvalidValues> {
         let same = |(known, _): &(Self, Expression)| *known == self;
