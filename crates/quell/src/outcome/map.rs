@@ -84,7 +84,7 @@ fn table(done: &FinishedMap) -> String {
 }
 
 fn heading(entry: &VariableArrays, done: &FinishedMap) -> String {
-    let field = &done.plan().sheet().fields()[done.shown(entry)];
+    let field = &done.plan().sheet().fields()[entry.value];
     let unit = match field.unit.as_str() {
         "" | "1" => String::new(),
         unit => format!(" [{unit}]"),

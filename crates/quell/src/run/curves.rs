@@ -276,9 +276,7 @@ impl Curves {
             let pairs: Vec<Json> = points().map(own).collect();
             let mut inner = object();
             inner.plain("limit", boundary.limit).plain("points", pairs);
-            let [x, y] = [0, 1].map(|place| {
-                points().map(|(x, y)| if place == 0 { *x } else { *y }).collect::<Vec<f64>>()
-            });
+            let (x, y): (Vec<f64>, Vec<f64>) = points().copied().unzip();
             put(&mut inner, "along", along, &x);
             put(&mut inner, "value", value, &y);
             inner

@@ -8,7 +8,7 @@ use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
 use crate::complaint::{Complaint, Fault};
 use crate::study::course::{Course, CoursePlace};
 use crate::study::document::{Table, Value};
-use crate::study::reader::{Found, Reader};
+use crate::study::reader::Reader;
 use crate::study::suggest;
 use crate::study::vocabulary::{Choice, ENVELOPE, WAVE_KEYS, join};
 use crate::study::waveform;
@@ -31,11 +31,8 @@ pub(super) fn read(reader: &mut Reader, document: &Table) -> Option<(DiscDither,
         .needed_choice(table, "dither", node.origin, "direction", Choice::Direction)
         .and_then(Direction::from_name);
     let waveform = waveform::read_or_sine(reader, table, "dither", node.origin);
-    let amplitude = match reader.optional(table, "dither", DISC_DITHER_AMPLITUDE) {
-        // The dissertation's tangential dither.
-        Found::Absent => Some(1.0),
-        found => found.or(1.0),
-    };
+    // Without one, that of the dissertation's tangential dither.
+    let amplitude = reader.optional(table, "dither", DISC_DITHER_AMPLITUDE).or(1.0);
     let frequency_ratio = reader.number(table, "dither", node.origin, DITHER_FREQUENCY_RATIO);
     let envelope =
         CoursePlace(ENVELOPE).optional(reader, table, "dither", "envelope").map(Course::knots);

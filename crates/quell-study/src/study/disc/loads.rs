@@ -12,7 +12,7 @@ use super::patch::PatchSize;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::course::CoursePlace;
 use crate::study::document::{Node, Table, Value};
-use crate::study::reader::{Found, Reader};
+use crate::study::reader::Reader;
 use crate::study::vocabulary::{LOAD_ENVELOPE, Section};
 
 /// The table of the speed over time.
@@ -87,34 +87,18 @@ fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Opti
     let table = reader.table(path, node)?;
     refuse_drive(reader, table, path);
     reader.unknown_keys(table, Section::DiscLoad, path, &["envelope", DRIVE]);
-    let radius = match reader.optional(table, path, LOAD_RADIUS) {
-        Found::Value(value) => Some(Some(value)),
-        Found::Absent => Some(None),
-        Found::Wrong => None,
-    };
+    let radius = reader.optional(table, path, LOAD_RADIUS).if_given();
     reader.set_disc_scales(scales.at(radius.flatten()));
     let mut strength = |parameter| reader.optional(table, path, parameter).or(0.0);
     let strengths = [LOAD_MASS, LOAD_DAMPING, LOAD_STIFFNESS, LOAD_FRICTION].map(&mut strength);
     let (angle, phase) = (strength(LOAD_ANGLE), strength(LOAD_DITHER_PHASE));
     let static_load = strength(LOAD_STATIC);
-    let speed = match reader.optional(table, path, DISC_SPEED) {
-        Found::Value(value) => Some(Some(value)),
-        Found::Absent => Some(None),
-        Found::Wrong => None,
-    };
+    let speed = reader.optional(table, path, DISC_SPEED).if_given();
     let [mass, damping, stiffness, friction] = strengths;
     let (pad, caliper) = carriers::read(reader, table, node.origin, path)?;
-    let mut maybe = |parameter| match reader.optional(table, path, parameter) {
-        Found::Value(value) => Some(Some(value)),
-        Found::Absent => Some(None),
-        Found::Wrong => None,
-    };
+    let mut maybe = |parameter| reader.optional(table, path, parameter).if_given();
     let (normal_load, half_thickness) = (maybe(LOAD_NORMAL)?, maybe(LOAD_HALF_THICKNESS)?);
-    let slip_ratio = match reader.optional(table, path, LOAD_SLIP_RATIO) {
-        Found::Value(value) => Some(value),
-        Found::Absent => None,
-        Found::Wrong => return None,
-    };
+    let slip_ratio = reader.optional(table, path, LOAD_SLIP_RATIO).if_given()?;
     let share = CoursePlace(LOAD_ENVELOPE).optional(reader, table, path, "envelope").ok()?;
     let patch = PatchSize::read(reader, table, path)?;
     let twins = DISC_SPEED.si.iter().map(|twin| twin.key);

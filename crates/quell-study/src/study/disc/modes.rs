@@ -15,7 +15,7 @@ use super::modes_file;
 use super::plate::{self, PlateModes};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
-use crate::study::reader::{Found, Reader};
+use crate::study::reader::Reader;
 use crate::study::vocabulary::Section;
 
 /// Where the modes of a study come from.
@@ -135,11 +135,7 @@ fn listed(reader: &mut Reader, node: &Node) -> Option<Listed> {
 fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<ModeLine> {
     let table = reader.table(path, node)?;
     reader.unknown_keys(table, Section::DiscMode, path, &[]);
-    let mut maybe = |parameter| match reader.optional(table, path, parameter) {
-        Found::Value(value) => Some(Some(value)),
-        Found::Absent => Some(None),
-        Found::Wrong => None,
-    };
+    let mut maybe = |parameter| reader.optional(table, path, parameter).if_given();
     let (hertz, damping) = (maybe(MODE_FREQUENCY), maybe(MODE_DAMPING));
     let centrifugal = maybe(MODE_CENTRIFUGAL);
     let diameters = reader.number(table, path, node.origin, MODE_DIAMETERS);

@@ -10,7 +10,7 @@ use serde_json::Value as Json;
 use super::plate::PlateModes;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::Table;
-use crate::study::reader::{Found, Reader};
+use crate::study::reader::Reader;
 
 /// Sizes of a patch as the study gives them.
 #[derive(Clone, Copy, Debug)]
@@ -27,11 +27,7 @@ impl PatchSize {
     /// Reads the sizes; `Some(None)` for a load at a point.
     #[expect(clippy::option_option, reason = "invalid, absent, given")]
     pub(super) fn read(reader: &mut Reader, table: &Table, path: &str) -> Option<Option<Self>> {
-        let mut maybe = |parameter: Parameter| match reader.optional(table, path, parameter) {
-            Found::Value(value) => Some(Some(value)),
-            Found::Absent => Some(None),
-            Found::Wrong => None,
-        };
+        let mut maybe = |parameter: Parameter| reader.optional(table, path, parameter).if_given();
         let numbers = [LOAD_EXTENT, LOAD_RADIAL_EXTENT, LOAD_POINTS, LOAD_RADIAL_POINTS];
         let [extent, radial, points, radial_points] = numbers.map(&mut maybe);
         let (extent, radial, points, radial_points) = (extent?, radial?, points?, radial_points?);

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use quell_disc::plate::{ModeSet, ModeSetError, Plate, PlateMaterial, Reference};
+use quell_model::parameter::Bounds;
 use quell_model::parameter::disc::{
     DENSITY, INNER_RADIUS_RATIO, NODAL_DIAMETERS, OUTER_RADIUS, PLATE_MASS, POISSON_RATIO,
     RADIAL_MODES, THICKNESS, YOUNGS_MODULUS,
 };
-use quell_model::parameter::{Bounds, Parameter};
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Fault, Origin};
@@ -116,26 +116,16 @@ impl Metal {
                 reader.complain(Complaint::new(Fault::Conflict, key, node.origin, given, allowed));
                 None
             }
-            _ => optional(reader, table, PLATE_MASS),
+            _ => reader.optional(table, "disc", PLATE_MASS).if_given(),
         };
         let of_material = [YOUNGS_MODULUS, DENSITY, THICKNESS];
         if listed && of_material.iter().all(|parameter| table.get(parameter.key()).is_none()) {
-            let outer_radius_m = optional(reader, table, OUTER_RADIUS)?;
+            let outer_radius_m = reader.optional(table, "disc", OUTER_RADIUS).if_given()?;
             return Some(Self { material: None, outer_radius_m, mass_kg: mass_kg? });
         }
         let material = material(reader, table, header)?;
         let outer_radius_m = material.as_ref().map(PlateMaterial::outer_radius);
         Some(Self { material, outer_radius_m, mass_kg: mass_kg? })
-    }
-}
-
-/// A number that may be absent.
-#[expect(clippy::option_option, reason = "invalid, absent, given")]
-fn optional(reader: &mut Reader, table: &Table, parameter: Parameter) -> Option<Option<f64>> {
-    match reader.optional(table, "disc", parameter) {
-        Found::Value(value) => Some(Some(value)),
-        Found::Absent => Some(None),
-        Found::Wrong => None,
     }
 }
 

@@ -135,9 +135,9 @@ impl Modes {
             }
         };
         let unlisted = "the modes are given, not computed from a plate";
-        explain(self.reference.is_none(), "modes[].frequency_parameter", unlisted);
-        explain(self.reference.is_none(), "reference_frequency", unlisted);
         let listed = self.reference.is_none();
+        explain(listed, "modes[].frequency_parameter", unlisted);
+        explain(listed, "reference_frequency", unlisted);
         let metal = "the study does not give youngs_modulus_pa, density_kg_per_m3, thickness_m and outer_radius_m";
         let mass =
             if listed { "the study does not give plate_mass_kg and modes in hertz" } else { metal };

@@ -59,22 +59,13 @@ impl FinishedMap {
         }
     }
 
-    /// Value of a variable at a point, in the numbers of the equations; for a word its code.
+    /// Value of a variable at a point, in the units of the study; for a word its code.
     pub fn number(&self, entry: &VariableArrays, point: usize) -> Option<f64> {
-        self.value(entry.value, entry, point)
-    }
-
-    fn value(&self, array: usize, entry: &VariableArrays, point: usize) -> Option<f64> {
         let known = self.status(entry, point).has_number();
-        known.then(|| match &self.arrays[array] {
+        known.then(|| match &self.arrays[entry.value] {
             Data::Numbers(values) => values[point],
             Data::Codes(codes) => f64::from(codes[point]),
         })
-    }
-
-    /// The array of numbers to show: in SI if the study is in SI.
-    pub fn shown(&self, entry: &VariableArrays) -> usize {
-        entry.value
     }
 
     /// Summary of each variable, in the order of the sheet's entries.
@@ -87,11 +78,10 @@ impl FinishedMap {
         let mut states: BTreeMap<Status, usize> = BTreeMap::new();
         let mut least: Option<(f64, usize)> = None;
         let mut most = least;
-        let shown = self.shown(entry);
         let numbers = self.plan.sheet().fields()[entry.value].content == Content::Numbers;
         for point in 0..grid.len() {
             *states.entry(self.status(entry, point)).or_default() += 1;
-            let Some(value) = self.value(shown, entry, point).filter(|_| numbers) else {
+            let Some(value) = self.number(entry, point).filter(|_| numbers) else {
                 continue;
             };
             if least.is_none_or(|(lowest, _)| value < lowest) {
@@ -198,11 +188,10 @@ impl FinishedMap {
         let shape = grid.shape();
         let fields = self.plan.sheet().fields();
         for entry in self.plan.sheet().entries() {
-            for array in [entry.value, entry.status] {
-                let states = array == entry.status;
-                let values = (0..grid.len()).map(|point| self.cell(entry, array, point, states));
-                object[fields[array].name.as_str()] = nested(&shape, values.collect());
-            }
+            let values = (0..grid.len()).map(|point| self.cell(entry, point));
+            object[fields[entry.value].name.as_str()] = nested(&shape, values.collect());
+            let states = (0..grid.len()).map(|point| self.status(entry, point).name().into());
+            object[fields[entry.status].name.as_str()] = nested(&shape, states.collect());
         }
         object
     }
@@ -256,17 +245,14 @@ impl FinishedMap {
         object.into()
     }
 
-    /// One value in JSON: a number, a word, or null if unknown.
-    fn cell(&self, entry: &VariableArrays, array: usize, point: usize, states: bool) -> Json {
-        if states {
-            return self.status(entry, point).name().into();
-        }
-        match (&self.plan.sheet().fields()[array].content, &self.arrays[array]) {
+    /// The value at a point in JSON: a number, a word, or null if unknown.
+    fn cell(&self, entry: &VariableArrays, point: usize) -> Json {
+        match (&self.plan.sheet().fields()[entry.value].content, &self.arrays[entry.value]) {
             (Content::Codes(meanings), Data::Codes(codes)) => {
                 let found = meanings.iter().find(|(code, _)| *code == codes[point]);
                 found.map_or(Json::Null, |(_, word)| (*word).into())
             }
-            _ => self.value(array, entry, point).map_or(Json::Null, Json::from),
+            _ => self.number(entry, point).map_or(Json::Null, Json::from),
         }
     }
 
