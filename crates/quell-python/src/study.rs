@@ -191,6 +191,12 @@ impl NativeStudy {
         self.inner.settings()
     }
 
+    /// ω₀ of a belt in radians per second; none without units, and of other kinds.
+    #[getter]
+    fn angular_frequency(&self) -> Option<f64> {
+        self.inner.scales().map(|scales| scales.angular_frequency())
+    }
+
     fn check(&self, py: Python<'_>) -> PyResult<NativeAnswer> {
         let study = self.study();
         call::here(py, move || Ok(check::run(&study)))

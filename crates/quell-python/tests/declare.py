@@ -1,6 +1,6 @@
 """``python tests/declare.py`` writes ``results/_columns.py``: declarations of what results have next to their documented facts.
 
-These are the arrays of datasets, the columns of facts that are lists, and the twins of facts in SI. A test compares the file
+These are the arrays of datasets, the columns of facts that are lists, and the facts of discs in SI. A test compares the file
 with this program, so that type checkers know every fact and array that the verbs give.
 """
 
@@ -19,10 +19,10 @@ from quell._result import REPORTED_ELSEWHERE
 
 FILE = Path(__file__).parents[1] / "python" / "quell" / "results" / "_columns.py"
 
-HEAD = '''"""Arrays of results, columns of facts that are lists, and twins of facts in SI.
+HEAD = '''"""Arrays of results, columns of facts that are lists, and facts of discs in SI.
 
 Written by tests/declare.py from what the verbs give. Arrays are in the units of the study; a column such as ``local_value`` has
-one entry for each entry of the fact ``local``; ``amplitude_m`` is ``amplitude`` in m, for a study in SI.
+one entry for each entry of the fact ``local``; ``frequency_hz`` is ``frequency`` in Hz, of a disc with a material.
 """
 
 from __future__ import annotations

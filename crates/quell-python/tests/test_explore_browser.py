@@ -101,6 +101,10 @@ class Page:
         field.fill(str(value))
         field.press("Enter")
 
+    def shown(self, path: str) -> float:
+        """The number that a field shows."""
+        return float(self.page.locator(f".quell-{path}-field input").first.input_value())
+
     def click(self, name: str, across: float, up: float) -> None:
         """Clicks into a picture, at fractions of its width and height."""
         canvas = self.page.locator(f".{name} .bk-Canvas").first
@@ -171,6 +175,8 @@ def test_an_invalid_number_is_refused_in_words_and_undo_works(belt_page: Page) -
     belt_page.until(lambda: belt_page.explorer.study.settings["belt.normal_load"] == 25)
     belt_page.page.locator(".quell-belt-normal_load .noUi-handle").first.press("ArrowRight")
     belt_page.until(lambda: 25 < belt_page.explorer.study.settings["belt.normal_load"] < 27)
+    # The field follows the slider, and would write over what is typed before it did.
+    belt_page.until(lambda: 25 < belt_page.shown("belt-normal_load") < 27)
     belt_page.type("belt-normal_load", 2.5)
     belt_page.wait("quell-complaints", lambda it: it == "")
     belt_page.until(lambda: belt_page.explorer.study.settings["belt.normal_load"] == 2.5)

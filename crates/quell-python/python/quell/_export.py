@@ -64,8 +64,6 @@ def events_frame(run: Simulation) -> pandas.DataFrame:
     pandas = needed("pandas", "events_frame()")
     arrays = run.arrays
     columns = {name.removeprefix("event_"): it.values for name, it in arrays.items() if it.dims == ("event",)}
-    # Twins in SI are in the columns with the plain names already.
-    columns = {name: values for name, values in columns.items() if not any(name.startswith(f"{it}_m") or name == f"{it}_s" for it in columns)}
     names = run.facts.get("state_names")
     if names is not None:
         states = np.array([event["state"] for event in run.events], dtype=float).reshape(-1, len(names))

@@ -99,10 +99,8 @@ fn of_belt(study: &Study, begin: &Begin) -> Result<Start, Failure> {
     match begin {
         Begin::Exact((time, numbers)) => match numbers.as_slice() {
             [displacement, velocity] => {
-                let scales = study.scales();
-                let number = |quantity, value: f64| match scales {
-                    Some(scales) => scales.from_units(quantity, value),
-                    None => value,
+                let number = |quantity, value| {
+                    study.scales().map_or(value, |scales| scales.from_units(quantity, value))
                 };
                 Ok(Start {
                     time: number(Quantity::Time, *time),

@@ -50,7 +50,7 @@ def times(study: Study) -> tuple[float, float]:
     kind = study._native.kind
     if kind == "belt":
         facts = study.check().facts
-        rate = natural_frequency(study)
+        rate = study._native.angular_frequency or 1.0
         ratios = [highest(it) for it in facts["dithers"] if it["amplitude"]]
         slow = 2.0 * math.pi / rate
         return slow, slow / max(ratios) if ratios else 0.0
@@ -77,20 +77,6 @@ def frequency_of(dither: Mapping[str, Any]) -> float:
     if isinstance(hertz, (int, float)):
         return 2.0 * math.pi * float(hertz)
     return float(rate) if isinstance(rate, (int, float)) else 0.0
-
-
-def natural_frequency(study: Study) -> float:
-    """ω₀ of a belt in its unit of time: 1 if the study is dimensionless."""
-    given = study.settings
-    if hertz := given.get("belt.natural_frequency_hz"):
-        return float(2.0 * math.pi * hertz)
-    if angular := given.get("belt.natural_frequency"):
-        return float(angular)
-    # One tonne is 1000 kg, and one newton a millimetre 1000 N/m.
-    per_unit = 1e3 if given.get("belt.units") == "mm-t-s" else 1.0
-    mass = given.get("belt.mass_kg") or per_unit * given.get("belt.mass", 0.0)
-    stiffness = given.get("belt.stiffness_n_per_m") or per_unit * given.get("belt.stiffness", 0.0)
-    return math.sqrt(stiffness / mass) if mass and stiffness else 1.0
 
 
 def moments(study: Study) -> Array:
@@ -129,7 +115,7 @@ def trajectory(study: Study, start: Mapping[str, float] | None, pair: int = -1) 
     phase = "sticking" if kind == "belt" else next((it for it in run.arrays if it.endswith("_phase")), None)
     sticking = values(run, phase) == 1.0 if phase is not None else np.zeros(time.size, dtype=bool)
     events = [it for it in run.facts["events"] if it["contact"] == 0]
-    moments_of = [float(it.get("time_s", it["time"])) for it in events]
+    moments_of = [float(it["time"]) for it in events]
     return {
         "time": time,
         "x": values(run, array_name(first)),

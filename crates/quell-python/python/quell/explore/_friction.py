@@ -40,10 +40,12 @@ def contacts_of(study: Study, facts: Mapping[str, Any]) -> list[Answer]:
         table = dict(getattr(contact.given.get("friction"), "given", {}) or {})
         name = str(contact.given["name"])
         speed = contact.given.get("belt_velocity", contact.given.get("belt_velocity_m_per_s"))
-        slip = averages.get("slip_amplitude_m_per_s", averages.get("slip_amplitude"))
+        si = any(key.endswith("_m_per_s") for key in (*table, *contact.given))
+        slip = averages.get("slip_amplitude")
+        if slip is not None and si and (facts.get("units") or {}).get("slip_amplitude") == "mm/s":
+            slip = 1e-3 * slip
         law = curve_of(table, slip if sine else None, speed)
         if law is not None:
-            si = any(key.endswith("_m_per_s") for key in (*table, *contact.given))
             found.append({**law, "name": name, "unit": "m/s" if si else "", "point": averages.get("effective_coefficient")})
     return found
 

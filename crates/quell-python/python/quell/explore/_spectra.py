@@ -42,20 +42,19 @@ def response(study: Study) -> Answer:
     said = {"sentence": found.facts["sentence"], "loudness": loudness_of(study, found), "warnings": found.warnings}
     if isinstance(found, NoiseResponse):
         return {**spectra_of_noise(study, found), **said}
-    name = "frequency"
-    frequency = values(found, name)
+    frequency = values(found, "frequency")
     after, before = values(found, "spectrum_amplitude"), values(found, "spectrum_undithered_amplitude")
-    angular = unit(found, name) == "rad/s"
-    in_hertz = angular or unit(found, name) == "Hz"
-    frequency = frequency / (2.0 * math.pi) if angular else frequency
+    own = unit(found, "frequency")
+    in_hertz = own == "rad/s"
+    per_unit = 2.0 * math.pi if in_hertz else 1.0
+    frequency = frequency / per_unit
     end = band_end(study, found.facts, in_hertz)
     _, fast = times(study)
-    rate = 1.0 / fast if in_hertz and fast else 2.0 * math.pi / fast if fast else 0.0
-    per_hertz = 2.0 * math.pi if angular else 1.0
-    peaks = [it["frequency"] / per_hertz for it in found.facts.get("peaks", [])]
+    rate = 2.0 * math.pi / per_unit / fast if fast else 0.0
+    peaks = [it["frequency"] / per_unit for it in found.facts.get("peaks", [])]
     top = 1.3 * rate if rate else 1.5 * max(peaks, default=float(frequency[-1]))
     inside = frequency <= min(top, float(frequency[-1]))
-    return {**in_db(frequency[inside], before[inside], after[inside], end), "unit": "Hz" if in_hertz else unit(found, name), **said}
+    return {**in_db(frequency[inside], before[inside], after[inside], end), "unit": "Hz" if in_hertz else own, **said}
 
 
 def band_end(study: Study, facts: Mapping[str, Any], in_hertz: bool) -> float | None:

@@ -1,7 +1,7 @@
-"""Arrays of results, columns of facts that are lists, and twins of facts in SI.
+"""Arrays of results, columns of facts that are lists, and facts of discs in SI.
 
 Written by tests/declare.py from what the verbs give. Arrays are in the units of the study; a column such as ``local_value`` has
-one entry for each entry of the fact ``local``; ``amplitude_m`` is ``amplitude`` in m, for a study in SI.
+one entry for each entry of the fact ``local``; ``frequency_hz`` is ``frequency`` in Hz, of a disc with a material.
 """
 
 from __future__ import annotations
