@@ -7,7 +7,8 @@ use quell_model::Waveform;
 use super::shared::SharedMeasurements;
 use quell::complaint::{Complaint, Complaints, Failure, Fault};
 use quell::study::document::{Node, Value};
-use quell::study::{Axis, BeltStudy, Change, Study, Sweep, vocabulary};
+use quell::study::vocabulary::DocumentKind;
+use quell::study::{Axis, BeltStudy, Change, Study, Sweep, key_at};
 
 /// Keys of a dither that only one waveform has: in a family of waveforms they are changed for that waveform alone.
 const KEYS_OF_A_WAVEFORM: [(&str, &str); 8] = [
@@ -240,7 +241,9 @@ pub(super) const NAMED_WAVEFORMS: [&str; 3] = ["sine", "triangle", "square"];
 
 /// Whether a path names a number of a study.
 fn takes_number(path: &str) -> bool {
-    vocabulary::resolve(path).is_ok_and(|address| address.key.takes_number())
+    let kinds = [DocumentKind::Belt, DocumentKind::Disc];
+    let found = |kind| key_at(path, kind).is_ok_and(|address| address.key.takes_number());
+    kinds.into_iter().any(found)
 }
 
 /// A value as it is written after `path=`.

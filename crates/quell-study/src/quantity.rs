@@ -9,7 +9,8 @@ use quell_model::units::{Quantity, Scales};
 use serde_json::Value as Json;
 
 use crate::complaint::Complaint;
-use crate::study::{DiscStudy, Kind, Study, UnitSystem, vocabulary};
+use crate::study::vocabulary::DocumentKind;
+use crate::study::{DiscStudy, Kind, Study, UnitSystem, key_at};
 
 /// Unit of a quantity in the numbers of the equations; lengths are those of the study.
 pub fn unit_of(quantity: Quantity, scales: Option<Scales>) -> String {
@@ -166,18 +167,18 @@ pub fn value_of(
     path: &str,
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
-    let unknown = (Some("1"), "");
-    let (wanted, unit) = match study {
-        Some(study) => {
-            let address = study.address(path);
-            address.map_or(unknown, |address| (address.measured_in, address.unit))
-        }
-        // Whether a study that could not be read has units is unknown: they are accepted then.
-        None => vocabulary::resolve(path).map_or(unknown, |address| {
-            let units = UnitSystem::Si;
-            (address.key.measured_in(units), address.key.unit_in_words(units))
-        }),
+    // Whether a study that could not be read has units is unknown: they are accepted then.
+    let of_no_study = || {
+        let kinds = [DocumentKind::Belt, DocumentKind::Disc, DocumentKind::System];
+        let found = kinds.into_iter().find_map(|kind| key_at(path, kind).ok())?;
+        let units = UnitSystem::Si;
+        Some((found.key.measured_in(units), found.key.unit_in_words(units)))
     };
+    let known = match study {
+        Some(study) => study.address(path).ok().map(|found| (found.measured_in, found.unit)),
+        None => of_no_study(),
+    };
+    let (wanted, unit) = known.unwrap_or((Some("1"), ""));
     measured(text, wanted, unit, option)
 }
 

@@ -7,7 +7,6 @@ mod course;
 mod law;
 mod list;
 mod object;
-mod system;
 mod table;
 mod uncertainty;
 mod waveform;
@@ -19,7 +18,7 @@ use quell_model::parameter::{
 use serde_json::{Map, Value as Json, json};
 
 use crate::study::vocabulary::size::DITHER_SIZES;
-use crate::study::vocabulary::{SCHEMA_ABOUT, SCHEMA_VERSION, Section, WAVE_KEYS};
+use crate::study::vocabulary::{self, DocumentKind, Section};
 use table::{excluding, of_section, one_of, reference, required, some_of};
 
 /// The dialect of the schema.
@@ -28,70 +27,51 @@ const DIALECT: &str = "https://json-schema.org/draft/2020-12/schema";
 /// The JSON Schema of a study file.
 pub fn schema() -> Json {
     let mut definitions = Map::new();
-    for section in Section::ALL {
-        if !matches!(section, Section::Root | Section::Friction | Section::Constants) {
-            definitions.insert(table::name(*section), of_section(*section));
-        }
+    for section in Section::ALL.iter().copied() {
+        let table = match section {
+            Section::Root | Section::Constants => continue,
+            Section::Friction => law::friction(),
+            Section::Parameters => table::named(section),
+            Section::Uncertainty => uncertainty::uncertainty(),
+            Section::Mode => of_section(section, &["damping_ratio", "shape"]),
+            Section::Component => of_section(section, &["name"]),
+            _ => of_section(section, &[]),
+        };
+        definitions.insert(table::name(section), table);
     }
-    definitions.insert("friction".to_owned(), law::friction());
-    system::define(&mut definitions);
     relations(&mut definitions);
-    definitions.insert("uncertainty".to_owned(), uncertainty::uncertainty());
     definitions.insert("uncertainty_at".to_owned(), uncertainty::uncertainty_at());
-    let mut root = json!({
-        "$schema": DIALECT,
-        "title": "Quell study file",
-        "description": "A mass on a moving belt with dither; an annular disc under rotating loads; or a linear structure with friction \
-                        contacts.",
-        "type": "object",
-        "properties": {
-            "schema": { "const": SCHEMA_VERSION, "description": SCHEMA_ABOUT },
-            "title": { "type": "string", "description": "subject of the study" },
-            "sweep": { "type": "array", "items": reference("sweep") },
-            "uncertainty": reference("uncertainty"),
-        },
-        "required": [],
-        "additionalProperties": false,
-    });
-    for name in [
-        "belt",
-        "disc",
-        "system",
-        "friction",
-        "parameters",
-        "solver",
-        "response",
-        "design",
-        "actuator",
-    ] {
-        root["properties"][name] = reference(name);
-    }
-    for name in ["contact", "dither"] {
-        root["properties"][name] = table::one_or_several(&reference(name));
-    }
-    let kind = |name: &str, others: &[&str]| {
+    let mut root = of_section(Section::Root, &[]);
+    root["$schema"] = DIALECT.into();
+    root["title"] = "Quell study file".into();
+    root["description"] = "A mass on a moving belt with dither; an annular disc under rotating loads; or a linear structure with \
+                           friction contacts."
+        .into();
+    let kind = |kind: DocumentKind| {
+        let name = kind.section().path();
+        let dither = table::one_or_several(&reference(&format!("dither_of_{name}")));
         json!({
             "required": [name],
-            "properties": { "dither": table::one_or_several(&reference(&format!("dither_of_{name}"))) },
-            "not": { "anyOf": required(others) },
+            "properties": { "dither": dither },
+            "not": { "anyOf": required(&of_others(Section::Root, kind)) },
         })
     };
-    let mut belt = kind("belt", &["disc", "system", "contact", "parameters"]);
+    let mut belt = kind(DocumentKind::Belt);
     belt["required"] = json!(["belt", "friction"]);
     // Friction that is given as a force may stand for the normal load.
     let loaded = |table: &str, keys: Vec<&str>| json!({ "properties": { table: { "anyOf": required(&keys) } } });
     let load: Vec<&str> = NORMAL_LOAD.keys().chain(["load"]).collect();
     belt["anyOf"] = json!([loaded("belt", load), loaded("friction", law::forces().collect())]);
-    root["oneOf"] = json!([
-        belt,
-        kind(
-            "disc",
-            &["belt", "system", "contact", "parameters", "actuator", "solver", "response"]
-        ),
-        kind("system", &["belt", "disc", "solver", "response"]),
-    ]);
+    root["oneOf"] = json!([belt, kind(DocumentKind::Disc), kind(DocumentKind::System)]);
     root["$defs"] = definitions.into();
     root
+}
+
+/// The names of the keys of a table that studies of a kind do not have.
+fn of_others(section: Section, kind: DocumentKind) -> Vec<&'static str> {
+    let keys = vocabulary::keys().iter().filter(|key| key.section == section);
+    let names = keys.map(|key| key.name);
+    names.filter(|name| vocabulary::key(section, name, kind).is_none()).collect()
 }
 
 /// What the keys of a table have to do with each other.
@@ -143,11 +123,12 @@ fn relations(definitions: &mut Map<String, Json>) {
     let frequency: Vec<&str> = DITHER_FREQUENCY_RATIO.keys().chain(["band", "band_hz"]).collect();
     let periodic: Vec<&str> = DITHER_FREQUENCY_RATIO.keys().chain(["phase"]).collect();
     let wave = waveform::noise_or_periodic(&periodic);
-    let places = ["at", "contact", "reaction", "mean"];
     definitions.insert(
         "dither_of_belt".to_owned(),
         json!({ "allOf": [
-            { "required": ["direction", "waveform"], "not": { "anyOf": required(&places) } },
+            { "required": ["direction", "waveform"],
+                "properties": table::properties(Section::Dither, DocumentKind::Belt),
+                "not": { "anyOf": required(&of_others(Section::Dither, DocumentKind::Belt)) }, },
             one_of(&amplitude), one_of(&frequency), wave,
         ] }),
     );
@@ -155,12 +136,7 @@ fn relations(definitions: &mut Map<String, Json>) {
         "dither_of_system".to_owned(),
         json!({ "allOf": [{ "required": ["waveform"] }, one_of(&frequency), wave] }),
     );
-    let waves: Vec<&str> = WAVE_KEYS.iter().map(|(name, _)| *name).collect();
-    let own = ["direction", "waveform", "amplitude", "envelope"];
-    let known: Vec<&str> =
-        own.into_iter().chain(DITHER_FREQUENCY_RATIO.keys()).chain(waves).collect();
-    let properties: Map<String, Json> =
-        known.iter().map(|name| ((*name).to_owned(), json!({}))).collect();
+    let properties = table::properties(Section::Dither, DocumentKind::Disc);
     definitions.insert(
         "dither_of_disc".to_owned(),
         json!({
@@ -177,7 +153,6 @@ fn relations(definitions: &mut Map<String, Json>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::vocabulary;
 
     /// Every `$ref` leads somewhere, and every object says what it does with other keys.
     fn walk(schema: &Json, root: &Json) {

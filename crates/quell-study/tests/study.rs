@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use quell_model::units::Quantity;
 use quell_study::study::{Axis, InitialState};
-use quell_study::{BeltStudy, Change, Complaints, DiscStudy, Fault};
+use quell_study::{BeltStudy, Change, Complaints, DiscStudy, Fault, Study};
 
 const GOOD: &str = r#"schema = 1
 title = "Stribeck belt"
@@ -672,7 +672,7 @@ fn axes_are_read_and_checked() {
         ),
         (
             "parameter = \"dither[3].amplitude\"\nvalues = [1]",
-            said(Fault::Conflict, "sweep[0].parameter", Some(17), "one [dither]", None),
+            said(Fault::Conflict, "sweep[0].parameter", Some(18), "one: dither[0]", None),
         ),
         (
             "parameter = \"dither.amplitude_n\"\nvalues = [1]",
@@ -745,7 +745,7 @@ fn a_table_is_set_key_by_key() {
     for (change, key, example) in [
         ("belt=3", "belt", "belt.damping_ratio"),
         ("friction={}", "friction", "friction.law"),
-        ("dither[0]=1", "dither[0]", "dither.direction"),
+        ("dither[0]=1", "dither[0]", "dither[0].direction"),
     ] {
         let reported = complaints(GOOD, &[change]);
         assert_eq!(
@@ -778,4 +778,33 @@ fn a_study_without_a_version_has_the_current_one() {
     assert!(bare.settings().iter().any(|(path, value)| path == "schema" && value == "1.0"));
     let set = BeltStudy::parse(&without, &set(&["schema=2"])).expect_err("no such version");
     assert_eq!((set.len(), set[0].key.as_str()), (1, "schema"));
+}
+
+/// A table that only studies of another kind have is refused, in the file and by `--set`: nothing is ignored in silence.
+#[test]
+fn tables_of_another_kind_are_refused() {
+    let disc = "[disc]\ninner_radius_ratio = 0.5\npoisson_ratio = 0.3\nradial_modes = 1\nnodal_diameters = 2\n\
+                [disc.load]\nradius_ratio = 0.75\n";
+    let system = "[system]\ncoordinates = [\"x\"]\nmass = [1]\nstiffness = [1]\n";
+    for (text, table, set, whose) in [
+        (disc, "[response]\nband = [0, 1]\n", "response.band=[0, 1]", "[belt]"),
+        (system, "[response]\nband = [0, 1]\n", "response.band=[0, 1]", "[belt]"),
+        (system, "[solver]\nsettle = 3\n", "solver.settle=3", "[belt]"),
+        (disc, "[parameters]\na = 1\n", "parameters.a=1", "[system]"),
+        (GOOD, "[parameters]\na = 1\n", "parameters.a=1", "[system]"),
+        (system, "[disc]\n", "disc.inner_radius_ratio=1", "[system] exclude"),
+    ] {
+        let name = set.split('.').next().expect("a table");
+        for (text, changes, key) in [
+            (format!("{text}{table}"), vec![], name),
+            (text.to_owned(), vec![set], set.split('=').next().expect("a path")),
+        ] {
+            // A document with [system] is that of a system.
+            let complaints = Study::parse(&text, &self::set(&changes)).expect_err(set);
+            let found = complaints.iter().find(|complaint| complaint.key == key);
+            let found = found.unwrap_or_else(|| panic!("{set}: {complaints:#?}"));
+            assert_eq!(found.fault, Fault::Conflict, "{found}");
+            assert!(found.allowed.contains(whose), "{found}");
+        }
+    }
 }

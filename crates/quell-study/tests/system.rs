@@ -442,3 +442,23 @@ fn a_factor_on_friction_is_a_share() {
         assert!(complaints.iter().any(|complaint| complaint.key == key), "{key}: {complaints}");
     }
 }
+
+/// Friction as a force has a path, as in the study of a belt; a law that no contact uses is refused.
+#[test]
+fn friction_as_a_force_has_a_path() {
+    let text = TEXT.replace("[system]\n", "[system]\nunits = \"SI\"\n");
+    let path = "contact.rail.friction.static_coefficient_n";
+    let forces = text
+        .replace("static_coefficient = 0.4", "static_coefficient_n = 0.8")
+        .replace("minimum_coefficient = 0.3", "minimum_coefficient_n = 0.6");
+    let (coefficients, forces) = (study(&text), study(&forces));
+    assert_eq!(forces.system(), coefficients.system());
+    assert_eq!((forces.number(path), forces.unit_of(path)), (Some(0.8), Some("N")));
+    let changed = forces.with(path, 1.2).expect(path);
+    let wanted =
+        coefficients.with("contact.rail.friction.static_coefficient", 0.6).expect("a coefficient");
+    assert_eq!(changed.system(), wanted.system());
+    let unused = format!("{TEXT}[friction]\nlaw = \"coulomb\"\ncoefficient = 0.3\n");
+    let complaints = Study::parse(&unused, &[]).expect_err("a law for no contact");
+    assert_eq!((complaints[0].fault, complaints[0].key.as_str()), (Fault::Conflict, "friction"));
+}

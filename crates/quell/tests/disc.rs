@@ -73,7 +73,7 @@ fn complaints_name_the_key() {
             "cannot be read",
         ),
         ("schema = 1\n[disc]\nmode = []\n".to_owned(), "disc.mode", Some(3), "at least one"),
-        (format!("{PLATE}[belt]\nnormal_load = 1\n"), "belt", Some(11), "either a belt or a disc"),
+        (format!("{PLATE}[belt]\nnormal_load = 1\n"), "belt", Some(11), "exclude each other"),
     ] {
         let complaints = parse(&text).expect_err(&text);
         let found = complaints.iter().find(|complaint| complaint.key == key);

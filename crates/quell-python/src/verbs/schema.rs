@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use quell::schema::schema as front_door;
 use quell::study::UnitSystem;
-use quell::study::vocabulary::{self, Section};
+use quell::study::vocabulary::{self, KeyScope};
 use quell::sweep::QUANTITIES;
 
 use crate::convert;
@@ -14,10 +14,11 @@ pub(crate) fn schema(py: Python<'_>) -> PyResult<Py<PyAny>> {
     convert::to_python(py, &front_door())
 }
 
-/// (table, key, unit, description) of every key of a study file.
+/// (table, key, unit, description) of every key of the study file of a belt or a disc.
 #[pyfunction]
 pub(crate) fn keys() -> Vec<(&'static str, &'static str, &'static str, &'static str)> {
-    let all = Section::ALL.iter().flat_map(|section| vocabulary::keys_of(*section));
+    let all = vocabulary::keys().iter();
+    let all = all.filter(|key| key.role.inner().is_none() && key.scope != KeyScope::SYSTEM);
     all.map(|key| (key.section.path(), key.name, key.unit_in_words(UnitSystem::None), key.about))
         .collect()
 }

@@ -7,13 +7,14 @@ use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
 use super::object::object;
-use super::table::{bounded, one_of, property};
-use crate::study::vocabulary::{self, Role, Section};
+use super::table::{bounded, number_or_formula, one_of, property};
+use crate::study::vocabulary::{Role, Section, law_keys};
 
 /// The keys of friction that is given as a force.
 pub(super) fn forces() -> impl Iterator<Item = &'static str> {
-    let keys = vocabulary::keys_of(Section::Friction);
-    keys.filter(|key| matches!(key.role, Role::FrictionForce(..) | Role::Flag)).map(|key| key.name)
+    law_keys()
+        .filter(|key| matches!(key.role, Role::FrictionForce(..) | Role::Flag))
+        .map(|key| key.name)
 }
 
 /// The table of a law.
@@ -30,7 +31,7 @@ fn one(law: LawKind) -> Json {
         let mut known = law.parameters().iter().chain(law.options());
         known.any(|known| known.path == parameter.path)
     };
-    for key in vocabulary::keys_of(Section::Friction) {
+    for key in law_keys() {
         let has = match key.role {
             Role::Coefficient => !numeric || known(COEFFICIENT),
             Role::FrictionForce(parameter, _) => numeric && known(parameter),
@@ -70,13 +71,13 @@ fn one(law: LawKind) -> Json {
             properties.extend(
                 properties
                     .contains_key("coefficient")
-                    .then(|| ("coefficient".to_owned(), super::system::number(None))),
+                    .then(|| ("coefficient".to_owned(), number_or_formula(None))),
             );
             // A negative coefficient is that of a surface that moves in the other direction.
             let needed =
                 law.parameters().iter().filter(|known| law.default_of(known.path).is_none());
             relations.extend(needed.map(|parameter| {
-                let forces = vocabulary::keys_of(Section::Friction).filter(|key| {
+                let forces = law_keys().filter(|key| {
                     matches!(key.role, Role::FrictionForce(known, _) if known.path == parameter.path)
                 });
                 let keys: Vec<&str> = parameter.keys().chain(forces.map(|key| key.name)).collect();

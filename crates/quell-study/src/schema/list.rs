@@ -20,3 +20,8 @@ pub(super) fn ranges() -> Json {
         json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 });
     json!({ "type": "object", "additionalProperties": range, "minProperties": 1 })
 }
+
+/// At least one of these.
+pub(super) fn of(item: &Json) -> Json {
+    json!({ "type": "array", "items": item, "minItems": 1 })
+}

@@ -7,8 +7,9 @@ use serde_json::{Map, Value as Json, json};
 
 use super::object::object;
 use super::{course, list, waveform};
-use crate::study::system::keys::{SystemTable, system_keys};
-use crate::study::vocabulary::{self, Key, MOST_POINTS, Role, SCHEMA_VERSION, Section};
+use crate::study::vocabulary::{
+    self, DocumentKind, Key, MOST_POINTS, Role, SCHEMA_VERSION, Section,
+};
 
 /// The name of a definition.
 pub(super) fn name(section: Section) -> String {
@@ -48,56 +49,50 @@ pub(super) fn excluding(keys: &[&str]) -> Json {
     json!({ "not": { "anyOf": required(keys) } })
 }
 
-/// The tables inside a table, with the names of their definitions, and whether they may be lists.
-fn inner(section: Section) -> &'static [(&'static str, &'static str, bool)] {
-    match section {
-        Section::Belt => &[
-            ("initial", "belt_initial", false),
-            ("drive", "belt_drive", false),
-            ("load", "belt_load", false),
-        ],
-        Section::Disc => &[
-            ("mode", "disc_mode", true),
-            ("load", "disc_load", true),
-            ("drive", "disc_drive", false),
-        ],
-        Section::DiscLoad => &[("envelope", "disc_load_envelope", false)],
-        Section::Dither => &[("envelope", "envelope", false)],
-        Section::Design => &[("limits", "design_limits", false)],
-        _ => &[],
-    }
-}
-
-/// A table with all of its keys.
-pub(super) fn of_section(section: Section) -> Json {
-    let mut properties: Map<String, Json> =
-        vocabulary::keys_of(section).map(|key| (key.name.to_owned(), property(key))).collect();
-    // Those of a system that a belt or a disc does not have.
-    let more = match section {
-        Section::Dither => Some(SystemTable::Dither),
-        Section::Design => Some(SystemTable::Design),
-        _ => None,
-    };
-    for key in more.map(system_keys).unwrap_or_default() {
-        if !properties.contains_key(key.name) {
-            properties.insert(key.name.to_owned(), super::system::described(key));
+/// A table with all of its keys; one that studies of several kinds give in their own ways may be any of these.
+pub(super) fn of_section(section: Section, needed: &[&str]) -> Json {
+    let mut properties: Map<String, Json> = Map::new();
+    for key in vocabulary::keys().iter().filter(|key| key.section == section) {
+        let one = property(key);
+        match properties.get_mut(key.name) {
+            None => {
+                properties.insert(key.name.to_owned(), one);
+            }
+            Some(other) if value(other) != value(&one) => {
+                let about = other["description"].take();
+                let either = [value(other), value(&one)];
+                *other = json!({ "anyOf": either, "description": about });
+            }
+            Some(_) => {}
         }
     }
-    for (name, definition, several) in inner(section) {
-        let one = reference(definition);
-        let table = if *several { one_or_several(&one) } else { one };
-        properties.insert((*name).to_owned(), table);
+    object(section.about(), &properties, needed)
+}
+
+/// The keys of a table in studies of a kind, without descriptions.
+pub(super) fn properties(section: Section, kind: DocumentKind) -> Map<String, Json> {
+    let of_kind = |key: &Key| property(&Key { scope: kind.scope(), ..*key });
+    let keys = vocabulary::keys_of(section, kind);
+    keys.map(|key| (key.name.to_owned(), value(&of_kind(key)))).collect()
+}
+
+/// What a value may be, without its description.
+fn value(described: &Json) -> Json {
+    let mut value = described.clone();
+    if let Some(object) = value.as_object_mut() {
+        object.remove("description");
     }
-    if section == Section::Dither {
-        let words = vocabulary::Choice::ContactDirection.names();
-        properties.insert("direction".to_owned(), json!({ "enum": words }));
-    }
-    object(section.about(), &properties, &[])
+    value
 }
 
 /// The value of a key, described.
 pub(super) fn property(key: &Key) -> Json {
     let mut schema = match key.role {
+        Role::Number(parameter) | Role::Twin(parameter, _) | Role::Size(parameter, _)
+            if key.scope.includes(DocumentKind::System) =>
+        {
+            number_or_formula(Some(parameter))
+        }
         Role::Number(parameter) | Role::Twin(parameter, _) | Role::Size(parameter, _) => {
             number(parameter)
         }
@@ -131,11 +126,61 @@ pub(super) fn property(key: &Key) -> Json {
         Role::Constant => json!({ "type": "number" }),
         Role::AxisPoints => json!({ "type": "integer", "minimum": 2, "maximum": MOST_POINTS }),
         Role::AxisValues => list::numbers(),
-        Role::Paths => json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 }),
+        Role::Paths | Role::Names => {
+            json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 })
+        }
         Role::Ranges => list::ranges(),
+        Role::Matrix(_) => matrix(),
+        Role::Row(_) => json!({ "anyOf": [list::of(&number_or_formula(None)), entries()] }),
+        Role::Table(inner) => reference(&name(inner)),
+        Role::List(inner) | Role::Tables(inner @ Section::Sweep) => {
+            json!({ "type": "array", "items": reference(&name(inner)) })
+        }
+        Role::Tables(inner) => one_or_several(&reference(&name(inner))),
     };
     schema["description"] = about(key).into();
     schema
+}
+
+/// A diagonal, rows or a file.
+fn matrix() -> Json {
+    let entry = number_or_formula(None);
+    let rows = list::of(&json!({ "anyOf": [entry, list::of(&entry)] }));
+    let name = json!({ "type": "string", "description": "Matrix Market file, relative to the study file" });
+    let file = json!({
+        "type": "object",
+        "properties": { "file": name },
+        "required": ["file"],
+        "additionalProperties": false,
+    });
+    json!({ "anyOf": [rows, file] })
+}
+
+/// A row as a table: names with a dot may be nested tables.
+fn entries() -> Json {
+    let entry = number_or_formula(None);
+    let inner = json!({ "type": "object", "additionalProperties": entry });
+    json!({ "type": "object", "additionalProperties": { "anyOf": [entry, inner] } })
+}
+
+/// Numbers whose names the study chooses.
+pub(super) fn named(section: Section) -> Json {
+    json!({
+        "type": "object",
+        "description": section.about(),
+        "additionalProperties": number_or_formula(None),
+    })
+}
+
+/// A number, or a text: a number with a unit or a formula.
+pub(super) fn number_or_formula(parameter: Option<Parameter>) -> Json {
+    let mut plain = json!({ "type": "number" });
+    if let Some(Bounds { lower, lower_included, .. }) = parameter.map(|known| known.bounds)
+        && lower.is_finite()
+    {
+        plain[if lower_included { "minimum" } else { "exclusiveMinimum" }] = lower.into();
+    }
+    json!({ "anyOf": [plain, { "type": "string" }] })
 }
 
 /// Texts of a number followed by a unit; the reader checks the unit.

@@ -13,8 +13,8 @@ use serde_json::Value as Json;
 
 use super::actuator_file::{ActuatorFile, COLUMNS, GivenColumn};
 use super::document::{Node, Table};
-use super::reader::{KeyUnit, Reader};
-use super::vocabulary::{Choice, Section, join};
+use super::reader::Reader;
+use super::vocabulary::{Choice, KeyUnit, Section, join};
 use crate::complaint::{Complaint, Fault, Origin};
 
 /// Path of the table.
@@ -54,7 +54,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Option<Actuator>
     let Some(node) = root.get(PATH) else { return Some(None) };
     let table = reader.table(PATH, node)?;
     let before = reader.complaints_so_far();
-    reader.unknown_keys(table, Section::Actuator, PATH, &[]);
+    reader.unknown_keys(table, Section::Actuator, PATH);
     let name = reader.needed_choice(table, PATH, node.origin, "kind", Choice::ActuatorKind)?;
     let kind = ActuatorKind::ALL.into_iter().find(|kind| kind.name() == name)?;
     let mut given = GivenNumbers { reader, table, header: node.origin, kind };

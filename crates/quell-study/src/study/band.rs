@@ -12,7 +12,7 @@ use crate::study::vocabulary::Section;
 pub(in crate::study) fn read(reader: &mut Reader, root: &Table) -> Option<Option<[f64; 2]>> {
     let Some(node) = root.get("response") else { return Some(None) };
     let table = reader.table("response", node)?;
-    reader.unknown_keys(table, Section::Response, "response", &[]);
+    reader.unknown_keys(table, Section::Response, "response");
     given(reader, table, "response", Bounds::NOT_NEGATIVE)
 }
 

@@ -14,8 +14,8 @@ use serde_json::Value as Json;
 use super::data_file::DataFile;
 use super::document::{Node, Table, Value};
 use super::files::WantedFile;
-use super::reader::{KeyUnit, Keyed, Reader, WantedNumber, suffixed};
-use super::vocabulary::{Choice, CourseTable, join};
+use super::reader::{Keyed, Reader, WantedNumber, suffixed};
+use super::vocabulary::{Choice, CourseTable, KeyUnit, join};
 use crate::complaint::{Complaint, Fault};
 
 /// What the file must be.

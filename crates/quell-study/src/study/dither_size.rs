@@ -8,15 +8,15 @@
 use quell_design::actuator::{Actuator, ActuatorDemand, SignalSize};
 use quell_linear::driven_point::DrivenPoint;
 use quell_model::Waveform;
-use quell_model::parameter::{DITHER_AMPLITUDE, Parameter};
+use quell_model::parameter::DITHER_AMPLITUDE;
 use quell_model::units::Quantity;
 use quell_model::units::measure;
 use serde_json::Value as Json;
 
 use super::document::{Node, Table, Value};
-use super::reader::{KeyUnit, Reader, WantedNumber};
-use super::vocabulary::join;
+use super::reader::{Reader, WantedNumber};
 use super::vocabulary::size::{DITHER_SIZES, SignalMeasure, SizeKey, SizedSignal};
+use super::vocabulary::{KeyUnit, join};
 use crate::complaint::{Complaint, Fault, Origin};
 
 /// An amplitude as the study gives it.
@@ -134,11 +134,6 @@ fn number(reader: &mut Reader, path: &str, node: &Node, key: SizeKey) -> Option<
 /// Why noise has no peak-to-peak value.
 pub(super) const WITHOUT_PEAK_TO_PEAK: &str =
     "a peak or a root mean square instead: the lines of noise have no peak-to-peak value";
-
-/// A number of the registry with the bounds of an amplitude, for the key of a size.
-pub(super) fn parameter_of(key: SizeKey) -> Parameter {
-    Parameter { symbol: key.symbol, about: key.about, si: &[], ..DITHER_AMPLITUDE }
-}
 
 impl DrivenSize {
     /// The amplitude, with the point on which the dither acts; `None` without a valid actuator, which has been reported.

@@ -6,9 +6,11 @@ use super::StudyOf;
 use super::belt::{BeltSetup, BeltStudy};
 use super::disc::{DiscSetup, DiscStudy};
 use super::document::Table;
+use super::path;
 use super::reader::Reader;
 use super::study_kind::{StudyKind, wrong_kind};
-use super::system::{self, SystemSetup, SystemStudy};
+use super::system::{SystemSetup, SystemStudy};
+use super::vocabulary::DocumentKind;
 use crate::complaint::{Complaint, Origin};
 
 /// A checked study of any kind.
@@ -36,45 +38,17 @@ impl Kind {
     }
 }
 
-/// The kind that a document describes: a system or a disc where it has such a table, else a belt.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum DocumentKind {
-    Belt,
-    Disc,
-    System,
-}
-
-impl DocumentKind {
-    fn by(document: &Table) -> Self {
-        if system::keys::is_described(document) {
-            Self::System
-        } else if document.has("disc") {
-            Self::Disc
-        } else {
-            Self::Belt
-        }
-    }
-}
-
 impl StudyKind for Kind {
     fn reader(document: &Table) -> Reader {
-        match DocumentKind::by(document) {
+        match DocumentKind::of(document) {
             DocumentKind::Belt => BeltSetup::reader(document),
             DocumentKind::Disc => DiscSetup::reader(document),
             DocumentKind::System => SystemSetup::reader(document),
         }
     }
 
-    fn tables(document: &Table) -> &'static [&'static str] {
-        match DocumentKind::by(document) {
-            DocumentKind::Belt => BeltSetup::tables(document),
-            DocumentKind::Disc => DiscSetup::tables(document),
-            DocumentKind::System => SystemSetup::tables(document),
-        }
-    }
-
     fn read(reader: &mut Reader, document: &Table) -> Option<Self> {
-        match DocumentKind::by(document) {
+        match DocumentKind::of(document) {
             DocumentKind::Belt => BeltSetup::read(reader, document).map(Box::new).map(Self::Belt),
             DocumentKind::Disc => DiscSetup::read(reader, document).map(Box::new).map(Self::Disc),
             DocumentKind::System => {
@@ -131,7 +105,7 @@ impl Study {
     /// Unit in which a number of a study of a system is given, by its path; `None` for other kinds and without a unit.
     pub fn measured_in(&self, path: &str) -> Option<&'static str> {
         match self.kind() {
-            Kind::System(_) => system::path::measured_in(&self.source.document, path),
+            Kind::System(_) => path::measured_in(&self.source.document, path),
             Kind::Belt(_) | Kind::Disc(_) => None,
         }
     }

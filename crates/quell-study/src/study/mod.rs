@@ -18,7 +18,7 @@ use crate::input::Inputs;
 use computed::Computed;
 use document::{Table, Value};
 use reader::Reader;
-use vocabulary::SCHEMA_VERSION;
+use vocabulary::{DocumentKind, SCHEMA_VERSION};
 
 mod actuator;
 mod actuator_file;
@@ -37,7 +37,7 @@ mod file;
 mod files;
 mod friction;
 mod kind;
-mod number_path;
+mod path;
 pub mod plausible;
 mod reader;
 mod root;
@@ -60,6 +60,7 @@ pub use dither_size::GivenSize;
 pub use files::Files;
 pub use friction::Measured;
 pub use kind::{Kind, Study};
+pub use path::{Address, key_at, with_unit};
 pub use quell_dynamics::response::Solver;
 pub use quell_dynamics::start::InitialState;
 pub use quell_model::units::UnitSystem;
@@ -252,8 +253,9 @@ impl<K: StudyKind> StudyOf<K> {
 
     fn check(document: Table, from: DocumentOrigin) -> Result<Self, Complaints> {
         let DocumentOrigin { text, files, computed, file, changes } = from;
-        let mut reader = K::reader(&document).with(files, computed);
-        let title = root::read(&mut reader, &document, K::tables(&document));
+        let reader = K::reader(&document).of_kind(DocumentKind::of(&document));
+        let mut reader = reader.with(files, computed);
+        let title = root::read(&mut reader, &document);
         let kind = K::read(&mut reader, &document);
         let sweeps = sweep::read(&mut reader, &document);
         let uncertainty = uncertainty::read(&mut reader, &document);
@@ -370,12 +372,7 @@ impl<K> StudyOf<K> {
         if !measure::has_unit(text) {
             return;
         }
-        let of_list = || {
-            let (list, _) = path.rsplit_once('[')?;
-            vocabulary::resolve(list).ok()?.key.measured_in(self.file_units())
-        };
-        let unit = self.address(path).ok().and_then(|address| address.measured_in);
-        let unit = unit.or_else(of_list);
+        let unit = path::measured_in(&self.source.document, path);
         if let Some(number) = unit.and_then(|unit| measure::read(text, Some(unit)).ok()) {
             *value = format!("{number:?}");
         }
@@ -391,7 +388,7 @@ impl<K> StudyOf<K> {
     /// # Errors
     /// The nearest path that names a number.
     pub fn address(&self, path: &str) -> Result<NumberAddress, Option<String>> {
-        number_path::resolve(&self.source.document, path)
+        path::resolve(&self.source.document, path).map_err(|lost| lost.nearest)
     }
 
     /// The files that the study names.

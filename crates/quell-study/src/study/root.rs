@@ -4,15 +4,12 @@ use serde_json::Value as Json;
 
 use super::document::{Table, Value};
 use super::reader::Reader;
-use super::suggest;
-use super::system::keys;
-use super::vocabulary::{self, NOT_BUILT, SCHEMA_VERSION, Section};
+use super::vocabulary::{self, DocumentKind, NOT_BUILT, Role, SCHEMA_VERSION, Section};
 use crate::complaint::{Complaint, Fault};
 
-/// Reports unknown tables and keys; `tables` are those of this kind of study. Returns the title.
-pub(super) fn read(reader: &mut Reader, document: &Table, tables: &[&str]) -> Option<String> {
-    let known: Vec<&str> = Section::ALL.iter().map(|section| section.path()).collect();
-    let is_system = keys::is_described(document);
+/// Reports unknown tables and keys, and those of other kinds of study. Returns the title.
+pub(super) fn read(reader: &mut Reader, document: &Table) -> Option<String> {
+    let kind = DocumentKind::of(document);
     for (name, node) in document.iter() {
         if NOT_BUILT.contains(&name) {
             let allowed = format!(
@@ -20,27 +17,14 @@ pub(super) fn read(reader: &mut Reader, document: &Table, tables: &[&str]) -> Op
             );
             let complaint = Complaint::new(Fault::NotBuilt, name, node.origin, Json::Null, allowed);
             reader.complain(complaint);
-            continue;
-        }
-        if vocabulary::key(Section::Root, name).is_some() || tables.contains(&name) {
-            continue;
-        }
-        if name == Section::Actuator.path() {
-            let allowed = "[actuator] is implemented for belts and systems: the dither of a disc modulates its friction";
-            let complaint = Complaint::new(Fault::NotBuilt, name, node.origin, Json::Null, allowed);
-            reader.complain(complaint);
-            continue;
-        }
-        if keys::TABLES.contains(&name) && !known.contains(&name) {
-            let allowed = format!("[{name}] belongs to a study of a system, with [system]");
-            let complaint = Complaint::new(Fault::Conflict, name, node.origin, Json::Null, allowed);
-            reader.complain(complaint);
-        } else if !known.contains(&name) || (is_system && !keys::OTHER_KINDS.contains(&name)) {
-            let nearest = suggest::word(name, tables.iter().copied())
-                .or_else(|| suggest::path("", name, None));
-            let complaint =
-                Complaint::new(Fault::Unknown, name, node.origin, node.given(), tables.join(", "));
-            reader.complain(complaint.suggesting(nearest));
+        } else if vocabulary::key(Section::Root, name, kind).is_none() {
+            match misplaced(name, kind) {
+                Some((fault, allowed)) => {
+                    let complaint = Complaint::new(fault, name, node.origin, Json::Null, allowed);
+                    reader.complain(complaint);
+                }
+                None => reader.unknown_key(Section::Root, "", name, node),
+            }
         }
     }
     // A study without a version has the current one.
@@ -51,4 +35,26 @@ pub(super) fn read(reader: &mut Reader, document: &Table, tables: &[&str]) -> Op
         reader.wrong("schema", node, allowed);
     }
     document.get("title").and_then(|node| reader.text("title", node))
+}
+
+/// What is wrong with a table in a study of this kind if only those of other kinds have it.
+pub(super) fn misplaced(name: &str, kind: DocumentKind) -> Option<(Fault, String)> {
+    let key = vocabulary::keys().iter().find(|key| {
+        key.section == Section::Root && key.name == name && !key.scope.includes(kind)
+    })?;
+    if key.role == Role::Table(Section::Actuator) {
+        let allowed = "[actuator] is implemented for belts and systems: the dither of a disc modulates its friction";
+        return Some((Fault::NotBuilt, allowed.to_owned()));
+    }
+    let kinds = [DocumentKind::Belt, DocumentKind::Disc, DocumentKind::System];
+    let other = kinds.into_iter().find(|kind| key.scope.includes(*kind))?.section().path();
+    let allowed = if name == other {
+        let own = kind.section().path();
+        format!(
+            "a study describes a belt, a disc or a system; [{name}] and [{own}] exclude each other"
+        )
+    } else {
+        format!("[{name}] belongs to a study of a {other}, with [{other}]")
+    };
+    Some((Fault::Conflict, allowed))
 }

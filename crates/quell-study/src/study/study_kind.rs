@@ -11,9 +11,6 @@ pub trait StudyKind: Clone {
     /// A reader for the units of the document.
     fn reader(document: &Table) -> Reader;
 
-    /// Names of the tables and keys outside any table that such a study has.
-    fn tables(document: &Table) -> &'static [&'static str];
-
     /// Reads the tables of this kind; `None` if something is invalid, which has then been reported to the reader.
     fn read(reader: &mut Reader, document: &Table) -> Option<Self>;
 }

@@ -3,7 +3,7 @@
 //! A key is near if it has the same symbol (`zeta`, `v0`, `D_T`), differs by a few letters
 //! (Damerau–Levenshtein), begins alike (Jaro–Winkler), or contains the other word.
 
-use super::vocabulary::{self, Key, Section, join};
+use super::vocabulary::{self, DocumentKind, Key, Section};
 
 /// The minimum score of a suggestion.
 const NEAR: f64 = 0.6;
@@ -38,40 +38,26 @@ pub fn word<'a>(wrong: &str, right: impl IntoIterator<Item = &'a str>) -> Option
         .map(|(_, candidate)| candidate.to_owned())
 }
 
-/// The nearest path to an unknown key of a table; `index` is kept if the table is the same.
-pub fn path(table: &str, name: &str, index: Option<usize>) -> Option<String> {
+/// The nearest key to an unknown one of a table.
+pub fn key(kind: DocumentKind, table: Section, name: &str) -> Option<&'static Key> {
     let score = |key: &Key| {
         let letters = if same_symbol(name, key) { 1.0 } else { likeness(name, key.name) };
-        // A key of the same table is preferred, unless a key of another table matches much better.
-        let elsewhere = key.section.path() != table;
-        letters - if elsewhere { 0.35 } else { 0.0 }
+        // A key of the same table is preferred, unless a key of another table matches much better; a name without a table may
+        // belong to any.
+        let elsewhere = if table == Section::Root { 0.1 } else { 0.35 };
+        letters - if key.section == table { 0.0 } else { elsewhere }
     };
-    let key = vocabulary::keys()
+    vocabulary::keys()
         .iter()
-        .filter(|key| key.section != Section::Sweep || table == Section::Sweep.path())
-        .filter(|key| !other_system(table, key.section))
+        .filter(|key| key.scope.includes(kind))
+        .filter(|key| key.section == table || key.role.inner().is_none())
+        .filter(|key| key.section != Section::Sweep || table == Section::Sweep)
         .map(|key| (score(key), key))
         .filter(|(score, _)| *score >= NEAR)
         // Among equal scores the first is taken: keys are in the order of the file, dimensionless before SI.
         .rev()
         .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, key)| key)?;
-    let same_list = key.section.path() == table;
-    Some(match index {
-        Some(index) if same_list => join(&format!("{table}[{index}]"), key.name),
-        _ => key.path(),
-    })
-}
-
-/// Whether a section belongs to a disc and the table to a belt, or vice versa.
-fn other_system(table: &str, section: Section) -> bool {
-    let disc = matches!(section, Section::Disc | Section::DiscMode | Section::DiscLoad);
-    let belt = matches!(section, Section::Belt | Section::Initial | Section::Friction);
-    match table.split('.').next().unwrap_or_default() {
-        "disc" => belt,
-        "belt" | "friction" => disc,
-        _ => false,
-    }
+        .map(|(_, key)| key)
 }
 
 /// Whether a key was named by its symbol, as `zeta` for ζ or `mu_s` for μ_s.
@@ -130,10 +116,11 @@ mod tests {
             ("", "titel", "title"),
             ("solver", "tolerence", "solver.tolerance"),
         ] {
-            assert_eq!(path(table, wrong, None).as_deref(), Some(right), "{table}.{wrong}");
+            let table = Section::ALL.iter().find(|section| section.path() == table).copied();
+            let found = key(DocumentKind::Belt, table.expect("a table"), wrong).map(Key::path);
+            assert_eq!(found.as_deref(), Some(right), "{wrong}");
         }
-        assert_eq!(path("dither", "phse", Some(1)).as_deref(), Some("dither[1].phase"));
-        assert_eq!(path("belt", "xyzzy", None), None);
+        assert_eq!(key(DocumentKind::Belt, Section::Belt, "xyzzy"), None);
         assert_eq!(word("stribek", ["stribeck", "decreasing"]).as_deref(), Some("stribeck"));
         assert_eq!(word("sawtooth", ["sine", "triangle", "square"]), None);
     }

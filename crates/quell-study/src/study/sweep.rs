@@ -5,7 +5,7 @@ use serde_json::Value as Json;
 
 use super::address::NumberAddress;
 use super::document::{Node, Table, Value};
-use super::number_path;
+use super::path;
 use super::reader::Reader;
 use super::vocabulary::{Choice, MOST_POINTS, Section, join};
 use crate::complaint::{Complaint, Fault, Origin};
@@ -155,7 +155,7 @@ fn one(reader: &mut Reader, root: &Table, node: &Node, prefix: &str) -> Option<S
         reader.wrong(prefix, node, format!("a table; got {}", node.kind()));
         return None;
     };
-    reader.unknown_keys(table, Section::Sweep, prefix, &[]);
+    reader.unknown_keys(table, Section::Sweep, prefix);
     let named = parameter(reader, root, table, node, prefix);
     let unit = named.as_ref().and_then(|(_, target)| target.measured_in);
     let unit = unit.filter(|unit| *unit != "1").unwrap_or_default();
@@ -178,12 +178,12 @@ fn parameter(
         return None;
     };
     let path = reader.text(&key, node)?;
-    match number_path::resolve(root, &path) {
+    match path::resolve(root, &path) {
         Ok(target) => Some((path, target)),
-        Err(nearest) => {
+        Err(lost) => {
             let allowed = "the path of a number in the study, such as \"dither.amplitude\"";
-            let complaint = Complaint::new(Fault::Value, key, node.origin, path, allowed);
-            reader.complain(complaint.suggesting(nearest));
+            let given = (node.origin, Json::String(path));
+            reader.complain(lost.complaint(key, given, (Fault::Value, allowed)));
             None
         }
     }

@@ -10,7 +10,7 @@ use serde_json::Value as Json;
 
 use super::address::NumberAddress;
 use super::document::{Node, Table, Value};
-use super::number_path;
+use super::path;
 use super::reader::Reader;
 use super::vocabulary::join;
 use crate::complaint::{Complaint, Fault, Origin};
@@ -179,12 +179,12 @@ impl Gathering<'_> {
         node: &Node,
         path: &str,
     ) -> Option<&'static str> {
-        let target = match number_path::resolve(self.root, path) {
+        let target = match path::resolve(self.root, path) {
             Ok(target) => target,
-            Err(nearest) => {
+            Err(lost) => {
                 let allowed = "the path of a number in the study, such as \"belt.damping_ratio\"";
-                let complaint = Complaint::new(Fault::Value, key, node.origin, path, allowed);
-                reader.complain(complaint.suggesting(nearest));
+                let given = (node.origin, Json::from(path));
+                reader.complain(lost.complaint(key, given, (Fault::Value, allowed)));
                 return None;
             }
         };

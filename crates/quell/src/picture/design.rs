@@ -11,7 +11,8 @@ use crate::plot::{
 use crate::run::design::{LeastDitherFound, StudyWithDesign, quantity_of};
 use crate::run::varied::name_of;
 use crate::study::UnitSystem;
-use crate::study::vocabulary::resolve;
+use crate::study::key_at;
+use crate::study::vocabulary::DocumentKind;
 use crate::study::{BeltStudy, DiscStudy, SystemStudy};
 
 /// Required amplitudes over the other number that is chosen, or over the operating points.
@@ -117,7 +118,7 @@ fn axis(study: &BeltStudy, path: &str) -> PlotAxis {
 
 /// An axis of a number of a disc, by its key.
 fn axis_of_key(path: &str, in_si: bool) -> PlotAxis {
-    let Ok(address) = resolve(path) else { return PlotAxis::new(path) };
+    let Ok(address) = key_at(path, DocumentKind::Disc) else { return PlotAxis::new(path) };
     let parameter = address.key.parameter();
     let symbol = parameter.map_or("", |parameter| parameter.symbol);
     let about = parameter.map_or(path, |parameter| short_about(parameter.about));

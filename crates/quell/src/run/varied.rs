@@ -7,8 +7,8 @@ use crate::complaint::{Complaint, Complaints, Fault, Origin};
 use crate::fields::Fields;
 use crate::study::document::given_number;
 use crate::study::vocabulary::size::SignalMeasure;
-use crate::study::vocabulary::{Address, Role, join, resolve, with_unit};
-use crate::study::{BeltStudy, suggest};
+use crate::study::vocabulary::{DocumentKind, Role, join};
+use crate::study::{Address, BeltStudy, key_at, suggest, with_unit};
 use crate::words::digits;
 
 /// Most values of a range.
@@ -149,7 +149,7 @@ impl Named {
     ) -> Result<Self, Box<Complaint>> {
         let belt = study.belt();
         let table = path.trim().rsplit_once('.').map_or("", |(table, _)| table);
-        let found = resolve(path);
+        let found = key_at(path, DocumentKind::Belt);
         // The intended number of the equations, whether or not this study uses its key.
         let meant = match &found {
             Ok(address) => address.key.parameter().map(|parameter| join(table, parameter.key())),
@@ -235,7 +235,7 @@ impl Named {
 
 /// Why a key that gives an amplitude by another size than its peak cannot be varied here.
 fn not_a_peak(path: &str) -> Option<&'static str> {
-    let role = resolve(path).ok()?.key.role;
+    let role = key_at(path, DocumentKind::Belt).ok()?.key.role;
     let measure = match role {
         Role::Size(_, size) if size.needs_actuator() => {
             return Some(
@@ -254,7 +254,7 @@ fn not_a_peak(path: &str) -> Option<&'static str> {
 
 /// Whether a key changes several numbers of the equations at once: mass, stiffness, friction in newtons.
 fn is_of_several(path: &str) -> bool {
-    let role = resolve(path).map(|address| address.key.role);
+    let role = key_at(path, DocumentKind::Belt).map(|address| address.key.role);
     let scale = |parameter: Parameter| SCALES.iter().any(|known| known.path == parameter.path);
     match role {
         Ok(Role::Number(parameter) | Role::Twin(parameter, _)) => scale(parameter),
@@ -269,7 +269,7 @@ pub fn key_of(study: &BeltStudy, path: &str) -> String {
 
 /// Description and symbol of a number of the equations as the study gives it: those of the number with a unit in a study with units.
 pub(crate) fn name_of(study: &BeltStudy, path: &str) -> Option<(&'static str, &'static str)> {
-    let key = resolve(&key_of(study, path)).ok()?.key;
+    let key = key_at(&key_of(study, path), DocumentKind::Belt).ok()?.key;
     let named = key
         .parameter()
         .and_then(|parameter| parameter.si.iter().find(|other| !other.unit.is_empty())?.own);
@@ -286,7 +286,7 @@ fn address(study: &BeltStudy, option: &'static str, path: &str) -> Result<Addres
         let complaint = Complaint::new(Fault::Value, option, origin, path, allowed);
         Box::new(complaint.suggesting(suggestion))
     };
-    let found = resolve(path).map_err(|nearest| {
+    let found = key_at(path, DocumentKind::Belt).map_err(|nearest| {
         let nearest = nearest.map(|path| key_of(study, &path));
         refuse(nearest.or_else(|| suggest::word(path, known.each_ref().map(String::as_str))))
     })?;

@@ -56,7 +56,7 @@ fn one(
         reader.wrong(prefix, node, format!("a table; got {}", node.kind()));
         return None;
     };
-    reader.unknown_keys(table, Section::Dither, prefix, &["envelope"]);
+    reader.unknown_keys(table, Section::Dither, prefix);
     let direction = reader
         .needed_choice(table, prefix, node.origin, "direction", Choice::Direction)
         .and_then(Direction::from_name);

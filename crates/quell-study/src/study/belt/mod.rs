@@ -25,9 +25,10 @@ use super::disc::DiscSetup;
 use super::dither_size::GivenSize;
 use super::document::Table;
 use super::friction;
+use super::path::key_at;
 use super::reader::Reader;
 use super::study_kind::{StudyKind, wrong_kind};
-use super::vocabulary::resolve;
+use super::vocabulary::DocumentKind;
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
 
 use super::friction::Measured;
@@ -59,22 +60,6 @@ pub struct BeltSetup {
 impl StudyKind for BeltSetup {
     fn reader(document: &Table) -> Reader {
         units::reader(document)
-    }
-
-    fn tables(_: &Table) -> &'static [&'static str] {
-        &[
-            "schema",
-            "title",
-            "belt",
-            "friction",
-            "dither",
-            "solver",
-            "response",
-            "design",
-            "actuator",
-            "uncertainty",
-            "sweep",
-        ]
     }
 
     fn read(reader: &mut Reader, document: &Table) -> Option<Self> {
@@ -175,7 +160,7 @@ impl BeltStudy {
     /// What the key at a path gives for one number of the equations, and the path of that number; `None` where the study has no such
     /// number, or the key gives several.
     pub fn per_one(&self, path: &str) -> Option<(String, f64)> {
-        let address = resolve(path).ok()?;
+        let address = key_at(path, DocumentKind::Belt).ok()?;
         let number = number::number_of_the_equations(path, &address);
         self.belt().get(&number)?;
         Some((number, number::per_one(self.belt(), path)?))

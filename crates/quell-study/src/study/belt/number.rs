@@ -4,13 +4,14 @@ use quell_model::Belt;
 use quell_model::parameter::{MASS, NATURAL_FREQUENCY, Parameter, STIFFNESS, SiTwin};
 use quell_model::units::{Quantity, Scales, UnitSystem, measure};
 
+use crate::study::path::{Address, key_at};
 use crate::study::vocabulary::size::{SizeKey, SizedSignal};
-use crate::study::vocabulary::{Address, Role, join, resolve};
+use crate::study::vocabulary::{DocumentKind, Role, join};
 
 /// The value of the key at a path, such as `dither.amplitude` or `dither.amplitude_n`, in the unit of the key; `None` where the belt has no
 /// such number.
 pub(in crate::study) fn number(belt: &Belt, path: &str) -> Option<f64> {
-    let address = resolve(path).ok()?;
+    let address = key_at(path, DocumentKind::Belt).ok()?;
     if let Some(scale) = address.key.parameter().filter(|known| is_scale(*known)) {
         let scales = belt.scales()?;
         let own = scale_of(scale, &scales)?;
@@ -34,7 +35,7 @@ pub(in crate::study) fn number_of_the_equations(path: &str, address: &Address) -
 
 /// What the key at a path gives for one number of the equations; `None` for keys that give several numbers or none.
 pub(in crate::study) fn per_one(belt: &Belt, path: &str) -> Option<f64> {
-    let address = resolve(path).ok()?;
+    let address = key_at(path, DocumentKind::Belt).ok()?;
     let scales = belt.scales();
     let own = |quantity| scales.map_or(1.0, |scales| own_units(&scales, quantity, 1.0));
     match address.key.role {

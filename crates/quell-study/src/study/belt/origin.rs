@@ -4,8 +4,8 @@ use quell_model::System;
 
 use super::BeltStudy;
 use crate::complaint::Complaints;
+use crate::study::path::with_unit;
 use crate::study::system::NumberedStudy;
-use crate::study::vocabulary::with_unit;
 
 impl NumberedStudy for BeltStudy {
     fn number(&self, path: &str) -> Option<f64> {

@@ -14,7 +14,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Solver> {
         return Some(default);
     };
     let table = reader.table("solver", node)?;
-    reader.unknown_keys(table, Section::Solver, "solver", &[]);
+    reader.unknown_keys(table, Section::Solver, "solver");
     let tolerance = reader.optional(table, "solver", TOLERANCE);
     let settle = reader.optional(table, "solver", SETTLE);
     let periods = reader.optional(table, "solver", RECORD_PERIODS);

@@ -43,7 +43,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> BeltTable {
     let Some(table) = reader.table("belt", node) else {
         return BeltTable::default();
     };
-    reader.unknown_keys(table, Section::Belt, "belt", &["initial", "drive", "load"]);
+    reader.unknown_keys(table, Section::Belt, "belt");
     let course =
         |reader: &mut Reader, name, what| CoursePlace(what).optional(reader, table, "belt", name);
     let drive = course(reader, "drive", DRIVE);
@@ -127,7 +127,7 @@ pub(in crate::study) fn one_state(law: LawKind) -> String {
 fn initial(reader: &mut Reader, node: &Node) -> Option<InitialState> {
     const PREFIX: &str = "belt.initial";
     let table = reader.table(PREFIX, node)?;
-    reader.unknown_keys(table, Section::Initial, PREFIX, &[]);
+    reader.unknown_keys(table, Section::Initial, PREFIX);
     let displacement = reader.optional(table, PREFIX, INITIAL_DISPLACEMENT);
     let velocity = reader.optional(table, PREFIX, INITIAL_VELOCITY);
     let numbers = [displacement, velocity].iter().any(|found| *found != Found::Absent);

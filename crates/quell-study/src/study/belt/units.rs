@@ -6,7 +6,7 @@ use quell_model::units::{Scales, UnitSystem};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{EquationScale, Found, Reader};
-use crate::study::vocabulary::{self, Choice, Role, Section, UNITS, join};
+use crate::study::vocabulary::{self, Choice, DocumentKind, Role, Section, UNITS, join};
 
 const PREFIX: &str = "belt";
 
@@ -109,7 +109,10 @@ fn is_suffixed(root: &Table) -> bool {
     let (mut bare, mut suffixed) = (false, false);
     for section in [Section::Belt, Section::Friction, Section::Dither] {
         for table in root.get(section.path()).map(tables).unwrap_or_default() {
-            for key in table.iter().filter_map(|(name, _)| vocabulary::key(section, name)) {
+            for key in table
+                .iter()
+                .filter_map(|(name, _)| vocabulary::key(section, name, DocumentKind::Belt))
+            {
                 match key.role {
                     Role::Twin(_, other) => suffixed |= !other.unit.is_empty(),
                     Role::Speeds { si } => suffixed |= si,

@@ -9,10 +9,10 @@ use quell_model::parameter::design::{CONFIDENCE, CONFIDENT, LIMITS, SAMPLES, SEE
 use serde_json::Value as Json;
 
 use super::document::{Node, Table, Value};
-use super::number_path;
+use super::path::{self, LostPath};
 use super::reader::{Found, Reader};
-use super::system::{PLACES, keys};
-use super::vocabulary::{Choice, Section, join};
+use super::system::PLACES;
+use super::vocabulary::{Choice, DocumentKind, Section, join};
 use crate::complaint::{Complaint, Fault};
 use tried::ChosenPeriods;
 
@@ -85,9 +85,9 @@ impl DesignContext<'_> {
     /// The unit of the number that a path names, empty for a ratio.
     ///
     /// # Errors
-    /// The nearest path that names a number.
-    fn unit_of(self, path: &str) -> Result<&'static str, Option<String>> {
-        let address = number_path::resolve(self.document, path)?;
+    /// What is wrong with the path.
+    fn unit_of(self, path: &str) -> Result<&'static str, LostPath> {
+        let address = path::resolve(self.document, path)?;
         Ok(address.measured_in.filter(|unit| *unit != "1").unwrap_or_default())
     }
 }
@@ -102,8 +102,9 @@ pub(super) fn read(
     let Some(node) = root.get("design") else { return Some(None) };
     let table = reader.table("design", node)?;
     let before = reader.complaints_so_far();
-    reader.unknown_keys(table, Section::Design, "design", &["limits", PLACES]);
-    if let Some(node) = table.get(PLACES).filter(|_| !keys::is_described(root)) {
+    reader.unknown_keys(table, Section::Design, "design");
+    if let Some(node) = table.get(PLACES).filter(|_| DocumentKind::of(root) != DocumentKind::System)
+    {
         let allowed = "omitted: only in a system is there a choice of places; dither.direction says where the dither of a belt acts";
         let (key, null) = (join("design", PLACES), Json::Null);
         reader.complain(Complaint::new(Fault::Conflict, key, node.origin, null, allowed));
@@ -279,13 +280,13 @@ fn named(
         reader.complain(Complaint::new(Fault::Value, key, node.origin, path, allowed));
         return None;
     }
-    let nearest = match context.unit_of(path) {
+    let lost = match context.unit_of(path) {
         Ok(unit) => return Some((path.to_owned(), unit)),
-        Err(nearest) => nearest,
+        Err(lost) => lost,
     };
     let allowed = "the path of a number in the study, such as \"dither.amplitude\"";
-    let complaint = Complaint::new(Fault::Value, key, node.origin, path, allowed);
-    reader.complain(complaint.suggesting(nearest));
+    let given = (node.origin, Json::from(path));
+    reader.complain(lost.complaint(key, given, (Fault::Value, allowed)));
     None
 }
 
@@ -343,7 +344,7 @@ fn limits(reader: &mut Reader, table: &Table) -> Option<Vec<(LimitedQuantity, f6
     let Some(node) = table.get("limits") else { return Some(Vec::new()) };
     let prefix = Section::DesignLimits.path();
     let limits = reader.table(prefix, node)?;
-    reader.unknown_keys(limits, Section::DesignLimits, prefix, &[]);
+    reader.unknown_keys(limits, Section::DesignLimits, prefix);
     let mut found = Vec::new();
     for (quantity, parameter) in LimitedQuantity::ALL.into_iter().zip(LIMITS) {
         match reader.optional(limits, prefix, *parameter) {

@@ -33,7 +33,7 @@ pub(super) struct Body {
 
 impl Body {
     pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option<Self> {
-        reader.unknown_keys(table, Section::Disc, "disc", &["mode", "load", loads::DRIVE]);
+        reader.unknown_keys(table, Section::Disc, "disc");
         let damping = reader.optional(table, "disc", MODAL_DAMPING).or(0.0);
         let parts = without(reader, table);
         let metal = Metal::read(reader, table, header);

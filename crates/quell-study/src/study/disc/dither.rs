@@ -5,17 +5,13 @@ use quell_model::disc::{DiscDither, DitherShape};
 use quell_model::parameter::DITHER_FREQUENCY_RATIO;
 use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
 
-use crate::complaint::{Complaint, Fault};
 use crate::study::course::{Course, CoursePlace};
 use crate::study::document::{Table, Value};
 use crate::study::reader::Reader;
-use crate::study::suggest;
-use crate::study::vocabulary::{Choice, ENVELOPE, WAVE_KEYS, join};
+use crate::study::vocabulary::{Choice, ENVELOPE, Section};
 use crate::study::waveform;
 
 /// The keys that do not describe the waveform.
-const KEYS: [&str; 4] = ["direction", "waveform", "amplitude", "envelope"];
-
 /// Reads the dither of all loads; `None` if it is invalid, which has been reported.
 pub(super) fn read(reader: &mut Reader, document: &Table) -> Option<(DiscDither, DitherShape)> {
     let Some(node) = document.get("dither") else {
@@ -26,7 +22,7 @@ pub(super) fn read(reader: &mut Reader, document: &Table) -> Option<(DiscDither,
         _ => node,
     };
     let table = reader.table("dither", node)?;
-    unknown_keys(reader, table);
+    reader.unknown_keys(table, Section::Dither, "dither");
     let direction = reader
         .needed_choice(table, "dither", node.origin, "direction", Choice::Direction)
         .and_then(Direction::from_name);
@@ -43,21 +39,4 @@ pub(super) fn read(reader: &mut Reader, document: &Table) -> Option<(DiscDither,
         Direction::Tangential => DiscDither::Tangential { amplitude, frequency_ratio },
     };
     Some((dither, shape))
-}
-
-fn unknown_keys(reader: &mut Reader, table: &Table) {
-    let wave = WAVE_KEYS.iter().map(|(name, _)| *name);
-    let keys: Vec<&str> =
-        KEYS.into_iter().chain(DITHER_FREQUENCY_RATIO.keys()).chain(wave).collect();
-    for (name, node) in table.iter().filter(|(name, _)| !keys.contains(name)) {
-        let nearest = suggest::word(name, keys.iter().copied()).map(|word| join("dither", &word));
-        let complaint = Complaint::new(
-            Fault::Unknown,
-            join("dither", name),
-            node.origin,
-            node.given(),
-            keys.join(", "),
-        );
-        reader.complain(complaint.suggesting(nearest));
-    }
 }

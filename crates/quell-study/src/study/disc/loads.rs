@@ -86,7 +86,7 @@ pub(super) fn read(reader: &mut Reader, disc: &Table, scales: LoadScales) -> Opt
 fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Option<Pad> {
     let table = reader.table(path, node)?;
     refuse_drive(reader, table, path);
-    reader.unknown_keys(table, Section::DiscLoad, path, &["envelope", DRIVE]);
+    reader.unknown_keys(table, Section::DiscLoad, path);
     let radius = reader.optional(table, path, LOAD_RADIUS).if_given();
     reader.set_disc_scales(scales.at(radius.flatten()));
     let mut strength = |parameter| reader.optional(table, path, parameter).or(0.0);

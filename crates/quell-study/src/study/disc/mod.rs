@@ -24,16 +24,16 @@ use quell_model::Disc;
 use quell_model::disc::{Contribution, Contributions, DiscDither};
 use quell_model::parameter::disc::LOAD_SLIP_RATIO;
 use quell_model::units::DiscScales;
-use serde_json::Value as Json;
 
 use super::StudyOf;
 use super::address::units_of;
 use super::design::{self, Design, DesignContext};
 use super::document::Table;
+use super::path;
 use super::reader::{EquationScale, Reader};
 use super::study_kind::StudyKind;
 use super::system::{DescribedSystem, SystemStudy};
-use super::vocabulary::{self, Role};
+use super::vocabulary::Role;
 use crate::complaint::{Complaint, Fault, Origin};
 
 pub use modes::{Listed, ModeSource};
@@ -68,22 +68,7 @@ impl StudyKind for DiscSetup {
         Reader::in_units(units_of(document), EquationScale::Disc(None))
     }
 
-    fn tables(_: &Table) -> &'static [&'static str] {
-        &["schema", "title", "disc", "friction", "dither", "design", "uncertainty", "sweep"]
-    }
-
     fn read(reader: &mut Reader, document: &Table) -> Option<Self> {
-        for name in ["belt", "solver", "system"] {
-            if let Some(node) = document.get(name) {
-                let other = if name == "system" { "a system" } else { "a belt" };
-                let allowed = format!(
-                    "a study describes either {other} or a disc; [{name}] belongs to {other}"
-                );
-                let complaint =
-                    Complaint::new(Fault::Conflict, name, node.origin, Json::Null, allowed);
-                reader.complain(complaint);
-            }
-        }
         let table = document.get("disc").and_then(|node| reader.table("disc", node));
         let read = table.map(|table| {
             let origin = document.get("disc").map_or(Origin::Whole, |node| node.origin);
@@ -235,8 +220,8 @@ impl DiscStudy {
     /// frequencies are in hertz then.
     pub fn is_si(&self) -> bool {
         let said = |path: &str| {
-            let role = vocabulary::resolve(path).map(|address| address.key.role);
-            matches!(role, Ok(Role::Twin(..)))
+            let found = path::follow(&self.source.document, path);
+            matches!(found.map(|found| found.key.role), Ok(Role::Twin(..)))
         };
         !self.file_units().is_none() || self.settings().iter().any(|(path, _)| said(path))
     }

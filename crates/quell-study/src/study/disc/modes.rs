@@ -134,7 +134,7 @@ fn listed(reader: &mut Reader, node: &Node) -> Option<Listed> {
 
 fn line(reader: &mut Reader, node: &Node, path: &str) -> Option<ModeLine> {
     let table = reader.table(path, node)?;
-    reader.unknown_keys(table, Section::DiscMode, path, &[]);
+    reader.unknown_keys(table, Section::DiscMode, path);
     let mut maybe = |parameter| reader.optional(table, path, parameter).if_given();
     let (hertz, damping) = (maybe(MODE_FREQUENCY), maybe(MODE_DAMPING));
     let centrifugal = maybe(MODE_CENTRIFUGAL);

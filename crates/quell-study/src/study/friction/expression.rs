@@ -7,8 +7,8 @@ use quell_model::{Expression, Friction, Invalid, InvalidValues};
 
 use crate::complaint::Origin;
 use crate::study::document::{Node, Table, Value};
-use crate::study::reader::{KeyUnit, Reader};
-use crate::study::vocabulary::join;
+use crate::study::reader::Reader;
+use crate::study::vocabulary::{KeyUnit, join};
 
 /// The table of the constants of a formula.
 pub(super) const CONSTANTS: &str = "constants";

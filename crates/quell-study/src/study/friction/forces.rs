@@ -14,8 +14,8 @@ use quell_model::{Direction, Dither};
 use super::law_place::LawPlace;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
-use crate::study::reader::{Found, KeyUnit, Reader, Reported, WantedNumber};
-use crate::study::vocabulary::{self, Key, Role, Section, join};
+use crate::study::reader::{Found, Reader, Reported, WantedNumber};
+use crate::study::vocabulary::{self, Key, KeyUnit, Role, join};
 
 /// The key that says that bare keys are forces.
 const FLAG: &str = "friction_force";
@@ -25,7 +25,7 @@ const LEVELS: [Parameter; 4] = [COEFFICIENT, STATIC_COEFFICIENT, MINIMUM_COEFFIC
 
 /// The keys, each with the number of the law that it gives.
 fn keys() -> impl Iterator<Item = (&'static Key, Parameter)> {
-    vocabulary::keys_of(Section::Friction).filter_map(|key| match key.role {
+    vocabulary::law_keys().filter_map(|key| match key.role {
         Role::FrictionForce(parameter, _) => Some((key, parameter)),
         _ => None,
     })

@@ -7,9 +7,8 @@ use serde_json::Value as Json;
 
 use super::document::{Node, Table};
 use super::reader::{Found, Reader};
-use super::vocabulary::{self, Choice, Role, Section, join};
+use super::vocabulary::{Choice, Role, Section, join, law_keys};
 use crate::complaint::{Complaint, Fault, Origin};
-use expression::CONSTANTS;
 use forces::ForceLevels;
 pub(in crate::study) use forces::{
     are_given as are_given_as_forces, in_newtons, needs_no_normal_force,
@@ -210,20 +209,14 @@ fn negative(
 /// Reports keys that no law has, or that this law does not have.
 fn unknown_keys(reader: &mut Reader, table: &Table, path: &str, kind: Option<LawKind>) {
     for (name, node) in table.iter() {
-        let key = vocabulary::key(Section::Friction, name);
-        if key.is_none() && name != CONSTANTS {
+        let Some(key) = law_keys().find(|key| key.name == name) else {
             reader.unknown_key(Section::Friction, path, name, node);
             continue;
-        }
+        };
         let Some(kind) = kind else { continue };
-        let has = key.map_or(kind == LawKind::Expression, |key| belongs(key.role, kind));
-        if !has {
-            let constants = (kind == LawKind::Expression).then_some(CONSTANTS);
-            let keys: Vec<&str> = vocabulary::keys_of(Section::Friction)
-                .filter(|key| belongs(key.role, kind))
-                .map(|key| key.name)
-                .chain(constants)
-                .collect();
+        if !belongs(key.role, kind) {
+            let keys = law_keys().filter(|key| belongs(key.role, kind));
+            let keys: Vec<&str> = keys.map(|key| key.name).collect();
             // It is a key of another law: no suggestion is needed.
             let allowed = format!("{} for law = \"{}\"", keys.join(", "), kind.name());
             let (key, given) = (join(path, name), node.given());
@@ -241,6 +234,7 @@ fn belongs(role: Role, kind: LawKind) -> bool {
         }
         Role::FrictionForce(parameter, _) => forces::belongs(kind, parameter),
         Role::Flag => LawKind::NUMERIC.contains(&kind),
+        Role::Table(_) => kind == LawKind::Expression,
         Role::Coefficient => {
             matches!(kind, LawKind::Expression | LawKind::Samples)
                 || kind.parameters().iter().any(|known| known.path == COEFFICIENT.path)

@@ -16,8 +16,8 @@ use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::data_file::{DataFile, Row};
 use crate::study::document::{Node, Table, Value};
 use crate::study::files::WantedFile;
-use crate::study::reader::{KeyUnit, Reader};
-use crate::study::vocabulary::join;
+use crate::study::reader::Reader;
+use crate::study::vocabulary::{KeyUnit, join};
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of samples";

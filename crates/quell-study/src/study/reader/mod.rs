@@ -11,7 +11,7 @@ use super::computed::Computed;
 use super::document::{Node, Table, given_number};
 use super::files::Files;
 use super::suggest;
-use super::vocabulary::{self, Section, join};
+use super::vocabulary::{self, DocumentKind, Section, join};
 use crate::complaint::{Complaint, Fault, Origin};
 
 mod numbers;
@@ -19,7 +19,7 @@ mod units;
 mod words;
 
 pub(super) use numbers::{Found, Keyed, NumbersByName, Reported, WantedNumber, suffixed};
-pub(super) use units::{EquationScale, KeyUnit, StudyUnits};
+pub(super) use units::{EquationScale, StudyUnits};
 
 /// Where and how a parameter was written.
 #[derive(Clone, Debug)]
@@ -36,6 +36,7 @@ struct Written {
 /// Reads keys and collects errors.
 #[derive(Debug)]
 pub struct Reader {
+    kind: DocumentKind,
     units: StudyUnits,
     named: NumbersByName,
     complaints: Vec<Complaint>,
@@ -48,6 +49,7 @@ impl Reader {
     /// A reader in these units, which holds no file.
     pub(super) fn in_units(file: UnitSystem, scale: EquationScale) -> Self {
         Self {
+            kind: DocumentKind::System,
             units: StudyUnits { file, scale, natural_frequency: None },
             named: NumbersByName::default(),
             complaints: Vec::new(),
@@ -60,6 +62,11 @@ impl Reader {
     /// The reader with what an earlier reading left.
     pub(super) fn with(self, files: Files, computed: Computed) -> Self {
         Self { files, computed, ..self }
+    }
+
+    /// The reader of a document of a kind.
+    pub(super) fn of_kind(self, kind: DocumentKind) -> Self {
+        Self { kind, ..self }
     }
 
     /// The units of the study.
@@ -141,28 +148,23 @@ impl Reader {
     }
 
     /// Reports keys that a table does not have.
-    pub(super) fn unknown_keys(
-        &mut self,
-        table: &Table,
-        section: Section,
-        prefix: &str,
-        also: &[&str],
-    ) {
+    pub(super) fn unknown_keys(&mut self, table: &Table, section: Section, prefix: &str) {
         for (name, node) in table.iter() {
-            if vocabulary::key(section, name).is_some() || also.contains(&name) {
-                continue;
+            if vocabulary::key(section, name, self.kind).is_none() {
+                self.unknown_key(section, prefix, name, node);
             }
-            self.unknown_key(section, prefix, name, node);
         }
     }
 
     /// Reports one unknown key.
     pub(super) fn unknown_key(&mut self, section: Section, prefix: &str, name: &str, node: &Node) {
-        let index =
-            prefix.split_once('[').and_then(|(_, rest)| rest.trim_end_matches(']').parse().ok());
-        let there: Vec<&str> = vocabulary::keys_of(section).map(|key| key.name).collect();
+        let kind = self.kind;
+        let there: Vec<&str> = vocabulary::keys_of(section, kind).map(|key| key.name).collect();
         let key = join(prefix, name);
-        let nearest = suggest::path(section.path(), name, index);
+        let nearest = suggest::key(kind, section, name);
+        let nearest = nearest.map(|near| {
+            if near.section == section { join(prefix, near.name) } else { near.path() }
+        });
         // A key is never suggested for itself.
         let nearest = nearest.filter(|path| *path != key);
         let complaint =

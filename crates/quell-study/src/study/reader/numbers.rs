@@ -8,10 +8,10 @@ use quell_model::units::measure::{self, Unread};
 use serde_json::Value as Json;
 
 use super::Reader;
-use super::units::{EquationScale, KeyUnit};
+use super::units::EquationScale;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
-use crate::study::vocabulary::join;
+use crate::study::vocabulary::{KeyUnit, join};
 
 /// The result of reading the keys of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]

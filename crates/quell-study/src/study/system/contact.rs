@@ -9,16 +9,17 @@ use quell_model::parameter::system::{
 use quell_model::profile::Profile;
 use quell_model::{Contact, Friction, LawKind};
 
-use super::keys::SystemTable;
-use super::keys::unknown_keys;
 use super::names::{MOST_COORDINATES, NAME, is_plain_name};
 use super::rows::RowBasis;
+use serde_json::Value as Json;
+
 use crate::complaint::{Complaint, Fault};
 use crate::study::belt::one_state;
 use crate::study::course::{CoursePlace, no_constant, replaces_constant};
 use crate::study::document::{Node, Table, Value};
 use crate::study::friction::{self, LawPlace, ReadLaw};
 use crate::study::reader::{Found, Reader};
+use crate::study::vocabulary::Section;
 use crate::study::vocabulary::{DRIVE, LOAD, join};
 
 /// What contacts need to know of the rest of the study.
@@ -92,6 +93,14 @@ pub(super) fn read(
     context: ContactContext<'_>,
 ) -> Option<Vec<ReadContact>> {
     let tables = listed(reader, document, "", "contact");
+    if let Some(shared) = context.shared
+        && tables.iter().all(|(.., table)| table.has("friction"))
+    {
+        let allowed = "omitted: every contact has a law of its own, in [contact.friction]";
+        let complaint =
+            Complaint::new(Fault::Conflict, "friction", shared.origin, Json::Null, allowed);
+        reader.complain(complaint);
+    }
     let mut names: Vec<String> = Vec::new();
     let contacts: Vec<Option<ReadContact>> = tables
         .into_iter()
@@ -157,7 +166,7 @@ fn one(
     index: usize,
     context: ContactContext<'_>,
 ) -> Option<ReadContact> {
-    unknown_keys(reader, table, prefix, SystemTable::Contact);
+    reader.unknown_keys(table, Section::Contact, prefix);
     let ContactContext { first_order, .. } = context;
     let before = reader.complaints_so_far();
     let rows = ["tangent", "normal", "slope", "force"]

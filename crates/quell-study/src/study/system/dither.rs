@@ -9,8 +9,6 @@ use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Input, InputTarget};
 
 use super::contact::listed;
-use super::keys::unknown_keys;
-use super::keys::{PLACES, SystemTable, system_keys};
 use super::rows::RowBasis;
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::band;
@@ -18,11 +16,16 @@ use crate::study::course::{Course, CoursePlace};
 use crate::study::design::DitherPlace;
 use crate::study::dither_size::{self, SizedAmplitude};
 use crate::study::document::{Node, Table, Value};
+use crate::study::path::is_factor;
 use crate::study::reader::Reader;
 use crate::study::suggest;
 use crate::study::vocabulary::size::DITHER_SIZES;
+use crate::study::vocabulary::{self, DocumentKind, Section};
 use crate::study::vocabulary::{Choice, ENVELOPE, FRICTION, join};
 use crate::study::waveform;
+
+/// The key of the places that a design tries.
+pub(in crate::study) const PLACES: &str = "places";
 
 /// The contacts that a dither can modulate.
 #[derive(Clone, Copy)]
@@ -83,7 +86,7 @@ pub(super) fn places(
     let before = reader.complaints_so_far();
     let listed = listed(reader, design, "design", PLACES);
     let places = listed.into_iter().map(|(prefix, node, table)| {
-        unknown_keys(reader, table, &prefix, SystemTable::DitherPlace);
+        reader.unknown_keys(table, Section::DitherPlace, &prefix);
         target(reader, &prefix, node, table, context)?;
         Some(DitherPlace { name: place_in_words(table), keys: table.clone() })
     });
@@ -151,7 +154,7 @@ pub(super) fn table_mut(document: &mut Table, dither: usize) -> Option<&mut Tabl
 
 /// Lets a dither act at a place.
 pub(super) fn put_at(table: &mut Table, place: &DitherPlace) {
-    for key in system_keys(SystemTable::DitherPlace) {
+    for key in vocabulary::keys_of(Section::DitherPlace, DocumentKind::System) {
         table.remove(key.name);
     }
     for (name, node) in place.keys.iter() {
@@ -164,7 +167,7 @@ fn one(
     (prefix, node, table): (&str, &Node, &Table),
     context: DitherContext<'_>,
 ) -> Option<(Input, SizedAmplitude)> {
-    unknown_keys(reader, table, prefix, SystemTable::Dither);
+    reader.unknown_keys(table, Section::Dither, prefix);
     let target = target(reader, prefix, node, table, context);
     let is_noise = waveform::is_noise(table);
     let read = waveform::read(reader, table, (prefix, node.origin), |reader| {
@@ -195,12 +198,6 @@ fn one(
         envelope: envelope.ok()?,
     };
     Some((Input { target: target?, profile: Profile::constant(mean?).with(wave) }, amplitude?))
-}
-
-/// Whether a dither is a factor on the friction of its contact, so that its amplitude is no force.
-pub(super) fn is_factor(table: &Table) -> bool {
-    !table.has("at")
-        && matches!(table.get("direction").map(|node| &node.value), Some(Value::Text(word)) if word == FRICTION)
 }
 
 /// The amplitude of a factor on friction.

@@ -3,12 +3,11 @@
 use quell_model::units::Quantity;
 use quell_model::{Contact, Structure};
 
-use super::keys::SystemTable;
-use super::keys::unknown_keys;
 use super::rows::RowBasis;
 use crate::complaint::{Complaint, Fault};
 use crate::study::document::Table;
 use crate::study::reader::{Keyed, Reader, Reported, WantedNumber};
+use crate::study::vocabulary::Section;
 use crate::study::vocabulary::{Choice, join};
 
 /// Where a run begins.
@@ -45,7 +44,7 @@ pub(super) fn read(
 ) -> Option<SystemStart> {
     let Some(node) = system.get("initial") else { return Some(SystemStart::Rest) };
     let table = reader.table(PREFIX, node)?;
-    unknown_keys(reader, table, PREFIX, SystemTable::Initial);
+    reader.unknown_keys(table, Section::SystemInitial, PREFIX);
     let given: Vec<&str> = table.iter().map(|(name, _)| name).collect();
     let kinds = ["state", "values", "displacements", "velocities"]
         .map(|kind| given.iter().any(|name| name.starts_with(kind)));

@@ -10,8 +10,8 @@ use super::names::PREFIX;
 use crate::complaint::{Complaint, Fault};
 use crate::study::document::{Node, Table, Value};
 use crate::study::files::{Files, WantedFile};
-use crate::study::reader::{KeyUnit, Keyed, Reader, Reported, WantedNumber};
-use crate::study::vocabulary::join;
+use crate::study::reader::{Keyed, Reader, Reported, WantedNumber};
+use crate::study::vocabulary::{KeyUnit, join};
 
 /// A square matrix of size `n`, if it is given: a diagonal, rows or a file.
 pub(super) fn matrix(

@@ -6,10 +6,8 @@
 
 mod contact;
 mod dither;
-mod found;
 mod frequency_response;
 mod initial;
-pub mod keys;
 mod mass;
 mod matrices;
 mod matrix_market;
@@ -18,15 +16,12 @@ mod modes_file;
 mod names;
 mod origin;
 mod parameters;
-pub(in crate::study) mod path;
 mod read;
 mod rows;
 mod setup;
 mod sized;
 mod structure;
 mod unused;
-mod walk;
-mod walk_entries;
 
 use std::sync::Arc;
 
@@ -44,13 +39,13 @@ use super::reader::{EquationScale, Reader};
 use super::study_kind::StudyKind;
 use crate::complaint::{Complaint, Complaints, Origin};
 
+pub(in crate::study) use dither::PLACES;
 pub use frequency_response::FrequencyResponse;
 pub use initial::SystemStart;
-pub(in crate::study) use keys::PLACES;
 pub use origin::{NumberedStudy, SystemOrigin};
 pub use setup::{DescribedSystem, ScaledTime, SystemSetup};
 
-use path::set;
+use crate::study::path::{self, set};
 
 /// A checked study of a system.
 pub type SystemStudy = StudyOf<SystemSetup>;
@@ -58,10 +53,6 @@ pub type SystemStudy = StudyOf<SystemSetup>;
 impl StudyKind for SystemSetup {
     fn reader(_: &Table) -> Reader {
         Reader::in_units(UnitSystem::None, EquationScale::OfTheFile)
-    }
-
-    fn tables(_: &Table) -> &'static [&'static str] {
-        keys::TABLES
     }
 
     fn read(reader: &mut Reader, document: &Table) -> Option<Self> {

@@ -13,8 +13,6 @@ use quell_numerics::matrix::Matrix;
 use serde_json::Value as Json;
 
 use super::contact::listed;
-use super::keys::SystemTable;
-use super::keys::unknown_keys;
 use super::modes_file::{ModeList, SystemMode};
 use super::names::{MOST_COORDINATES, NAME, PREFIX, is_plain_name};
 use super::rows::{RowBasis, ShapePoints};
@@ -22,6 +20,7 @@ use super::structure::{ReadStructure, force};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Reader, WantedNumber};
+use crate::study::vocabulary::Section;
 use crate::study::vocabulary::{Choice, join};
 
 /// Modes with the name of their component; without a name for a structure of one component.
@@ -96,7 +95,7 @@ fn components(reader: &mut Reader, table: &Table) -> Option<Vec<ModalComponent>>
     let read: Vec<Option<ModalComponent>> = listed(reader, table, PREFIX, "component")
         .into_iter()
         .map(|(prefix, node, table)| {
-            unknown_keys(reader, table, &prefix, SystemTable::Component);
+            reader.unknown_keys(table, Section::Component, &prefix);
             let key = join(&prefix, "name");
             let name = if let Some(node) = table.get("name") {
                 reader.text(&key, node).filter(|name| {
@@ -233,7 +232,7 @@ fn one(
     prefix: &str,
     points: &mut Vec<String>,
 ) -> Option<InlineMode> {
-    unknown_keys(reader, table, prefix, SystemTable::Mode);
+    reader.unknown_keys(table, Section::Mode, prefix);
     let frequency = reader.number(table, prefix, node.origin, SYSTEM_MODE_FREQUENCY);
     let damping = reader.number(table, prefix, node.origin, SYSTEM_MODE_DAMPING);
     let mass = reader.optional(table, prefix, SYSTEM_MODAL_MASS);

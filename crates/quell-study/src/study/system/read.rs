@@ -9,10 +9,7 @@ use serde_json::Value as Json;
 use super::contact::{self, ContactContext, ReadContact};
 use super::dither::{self, DitherContext};
 use super::frequency_response::{self, FrequencyResponse};
-use super::keys::unknown_keys;
-use super::keys::{OTHER_KINDS, SystemTable};
 use super::modes;
-use super::path::amplitude_of;
 use super::setup::{SystemSetup, natural_frequency};
 use super::structure::{self, ReadStructure};
 use super::{initial, parameters, sized, unused};
@@ -20,9 +17,11 @@ use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::actuator;
 use crate::study::design::{self, DesignContext};
 use crate::study::document::{Node, Table, Value};
+use crate::study::path::amplitude_of;
 use crate::study::plausible;
 use crate::study::reader::{NumbersByName, Reader};
 use crate::study::vocabulary::Choice;
+use crate::study::vocabulary::Section;
 use quell_model::units::UnitSystem;
 
 /// Adds what is valid but unlikely, or without effect, to the study of a system that was read from a document.
@@ -36,7 +35,6 @@ pub(super) fn with_warnings(setup: SystemSetup, document: &Table) -> SystemSetup
 
 /// Reads the study of a system without its warnings; `None` if something is wrong, which has then been reported.
 pub(super) fn study(reader: &mut Reader, document: &Table) -> Option<SystemSetup> {
-    conflicts(reader, document);
     let units = units(reader, document);
     reader.set_file_units(units);
     let named = parameters::read(reader, document);
@@ -48,7 +46,7 @@ pub(super) fn study(reader: &mut Reader, document: &Table) -> Option<SystemSetup
         return None;
     };
     let table = reader.table("system", node)?;
-    unknown_keys(reader, table, "system", SystemTable::System);
+    reader.unknown_keys(table, Section::System, "system");
     let (ReadStructure { basis, structure }, response) = body(reader, table, header);
     reader.set_natural_frequency(structure.as_ref().and_then(natural_frequency));
     // Without names no row can be read.
@@ -141,19 +139,6 @@ fn warnings(
     let half = table.has("coordinates").then(|| plausible::half_symmetric(system));
     let listed = plausible.into_iter().chain(half).flatten();
     listed.chain(unused::warning(document, named)).collect()
-}
-
-/// Reports tables of the other kinds.
-fn conflicts(reader: &mut Reader, document: &Table) {
-    for name in OTHER_KINDS.iter().copied() {
-        if let Some(node) = document.get(name) {
-            let allowed = format!(
-                "a study describes a belt, a disc or a system; [{name}] and [system] exclude each other"
-            );
-            let complaint = Complaint::new(Fault::Conflict, name, node.origin, Json::Null, allowed);
-            reader.complain(complaint);
-        }
-    }
 }
 
 fn units(reader: &mut Reader, document: &Table) -> UnitSystem {

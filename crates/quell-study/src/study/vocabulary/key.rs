@@ -1,236 +1,17 @@
 //! A key of the study file: its table, its name and the values it takes.
 
-use quell_model::friction::expression;
-use quell_model::parameter::{COEFFICIENT, Parameter, SiTwin};
+use quell_model::parameter::{COEFFICIENT, NATURAL_FREQUENCY, Parameter, STIFFNESS, SiTwin};
 use quell_model::units::{Quantity, UnitSystem};
 
-use super::course::{CourseKey, CourseTable, DISC_DRIVE, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
-use super::size::SizeKey;
+use super::course::CourseKey;
+use super::key_unit::KeyUnit;
+use super::section::{KeyScope, Section};
+use super::size::{SizeKey, SizedSignal};
+use super::wave::WaveKey;
 use super::words::Choice;
 
 /// What the key `schema` of a study is.
 pub const SCHEMA_ABOUT: &str = "version of the study file [default: 1]";
-
-/// A table of the study file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Section {
-    /// Keys outside any table.
-    Root,
-    /// `[belt]`.
-    Belt,
-    /// `[belt.initial]`.
-    Initial,
-    /// `[belt.drive]`.
-    Drive,
-    /// `[belt.load]`.
-    Load,
-    /// `[friction]`.
-    Friction,
-    /// `[friction.constants]`, whose names a study chooses.
-    Constants,
-    /// `[disc]`.
-    Disc,
-    /// `[[disc.mode]]`.
-    DiscMode,
-    /// `[disc.load]` or `[[disc.load]]`.
-    DiscLoad,
-    /// `[disc.drive]`.
-    DiscDrive,
-    /// `[disc.load.envelope]`.
-    LoadEnvelope,
-    /// `[dither]` or `[[dither]]`.
-    Dither,
-    /// `[dither.envelope]`.
-    Envelope,
-    /// `[solver]`.
-    Solver,
-    /// `[response]`.
-    Response,
-    /// `[design]`.
-    Design,
-    /// `[design.limits]`.
-    DesignLimits,
-    /// `[actuator]`.
-    Actuator,
-    /// `[[sweep]]`.
-    Sweep,
-}
-
-impl Section {
-    /// Every table, in the order of a study file.
-    pub const ALL: &'static [Self] = &[
-        Self::Root,
-        Self::Belt,
-        Self::Initial,
-        Self::Drive,
-        Self::Load,
-        Self::Friction,
-        Self::Constants,
-        Self::Disc,
-        Self::DiscMode,
-        Self::DiscLoad,
-        Self::DiscDrive,
-        Self::LoadEnvelope,
-        Self::Dither,
-        Self::Envelope,
-        Self::Solver,
-        Self::Response,
-        Self::Design,
-        Self::DesignLimits,
-        Self::Actuator,
-        Self::Sweep,
-    ];
-
-    /// Path of the table; empty for the root.
-    pub fn path(self) -> &'static str {
-        match self {
-            Self::Root => "",
-            Self::Belt => "belt",
-            Self::Initial => "belt.initial",
-            Self::Drive => "belt.drive",
-            Self::Load => "belt.load",
-            Self::Friction => "friction",
-            Self::Constants => expression::CONSTANTS,
-            Self::Disc => "disc",
-            Self::DiscMode => "disc.mode",
-            Self::DiscLoad => "disc.load",
-            Self::DiscDrive => "disc.drive",
-            Self::LoadEnvelope => "disc.load.envelope",
-            Self::Dither => "dither",
-            Self::Envelope => "dither.envelope",
-            Self::Solver => "solver",
-            Self::Response => "response",
-            Self::Design => "design",
-            Self::DesignLimits => "design.limits",
-            Self::Actuator => "actuator",
-            Self::Sweep => "sweep",
-        }
-    }
-
-    /// Contents of the table, in one line.
-    pub fn about(self) -> &'static str {
-        match self {
-            Self::Root => "a study: a belt with its friction law or a disc, and dither",
-            Self::Disc => "annular disc under rotating loads",
-            Self::DiscMode => "a mode of the disc, if modes are listed instead of computed",
-            Self::DiscLoad => {
-                "mass, damper, spring and friction at a point; several as [[disc.load]]"
-            }
-            Self::Belt => "mass, spring and damper on a moving belt",
-            Self::Initial => "initial state of a run [default: at rest]",
-            Self::Drive => "velocity of the belt over time, instead of or added to belt_velocity",
-            Self::Load => "normal load over time, instead of or added to normal_load",
-            Self::Friction => "the friction law",
-            Self::Constants => "named numbers of a formula",
-            Self::Dither => "one dither force; several as [[dither]]",
-            Self::DiscDrive => {
-                "speed of the disc over time, instead of or added to disc.load.speed"
-            }
-            Self::LoadEnvelope => "share of the normal load, and with it of friction, over time",
-            Self::Envelope => "share of the amplitude over time",
-            Self::Solver => "accuracy and length of the computations",
-            Self::Response => {
-                "measurements of a response in addition to the band of slow vibration"
-            }
-            Self::Design => "the least dither over a box of operating points",
-            Self::DesignLimits => "limits of the dither that is designed",
-            Self::Actuator => "the actuator that gives the dither",
-            Self::Sweep => "one axis of a map; several in order",
-        }
-    }
-
-    /// What a table over time gives.
-    pub fn course(self) -> Option<CourseTable> {
-        match self {
-            Self::Drive => Some(DRIVE),
-            Self::Load => Some(LOAD),
-            Self::DiscDrive => Some(DISC_DRIVE),
-            Self::LoadEnvelope => Some(LOAD_ENVELOPE),
-            Self::Envelope => Some(ENVELOPE),
-            _ => None,
-        }
-    }
-}
-
-/// A part of the description of a waveform that is more than a name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WaveKey {
-    /// The harmonics of a sum.
-    Harmonics,
-    /// The samples of a period.
-    Values,
-    /// A file of the samples.
-    File,
-    /// What is between two samples.
-    Hold,
-    /// The waveform of the carrier of bursts.
-    Carrier,
-    /// Periods of the carrier in a burst.
-    On,
-    /// Periods of the carrier in a pause.
-    Off,
-    /// The ends of the band of noise.
-    Band,
-    /// The same in hertz.
-    BandHz,
-    /// The number of lines of noise.
-    Lines,
-    /// The seed of noise.
-    Seed,
-}
-
-impl WaveKey {
-    /// The waveform that it describes.
-    pub fn waveform(self) -> &'static str {
-        match self {
-            Self::Harmonics => quell_model::waveform::FOURIER,
-            Self::Values | Self::File | Self::Hold => quell_model::waveform::SAMPLES,
-            Self::Carrier | Self::On | Self::Off => quell_model::waveform::BURST,
-            Self::Band | Self::BandHz | Self::Lines | Self::Seed => quell_model::waveform::NOISE,
-        }
-    }
-
-    /// What it is, in one line.
-    pub const fn about(self) -> &'static str {
-        match self {
-            Self::Harmonics => "waveform \"fourier\": order, sine and cosine of every harmonic",
-            Self::Values => {
-                "waveform \"samples\": one period at equal distances; its mean is taken out"
-            }
-            Self::File => {
-                "waveform \"samples\": a file of them, one number per line or a CSV column value, relative to the study file"
-            }
-            Self::Hold => {
-                "waveform \"samples\": straight lines between them, or each held [default: linear]"
-            }
-            Self::Carrier => "waveform \"burst\": waveform of the carrier",
-            Self::On => "waveform \"burst\": periods of the carrier in a burst",
-            Self::Off => "waveform \"burst\": periods of the carrier in a pause",
-            Self::Band | Self::BandHz => {
-                "waveform \"noise\": lowest and highest frequency, instead of the frequency of a periodic dither"
-            }
-            Self::Lines => {
-                "waveform \"noise\": number of equal lines at irregular frequencies [default: 64]"
-            }
-            Self::Seed => "waveform \"noise\": seed of their frequencies and phases [default: 1]",
-        }
-    }
-}
-
-/// The keys of waveforms that are more than a name.
-pub const WAVE_KEYS: [(&str, WaveKey); 11] = [
-    ("harmonics", WaveKey::Harmonics),
-    ("values", WaveKey::Values),
-    ("file", WaveKey::File),
-    ("hold", WaveKey::Hold),
-    ("carrier", WaveKey::Carrier),
-    ("on", WaveKey::On),
-    ("off", WaveKey::Off),
-    ("band", WaveKey::Band),
-    ("lines", WaveKey::Lines),
-    ("seed", WaveKey::Seed),
-    ("band_hz", WaveKey::BandHz),
-];
 
 /// The kind of value that a key takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -285,6 +66,34 @@ pub enum Role {
     Paths,
     /// The ranges of the numbers over which a design holds, by their paths.
     Ranges,
+    /// A diagonal, rows or a file of numbers of a quantity.
+    Matrix(RowUnit),
+    /// A number for each coordinate, as a table of names or an array.
+    Row(RowUnit),
+    /// Names of coordinates or states.
+    Names,
+    /// A table.
+    Table(Section),
+    /// A table or a list of tables.
+    Tables(Section),
+    /// A list of tables that is set as a whole.
+    List(Section),
+}
+
+/// What the numbers of a matrix or of a row measure, and by which key they are given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RowUnit {
+    /// Their quantity; `None` for numbers without a unit.
+    pub quantity: Option<Quantity>,
+    /// Whether the key has the unit as a suffix, such as `mass_kg`.
+    pub si: bool,
+}
+
+impl RowUnit {
+    /// The unit in the suffix of the key.
+    pub fn suffix(self) -> Option<&'static str> {
+        self.quantity.filter(|_| self.si)?.si_unit().map(|(unit, _)| unit)
+    }
 }
 
 /// One key of the study file.
@@ -298,15 +107,38 @@ pub struct Key {
     pub role: Role,
     /// Description, in one line.
     pub about: &'static str,
+    /// The studies that have it.
+    pub scope: KeyScope,
 }
 
 impl Key {
+    /// A key of every study that has its table.
+    pub(super) fn new(
+        section: Section,
+        name: &'static str,
+        role: Role,
+        about: &'static str,
+    ) -> Self {
+        Self { section, name, role, about, scope: section.scope() }
+    }
+
+    /// The keys of a number of the registry.
+    pub(super) fn of_number(section: Section, parameter: Parameter) -> impl Iterator<Item = Self> {
+        let Parameter { about, .. } = parameter;
+        let others = parameter.si.iter().map(move |&twin| {
+            let about = twin.own.map_or(about, |(_, own)| own);
+            Self::new(section, twin.key, Role::Twin(parameter, twin), about)
+        });
+        let own = Self::new(section, parameter.key(), Role::Number(parameter), about);
+        [own].into_iter().chain(others)
+    }
+
     /// Its path without index.
     pub fn path(&self) -> String {
         join(self.section.path(), self.name)
     }
 
-    /// The parameter it gives, in SI or not.
+    /// The parameter it gives, by whichever key.
     pub fn parameter(&self) -> Option<Parameter> {
         match self.role {
             Role::Number(parameter) | Role::Twin(parameter, _) | Role::Size(parameter, _) => {
@@ -317,12 +149,23 @@ impl Key {
         }
     }
 
-    /// Symbol of its number in the equations, in SI or not.
+    /// Symbol of its number in the equations.
     pub fn symbol(&self) -> Option<&'static str> {
         match self.role {
             Role::Twin(_, SiTwin { own: Some((symbol, _)), .. })
             | Role::Size(_, SizeKey { symbol, .. }) => Some(symbol),
             _ => self.parameter().map(|parameter| parameter.symbol),
+        }
+    }
+
+    /// The quantity that its numbers measure.
+    pub fn quantity(&self) -> Option<Quantity> {
+        match self.role {
+            Role::Size(_, size) => size.quantity(),
+            Role::Matrix(unit) | Role::Row(unit) => unit.quantity,
+            Role::Band { .. } => Some(Quantity::FrequencyRatio),
+            Role::Speeds { .. } => Some(Quantity::Velocity),
+            _ => self.parameter().map(|parameter| parameter.quantity),
         }
     }
 
@@ -332,25 +175,32 @@ impl Key {
         named || self.parameter().is_some()
     }
 
-    /// Unit of its value, in a study with these units.
+    /// The unit in which it gives its numbers.
+    pub(in crate::study) fn key_unit(&self) -> KeyUnit {
+        let suffix = match self.role {
+            Role::Number(parameter) | Role::Twin(parameter, _) => {
+                return KeyUnit::of(parameter, self.name);
+            }
+            Role::Size(_, SizeKey { signal: SizedSignal::Newtons, .. }) => Some("N"),
+            Role::FrictionForce(_, unit) => Some(unit),
+            Role::Matrix(unit) | Role::Row(unit) => unit.suffix(),
+            Role::Speeds { si: true } => Some("m/s"),
+            Role::Band { hertz: true } => Some("Hz"),
+            _ => None,
+        };
+        suffix.map_or(KeyUnit::Study, KeyUnit::Suffix)
+    }
+
+    /// Unit of its value in a study of a belt or a disc with these units.
     pub fn unit(&self, units: UnitSystem) -> &'static str {
-        match self.role {
-            Role::Number(parameter) if parameter.is_pure() => parameter.quantity.scaled_unit(),
-            Role::Number(parameter) => own_unit(parameter.quantity, units),
-            Role::Twin(parameter, other) if other.unit.is_empty() => {
-                own_unit(parameter.quantity, units)
-            }
-            Role::Twin(_, other) => other.unit,
-            Role::Size(parameter, size) if size.unit.is_empty() => {
-                own_unit(parameter.quantity, units)
-            }
-            Role::Size(_, size) => size.unit,
-            Role::FrictionForce(_, unit) => unit,
-            Role::Speeds { si: true } => "m/s",
-            Role::Speeds { si: false } => own_unit(Quantity::Velocity, units),
-            Role::Band { hertz: true } => "Hz",
-            Role::Band { hertz: false } => own_unit(Quantity::FrequencyRatio, units),
-            _ => "1",
+        match (self.role, self.key_unit()) {
+            (_, KeyUnit::Suffix(unit)) => unit,
+            (Role::Size(_, size), _) if !size.unit.is_empty() => size.unit,
+            (_, KeyUnit::Ratio) => self.quantity().map_or("1", Quantity::scaled_unit),
+            (Role::Coefficient, _) => "1",
+            (_, KeyUnit::Study) => self.quantity().map_or("1", |quantity| {
+                units.unit(quantity).unwrap_or_else(|| quantity.scaled_unit())
+            }),
         }
     }
 
@@ -360,36 +210,81 @@ impl Key {
         if self.is_of_a_disc() && unit == "ω₀" { "ω_ref" } else { unit }
     }
 
+    /// Unit of its value in the study of a system with these units, whose equations have no scales.
+    pub(in crate::study) fn unit_in_system(&self, units: UnitSystem) -> &'static str {
+        let quantity = self.quantity();
+        let of_study = || quantity.and_then(|known| units.unit(known).or(known.own_unit()));
+        match self.key_unit() {
+            KeyUnit::Suffix(unit) => unit,
+            KeyUnit::Ratio => "1",
+            KeyUnit::Study => of_study().unwrap_or("1"),
+        }
+    }
+
     /// The unit to which a number with a unit is converted, such as `5.7kN` for a key in newtons; `None` for dimensionless
     /// numbers and other values without a unit.
     pub fn measured_in(&self, units: UnitSystem) -> Option<&'static str> {
-        match self.role {
-            Role::Number(parameter) => match parameter.quantity {
+        match (self.role, self.key_unit()) {
+            (_, KeyUnit::Suffix(unit)) => Some(unit),
+            (Role::Constant, _) | (_, KeyUnit::Ratio) => Some("1"),
+            (Role::Size(_, size), _) if !size.unit.is_empty() => Some(size.unit),
+            (Role::Speeds { .. } | Role::Band { .. }, _) => None,
+            (_, KeyUnit::Study) => match self.quantity()? {
                 Quantity::Ratio | Quantity::DampingRatio => Some("1"),
                 Quantity::Angle => Some("rad"),
-                _ if parameter.is_pure() => Some("1"),
                 quantity => quantity.own_unit().or_else(|| units.unit(quantity)),
             },
-            Role::Twin(parameter, other) if other.unit.is_empty() => units.unit(parameter.quantity),
-            Role::Size(parameter, size) if size.unit.is_empty() => units.unit(parameter.quantity),
-            Role::Twin(_, SiTwin { unit, .. })
-            | Role::Size(_, SizeKey { unit, .. })
-            | Role::FrictionForce(_, unit) => Some(unit),
-            Role::Speeds { si: true } => Some("m/s"),
-            Role::Band { hertz: true } => Some("Hz"),
-            Role::Constant => Some("1"),
-            _ => None,
         }
     }
 
     fn is_of_a_disc(&self) -> bool {
         matches!(self.section, Section::Disc | Section::DiscMode | Section::DiscLoad)
     }
+
+    /// Whether setting it replaces another key of its table: another key of the same parameter, a named state for numbers, the
+    /// values of an axis for its ends, and vice versa.
+    pub(in crate::study) fn replaces(&self, sibling: &Self) -> bool {
+        if self.name == sibling.name {
+            return false;
+        }
+        if let (Some(one), Some(other)) = (self.parameter(), sibling.parameter()) {
+            // Stiffness and natural frequency are alternatives to each other.
+            let alternatives = [STIFFNESS.path, NATURAL_FREQUENCY.path];
+            return one.path == other.path
+                || [one, other].iter().all(|number| alternatives.contains(&number.path));
+        }
+        match (self.section, self.role, sibling.role) {
+            (Section::Initial | Section::SystemInitial, role, other) => {
+                role.is_word() || other.is_word()
+            }
+            (Section::Friction, Role::Speeds { .. }, Role::Speeds { .. })
+            | (_, Role::Band { .. }, Role::Band { .. }) => true,
+            (Section::Friction, Role::FrictionForce(one, _), Role::FrictionForce(other, _)) => {
+                one.path == other.path
+            }
+            (Section::Sweep, role, other) => {
+                (role == Role::AxisValues) != (other == Role::AxisValues)
+                    && self.name != "parameter"
+                    && sibling.name != "parameter"
+            }
+            _ => false,
+        }
+    }
 }
 
-/// Unit of a bare number of a quantity.
-fn own_unit(quantity: Quantity, units: UnitSystem) -> &'static str {
-    units.unit(quantity).unwrap_or_else(|| quantity.scaled_unit())
+impl Role {
+    /// Whether it takes a word from a list.
+    fn is_word(self) -> bool {
+        matches!(self, Self::Choice(_))
+    }
+
+    /// The table, or tables of a list, inside.
+    pub fn inner(self) -> Option<Section> {
+        match self {
+            Self::Table(inner) | Self::Tables(inner) | Self::List(inner) => Some(inner),
+            _ => None,
+        }
+    }
 }
 
 /// `table.key`, or `key` alone at the root.

@@ -4,15 +4,17 @@ use std::sync::LazyLock;
 
 use quell_model::LawKind;
 use quell_model::parameter::{
-    self, COEFFICIENT, DITHER_AMPLITUDE, MINIMUM_COEFFICIENT, Parameter, STATIC_COEFFICIENT,
-    VISCOUS,
+    self, COEFFICIENT, DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE, MINIMUM_COEFFICIENT,
+    Parameter, STATIC_COEFFICIENT, VISCOUS,
 };
 
 use super::course::{CourseKey, CourseTable};
-use super::key::{Key, Role, SCHEMA_ABOUT, Section, WAVE_KEYS, WaveKey};
+use super::key::{Key, Role, SCHEMA_ABOUT};
+use super::section::{DocumentKind, KeyScope, Section};
 use super::size::DITHER_SIZES;
+use super::wave::{WAVE_KEYS, WaveKey};
 use super::words::Choice;
-use super::{UNITS, UNITS_ABOUT};
+use super::{UNITS, UNITS_ABOUT, of_systems};
 
 /// Every key, table by table.
 pub fn keys() -> &'static [Key] {
@@ -20,14 +22,19 @@ pub fn keys() -> &'static [Key] {
     &KEYS
 }
 
-/// Keys of one table.
-pub fn keys_of(section: Section) -> impl Iterator<Item = &'static Key> {
-    keys().iter().filter(move |key| key.section == section)
+/// Keys of one table in studies of a kind.
+pub fn keys_of(section: Section, kind: DocumentKind) -> impl Iterator<Item = &'static Key> {
+    keys().iter().filter(move |key| key.section == section && key.scope.includes(kind))
+}
+
+/// The keys of every friction law, the same in studies of all kinds.
+pub fn law_keys() -> impl Iterator<Item = &'static Key> {
+    keys_of(Section::Friction, DocumentKind::System)
 }
 
 /// The key of a name in a table.
-pub fn key(section: Section, name: &str) -> Option<&'static Key> {
-    keys_of(section).find(|key| key.name == name)
+pub fn key(section: Section, name: &str, kind: DocumentKind) -> Option<&'static Key> {
+    keys_of(section, kind).find(|key| key.name == name)
 }
 
 fn all() -> Vec<Key> {
@@ -35,6 +42,8 @@ fn all() -> Vec<Key> {
     keys.extend(numbers());
     keys.extend(own_law());
     keys.extend(disc());
+    keys.extend(of_systems::keys());
+    keys.extend(tables());
     keys.extend(band());
     keys.extend(axis());
     keys.extend(design());
@@ -43,89 +52,130 @@ fn all() -> Vec<Key> {
     keys
 }
 
+/// Keys outside any table, and the tables that are inside others.
+fn tables() -> Vec<Key> {
+    use Section as S;
+    let table = |within, name, role: fn(Section) -> Role, inner: Section| Key {
+        scope: inner.scope(),
+        ..Key::new(within, name, role(inner), inner.about())
+    };
+    let one = |within, name, inner| table(within, name, Role::Table, inner);
+    let several = |within, name, inner| table(within, name, Role::Tables, inner);
+    let root = |inner: Section| one(S::Root, inner.path(), inner);
+    vec![
+        Key::new(S::Root, "schema", Role::Schema, SCHEMA_ABOUT),
+        Key::new(S::Root, "title", Role::Text, "subject of the study"),
+        root(S::Belt),
+        root(S::Disc),
+        root(S::System),
+        several(S::Root, "contact", S::Contact),
+        root(S::Friction),
+        several(S::Root, "dither", S::Dither),
+        root(S::Parameters),
+        root(S::Solver),
+        root(S::Response),
+        root(S::Design),
+        root(S::Actuator),
+        root(S::Uncertainty),
+        several(S::Root, "sweep", S::Sweep),
+        one(S::Belt, "initial", S::Initial),
+        one(S::Belt, "drive", S::Drive),
+        one(S::Belt, "load", S::Load),
+        one(S::Friction, "constants", S::Constants),
+        several(S::Disc, "mode", S::DiscMode),
+        several(S::Disc, "load", S::DiscLoad),
+        one(S::Disc, "drive", S::DiscDrive),
+        one(S::DiscLoad, "envelope", S::LoadEnvelope),
+        several(S::System, "mode", S::Mode),
+        several(S::System, "component", S::Component),
+        several(S::Component, "mode", S::Mode),
+        one(S::System, "initial", S::SystemInitial),
+        one(S::Contact, "friction", S::Friction),
+        one(S::Contact, "drive", S::Drive),
+        one(S::Contact, "load", S::Load),
+        one(S::Dither, "envelope", S::Envelope),
+        one(S::Design, "limits", S::DesignLimits),
+        // The reader of other studies says that they have no choice of places.
+        Key { scope: KeyScope::EVERY, ..table(S::Design, "places", Role::List, S::DitherPlace) },
+    ]
+}
+
 /// Keys that take words.
 fn words() -> Vec<Key> {
-    use Section::{Belt, Disc, Dither, Friction, Initial, Root};
-    let word =
-        |section, name, choice, about| Key { section, name, role: Role::Choice(choice), about };
-    let root = |name, role, about| Key { section: Root, name, role, about };
-    let waves = WAVE_KEYS.iter().map(|&(name, wave)| Key {
-        section: Dither,
-        name,
-        role: match wave {
+    use Section::{Belt, Disc, Dither, Friction, Initial};
+    let word = |section, name, choice, about| Key::new(section, name, Role::Choice(choice), about);
+    let waves = WAVE_KEYS.iter().map(|&(name, wave)| {
+        let role = match wave {
             WaveKey::Band => Role::Band { hertz: false },
             WaveKey::BandHz => Role::Band { hertz: true },
             other => Role::Wave(other),
-        },
-        about: wave.about(),
+        };
+        Key::new(Dither, name, role, wave.about())
     });
+    let direction = "direction of the force";
     let words = vec![
-        root("schema", Role::Schema, SCHEMA_ABOUT),
-        root("title", Role::Text, "subject of the study"),
         word(Belt, UNITS, Choice::Units, UNITS_ABOUT),
         word(Disc, UNITS, Choice::Units, UNITS_ABOUT),
         word(Initial, "state", Choice::State, "a named state"),
         word(Friction, "law", Choice::Law, "the friction law"),
-        word(Dither, "direction", Choice::Direction, "direction of the force"),
+        Key {
+            scope: KeyScope::BELT_OR_DISC,
+            ..word(Dither, "direction", Choice::Direction, direction)
+        },
         word(Dither, "waveform", Choice::Waveform, "shape of the force in time"),
     ];
     let tables = Section::ALL.iter().copied().filter(|section| section.course().is_some());
     let courses = tables.flat_map(|section| {
         let keys = section.course().map_or_else(Vec::new, CourseTable::keys);
-        keys.into_iter().map(move |(name, course)| Key {
-            section,
-            name,
-            role: if course == CourseKey::Shape {
-                Role::Choice(Choice::KnotShape)
-            } else {
-                Role::Course(course)
-            },
-            about: course.about(),
+        keys.into_iter().map(move |(name, course)| {
+            let role = match course {
+                CourseKey::Shape => Role::Choice(Choice::KnotShape),
+                CourseKey::File => Role::Text,
+                _ => Role::Course(course),
+            };
+            Key::new(section, name, role, course.about())
         })
     });
     words.into_iter().chain(waves).chain(courses).collect()
 }
 
-/// Keys that take a number of the registry, dimensionless or in SI.
+/// Keys that take a number of the registry: its own, and those in other units.
 fn numbers() -> Vec<Key> {
-    // Kinds may share keys (the dither of a disc has those of a belt): the first kind defines them.
-    let mut keys: Vec<Key> = Vec::new();
-    let mut parameters: Vec<Parameter> = parameter::SCALES.to_vec();
-    // A study of a system has keys of its own (`study::system`), which only it knows.
-    let of_kinds = parameter::BELT.iter().chain(parameter::disc::DISC);
     let of_designs = parameter::design::LIMITS.iter().chain(parameter::design::CONFIDENT);
     let of_questions = of_designs.chain(parameter::actuator::ACTUATOR);
-    for parameter in of_kinds.chain(of_questions) {
-        if !parameters.iter().any(|known| known.path == parameter.path) {
-            parameters.push(*parameter);
-        }
-    }
     let of_laws = LawKind::ALL.iter().flat_map(|law| law.parameters().iter().chain(law.options()));
-    // The key of a coefficient also takes formulas and samples.
-    for parameter in of_laws.filter(|parameter| parameter.path != COEFFICIENT.path) {
-        if !parameters.iter().any(|known| known.path == parameter.path) {
+    let of_kinds = parameter::BELT.iter().chain(parameter::disc::DISC);
+    // Kinds may share keys (the dither of a disc has those of a belt): the first kind defines them. The key of a coefficient also
+    // takes formulas and samples.
+    let mut parameters: Vec<Parameter> = parameter::SCALES.to_vec();
+    for parameter in of_kinds.chain(of_questions).chain(of_laws) {
+        let known = parameters.iter().any(|known| known.path == parameter.path);
+        if !known && parameter.path != COEFFICIENT.path {
             parameters.push(*parameter);
         }
     }
+    let mut keys: Vec<Key> = Vec::new();
     for parameter in parameters {
         let table = parameter.path.strip_suffix(parameter.key()).unwrap_or_default();
         let at = |section: &&Section| section.path() == table.trim_end_matches('.');
         let section = Section::ALL.iter().find(at).copied().unwrap_or(Section::Root);
-        let about = parameter.about;
-        keys.push(Key { section, name: parameter.key(), role: Role::Number(parameter), about });
-        keys.extend(parameter.si.iter().map(|&twin| Key {
-            section,
-            name: twin.key,
-            role: Role::Twin(parameter, twin),
-            about: twin.own.map_or(about, |(_, own)| own),
-        }));
+        let first = keys.len();
+        keys.extend(Key::of_number(section, parameter));
+        // The dither of a system has a frequency of its own.
+        if parameter.path == DITHER_FREQUENCY_RATIO.path {
+            keys[first..].iter_mut().for_each(|key| key.scope = KeyScope::BELT_OR_DISC);
+        }
         if parameter.path == DITHER_AMPLITUDE.path {
-            keys.extend(DITHER_SIZES.iter().map(|&size| Key {
-                section,
-                name: size.key,
-                role: Role::Size(parameter, size),
-                about: size.about,
-            }));
+            keys.extend(
+                DITHER_SIZES.iter().map(|&size| {
+                    Key::new(section, size.key, Role::Size(parameter, size), size.about)
+                }),
+            );
+        }
+        // The dither of a disc is a factor on friction: it has an amplitude without a unit, and no phase.
+        if [DITHER_AMPLITUDE.path, DITHER_PHASE.path].contains(&parameter.path) {
+            let of_forces = keys[first..].iter_mut().filter(|key| key.name != "amplitude");
+            of_forces.for_each(|key| key.scope = KeyScope::BELT_OR_SYSTEM);
         }
     }
     keys
@@ -138,7 +188,7 @@ const STATIC_FORCE: &str = "largest friction force at rest, instead of static_co
 
 /// Keys of a user-defined friction law.
 fn own_law() -> Vec<Key> {
-    let key = |name, role, about| Key { section: Section::Friction, name, role, about };
+    let key = |name, role, about| Key::new(Section::Friction, name, role, about);
     vec![
         key(
             "coefficient",
@@ -178,7 +228,7 @@ fn own_law() -> Vec<Key> {
 
 /// Keys of a disc that are not numbers of the registry.
 fn disc() -> Vec<Key> {
-    let key = |name, role, about| Key { section: Section::Disc, name, role, about };
+    let key = |name, role, about| Key::new(Section::Disc, name, role, about);
     vec![
         key(
             "reference_frequency",
@@ -206,18 +256,14 @@ fn disc() -> Vec<Key> {
 
 /// Keys of the band of a level.
 fn band() -> Vec<Key> {
-    let key = |name, hertz| Key {
-        section: Section::Response,
-        name,
-        role: Role::Band { hertz },
-        about: "lower and upper limit of the band in which vibration levels with and without dither are compared",
-    };
+    let about = "lower and upper limit of the band in which vibration levels with and without dither are compared";
+    let key = |name, hertz| Key::new(Section::Response, name, Role::Band { hertz }, about);
     vec![key("band", false), key("band_hz", true)]
 }
 
 /// Keys of a design.
 fn design() -> Vec<Key> {
-    let key = |name, role, about| Key { section: Section::Design, name, role, about };
+    let key = |name, role, about| Key::new(Section::Design, name, role, about);
     vec![
         key("minimise", Role::Choice(Choice::Objective), "what is to be small"),
         key(
@@ -247,7 +293,7 @@ fn design() -> Vec<Key> {
 
 /// Keys of an actuator that are not numbers of the registry.
 fn actuator() -> Vec<Key> {
-    let key = |name, role, about| Key { section: Section::Actuator, name, role, about };
+    let key = |name, role, about| Key::new(Section::Actuator, name, role, about);
     vec![
         key("kind", Role::Choice(Choice::ActuatorKind), "kind of actuator"),
         key(
@@ -261,7 +307,7 @@ fn actuator() -> Vec<Key> {
 
 /// Keys of an axis.
 fn axis() -> Vec<Key> {
-    let key = |name, role, about| Key { section: Section::Sweep, name, role, about };
+    let key = |name, role, about| Key::new(Section::Sweep, name, role, about);
     vec![
         key("parameter", Role::Text, "path of the number to vary"),
         key("from", Role::AxisNumber, "first value"),

@@ -1,12 +1,15 @@
 //! Every key a study file can have, made from the registry of parameters.
 //!
-//! One list serves the reader, `--set`, sweeps, suggestions and the JSON Schema.
+//! One list serves the readers, `--set`, sweeps, suggestions and the JSON Schema.
 
 mod course;
 mod key;
+mod key_unit;
 mod keys;
-mod resolve;
+mod of_systems;
+mod section;
 pub mod size;
+mod wave;
 mod words;
 
 /// What the key [`UNITS`] is.
@@ -17,9 +20,11 @@ pub const UNITS_ABOUT: &str =
 pub const UNITS: &str = "units";
 
 pub use course::{CourseKey, CourseTable, DISC_DRIVE, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
-pub use key::{Key, Role, SCHEMA_ABOUT, Section, WAVE_KEYS, WaveKey, join};
-pub use keys::{key, keys, keys_of};
-pub use resolve::{Address, resolve, with_unit};
+pub use key::{Key, Role, RowUnit, SCHEMA_ABOUT, join};
+pub(in crate::study) use key_unit::KeyUnit;
+pub use keys::{key, keys, keys_of, law_keys};
+pub use section::{DocumentKind, KeyScope, Section};
+pub use wave::{WAVE_KEYS, WaveKey};
 pub use words::{Choice, FRICTION};
 
 /// Version of the study file that this program reads.
@@ -36,31 +41,26 @@ mod tests {
     use super::*;
 
     #[test]
-    fn paths_are_unique_and_resolve_to_themselves() {
-        let mut paths: Vec<String> = keys().iter().map(Key::path).collect();
-        for path in &paths {
-            let address = resolve(path).expect(path);
-            assert_eq!(&address.key.path(), path);
+    fn names_are_unique_in_the_tables_of_a_kind() {
+        for kind in [DocumentKind::Belt, DocumentKind::Disc, DocumentKind::System] {
+            for section in Section::ALL {
+                let mut names: Vec<&str> = keys_of(*section, kind).map(|key| key.name).collect();
+                let count = names.len();
+                names.sort_unstable();
+                names.dedup();
+                assert_eq!(names.len(), count, "{kind:?} {section:?}");
+            }
         }
-        paths.sort();
-        let count = paths.len();
-        paths.dedup();
-        assert_eq!(paths.len(), count);
     }
 
     #[test]
     fn every_parameter_stands_in_its_table() {
         for key in keys() {
             if let Role::Number(parameter) = key.role {
-                assert_eq!(key.path(), parameter.path);
+                let own = key.path() == parameter.path;
+                // The tables of a system have parameters whose paths name no list.
+                assert!(own || key.scope == KeyScope::SYSTEM, "{}", key.path());
             }
         }
-    }
-
-    #[test]
-    fn indices_belong_to_lists_alone() {
-        assert_eq!(resolve("dither[1].amplitude_n").map(|found| found.index), Ok(Some(1)));
-        assert!(resolve("belt[0].damping_ratio").is_err());
-        assert!(resolve("dither[one].amplitude").is_err());
     }
 }

@@ -1,24 +1,23 @@
 //! The end of a path: an entry of a matrix or of a row.
 
 use super::found::{FoundPath, LostPath, PathStep};
-use super::keys::{SystemKey, SystemTable};
 use super::walk::{PathSegment, Walk};
 use crate::study::document::{Node, Value};
 use crate::study::suggest;
+use crate::study::vocabulary::{Key, Section};
 
 impl<'d> Walk<'d> {
     /// An entry of a matrix.
     pub(super) fn matrix(
         &mut self,
-        key: &SystemKey,
-        twin: bool,
+        key: &'static Key,
         node: Option<&'d Node>,
         segment: &PathSegment<'_>,
         rest: &[PathSegment<'_>],
     ) -> Result<FoundPath, LostPath> {
         let list = match node.map(|node| &node.value) {
             Some(Value::List(list)) => list,
-            Some(Value::Table(_)) => return self.matrix_file(key, twin, segment, rest),
+            Some(Value::Table(_)) => return self.matrix_file(key, segment, rest),
             _ => return Err(LostPath::default()),
         };
         let diagonal = !matches!(list.first().map(|node| &node.value), Some(Value::List(_)));
@@ -44,21 +43,20 @@ impl<'d> Walk<'d> {
             return Err(LostPath::because(format!("{name} has {n} rows; indices begin at 0")));
         }
         self.steps.extend(indices.into_iter().map(PathStep::Index));
-        Ok(FoundPath { is_number: true, replaces: Vec::new(), ..self.found(key, twin) })
+        Ok(FoundPath { is_number: true, replaces: Vec::new(), ..self.found(key) })
     }
 
     /// The file of a matrix; its entries cannot be set.
     fn matrix_file(
         &mut self,
-        key: &SystemKey,
-        twin: bool,
+        key: &'static Key,
         segment: &PathSegment<'_>,
         rest: &[PathSegment<'_>],
     ) -> Result<FoundPath, LostPath> {
         match (segment.indices.as_slice(), rest) {
             ([], [PathSegment { name: "file", indices }]) if indices.is_empty() => {
                 self.steps.push(PathStep::Key("file".to_owned()));
-                Ok(FoundPath { replaces: Vec::new(), ..self.found(key, twin) })
+                Ok(FoundPath { replaces: Vec::new(), ..self.found(key) })
             }
             _ => {
                 let name = &self.written;
@@ -72,9 +70,8 @@ impl<'d> Walk<'d> {
     /// An entry of a row, by name or index, in the form in which the row is written.
     pub(super) fn row(
         &mut self,
-        key: &SystemKey,
-        twin: bool,
-        which: SystemTable,
+        key: &'static Key,
+        which: Section,
         node: Option<&'d Node>,
         segment: &PathSegment<'_>,
         rest: &[PathSegment<'_>],
@@ -113,17 +110,17 @@ impl<'d> Walk<'d> {
             }
             index @ PathStep::Index(_) => self.steps.push(index),
         }
-        Ok(FoundPath { is_number: true, replaces: Vec::new(), ..self.found(key, twin) })
+        Ok(FoundPath { is_number: true, replaces: Vec::new(), ..self.found(key) })
     }
 
     fn unknown_name(&self, name: &str, names: &[String]) -> LostPath {
         let nearest = suggest::word(name, names.iter().map(String::as_str));
         let nearest = nearest.map(|name| format!("{}.{name}", self.written));
-        LostPath { nearest, allowed: None }
+        LostPath::near(nearest)
     }
 
     /// Names of the entries of a row that is written as an array.
-    fn names(&self, which: SystemTable, key: &str) -> Vec<String> {
+    fn names(&self, which: Section, key: &str) -> Vec<String> {
         let system = self.document.get("system").and_then(Node::table);
         let listed = ["coordinates", "states"].into_iter().find_map(|name| {
             match &system?.get(name)?.value {
@@ -137,7 +134,7 @@ impl<'d> Walk<'d> {
         };
         let names: Vec<String> = listed.into_iter().flatten().map(text).collect();
         let mechanical = system.is_some_and(|table| !table.has("states"));
-        if which == SystemTable::Initial && key == "values" && mechanical {
+        if which == Section::SystemInitial && key == "values" && mechanical {
             let velocities = names.iter().map(|name| format!("velocity.{name}"));
             return names.iter().cloned().chain(velocities).collect();
         }
