@@ -24,7 +24,7 @@ pub(crate) struct StudyArguments {
     /// Study file (TOML); - reads standard input
     #[arg(value_name = "STUDY")]
     study: PathBuf,
-    /// Changes a value of the study, such as dither[1].amplitude=0.3
+    /// Changes a value of the study, such as dither[1].amplitude=0.3; `quell schema` lists the keys
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
     /// Replaces the tolerance of [solver]

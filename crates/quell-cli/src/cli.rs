@@ -98,7 +98,7 @@ impl Verb {
             Self::New(arguments) => new::run(arguments),
             Self::Completions(arguments) => completions::run(arguments, &mut command()),
             Self::Check(arguments) => check::run(arguments),
-            Self::Schema(arguments) => Ok(schema::run(arguments)),
+            Self::Schema(arguments) => schema::run(arguments),
             Self::Sketch(arguments) => sketch::run(arguments),
             Self::Report(arguments) => report::run(arguments),
             Self::Cite(arguments) => cite::run(arguments),

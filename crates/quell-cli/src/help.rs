@@ -31,7 +31,7 @@ const GROUPS: &[(&str, &[VerbExamples])] = &[
                     "quell report two-mass-drive.toml --out drive.html --without thresholds",
                 ],
             ),
-            ("schema", &["quell schema"]),
+            ("schema", &["quell schema", "quell schema contact", "quell schema --json"]),
             ("completions", &["quell completions bash"]),
         ],
     ),

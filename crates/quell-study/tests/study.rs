@@ -808,3 +808,23 @@ fn tables_of_another_kind_are_refused() {
         }
     }
 }
+
+/// A speed along the surface is that at the radius of the load, which must be known.
+#[test]
+fn the_speed_of_a_disc_may_be_that_along_its_surface() {
+    let text = "[disc]\nunits = \"SI\"\ninner_radius_ratio = 0.5\npoisson_ratio = 0.3\nradial_modes = 1\nnodal_diameters = 2\n\
+                youngs_modulus_pa = 2.1e11\ndensity_kg_per_m3 = 7800\nthickness_m = 0.01\nouter_radius_m = 0.15\n\
+                [disc.load]\nradius_ratio = 0.75\nspeed = SPEED\n";
+    let read = |speed: &str| DiscStudy::parse(&text.replace("SPEED", speed), &[]);
+    let speed =
+        |given: &str| read(given).unwrap_or_else(|wrong| panic!("{wrong:?}")).disc().speed();
+    let wanted = speed(&format!("{:?}", 10.0 / (0.75 * 0.15)));
+    for given in ["\"36 km/h\"", "\"10 m/s\""] {
+        assert!((speed(given) / wanted - 1.0).abs() < 1e-14, "{given}: {}", speed(given));
+    }
+    let ratio = "[disc]\ninner_radius_ratio = 0.5\npoisson_ratio = 0.3\nradial_modes = 1\nnodal_diameters = 2\n\
+                 [disc.load]\nradius_ratio = 0.75\nspeed = \"36 km/h\"\n";
+    let complaints = DiscStudy::parse(ratio, &[]).expect_err("no radius");
+    assert_eq!((complaints.len(), complaints[0].key.as_str()), (1, "disc.load.speed"));
+    assert!(complaints[0].allowed.contains("outer_radius_m"), "{complaints}");
+}

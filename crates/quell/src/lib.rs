@@ -143,6 +143,7 @@
 //! |---|---|
 //! | [`run`] | one function per question, with its outcome |
 //! | [`study`], [`complaint`], [`schema`] | studies and complaints about invalid ones (`quell-study`) |
+//! | [`keys`] | the keys of a study file in words |
 //! | [`measurement`], [`record`] | measured friction, time series and spectra in files (`quell-study`) |
 //! | [`sweep`], [`store`] | maps: points, quantities, threads; stores that survive interruptions |
 //! | [`picture`], [`plot`] | pictures of outcomes; figures as data (`quell-plot`) |
@@ -158,6 +159,7 @@ pub mod dataset;
 mod effort;
 pub mod fields;
 pub mod html;
+pub mod keys;
 pub mod kind;
 mod noise;
 pub mod outcome;

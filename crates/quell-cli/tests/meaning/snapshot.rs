@@ -1,5 +1,6 @@
 //! The answers of every study in `studies/` through every verb that it has, with all digits: a change of a number is seen here, and
-//! explained in CHANGELOG.md.
+//! explained in CHANGELOG.md. Numbers of discs have nine digits: eigenvalues of their large matrices differ from processor to
+//! processor in the last ones, because products of matrices are summed in the order that suits it.
 //!
 //! `answers/STUDY.txt` has a line for each number, word or list. `cargo xtask snapshot` also asks the verbs that take long, and its `--bless`
 //! writes the files again.
@@ -11,6 +12,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
+
+use serde_json::Value as Json;
 
 use crate::answer::Answer;
 
@@ -34,6 +37,12 @@ const VERBS: &[(&str, bool)] = &[
 /// Questions that take more than ten minutes, which nobody waits for here.
 const TOO_LONG: &[(&str, &str)] = &[("basins", "bowed-string.toml")];
 
+/// Digits of a number of a disc after the first.
+const DIGITS_OF_DISCS: usize = 8;
+
+/// The largest number of a disc that is the rounding of a zero.
+const ZERO_OF_DISCS: f64 = 1e-12;
+
 /// The longest list that is written out.
 const LONGEST: usize = 4;
 
@@ -53,10 +62,18 @@ fn arguments<'a>(verb: &'a str, study: &'a str) -> Vec<&'a str> {
 }
 
 /// The lines of an answer.
-fn lines(verb: &str, answer: &Answer) -> String {
+fn lines(verb: &str, answer: &Answer, of_disc: bool) -> String {
+    let written = |value: &Json| match value.as_f64() {
+        Some(number) if of_disc && value.is_f64() => {
+            let number = if number.abs() < ZERO_OF_DISCS { 0.0 } else { number };
+            format!("{number:.DIGITS_OF_DISCS$e}")
+        }
+        _ => value.to_string(),
+    };
     let mut text = String::new();
     let mut lists: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for (key, value) in answer.values() {
+        let value = written(value);
         match key.split_once('[') {
             None => {
                 let _ = writeln!(text, "{verb} {key} = {value}");
@@ -86,9 +103,11 @@ fn lines(verb: &str, answer: &Answer) -> String {
 fn of_study(study: &str, all: bool) -> String {
     let asked =
         VERBS.iter().filter(|(verb, quick)| (all || *quick) && !TOO_LONG.contains(&(*verb, study)));
+    let text = fs::read_to_string(folder("studies").join(study)).expect("a study");
+    let of_disc = text.lines().any(|line| line == "[disc]");
     let lines = asked.filter_map(|(verb, _)| {
         let answer = Answer::of(&folder("studies"), &arguments(verb, study));
-        (!answer.is_refused()).then(|| lines(verb, &answer))
+        (!answer.is_refused()).then(|| lines(verb, &answer, of_disc))
     });
     lines.collect()
 }

@@ -124,7 +124,7 @@ pub(super) fn set(document: &mut Table, path: &str, node: &Node) -> Result<(), B
         return Err(Box::new(complaint));
     }
     let found = follow(document, path).map_err(|lost| {
-        let unknown = (Fault::Unknown, "the keys listed by `quell schema`");
+        let unknown = (Fault::Unknown, "the keys that `quell schema` lists");
         Box::new(lost.complaint(path, (node.origin, node.given()), unknown))
     })?;
     let Some((last, steps)) = found.steps.split_last() else { return Ok(()) };

@@ -151,9 +151,9 @@ impl Section {
             Self::Friction => "the friction law",
             Self::Constants => "named numbers of a formula",
             Self::System => "the linear structure",
-            Self::Mode => "a mode of the structure; several as [[system.mode]]",
+            Self::Mode => "a mode of the structure",
             Self::Component => "a body given by its modes; several are joined by contacts",
-            Self::Contact => "a friction contact; several as [[contact]]",
+            Self::Contact => "a friction contact",
             Self::Dither => "one dither force; several as [[dither]]",
             Self::DiscDrive => {
                 "speed of the disc over time, instead of or added to disc.load.speed"
