@@ -22,9 +22,21 @@ pub fn keys() -> &'static [Key] {
     &KEYS
 }
 
+/// Keys of one table.
+fn of_section(section: Section) -> &'static [Key] {
+    static ENDS: LazyLock<Vec<usize>> = LazyLock::new(|| {
+        // The keys are in the order of the tables.
+        let before = |section: &Section| keys().partition_point(|key| key.section <= *section);
+        Section::ALL.iter().map(before).collect()
+    });
+    let place = section as usize;
+    let first = place.checked_sub(1).map_or(0, |before| ENDS[before]);
+    &keys()[first..ENDS[place]]
+}
+
 /// Keys of one table in studies of a kind.
 pub fn keys_of(section: Section, kind: DocumentKind) -> impl Iterator<Item = &'static Key> {
-    keys().iter().filter(move |key| key.section == section && key.scope.includes(kind))
+    of_section(section).iter().filter(move |key| key.scope.includes(kind))
 }
 
 /// The keys of every friction law, the same in studies of all kinds.
@@ -48,7 +60,7 @@ fn all() -> Vec<Key> {
     keys.extend(axis());
     keys.extend(design());
     keys.extend(actuator());
-    keys.sort_by_key(|key| Section::ALL.iter().position(|section| *section == key.section));
+    keys.sort_by_key(|key| key.section);
     keys
 }
 

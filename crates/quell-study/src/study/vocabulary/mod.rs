@@ -54,6 +54,18 @@ mod tests {
     }
 
     #[test]
+    fn every_key_is_found_in_its_table() {
+        assert!(Section::ALL.is_sorted());
+        for key in keys() {
+            let kind = [DocumentKind::Belt, DocumentKind::Disc, DocumentKind::System]
+                .into_iter()
+                .find(|kind| key.scope.includes(*kind));
+            let found = super::key(key.section, key.name, kind.expect("a kind"));
+            assert_eq!(found, Some(key), "{}", key.path());
+        }
+    }
+
+    #[test]
     fn every_parameter_stands_in_its_table() {
         for key in keys() {
             if let Role::Number(parameter) = key.role {

@@ -5,8 +5,8 @@ use quell_model::friction::expression;
 use super::course::{CourseTable, DISC_DRIVE, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
 use crate::study::document::Table;
 
-/// A table of the study file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+/// A table of the study file, in its order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Section {
     /// Keys outside any table.
     Root,
