@@ -211,7 +211,7 @@ def parameters(cls: type) -> set[str]:
 
 def keys(table: str) -> set[str]:
     """Keys of a table of study files; those of a system are in the schema alone."""
-    found = {key for section, key, _, _ in _quell.keys() if section == table}
+    found = {key for _, section, key, _, _ in _quell.keys() if section == table}
     return found or set(quell.schema()["$defs"][table]["properties"])
 
 

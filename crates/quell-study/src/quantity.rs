@@ -169,10 +169,9 @@ pub fn value_of(
 ) -> Result<f64, Box<Complaint>> {
     // Whether a study that could not be read has units is unknown: they are accepted then.
     let of_no_study = || {
-        let kinds = [DocumentKind::Belt, DocumentKind::Disc, DocumentKind::System];
-        let found = kinds.into_iter().find_map(|kind| key_at(path, kind).ok())?;
-        let units = UnitSystem::Si;
-        Some((found.key.measured_in(units), found.key.unit_in_words(units)))
+        let find = |kind| Some((kind, key_at(path, kind).ok()?.key));
+        let (kind, key) = DocumentKind::ALL.into_iter().find_map(find)?;
+        Some((key.measured_in(UnitSystem::Si), key.unit_in_words(kind, UnitSystem::Si)))
     };
     let known = match study {
         Some(study) => study.address(path).ok().map(|found| (found.measured_in, found.unit)),

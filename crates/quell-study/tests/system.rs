@@ -462,3 +462,26 @@ fn friction_as_a_force_has_a_path() {
     let complaints = Study::parse(&unused, &[]).expect_err("a law for no contact");
     assert_eq!((complaints[0].fault, complaints[0].key.as_str()), (Fault::Conflict, "friction"));
 }
+
+/// An entry that a list does not have is refused: no value is dropped in silence.
+#[test]
+fn entries_are_counted() {
+    let system = study(TEXT);
+    for (path, allowed) in [
+        ("contact.rail.tangent[7]", "2 entries"),
+        ("system.initial.velocities[2]", "2 entries"),
+        ("contact.pad.friction.coefficient[0]", "no list"),
+        ("system.mass[2]", "2 rows"),
+    ] {
+        let wrong = system.with(path, 0.25).expect_err(path);
+        assert!(wrong[0].allowed.contains(allowed), "{path}: {wrong}");
+    }
+    let samples = TEXT.replace(
+        "law = \"coulomb\"\ncoefficient = 0.5",
+        "law = \"samples\"\nslip_velocity = [0.0, 0.1, 0.2, 0.4, 0.8, 1.0]\ncoefficient = [0.5, 0.45, 0.42, 0.4, 0.39, 0.39]",
+    );
+    let samples = study(&samples);
+    assert_eq!(samples.number("contact.pad.friction.coefficient[2]"), Some(0.42));
+    assert!(samples.with("contact.pad.friction.coefficient[2]", 0.43).is_ok());
+    assert!(samples.with("contact.pad.friction.coefficient[6]", 0.4).is_err());
+}

@@ -181,14 +181,14 @@ impl ListedKey {
 
 /// The unit of a number in a study without units, where its equations have one: those of a system do not.
 fn scaled_unit(key: &Key, parameter: Parameter) -> Option<&'static str> {
-    let has_one = key.scope != KeyScope::SYSTEM && !SCALES.contains(&parameter);
-    let unit = key.unit_in_words(UnitSystem::None);
+    let has_one = !SCALES.contains(&parameter);
+    let unit = key.unit_in_words(key.first_kind(), UnitSystem::None);
     Some(unit).filter(|unit| has_one && !unit.starts_with('1'))
 }
 
 /// The studies of a scope in words.
 fn kinds(scope: KeyScope) -> String {
-    let all = [DocumentKind::Belt, DocumentKind::Disc, DocumentKind::System];
+    let all = DocumentKind::ALL;
     let names = all.into_iter().filter(|kind| scope.includes(*kind));
     let names: Vec<&str> = names.map(|kind| kind.section().path()).collect();
     names.join(" or ")

@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use quell::schema::schema as front_door;
 use quell::study::UnitSystem;
-use quell::study::vocabulary::{self, KeyScope};
+use quell::study::vocabulary::{self, DocumentKind};
 use quell::sweep::QUANTITIES;
 
 use crate::convert;
@@ -14,13 +14,21 @@ pub(crate) fn schema(py: Python<'_>) -> PyResult<Py<PyAny>> {
     convert::to_python(py, &front_door())
 }
 
-/// (table, key, unit, description) of every key of the study file of a belt or a disc.
+/// A key of a study file: the kind of study, its table, its name, its unit and its description.
+type KeyTuple = (&'static str, &'static str, &'static str, &'static str, &'static str);
+
+/// Every key that takes a value in the study file of a belt and of a disc.
 #[pyfunction]
-pub(crate) fn keys() -> Vec<(&'static str, &'static str, &'static str, &'static str)> {
-    let all = vocabulary::keys().iter();
-    let all = all.filter(|key| key.role.inner().is_none() && key.scope != KeyScope::SYSTEM);
-    all.map(|key| (key.section.path(), key.name, key.unit_in_words(UnitSystem::None), key.about))
-        .collect()
+pub(crate) fn keys() -> Vec<KeyTuple> {
+    let of_kind = |kind: DocumentKind| {
+        let own = vocabulary::keys().iter().filter(move |key| key.scope.includes(kind));
+        let own = own.filter(|key| key.role.inner().is_none());
+        own.map(move |key| {
+            let unit = key.unit_in_words(kind, UnitSystem::None);
+            (kind.section().path(), key.section.path(), key.name, unit, key.about)
+        })
+    };
+    of_kind(DocumentKind::Belt).chain(of_kind(DocumentKind::Disc)).collect()
 }
 
 /// ("belt", "disc" or "system", name, description) of every quantity of a map.

@@ -60,7 +60,9 @@ pub(super) fn of_section(section: Section, needed: &[&str]) -> Json {
             }
             Some(other) if value(other) != value(&one) => {
                 let about = other["description"].take();
-                let either = [value(other), value(&one)];
+                let mut either = alternatives(other);
+                let more = alternatives(&one).into_iter();
+                either.extend(more.filter(|one| !alternatives(other).contains(one)));
                 *other = json!({ "anyOf": either, "description": about });
             }
             Some(_) => {}
@@ -74,6 +76,14 @@ pub(super) fn properties(section: Section, kind: DocumentKind) -> Map<String, Js
     let of_kind = |key: &Key| property(&Key { scope: kind.scope(), ..*key });
     let keys = vocabulary::keys_of(section, kind);
     keys.map(|key| (key.name.to_owned(), value(&of_kind(key)))).collect()
+}
+
+/// The values of which a value may be any.
+fn alternatives(described: &Json) -> Vec<Json> {
+    match described["anyOf"].as_array() {
+        Some(any) => any.clone(),
+        None => vec![value(described)],
+    }
 }
 
 /// What a value may be, without its description.
@@ -213,7 +223,11 @@ fn about(key: &Key) -> String {
     match key.role {
         Role::Number(_) | Role::Twin(..) | Role::Size(..) => {
             let symbol = key.symbol().unwrap_or_default();
-            format!("{symbol}: {}, in {}", key.about, key.unit_in_words(UnitSystem::None))
+            format!(
+                "{symbol}: {}, in {}",
+                key.about,
+                key.unit_in_words(key.first_kind(), UnitSystem::None)
+            )
         }
         Role::Speeds { .. } | Role::Band { .. } | Role::FrictionForce(..) => {
             format!("{}, in {}", key.about, key.unit(UnitSystem::None))

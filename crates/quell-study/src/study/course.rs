@@ -15,7 +15,7 @@ use super::data_file::DataFile;
 use super::document::{Node, Table, Value};
 use super::files::WantedFile;
 use super::reader::{Keyed, Reader, WantedNumber, suffixed};
-use super::vocabulary::{Choice, CourseTable, KeyUnit, join};
+use super::vocabulary::{Choice, CourseTable, KeyUnit, Section, join};
 use crate::complaint::{Complaint, Fault};
 
 /// What the file must be.
@@ -167,20 +167,10 @@ impl CoursePlace {
     }
 
     fn unknown_keys(&self, reader: &mut Reader, table: &Table, prefix: &str) -> Option<()> {
-        let keys = self.0.keys();
-        let mut fits = true;
-        for (name, node) in table.iter() {
-            if keys.iter().any(|(known, _)| *known == name) {
-                continue;
-            }
-            let there: Vec<&str> = keys.iter().map(|(name, _)| *name).collect();
-            let key = join(prefix, name);
-            let complaint =
-                Complaint::new(Fault::Unknown, key, node.origin, node.given(), there.join(", "));
-            reader.complain(complaint);
-            fits = false;
-        }
-        fits.then_some(())
+        let section = Section::ALL.iter().find(|section| section.course() == Some(self.0))?;
+        let before = reader.complaints_so_far();
+        reader.unknown_keys(table, *section, prefix);
+        (reader.complaints_so_far() == before).then_some(())
     }
 
     /// A list of numbers, by its key or by its key in SI.

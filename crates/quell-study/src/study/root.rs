@@ -46,7 +46,7 @@ pub(super) fn misplaced(name: &str, kind: DocumentKind) -> Option<(Fault, String
         let allowed = "[actuator] is implemented for belts and systems: the dither of a disc modulates its friction";
         return Some((Fault::NotBuilt, allowed.to_owned()));
     }
-    let kinds = [DocumentKind::Belt, DocumentKind::Disc, DocumentKind::System];
+    let kinds = DocumentKind::ALL;
     let other = kinds.into_iter().find(|kind| key.scope.includes(*kind))?.section().path();
     let allowed = if name == other {
         let own = kind.section().path();

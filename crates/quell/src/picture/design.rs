@@ -122,7 +122,7 @@ fn axis_of_key(path: &str, in_si: bool) -> PlotAxis {
     let parameter = address.key.parameter();
     let symbol = parameter.map_or("", |parameter| parameter.symbol);
     let about = parameter.map_or(path, |parameter| short_about(parameter.about));
-    let unit = address.key.unit_in_words(UnitSystem::None);
+    let unit = address.key.unit_in_words(DocumentKind::Disc, UnitSystem::None);
     let axis = PlotAxis::new(about).symbol(symbol);
     if in_si && unit != "1" { axis.unit(unit) } else { axis }
 }

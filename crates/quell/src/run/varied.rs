@@ -96,7 +96,7 @@ impl Varied {
             path: path.clone(),
             about: address.key.about,
             symbol: address.key.symbol(),
-            unit: address.key.unit_in_words(study.file_units()),
+            unit: address.key.unit_in_words(DocumentKind::Belt, study.file_units()),
             values: evenly((from, to), points),
         })
     }

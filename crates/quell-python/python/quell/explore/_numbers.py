@@ -131,12 +131,12 @@ def definitions() -> dict[str, Any]:
 
 
 @functools.cache
-def units() -> tuple[dict[tuple[str, str], str], dict[str, str]]:
-    """Units of the keys by (table, key), and units in SI by the endings of keys."""
-    exact: dict[tuple[str, str], str] = {}
+def units() -> tuple[dict[tuple[str, str, str], str], dict[str, str]]:
+    """Units of the keys by (kind of study, table, key), and units in SI by the endings of keys."""
+    exact: dict[tuple[str, str, str], str] = {}
     endings: dict[str, str] = {}
-    for table, key, unit, _ in _quell.keys():
-        exact[table, key] = unit
+    for kind, table, key, unit, _ in _quell.keys():
+        exact[kind, table, key] = unit
         for place in range(len(key)):
             ending = key[place:]
             if ending.startswith("_") and written(unit) == ending:
@@ -157,11 +157,8 @@ def unit_of(kind: str, path: list[Token]) -> str:
     exact, endings = units()
     key = str(next(it for it in reversed(path) if isinstance(it, str)))
     table = ".".join(str(it) for it in path[:-1] if isinstance(it, str))
-    if kind != "system" and (table, key) in exact:
-        found = exact[table, key]
-        if kind == "disc" and table == "dither":
-            # The amplitude is relative to the friction force, the frequency to ω_ref.
-            found = "1" if key == "amplitude" else found.replace("ω₀", "ω_ref")
+    if (kind, table, key) in exact:
+        found = exact[kind, table, key]
         return "" if found == "1" else found.removeprefix("1 (").removesuffix(")") if found.startswith("1 (") else found
     fitting = [ending for ending in endings if key.endswith(ending)]
     return endings[max(fitting, key=len)] if fitting else ""

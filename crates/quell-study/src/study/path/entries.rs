@@ -108,7 +108,7 @@ impl<'d> Walk<'d> {
                     self.steps.extend(parts);
                 }
             }
-            index @ PathStep::Index(_) => self.steps.push(index),
+            PathStep::Index(index) => self.entry(node, index)?,
         }
         Ok(FoundPath { is_number: true, replaces: Vec::new(), ..self.found(key) })
     }

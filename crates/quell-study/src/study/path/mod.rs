@@ -77,10 +77,7 @@ pub(super) fn resolve(document: &Table, path: &str) -> Result<NumberAddress, Los
         about: key.about,
         symbol: key.symbol(),
         quantity: key.quantity(),
-        unit: match DocumentKind::of(document) {
-            DocumentKind::System => key.unit_in_system(units),
-            _ => key.unit_in_words(units),
-        },
+        unit: key.unit_in_words(DocumentKind::of(document), units),
         measured_in: key.measured_in(units),
     })
 }

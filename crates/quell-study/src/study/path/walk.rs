@@ -139,12 +139,29 @@ impl<'d> Walk<'d> {
             (Role::Coefficient | Role::Speeds { .. } | Role::Band { .. }, [index])
                 if rest.is_empty() =>
             {
-                let mut found = self.found(key);
-                found.steps.push(PathStep::Index(*index));
-                Ok(found)
+                self.entry(node, *index)?;
+                Ok(self.found(key))
             }
             _ => Err(LostPath::default()),
         }
+    }
+
+    /// An entry of a list of numbers.
+    pub(super) fn entry(&mut self, node: Option<&Node>, index: usize) -> Result<(), LostPath> {
+        let count = match node.map(|node| &node.value) {
+            Some(Value::List(list)) => list.len(),
+            _ if self.any_entry => usize::MAX,
+            _ => 0,
+        };
+        if index >= count {
+            let name = &self.written;
+            return Err(LostPath::because(match count {
+                0 => format!("{name} is no list"),
+                _ => format!("{name} has {count} entries; indices begin at 0"),
+            }));
+        }
+        self.steps.push(PathStep::Index(index));
+        Ok(())
     }
 
     /// A path that names a whole table.

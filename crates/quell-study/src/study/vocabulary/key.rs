@@ -5,7 +5,7 @@ use quell_model::units::{Quantity, UnitSystem};
 
 use super::course::CourseKey;
 use super::key_unit::KeyUnit;
-use super::section::{KeyScope, Section};
+use super::section::{DocumentKind, KeyScope, Section};
 use super::size::{SizeKey, SizedSignal};
 use super::wave::WaveKey;
 use super::words::Choice;
@@ -204,21 +204,26 @@ impl Key {
         }
     }
 
-    /// Unit in words; frequencies of a disc are in ω_ref.
-    pub fn unit_in_words(&self, units: UnitSystem) -> &'static str {
-        let unit = self.unit(units);
-        if self.is_of_a_disc() && unit == "ω₀" { "ω_ref" } else { unit }
+    /// Unit of its value in words in the study of a kind: frequencies of a disc are in ω_ref, and the equations of a system have no
+    /// scales.
+    pub fn unit_in_words(&self, kind: DocumentKind, units: UnitSystem) -> &'static str {
+        let of_study = |quantity: Quantity| units.unit(quantity).or(quantity.own_unit());
+        match (kind, self.key_unit(), self.unit(units)) {
+            (DocumentKind::Disc, _, "ω₀") => "ω_ref",
+            (DocumentKind::Belt | DocumentKind::Disc, _, unit) | (_, KeyUnit::Suffix(unit), _) => {
+                unit
+            }
+            (DocumentKind::System, KeyUnit::Ratio, _) => "1",
+            (DocumentKind::System, KeyUnit::Study, _) => {
+                self.quantity().and_then(of_study).unwrap_or("1")
+            }
+        }
     }
 
-    /// Unit of its value in the study of a system with these units, whose equations have no scales.
-    pub(in crate::study) fn unit_in_system(&self, units: UnitSystem) -> &'static str {
-        let quantity = self.quantity();
-        let of_study = || quantity.and_then(|known| units.unit(known).or(known.own_unit()));
-        match self.key_unit() {
-            KeyUnit::Suffix(unit) => unit,
-            KeyUnit::Ratio => "1",
-            KeyUnit::Study => of_study().unwrap_or("1"),
-        }
+    /// The first kind of study that has it.
+    pub fn first_kind(&self) -> DocumentKind {
+        let mut kinds = DocumentKind::ALL.into_iter();
+        kinds.find(|kind| self.scope.includes(*kind)).unwrap_or(DocumentKind::System)
     }
 
     /// The unit to which a number with a unit is converted, such as `5.7kN` for a key in newtons; `None` for dimensionless
@@ -235,10 +240,6 @@ impl Key {
                 quantity => quantity.own_unit().or_else(|| units.unit(quantity)),
             },
         }
-    }
-
-    fn is_of_a_disc(&self) -> bool {
-        matches!(self.section, Section::Disc | Section::DiscMode | Section::DiscLoad)
     }
 
     /// Whether setting it replaces another key of its table: another key of the same parameter, a named state for numbers, the

@@ -2,11 +2,11 @@
 
 use std::sync::LazyLock;
 
-use quell_model::LawKind;
 use quell_model::parameter::{
-    self, COEFFICIENT, DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE, MINIMUM_COEFFICIENT,
-    Parameter, STATIC_COEFFICIENT, VISCOUS,
+    self, COEFFICIENT, DITHER_AMPLITUDE, MINIMUM_COEFFICIENT, Parameter, STATIC_COEFFICIENT,
+    VISCOUS,
 };
+use quell_model::{LawKind, PARAMETERS};
 
 use super::course::{CourseKey, CourseTable};
 use super::key::{Key, Role, SCHEMA_ABOUT};
@@ -153,44 +153,61 @@ fn words() -> Vec<Key> {
 
 /// Keys that take a number of the registry: its own, and those in other units.
 fn numbers() -> Vec<Key> {
-    let of_designs = parameter::design::LIMITS.iter().chain(parameter::design::CONFIDENT);
-    let of_questions = of_designs.chain(parameter::actuator::ACTUATOR);
-    let of_laws = LawKind::ALL.iter().flat_map(|law| law.parameters().iter().chain(law.options()));
-    let of_kinds = parameter::BELT.iter().chain(parameter::disc::DISC);
-    // Kinds may share keys (the dither of a disc has those of a belt): the first kind defines them. The key of a coefficient also
-    // takes formulas and samples.
-    let mut parameters: Vec<Parameter> = parameter::SCALES.to_vec();
-    for parameter in of_kinds.chain(of_questions).chain(of_laws) {
-        let known = parameters.iter().any(|known| known.path == parameter.path);
-        if !known && parameter.path != COEFFICIENT.path {
-            parameters.push(*parameter);
-        }
-    }
-    let mut keys: Vec<Key> = Vec::new();
-    for parameter in parameters {
+    let table = |parameter: Parameter| {
         let table = parameter.path.strip_suffix(parameter.key()).unwrap_or_default();
         let at = |section: &&Section| section.path() == table.trim_end_matches('.');
-        let section = Section::ALL.iter().find(at).copied().unwrap_or(Section::Root);
+        Section::ALL.iter().find(at).copied().unwrap_or(Section::Root)
+    };
+    let mut keys: Vec<Key> = Vec::new();
+    for (parameter, scope) in parameters() {
+        let section = table(parameter);
         let first = keys.len();
         keys.extend(Key::of_number(section, parameter));
-        // The dither of a system has a frequency of its own.
-        if parameter.path == DITHER_FREQUENCY_RATIO.path {
-            keys[first..].iter_mut().for_each(|key| key.scope = KeyScope::BELT_OR_DISC);
-        }
-        if parameter.path == DITHER_AMPLITUDE.path {
+        if parameter == DITHER_AMPLITUDE {
+            let sizes = DITHER_SIZES.iter();
             keys.extend(
-                DITHER_SIZES.iter().map(|&size| {
+                sizes.map(|&size| {
                     Key::new(section, size.key, Role::Size(parameter, size), size.about)
                 }),
             );
         }
-        // The dither of a disc is a factor on friction: it has an amplitude without a unit, and no phase.
-        if [DITHER_AMPLITUDE.path, DITHER_PHASE.path].contains(&parameter.path) {
-            let of_forces = keys[first..].iter_mut().filter(|key| key.name != "amplitude");
-            of_forces.for_each(|key| key.scope = KeyScope::BELT_OR_SYSTEM);
-        }
+        keys[first..].iter_mut().for_each(|key| key.scope = key.scope.and(scope));
     }
     keys
+}
+
+/// The parameters of all kinds of study, each with the kinds that have it, of questions and of friction laws.
+fn parameters() -> Vec<(Parameter, KeyScope)> {
+    let mut known: Vec<(Parameter, KeyScope)> = Vec::new();
+    let mut add = |parameter: Parameter, scope: KeyScope| match known
+        .iter_mut()
+        .find(|(known, _)| *known == parameter)
+    {
+        Some((_, known)) => *known = known.or(scope),
+        None => known.push((parameter, scope)),
+    };
+    for scale in parameter::SCALES {
+        add(*scale, KeyScope::BELT);
+    }
+    for (kind, own) in DocumentKind::ALL.into_iter().zip(PARAMETERS) {
+        for parameter in *own {
+            add(*parameter, KeyScope::of(kind));
+        }
+    }
+    let of_designs = parameter::design::LIMITS.iter().chain(parameter::design::CONFIDENT);
+    let of_questions = of_designs.chain(parameter::actuator::ACTUATOR);
+    for parameter in of_questions {
+        add(*parameter, KeyScope::EVERY);
+    }
+    // Laws share keys: the first one defines them. The key of a coefficient also takes formulas and samples.
+    let of_laws = LawKind::ALL.iter().flat_map(|law| law.parameters().iter().chain(law.options()));
+    for parameter in of_laws {
+        let shared = known.iter().any(|(known, _)| known.path == parameter.path);
+        if !shared && parameter.path != COEFFICIENT.path {
+            known.push((*parameter, KeyScope::EVERY));
+        }
+    }
+    known
 }
 
 /// What keys of forces are.

@@ -1,11 +1,5 @@
 //! The keys that only the study of a system has.
 
-use quell_model::parameter::Parameter;
-use quell_model::parameter::system::{
-    CONTACT_BELT_VELOCITY, CONTACT_NORMAL_DAMPING, CONTACT_NORMAL_LOAD, CONTACT_NORMAL_STIFFNESS,
-    CONTACT_TANGENTIAL_STIFFNESS, FRICTION_FACTOR_MEAN, SYSTEM_DITHER_FREQUENCY, SYSTEM_MODAL_MASS,
-    SYSTEM_MODE_DAMPING, SYSTEM_MODE_FREQUENCY,
-};
 use quell_model::units::Quantity;
 
 use super::key::{Key, Role, RowUnit};
@@ -21,25 +15,6 @@ pub(super) fn keys() -> Vec<Key> {
     keys.extend(contact());
     keys.extend(dither());
     keys
-}
-
-/// Numbers of the registry.
-const NUMBERS: &[(Section, Parameter)] = &[
-    (Section::Mode, SYSTEM_MODE_FREQUENCY),
-    (Section::Mode, SYSTEM_MODE_DAMPING),
-    (Section::Mode, SYSTEM_MODAL_MASS),
-    (Section::Contact, CONTACT_NORMAL_LOAD),
-    (Section::Contact, CONTACT_NORMAL_STIFFNESS),
-    (Section::Contact, CONTACT_NORMAL_DAMPING),
-    (Section::Contact, CONTACT_TANGENTIAL_STIFFNESS),
-    (Section::Contact, CONTACT_BELT_VELOCITY),
-    (Section::Dither, FRICTION_FACTOR_MEAN),
-    (Section::Dither, SYSTEM_DITHER_FREQUENCY),
-];
-
-fn numbers(of: Section) -> impl Iterator<Item = Key> {
-    let own = NUMBERS.iter().filter(move |(section, _)| *section == of);
-    own.flat_map(|(section, parameter)| Key::of_number(*section, *parameter))
 }
 
 /// A matrix or a row without a unit.
@@ -114,8 +89,7 @@ fn structure() -> Vec<Key> {
 
 fn modes() -> Vec<Key> {
     let own = |name, role, about| Key::new(Section::Component, name, role, about);
-    let mut keys: Vec<Key> = numbers(Section::Mode).collect();
-    keys.extend([
+    vec![
         Key::new(
             Section::Mode,
             "shape",
@@ -125,8 +99,7 @@ fn modes() -> Vec<Key> {
         own("name", Role::Text, "name, the first part of the names of its points"),
         own("modes", Role::Text, MODES),
         own("normalisation", Role::Choice(Choice::Normalisation), NORMALISATION),
-    ]);
-    keys
+    ]
 }
 
 fn initial() -> Vec<Key> {
@@ -146,15 +119,13 @@ fn initial() -> Vec<Key> {
 
 fn contact() -> Vec<Key> {
     let own = |name, role, about| Key::new(Section::Contact, name, role, about);
-    let mut keys = vec![
+    vec![
         own("name", Role::Text, "name of the contact [default: contact 1, 2, …]"),
         own("tangent", Role::Row(PLAIN), "row of the tangential displacement"),
         own("normal", Role::Row(PLAIN), "row of the approach; without it the load is prescribed"),
         own("slope", Role::Row(PLAIN), "row of the slope of the surface, which turns friction"),
         own("force", Role::Row(PLAIN), "effect of the friction force on first-order states"),
-    ];
-    keys.extend(numbers(Section::Contact));
-    keys
+    ]
 }
 
 fn dither() -> Vec<Key> {
@@ -176,5 +147,5 @@ fn dither() -> Vec<Key> {
         place.into_iter().map(move |(name, role, about)| Key::new(section, name, role, about))
     });
     let of_systems = |key| Key { scope: KeyScope::SYSTEM, ..key };
-    places.chain(numbers(Section::Dither)).map(of_systems).collect()
+    places.map(of_systems).collect()
 }

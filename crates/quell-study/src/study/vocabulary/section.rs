@@ -240,6 +240,9 @@ pub enum DocumentKind {
 }
 
 impl DocumentKind {
+    /// The kinds, in the order of [`quell_model::PARAMETERS`].
+    pub const ALL: [Self; 3] = [Self::Belt, Self::Disc, Self::System];
+
     /// That of a document, by its tables.
     pub(in crate::study) fn of(document: &Table) -> Self {
         let has = |section: Section| document.has(section.path());
@@ -265,26 +268,43 @@ impl DocumentKind {
     }
 }
 
-/// The studies that have a key.
+/// The studies that have a key: a bit for each kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct KeyScope(&'static [DocumentKind]);
+pub struct KeyScope(u8);
 
 impl KeyScope {
-    /// All of them.
-    pub const EVERY: Self = Self(&[DocumentKind::Belt, DocumentKind::Disc, DocumentKind::System]);
     /// Those of a belt.
-    pub const BELT: Self = Self(&[DocumentKind::Belt]);
+    pub const BELT: Self = Self::of(DocumentKind::Belt);
     /// Those of a disc.
-    pub const DISC: Self = Self(&[DocumentKind::Disc]);
+    pub const DISC: Self = Self::of(DocumentKind::Disc);
     /// Those of a system.
-    pub const SYSTEM: Self = Self(&[DocumentKind::System]);
-    /// Those of a belt or a disc.
-    pub const BELT_OR_DISC: Self = Self(&[DocumentKind::Belt, DocumentKind::Disc]);
+    pub const SYSTEM: Self = Self::of(DocumentKind::System);
     /// Those of a belt or a system.
-    pub const BELT_OR_SYSTEM: Self = Self(&[DocumentKind::Belt, DocumentKind::System]);
+    pub const BELT_OR_SYSTEM: Self = Self::BELT.or(Self::SYSTEM);
+    /// Those of a belt or a disc.
+    pub const BELT_OR_DISC: Self = Self::BELT.or(Self::DISC);
+    /// All of them.
+    pub const EVERY: Self = Self::BELT_OR_DISC.or(Self::SYSTEM);
+
+    /// Those of a kind.
+    pub const fn of(kind: DocumentKind) -> Self {
+        Self(1 << kind as u8)
+    }
+
+    /// Those of either.
+    #[must_use]
+    pub const fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Those of both.
+    #[must_use]
+    pub const fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
 
     /// Whether studies of a kind are among them.
-    pub fn includes(self, kind: DocumentKind) -> bool {
-        self.0.contains(&kind)
+    pub const fn includes(self, kind: DocumentKind) -> bool {
+        self.and(Self::of(kind)).0 != 0
     }
 }
