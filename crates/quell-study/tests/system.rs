@@ -458,6 +458,10 @@ fn friction_as_a_force_has_a_path() {
     let wanted =
         coefficients.with("contact.rail.friction.static_coefficient", 0.6).expect("a coefficient");
     assert_eq!(changed.system(), wanted.system());
+    // A coefficient and its force are one number, which two axes cannot both vary.
+    let rail = "contact.rail.friction.static_coefficient";
+    let number = |path: &str| coefficients.address(path).map(|address| address.number);
+    assert_eq!(number(path), number(rail));
     let unused = format!("{TEXT}[friction]\nlaw = \"coulomb\"\ncoefficient = 0.3\n");
     let complaints = Study::parse(&unused, &[]).expect_err("a law for no contact");
     assert_eq!((complaints[0].fault, complaints[0].key.as_str()), (Fault::Conflict, "friction"));

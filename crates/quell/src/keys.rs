@@ -12,12 +12,12 @@ use quell_model::units::UnitSystem;
 /// Width at which descriptions are broken.
 const WIDTH: usize = 128;
 
-/// The tables with these words in their paths, such as `contact` or `belt.initial`, and their keys; all tables without words.
+/// The table at a path, such as `contact` or `belt.initial`, and those inside it, with their keys; all tables without a path.
 ///
 /// # Errors
-/// The nearest path of a table, if no table has these words.
-pub fn listing(words: Option<&str>) -> Result<String, Option<String>> {
-    let asked = words.map(|words| words.trim().trim_matches(['[', ']']));
+/// The nearest path of a table, if no table has this one.
+pub fn listing(path: Option<&str>) -> Result<String, Option<String>> {
+    let asked = path.map(|path| path.trim().trim_matches(['[', ']']));
     let paths = |section: Section| places(section).into_iter().map(|(path, _)| path);
     let is_asked = |section: Section| {
         let below = |path: String| {

@@ -246,6 +246,14 @@ impl Node {
         }
     }
 
+    /// The entries of a list; a single value is a list of one.
+    pub(super) fn entries(&self) -> &[Self] {
+        match &self.value {
+            Value::List(list) => list,
+            _ => std::slice::from_ref(self),
+        }
+    }
+
     /// The table, if it is one.
     pub fn table(&self) -> Option<&Table> {
         match &self.value {

@@ -11,13 +11,7 @@ use crate::complaint::{Complaint, Fault};
 pub(super) fn read(reader: &mut Reader, document: &Table) -> Option<String> {
     let kind = DocumentKind::of(document);
     for (name, node) in document.iter() {
-        if NOT_BUILT.contains(&name) {
-            let allowed = format!(
-                "[{name}] is not implemented yet; this version handles belts, discs and systems"
-            );
-            let complaint = Complaint::new(Fault::NotBuilt, name, node.origin, Json::Null, allowed);
-            reader.complain(complaint);
-        } else if vocabulary::key(Section::Root, name, kind).is_none() {
+        if vocabulary::key(Section::Root, name, kind).is_none() {
             match misplaced(name, kind) {
                 Some((fault, allowed)) => {
                     let complaint = Complaint::new(fault, name, node.origin, Json::Null, allowed);
@@ -37,8 +31,14 @@ pub(super) fn read(reader: &mut Reader, document: &Table) -> Option<String> {
     document.get("title").and_then(|node| reader.text("title", node))
 }
 
-/// What is wrong with a table in a study of this kind if only those of other kinds have it.
+/// What is wrong with a table in a study of this kind if only those of other kinds have it, or none yet.
 pub(super) fn misplaced(name: &str, kind: DocumentKind) -> Option<(Fault, String)> {
+    if NOT_BUILT.contains(&name) {
+        let allowed = format!(
+            "[{name}] is not implemented yet; this version handles belts, discs and systems"
+        );
+        return Some((Fault::NotBuilt, allowed));
+    }
     let key = vocabulary::keys().iter().find(|key| {
         key.section == Section::Root && key.name == name && !key.scope.includes(kind)
     })?;

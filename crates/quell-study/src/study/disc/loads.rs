@@ -93,7 +93,7 @@ fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Opti
     let strengths = [LOAD_MASS, LOAD_DAMPING, LOAD_STIFFNESS, LOAD_FRICTION].map(&mut strength);
     let (angle, phase) = (strength(LOAD_ANGLE), strength(LOAD_DITHER_PHASE));
     let static_load = strength(LOAD_STATIC);
-    let speed = speed(reader, table, path, scales);
+    let speed = speed(reader, table, path);
     let [mass, damping, stiffness, friction] = strengths;
     let (pad, caliper) = carriers::read(reader, table, node.origin, path)?;
     let mut maybe = |parameter| reader.optional(table, path, parameter).if_given();
@@ -127,12 +127,7 @@ fn one(reader: &mut Reader, node: &Node, path: &str, scales: LoadScales) -> Opti
 
 /// The speed of the loads; one along the surface, such as `36 km/h`, is that at the radius of the load.
 #[expect(clippy::option_option, reason = "invalid, absent, given")]
-fn speed(
-    reader: &mut Reader,
-    table: &Table,
-    path: &str,
-    scales: LoadScales,
-) -> Option<Option<f64>> {
+fn speed(reader: &mut Reader, table: &Table, path: &str) -> Option<Option<f64>> {
     let along = table.get(DISC_SPEED.key()).filter(|node| match &node.value {
         Value::Text(text) => {
             measure::read(text, Some("m/s")).is_ok_and(|_| measure::has_unit(text))
@@ -143,15 +138,9 @@ fn speed(
     let Some(node) = along.filter(|_| alone) else {
         return reader.optional(table, path, DISC_SPEED).if_given();
     };
-    let key = join(path, DISC_SPEED.key());
-    if scales.disc.is_none() || scales.outer_radius_m.is_none() {
-        let allowed = "an angular speed, in Hz, rpm or rad/s; one along the surface requires a disc in SI with outer_radius_m";
-        reader.wrong(&key, node, allowed);
-        return None;
-    }
     let quantity = Some(Quantity::Velocity);
     let wanted = WantedNumber { quantity, bounds: DISC_SPEED.bounds, unit: KeyUnit::Suffix("m/s") };
-    reader.quantity(|| key.clone(), node, wanted).map(Some)
+    reader.quantity(|| join(path, DISC_SPEED.key()), node, wanted).map(Some)
 }
 
 /// Reports a speed over time of one load.

@@ -14,7 +14,7 @@ use quell_model::parameter::DITHER_AMPLITUDE;
 use super::address::{NumberAddress, units_of};
 use super::document::{Node, Table, Value};
 use super::reader::{Reader, WantedNumber};
-use super::vocabulary::{DocumentKind, Key, KeyUnit, NOT_BUILT, Role};
+use super::vocabulary::{DocumentKind, Key, KeyUnit, Role};
 use crate::complaint::{Complaint, Fault};
 pub(super) use found::LostPath;
 use found::{PathStep, node_at};
@@ -60,10 +60,15 @@ pub(super) fn resolve(document: &Table, path: &str) -> Result<NumberAddress, Los
         return Err(LostPath::default());
     }
     let key = found.key;
+    // A force gives the number of the law that its coefficient gives.
+    let given = match key.role {
+        Role::FrictionForce(parameter, _) => Some(parameter),
+        _ => key.parameter(),
+    };
     let mut number = String::new();
     let last = found.steps.len().saturating_sub(1);
     for (place, step) in found.steps.iter().enumerate() {
-        let _ = match (step, key.parameter()) {
+        let _ = match (step, given) {
             (PathStep::Key(_), Some(parameter)) if place == last => {
                 write!(number, ".{}", parameter.key())
             }
@@ -114,12 +119,6 @@ pub(in crate::study) fn amplitude_key(document: &Table, path: &str) -> Option<(u
 /// # Errors
 /// A path that does not exist, with the nearest one.
 pub(super) fn set(document: &mut Table, path: &str, node: &Node) -> Result<(), Box<Complaint>> {
-    let first = path.trim().split(['.', '[']).next().unwrap_or_default();
-    if NOT_BUILT.contains(&first) {
-        let allowed = format!("[{first}] is not implemented yet");
-        let complaint = Complaint::new(Fault::NotBuilt, path, node.origin, node.given(), allowed);
-        return Err(Box::new(complaint));
-    }
     let found = follow(document, path).map_err(|lost| {
         let unknown = (Fault::Unknown, "the keys that `quell schema` lists");
         Box::new(lost.complaint(path, (node.origin, node.given()), unknown))

@@ -116,8 +116,8 @@ impl<'d> Walk<'d> {
             return self.named(which, table, segment, rest);
         }
         let misplaced = || {
-            let (fault, allowed) = root::misplaced(segment.name, self.kind)?;
-            (which == Section::Root && !rest.is_empty()).then(|| LostPath::faulty(fault, allowed))
+            let wrong = (which == Section::Root).then(|| root::misplaced(segment.name, self.kind));
+            wrong.flatten().map(|(fault, allowed)| LostPath::faulty(fault, allowed))
         };
         let key = vocabulary::key(which, segment.name, self.kind)
             .ok_or_else(|| misplaced().unwrap_or_else(|| self.lost(which, segment, rest)))?;
@@ -184,11 +184,8 @@ impl<'d> Walk<'d> {
         segment: &PathSegment<'_>,
         rest: &[PathSegment<'_>],
     ) -> Result<FoundPath, LostPath> {
-        let (entries, listed): (&[Node], bool) = match node {
-            None => (&[], false),
-            Some(Node { value: Value::List(list), .. }) => (list, true),
-            Some(node) => (std::slice::from_ref(node), false),
-        };
+        let entries = node.map_or(&[][..], Node::entries);
+        let listed = matches!(node, Some(Node { value: Value::List(_), .. }));
         let named = rest.first().and_then(|first| {
             let is = |(index, node): (usize, &Node)| match name_of(node) {
                 Some(name) => name == first.name,
@@ -290,11 +287,7 @@ impl<'d> Walk<'d> {
         let contact = || {
             let named = which == Section::Contact && !rest.is_empty();
             let node = self.document.get("contact").filter(|_| named)?;
-            let entries = match &node.value {
-                Value::List(list) => list.as_slice(),
-                _ => std::slice::from_ref(node),
-            };
-            let name = suggest::word(segment.name, entries.iter().filter_map(name_of))?;
+            let name = suggest::word(segment.name, node.entries().iter().filter_map(name_of))?;
             Some(format!("contact.{name}{}", after(rest)))
         };
         let named = || {

@@ -43,10 +43,7 @@ pub(super) fn listed<'t>(
 ) -> Vec<(String, &'t Node, &'t Table)> {
     let Some(node) = parent.get(name) else { return Vec::new() };
     let path = join(prefix, name);
-    let several = match &node.value {
-        Value::List(list) => list.as_slice(),
-        _ => std::slice::from_ref(node),
-    };
+    let several = node.entries();
     if several.len() > MOST_COORDINATES {
         let allowed = format!("at most {MOST_COORDINATES} tables; got {}", several.len());
         let count = several.len();
@@ -117,16 +114,13 @@ pub(super) fn read(
 
 /// Names of the contacts of a document, as far as they are given.
 pub(super) fn names(document: &Table) -> Vec<String> {
-    let tables: Vec<&Table> = match document.get("contact").map(|node| &node.value) {
-        Some(Value::Table(table)) => vec![table],
-        Some(Value::List(list)) => list.iter().filter_map(Node::table).collect(),
-        _ => Vec::new(),
-    };
+    let entries = document.get("contact").map_or(&[][..], Node::entries);
+    let tables = entries.iter().filter_map(Node::table);
     let name = |(index, table): (usize, &Table)| match table.get("name").map(|node| &node.value) {
         Some(Value::Text(text)) => text.clone(),
         _ => default_name(index),
     };
-    tables.into_iter().enumerate().map(name).collect()
+    tables.enumerate().map(name).collect()
 }
 
 fn default_name(index: usize) -> String {

@@ -197,7 +197,6 @@ impl Key {
             (_, KeyUnit::Suffix(unit)) => unit,
             (Role::Size(_, size), _) if !size.unit.is_empty() => size.unit,
             (_, KeyUnit::Ratio) => self.quantity().map_or("1", Quantity::scaled_unit),
-            (Role::Coefficient, _) => "1",
             (_, KeyUnit::Study) => self.quantity().map_or("1", |quantity| {
                 units.unit(quantity).unwrap_or_else(|| quantity.scaled_unit())
             }),
