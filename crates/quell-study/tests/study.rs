@@ -326,8 +326,11 @@ fn bare_numbers_of_a_disc_in_si_are_those_of_its_keys_in_si() {
         ("dither.frequency", "dither.frequency_hz", TAU * 7000.0, 7000.0),
         ("dither.amplitude", "dither.amplitude", 0.25, 0.25),
     ] {
-        let at = bare.disc_at(&[(path, value)]).expect(path);
-        assert_eq!(Some(at), twins.disc_at(&[(twin, in_twin)]), "{path}");
+        let at = |study: &DiscStudy, number| {
+            let numbers = study.model().numbers(&[number]).expect(path);
+            study.setup_at(&numbers).expect(path).disc().clone()
+        };
+        assert_eq!(at(&bare, (path, value)), at(&twins, (twin, in_twin)), "{path}");
     }
 }
 

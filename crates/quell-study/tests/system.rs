@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use quell_model::System;
 use quell_model::system::{InputTarget, Structure};
 use quell_model::units::Quantity;
 use quell_study::study::{Change, SystemStart, SystemStudy, UnitSystem};
@@ -69,6 +70,13 @@ fn with(from: &str, to: &str) -> String {
     TEXT.replacen(from, to, 1)
 }
 
+/// The system of other numbers, given by their paths.
+fn system_at(study: &SystemStudy, numbers: &[(&str, f64)]) -> System {
+    let model = study.model();
+    let numbers = model.numbers(numbers).expect("numbers of the study");
+    model.at(&numbers).expect("valid values")
+}
+
 #[test]
 fn a_mechanical_system_is_read_as_written() {
     let study = study(TEXT);
@@ -134,7 +142,7 @@ fn units_and_twins_give_the_numbers_of_the_file() {
     assert_eq!(study.number("contact.belt_velocity"), Some(250.0));
     assert_eq!(study.number("contact.belt_velocity_m_per_s"), Some(0.25));
     assert_eq!(study.number("dither.frequency_hz"), Some(20.0));
-    let faster = study.system_at(&[("contact.belt_velocity", 100.0)]).expect("valid");
+    let faster = system_at(&study, &[("contact.belt_velocity", 100.0)]);
     assert_eq!(faster.contacts[0].surface_velocity.mean(), 100.0);
     let both = refused(&text.replace("frequency_hz = 20", "frequency_hz = 20\nfrequency = 3"));
     assert_eq!((both[0].key.as_str(), both[0].fault), ("dither.frequency_hz", Fault::Conflict));
@@ -156,8 +164,7 @@ fn parameters_are_used_in_formulas_everywhere() {
     assert_eq!(stiffness.as_slice(), [2.0, 0.75, 1.0, 2.0]);
     assert_eq!(study.number("parameters.kappa"), Some(0.5));
     assert!((study.system().contacts[0].friction.static_coefficient() - 0.45).abs() < 1e-15);
-    let changed = study.system_at(&[("parameters.mu", 0.25), ("system.stiffness[1][0]", 3.0)]);
-    let changed = changed.expect("valid");
+    let changed = system_at(&study, &[("parameters.mu", 0.25), ("system.stiffness[1][0]", 3.0)]);
     let stiffness = changed.structure.mechanical().expect("mechanical").stiffness().clone();
     assert_eq!(stiffness.as_slice(), [2.0, 0.875, 3.0, 2.0]);
     let set = study.with("parameters.kappa", 1.0).expect("a formula is replaced");
@@ -288,7 +295,7 @@ fn every_number_has_a_path() {
         assert_eq!(study.number(path), Some(value), "{path}");
         let changed =
             study.with(path, value * 0.5 + 0.125).unwrap_or_else(|why| panic!("{path}: {why}"));
-        let system = study.system_at(&[(path, value * 0.5 + 0.125)]).expect(path);
+        let system = system_at(&study, &[(path, value * 0.5 + 0.125)]);
         assert_eq!(changed.system(), &system, "{path}");
         assert_eq!(&system == study.system(), path.contains("initial"), "{path}");
         let text = format!(

@@ -262,6 +262,9 @@ fn a_map_has_the_numbers_of_its_points_and_points_beside_resonances() {
 #[test]
 fn numbers_set_one_by_one_are_those_of_the_file() {
     let study = good(&format!("{PLATE}{DITHER}"));
+    let at = |path, value| {
+        study.setup_at(&study.model().numbers(&[(path, value)]).expect("a number of the study"))
+    };
     for (path, value) in [
         ("disc.load.speed", 0.7),
         ("disc.load.friction", 0.2),
@@ -271,9 +274,9 @@ fn numbers_set_one_by_one_are_those_of_the_file() {
     ] {
         let change = Change::parse(&format!("{path}={value:?}"), "--set").expect("a change");
         let read = DiscStudy::parse_in(study.text(), &[change], Path::new("")).expect("valid");
-        assert_eq!(study.disc_at(&[(path, value)]).as_ref(), Some(read.disc()), "{path}");
+        assert_eq!(at(path, value).expect(path).disc(), read.disc(), "{path}");
     }
-    assert_eq!(study.disc_at(&[("dither.amplitude", 1.5)]), None);
+    assert!(at("dither.amplitude", 1.5).is_err());
 }
 
 #[test]

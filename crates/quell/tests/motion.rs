@@ -201,8 +201,11 @@ fn thresholds_are_those_of_the_reference() {
         let name = case["name"].as_str().expect("a name");
         let study = study(case["study"].as_str().expect("a study"));
         let path = case["parameter"].as_str().expect("a path");
-        let at =
-            |values: &[f64]| study.system_at(&[(path, values[0])]).map_err(|why| why.to_string());
+        let model = study.model();
+        let parameter = model.parameter(path).expect("a number of the study");
+        let at = |values: &[f64]| {
+            model.at(&[(parameter.clone(), values[0])]).map_err(|why| why.to_string())
+        };
         let window = (number(&case["from"]), number(&case["to"]));
         let found = motion_thresholds(&at, window, 8, None);
         let found = found.unwrap_or_else(|why| panic!("{name}: {why}"));

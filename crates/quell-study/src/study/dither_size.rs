@@ -102,7 +102,7 @@ pub(super) fn read(
     };
     let amplitude = value / of_unit;
     let of_one = if amplitude == 0.0 { 1.0 } else { size / amplitude };
-    reader.remember(&join(prefix, DITHER_AMPLITUDE.key()), &path, node.origin, of_one);
+    reader.remember(prefix, (DITHER_AMPLITUDE.key(), key.key), node.origin, of_one);
     Some(SizedAmplitude::Known(amplitude, Some((key, size))))
 }
 

@@ -3,6 +3,8 @@
 //! Only the TOML syntax is checked here. `--set` changes the document before
 //! it is checked.
 
+use std::sync::Arc;
+
 use serde_json::Value as Json;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -35,10 +37,10 @@ pub enum Value {
     Table(Table),
 }
 
-/// A table: keys in the order of the text.
+/// A table: keys in the order of the text. Copies share their entries until one of them is changed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
-    entries: Vec<(String, Node)>,
+    entries: Arc<Vec<(Arc<str>, Node)>>,
 }
 
 impl Table {
@@ -70,50 +72,55 @@ impl Table {
     }
 
     fn from_toml(table: &DeTable<'_>, lines: &Lines) -> Self {
-        let mut entries: Vec<(usize, String, Node)> = table
+        let mut entries: Vec<(usize, Arc<str>, Node)> = table
             .iter()
             .map(|(key, value)| {
                 let start = key.span().start;
                 let mut node = Node::from_toml(value, lines);
                 node.origin = Origin::Line(lines.at(start));
-                (start, key.get_ref().clone().into_owned(), node)
+                (start, key.get_ref().as_ref().into(), node)
             })
             .collect();
         entries.sort_by_key(|(start, _, _)| *start);
-        Self { entries: entries.into_iter().map(|(_, key, node)| (key, node)).collect() }
+        let entries: Vec<(Arc<str>, Node)> =
+            entries.into_iter().map(|(_, key, node)| (key, node)).collect();
+        Self { entries: entries.into() }
     }
 
     /// The value of a key.
     pub fn get(&self, key: &str) -> Option<&Node> {
-        self.entries.iter().find(|(name, _)| name == key).map(|(_, node)| node)
+        self.entries.iter().find(|(name, _)| &**name == key).map(|(_, node)| node)
     }
 
     /// The value of a key, mutable.
     pub fn get_mut(&mut self, key: &str) -> Option<&mut Node> {
-        self.entries.iter_mut().find(|(name, _)| name == key).map(|(_, node)| node)
+        let place = self.entries.iter().position(|(name, _)| &**name == key)?;
+        Some(&mut Arc::make_mut(&mut self.entries)[place].1)
     }
 
     /// Sets a key; an existing key keeps its position.
     pub fn set(&mut self, key: &str, node: Node) {
         match self.get_mut(key) {
             Some(old) => *old = node,
-            None => self.entries.push((key.to_owned(), node)),
+            None => Arc::make_mut(&mut self.entries).push((key.into(), node)),
         }
     }
 
     /// Removes a key.
     pub fn remove(&mut self, key: &str) {
-        self.entries.retain(|(name, _)| name != key);
+        if self.has(key) {
+            Arc::make_mut(&mut self.entries).retain(|(name, _)| &**name != key);
+        }
     }
 
     /// Keys and values in the order of the text.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &Node)> {
-        self.entries.iter().map(|(key, node)| (key.as_str(), node))
+        self.entries.iter().map(|(key, node)| (&**key, node))
     }
 
     /// Keys and mutable values in the order of the text.
     pub fn iter_mut(&mut self) -> impl Iterator<Item = (&str, &mut Node)> {
-        self.entries.iter_mut().map(|(key, node)| (key.as_str(), node))
+        Arc::make_mut(&mut self.entries).iter_mut().map(|(key, node)| (&**key, node))
     }
 
     /// Keys and values as JSON, tables within it included.
@@ -132,6 +139,11 @@ impl Table {
             }
             node.unprintable(&path, complaints);
         }
+    }
+
+    /// Whether both share their entries, because one is a copy of the other and neither was changed.
+    pub fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.entries, &other.entries)
     }
 
     /// Whether a key exists.

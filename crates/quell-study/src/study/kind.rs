@@ -1,17 +1,17 @@
 //! The kinds of study, listed and matched here alone.
 
 use quell_model::units::Scales;
+use quell_model::{Parametrisation, System};
 
 use super::StudyOf;
 use super::belt::{BeltSetup, BeltStudy};
 use super::disc::{DiscSetup, DiscStudy};
 use super::document::Table;
-use super::path;
 use super::reader::Reader;
 use super::study_kind::{StudyKind, wrong_kind};
 use super::system::{SystemSetup, SystemStudy};
 use super::vocabulary::DocumentKind;
-use crate::complaint::{Complaint, Origin};
+use crate::complaint::{Complaint, Complaints, Origin};
 
 /// A checked study of any kind.
 pub type Study = StudyOf<Kind>;
@@ -28,6 +28,18 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// The system of the equations, in the units of the study.
+    ///
+    /// # Errors
+    /// A complaint about a law whose numbers are out of their bounds in these units.
+    pub(super) fn system(&self) -> Result<System, Complaints> {
+        match self {
+            Self::Belt(setup) => setup.system(),
+            Self::Disc(setup) => Ok(setup.disc().system()),
+            Self::System(setup) => Ok(setup.system().clone()),
+        }
+    }
+
     /// Name of the kind.
     pub fn name(&self) -> &'static str {
         match self {
@@ -49,11 +61,9 @@ impl StudyKind for Kind {
 
     fn read(reader: &mut Reader, document: &Table) -> Option<Self> {
         match DocumentKind::of(document) {
-            DocumentKind::Belt => BeltSetup::read(reader, document).map(Box::new).map(Self::Belt),
-            DocumentKind::Disc => DiscSetup::read(reader, document).map(Box::new).map(Self::Disc),
-            DocumentKind::System => {
-                SystemSetup::read(reader, document).map(Box::new).map(Self::System)
-            }
+            DocumentKind::Belt => BeltSetup::read(reader, document).map(Self::from),
+            DocumentKind::Disc => DiscSetup::read(reader, document).map(Self::from),
+            DocumentKind::System => SystemSetup::read(reader, document).map(Self::from),
         }
     }
 }
@@ -102,14 +112,6 @@ impl Study {
         Box::new(wrong_kind(required, self.kind().name(), Origin::Whole))
     }
 
-    /// Unit in which a number of a study of a system is given, by its path; `None` for other kinds and without a unit.
-    pub fn measured_in(&self, path: &str) -> Option<&'static str> {
-        match self.kind() {
-            Kind::System(_) => path::measured_in(&self.source.document, path),
-            Kind::Belt(_) | Kind::Disc(_) => None,
-        }
-    }
-
     /// Mass and stiffness of a belt's study in SI.
     pub fn scales(&self) -> Option<Scales> {
         match self.kind() {
@@ -119,23 +121,41 @@ impl Study {
     }
 }
 
+impl From<BeltSetup> for Kind {
+    fn from(setup: BeltSetup) -> Self {
+        Self::Belt(Box::new(setup))
+    }
+}
+
+impl From<DiscSetup> for Kind {
+    fn from(setup: DiscSetup) -> Self {
+        Self::Disc(Box::new(setup))
+    }
+}
+
+impl From<SystemSetup> for Kind {
+    fn from(setup: SystemSetup) -> Self {
+        Self::System(Box::new(setup))
+    }
+}
+
 impl From<BeltStudy> for Study {
     fn from(study: BeltStudy) -> Self {
-        let kind = Kind::Belt(Box::new(study.kind().clone()));
+        let kind = study.kind().clone().into();
         study.map_kind(kind)
     }
 }
 
 impl From<DiscStudy> for Study {
     fn from(study: DiscStudy) -> Self {
-        let kind = Kind::Disc(Box::new(study.kind().clone()));
+        let kind = study.kind().clone().into();
         study.map_kind(kind)
     }
 }
 
 impl From<SystemStudy> for Study {
     fn from(study: SystemStudy) -> Self {
-        let kind = Kind::System(Box::new(study.kind().clone()));
+        let kind = study.kind().clone().into();
         study.map_kind(kind)
     }
 }

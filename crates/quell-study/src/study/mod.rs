@@ -17,7 +17,6 @@ use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::input::Inputs;
 use computed::Computed;
 use document::{Table, Value};
-use reader::Reader;
 use vocabulary::{DocumentKind, SCHEMA_VERSION};
 
 mod actuator;
@@ -37,6 +36,7 @@ mod file;
 mod files;
 mod friction;
 mod kind;
+mod model;
 mod path;
 pub mod plausible;
 mod reader;
@@ -60,6 +60,7 @@ pub use dither_size::GivenSize;
 pub use files::Files;
 pub use friction::Measured;
 pub use kind::{Kind, Study};
+pub use model::{Model, ParameterId};
 pub use path::{Address, key_at, with_unit};
 pub use quell_dynamics::response::Solver;
 pub use quell_dynamics::start::InitialState;
@@ -68,8 +69,7 @@ pub use steady::{not_periodic, varies_in_time};
 pub use study_kind::{StudyKind, not_available};
 pub use sweep::{Axis, Sweep};
 pub use system::{
-    DescribedSystem, FrequencyResponse, NumberedStudy, ScaledTime, SystemOrigin, SystemSetup,
-    SystemStart, SystemStudy,
+    DescribedSystem, FrequencyResponse, ScaledTime, SystemSetup, SystemStart, SystemStudy,
 };
 pub(crate) use uncertainty::DISTRIBUTIONS;
 pub use uncertainty::Uncertainty;
@@ -93,6 +93,8 @@ struct StudySource {
     /// The files that the study names.
     files: Files,
     computed: Computed,
+    /// What it was read as, whichever kind it is answered as.
+    declared: Kind,
     /// The file that it was read from; `-` is standard input.
     file: Option<PathBuf>,
     changes: Vec<String>,
@@ -122,7 +124,7 @@ fn without_figure(title: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-impl<K: StudyKind> StudyOf<K> {
+impl<K: StudyKind + Into<Kind>> StudyOf<K> {
     /// Reads and checks a study file (`-` is standard input) after changing it.
     ///
     /// # Errors
@@ -194,12 +196,6 @@ impl<K: StudyKind> StudyOf<K> {
         let source =
             Arc::new(StudySource { file: Some(file), ..Arc::unwrap_or_clone(self.source) });
         Self { source, ..self }
-    }
-
-    /// The files that it was read from, which outputs must not overwrite.
-    pub fn inputs(&self) -> Inputs {
-        let StudySource { file, files, .. } = &*self.source;
-        Inputs::of(file.as_deref().into_iter().chain(files.paths()))
     }
 
     /// The same study with one number changed, by any path of the file, SI twins included; its axes stay.
@@ -274,6 +270,7 @@ impl<K: StudyKind> StudyOf<K> {
             text,
             files,
             computed,
+            declared: kind.clone().into(),
             file,
             changes,
         };
@@ -359,11 +356,6 @@ impl<K> StudyOf<K> {
         DocumentOrigin { text, files, computed: computed.clone(), file: file.clone(), changes }
     }
 
-    /// A reader that knows what this study has read and computed.
-    fn reading_again(&self, reader: Reader) -> Reader {
-        reader.with(self.source.files.to_read_again(), self.source.computed.clone())
-    }
-
     /// Replaces a quoted number with a unit by the number in the unit of its key.
     fn in_unit_of_key(&self, path: &str, value: &mut String) {
         let Some(text) = value.strip_prefix('"').and_then(|text| text.strip_suffix('"')) else {
@@ -383,12 +375,23 @@ impl<K> StudyOf<K> {
         address::units_of(&self.source.document)
     }
 
+    /// The study as it was declared: a belt or a disc that is answered as a system is the belt or the disc.
+    pub fn declared(&self) -> Study {
+        self.map_kind(self.source.declared.clone())
+    }
+
     /// The number that a path names.
     ///
     /// # Errors
     /// The nearest path that names a number.
     pub fn address(&self, path: &str) -> Result<NumberAddress, Option<String>> {
         path::resolve(&self.source.document, path).map_err(|lost| lost.nearest)
+    }
+
+    /// The files that it was read from, which outputs must not overwrite.
+    pub fn inputs(&self) -> Inputs {
+        let StudySource { file, files, .. } = &*self.source;
+        Inputs::of(file.as_deref().into_iter().chain(files.paths()))
     }
 
     /// The files that the study names.

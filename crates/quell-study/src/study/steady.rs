@@ -73,7 +73,7 @@ impl Study {
     pub fn at_time(&self, time: f64) -> Result<Self, Complaints> {
         let mut document = self.source.document.clone();
         let mut changes = self.source.changes.clone();
-        match self.kind() {
+        match &self.source.declared {
             Kind::Belt(setup) => belt_at(&mut document, setup.belt(), time)?,
             Kind::Disc(setup) => disc_at(&mut document, setup.disc(), time)?,
             Kind::System(setup) => {

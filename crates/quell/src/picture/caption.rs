@@ -145,7 +145,7 @@ pub(super) fn caption_of_disc(study: &DiscStudy) -> String {
 pub(super) type VariedNumber<'a> = (Cow<'a, str>, f64, f64);
 
 /// A caption of a study, in which "varied" stands for every value that changes over these ranges.
-pub(super) fn with_varied<K: StudyKind>(
+pub(super) fn with_varied<K: StudyKind + Into<Kind>>(
     study: &StudyOf<K>,
     caption: impl Fn(&StudyOf<K>) -> String,
     ranges: &[VariedNumber],

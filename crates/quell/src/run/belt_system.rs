@@ -17,9 +17,7 @@ use super::system::thresholds::MotionThresholdsRequest;
 use super::thresholds::ThresholdsRequest;
 use crate::complaint::Failure;
 use crate::contact_state::passivity;
-use crate::study::{
-    BeltStudy, DescribedSystem, Study, SystemOrigin, SystemStart, SystemStudy, not_periodic,
-};
+use crate::study::{BeltStudy, DescribedSystem, Study, SystemStart, SystemStudy, not_periodic};
 
 /// The system of a belt whose contact has a state of its own, in SI where the study is, otherwise in the numbers of the equations;
 /// `None` of a rigid contact.
@@ -57,7 +55,6 @@ pub(crate) fn described(study: &BeltStudy) -> Result<SystemStudy, Failure> {
         initial,
         warnings: passivity(study.belt()).into_iter().collect(),
         time: None,
-        origin: Some(SystemOrigin::of(study.clone())),
     }))
 }
 

@@ -51,8 +51,10 @@ impl Mapped for DiscPoints {
         wanted: &[Computation],
     ) -> Vec<Option<PointResults>> {
         let study = &self.0;
-        let discs: Vec<Option<Disc>> =
-            indices.iter().map(|index| study.disc_at(&grid.numbers_at(*index))).collect();
+        let discs: Vec<Option<Disc>> = indices
+            .iter()
+            .map(|index| Some(study.setup_at(&grid.numbers_at(*index)).ok()?.disc().clone()))
+            .collect();
         let found = evaluate(&discs, study.parts(), wanted);
         found.into_iter().map(|found| found.map(|found| (None, found))).collect()
     }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
-use crate::study::{Axis, Study, Sweep};
+use crate::study::{Axis, ParameterId, Study, Sweep};
 
 /// Largest number of points of a map: their values are kept in memory until the map is done.
 pub const MOST_POINTS: usize = 100_000_000;
@@ -46,6 +46,8 @@ pub struct GridAxis {
 pub struct Grid {
     study: Study,
     axes: Vec<GridAxis>,
+    /// The number that each axis varies.
+    parameters: Vec<ParameterId>,
 }
 
 impl Grid {
@@ -96,8 +98,11 @@ impl Grid {
             values: values(sweep),
             logarithmic: matches!(sweep.axis, Axis::Logarithmic { .. }),
         });
-        let axes = axes.collect();
-        Ok(Self { study, axes })
+        let axes: Vec<GridAxis> = axes.collect();
+        let model = study.model();
+        let parameters = axes.iter().map(|axis| model.parameter(&axis.path));
+        let parameters = parameters.collect::<Result<_, _>>()?;
+        Ok(Self { study, axes, parameters })
     }
 
     /// The study of the grid.
@@ -163,10 +168,9 @@ impl Grid {
         corners.flatten().collect()
     }
 
-    /// The numbers of point `index`, each with its path.
-    pub(super) fn numbers_at(&self, index: usize) -> Vec<(&str, f64)> {
-        let values = self.values_at(index);
-        self.axes.iter().map(|axis| axis.path.as_str()).zip(values).collect()
+    /// The numbers of point `index`.
+    pub(super) fn numbers_at(&self, index: usize) -> Vec<(ParameterId, f64)> {
+        self.parameters.iter().cloned().zip(self.values_at(index)).collect()
     }
 
     fn study_with(&self, values: &[f64]) -> Result<Study, Complaints> {

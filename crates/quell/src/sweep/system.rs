@@ -81,7 +81,7 @@ impl Mapped for SystemPoints {
     ) -> Vec<Option<PointResults>> {
         let point = |index: &usize| {
             let numbers = grid.numbers_at(*index);
-            let system = self.0.system_at(&numbers).ok()?;
+            let system = self.0.model().at(&numbers).ok()?;
             if self.0.frequency_response().is_some() {
                 return Some((None, unmeasured()));
             }
@@ -89,7 +89,7 @@ impl Mapped for SystemPoints {
             // Runs have a start, which a study gives.
             let runs = [Computation::SystemEnd, Computation::SystemResponse];
             if wanted.iter().any(|computation| runs.contains(computation)) {
-                let study = self.0.at(numbers).ok()?;
+                let study = grid.study_at(*index).ok()?.system().ok()?;
                 if wanted.contains(&Computation::SystemEnd) {
                     results.system_end = Some(end(&study, &system));
                 }

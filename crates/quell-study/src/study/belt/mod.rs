@@ -1,8 +1,7 @@
 //! The study of a mass on a moving belt: `[belt]`, `[friction]`, `[dither]`, `[solver]`, `[response]`.
 
 mod dither;
-mod number;
-mod origin;
+pub(super) mod number;
 mod solver;
 mod table;
 pub(in crate::study) mod units;
@@ -118,6 +117,21 @@ impl BeltSetup {
     pub fn belt(&self) -> &Belt {
         &self.belt
     }
+
+    /// The system of the belt, in the units of a study that has units.
+    ///
+    /// # Errors
+    /// A complaint about a law whose numbers are out of their bounds in these units.
+    pub(super) fn system(&self) -> Result<System, Complaints> {
+        let belt = &self.belt;
+        belt.system_in_units().unwrap_or_else(|| Ok(belt.system())).map_err(|invalid| {
+            let complaint = |invalid: Invalid| {
+                let Invalid { key, value, allowed } = invalid;
+                Complaint::new(Fault::Value, key, Origin::Whole, Json::String(value), allowed)
+            };
+            invalid.into_iter().map(complaint).collect::<Vec<Complaint>>().into()
+        })
+    }
 }
 
 impl BeltStudy {
@@ -151,12 +165,6 @@ impl BeltStudy {
         self.scales().map_or(UnitSystem::None, |scales| scales.units())
     }
 
-    /// The number at a path, such as `dither.amplitude` or, of a study in SI, `dither.amplitude_n`, in the unit of its key; `None`
-    /// where the study has no such number.
-    pub fn number(&self, path: &str) -> Option<f64> {
-        number::number(self.belt(), path)
-    }
-
     /// What the key at a path gives for one number of the equations, and the path of that number; `None` where the study has no such
     /// number, or the key gives several.
     pub fn per_one(&self, path: &str) -> Option<(String, f64)> {
@@ -171,14 +179,7 @@ impl BeltStudy {
     /// # Errors
     /// A complaint about a law whose numbers are out of their bounds in these units.
     pub fn system(&self) -> Result<System, Complaints> {
-        let belt = self.belt();
-        belt.system_in_units().unwrap_or_else(|| Ok(belt.system())).map_err(|invalid| {
-            let complaint = |invalid: Invalid| {
-                let Invalid { key, value, allowed } = invalid;
-                Complaint::new(Fault::Value, key, Origin::Whole, Json::String(value), allowed)
-            };
-            invalid.into_iter().map(complaint).collect::<Vec<Complaint>>().into()
-        })
+        self.kind().system()
     }
 
     /// The belt as a system, with the given row and start.

@@ -50,7 +50,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> BeltTable {
     let load = course(reader, "load", LOAD);
     if let Some(node) = table.get("load") {
         let newtons = reader.known_scales().map_or(1.0, |scales| scales.per_unit(Quantity::Force));
-        reader.remember("belt.load", "belt.load", node.origin, newtons);
+        reader.remember("belt", ("load", "load"), node.origin, newtons);
     }
     let damping_ratio = reader.number(table, "belt", node.origin, DAMPING_RATIO);
     let belt_velocity = if replaces_constant(table.get("drive")) {

@@ -138,28 +138,6 @@ impl DiscSetup {
 }
 
 impl DiscStudy {
-    /// The disc at one point of a map, the same as that of [`StudyOf::at`], but without reading the study again if
-    /// its numbers are the equations' own. `None` if they do not give a valid study.
-    pub fn disc_at(&self, numbers: &[(&str, f64)]) -> Option<Disc> {
-        let disc = self.disc();
-        let direct = |path: &str| {
-            let key = path.rsplit('.').next().unwrap_or_default();
-            let load = path.starts_with("disc.load")
-                && ["mass", "damping", "stiffness", "friction", "speed"].contains(&key);
-            load && (path.contains('[') || disc.loads().len() == 1)
-                || (path.starts_with("dither") && !path.contains('['))
-        };
-        let own = self.file_units().is_none();
-        if own && numbers.iter().all(|(path, _)| direct(path) && disc.get(path).is_some()) {
-            let mut disc = disc.clone();
-            for (path, value) in numbers {
-                disc = disc.with(path, *value).ok()?;
-            }
-            return Some(disc);
-        }
-        self.at(numbers.iter().copied()).ok().map(|study| study.disc().clone())
-    }
-
     /// The disc in the numbers of the equations, whole.
     pub fn disc(&self) -> &Disc {
         &self.kind().disc

@@ -204,6 +204,14 @@ fn together(lines: &[ModeLine]) -> Result<Listed, String> {
 /// Modes with their shapes at the first load, the shapes at each load at another radius, warnings.
 type AtLoads = (Vec<Mode>, Vec<Option<Vec<f64>>>, Vec<String>);
 
+/// The modes of a plate at a radius.
+struct ModesAtRadius {
+    plate: Arc<PlateModes>,
+    radius: f64,
+    damping: f64,
+    modes: Vec<Mode>,
+}
+
 /// Evaluates the modes at the loads.
 pub(super) fn at_loads(
     reader: &mut Reader,
@@ -227,21 +235,17 @@ pub(super) fn at_loads(
     let mut warnings = Vec::new();
     let mut right = true;
     for pad in pads {
-        let key = format!("{}.radius_ratio", pad.path);
-        let allowed = format!(
-            "a number in [{inner}, 1], between the clamp (disc.inner_radius_ratio) and the edge"
-        );
+        let mut refuse = |fault: Fault, given: Json| {
+            let key = format!("{}.radius_ratio", pad.path);
+            let allowed = format!(
+                "a number in [{inner}, 1], between the clamp (disc.inner_radius_ratio) and the edge"
+            );
+            reader.complain(Complaint::new(fault, key, pad.origin, given, allowed));
+            right = false;
+        };
         match pad.radius {
-            None => {
-                let complaint =
-                    Complaint::new(Fault::Missing, key, pad.origin, Json::Null, allowed);
-                reader.complain(complaint);
-                right = false;
-            }
-            Some(radius) if radius < inner => {
-                reader.complain(Complaint::new(Fault::Value, key, pad.origin, radius, allowed));
-                right = false;
-            }
+            None => refuse(Fault::Missing, Json::Null),
+            Some(radius) if radius < inner => refuse(Fault::Value, radius.into()),
             Some(radius) if radius == inner => warnings.push(format!(
                 "{} is at the clamp (radius_ratio = inner_radius_ratio = {inner}), where the disc does not move, so it \
                  couples to no mode",
@@ -255,13 +259,22 @@ pub(super) fn at_loads(
     }
     // Without a load the shapes are given at the edge; nothing depends on them.
     let first = pads.first().and_then(|pad| pad.radius).unwrap_or(1.0);
-    let modes = plate.set.at_radius(first, damping)?;
+    let mut at = |radius: f64| {
+        let is = |known: &ModesAtRadius| {
+            Arc::ptr_eq(&known.plate, plate) && (known.radius, known.damping) == (radius, damping)
+        };
+        let compute = || {
+            let modes = plate.set.at_radius(radius, damping).ok_or(())?;
+            Ok::<_, ()>(ModesAtRadius { plate: Arc::clone(plate), radius, damping, modes })
+        };
+        reader.computed().get(is, compute).ok()
+    };
+    let modes = at(first)?.modes.clone();
     let shapes = pads
         .iter()
         .map(|pad| {
             let radius = pad.radius.filter(|radius| *radius != first)?;
-            let met = plate.set.at_radius(radius, damping)?;
-            Some(met.iter().map(|mode| mode.shape_at_load).collect())
+            Some(at(radius)?.modes.iter().map(|mode| mode.shape_at_load).collect())
         })
         .collect();
     Some((modes, shapes, warnings))

@@ -1,6 +1,5 @@
 //! A law written as a formula, with its named constants and the parameters of the study that it uses.
 
-use quell_model::friction::expression::FORMULA;
 use quell_model::parameter::{Bounds, MAXIMUM_VELOCITY, STATIC_COEFFICIENT};
 use quell_model::units::Quantity;
 use quell_model::{Expression, Friction, Invalid, InvalidValues};
@@ -39,7 +38,7 @@ pub(super) fn read(
     let maximum = reader.optional(table, path, MAXIMUM_VELOCITY).if_given();
     let (level, maximum) = (level?, maximum?);
     // The proof needs the belt: its errors come later.
-    reader.remember(FORMULA, &key, node.origin, 1.0);
+    reader.remember(path, ("coefficient", "coefficient"), node.origin, 1.0);
     let mut constants = own?;
     constants.extend(parameters_in(reader, &text, &constants));
     let law = LawFormula { text, constants, level, unit: velocity_unit(reader) }.compiled(reader);

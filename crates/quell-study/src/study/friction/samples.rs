@@ -68,8 +68,8 @@ pub(super) fn read(
     });
     match made {
         Ok((measured, law)) => {
-            let key = join(path, if file.is_some() { "file" } else { "coefficient" });
-            reader.remember(COEFFICIENTS, &key, origin.origin, 1.0);
+            let key = if file.is_some() { "file" } else { "coefficient" };
+            reader.remember(path, ("coefficient", key), origin.origin, 1.0);
             Some(ReadLaw { measured: Some(measured), ..ReadLaw::of(Friction::Samples(law)) })
         }
         Err(invalid) => {

@@ -14,12 +14,12 @@ pub(in crate::study) enum PathStep {
 }
 
 /// A path that was followed to its end.
-#[derive(Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(in crate::study) struct FoundPath {
     pub(in crate::study) steps: Vec<PathStep>,
     /// The key whose value it is, or whose value it is an entry of.
     pub(in crate::study) key: &'static Key,
-    pub(super) is_number: bool,
+    pub(in crate::study) is_number: bool,
     /// Keys of the same table that the value replaces.
     pub(super) replaces: Vec<&'static Key>,
 }

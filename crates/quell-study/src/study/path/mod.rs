@@ -16,7 +16,7 @@ use super::document::{Node, Table, Value};
 use super::reader::{Reader, WantedNumber};
 use super::vocabulary::{DocumentKind, Key, KeyUnit, Role};
 use crate::complaint::{Complaint, Fault};
-pub(super) use found::LostPath;
+pub(super) use found::{FoundPath, LostPath};
 use found::{PathStep, node_at};
 pub(super) use walk::{follow, is_factor};
 
@@ -123,11 +123,17 @@ pub(super) fn set(document: &mut Table, path: &str, node: &Node) -> Result<(), B
         let unknown = (Fault::Unknown, "the keys that `quell schema` lists");
         Box::new(lost.complaint(path, (node.origin, node.given()), unknown))
     })?;
-    let Some((last, steps)) = found.steps.split_last() else { return Ok(()) };
+    put(document, &found, node);
+    Ok(())
+}
+
+/// Puts a value at the end of a path that was followed through this document.
+pub(super) fn put(document: &mut Table, found: &FoundPath, node: &Node) {
+    let Some((last, steps)) = found.steps.split_last() else { return };
     let mut at = Place::Table(document);
     for (place, step) in steps.iter().enumerate() {
         let in_list = matches!(found.steps[place + 1], PathStep::Index(_));
-        let Some(next) = at.inside(step, in_list, node) else { return Ok(()) };
+        let Some(next) = at.inside(step, in_list, node) else { return };
         at = next;
     }
     match (at, last) {
@@ -144,7 +150,6 @@ pub(super) fn set(document: &mut Table, path: &str, node: &Node) -> Result<(), B
         }
         _ => {}
     }
-    Ok(())
 }
 
 /// The number at a path, in the unit of its key; `None` if the study has none there.

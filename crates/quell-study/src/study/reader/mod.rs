@@ -24,10 +24,12 @@ pub(super) use units::{EquationScale, StudyUnits};
 /// Where and how a parameter was written.
 #[derive(Clone, Debug)]
 struct Written {
-    /// Path in the registry, with index.
-    path: String,
-    /// Path of the key that gave it.
-    key: String,
+    /// Path of the table, with its index.
+    table: Box<str>,
+    /// Name of the number in the registry.
+    number: &'static str,
+    /// The key of the table that gave it.
+    key: &'static str,
     origin: Origin,
     /// What the key gives for one number of the equations.
     factor: f64,
@@ -176,9 +178,10 @@ impl Reader {
     /// has an error is not reported again.
     pub(super) fn adopt(&mut self, invalid: InvalidValues) {
         for complaint in invalid {
-            let written = self.written.iter().find(|written| written.path == complaint.key);
-            let Some(written) = written else { continue };
-            let key = written.key.clone();
+            let Some((table, number)) = complaint.key.rsplit_once('.') else { continue };
+            let gave = |written: &&Written| &*written.table == table && written.number == number;
+            let Some(written) = self.written.iter().find(gave) else { continue };
+            let key = join(&written.table, written.key);
             if self.complaints.iter().any(|known| known.key == key) {
                 continue;
             }
@@ -192,7 +195,13 @@ impl Reader {
     }
 
     /// Records where a number of the registry was written, for errors of the model.
-    pub(super) fn remember(&mut self, path: &str, key: &str, origin: Origin, factor: f64) {
-        self.written.push(Written { path: path.to_owned(), key: key.to_owned(), origin, factor });
+    pub(super) fn remember(
+        &mut self,
+        table: &str,
+        (number, key): (&'static str, &'static str),
+        origin: Origin,
+        factor: f64,
+    ) {
+        self.written.push(Written { table: table.into(), number, key, origin, factor });
     }
 }

@@ -95,12 +95,8 @@ impl Reader {
         let Some(value) = self.quantity(key, node, wanted) else { return Found::Wrong };
         if !self.units().is_of_the_file() {
             let of_one = self.units().written_per_one(parameter.quantity, wanted.unit);
-            self.remember(
-                &join(prefix, parameter.key()),
-                &key(),
-                node.origin,
-                of_one.unwrap_or(1.0),
-            );
+            let names = (parameter.key(), name);
+            self.remember(prefix, names, node.origin, of_one.unwrap_or(1.0));
         }
         Found::Value(value)
     }

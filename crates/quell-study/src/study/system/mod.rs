@@ -14,7 +14,6 @@ mod matrix_market;
 mod modes;
 mod modes_file;
 mod names;
-mod origin;
 mod parameters;
 mod read;
 mod rows;
@@ -23,12 +22,8 @@ mod sized;
 mod structure;
 mod unused;
 
-use std::sync::Arc;
-
-use crate::study::vocabulary::size::{DITHER_SIZES, SignalMeasure, SizeKey, SizedSignal};
 use quell_design::actuator::Actuator;
 use quell_model::System;
-use quell_model::parameter::DITHER_AMPLITUDE;
 use quell_model::units::UnitSystem;
 
 use super::StudyOf;
@@ -37,12 +32,12 @@ use super::dither_size::GivenSize;
 use super::document::{Node, Table, Value};
 use super::reader::{EquationScale, Reader};
 use super::study_kind::StudyKind;
-use crate::complaint::{Complaint, Complaints, Origin};
+use crate::complaint::{Complaints, Origin};
 
 pub(in crate::study) use dither::PLACES;
 pub use frequency_response::FrequencyResponse;
 pub use initial::SystemStart;
-pub use origin::{NumberedStudy, SystemOrigin};
+pub(in crate::study) use read::assemble;
 pub use setup::{DescribedSystem, ScaledTime, SystemSetup};
 
 use crate::study::path::{self, set};
@@ -104,16 +99,6 @@ impl SystemStudy {
         self.kind().observe.clone()
     }
 
-    /// The study of another kind whose numbers, under their own keys, are the parameters of this system.
-    pub fn origin(&self) -> Option<&dyn NumberedStudy> {
-        self.kind().origin.as_ref().map(SystemOrigin::study)
-    }
-
-    /// That study, if it is of this kind.
-    pub fn origin_of_kind<S: NumberedStudy>(&self) -> Option<&S> {
-        self.kind().origin.as_ref().and_then(SystemOrigin::of_kind)
-    }
-
     /// The design that the study requests.
     pub fn design(&self) -> Option<&Design> {
         self.kind().design.as_ref()
@@ -134,43 +119,9 @@ impl SystemStudy {
         &self.kind().initial
     }
 
-    /// The number at a path, such as `contact.pad.friction.coefficient`, its formula evaluated: in the units of the file, or
-    /// in SI for a path that ends in a twin. `None` where the study has no such number.
-    pub fn number(&self, path: &str) -> Option<f64> {
-        if let Some(origin) = self.origin() {
-            return origin.number(path);
-        }
-        let number = || path::number(&self.source.document, &mut self.kind().reader(), path);
-        self.amplitude_at(path).or_else(number)
-    }
-
-    /// The amplitude of a dither by a key that need not be the one in the file; `None` for other numbers, and for what an actuator takes.
-    fn amplitude_at(&self, path: &str) -> Option<f64> {
-        let (dither, key) = path::amplitude_key(&self.source.document, path)?;
-        let wave = self.system().inputs.get(dither)?.profile.waves().first()?;
-        let size = DITHER_SIZES.iter().find(|size| size.key == key);
-        if size.is_some_and(SizeKey::needs_actuator) {
-            return None;
-        }
-        let measure = size.map_or(SignalMeasure::Peak, |size| size.measure);
-        let of_unit = measure.of_unit(&wave.waveform)?;
-        let in_si = DITHER_AMPLITUDE.si.iter().any(|other| other.key == key)
-            || size.is_some_and(|size| size.signal == SizedSignal::Newtons);
-        let factor = if in_si { self.units().si_per_unit(DITHER_AMPLITUDE.quantity)? } else { 1.0 };
-        Some(wave.amplitude * of_unit * factor)
-    }
-
     /// The amplitudes that the study gives by another size than a peak force.
     pub fn given_sizes(&self) -> &[GivenSize] {
         &self.kind().sizes
-    }
-
-    /// The unit of the number at a path, `1` for a ratio; `None` without a unit and where the study has no such number.
-    pub fn unit_of(&self, path: &str) -> Option<&'static str> {
-        if let Some(origin) = self.origin() {
-            return origin.number(path).map(|_| origin.unit_of(path));
-        }
-        path::measured_in(&self.source.document, path)
     }
 
     /// The study with a dither, counted from 0, at one of the places of its design, which is its only one, with this amplitude: its own may be
@@ -196,31 +147,5 @@ impl SystemStudy {
         let mut changes = self.source.changes.clone();
         changes.push(format!("dither at {}", place.name));
         self.check_again(document, changes)
-    }
-
-    /// The system with these numbers set in order as by `--set`: that of [`StudyOf::at`], without text or files being read.
-    ///
-    /// # Errors
-    /// All complaints about the changed study.
-    pub fn system_at(&self, numbers: &[(&str, f64)]) -> Result<System, Complaints> {
-        if let Some(origin) = self.origin() {
-            return origin.system_with(numbers);
-        }
-        let mut document = self.source.document.clone();
-        for apart in ["sweep", "design", "uncertainty"] {
-            document.remove(apart);
-        }
-        for (path, value) in numbers {
-            let node = Node { value: Value::Number(*value), origin: Origin::Whole };
-            set(&mut document, path, &node)?;
-        }
-        let mut reader =
-            self.reading_again(Reader::in_units(UnitSystem::None, EquationScale::OfTheFile));
-        let setup = read::study(&mut reader, &document);
-        let complaints: Vec<Complaint> = reader.into_complaints();
-        match setup {
-            Some(setup) if complaints.is_empty() => Ok(Arc::unwrap_or_clone(setup.system)),
-            _ => Err(complaints.into()),
-        }
     }
 }

@@ -2,26 +2,28 @@
 
 use std::sync::Arc;
 
-use quell_model::system::Input;
+use quell_design::actuator::Actuator;
+use quell_model::system::{Input, Structure};
 use quell_model::{Contact, System, Waveform};
 use serde_json::Value as Json;
 
 use super::contact::{self, ContactContext, ReadContact};
-use super::dither::{self, DitherContext};
+use super::dither::{self, DitherContext, ReadDithers};
 use super::frequency_response::{self, FrequencyResponse};
 use super::modes;
+use super::rows::RowBasis;
 use super::setup::{SystemSetup, natural_frequency};
 use super::structure::{self, ReadStructure};
 use super::{initial, parameters, sized, unused};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::actuator;
 use crate::study::design::{self, DesignContext};
+use crate::study::dither_size::GivenSize;
 use crate::study::document::{Node, Table, Value};
 use crate::study::path::amplitude_of;
 use crate::study::plausible;
 use crate::study::reader::{NumbersByName, Reader};
-use crate::study::vocabulary::Choice;
-use crate::study::vocabulary::Section;
+use crate::study::vocabulary::{Choice, Section};
 use quell_model::units::UnitSystem;
 
 /// Adds what is valid but unlikely, or without effect, to the study of a system that was read from a document.
@@ -35,77 +37,139 @@ pub(super) fn with_warnings(setup: SystemSetup, document: &Table) -> SystemSetup
 
 /// Reads the study of a system without its warnings; `None` if something is wrong, which has then been reported.
 pub(super) fn study(reader: &mut Reader, document: &Table) -> Option<SystemSetup> {
-    let units = units(reader, document);
-    reader.set_file_units(units);
-    let named = parameters::read(reader, document);
-    reader.set_named(named.clone());
-    let node = document.get("system");
-    let header = node.map_or(Origin::Whole, |node| node.origin);
-    let Some(node) = node else {
-        reader.missing("system", header, "a table [system] with coordinates, mass and stiffness");
-        return None;
-    };
-    let table = reader.table("system", node)?;
-    reader.unknown_keys(table, Section::System, "system");
-    let (ReadStructure { basis, structure }, response) = body(reader, table, header);
-    reader.set_natural_frequency(structure.as_ref().and_then(natural_frequency));
-    // Without names no row can be read.
-    let basis = basis?;
-    let first_order = table.has("states");
-    let context = ContactContext {
-        basis: &basis,
-        first_order,
-        measured: response.is_some(),
-        shared: document.get("friction"),
-    };
-    let contacts = contact::read(reader, document, context);
-    let of_contacts = contacts.iter().flatten().filter_map(ReadContact::warning);
-    let of_contacts: Vec<String> = of_contacts.collect();
-    let contacts: Option<Vec<Contact>> =
-        contacts.map(|read| read.into_iter().map(|read| read.contact).collect());
-    let names = contact::names(document);
-    let context = DitherContext {
-        basis: &basis,
-        names: &names,
-        contacts: contacts.as_deref(),
-        has_actuator: document.has("actuator"),
-    };
-    let dithers = dither::read(reader, document, context);
-    let (inputs, sizes) = dithers.unzip();
+    let equations = SystemEquations::read(reader, document)?;
+    let context = equations.dither_context();
     let places = dither::places(reader, document, context);
+    let inputs = equations.dithers.as_ref().map(|(inputs, _)| inputs.as_slice());
     let context = DesignContext {
-        waveform: inputs.as_deref().and_then(|inputs| designed_wave(document, inputs)),
+        waveform: inputs.and_then(|inputs| designed_wave(document, inputs)),
         document,
         places: places.as_deref().unwrap_or(&[]),
     };
     let design = design::read(reader, document, context);
-    let actuator = actuator::read(reader, document);
-    let observe = initial::observe(reader, table, &basis);
-    let initial = initial::read(reader, table, &basis, first_order);
-    let (structure, contacts, inputs) = (structure?, contacts?, inputs?);
-    let observe = observe.ok()?.unwrap_or_else(|| initial::default_row(&contacts, &structure));
-    let mut system = System { structure, contacts, inputs };
-    let known = actuator.as_ref().and_then(Option::as_ref);
-    let sizes = sized::amplitudes(reader, &mut system, known, sizes?)?;
-    let system = Arc::new(system);
-    if let (Some(response), Some(node)) = (&response, table.get("frequency_response")) {
-        let System { contacts, inputs, .. } = &*system;
-        frequency_response::check_pairs(reader, node, response, contacts, inputs);
-    }
+    let SystemEquations { table, ref basis, first_order, .. } = equations;
+    let observe = initial::observe(reader, table, basis);
+    let initial = initial::read(reader, table, basis, first_order);
+    let (units, named, response) =
+        (equations.units, equations.named.clone(), equations.response.clone());
+    let (warnings, actuator) = (equations.warnings.clone(), equations.actuator.clone());
+    let (system, sizes) = equations.assembled(reader)?;
+    let System { structure, contacts, .. } = &system;
+    let observe = observe.ok()?.unwrap_or_else(|| initial::default_row(contacts, structure));
     Some(SystemSetup {
-        system,
+        system: Arc::new(system),
         observe,
         initial: initial?,
         units,
         named,
-        warnings: of_contacts,
+        warnings,
         response,
         design: design.filter(|_| places.is_some())?,
         actuator: actuator?,
         sizes: sizes.into(),
         time: None,
-        origin: None,
     })
+}
+
+/// Reads the equations of a system and nothing else; `None` if something is wrong, which has then been reported.
+pub(in crate::study) fn assemble(reader: &mut Reader, document: &Table) -> Option<System> {
+    SystemEquations::read(reader, document)?.assembled(reader).map(|(system, _)| system)
+}
+
+/// The equations of the tables of a system, as far as they are right.
+struct SystemEquations<'t> {
+    /// The table `[system]`.
+    table: &'t Table,
+    units: UnitSystem,
+    named: NumbersByName,
+    basis: RowBasis,
+    first_order: bool,
+    structure: Option<Structure>,
+    response: Option<Arc<FrequencyResponse>>,
+    /// Names of all contacts, right or wrong.
+    names: Vec<String>,
+    contacts: Option<Vec<Contact>>,
+    warnings: Vec<String>,
+    has_actuator: bool,
+    #[expect(clippy::option_option, reason = "invalid, absent, given")]
+    actuator: Option<Option<Actuator>>,
+    dithers: Option<ReadDithers>,
+}
+
+impl<'t> SystemEquations<'t> {
+    /// Reads them; `None` where not even the coordinates are known.
+    fn read(reader: &mut Reader, document: &'t Table) -> Option<Self> {
+        let units = units(reader, document);
+        reader.set_file_units(units);
+        let named = parameters::read(reader, document);
+        reader.set_named(named.clone());
+        let node = document.get("system");
+        let header = node.map_or(Origin::Whole, |node| node.origin);
+        let Some(node) = node else {
+            let allowed = "a table [system] with coordinates, mass and stiffness";
+            reader.missing("system", header, allowed);
+            return None;
+        };
+        let table = reader.table("system", node)?;
+        reader.unknown_keys(table, Section::System, "system");
+        let (ReadStructure { basis, structure }, response) = body(reader, table, header);
+        reader.set_natural_frequency(structure.as_ref().and_then(natural_frequency));
+        // Without names no row can be read.
+        let basis = basis?;
+        let first_order = table.has("states");
+        let context = ContactContext {
+            basis: &basis,
+            first_order,
+            measured: response.is_some(),
+            shared: document.get("friction"),
+        };
+        let contacts = contact::read(reader, document, context);
+        let warnings = contacts.iter().flatten().filter_map(ReadContact::warning).collect();
+        let contacts: Option<Vec<Contact>> =
+            contacts.map(|read| read.into_iter().map(|read| read.contact).collect());
+        let mut equations = Self {
+            table,
+            units,
+            named,
+            basis,
+            first_order,
+            structure,
+            response,
+            names: contact::names(document),
+            contacts,
+            warnings,
+            has_actuator: document.has("actuator"),
+            actuator: None,
+            dithers: None,
+        };
+        equations.dithers = dither::read(reader, document, equations.dither_context());
+        equations.actuator = actuator::read(reader, document);
+        Some(equations)
+    }
+
+    /// What a dither refers to.
+    fn dither_context(&self) -> DitherContext<'_> {
+        DitherContext {
+            basis: &self.basis,
+            names: &self.names,
+            contacts: self.contacts.as_deref(),
+            has_actuator: self.has_actuator,
+        }
+    }
+
+    /// The system, with the amplitudes that an actuator determines, and every amplitude that is given by another size than a peak force.
+    fn assembled(self, reader: &mut Reader) -> Option<(System, Vec<GivenSize>)> {
+        let (inputs, sizes) = self.dithers?;
+        let mut system = System { structure: self.structure?, contacts: self.contacts?, inputs };
+        let known = self.actuator.as_ref().and_then(Option::as_ref);
+        let sizes = sized::amplitudes(reader, &mut system, known, sizes)?;
+        if let (Some(response), Some(node)) = (&self.response, self.table.get("frequency_response"))
+        {
+            let System { contacts, inputs, .. } = &system;
+            frequency_response::check_pairs(reader, node, response, contacts, inputs);
+        }
+        Some((system, sizes))
+    }
 }
 
 /// The waveform of the dither whose amplitude `[design]` chooses.

@@ -4,15 +4,18 @@ use std::sync::Arc;
 
 use quell_design::actuator::Actuator;
 use quell_model::System;
+use quell_model::parameter::DITHER_AMPLITUDE;
 use quell_model::system::Structure;
 use quell_model::units::UnitSystem;
 
 use super::frequency_response::FrequencyResponse;
 use super::initial::SystemStart;
-use super::origin::SystemOrigin;
 use crate::study::design::Design;
 use crate::study::dither_size::GivenSize;
+use crate::study::document::Table;
+use crate::study::path;
 use crate::study::reader::{EquationScale, NumbersByName, Reader};
+use crate::study::vocabulary::size::{DITHER_SIZES, SignalMeasure, SizeKey, SizedSignal};
 
 /// The parts of a study that only a system has.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,8 +35,6 @@ pub struct SystemSetup {
     pub(super) sizes: Arc<[GivenSize]>,
     /// Time of numbers without units in seconds; `None` where the study does not determine it.
     pub(super) time: Option<ScaledTime>,
-    /// The study of another kind whose numbers are the parameters.
-    pub(super) origin: Option<SystemOrigin>,
 }
 
 /// The unit of time of a study whose other numbers have no units.
@@ -60,13 +61,11 @@ pub struct DescribedSystem {
     pub warnings: Vec<String>,
     /// Its unit of time, if it is known.
     pub time: Option<ScaledTime>,
-    /// The study of another kind whose numbers are the parameters of the system.
-    pub origin: Option<SystemOrigin>,
 }
 
 impl From<DescribedSystem> for SystemSetup {
     fn from(described: DescribedSystem) -> Self {
-        let DescribedSystem { system, units, observe, initial, warnings, time, origin } = described;
+        let DescribedSystem { system, units, observe, initial, warnings, time } = described;
         Self {
             system: Arc::new(system),
             observe,
@@ -79,7 +78,6 @@ impl From<DescribedSystem> for SystemSetup {
             actuator: None,
             sizes: Arc::default(),
             time,
-            origin,
         }
     }
 }
@@ -100,12 +98,35 @@ impl SystemSetup {
 }
 
 impl SystemSetup {
+    /// The number at a path, its formula evaluated: in the units of the file, or in SI for a path that ends in a twin. `None` where the
+    /// study has no such number.
+    pub(in crate::study) fn number(&self, document: &Table, path: &str) -> Option<f64> {
+        let number = || path::number(document, &mut self.reader(), path);
+        self.amplitude_at(document, path).or_else(number)
+    }
+
     /// A reader of numbers as those of this study.
-    pub(super) fn reader(&self) -> Reader {
+    fn reader(&self) -> Reader {
         let mut reader = Reader::in_units(self.units, EquationScale::OfTheFile);
         reader.set_named(self.named.clone());
         reader.set_natural_frequency(natural_frequency(&self.system.structure));
         reader
+    }
+
+    /// The amplitude of a dither by a key that need not be the one in the file; `None` for other numbers, and for what an actuator takes.
+    fn amplitude_at(&self, document: &Table, path: &str) -> Option<f64> {
+        let (dither, key) = path::amplitude_key(document, path)?;
+        let wave = self.system.inputs.get(dither)?.profile.waves().first()?;
+        let size = DITHER_SIZES.iter().find(|size| size.key == key);
+        if size.is_some_and(SizeKey::needs_actuator) {
+            return None;
+        }
+        let measure = size.map_or(SignalMeasure::Peak, |size| size.measure);
+        let of_unit = measure.of_unit(&wave.waveform)?;
+        let in_si = DITHER_AMPLITUDE.si.iter().any(|other| other.key == key)
+            || size.is_some_and(|size| size.signal == SizedSignal::Newtons);
+        let factor = if in_si { self.units.si_per_unit(DITHER_AMPLITUDE.quantity)? } else { 1.0 };
+        Some(wave.amplitude * of_unit * factor)
     }
 }
 

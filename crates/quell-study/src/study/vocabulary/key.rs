@@ -289,5 +289,5 @@ impl Role {
 
 /// `table.key`, or `key` alone at the root.
 pub fn join(table: &str, key: &str) -> String {
-    if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") }
+    if table.is_empty() { key.to_owned() } else { [table, ".", key].concat() }
 }

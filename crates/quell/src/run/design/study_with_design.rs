@@ -236,7 +236,9 @@ impl StudyWithDesign for SystemStudy {
         let amplitude = self
             .asked()
             .and_then(|asked| asked.vary.iter().find_map(|range| self.dither_of(&range.path)));
-        let system = self.system_at(numbers).map_err(|why| why.to_string())?;
+        let model = self.model();
+        let numbers = model.numbers(numbers).map_err(|why| why.to_string())?;
+        let system = model.at(&numbers).map_err(|why| why.to_string())?;
         Ok(system_with_waveform(system, amplitude.unwrap_or(0), waveform))
     }
 }

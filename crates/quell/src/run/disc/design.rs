@@ -148,7 +148,10 @@ fn disc_at(
         .collect();
     let mut disc = match as_written.as_slice() {
         [] => study.disc().clone(),
-        numbers => study.disc_at(numbers).ok_or("these numbers give no valid disc")?,
+        numbers => {
+            let numbers = study.model().numbers(numbers).map_err(|why| why.to_string())?;
+            study.setup_at(&numbers).map_err(|why| why.to_string())?.disc().clone()
+        }
     };
     let words = |why: quell_model::InvalidValues| why.to_string();
     if disc.waveform() != waveform {

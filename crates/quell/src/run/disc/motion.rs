@@ -78,7 +78,6 @@ fn described(study: &DiscStudy, system: System, initial: SystemStart) -> SystemS
         initial,
         warnings: study.warnings().to_vec(),
         time,
-        origin: None,
     })
 }
 

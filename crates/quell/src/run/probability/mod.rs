@@ -18,7 +18,7 @@ pub use sampled::{AveragedGrowth, JudgedGrowth, SampledBelt, SampledKind};
 pub use thresholds::SampledThresholds;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::study::{StudyKind, StudyOf};
+use crate::study::{ParameterId, StudyKind, StudyOf};
 use crate::sweep::Running;
 
 /// Samples of a verdict that needs no run.
@@ -237,12 +237,15 @@ where
     study.can_be_sampled(start)?;
     let joint = uncertainty.joint();
     let paths: Vec<String> = uncertainty.paths().map(str::to_owned).collect();
+    let model = study.model();
+    let parameters =
+        paths.iter().map(|path| model.parameter(path)).collect::<Result<Vec<_>, _>>()?;
     let single = joint.groups().len() == 1;
     let sample = |number: usize| -> Result<JudgedSample, String> {
         let points = joint.sample(seed, number as u64);
         let at = |values: &[f64]| {
-            let numbers: Vec<(&str, f64)> =
-                paths.iter().map(String::as_str).zip(values.iter().copied()).collect();
+            let numbers: Vec<(ParameterId, f64)> =
+                parameters.iter().cloned().zip(values.iter().copied()).collect();
             study.sampled_at(&numbers)
         };
         let first = at(&points.first)?;

@@ -19,7 +19,7 @@ use crate::run::stability::FAST;
 use crate::run::system::attractor::{MotionKind, end_of_run, local_verdict};
 use crate::run::system::protocol::SystemProtocol;
 use crate::run::system::{has_equations, in_units};
-use crate::study::{BeltStudy, DiscStudy, SystemStudy, UnitSystem};
+use crate::study::{BeltStudy, DiscStudy, ParameterId, SystemStudy, UnitSystem};
 use crate::sweep::{
     Status, growth_of_disc, growth_of_system, least_quiet_of_belt, least_quiet_of_system,
 };
@@ -84,7 +84,7 @@ pub trait SampledKind {
     ///
     /// # Errors
     /// Why it is not valid.
-    fn sampled_at(&self, numbers: &[(&str, f64)]) -> Result<Self::Sampled, String>;
+    fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<Self::Sampled, String>;
 
     /// The growth of its small motions, by averaging under dither.
     fn averaged_growth(&self, sampled: &Self::Sampled) -> AveragedGrowth;
@@ -154,9 +154,10 @@ impl SampledKind for BeltStudy {
         refused_of_belt(self, "probability")
     }
 
-    fn sampled_at(&self, numbers: &[(&str, f64)]) -> Result<SampledBelt, String> {
-        let study = self.at(numbers.iter().copied()).map_err(|why| why.to_string())?;
-        Ok(SampledBelt::new(study.belt().clone(), self.scales().zip(study.scales())))
+    fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<SampledBelt, String> {
+        let setup = self.setup_at(numbers).map_err(|why| why.to_string())?;
+        let belt = setup.belt();
+        Ok(SampledBelt::new(belt.clone(), self.scales().zip(belt.scales())))
     }
 
     fn averaged_growth(&self, sampled: &SampledBelt) -> AveragedGrowth {
@@ -247,8 +248,8 @@ impl SampledKind for SystemStudy {
         has_equations(self, verb)
     }
 
-    fn sampled_at(&self, numbers: &[(&str, f64)]) -> Result<System, String> {
-        self.system_at(numbers).map_err(|why| why.to_string())
+    fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<System, String> {
+        self.model().at(numbers).map_err(|why| why.to_string())
     }
 
     fn averaged_growth(&self, system: &System) -> AveragedGrowth {
@@ -345,9 +346,9 @@ impl SampledKind for DiscStudy {
         }
     }
 
-    fn sampled_at(&self, numbers: &[(&str, f64)]) -> Result<Disc, String> {
-        let study = self.at(numbers.iter().copied()).map_err(|why| why.to_string())?;
-        Ok(study.disc().clone())
+    fn sampled_at(&self, numbers: &[(ParameterId, f64)]) -> Result<Disc, String> {
+        let setup = self.setup_at(numbers).map_err(|why| why.to_string())?;
+        Ok(setup.disc().clone())
     }
 
     fn averaged_growth(&self, disc: &Disc) -> AveragedGrowth {

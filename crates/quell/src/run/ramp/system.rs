@@ -16,7 +16,7 @@ use crate::run::system::simulate::{self, MotionRequest, natural_period};
 use crate::run::system::thresholds::{self, MotionThresholdsRequest, is_dithered_within};
 use crate::run::system::tracked;
 use crate::run::thresholds::side;
-use crate::study::{BeltStudy, Study, SystemStudy};
+use crate::study::SystemStudy;
 
 /// Runs the ramp of a system from t = 0 to the last knot.
 ///
@@ -61,10 +61,7 @@ fn courses(study: &SystemStudy) -> Vec<RampCourse> {
         ];
         for (profile, parameter, words) in given {
             found.extend(profile.and_then(Profile::knots).map(|knots| RampCourse {
-                path: study.origin().map_or_else(
-                    || format!("contact.{name}.{}", parameter.key()),
-                    |origin| origin.key_of(parameter.path),
-                ),
+                path: study.path_of(name, parameter),
                 words,
                 quantity: parameter.quantity,
                 knots: knots.clone(),
@@ -73,10 +70,6 @@ fn courses(study: &SystemStudy) -> Vec<RampCourse> {
         }
     }
     let count = system.inputs.len();
-    let amplitude = |index: usize| {
-        let path = indexed("dither", index, count, "amplitude");
-        study.origin().map_or_else(|| path.clone(), |origin| origin.key_of(&path))
-    };
     for (index, input) in system.inputs.iter().enumerate() {
         let Some(wave) = input.profile.waves().first() else { continue };
         let quantity = match input.target {
@@ -84,7 +77,7 @@ fn courses(study: &SystemStudy) -> Vec<RampCourse> {
             InputTarget::Friction { .. } => Quantity::Ratio,
         };
         found.extend(wave.envelope.as_ref().map(|envelope| RampCourse {
-            path: amplitude(index),
+            path: indexed("dither", index, count, "amplitude"),
             words: match count {
                 1 => "dither amplitude".to_owned(),
                 _ => format!("amplitude of dither[{index}]"),
@@ -108,12 +101,13 @@ fn oscillates(study: &SystemStudy) -> bool {
 
 /// The steady system of a time.
 fn steady_at(study: &SystemStudy, time: f64) -> Result<SystemStudy, Failure> {
-    match study.origin_of_kind::<BeltStudy>() {
-        Some(belt) => {
+    let declared = study.declared();
+    match declared.belt() {
+        Ok(belt) => {
             let per_second = belt.scales().map_or(1.0, |scales| scales.angular_frequency());
-            belt_system::described(&Study::from(belt).at_time(per_second * time)?.belt()?)
+            belt_system::described(&declared.at_time(per_second * time)?.belt()?)
         }
-        None => Ok(Study::from(study).at_time(time)?.system()?),
+        Err(_) => Ok(declared.at_time(time)?.system()?),
     }
 }
 

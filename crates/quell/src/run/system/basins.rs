@@ -215,10 +215,11 @@ pub fn run(
     let windows = [window_of(0), window_of(1)];
     let starts = request.layout.places(windows);
     let values = values(study, request.over.as_ref(), starts.len())?;
-    let path = request.over.as_ref().map_or("", |over| over.parameter.as_str());
+    let model = study.model();
+    let over = request.over.as_ref().map(|over| model.parameter(&over.parameter)).transpose()?;
     let systems = values.iter().map(|value| {
-        let numbers: Vec<(&str, f64)> = value.iter().map(|value| (path, *value)).collect();
-        let system: System = study.system_at(&numbers).map_err(|why| failed("basins", why))?;
+        let numbers: Vec<_> = over.clone().zip(*value).into_iter().collect();
+        let system: System = model.at(&numbers).map_err(|why| failed("basins", why))?;
         let start = SystemProtocol::Study.state(study, &system)?;
         Ok((system, start))
     });

@@ -14,7 +14,7 @@ use crate::run::bifurcation::shared::{directions, ranges};
 use crate::run::bifurcation::{SweepDirection, SweepRequest};
 use crate::run::varied::{MOST_VALUES, Range};
 use crate::run::{evenly, stopped};
-use crate::study::SystemStudy;
+use crate::study::{Model, ParameterId, SystemStudy};
 use crate::sweep::Running;
 
 /// Relative difference of size beyond which the two directions show different motions.
@@ -92,6 +92,8 @@ pub fn run(
     let directions = directions(request);
     let values = evenly((range.from, range.to), range.points);
     running.progress.begin(values.len() * directions.len(), 0);
+    let model = study.model();
+    let parameter = model.parameter(&range.parameter)?;
     let mut state: Option<Vec<f64>> = None;
     let mut branches: Vec<SystemBranch> = Vec::new();
     let swept = directions.into_iter().try_for_each(|direction| {
@@ -104,7 +106,7 @@ pub fn run(
             if running.stop.load(Ordering::Relaxed) {
                 return Err(stopped("bifurcation"));
             }
-            let (point, end) = point(study, &range.parameter, value, state.take())?;
+            let (point, end) = point(study, (&model, &parameter), value, state.take())?;
             points.push(point);
             state = Some(end);
             running.progress.advance(1);
@@ -122,12 +124,12 @@ pub fn run(
 /// The motion at one value, and the state from which the next one starts.
 fn point(
     study: &SystemStudy,
-    path: &str,
+    (model, parameter): (&Model, &ParameterId),
     value: f64,
     begun: Option<Vec<f64>>,
 ) -> Result<(SystemSweepPoint, Vec<f64>), Failure> {
     let system: System =
-        study.system_at(&[(path, value)]).map_err(|why| failed("bifurcation", why))?;
+        model.at(&[(parameter.clone(), value)]).map_err(|why| failed("bifurcation", why))?;
     let begun = match begun {
         Some(state) => state,
         None => SystemProtocol::Study.state(study, &system)?,

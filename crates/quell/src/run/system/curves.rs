@@ -46,11 +46,13 @@ pub fn tracked(request: &CurvesRequest) -> TrackRequest {
 pub fn is_dithered_in(study: &SystemStudy, request: &CurvesRequest) -> bool {
     let (first, last) = request.window;
     let (begin, end) = request.between;
+    let model = study.model();
     let corners = [(first, begin), (first, end), (last, begin), (last, end)];
     study.system().is_dithered()
         || corners.iter().any(|(value, along)| {
             let at = [(request.parameter.as_str(), *value), (request.along.as_str(), *along)];
-            study.system_at(&at).is_ok_and(|system| system.is_dithered())
+            let numbers = model.numbers(&at).ok();
+            numbers.and_then(|at| model.at(&at).ok()).is_some_and(|system| system.is_dithered())
         })
 }
 
@@ -62,9 +64,11 @@ pub fn run(study: &SystemStudy, request: &CurvesRequest) -> Result<SystemCurves,
     has_equations(study, "thresholds")?;
     understood(study, &tracked(request))?;
     let (parameter, along) = (request.parameter.as_str(), request.along.as_str());
+    let model = study.model();
+    let ids = [model.parameter(parameter)?, model.parameter(along)?];
     let at = |values: &[f64]| -> Result<System, String> {
-        let numbers = [(parameter, values[0]), (along, values[1])];
-        study.system_at(&numbers).map_err(|why| why.to_string())
+        let numbers = [(ids[0].clone(), values[0]), (ids[1].clone(), values[1])];
+        model.at(&numbers).map_err(|why| why.to_string())
     };
     let middle = |(from, to): (f64, f64)| 0.5 * (from + to);
     let ends = [

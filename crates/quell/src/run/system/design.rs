@@ -41,7 +41,9 @@ pub fn run(study: &SystemStudy) -> Result<LeastDitherFound, Failure> {
         let chosen = paths.iter().copied().zip(at.point.iter().chain(at.others).copied());
         let numbers: Vec<(&str, f64)> =
             fixed.chain(chosen).chain([(amplitude_path, value)]).collect();
-        let system = study.system_at(&numbers).map_err(|why| why.to_string())?;
+        let model = study.model();
+        let numbers = model.numbers(&numbers).map_err(|why| why.to_string())?;
+        let system = model.at(&numbers).map_err(|why| why.to_string())?;
         Ok(system_with_waveform(system, input, waveform))
     };
     let system_of = &system_of;
@@ -131,9 +133,10 @@ fn accepted(
 ) -> Result<(), Failure> {
     let at = place.map_or(String::new(), |place| format!(" at {place}"));
     let mut wrong: Vec<Complaint> = Vec::new();
+    let model = study.model();
     for range in ranges {
         for value in [range.from, range.to] {
-            let refused = study.system_at(&[(range.path.as_str(), value)]).err();
+            let refused = model.at(&[(model.parameter(&range.path)?, value)]).err();
             let path = format!("{}{at}", range.path);
             wrong.extend(
                 refused.into_iter().flatten().map(|complaint| at_end(complaint, key, &path)),

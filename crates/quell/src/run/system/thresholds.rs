@@ -78,10 +78,11 @@ pub struct MotionThresholdsFound {
 /// Whether some dither acts at an end of the window.
 pub fn is_dithered_within(study: &SystemStudy, request: &MotionThresholdsRequest) -> bool {
     let (from, to) = request.window;
+    let model = study.model();
+    let Ok(parameter) = model.parameter(&request.parameter) else { return false };
     study.system().is_dithered()
         || [from, to].iter().any(|value| {
-            let numbers = [(request.parameter.as_str(), *value)];
-            study.system_at(&numbers).is_ok_and(|system| system.is_dithered())
+            model.at(&[(parameter.clone(), *value)]).is_ok_and(|system| system.is_dithered())
         })
 }
 
@@ -97,8 +98,10 @@ pub fn run(
     understood(study, &request.tracked())?;
     can_ramp(request.ramp, request.protocols.is_empty())?;
     let path = request.parameter.as_str();
+    let model = study.model();
+    let parameter = model.parameter(path)?;
     let at = |values: &[f64]| -> Result<System, String> {
-        study.system_at(&[(path, values[0])]).map_err(|why| why.to_string())
+        model.at(&[(parameter.clone(), values[0])]).map_err(|why| why.to_string())
     };
     let (from, to) = request.window;
     for (option, value) in [("--from", from), ("--to", to)] {

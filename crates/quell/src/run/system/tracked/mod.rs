@@ -9,7 +9,7 @@ use quell_linear::criticality::first_lyapunov;
 use quell_linear::linearised::{FrictionSlopes, Linearised};
 use quell_linear::steady::NoSteadySliding;
 use quell_linear::tracking::{Family, StabilityChange, ThresholdOfStability, Tracked, track};
-use quell_model::parameter::BELT_VELOCITY;
+use quell_model::parameter::NORMAL_LOAD;
 use quell_numerics::continuation::criticality::{FirstLyapunov, NoFirstLyapunov};
 use quell_numerics::eigen::EigenError;
 use quell_numerics::matrix::Matrix;
@@ -20,7 +20,7 @@ use super::validity::ContactRanges;
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
 use crate::contact_state::refused_of_system;
-use crate::study::SystemStudy;
+use crate::study::{Model, ParameterId, SystemStudy};
 
 /// Values of the parameter at which eigenvalues are computed at least.
 const POINTS: usize = 129;
@@ -75,9 +75,9 @@ pub struct TrackedStability {
 
 /// The state matrices of a study over one of its numbers, others fixed.
 struct StudyFamily<'a> {
-    study: &'a SystemStudy,
-    path: &'a str,
-    fixed: Option<(&'a str, f64)>,
+    model: &'a Model,
+    parameter: ParameterId,
+    fixed: Option<(ParameterId, f64)>,
     recorded: &'a RefCell<ContactRanges>,
     /// Where surfaces come to rest in the window.
     rests: Vec<SurfaceAtRest>,
@@ -87,10 +87,10 @@ impl Family for StudyFamily<'_> {
     type Error = String;
 
     fn matrix(&self, value: f64) -> Result<Matrix, String> {
-        let numbers: Vec<(&str, f64)> =
-            self.fixed.into_iter().chain([(self.path, value)]).collect();
-        let at = self.fixed.map_or(value, |(_, along)| along);
-        let system = self.study.system_at(&numbers).map_err(|why| why.to_string())?;
+        let varied = (self.parameter.clone(), value);
+        let numbers: Vec<_> = self.fixed.iter().cloned().chain([varied]).collect();
+        let at = self.fixed.as_ref().map_or(value, |(_, along)| *along);
+        let system = self.model.at(&numbers).map_err(|why| why.to_string())?;
         if system.is_dithered() {
             let prepared = DitheredSystem::new(&system).map_err(|why| why.to_string())?;
             let average = prepared.average().map_err(|why| why.to_string())?;
@@ -130,12 +130,14 @@ pub struct SurfaceAtRest {
 /// Where surfaces come to rest inside a window, ascending.
 fn rests(
     study: &SystemStudy,
-    (path, (from, to)): (&str, (f64, f64)),
-    fixed: Option<(&str, f64)>,
+    (parameter, (from, to)): (&ParameterId, (f64, f64)),
+    fixed: Option<&(ParameterId, f64)>,
 ) -> Vec<SurfaceAtRest> {
+    let model = study.model();
     let velocities = |value: f64| -> Option<Vec<f64>> {
-        let numbers: Vec<(&str, f64)> = fixed.into_iter().chain([(path, value)]).collect();
-        let system = study.system_at(&numbers).ok()?;
+        let varied = (parameter.clone(), value);
+        let numbers: Vec<_> = fixed.into_iter().cloned().chain([varied]).collect();
+        let system = model.at(&numbers).ok()?;
         Some(system.contacts.iter().map(|contact| contact.surface_velocity.mean()).collect())
     };
     let grid = (0..POINTS).map(|k| from + (to - from) * k as f64 / (POINTS - 1) as f64);
@@ -171,31 +173,37 @@ pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStabili
     has_equations(study, "stability")?;
     refused_of_system(study, "stability --parameter")?;
     understood(study, request)?;
+    let model = study.model();
+    let parameter = model.parameter(&request.parameter)?;
+    let along = request.along.as_ref();
+    let along = along.map(|(path, ends)| Ok::<_, Failure>((model.parameter(path)?, *ends)));
+    let along = along.transpose()?;
     let recorded = [RefCell::default(), RefCell::default()];
-    let family = |fixed: Option<_>| {
+    let family = |fixed: Option<(ParameterId, f64)>| {
         let recorded = &recorded[usize::from(fixed.is_some())];
-        let rests = rests(study, (&request.parameter, request.window), fixed);
-        StudyFamily { study, path: &request.parameter, fixed, recorded, rests }
+        let rests = rests(study, (&parameter, request.window), fixed.as_ref());
+        StudyFamily { model: &model, parameter: parameter.clone(), fixed, recorded, rests }
     };
     let whole = family(None);
     let tracked = track(&whole, request.window, POINTS);
     let tracked = tracked.map_err(|why| failed("stability", why))?;
     let mut curves = Vec::new();
-    if let Some((along, (from, to))) = &request.along {
+    if let Some((along, (from, to))) = &along {
         let width = request.window.1 - request.window.0;
         for k in 0..LINES {
             let value = from + (to - from) * k as f64 / (LINES - 1) as f64;
-            let line = track(&family(Some((along, value))), request.window, POINTS_OF_A_LINE);
+            let line =
+                track(&family(Some((along.clone(), value))), request.window, POINTS_OF_A_LINE);
             let thresholds = line.map_or_else(|_| Vec::new(), |line| line.thresholds);
             let step = (to - from) / (LINES - 1) as f64;
             extend(&mut curves, (value, step), thresholds, width);
         }
     }
-    if let Some((along, _)) = &request.along {
+    if let Some((along, _)) = &along {
         for curve in &mut curves {
             let points = curve.points.iter();
             let found = points.map(|(at, found)| {
-                let numbers = [(along.as_str(), *at), (request.parameter.as_str(), found.value)];
+                let numbers = [(along.clone(), *at), (parameter.clone(), found.value)];
                 criticality(study, &numbers, found)
             });
             curve.first_lyapunov = found.collect();
@@ -207,7 +215,7 @@ pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStabili
     let first_lyapunov = tracked
         .thresholds
         .iter()
-        .map(|found| criticality(study, &[(request.parameter.as_str(), found.value)], found));
+        .map(|found| criticality(study, &[(parameter.clone(), found.value)], found));
     let first_lyapunov = first_lyapunov.collect();
     let request = request.clone();
     Ok(TrackedStability { request, averaged, tracked, rests, first_lyapunov, curves, contacts })
@@ -216,14 +224,14 @@ pub fn run(study: &SystemStudy, request: &TrackRequest) -> Result<TrackedStabili
 /// The first Lyapunov coefficient at a threshold of steady sliding without dither, at these numbers of the study.
 fn criticality(
     study: &SystemStudy,
-    numbers: &[(&str, f64)],
+    numbers: &[(ParameterId, f64)],
     found: &ThresholdOfStability,
 ) -> Result<FirstLyapunov, String> {
     let text = |why: NoFirstLyapunov| why.to_string();
     if found.change != StabilityChange::Hopf {
         return Err(text(NoFirstLyapunov::OtherKind));
     }
-    let system = study.system_at(numbers).map_err(|why| why.to_string())?;
+    let system = study.model().at(numbers).map_err(|why| why.to_string())?;
     if system.is_dithered() {
         let why =
             "not computed for averaged motion: `thresholds` gives that of the dithered response";
@@ -264,12 +272,7 @@ fn extend(
 
 /// The path of the study that is closest to a wrong one.
 fn nearest(study: &SystemStudy, path: &str) -> Option<String> {
-    if let Some(origin) = study.origin() {
-        let key = origin.key_of(path);
-        return origin.number(&key).map(|_| key);
-    }
-    let complaints = study.with(path, 0.0).err()?;
-    complaints.iter().find_map(|complaint| complaint.suggestion.clone())
+    study.model().parameter(path).err()?.suggestion
 }
 
 /// Every complaint about a request.
@@ -281,14 +284,8 @@ pub(super) fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<
     for ((option, from, to), path, window) in [Some(first), along].into_iter().flatten() {
         if study.number(path).is_none() {
             let contact = study.system().contacts.first().map_or("NAME", |contact| &contact.name);
-            let allowed = if let Some(origin) = study.origin() {
-                let example = origin.key_of(BELT_VELOCITY.path);
-                format!("the path of a number of the study, such as {example}")
-            } else {
-                format!(
-                    "the path of a number of the study, such as contact.{contact}.normal_load; quell check lists the contacts"
-                )
-            };
+            let example = study.path_of(contact, NORMAL_LOAD);
+            let allowed = format!("the path of a number of the study, such as {example}");
             let complaint = Complaint::option(option, path.as_str(), allowed);
             wrong.push(complaint.suggesting(nearest(study, path)));
             continue;
