@@ -2,13 +2,13 @@
 
 use std::fs;
 
-use quell::template::Template;
+use quell::template::CommentedStudy;
 use serde_json::Value as Json;
 
 use crate::place::Place;
 
 fn place(name: &str) -> Place {
-    let text = Template::find("quench").expect("a template").text;
+    let text = CommentedStudy::find("quench").expect("a template").text;
     Place::with(name, &[("quench.toml", text)])
 }
 

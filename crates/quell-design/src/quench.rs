@@ -14,7 +14,7 @@ use quell_linear::averaging::{
 };
 use quell_linear::linear_cost::linear_cost;
 use quell_model::profile::{Profile, Wave};
-use quell_model::{Belt, Direction, Dither, Parametrisation, System};
+use quell_model::{Belt, Direction, Dither, System};
 
 use crate::least_dither::{
     AmplitudeBranch, QuietAmplitudes, QuietChange, amplitude_branch_of_belt,
@@ -136,14 +136,13 @@ pub fn quench_of_belt(belt: &Belt) -> Result<Quench<AveragingError>, NoQuench<Av
     if belt.belt_velocity() == 0.0 {
         return Err(NoQuench::NoSteadySliding);
     }
-    let path = belt.dither_path(0, "amplitude");
     // The amplitude of the study must not make a belt invalid.
-    let belt = &belt.with(&path, 0.0).map_err(|_| NoQuench::NoBaseResponse)?;
+    let belt = &belt.with_amplitude(0, 0.0).map_err(|_| NoQuench::NoBaseResponse)?;
     let limit = limit_of_belt(belt, first)?;
     let branch = if belt.has_contact_state() {
         // The engine for belts has no place for the state.
         let at = |amplitude: f64| {
-            let belt = belt.with(&path, amplitude).map_err(|why| why.to_string())?;
+            let belt = belt.with_amplitude(0, amplitude).map_err(|why| why.to_string())?;
             Ok(belt.system())
         };
         amplitude_branch_of_system(&at, (0.0, limit), STEPS).map_err(|why| no_branch(&why))?

@@ -1,21 +1,20 @@
 //! Least dithers of belts against an independent program, and limits in closed form.
 
+use std::sync::Arc;
+
 use quell_design::actuator::{Actuator, ActuatorLimit, PiezoStack};
 use quell_design::least_dither::{
     BeltPlant, DesignObjective, DesignProblem, DesignStart, Designed, LimitedQuantity, NoDesign,
     OperatingPoint, Plant, covered, design,
 };
 use quell_design::tasks::InTurn;
-use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
-
-const BELT_VELOCITY: &str = "belt.belt_velocity";
-const FREQUENCY: &str = "dither.frequency_ratio";
+use quell_model::{Belt, Direction, Dither, Friction, InvalidValues, LawKind, Waveform};
 
 fn law(kind: LawKind) -> Friction {
     kind.build(&[0.4, 0.2857, 0.2]).expect("a law")
 }
 
-fn plant(kind: LawKind, damping_ratio: f64, waveform: Waveform, others: &[&str]) -> BeltPlant {
+fn plant(kind: LawKind, damping_ratio: f64, waveform: Waveform) -> BeltPlant<'static> {
     let dither = Dither {
         direction: Direction::Tangential,
         waveform,
@@ -24,16 +23,18 @@ fn plant(kind: LawKind, damping_ratio: f64, waveform: Waveform, others: &[&str])
         phase: 0.0,
         envelope: None,
     };
-    BeltPlant {
-        belt: Belt::new(damping_ratio, 1.0, 0.1, law(kind), vec![dither]).expect("a belt"),
-        over: vec![BELT_VELOCITY.to_owned()],
-        others: others.iter().map(|path| (*path).to_owned()).collect(),
-        start: DesignStart::Local,
-    }
+    let belt = Belt::new(damping_ratio, 1.0, 0.1, law(kind), vec![dither]).expect("a belt");
+    let at = move |at: OperatingPoint<'_>| {
+        let belt = belt.with_amplitude(0, 0.0)?.with_belt_velocity(at.point[0])?;
+        at.others.iter().try_fold(belt, |belt, ratio| belt.with_frequency_ratio(0, *ratio))
+    };
+    let at =
+        move |point: OperatingPoint<'_>| at(point).map_err(|why: InvalidValues| why.to_string());
+    BeltPlant { at: Arc::new(at), start: DesignStart::Local }
 }
 
 fn problem<'a>(
-    plant: &'a BeltPlant,
+    plant: &'a BeltPlant<'static>,
     over: &'a [(f64, f64)],
     limits: &'a [(LimitedQuantity, f64)],
 ) -> DesignProblem<'a> {
@@ -69,7 +70,7 @@ fn least_amplitudes_over_speeds() {
             _ => Waveform::Square,
         };
         let over = [(number("from"), number("to"))];
-        let plant = plant(kind, number("damping_ratio"), waveform, &[]);
+        let plant = plant(kind, number("damping_ratio"), waveform);
         let found = design(problem(&plant, &over, &[])).answer.expect("feasible");
         let critical = &found.critical;
         // Grazings and multipliers of the oracle are exact to 1e-9; a tip is where two thresholds meet.
@@ -91,7 +92,7 @@ fn least_amplitudes_over_speeds() {
 
 #[test]
 fn a_stroke_limit_binds_the_frequency() {
-    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine, &[FREQUENCY]);
+    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine);
     let limits = [(LimitedQuantity::Stroke, 0.04)];
     let others = [(2.0, 20.0)];
     let over = [(0.05, 0.2)];
@@ -110,7 +111,7 @@ fn a_stroke_limit_binds_the_frequency() {
 /// K = 1 − R² + 2iζR, is F_b/2 on both sides.
 #[test]
 fn a_voltage_binds_the_frequency() {
-    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine, &[FREQUENCY]);
+    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine);
     let stack = PiezoStack {
         blocked_force: 3.0,
         stiffness: 20.0,
@@ -155,7 +156,7 @@ fn a_voltage_binds_the_frequency() {
 
 #[test]
 fn a_bounded_amplitude_covers_a_part_of_the_box() {
-    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine, &[]);
+    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine);
     let over = [(0.02, 0.2)];
     let whole = DesignProblem { amplitude: (0.01, 1.0), ..problem(&plant, &over, &[]) };
     let Designed { answer, .. } = design(whole);
@@ -168,7 +169,7 @@ fn a_bounded_amplitude_covers_a_part_of_the_box() {
 
 #[test]
 fn a_loss_of_friction_is_judged_on_exact_responses() {
-    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine, &[]);
+    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine);
     let over = [(0.145, 0.15)];
     let limits = [(LimitedQuantity::FrictionLoss, 0.25)];
     let found = design(problem(&plant, &over, &limits)).answer.expect("feasible");
@@ -195,7 +196,7 @@ fn a_loss_of_friction_is_judged_on_exact_responses() {
 /// program gives two digits of the exact losses.
 #[test]
 fn averaged_and_exact_losses_meet_at_high_frequency() {
-    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine, &[FREQUENCY]);
+    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine);
     let at = |ratio: f64| {
         let (point, others) = ([0.145], [ratio]);
         let amplitude = 1.0375 * 0.145 * (ratio * ratio - 1.0) / ratio;
@@ -213,7 +214,7 @@ fn averaged_and_exact_losses_meet_at_high_frequency() {
 
 #[test]
 fn nothing_is_needed_where_sliding_is_stable() {
-    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine, &[]);
+    let plant = plant(LawKind::Stribeck, 0.005, Waveform::Sine);
     // Without dither sliding is stable from 0.2 √(1 − 0.01/0.857) = 0.1988 on.
     let over = [(0.2, 0.25)];
     let found = design(problem(&plant, &over, &[])).answer.expect("feasible");

@@ -28,9 +28,9 @@ fn growth(disc: &Disc) -> f64 {
 fn at(disc: &Disc, speed: f64, amplitude: f64, ratio: Option<f64>) -> Disc {
     let mut next = disc.at_speed(speed).expect("in bounds");
     if let Some(ratio) = ratio {
-        next = next.with("dither.frequency_ratio", ratio).expect("in bounds");
+        next = next.with_frequency_ratio(ratio).expect("in bounds");
     }
-    next.with("dither.amplitude", amplitude).expect("in bounds")
+    next.with_amplitude(amplitude).expect("in bounds")
 }
 
 fn designed(

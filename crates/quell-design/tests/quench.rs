@@ -3,9 +3,7 @@
 use quell_design::least_dither::amplitude_branch_of_belt;
 use quell_design::quench::{NoQuench, NotQuenched, quench_of_belt, quench_of_system};
 use quell_dynamics::orbit::threshold::ThresholdKind;
-use quell_model::{Belt, Direction, Dither, LawKind, Parametrisation, Waveform};
-
-const AMPLITUDE: &str = "dither.amplitude";
+use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 
 fn belt(kind: LawKind, damping: f64, velocity: f64, waveform: Waveform, ratio: f64) -> Belt {
     let dither = Dither {
@@ -81,10 +79,10 @@ fn other_ranges_and_the_amplitude_of_the_study_change_nothing() {
     let belt = belt(LawKind::Decreasing, 0.02, 0.3, Waveform::Triangle, 7.0);
     let found = quench_of_belt(&belt).expect("a base response");
     let least = found.least().expect("a quench amplitude").amplitude;
-    let weak = quench_of_belt(&belt.with(AMPLITUDE, 0.1).expect("a belt")).expect("a response");
+    let weak = quench_of_belt(&belt.with_amplitude(0, 0.1).expect("a belt")).expect("a response");
     assert_eq!(weak.branch, found.branch);
     for (to, steps) in [(1.3 * least, 5), (3.0 * least, 60)] {
-        let other = belt.with(AMPLITUDE, 0.0).expect("a belt");
+        let other = belt.with_amplitude(0, 0.0).expect("a belt");
         let other = amplitude_branch_of_belt(&other, (0.0, to), steps).expect("a branch");
         let first = other.changes[0];
         assert!((first.amplitude / least - 1.0).abs() < 1e-9, "{first:?} {least}");
@@ -114,6 +112,6 @@ fn reasons() {
     assert_eq!(found.averaged().expect("averaging"), Err(NotQuenched::QuietWithout));
     let without = quench_of_belt(&sliding.undithered());
     assert!(matches!(without, Err(NoQuench::NoDither)), "{without:?}");
-    let at_rest = sliding.with("belt.belt_velocity", 0.0).expect("a belt");
+    let at_rest = sliding.with_belt_velocity(0.0).expect("a belt");
     assert!(matches!(quench_of_belt(&at_rest), Err(NoQuench::NoSteadySliding)));
 }

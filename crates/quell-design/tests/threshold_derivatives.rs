@@ -6,7 +6,7 @@ use quell_dynamics::orbit::OrbitVerdict;
 use quell_dynamics::orbit::threshold::ThresholdKind;
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
-use quell_model::{Belt, Direction, Dither, LawKind, Parametrisation, System, Waveform};
+use quell_model::{Belt, Direction, Dither, LawKind, System, Waveform};
 use quell_numerics::matrix::Matrix;
 
 /// A belt with ζ, F, v₀, the three coefficients of the law, and R as its numbers.

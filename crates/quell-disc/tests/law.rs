@@ -5,7 +5,7 @@ use quell_disc::instability::{InstabilityKind, origins};
 use quell_disc::{dithered, undithered};
 use quell_linear::floquet::NotFollowerDither;
 use quell_model::disc::{Contributions, DiscDither, Load, Mode, Patch};
-use quell_model::{Disc, LawKind, Parametrisation};
+use quell_model::{Disc, LawKind};
 use quell_numerics::floquet::Effort;
 
 const DITHER: DiscDither = DiscDither::Normal { amplitude: 0.7, frequency_ratio: 2.7 };
@@ -123,8 +123,9 @@ fn what_does_not_fit_is_refused() {
     assert_eq!(keys(disc(vec![both], none, 0.3)), ["disc.load.friction"]);
     assert_eq!(keys(disc(vec![pressed(1.0, 0.0)], none, 0.0)), ["disc.load.speed"]);
     let right = coulomb(0.3, disc(vec![pressed(1.0, 0.01)], DITHER, 0.3));
-    assert!(right.with("disc.load.speed", 0.0).is_err());
-    assert_eq!(right.with("disc.load.normal_load", 2.0).map(|disc| disc.law().is_some()), Ok(true));
+    assert!(right.at_speed(0.0).is_err());
+    let heavier = right.with_each_load(|load| Load { normal_load: Some(2.0), ..load.clone() });
+    assert_eq!(heavier.map(|disc| disc.law().is_some()), Ok(true));
     assert_eq!(boundaries(&right), Err(NoBoundary::NotPlain));
     let tangent = NotFollowerDither::Tangent { contact: 0 };
     assert_eq!(dithered::growth(&right, Effort::default()), Err(tangent));

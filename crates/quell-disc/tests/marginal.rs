@@ -11,7 +11,6 @@ use quell_disc::marginal::{
 use quell_disc::partition::{FrictionCrossing, crossings};
 use quell_disc::plate::{ModeSet, Plate, Reference};
 use quell_model::disc::{DiscDither, DitherShape, Load, Mode, Patch};
-use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
 use quell_model::waveform::{Burst, FourierWave, Harmonic, Hold, SampledWave};
 use quell_model::{Disc, Waveform};
 use quell_numerics::floquet::Effort;
@@ -328,9 +327,7 @@ fn amplitudes_and_frictions_agree() {
     let disc = disc(tangential(RATIO), &Waveform::Square, 0.37);
     // Without mean friction α f alone counts.
     let friction = of(&disc)[0];
-    let line = |amplitude: f64| {
-        exponents(&disc.with(DISC_DITHER_AMPLITUDE.path, amplitude).expect("valid"))
-    };
+    let line = |amplitude: f64| exponents(&disc.with_amplitude(amplitude).expect("valid"));
     let grid: Vec<f64> = (0..=20).map(|k| friction.value * 0.1 * f64::from(k)).collect();
     let found = marginal_values(&line, &grid).expect("finite");
     assert!((found[0].value / friction.value - 1.0).abs() < 1e-10, "{found:?} {friction:?}");

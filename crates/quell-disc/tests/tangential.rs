@@ -9,7 +9,7 @@ use quell_linear::floquet::{FollowerDither, NotFollowerDither};
 use quell_linear::linearised::Linearised;
 use quell_model::disc::{DiscDither, Load, Mode, Patch};
 use quell_model::system::InputTarget;
-use quell_model::{Disc, Parametrisation, Waveform};
+use quell_model::{Disc, Waveform};
 use quell_numerics::floquet::{ConstantFlow, Effort, Floquet};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 
@@ -153,10 +153,7 @@ fn a_waveform_takes_the_place_of_the_cosine() {
     assert_eq!(plain.clone().shaped(Waveform::Sine).expect("the default"), plain);
     let square = square(vec![load()], SQUARE);
     assert_eq!(crossings(&square), Err(NoPartition::Waveform));
-    assert_eq!(
-        square.with("disc.load.speed", 0.2).expect("in bounds").waveform(),
-        &Waveform::Square
-    );
+    assert_eq!(square.at_speed(0.2).expect("in bounds").waveform(), &Waveform::Square);
 }
 
 /// Inputs that the exponents do not describe are errors: nothing is computed as if there were no dither.

@@ -10,7 +10,7 @@ use quell_linear::linearised::Linearised;
 use quell_model::disc::{DiscDither, DitherShape, Load, Mode, Patch};
 use quell_model::profile::{KnotShape, Knots};
 use quell_model::waveform::{Burst, FourierWave, Harmonic, Hold, SampledWave};
-use quell_model::{Disc, Parametrisation, System, Waveform};
+use quell_model::{Disc, System, Waveform};
 use quell_numerics::eigen::{eigenvalues, modulus};
 use quell_numerics::floquet::Effort;
 use quell_numerics::matrix::Matrix;

@@ -26,17 +26,15 @@ fn belt(waveform: Waveform, amplitude: f64) -> Belt {
 }
 
 fn both_thresholds(belt: &Belt) -> usize {
-    local_thresholds(belt, "dither.amplitude", 0.5, 10.5, 40).expect("followed").len()
+    let at = |values: &[f64]| belt.with_amplitude(0, values[0]).ok();
+    local_thresholds(&at, 0.5, 10.5, 40).expect("followed").len()
 }
 
 /// Both thresholds of the amplitude over the belt's velocity, and the number of points.
 fn both_curves(belt: &Belt) -> usize {
-    let plane = ParameterPlane {
-        path: "dither.amplitude",
-        window: (0.1, 16.0),
-        along: "belt.belt_velocity",
-        between: (0.85, 1.5),
-    };
+    let at =
+        |values: &[f64]| belt.with_belt_velocity(values[1]).ok()?.with_amplitude(0, values[0]).ok();
+    let plane = ParameterPlane { at: &at, window: (0.1, 16.0), between: (0.85, 1.5) };
     let found = curves(belt, plane, 3, 100).expect("curves").curves;
     found.iter().map(|curve| curve.points.len()).sum()
 }

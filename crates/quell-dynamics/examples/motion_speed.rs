@@ -12,7 +12,7 @@ use quell_dynamics::simulation::{Start, simulate};
 use quell_model::friction::Friction;
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
-use quell_model::{Belt, Direction, Dither, LawKind, Parametrisation, System, Waveform};
+use quell_model::{Belt, Direction, Dither, LawKind, System, Waveform};
 use quell_numerics::matrix::Matrix;
 
 const PASSES: u32 = 9;

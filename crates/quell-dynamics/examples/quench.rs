@@ -33,13 +33,13 @@ pub(crate) fn answer() -> Result<String, Box<dyn Error>> {
     for change in critical_amplitudes(&belt, AveragingOptions::default())? {
         writeln!(text, "averaging: {:?} from D = {:.4}", change.becomes, change.amplitude)?;
     }
-    let found = local(&belt, "dither.amplitude", 0.4, 0.6, 64)?;
+    let at = |values: &[f64]| belt.with_amplitude(0, values[0]).ok();
+    let found = local(&at, 0.4, 0.6, 64)?;
     for threshold in found.thresholds {
         writeln!(text, "exactly: {} at D = {:.7}", threshold.kind.name(), threshold.value)?;
     }
     for amplitude in [0.3, 0.4, 0.52] {
-        let belt =
-            belt.with("dither.amplitude", amplitude).map_err(|error| format!("{error:?}"))?;
+        let belt = belt.with_amplitude(0, amplitude).map_err(|error| format!("{error:?}"))?;
         let response = respond(&belt, Start::REST, &Solver::default())?;
         let left = response.residual_vibration?;
         writeln!(text, "from rest, D = {amplitude}: {:.1} % of the squeal is left", 100.0 * left)?;

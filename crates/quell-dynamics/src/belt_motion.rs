@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use quell_model::{Belt, Parametrisation, System};
+use quell_model::{Belt, System};
 
 use crate::motion::orbit::sliding_state;
 use crate::motion::{

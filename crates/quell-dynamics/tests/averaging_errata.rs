@@ -13,7 +13,7 @@ use quell_linear::averaging::{
 use quell_model::{Direction, LawKind, Waveform};
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::special::{dawson, erf, exp, ln};
-use quell_zoo::belt::{belt, decreasing_under};
+use quell_zoo::belt::{belt, decreasing_under, over_amplitudes};
 use quell_zoo::dither::{normal, sine};
 use quell_zoo::law::{MINIMUM, REFERENCE_VELOCITY, STATIC, build, dissertation};
 
@@ -368,7 +368,7 @@ fn limit_of_high_frequency_under_normal_dither() {
         let orbit = |ratio: f64| {
             let belt = belt(damping, v, &law, vec![normal(waveform.clone(), 0.1 * ratio, ratio)]);
             let range = (0.85 * limit * ratio, limit * ratio);
-            let found = local_thresholds(&belt, "dither.amplitude", range.0, range.1, 10);
+            let found = local_thresholds(&over_amplitudes(&belt), range.0, range.1, 10);
             let found = found.unwrap_or_else(|why| panic!("{ratio} {waveform:?}: {why}"));
             let hopf =
                 found.iter().find(|threshold| threshold.kind == ThresholdKind::NeimarkSacker);

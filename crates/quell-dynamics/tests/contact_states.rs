@@ -9,7 +9,7 @@ use quell_dynamics::motion::{
 use quell_dynamics::simulation::EventKind;
 use quell_model::profile::{KnotShape, Knots, Profile};
 use quell_model::system::{MassMatrix, Mechanical};
-use quell_model::{Belt, Direction, Dither, LawKind, Parametrisation, System, Waveform};
+use quell_model::{Belt, Direction, Dither, LawKind, System, Waveform};
 use quell_numerics::matrix::Matrix;
 
 fn dithered(direction: Direction, amplitude: f64, frequency_ratio: f64, phase: f64) -> Dither {

@@ -6,7 +6,7 @@ use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind, local};
 use quell_dynamics::orbit::{NoOrbit, Orbit, OrbitVerdict, from_sliding};
 use quell_dynamics::simulation::{EventKind, EventRecorder, Start, simulate};
 use quell_model::LawKind;
-use quell_zoo::belt::{self, undithered_belt};
+use quell_zoo::belt::{self, over_amplitudes, undithered_belt};
 use quell_zoo::dither::sine;
 use quell_zoo::{BeltExt, law};
 
@@ -105,7 +105,7 @@ fn cycles_end_at_their_belt_velocity() {
 #[test]
 fn a_fold_is_not_stepped_over() {
     let belt = belt::decreasing().with_dither(sine(1e-4, 1.0));
-    let found = local(&belt, "dither.amplitude", 1e-4, 3e-3, 20).expect("followed");
+    let found = local(&over_amplitudes(&belt), 1e-4, 3e-3, 20).expect("followed");
     let fold = found.thresholds.iter().find(|threshold| threshold.kind == ThresholdKind::Fold);
     println!("{:?}\n{:?}", found.thresholds, found.ending);
     let fold = fold.expect("a fold");

@@ -6,7 +6,7 @@
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart};
 use quell_model::disc::{DiscDither, Mode};
 use quell_model::profile::{KnotShape, Knots, Profile, Wave};
-use quell_model::{Disc, Parametrisation, Waveform};
+use quell_model::{Disc, Waveform};
 
 const PLACE: f64 = 0.4;
 

@@ -12,7 +12,7 @@ use quell_dynamics::response::{Effect, Solver, Uncertain, Undefined, respond};
 use quell_dynamics::simulation::Start;
 use quell_dynamics::start::InitialState;
 use quell_model::{Belt, LawKind};
-use quell_zoo::belt::{self, undithered_belt};
+use quell_zoo::belt::{self, over_velocities, undithered_belt};
 use quell_zoo::dither::sine;
 use quell_zoo::{BeltExt, law};
 
@@ -81,7 +81,7 @@ fn a_limit_cycle_does_not_depend_on_the_frequency_of_a_silent_dither() {
 #[test]
 fn squeal_ends_at_the_hopf_point() {
     let belt = belt::dissertation(LawKind::Stribeck).at_speed(0.15);
-    let hopf = local_thresholds(&belt, "belt.belt_velocity", 0.15, 0.25, 20).expect("followed");
+    let hopf = local_thresholds(&over_velocities(&belt), 0.15, 0.25, 20).expect("followed");
     assert_eq!((hopf.len(), hopf[0].kind), (1, threshold::ThresholdKind::Hopf));
     let hopf = hopf[0].value;
     assert!((hopf - 0.198_830_1).abs() < 1e-7, "{hopf}");
@@ -96,7 +96,7 @@ fn squeal_ends_at_the_hopf_point() {
         assert_eq!(reached(&at, Start::REST), Ok(ends), "{share}");
     }
     let squeal = |belt: &Belt| Ok(InitialState::Squealing.resolve(belt).ok());
-    let found = switches(&belt, "belt.belt_velocity", (0.15, 0.25), 10, 1e-6, squeal);
+    let found = switches(&over_velocities(&belt), (0.15, 0.25), 10, 1e-6, squeal);
     let changes = found.expect("valid").changes;
     assert_eq!((changes.len(), changes[0].becomes), (1, Reached::Base));
     assert!((changes[0].value / hopf - 1.0).abs() < 2e-6, "{changes:?}");

@@ -8,7 +8,7 @@ use quell_dynamics::response::{Solver, respond};
 use quell_dynamics::simulation::{EventKind, EventRecorder, Sampler, Start, simulate};
 use quell_model::{Belt, Waveform};
 use quell_zoo::BeltExt;
-use quell_zoo::belt::{self, chapter_4, stribeck_under};
+use quell_zoo::belt::{self, chapter_4, over_amplitudes, stribeck_under};
 use quell_zoo::dither::{normal, sine};
 
 const TOLERANCE: f64 = 1e-12;
@@ -17,7 +17,7 @@ const TOLERANCE: f64 = 1e-12;
 #[test]
 fn minimum_coefficient() {
     let frequency = |minimum: f64| {
-        let belt = belt::stribeck().with("friction.minimum_coefficient", minimum).expect("valid");
+        let belt = belt::stribeck().with_law_number("friction.minimum_coefficient", minimum);
         let mut recorder = EventRecorder::default();
         simulate(&belt, Start::REST, 600.0, TOLERANCE, &mut recorder).expect("no stall");
         let sticks: Vec<f64> = recorder
@@ -111,7 +111,7 @@ fn a_cycle_coexists_with_stable_sliding() {
 fn figure_4_11_shows_the_sine() {
     let found = |waveform: Waveform| -> Vec<f64> {
         let belt = chapter_4().with_dither(normal(waveform, 0.1, 5.0));
-        let thresholds = local_thresholds(&belt, "dither.amplitude", 0.1, 0.99, 60);
+        let thresholds = local_thresholds(&over_amplitudes(&belt), 0.1, 0.99, 60);
         thresholds.expect("followed").iter().map(|threshold| threshold.value).collect()
     };
     for (waveform, known) in [

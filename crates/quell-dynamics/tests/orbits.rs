@@ -4,9 +4,9 @@ use quell_dynamics::attractor::{Reached, Switches, orbit_reached, switches};
 use quell_dynamics::orbit::threshold::{Threshold, ThresholdKind, local_thresholds};
 use quell_dynamics::orbit::{NoOrbit, Orbit, OrbitVerdict, from_sliding};
 use quell_dynamics::simulation::{EventKind, Start, simulate};
-use quell_model::{Belt, LawKind, Waveform};
+use quell_model::{Belt, Dither, LawKind, Waveform};
 use quell_zoo::BeltExt;
-use quell_zoo::belt::{chapter_4, decreasing_under, dissertation};
+use quell_zoo::belt::{chapter_4, decreasing_under, dissertation, over_amplitudes};
 use quell_zoo::dither::{normal, tangential};
 use serde_json::Value;
 
@@ -80,7 +80,7 @@ fn thresholds_of_tangential_dither() {
         (Waveform::Square, 3.295_664_190, 6.313_857_946),
     ] {
         let found =
-            local_thresholds(&decreasing_under(waveform, 1.0), "dither.amplitude", 0.5, 10.5, 40)
+            local_thresholds(&over_amplitudes(&decreasing_under(waveform, 1.0)), 0.5, 10.5, 40)
                 .expect("followed");
         let expected = [
             (lower, ThresholdKind::NeimarkSacker, OrbitVerdict::Unstable),
@@ -97,7 +97,7 @@ fn thresholds_of_normal_dither() {
         (Waveform::Sine, 0.710_299_1, 0.965_369_470, 2e-7),
     ] {
         let belt = chapter_4().with_dither(normal(waveform.clone(), 0.1, 5.0));
-        let found = local_thresholds(&belt, "dither.amplitude", 0.1, 0.99, 60).expect("followed");
+        let found = local_thresholds(&over_amplitudes(&belt), 0.1, 0.99, 60).expect("followed");
         assert_eq!(found.len(), 2, "{found:?}");
         for (threshold, value) in found.iter().zip([lower, upper]) {
             let off = (threshold.value / value - 1.0).abs();
@@ -122,7 +122,7 @@ fn quench_thresholds_of_the_reference() {
         let dither = tangential(waveform, average, number("frequency_ratio"));
         let belt = dissertation(law).at_speed(number("belt_velocity")).with_dither(dither);
         let (from, to) = (0.8 * average, 1.1 * average);
-        let found = local_thresholds(&belt, "dither.amplitude", from, to, 12)
+        let found = local_thresholds(&over_amplitudes(&belt), from, to, 12)
             .unwrap_or_else(|why| panic!("{case}: {why:?}"));
         let last = found.last().unwrap_or_else(|| panic!("no threshold: {case}"));
         assert_eq!(last.kind, ThresholdKind::Grazing);
@@ -140,11 +140,11 @@ fn quench_thresholds_of_the_reference() {
 fn thresholds_from_rest() {
     let quarter = std::f64::consts::FRAC_PI_2;
     for (phase, expected) in [(0.0, 2.868), (1.0, 3.791), (2.0, 2.870), (3.0, 3.431)] {
-        let belt = decreasing_under(Waveform::Sine, 1.0)
-            .with("dither.phase", phase * quarter)
-            .expect("valid");
+        let belt = decreasing_under(Waveform::Sine, 1.0);
+        let shifted = |dither: &Dither| Dither { phase: phase * quarter, ..dither.clone() };
+        let belt = belt.with_dithers(belt.dithers().iter().map(shifted).collect());
         let range = (expected - 0.11, expected + 0.09);
-        let found = switches(&belt, "dither.amplitude", range, 2, 2e-4, |_| Ok(Some(Start::REST)))
+        let found = switches(&over_amplitudes(&belt), range, 2, 2e-4, |_| Ok(Some(Start::REST)))
             .expect("runs");
         assert_eq!((found.first, found.changes.len()), (Reached::Base, 1), "{found:?}");
         let change = found.changes[0];
@@ -158,9 +158,8 @@ fn thresholds_from_rest() {
 #[test]
 fn a_continuation_run_ends_at_the_end_of_its_window() {
     for amplitude in [9.95, 9.975, 10.0, 10.1, 10.35, 11.6] {
-        let belt = decreasing_under(Waveform::Sine, 1.0)
-            .with("dither.amplitude", amplitude)
-            .expect("valid");
+        let belt =
+            decreasing_under(Waveform::Sine, 1.0).with_amplitude(0, amplitude).expect("valid");
         let orbit = from_sliding(&belt, 8).unwrap_or_else(|why| panic!("{amplitude}: {why}"));
         assert_eq!(orbit.verdict(), OrbitVerdict::Stable, "{amplitude}");
         assert!(orbit.residual < 1e-9, "{amplitude}: {}", orbit.residual);
@@ -172,7 +171,7 @@ fn a_continuation_run_ends_at_the_end_of_its_window() {
 fn a_start_that_cannot_be_computed_is_not_quenched() {
     let belt = decreasing_under(Waveform::Sine, 1.0);
     let ends = |start: Result<Option<Start>, NoOrbit>| {
-        switches(&belt, "dither.amplitude", (2.0, 3.0), 1, 1e-3, |_| start).expect("valid")
+        switches(&over_amplitudes(&belt), (2.0, 3.0), 1, 1e-3, |_| start).expect("valid")
     };
     let why = NoOrbit::NoPeriod { most: 3 };
     let unknown = vec![(2.0, why), (3.0, why)];

@@ -11,6 +11,7 @@ use quell_linear::averaging::{
 };
 use quell_model::{Belt, Direction, Dither, Expression, Friction, LawKind, Samples, Waveform};
 use quell_zoo as zoo;
+use quell_zoo::BeltExt;
 use quell_zoo::belt::DAMPING_RATIO;
 use quell_zoo::dither::{at_phase, tangential};
 use quell_zoo::law::{self, measured};
@@ -235,12 +236,13 @@ fn multipliers_are_correct_across_a_release_with_a_jump() {
 fn constants_of_a_formula_are_parameters_of_the_belt() {
     let (_, custom) = &pairs()[1];
     let belt = belt(custom, 0.05, vec![]);
-    assert_eq!(belt.get("friction.constants.v_m"), Some(0.2));
-    let changed = belt.with("friction.constants.v_m", 0.3).expect("valid");
+    assert_eq!(belt.friction().get("friction.constants.v_m"), Some(0.2));
+    let changed = belt.with_law_number("friction.constants.v_m", 0.3);
     let known = law::build(LawKind::Decreasing, &[0.4, 0.2857, 0.3]);
     assert!((changed.friction().coefficient(0.17) - known.coefficient(0.17)).abs() < 1e-15);
     let refused = |path: &str, value: f64| {
-        let complaints = belt.with(path, value).expect_err(path);
+        let law = belt.friction().with(path, value);
+        let complaints = law.and_then(|law| belt.with_friction(law)).expect_err(path);
         assert_eq!(complaints[0].key, "friction.coefficient", "{complaints:?}");
         complaints[0].allowed.clone()
     };
@@ -248,5 +250,5 @@ fn constants_of_a_formula_are_parameters_of_the_belt() {
     assert!(division.contains("0⁺"), "{division}");
     let negative = refused("friction.constants.mu_m", -1.0);
     assert!(negative.contains("≥ 0"), "{negative}");
-    assert_eq!(belt.get("friction.constants.v"), None);
+    assert_eq!(belt.friction().get("friction.constants.v"), None);
 }

@@ -15,7 +15,10 @@ use quell_linear::averaging::{
 };
 use quell_model::{Belt, Waveform};
 use quell_numerics::quadrature::{QuadratureError, QuadratureOptions, integrate};
-use quell_zoo::belt::{self, decreasing_under, stribeck_under, undithered_belt};
+use quell_zoo::belt::{
+    self, decreasing_under, over_amplitude_and_velocity, over_amplitudes, stribeck_under,
+    undithered_belt,
+};
 use quell_zoo::dither::{normal, sine};
 use quell_zoo::{BeltExt, law};
 
@@ -157,18 +160,18 @@ fn squealing_starts_that_do_not_exist() {
 #[test]
 fn thresholds() {
     let belt = folding(1e-4);
-    let from = |from: f64| local(&belt, "dither.amplitude", from, 3e-3, 20).expect_err("nothing");
+    let from = |from: f64| local(&over_amplitudes(&belt), from, 3e-3, 20).expect_err("nothing");
     let why = from(-1.5);
     assert_eq!(why, NoThresholds::Invalid { value: -1.5 });
     assert_states(&why, &["-1.5"]);
     let why = from(2e-3);
     assert!(matches!(why, NoThresholds::Start(NoOrbit::Ends { .. })), "{why:?}");
     assert_states(&why, &["0.786", "exists beyond"]);
-    let why = along(&belt, "dither.amplitude", (-3.0, Start::REST), 1.0, 5, 1);
+    let why = along(&over_amplitudes(&belt), (-3.0, Start::REST), 1.0, 5, 1);
     let why = why.expect_err("a negative amplitude");
     assert_eq!(why, NoThresholds::Start(NoOrbit::Invalid { value: -3.0 }));
     assert_states(&why, &["-3"]);
-    let why = local_thresholds(&lost(), "dither[0].amplitude", 2.5, 2.9933, 8);
+    let why = local_thresholds(&over_amplitudes(&lost()), 2.5, 2.9933, 8);
     let why = why.expect_err("lost");
     let NoThresholds::Lost { at } = why else { panic!("{why:?}") };
     assert!((at - 2.99321).abs() < 1e-4, "{at}");
@@ -178,8 +181,8 @@ fn thresholds() {
 #[test]
 fn curves_of_thresholds() {
     let line = |belt: &Belt, window, between| -> OpenLine {
-        let along = "belt.belt_velocity";
-        let plane = ParameterPlane { path: "dither.amplitude", window, along, between };
+        let at = over_amplitude_and_velocity(belt);
+        let plane = ParameterPlane { at: &at, window, between };
         curves(belt, plane, 2, 5).expect("one line is followed").open[0]
     };
     let why = line(&decreasing_under(Waveform::Sine, 1.0), (0.1, 3.0), (-1.0, 1.0));
@@ -201,8 +204,9 @@ fn averages() {
     let why = closed_band(&constant, 0.1, 1.0, &Waveform::Sine, 0.1).expect_err("no band");
     assert_eq!(why, NoBand::Stable);
     assert_states(&why, &["stable"]);
-    let still = belt::stribeck().at_speed(0.0).with("friction.static_coefficient", 0.375);
-    let why = criterion(&still.expect("valid"), options).expect_err("at rest");
+    let still = belt::stribeck().at_speed(0.0);
+    let still = still.with_law_number("friction.static_coefficient", 0.375);
+    let why = criterion(&still, options).expect_err("at rest");
     assert_eq!(why, AveragingError::SetValued { static_coefficient: 0.375 });
     assert_states(&why, &["0.375"]);
     let dithers = [1.0, 2f64.sqrt(), 3f64.sqrt(), 5f64.sqrt(), 7f64.sqrt()];

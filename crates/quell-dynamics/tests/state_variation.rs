@@ -7,7 +7,7 @@ use quell_dynamics::motion::{
 use quell_dynamics::simulation::EventKind;
 use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
-use quell_model::{Belt, Direction, Dither, LawKind, Parametrisation, System, Waveform};
+use quell_model::{Belt, Direction, Dither, LawKind, System, Waveform};
 use quell_numerics::continuation::{modulus, multipliers};
 use quell_numerics::matrix::Matrix;
 

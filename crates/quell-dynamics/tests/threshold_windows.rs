@@ -1,22 +1,24 @@
 //! Thresholds do not depend on the window in which they are searched: a wide window finds those of narrow windows that tile it.
 
+use quell_dynamics::orbit::family::BeltAt;
 use quell_dynamics::orbit::threshold::{BranchEnding, ThresholdKind, local};
 use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 use quell_zoo::BeltExt;
+use quell_zoo::belt::{over_amplitudes, over_velocities};
 use quell_zoo::dither::tangential;
 
 /// Thresholds over a window that must be covered.
-fn thresholds(belt: &Belt, path: &str, (from, to): (f64, f64)) -> Vec<(f64, ThresholdKind)> {
-    let found = local(belt, path, from, to, 40).unwrap_or_else(|why| panic!("{why} {belt:?}"));
-    assert_eq!(found.ending, BranchEnding::Covered, "{path} from {from} to {to}: {belt:?}");
+fn thresholds(at: BeltAt<'_>, (from, to): (f64, f64)) -> Vec<(f64, ThresholdKind)> {
+    let found = local(at, from, to, 40).unwrap_or_else(|why| panic!("{why} {:?}", at(&[from])));
+    assert_eq!(found.ending, BranchEnding::Covered, "from {from} to {to}: {:?}", at(&[from]));
     found.thresholds.iter().map(|threshold| (threshold.value, threshold.kind)).collect()
 }
 
-fn assert_tiled(belt: &Belt, path: &str, (from, to): (f64, f64)) -> usize {
-    let wide = thresholds(belt, path, (from, to));
+fn assert_tiled(over: BeltAt<'_>, (from, to): (f64, f64)) -> usize {
+    let wide = thresholds(over, (from, to));
     let at = |k: u32| from + (to - from) * f64::from(k) / 4.0;
-    let narrow: Vec<_> = (0..4).flat_map(|k| thresholds(belt, path, (at(k), at(k + 1)))).collect();
-    assert_eq!(wide.len(), narrow.len(), "{path}: {wide:?} {narrow:?} {belt:?}");
+    let narrow: Vec<_> = (0..4).flat_map(|k| thresholds(over, (at(k), at(k + 1)))).collect();
+    assert_eq!(wide.len(), narrow.len(), "{wide:?} {narrow:?} {:?}", over(&[from]));
     for (a, b) in wide.iter().zip(&narrow) {
         assert!((a.0 - b.0).abs() < 1e-7 * (to - from) && a.1 == b.1, "{wide:?} {narrow:?}");
     }
@@ -29,17 +31,17 @@ fn a_grazing_from_the_side_with_stick_is_found_in_every_window() {
     let law = LawKind::Decreasing.build(&[0.4, 0.25, 0.3]).expect("a law");
     let dither = tangential(Waveform::Sine, 2.0, 10.0);
     let belt = Belt::new(0.01, 1.0, 0.05, law, vec![dither]).expect("a belt");
-    let path = "belt.belt_velocity";
+    let over = over_velocities(&belt);
     for window in [(0.05, 1.0), (0.15, 0.25), (0.05, 2.0), (1.0, 0.05), (0.19, 0.21)] {
-        let found = thresholds(&belt, path, window);
+        let found = thresholds(&over, window);
         let kind = ThresholdKind::Grazing;
         let grazing = found.iter().find(|(_, found)| *found == kind).expect("a grazing");
         assert!((grazing.0 - 0.201_946_265_931_5).abs() < 1e-9, "{window:?}: {found:?}");
     }
-    assert_eq!(assert_tiled(&belt, path, (0.05, 1.0)), 2);
+    assert_eq!(assert_tiled(&over, (0.05, 1.0)), 2);
     // The value is that at which the amplitude grazes.
     let at = belt.at_speed(0.201_946_265_931_5);
-    let found = thresholds(&at, "dither.amplitude", (1.9, 2.1));
+    let found = thresholds(&over_amplitudes(&at), (1.9, 2.1));
     assert!((found[0].0 - 2.0).abs() < 1e-8 && found[0].1 == ThresholdKind::Grazing, "{found:?}");
 }
 
@@ -69,11 +71,13 @@ fn random_belts_have_the_same_thresholds_in_wide_and_narrow_windows() {
         let velocity = 0.01 * random(0.0, 3.9).exp();
         let damping = 1e-3 * random(0.0, 4.6).exp();
         let belt = Belt::new(damping, 1.0, velocity, law, vec![dither.clone()]).expect("a belt");
-        let (path, window) = match number % 2 {
-            0 => ("dither.amplitude", (0.02 * dither.amplitude, 3.0 * dither.amplitude)),
-            _ => ("belt.belt_velocity", (0.2 * velocity, 20.0 * velocity)),
+        count += match number % 2 {
+            0 => {
+                let window = (0.02 * dither.amplitude, 3.0 * dither.amplitude);
+                assert_tiled(&over_amplitudes(&belt), window)
+            }
+            _ => assert_tiled(&over_velocities(&belt), (0.2 * velocity, 20.0 * velocity)),
         };
-        count += assert_tiled(&belt, path, window);
     }
     assert!(count > 20, "{count}");
 }

@@ -181,7 +181,7 @@ impl DerivativesAlong for ContactTerms<'_> {
 #[cfg(test)]
 mod tests {
     use quell_model::friction::Expression;
-    use quell_model::{Belt, Friction, Parametrisation};
+    use quell_model::{Belt, Friction};
     use quell_numerics::continuation::criticality::Criticality;
 
     use super::*;

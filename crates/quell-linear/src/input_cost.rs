@@ -75,7 +75,7 @@ pub fn noise_input_cost(
 #[cfg(test)]
 mod tests {
     use quell_model::waveform::Noise;
-    use quell_model::{Belt, Coulomb, Direction, Dither, Friction, Parametrisation, Waveform};
+    use quell_model::{Belt, Coulomb, Direction, Dither, Friction, Waveform};
 
     use super::*;
     use crate::linear_cost::noise_cost;

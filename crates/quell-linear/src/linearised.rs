@@ -428,7 +428,7 @@ fn add(to: &mut [f64], factor: f64, row: Option<&[f64]>) {
 mod tests {
     use quell_model::profile::Profile;
     use quell_model::system::{Contact, MassMatrix, Mechanical};
-    use quell_model::{Belt, Friction, LawKind, Parametrisation};
+    use quell_model::{Belt, Friction, LawKind};
 
     use super::*;
     use crate::eigenvalues;

@@ -10,7 +10,7 @@ use quell_linear::harmonic::response;
 use quell_model::profile::Profile;
 use quell_model::system::{Contact, Input, InputTarget, MassMatrix, Mechanical};
 use quell_model::waveform::Noise;
-use quell_model::{Belt, Direction, Dither, Friction, LawKind, Parametrisation, System, Waveform};
+use quell_model::{Belt, Direction, Dither, Friction, LawKind, System, Waveform};
 use quell_numerics::matrix::Matrix;
 use quell_numerics::quadrature::{QuadratureOptions, integrate};
 use quell_numerics::special::erf;

@@ -10,7 +10,7 @@ use quell_linear::averaging::{
 };
 use quell_linear::periodic_response::{NoPeriodicResponse, ResponseToWave};
 use quell_model::waveform::{Burst, FourierWave, Harmonic, Hold, SampledWave};
-use quell_model::{Belt, Direction, Dither, LawKind, Parametrisation, Waveform};
+use quell_model::{Belt, Direction, Dither, LawKind, Waveform};
 use quell_numerics::matrix::Matrix;
 
 /// A damped oscillator of unit frequency.

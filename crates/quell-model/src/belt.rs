@@ -1,16 +1,12 @@
 //! A mass on a moving belt, valid by construction.
 //!
 //! x″ + 2ζx′ + x = μ(v₀ − x′)·(F + Σ D_N g_N) + Σ D_T g_T        (2.1, 3.1, 4.1)
-
-use crate::Parametrisation;
 use crate::dither::{Direction, Dither};
 use crate::friction::{Friction, Surroundings};
 use crate::parameter::{
-    BELT_VELOCITY, DAMPING_RATIO, DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE,
-    NORMAL_LOAD, Parameter, TANGENTIAL_STIFFNESS, indexed, split_index,
+    BELT_VELOCITY, DAMPING_RATIO, DITHER_AMPLITUDE, NORMAL_LOAD, TANGENTIAL_STIFFNESS, indexed,
 };
 use crate::profile::{Knots, Profile};
-use crate::system::System;
 use crate::units::Scales;
 use crate::{Invalid, InvalidValues};
 
@@ -359,72 +355,66 @@ impl Belt {
         slope.mul_add(normal_load, 2.0 * self.damping_ratio)
     }
 
-    /// Value of a parameter by its path (`belt.damping_ratio`, `friction.…`, `dither.…`,
-    /// `dither[1].…`), or `None` if there is no such number here.
-    pub fn get(&self, path: &str) -> Option<f64> {
-        match self.number(path)? {
-            BeltNumber::DampingRatio => Some(self.damping_ratio),
-            BeltNumber::NormalLoad => Some(self.normal_load),
-            BeltNumber::BeltVelocity => {
-                Some(self.drive.as_ref().map_or(self.belt_velocity, Profile::mean))
-            }
-            BeltNumber::TangentialStiffness => self.tangential_stiffness,
-            BeltNumber::Law => self.friction.get(path),
-            BeltNumber::Dither(index, parameter) => {
-                let dither = self.dithers.get(index)?;
-                Some(match parameter.path {
-                    path if path == DITHER_AMPLITUDE.path => dither.amplitude,
-                    path if path == DITHER_FREQUENCY_RATIO.path => dither.frequency_ratio,
-                    _ => dither.phase,
-                })
-            }
-        }
-    }
-
-    /// The entry of the registry for a path, or `None` if there is no such number here or the study
-    /// itself named it (a constant of a formula).
-    pub fn parameter(&self, path: &str) -> Option<Parameter> {
-        match self.number(path)? {
-            BeltNumber::DampingRatio => Some(DAMPING_RATIO),
-            BeltNumber::NormalLoad => Some(NORMAL_LOAD),
-            BeltNumber::BeltVelocity => Some(BELT_VELOCITY),
-            BeltNumber::TangentialStiffness => Some(TANGENTIAL_STIFFNESS),
-            BeltNumber::Law => {
-                let kind = self.friction.kind();
-                let mut known = kind.parameters().iter().chain(kind.options());
-                known.find(|parameter| parameter.path == path).copied()
-            }
-            BeltNumber::Dither(_, parameter) => Some(parameter),
-        }
-    }
-
-    /// The same belt with one parameter changed.
+    /// The same belt with another damping ratio ζ.
     ///
     /// # Errors
-    /// An unknown path, a value out of bounds, a relation that no longer holds.
-    pub fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
+    /// As [`Belt::new`].
+    pub fn with_damping_ratio(&self, damping_ratio: f64) -> Result<Self, InvalidValues> {
+        Self { damping_ratio, ..self.clone() }.valid()
+    }
+
+    /// The same belt under another steady normal load F.
+    ///
+    /// # Errors
+    /// As [`Belt::new`].
+    pub fn with_normal_load(&self, normal_load: f64) -> Result<Self, InvalidValues> {
+        Self { normal_load, ..self.clone() }.valid()
+    }
+
+    /// The same belt at another velocity v₀; a drive that oscillates does so about it.
+    ///
+    /// # Errors
+    /// As [`Belt::new`].
+    pub fn with_belt_velocity(&self, belt_velocity: f64) -> Result<Self, InvalidValues> {
+        let drive = self.drive.clone().map(|drive| drive.about(belt_velocity));
+        Self { belt_velocity, drive, ..self.clone() }.valid()
+    }
+
+    /// The same belt under another friction law.
+    ///
+    /// # Errors
+    /// As [`Belt::new`].
+    pub fn with_friction(&self, friction: Friction) -> Result<Self, InvalidValues> {
+        Self { friction, ..self.clone() }.valid()
+    }
+
+    /// The same belt with another amplitude of a dither, counted from 0.
+    ///
+    /// # Errors
+    /// As [`Belt::new`]; a dither that the belt does not have.
+    pub fn with_amplitude(&self, dither: usize, amplitude: f64) -> Result<Self, InvalidValues> {
+        self.with_dither(dither, |dither| dither.amplitude = amplitude)
+    }
+
+    /// The same belt with another frequency ratio of a dither, counted from 0.
+    ///
+    /// # Errors
+    /// As [`Belt::new`]; a dither that the belt does not have.
+    pub fn with_frequency_ratio(&self, dither: usize, ratio: f64) -> Result<Self, InvalidValues> {
+        self.with_dither(dither, |dither| dither.frequency_ratio = ratio)
+    }
+
+    fn with_dither(
+        &self,
+        index: usize,
+        change: impl FnOnce(&mut Dither),
+    ) -> Result<Self, InvalidValues> {
         let mut next = self.clone();
-        let number = self.number(path).ok_or_else(|| {
-            InvalidValues::from(Invalid::new(path, value, "a parameter of this belt"))
+        let dither = next.dithers.get_mut(index).ok_or_else(|| {
+            let allowed = format!("one of the {} dithers of this belt", self.dithers.len());
+            Invalid::new("dither", index, allowed)
         })?;
-        match number {
-            BeltNumber::DampingRatio => next.damping_ratio = value,
-            BeltNumber::NormalLoad => next.normal_load = value,
-            BeltNumber::BeltVelocity => {
-                next.belt_velocity = value;
-                next.drive = next.drive.map(|drive| drive.about(value));
-            }
-            BeltNumber::TangentialStiffness => next.tangential_stiffness = Some(value),
-            BeltNumber::Law => next.friction = self.friction.with(path, value)?,
-            BeltNumber::Dither(index, parameter) => {
-                let dither = &mut next.dithers[index];
-                match parameter.path {
-                    path if path == DITHER_AMPLITUDE.path => dither.amplitude = value,
-                    path if path == DITHER_FREQUENCY_RATIO.path => dither.frequency_ratio = value,
-                    _ => dither.phase = value,
-                }
-            }
-        }
+        change(dither);
         next.valid()
     }
 
@@ -434,6 +424,11 @@ impl Belt {
     /// As [`Belt::new`].
     pub fn dithered_by(&self, dithers: Vec<Dither>) -> Result<Self, InvalidValues> {
         Self { dithers, ..self.clone() }.valid()
+    }
+
+    /// Path of a key of dither `index`, as the study file names it.
+    pub fn dither_path(&self, index: usize, key: &str) -> String {
+        indexed("dither", index, self.dithers.len(), key)
     }
 
     /// The belt of these numbers, if they form one.
@@ -456,71 +451,6 @@ impl Belt {
         };
         Ok(belt.with_tangential_stiffness(stiffness)?.in_si(self.scales))
     }
-
-    /// Path of a parameter of dither `index`, as the study file names it.
-    pub fn dither_path(&self, index: usize, key: &str) -> String {
-        indexed("dither", index, self.dithers.len(), key)
-    }
-
-    fn number(&self, path: &str) -> Option<BeltNumber> {
-        if path == DAMPING_RATIO.path {
-            return Some(BeltNumber::DampingRatio);
-        }
-        if path == NORMAL_LOAD.path && self.load.is_none() {
-            return Some(BeltNumber::NormalLoad);
-        }
-        // A drive over knots has no velocity of its own; one that oscillates does so about it.
-        let has_velocity = self.drive.as_ref().is_none_or(|drive| drive.knots().is_none());
-        if path == BELT_VELOCITY.path && has_velocity {
-            return Some(BeltNumber::BeltVelocity);
-        }
-        if path == TANGENTIAL_STIFFNESS.path {
-            return self.tangential_stiffness.map(|_| BeltNumber::TangentialStiffness);
-        }
-        if self.friction.get(path).is_some() {
-            return Some(BeltNumber::Law);
-        }
-        let (index, key) = split_index(path, "dither")?;
-        let parameter = [DITHER_AMPLITUDE, DITHER_FREQUENCY_RATIO, DITHER_PHASE]
-            .into_iter()
-            .find(|parameter| parameter.key() == key)?;
-        // The frequencies and phases of noise are those of its lines.
-        let has = |dither: &Dither| dither.waveform.is_periodic() || parameter == DITHER_AMPLITUDE;
-        self.dithers.get(index).filter(|dither| has(dither))?;
-        Some(BeltNumber::Dither(index, parameter))
-    }
-}
-
-impl Parametrisation for Belt {
-    fn parameter(&self, path: &str) -> Option<Parameter> {
-        Self::parameter(self, path)
-    }
-
-    fn get(&self, path: &str) -> Option<f64> {
-        Self::get(self, path)
-    }
-
-    fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
-        Self::with(self, path, value)
-    }
-
-    fn si_per_unit(&self, path: &str) -> Option<f64> {
-        Some(self.scales?.per_unit(Self::parameter(self, path)?.quantity))
-    }
-
-    fn system(&self) -> System {
-        self.scaled_system()
-    }
-}
-
-/// The number that a path names.
-enum BeltNumber {
-    DampingRatio,
-    NormalLoad,
-    BeltVelocity,
-    TangentialStiffness,
-    Law,
-    Dither(usize, Parameter),
 }
 
 #[cfg(test)]
@@ -597,13 +527,10 @@ mod tests {
     }
 
     #[test]
-    fn si_values_follow_the_scales_and_stay_with_a_changed_belt() {
-        let belt = belt(Vec::new()).expect("valid");
-        assert_eq!(belt.si_per_unit("belt.normal_load"), None);
+    fn a_changed_belt_keeps_its_scales() {
         let scales = Scales::new(2.0, 200.0).expect("valid");
-        let belt = belt.in_si(Some(scales)).with("belt.normal_load", 2.0).expect("valid");
-        assert_eq!(belt.si_per_unit("belt.normal_load"), Some(200.0));
-        assert_eq!(belt.si_per_unit("belt.colour"), None);
+        let belt = belt(Vec::new()).expect("valid").in_si(Some(scales));
+        assert_eq!(belt.with_normal_load(2.0).expect("valid").scales(), Some(scales));
     }
 
     #[test]
@@ -628,30 +555,17 @@ mod tests {
     }
 
     #[test]
-    fn every_parameter_is_reached_by_its_path() {
+    fn one_number_changes_and_the_others_stay() {
         let belt = belt(vec![dither(Direction::Tangential, 0.3), dither(Direction::Normal, 0.5)])
             .expect("valid");
-        for (path, value) in [
-            ("belt.damping_ratio", 0.1),
-            ("belt.normal_load", 2.0),
-            ("belt.belt_velocity", 0.3),
-            ("friction.static_coefficient", 0.5),
-            ("friction.minimum_coefficient", 0.1),
-            ("friction.reference_velocity", 0.4),
-            ("dither.amplitude", 0.7),
-            ("dither[1].amplitude", 0.9),
-            ("dither[1].frequency_ratio", 3.0),
-            ("dither[0].phase", 1.0),
-        ] {
-            let changed = belt.with(path, value).expect(path);
-            assert_eq!(changed.get(path), Some(value), "{path}");
-            let entry = belt.parameter(path).expect(path);
-            assert!(path.ends_with(entry.key()), "{path}");
-            assert_ne!(belt.get(path), Some(value), "{path}");
-        }
-        for path in ["dither[2].amplitude", "belt.colour", "dither[x].phase"] {
-            assert!(belt.get(path).is_none() && belt.with(path, 1.0).is_err());
-        }
-        assert!(belt.with("friction.minimum_coefficient", 0.41).is_err());
+        assert_eq!(belt.with_damping_ratio(0.1).map(|belt| belt.damping_ratio()), Ok(0.1));
+        assert_eq!(belt.with_belt_velocity(0.3).map(|belt| belt.belt_velocity()), Ok(0.3));
+        let louder = belt.with_amplitude(1, 0.9).expect("valid");
+        assert_eq!((louder.dithers()[0].amplitude, louder.dithers()[1].amplitude), (0.3, 0.9));
+        let slower = belt.with_frequency_ratio(0, 3.0).expect("valid");
+        assert_eq!((slower.dithers()[0].frequency_ratio, slower.dithers()[1].phase), (3.0, 0.0));
+        assert!(belt.with_amplitude(2, 0.1).is_err() && belt.with_amplitude(1, 1.1).is_err());
+        assert!(belt.with_normal_load(0.4).is_err());
+        assert!(belt.friction().with("friction.minimum_coefficient", 0.41).is_err());
     }
 }

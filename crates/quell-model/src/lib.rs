@@ -2,7 +2,7 @@
 //!
 //! * [`system`]: a linear structure with friction contacts and inputs, common to all kinds of study; [`profile`]: quantities
 //!   that vary in time;
-//! * [`belt`], [`disc`]: the two kinds of system with their parameters, behind one trait ([`Parametrisation`]);
+//! * [`belt`], [`disc`]: the two kinds of system with their parameters, each of which gives its system;
 //! * [`friction`], [`waveform`], [`dither`]: laws, waves, and the dither of a belt;
 //! * [`parameter`], [`units`]: the registry of all numbers with symbols, bounds and units; [`digits`]: numbers in sentences.
 //!
@@ -17,7 +17,6 @@ pub mod dither;
 pub mod friction;
 mod invalid;
 pub mod parameter;
-mod parametrisation;
 pub mod profile;
 pub mod system;
 pub mod units;
@@ -31,7 +30,6 @@ pub use friction::{
     StribeckExponential,
 };
 pub use invalid::{Invalid, InvalidValues};
-pub use parametrisation::Parametrisation;
 pub use profile::Profile;
 pub use system::{Contact, Input, Structure, System};
 pub use waveform::Waveform;

@@ -123,20 +123,20 @@ fn a_formula_is_proven_for_its_belt() {
     let undithered = belt(0.1, 0.0, None).expect("proven up to 1");
     assert_eq!(undithered.friction().range().map(|range| range.upper), Some(1.0));
     // α max|G| = 0.2 · π/2 more.
-    let reached = undithered.with("dither.amplitude", 1.0).expect("proven up to 2.57");
+    let reached = undithered.with_amplitude(0, 1.0).expect("proven up to 2.57");
     let upper = reached.friction().range().expect("a range").upper;
     assert!((upper - (1.0 + 0.5 * std::f64::consts::PI)).abs() < 1e-12, "{upper}");
-    let wrong = undithered.with("belt.belt_velocity", 0.41).expect_err("up to 4.1 it is negative");
+    let wrong = undithered.with_belt_velocity(0.41).expect_err("up to 4.1 it is negative");
     assert!(
         wrong[0].key == "friction.coefficient" && wrong[0].allowed.contains("4.1"),
         "{wrong:?}"
     );
     let given = belt(0.41, 0.0, Some(3.0)).expect("meant up to 3");
-    assert_eq!(given.get("friction.maximum_velocity"), Some(3.0));
-    let wrong = given.with("friction.maximum_velocity", 5.0).expect_err("negative from 4 on");
+    let law = given.friction();
+    assert_eq!(law.get("friction.maximum_velocity"), Some(3.0));
+    let wrong = law.with("friction.maximum_velocity", 5.0).and_then(|law| given.with_friction(law));
+    let wrong = wrong.expect_err("negative from 4 on");
     assert!(wrong[0].key == "friction.coefficient" && wrong[0].allowed.contains('5'), "{wrong:?}");
-    let parameter = given.parameter("friction.maximum_velocity").expect("an entry");
-    assert_eq!(parameter.path, "friction.maximum_velocity");
 }
 
 /// The cubic holds up to √3 v_m, where it returns to its static level; beyond, it grows without bound.

@@ -85,8 +85,8 @@ fn check(text: &str, expected: &[Said]) {
 fn a_good_study_is_read() {
     let study = good(&[]);
     assert_eq!(study.title(), Some("Stribeck belt"));
-    assert_eq!(study.belt().get("dither.frequency_ratio"), Some(10.0));
-    assert_eq!(study.belt().get("friction.minimum_coefficient"), Some(0.2857));
+    assert_eq!(study.number("dither.frequency_ratio"), Some(10.0));
+    assert_eq!(study.number("friction.minimum_coefficient"), Some(0.2857));
     assert_eq!(study.initial(), InitialState::Rest);
     assert_eq!((study.solver().tolerance, study.solver().record_periods), (1e-12, 60));
     assert_eq!(study.solver().settle, 1200.0);
@@ -360,9 +360,12 @@ fn loads_of_listed_modes_may_be_given_in_si() {
     let plate = format!("plate_mass_kg = {mass:?}\nouter_radius_m = \"150 mm\"\n");
     let listed = read(&format!("schema = 1\n[disc]\n{plate}{load}{modes}"));
     close(listed.disc().plate_mass_kg().expect("given"), mass);
-    for path in ["mass", "damping", "stiffness", "friction", "speed"] {
-        let path = format!("disc.load.{path}");
-        close(listed.disc().get(&path).expect(&path), computed.disc().get(&path).expect(&path));
+    let numbers = |study: &DiscStudy| {
+        let load = &study.disc().loads()[0];
+        [load.mass, load.damping, load.stiffness, load.friction, study.disc().speed()]
+    };
+    for (of_list, of_plate) in numbers(&listed).into_iter().zip(numbers(&computed)) {
+        close(of_list, of_plate);
     }
     let wrong = |text: &str| DiscStudy::parse(text, &[]).expect_err(text);
     let without = wrong(&format!("schema = 1\n[disc]\nouter_radius_m = 0.15\n{load}{modes}"));
@@ -393,22 +396,21 @@ fn si_and_the_numbers_of_the_equations_give_the_same_belt() {
         2.0 * PI * 3000.0 / omega,
     );
     let plain = BeltStudy::parse(&plain, &[]).unwrap_or_else(|errors| panic!("{errors:?}"));
-    for path in [
-        "belt.damping_ratio",
-        "belt.normal_load",
-        "belt.belt_velocity",
-        "friction.static_coefficient",
-        "friction.minimum_coefficient",
-        "friction.reference_velocity",
-        "dither[0].amplitude",
-        "dither[0].frequency_ratio",
-        "dither[1].amplitude",
-        "dither[1].frequency_ratio",
-        "dither[1].phase",
-    ] {
-        let (a, b) = (si.belt().get(path), plain.belt().get(path));
-        let (a, b) = a.zip(b).expect(path);
-        assert!((a - b).abs() <= 1e-15 * b.abs(), "{path}: {a} {b}");
+    let numbers = |study: &BeltStudy| {
+        let belt = study.belt();
+        let mut numbers = vec![belt.damping_ratio(), belt.normal_load(), belt.belt_velocity()];
+        for name in ["static_coefficient", "minimum_coefficient", "reference_velocity"] {
+            numbers.extend(belt.friction().get(&format!("friction.{name}")));
+        }
+        for dither in belt.dithers() {
+            numbers.extend([dither.amplitude, dither.frequency_ratio, dither.phase]);
+        }
+        numbers
+    };
+    let (of_si, of_plain) = (numbers(&si), numbers(&plain));
+    assert_eq!((of_si.len(), of_plain.len()), (12, 12));
+    for (a, b) in of_si.into_iter().zip(of_plain) {
+        assert!((a - b).abs() <= 1e-15 * b.abs(), "{a} {b}");
     }
     assert_eq!(si.scales().map(|scales| scales.mass()), Some(2.5));
 }

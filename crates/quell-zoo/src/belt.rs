@@ -13,7 +13,7 @@ pub const DAMPING_RATIO: f64 = 0.005;
 /// Belt velocity v₀ of figures 2.3 and 3.9.
 pub const VELOCITY: f64 = 0.05;
 
-/// Variations of a belt. A single number is changed by [`Belt::with`].
+/// Variations of a belt.
 pub trait BeltExt: Sized {
     /// The same belt with one more dither.
     #[must_use]
@@ -27,9 +27,27 @@ pub trait BeltExt: Sized {
     /// The same belt with another damping ratio ζ.
     #[must_use]
     fn damped(&self, damping_ratio: f64) -> Self;
+    /// The same belt with another number of its law, by its path in the registry.
+    #[must_use]
+    fn with_law_number(&self, path: &str, value: f64) -> Self;
     /// The same belt with every length and velocity multiplied by `factor`.
     #[must_use]
     fn scaled(&self, factor: f64) -> Self;
+}
+
+/// The belt over the amplitude of its first dither.
+pub fn over_amplitudes(belt: &Belt) -> impl Fn(&[f64]) -> Option<Belt> {
+    |values| belt.with_amplitude(0, values[0]).ok()
+}
+
+/// The belt over its velocity.
+pub fn over_velocities(belt: &Belt) -> impl Fn(&[f64]) -> Option<Belt> {
+    |values| belt.with_belt_velocity(values[0]).ok()
+}
+
+/// The belt over the amplitude of its first dither and its velocity.
+pub fn over_amplitude_and_velocity(belt: &Belt) -> impl Fn(&[f64]) -> Option<Belt> {
+    |values| belt.with_belt_velocity(values[1]).ok()?.with_amplitude(0, values[0]).ok()
 }
 
 impl BeltExt for Belt {
@@ -51,11 +69,15 @@ impl BeltExt for Belt {
     }
 
     fn at_speed(&self, belt_velocity: f64) -> Self {
-        valid(self.with("belt.belt_velocity", belt_velocity))
+        valid(self.with_belt_velocity(belt_velocity))
     }
 
     fn damped(&self, damping_ratio: f64) -> Self {
-        valid(self.with("belt.damping_ratio", damping_ratio))
+        valid(self.with_damping_ratio(damping_ratio))
+    }
+
+    fn with_law_number(&self, path: &str, value: f64) -> Self {
+        valid(self.friction().with(path, value).and_then(|law| self.with_friction(law)))
     }
 
     fn scaled(&self, factor: f64) -> Self {

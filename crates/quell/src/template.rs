@@ -19,7 +19,7 @@ const SAVE: &str = "--save";
 
 /// A commented study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Template {
+pub struct CommentedStudy {
     /// Name of its file without the extension.
     pub name: &'static str,
     /// The study, with its comments.
@@ -29,8 +29,8 @@ pub struct Template {
 macro_rules! templates {
     ($($name:literal),+ $(,)?) => {
         /// Every template, in the order in which they are listed.
-        pub const TEMPLATES: &[Template] = &[
-            $(Template { name: $name, text: include_str!(concat!("template/", $name, ".toml")) }),+
+        pub const TEMPLATES: &[CommentedStudy] = &[
+            $(CommentedStudy { name: $name, text: include_str!(concat!("template/", $name, ".toml")) }),+
         ];
     };
 }
@@ -53,7 +53,7 @@ templates!(
     "controller",
 );
 
-impl Template {
+impl CommentedStudy {
     /// The template of this name.
     ///
     /// # Errors
@@ -136,8 +136,7 @@ impl Template {
 
 /// Names and questions of all templates, as JSON.
 pub fn list() -> Json {
-    let each =
-        |template: &Template| json!({ "name": template.name, "question": template.question() });
+    let each = |template: &CommentedStudy| json!({ "name": template.name, "question": template.question() });
     let questions: Vec<Json> = TEMPLATES.iter().map(each).collect();
     let warnings: [&str; 0] = [];
     json!({ "ok": true, "questions": questions, "warnings": warnings })
@@ -151,7 +150,7 @@ mod tests {
     #[test]
     fn every_template_is_a_commented_study_with_its_question() {
         for template in TEMPLATES {
-            let Template { name, text } = template;
+            let CommentedStudy { name, text } = template;
             assert!(template.question().ends_with('?'), "{name}");
             assert!(text.starts_with("# ") && text.contains("\ntitle = "), "{name}");
             let file = format!("{name}.toml");
@@ -160,9 +159,9 @@ mod tests {
             assert!(text.lines().all(|line| line.chars().count() <= 130), "{name}");
             Study::parse_in(text, &[], Path::new(""))
                 .unwrap_or_else(|why| panic!("{name}: {why:?}"));
-            assert_eq!(Template::find(name).expect("found"), template);
+            assert_eq!(CommentedStudy::find(name).expect("found"), template);
         }
-        let wrong = Template::find("quenhc").expect_err("no such template");
+        let wrong = CommentedStudy::find("quenhc").expect_err("no such template");
         assert_eq!(wrong.suggestion.as_deref(), Some("quench"));
     }
 

@@ -318,7 +318,7 @@ fn a_clear_frequency_is_verified_by_the_exact_equations() {
     assert_eq!(clear["verified"]["verdict"], "stable");
     assert_eq!(clear["verified"]["speed"].as_f64(), Some(verified.speed));
     let growth = |ratio: f64, speed: f64| {
-        let disc = study.disc().with("dither.frequency_ratio", ratio).expect("valid");
+        let disc = study.disc().with_frequency_ratio(ratio).expect("valid");
         let disc = disc.at_speed(speed).expect("valid");
         quell_disc::dithered::growth(&disc, Effort::default()).expect("finite").rate
     };

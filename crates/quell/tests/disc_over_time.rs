@@ -9,7 +9,6 @@ use quell::run::system::simulate::MotionRequest;
 use quell::study::{DiscStudy, Study};
 use quell_dynamics::motion::MotionStart;
 use quell_linear::linearised::Linearised;
-use quell_model::Parametrisation;
 use quell_model::system::InputTarget;
 use serde_json::Value as Json;
 
@@ -179,13 +178,13 @@ fn a_moment_is_a_steady_study() {
     assert_eq!(at.varies_by(), None);
     let disc = at.disc().expect("a disc");
     assert!((disc.disc().loads()[0].friction - 0.2 * 1.3).abs() < 1e-15);
-    let amplitude = disc.disc().get("dither.amplitude").expect("dithered");
+    let amplitude = disc.disc().dither().mean_and_amplitude().1;
     assert!((amplitude - 0.6 * 0.8).abs() < 1e-15);
     assert!(verbs(&at).stability().is_ok());
     // The amplitude that is not given is 1.
     let unsaid = "[dither]\ndirection = \"normal\"\nfrequency_ratio = 2.7\n";
     let at = study(&format!("{PLATE}{LOAD}{unsaid}{rising}")).at_time(3.0).expect("a moment");
-    let amplitude = at.disc().expect("a disc").disc().get("dither.amplitude").expect("dithered");
+    let amplitude = at.disc().expect("a disc").disc().dither().mean_and_amplitude().1;
     assert!((amplitude - 0.3).abs() < 1e-15);
     // Under a law the load is the normal load; of several loads each has its own share.
     let pads = "[[disc.load]]\nradius_ratio = 0.75\nnormal_load = 0.5\nspeed = 0.3\n\
@@ -290,7 +289,7 @@ fn stability_knows_every_waveform() {
         let up_to = found.changes_up_to.expect("a limit");
         assert!(!changes.is_empty() && changes.iter().all(|change| change.friction <= up_to));
         for change in changes {
-            let marginal = disc.disc().with("disc.load.friction", change.friction).expect("valid");
+            let marginal = disc.disc().with_friction_of(0, change.friction).expect("valid");
             let all = quell_disc::marginal::exponents(&marginal).expect("finite");
             let least = all.iter().map(|exponent| exponent.rate.abs()).fold(f64::MAX, f64::min);
             assert!(least < 1e-11, "{wave} {change:?}: {least}");

@@ -216,7 +216,7 @@ fn a_moment_is_a_steady_study() {
     let drive = "[disc.drive]\ntime = [0.0, 10.0]\nspeed = [0.2, 0.6]\n";
     let whole = study(&format!("{MODES}{LOAD}{drive}"));
     assert_eq!(whole.varies_by(), Some("disc.drive"));
-    assert!(whole.disc().expect("a disc").disc().get("disc.load.speed").is_none());
+    assert!(whole.number("disc.load.speed").is_none());
     let refusing = verbs(&whole);
     for reply in
         [refusing.stability(), refusing.modes(), refusing.resonances(ResonancesRequest::default())]

@@ -26,7 +26,7 @@ fn a_formula_with_constants_is_read_and_set() {
     let text = "law = \"expression\"\ncoefficient = \"a + 0.1*exp(-abs(v)/0.2)\"\n[friction.constants]\na = 0.3\n";
     let read = study(text).expect("valid");
     assert_eq!(read.belt().friction().static_coefficient(), 0.4);
-    assert_eq!(read.belt().get("friction.constants.a"), Some(0.3));
+    assert_eq!(read.number("friction.constants.a"), Some(0.3));
     let changed = read.with("friction.constants.a", 0.25).expect("valid");
     assert_eq!(changed.belt().friction().coefficient(0.0), 0.35);
     let sets =

@@ -244,7 +244,8 @@ fn held_samples_of_a_sine_have_its_exact_threshold() {
     let keys = format!("waveform = \"samples\"\nhold = \"zero\"\nvalues = [{}]", values.join(", "));
     let [held, sine] = [keys.as_str(), "waveform = \"sine\""].map(|keys| {
         let belt = study(&with("tangential", keys));
-        let found = local(belt.belt(), "dither.amplitude", 0.9, 1.3, 8).expect("a branch");
+        let at = |values: &[f64]| belt.belt().with_amplitude(0, values[0]).ok();
+        let found = local(&at, 0.9, 1.3, 8).expect("a branch");
         found.thresholds.iter().map(|threshold| threshold.value).collect::<Vec<f64>>()
     });
     assert!(!sine.is_empty());

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
-use quell::template::{TEMPLATES, Template, list};
+use quell::template::{CommentedStudy, TEMPLATES, list};
 use quell::{Complaint, Failure, Fault, Origin};
 
 use crate::answer::Answer;
@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         return Ok(Answer::new(arguments.json, &list(), questions));
     };
-    let template = Template::find(name)?;
+    let template = CommentedStudy::find(name)?;
     let saved = arguments
         .save
         .as_deref()

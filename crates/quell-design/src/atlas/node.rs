@@ -158,8 +158,8 @@ fn slipping(point: &AtlasPoint, amplitude: f64, guess: Start) -> Option<(Slippin
 /// The amplitude at which the branch of the base response leaves slip.
 fn by_continuation(point: &AtlasPoint, corner: f64) -> Option<f64> {
     let belt = point.belt(0.0).ok()?;
-    let path = belt.dither_path(0, "amplitude");
-    let branch = local(&belt, &path, 0.0, LIMIT * corner, STEPS).ok()?;
+    let at = |values: &[f64]| belt.with_amplitude(0, values[0]).ok();
+    let branch = local(&at, 0.0, LIMIT * corner, STEPS).ok()?;
     let leaves = branch.changes.iter().find(|change| {
         let pure = change.below.as_ref().is_some_and(Signature::is_pure_slip);
         pure && !change.above.as_ref().is_some_and(Signature::is_pure_slip)

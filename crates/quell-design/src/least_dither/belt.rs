@@ -1,5 +1,7 @@
 //! A belt under dither as a structure whose dither is designed.
 
+use std::sync::Arc;
+
 use quell_dynamics::attractor::{Reached, SWITCH_CLOSENESS, switches};
 use quell_dynamics::orbit::threshold::{NoThresholds, local};
 use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
@@ -12,7 +14,7 @@ use quell_linear::averaging::{
 };
 use quell_linear::driven_point::DrivenPoint;
 use quell_linear::linear_cost::linear_cost;
-use quell_model::{Belt, Direction, Dither, Parametrisation, System};
+use quell_model::{Belt, Direction, Dither, System};
 
 use super::branch::AmplitudeBranch;
 use super::quiet::AveragedChange;
@@ -32,38 +34,25 @@ const TRIED: u32 = 24;
 /// The row that is observed: the displacement of the mass.
 const DISPLACEMENT: [f64; 1] = [1.0];
 
+/// The belt at an operating point, its first dither without amplitude; or why it is none.
+pub type BeltAtPoint<'a> = dyn Fn(OperatingPoint<'_>) -> Result<Belt, String> + Send + Sync + 'a;
+
 /// A belt whose first dither is designed.
-#[derive(Clone, Debug)]
-pub struct BeltPlant {
-    /// The belt.
-    pub belt: Belt,
-    /// Paths of the coordinates of the box.
-    pub over: Vec<String>,
-    /// Paths of the design variables other than the amplitude.
-    pub others: Vec<String>,
+#[derive(Clone)]
+pub struct BeltPlant<'a> {
+    /// The belt at a point.
+    pub at: Arc<BeltAtPoint<'a>>,
     /// The runs that must end quiet.
     pub start: DesignStart,
 }
 
-impl BeltPlant {
-    fn path(&self) -> String {
-        self.belt.dither_path(0, "amplitude")
-    }
-
-    /// The belt at a point, with the amplitude of the study.
+impl BeltPlant<'_> {
     fn at(&self, at: OperatingPoint<'_>) -> Result<Belt, String> {
-        let points = self.over.iter().zip(at.point);
-        let others = self.others.iter().zip(at.others);
-        // The amplitude of the study must not make a point invalid.
-        let mut belt = self.belt.with(&self.path(), 0.0).map_err(|why| why.to_string())?;
-        for (path, value) in points.chain(others) {
-            belt = belt.with(path, *value).map_err(|why| why.to_string())?;
-        }
-        Ok(belt)
+        (self.at)(at)
     }
 
     fn dithered(&self, at: OperatingPoint<'_>, amplitude: f64) -> Result<Belt, String> {
-        self.at(at)?.with(&self.path(), amplitude).map_err(|why| why.to_string())
+        self.at(at)?.with_amplitude(0, amplitude).map_err(|why| why.to_string())
     }
 
     /// The belt as a system at a point with an amplitude.
@@ -110,7 +99,8 @@ impl BeltPlant {
 
     fn by_runs(&self, belt: &Belt, (from, to): (f64, f64)) -> Result<QuietAmplitudes, String> {
         let initial = |belt: &Belt| self.initial(belt);
-        let found = switches(belt, &self.path(), (from, to), TRIED, SWITCH_CLOSENESS, initial)
+        let at = |values: &[f64]| belt.with_amplitude(0, values[0]).ok();
+        let found = switches(&at, (from, to), TRIED, SWITCH_CLOSENESS, initial)
             .map_err(|why| why.to_string())?;
         let quiet = |reached: Reached| matches!(reached, Reached::Base | Reached::Forced);
         // The ends that have been seen to be quiet.
@@ -136,7 +126,8 @@ pub fn amplitude_branch_of_belt(
     (from, to): (f64, f64),
     steps: u32,
 ) -> Result<AmplitudeBranch, NoThresholds> {
-    let found = local(belt, &belt.dither_path(0, "amplitude"), from, to, steps)?;
+    let at = |values: &[f64]| belt.with_amplitude(0, values[0]).ok();
+    let found = local(&at, from, to, steps)?;
     Ok(AmplitudeBranch::of_belt((from, to), &found))
 }
 
@@ -159,7 +150,7 @@ fn averaged_changes(
 ) -> Result<(bool, Vec<AveragedChange>), AveragingError> {
     let options = AveragingOptions::FINITE_R;
     // A belt without dither has no amplitude to set.
-    let without = belt.with(&belt.dither_path(0, "amplitude"), 0.0);
+    let without = belt.with_amplitude(0, 0.0);
     let without = criterion(without.as_ref().unwrap_or(belt), options)?;
     let changes = critical_amplitudes_up_to(belt, options, largest)?;
     let changes = changes.iter().map(|critical| AveragedChange {
@@ -170,7 +161,7 @@ fn averaged_changes(
     Ok((without.verdict == AveragedVerdict::Stable, changes.collect()))
 }
 
-impl Plant for BeltPlant {
+impl Plant for BeltPlant<'_> {
     fn averaged(
         &self,
         at: OperatingPoint<'_>,

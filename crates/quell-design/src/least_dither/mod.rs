@@ -28,7 +28,7 @@ mod system;
 mod verified;
 mod worst_point;
 
-pub use belt::{BeltPlant, amplitude_branch_of_belt, averaged_quiet_of_belt};
+pub use belt::{BeltAtPoint, BeltPlant, amplitude_branch_of_belt, averaged_quiet_of_belt};
 pub use branch::{AmplitudeBranch, QuietChange};
 pub use confident::{LeastOfSample, LeastQuantile, SampledLeast, SampledQuiet};
 pub use covered::covered;

@@ -11,7 +11,6 @@
 
 use core::ops::RangeInclusive;
 
-use quell_model::parameter::DITHER_FREQUENCY_RATIO;
 use quell_numerics::floquet::Effort;
 use quell_numerics::order::ascending;
 use quell_numerics::roots::{Closeness, minimise};
@@ -139,7 +138,7 @@ impl Exact<'_> {
     /// The result with the largest growth that all exponents along the speeds have, if that is larger.
     fn with_growing(&self, found: Verified, steps: u32) -> Option<Verified> {
         let ratio = found.frequency_ratio;
-        let disc = self.disc.with(DITHER_FREQUENCY_RATIO.path, ratio).ok()?;
+        let disc = self.disc.with_frequency_ratio(ratio).ok()?;
         let growing = growing_speeds(&disc, &self.speeds, steps).ok()?;
         let peak = growing.iter().max_by(|a, b| a.peak_growth.total_cmp(&b.peak_growth));
         match peak.filter(|peak| peak.peak_growth > found.growth.rate) {
@@ -152,7 +151,7 @@ impl Exact<'_> {
     }
 
     fn growth(&self, ratio: f64, speed: f64) -> Option<Growth> {
-        let disc = self.disc.with(DITHER_FREQUENCY_RATIO.path, ratio).ok()?.at_speed(speed).ok()?;
+        let disc = self.disc.with_frequency_ratio(ratio).ok()?.at_speed(speed).ok()?;
         dithered::growth(&disc, Effort::default()).ok()
     }
 

@@ -51,7 +51,7 @@ impl Workload {
         for copy in 0..copies {
             for (belt, start) in &self.cases {
                 let amplitude = belt.dithers()[0].amplitude * (1.0 + 1e-3 * f64::from(copy));
-                cases.push((belt.with("dither.amplitude", amplitude).expect("valid"), *start));
+                cases.push((belt.with_amplitude(0, amplitude).expect("valid"), *start));
             }
         }
         Self { name: self.name, cases, until: self.until }

@@ -12,7 +12,7 @@ use quell_model::Belt;
 use super::measure::is_quiescent;
 use super::settings::AttractorSettings;
 use super::settle::{Patience, SettleOutcome, Settled, settle};
-use crate::orbit::family::{FamilyParameters, Forced};
+use crate::orbit::family::{BeltAt, FamilyParameters, Forced};
 use crate::orbit::threshold::NoThresholds;
 use crate::orbit::{NoOrbit, OrbitVerdict, common_period};
 use crate::simulation::{DEFAULT_TOLERANCE, Stalled, Start, simulate};
@@ -145,7 +145,7 @@ pub struct Switches {
     pub unknown: Vec<(f64, NoOrbit)>,
 }
 
-/// Values of `path` between `from` and `to` at which runs from `start` (a state for each belt) begin or stop
+/// Values between `from` and `to` at which runs from `start` (a state for each belt) begin or stop
 /// settling on the base response. A belt without a start has nothing to quench and counts as settling on it. `steps` values are
 /// tried, and each change is bisected to the relative `closeness`; if a third result is found between two, both changes next to
 /// it are bisected. A pair of changes between two neighbouring values is missed.
@@ -153,8 +153,7 @@ pub struct Switches {
 /// # Errors
 /// [`NoThresholds::Invalid`] if a value is not allowed.
 pub fn switches(
-    belt: &Belt,
-    path: &str,
+    at: BeltAt<'_>,
     (from, to): (f64, f64),
     steps: u32,
     closeness: f64,
@@ -165,7 +164,7 @@ pub fn switches(
     };
     let mut unknown = Vec::new();
     let mut tried = |value: f64| {
-        let belt = belt.with(path, value).map_err(|_| NoThresholds::Invalid { value })?;
+        let belt = at(&[value]).ok_or(NoThresholds::Invalid { value })?;
         Ok(found(&belt).unwrap_or_else(|why| {
             unknown.push((value, why));
             Reached::Unknown

@@ -22,7 +22,7 @@ use quell_linear::averaging::{Effective, SlopeSide};
 use quell_model::friction::{Bristles, SlidingLaw};
 use quell_model::profile::Profile;
 use quell_model::system::{Contact, Input, InputTarget, StateSpace, Structure, System};
-use quell_model::{Belt, Direction, Friction, Parametrisation};
+use quell_model::{Belt, Direction, Friction};
 use quell_numerics::matrix::Matrix;
 
 use bristles::Bristled;

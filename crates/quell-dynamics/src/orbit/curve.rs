@@ -3,7 +3,7 @@
 use quell_model::Belt;
 use quell_numerics::continuation::curve::{Trace, trace};
 
-use super::family::{FamilyParameters, Forced, Signature};
+use super::family::{BeltAt, FamilyParameters, Forced, Signature};
 use super::shooting::near;
 use super::threshold::{NoThresholds, Threshold, ThresholdKind, criticality, fold_of, local};
 pub use super::threshold_curve::{
@@ -17,15 +17,13 @@ use crate::simulation::Start;
 const STEPS: u32 = 40;
 
 /// The plane of two parameters and their windows.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy)]
 pub struct ParameterPlane<'a> {
-    /// Path of the parameter whose thresholds are followed.
-    pub path: &'a str,
-    /// Its window.
+    /// The belt at values of the number whose thresholds are followed and of the number along which they are.
+    pub at: BeltAt<'a>,
+    /// Window of the first.
     pub window: (f64, f64),
-    /// Path of the parameter along which they are followed.
-    pub along: &'a str,
-    /// Its window.
+    /// Window of the second.
     pub between: (f64, f64),
 }
 
@@ -46,9 +44,12 @@ impl ResponsePlane for BeltPlane<'_> {
     }
 
     fn on_line(&self, along: f64) -> Result<LineSearched<Self::Found>, Open> {
-        let ParameterPlane { path, window, .. } = self.plane;
-        let belt = self.belt.with(self.plane.along, along).map_err(|_| Open::Invalid)?;
-        let found = local(&belt, path, window.0, window.1, STEPS).map_err(Open::Begin)?;
+        let ParameterPlane { at, window, .. } = self.plane;
+        let on_line = |values: &[f64]| at(&[values[0], along]);
+        let found = local(&on_line, window.0, window.1, STEPS).map_err(|why| match why {
+            NoThresholds::Invalid { .. } => Open::Invalid,
+            why => Open::Begin(why),
+        })?;
         Ok(LineSearched::new(found.thresholds, found.ending))
     }
 
@@ -58,8 +59,7 @@ impl ResponsePlane for BeltPlane<'_> {
 
     fn form(&self, kind: ThresholdKind, point: &ThresholdCurvePoint) -> PointForm {
         let Self { belt, plane, .. } = *self;
-        let paths = [plane.path, plane.along];
-        let forced = Forced { belt, parameters: FamilyParameters::Paths(&paths), periods: 1 };
+        let forced = Forced { belt, parameters: FamilyParameters::Numbers(plane.at), periods: 1 };
         let at = [point.value, point.along];
         let width = (plane.window.1 - plane.window.0).abs();
         PointForm {
@@ -70,9 +70,8 @@ impl ResponsePlane for BeltPlane<'_> {
 
     fn through(&self, found: &Self::Found, along: f64) -> Option<ThresholdCurve> {
         let Self { belt, plane, points } = *self;
-        let paths = [plane.path, plane.along];
-        let forced = Forced { belt, parameters: FamilyParameters::Paths(&paths), periods: 1 };
-        let at = belt.with(plane.along, along).ok()?.with(plane.path, found.value).ok()?;
+        let forced = Forced { belt, parameters: FamilyParameters::Numbers(plane.at), periods: 1 };
+        let at = (plane.at)(&[found.value, along])?;
         // A threshold located as a root belongs to the response in pure slip, unless shooting finds another signature.
         let orbit = near(&at, found.state, 1).ok();
         let pure = Signature::PureSlip(1);
@@ -93,7 +92,7 @@ impl ResponsePlane for BeltPlane<'_> {
         (value, along): (f64, f64),
         state: &Start,
     ) -> Option<OrbitVerdict> {
-        let at = self.belt.with(self.plane.along, along).ok()?.with(self.plane.path, value).ok()?;
+        let at = (self.plane.at)(&[value, along])?;
         let orbit = near(&at, *state, 1).ok()?;
         (!orbit.is_pure_slip()).then(|| orbit.verdict())
     }

@@ -3,7 +3,7 @@
 //! The state is (x, x′) at τ = 0. An orbit in pure slip is continued beyond a grazing of v_r = 0 on its branch of the
 //! law, with its least slip velocity as the distance. Orbits that stick or reverse are integrated as they are.
 
-use quell_model::Belt;
+use quell_model::{Belt, Dither};
 use quell_numerics::continuation::{Image, PeriodMap};
 use quell_numerics::cyclic::least_rotation;
 
@@ -64,20 +64,24 @@ impl Signature {
     }
 }
 
+/// The belt at values of some of its numbers; `None` where they form none.
+pub type BeltAt<'a> = &'a dyn Fn(&[f64]) -> Option<Belt>;
+
 /// The meaning of the parameters of a family.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(crate) enum FamilyParameters<'a> {
     /// No parameters: the belt as it is.
     Unchanged,
     /// The common factor of all amplitudes.
     CommonFactor,
-    /// These paths of the registry, in order.
-    Paths(&'a [&'a str]),
+    /// Numbers of the belt.
+    Numbers(BeltAt<'a>),
 }
 
 /// A belt over `periods` common periods of its dithers.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(crate) struct Forced<'a> {
+    /// The belt whose numbers are not varied.
     pub(crate) belt: &'a Belt,
     pub(crate) parameters: FamilyParameters<'a>,
     pub(crate) periods: u32,
@@ -86,23 +90,20 @@ pub(crate) struct Forced<'a> {
 impl Forced<'_> {
     /// The belt at given parameters.
     pub(crate) fn belt_at(&self, parameters: &[f64]) -> Result<Belt, NoOrbit> {
-        let set = |belt: Belt, path: &str, value: f64| {
-            belt.with(path, value).map_err(|_| NoOrbit::Invalid { value })
-        };
+        let first = parameters.first().copied();
+        let invalid = || NoOrbit::Invalid { value: first.unwrap_or(f64::NAN) };
         match self.parameters {
             FamilyParameters::Unchanged => Ok(self.belt.clone()),
             FamilyParameters::CommonFactor => {
-                let dithers = self.belt.dithers();
-                (0..dithers.len()).try_fold(self.belt.clone(), |belt, index| {
-                    let factor = parameters.first().copied().unwrap_or(1.0);
-                    let path = belt.dither_path(index, "amplitude");
-                    set(belt, &path, factor * dithers[index].amplitude)
-                })
+                let factor = first.unwrap_or(1.0);
+                let scaled = |dither: &Dither| Dither {
+                    amplitude: factor * dither.amplitude,
+                    ..dither.clone()
+                };
+                let dithers = self.belt.dithers().iter().map(scaled).collect();
+                self.belt.dithered_by(dithers).map_err(|_| invalid())
             }
-            FamilyParameters::Paths(paths) => paths
-                .iter()
-                .zip(parameters)
-                .try_fold(self.belt.clone(), |belt, (path, value)| set(belt, path, *value)),
+            FamilyParameters::Numbers(at) => at(parameters).ok_or_else(invalid),
         }
     }
 
@@ -111,7 +112,7 @@ impl Forced<'_> {
     pub(crate) fn period_of(&self, belt: &Belt) -> Result<f64, NoOrbit> {
         match common_period(belt) {
             Ok(period) => Ok(f64::from(self.periods) * period),
-            Err(NoOrbit::NoDither) if matches!(self.parameters, FamilyParameters::Paths(_)) => {
+            Err(NoOrbit::NoDither) if matches!(self.parameters, FamilyParameters::Numbers(_)) => {
                 Ok(1.0)
             }
             Err(why) => Err(why),

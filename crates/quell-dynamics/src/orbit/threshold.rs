@@ -10,7 +10,6 @@
 use std::fmt;
 
 use quell_linear::criticality::of_steady_sliding;
-use quell_model::{Belt, Parametrisation};
 use quell_numerics::continuation::branch::{
     BranchSide, End, FixedPointBranch, Follow, SpecialPoint, follow,
 };
@@ -19,7 +18,7 @@ use quell_numerics::continuation::fold::{FoldCoefficient, fold_coefficient};
 use quell_numerics::continuation::spectral_radius;
 use quell_numerics::continuation::threshold::BifurcationKind as Event;
 
-use super::family::{FamilyParameters, Forced, Signature};
+use super::family::{BeltAt, FamilyParameters, Forced, Signature};
 use super::no_orbit::NoOrbit;
 use super::shooting::base_response;
 use super::verdict::OrbitVerdict;
@@ -252,17 +251,11 @@ impl std::error::Error for NoThresholds {}
 ///
 /// # Errors
 /// [`NoThresholds`] if there is no base response at `from`.
-pub fn local(
-    belt: &Belt,
-    path: &str,
-    from: f64,
-    to: f64,
-    steps: u32,
-) -> Result<Local, NoThresholds> {
-    let valid = |value: f64| belt.with(path, value).map_err(|_| NoThresholds::Invalid { value });
+pub fn local(at: BeltAt<'_>, from: f64, to: f64, steps: u32) -> Result<Local, NoThresholds> {
+    let valid = |value: f64| at(&[value]).ok_or(NoThresholds::Invalid { value });
     let first = base_response(&valid(from)?, FIRST_STEPS).map_err(NoThresholds::Start)?;
     valid(to)?;
-    along(belt, path, (from, first.start), to, steps, 1)
+    along(at, (from, first.start), to, steps, 1)
 }
 
 /// Thresholds of the orbit of `periods` common periods near a state at the value `from`, followed to the value `to`.
@@ -270,15 +263,15 @@ pub fn local(
 /// # Errors
 /// [`NoThresholds`] if there is no such orbit at `from`.
 pub fn along(
-    belt: &Belt,
-    path: &str,
+    at: BeltAt<'_>,
     (from, start): (f64, Start),
     to: f64,
     steps: u32,
     periods: u32,
 ) -> Result<Local, NoThresholds> {
-    let paths = [path];
-    let forced = Forced { belt, parameters: FamilyParameters::Paths(&paths), periods };
+    let invalid = NoThresholds::Start(NoOrbit::Invalid { value: from });
+    let belt = &at(&[from]).ok_or(invalid)?;
+    let forced = Forced { belt, parameters: FamilyParameters::Numbers(at), periods };
     let state = [start.displacement, start.velocity];
     let window = Follow::window(from, to, steps);
     let branch = follow(&forced, &state, from, to > from, window)
@@ -374,13 +367,12 @@ fn signature_change(point: &SpecialPoint<Signature>) -> Option<SignatureChange> 
 /// # Errors
 /// [`NoThresholds`], also if the branch is lost before `to`.
 pub fn local_thresholds(
-    belt: &Belt,
-    path: &str,
+    at: BeltAt<'_>,
     from: f64,
     to: f64,
     steps: u32,
 ) -> Result<Vec<Threshold>, NoThresholds> {
-    let found = local(belt, path, from, to, steps)?;
+    let found = local(at, from, to, steps)?;
     match found.ending {
         BranchEnding::Lost { at } | BranchEnding::LostTurning { at, .. } => {
             Err(NoThresholds::Lost { at })

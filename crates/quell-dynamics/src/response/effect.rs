@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-use quell_model::{Belt, Parametrisation};
+use quell_model::Belt;
 
 use super::BAND_END;
 use super::measure::{Compared, Undefined};

@@ -33,7 +33,7 @@ pub fn amplitude_at_residual_vibration(
         let cases: Option<Vec<ResponseCase>> = row
             .iter()
             .map(|&amplitude| {
-                let belt = belt.with("dither.amplitude", amplitude).ok()?;
+                let belt = belt.with_amplitude(0, amplitude).ok()?;
                 Some(ResponseCase { belt, start })
             })
             .collect();

@@ -34,7 +34,7 @@ impl UnitValues {
 
 impl Belt {
     /// One coordinate of unit mass and stiffness; its contact is loaded by F, and normal dither has no reaction (4.1).
-    pub(super) fn scaled_system(&self) -> System {
+    pub fn system(&self) -> System {
         self.system_of(&UnitValues::SCALED, self.friction.clone())
     }
 

@@ -55,9 +55,4 @@ impl Disc {
     pub fn speed_at(&self, time: f64) -> f64 {
         self.drive.as_ref().map_or(self.speed, |drive| drive.value(time))
     }
-
-    /// Whether the disc has a constant speed, or one about which it oscillates.
-    pub(super) fn has_speed(&self) -> bool {
-        self.drive.as_ref().is_none_or(|drive| drive.knots().is_none())
-    }
 }

@@ -355,28 +355,21 @@ mod tests {
     }
 
     #[test]
-    fn parameters_are_reached_by_their_paths() {
+    fn one_number_changes_and_the_others_stay() {
         let loads = vec![Load::new(0.1, 0.2, 0.3, 0.4), Load::new(0.5, 0.6, 0.7, 0.8)];
         let dither = DiscDither::Normal { amplitude: 0.5, frequency_ratio: 2.7 };
         let disc = Disc::new(vec![mode(), mode()], loads, dither, 0.3).expect("valid");
-        assert_eq!(disc.parameter("disc.load[1].friction").map(|found| found.symbol), Some("f*"));
-        for (path, value) in [
-            ("disc.load.speed", 0.3),
-            ("disc.modal_damping", 0.0),
-            ("disc.load.damping", 0.2),
-            ("disc.load[1].stiffness", 0.7),
-            ("disc.load[1].friction", 0.8),
-            ("disc.load[0].mass", 0.1),
-            ("dither.amplitude", 0.5),
-            ("dither.frequency_ratio", 2.7),
-        ] {
-            assert_eq!(disc.get(path), Some(value), "{path}");
-            let changed = disc.with(path, 0.9).expect(path);
-            assert_eq!(changed.get(path), Some(0.9), "{path}");
-        }
-        for path in ["disc.load[2].mass", "disc.colour", "disc.load.colour"] {
-            assert!(disc.get(path).is_none() && disc.with(path, 1.0).is_err(), "{path}");
-        }
-        assert!(disc.with("dither.amplitude", 1.1).is_err());
+        assert_eq!(disc.modal_damping(), Some(0.0));
+        let changed = disc.with_friction_of(1, 0.9).expect("in bounds");
+        assert_eq!((changed.loads()[0].friction, changed.loads()[1].friction), (0.4, 0.9));
+        assert!(disc.with_friction_of(2, 0.9).is_err());
+        assert_eq!(
+            disc.with_amplitude(0.9).map(|disc| disc.dither().mean_and_amplitude().1),
+            Ok(0.9)
+        );
+        assert!(disc.with_amplitude(1.1).is_err());
+        let faster = disc.with_frequency_ratio(0.9).expect("in bounds");
+        assert_eq!(faster.dither().frequency_ratio(), Some(0.9));
+        assert!(disc.undithered().with_amplitude(0.1).is_err());
     }
 }

@@ -1,129 +1,56 @@
-//! The numbers of a disc by their paths.
+//! A disc with one of its numbers changed.
 
-use super::{Carrier, Disc, DiscDither, Load};
-use crate::parameter::disc::{
-    CALIPER_DAMPING, CALIPER_MASS, CALIPER_STIFFNESS, CENTRIFUGAL, DISC, DISC_DITHER_AMPLITUDE,
-    DISC_SPEED, LOAD_DAMPING, LOAD_FRICTION, LOAD_MASS, LOAD_NORMAL, LOAD_STATIC, LOAD_STIFFNESS,
-    MODAL_DAMPING, PAD_DAMPING, PAD_MASS, PAD_STIFFNESS,
-};
-use crate::parameter::{DITHER_FREQUENCY_RATIO, Parameter, split_index};
+use super::{Disc, DiscDither, Load};
 use crate::{Invalid, InvalidValues};
 
 impl Disc {
-    /// Value of a parameter by its path: `disc.load.speed`, `disc.modal_damping` (where all modes
-    /// agree), `disc.load.mass`, `disc.load[1].friction`, `dither.amplitude`,
-    /// `dither.frequency_ratio`; `None` if there is no such number here.
-    pub fn get(&self, path: &str) -> Option<f64> {
-        let mut copy = self.clone();
-        copy.number(path).map(|number| *number)
+    /// The damping ratio ξ of the modes; `None` where they differ.
+    pub fn modal_damping(&self) -> Option<f64> {
+        let (first, rest) = self.modes().split_first()?;
+        rest.iter().all(|mode| mode.damping == first.damping).then_some(first.damping)
     }
 
-    /// The entry of the registry for a path, or `None` if there is no such number here.
-    pub fn parameter(&self, path: &str) -> Option<Parameter> {
-        self.get(path)?;
-        let key = match split_index(path, "disc.load") {
-            Some((_, key)) => format!("disc.load.{key}"),
-            None => path.to_owned(),
-        };
-        DISC.iter().find(|parameter| parameter.path == key).copied()
-    }
-
-    /// The load that a path names, counted from 0.
-    pub(crate) fn load_of(path: &str) -> Option<usize> {
-        split_index(path, "disc.load").map(|(index, _)| index)
-    }
-
-    /// The same disc with one parameter changed.
+    /// The same disc with another friction of a load, counted from 0.
     ///
     /// # Errors
-    /// An unknown path, a value out of bounds, a relation that no longer holds.
-    pub fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
-        let mut next = self.clone();
-        if path == MODAL_DAMPING.path {
-            MODAL_DAMPING.check(value).map_err(InvalidValues::from)?;
-            for mode in &mut next.modes {
-                mode.damping = value;
+    /// A friction out of bounds; a load that the disc does not have.
+    pub fn with_friction_of(&self, load: usize, friction: f64) -> Result<Self, InvalidValues> {
+        let mut loads: Vec<Load> = self.loads().to_vec();
+        let changed = loads.get_mut(load).ok_or_else(|| {
+            let allowed = format!("one of the {} loads of this disc", self.loads().len());
+            Invalid::new("disc.load", load, allowed)
+        })?;
+        changed.friction = friction;
+        self.rebuilt(loads, self.dither(), self.speed())
+    }
+
+    /// The same disc with another amplitude of its dither.
+    ///
+    /// # Errors
+    /// An amplitude out of bounds; a disc without dither.
+    pub fn with_amplitude(&self, amplitude: f64) -> Result<Self, InvalidValues> {
+        self.redithered(|own, _| *own = amplitude)
+    }
+
+    /// The same disc with another frequency ratio of its dither.
+    ///
+    /// # Errors
+    /// A ratio out of bounds; a disc without dither.
+    pub fn with_frequency_ratio(&self, ratio: f64) -> Result<Self, InvalidValues> {
+        self.redithered(|_, own| *own = ratio)
+    }
+
+    fn redithered(&self, change: impl Fn(&mut f64, &mut f64)) -> Result<Self, InvalidValues> {
+        let mut dither = self.dither();
+        match &mut dither {
+            DiscDither::None => {
+                return Err(Invalid::new("dither", "none", "a dither of this disc").into());
             }
-            return Ok(next);
-        }
-        if path == CENTRIFUGAL.path {
-            let count = next.modes.len();
-            return next.stiffened(vec![value; count]);
-        }
-        match next.number(path) {
-            Some(number) => *number = value,
-            None => {
-                return Err(InvalidValues::from(Invalid::new(
-                    path,
-                    value,
-                    "a parameter of this disc",
-                )));
+            DiscDither::Normal { amplitude, frequency_ratio }
+            | DiscDither::Tangential { amplitude, frequency_ratio } => {
+                change(amplitude, frequency_ratio);
             }
         }
-        next.rebuilt(next.loads.clone(), next.dither, next.speed)
-    }
-
-    fn number(&mut self, path: &str) -> Option<&mut f64> {
-        if path == DISC_SPEED.path {
-            return self.has_speed().then_some(&mut self.speed);
-        }
-        if path == MODAL_DAMPING.path {
-            let (first, rest) = self.modes.split_first_mut()?;
-            let same = rest.iter().all(|mode| mode.damping == first.damping);
-            return same.then_some(&mut first.damping);
-        }
-        if path == CENTRIFUGAL.path {
-            let (first, rest) = self.centrifugal.split_first_mut()?;
-            let same = rest.iter().all(|value| value == first);
-            return same.then_some(first);
-        }
-        if path == DISC_DITHER_AMPLITUDE.path || path == DITHER_FREQUENCY_RATIO.path {
-            return match &mut self.dither {
-                DiscDither::None => None,
-                DiscDither::Normal { amplitude, frequency_ratio }
-                | DiscDither::Tangential { amplitude, frequency_ratio } => {
-                    Some(if path == DISC_DITHER_AMPLITUDE.path {
-                        amplitude
-                    } else {
-                        frequency_ratio
-                    })
-                }
-            };
-        }
-        let (index, key) = split_index(path, "disc.load")?;
-        if key == DISC_SPEED.key() {
-            return self.has_speed().then_some(&mut self.speed);
-        }
-        let load = self.loads.get_mut(index)?;
-        load.number(key)
-    }
-}
-
-impl Load {
-    fn number(&mut self, key: &str) -> Option<&mut f64> {
-        let own = [
-            (LOAD_MASS, &mut self.mass),
-            (LOAD_DAMPING, &mut self.damping),
-            (LOAD_STIFFNESS, &mut self.stiffness),
-            (LOAD_FRICTION, &mut self.friction),
-            (LOAD_STATIC, &mut self.static_load),
-        ];
-        let pad =
-            self.pad.as_mut().map(|body| body.numbers(&[PAD_MASS, PAD_DAMPING, PAD_STIFFNESS]));
-        let caliper = self
-            .caliper
-            .as_mut()
-            .map(|body| body.numbers(&[CALIPER_MASS, CALIPER_DAMPING, CALIPER_STIFFNESS]));
-        let normal = self.normal_load.as_mut().map(|load| (LOAD_NORMAL, load));
-        let bodies = pad.into_iter().chain(caliper).flatten();
-        let mut all = own.into_iter().chain(normal).chain(bodies);
-        all.find(|(parameter, _)| parameter.key() == key).map(|(_, number)| number)
-    }
-}
-
-impl Carrier {
-    fn numbers(&mut self, names: &[Parameter; 3]) -> [(Parameter, &mut f64); 3] {
-        let [mass, damping, stiffness] = *names;
-        [(mass, &mut self.mass), (damping, &mut self.damping), (stiffness, &mut self.stiffness)]
+        self.rebuilt(self.loads().to_vec(), dither, self.speed())
     }
 }

@@ -30,35 +30,15 @@ use quell_numerics::matrix::Matrix;
 use super::plate::SpeedFactors;
 use super::{Carrier, Contribution, Contributions, Disc, Load, PatchPoint};
 use crate::friction::{Coulomb, Friction};
-use crate::parameter::Parameter;
 use crate::profile::{KnotShape, Knots, Profile, Wave};
 use crate::system::{Contact, Input, InputTarget, MassMatrix, Mechanical, System};
-use crate::{InvalidValues, Parametrisation};
-
-impl Parametrisation for Disc {
-    fn parameter(&self, path: &str) -> Option<Parameter> {
-        Self::parameter(self, path)
-    }
-
-    fn get(&self, path: &str) -> Option<f64> {
-        Self::get(self, path)
-    }
-
-    fn with(&self, path: &str, value: f64) -> Result<Self, InvalidValues> {
-        Self::with(self, path, value)
-    }
-
-    fn si_per_unit(&self, path: &str) -> Option<f64> {
-        let parameter = Self::parameter(self, path)?;
-        self.scales(Self::load_of(path).unwrap_or(0))?.si_per_unit(parameter.quantity)
-    }
-
-    fn system(&self) -> System {
-        self.system_of(Contributions::ALL)
-    }
-}
 
 impl Disc {
+    /// The system of the whole disc.
+    pub fn system(&self) -> System {
+        self.system_of(Contributions::ALL)
+    }
+
     /// The system of some contributions, the others switched off.
     ///
     /// The follower force of the dissertation depends neither on the speed nor on the load: it is a Coulomb contact of unit

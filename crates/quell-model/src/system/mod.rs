@@ -7,9 +7,10 @@
 //! or ẋ = A x + p + Σ_j b_j u_j(t) + Σ_c g_c T_c with γ_c = v_c(t) − t_cᵀx, where the structure comes with controllers.
 //!
 //! A belt is the case n = 1, one contact with t = 1, M = K = 1, C = 2ζ; a disc is its modes in the frame of the loads with a
-//! contact at every load ([`Parametrisation::system`]).
+//! contact at every load ([`Belt::system`], [`Disc::system`]).
 //!
-//! [`Parametrisation::system`]: crate::Parametrisation::system
+//! [`Belt::system`]: crate::Belt::system
+//! [`Disc::system`]: crate::Disc::system
 
 mod contact;
 mod input;
@@ -128,7 +129,7 @@ impl System {
     /// ```
     /// use quell_model::profile::{Profile, Wave};
     /// use quell_model::system::InputTarget;
-    /// use quell_model::{Belt, Coulomb, Friction, Input, Parametrisation, Waveform};
+    /// use quell_model::{Belt, Coulomb, Friction, Input, Waveform};
     ///
     /// let law = Friction::Coulomb(Coulomb::constant(0.4));
     /// let mut system = Belt::new(0.05, 1.0, 0.5, law, Vec::new())?.system();

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use quell::template::{Template, list};
+use quell::template::{CommentedStudy, list};
 
 use crate::{call, convert};
 
@@ -17,7 +17,7 @@ pub(crate) fn new(
 ) -> PyResult<Py<PyAny>> {
     let object = call::run(py, move || {
         let Some(name) = question else { return Ok(list()) };
-        let template = Template::find(&name)?;
+        let template = CommentedStudy::find(&name)?;
         let saved = save.map(|path| template.save(&path, overwrite)).transpose()?;
         Ok(template.json(saved.as_deref()))
     })?;

@@ -21,7 +21,7 @@ fn growing(
     steps: u32,
 ) -> Result<Vec<GrowingSpeeds>, Failure> {
     let disc = disc
-        .with("disc.load.friction", printed * UNIT)
+        .with_friction_of(0, printed * UNIT)
         .map_err(|_| failed("claims", &"a friction of chapter 5 is not valid"))?;
     growing_speeds(&disc, &(from..=to), steps).map_err(|why| failed("claims", &why))
 }

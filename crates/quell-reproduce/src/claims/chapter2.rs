@@ -6,6 +6,7 @@ use quell_linear::averaging::{
     AveragingOptions, Becomes, CriticalAmplitude, EverywhereStable, FastResponse, FastWave,
     closed_band, critical_amplitudes, everywhere_stable_amplitude,
 };
+use quell_model::parameter::MINIMUM_COEFFICIENT;
 use quell_model::{Belt, Direction, Dither, Friction, LawKind, Waveform};
 
 use super::super::entry::CatalogueEntry;
@@ -131,7 +132,9 @@ pub(super) fn friction_laws(sheet: &mut ClaimSheet) -> Result<(), Failure> {
         std::slice::from_ref(&undithered),
     )?;
     let misprinted = undithered
-        .with("friction.minimum_coefficient", 0.2587)
+        .friction()
+        .with(MINIMUM_COEFFICIENT.path, 0.2587)
+        .and_then(|law| undithered.with_friction(law))
         .map_err(|_| failed("claims", &"the misprinted law is not valid"))?;
     sheet
         .number(

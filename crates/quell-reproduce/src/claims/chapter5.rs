@@ -64,7 +64,7 @@ pub(super) fn at(disc: &Disc, speed: f64) -> Result<Disc, Failure> {
 /// Growth rate at a speed and a printed friction (in 10⁻⁴).
 pub(super) fn growth(disc: &Disc, speed: f64, printed: f64) -> Result<f64, Failure> {
     let disc = at(disc, speed)?
-        .with("disc.load.friction", printed * UNIT)
+        .with_friction_of(0, printed * UNIT)
         .map_err(|_| failed("claims", &"a friction of chapter 5 is not valid"))?;
     let found = dithered::growth(&disc, Effort::default()).map_err(|why| failed("claims", &why))?;
     Ok(found.rate)

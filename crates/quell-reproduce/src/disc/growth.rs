@@ -33,7 +33,7 @@ pub(super) enum DiscGrowth {
 impl DiscGrowth {
     /// The disc at this speed; `name` is that of the figure, for failures.
     pub(super) fn at(name: &str, disc: &Disc, speed: f64) -> Result<Self, Failure> {
-        let unit = disc.at_speed(speed).and_then(|disc| disc.with("disc.load.friction", 1.0));
+        let unit = disc.at_speed(speed).and_then(|disc| disc.with_friction_of(0, 1.0));
         let unit = unit.map_err(|_| failed(name, &"a disc of the map is not valid"))?;
         if let Some(dithered) = dithered::prepared(&unit).map_err(|why| failed(name, &why))? {
             return Ok(Self::Dithered(dithered));

@@ -123,8 +123,11 @@ pub(crate) fn figure(source: &EntrySource) -> Result<Product, Failure> {
         DiscDither::Normal { .. } | DiscDither::None => "",
     };
     let printed = disc.loads().first().map_or(0.0, |load| load.mass / STRENGTH_PER_PRINTED);
-    let damping = disc.get("disc.modal_damping").unwrap_or(0.0);
-    let amplitude = disc.get("dither.amplitude").unwrap_or(1.0);
+    let damping = disc.modal_damping().unwrap_or(0.0);
+    let amplitude = match disc.dither() {
+        DiscDither::None => 1.0,
+        dither => dither.mean_and_amplitude().1,
+    };
     let load = match disc.loads().first() {
         Some(load) if source.is_own() => format!(
             "$m$ = {}, $c$ = {}, $k$ = {} of the plate's mass",

@@ -1,7 +1,7 @@
 //! The kinds of study, listed and matched here alone.
 
+use quell_model::System;
 use quell_model::units::Scales;
-use quell_model::{Parametrisation, System};
 
 use super::StudyOf;
 use super::belt::{BeltSetup, BeltStudy};
@@ -9,7 +9,8 @@ use super::disc::{DiscSetup, DiscStudy};
 use super::document::Table;
 use super::reader::Reader;
 use super::study_kind::{StudyKind, wrong_kind};
-use super::system::{SystemSetup, SystemStudy};
+use super::system::{self, SystemSetup, SystemStudy};
+use super::template::Template;
 use super::vocabulary::DocumentKind;
 use crate::complaint::{Complaint, Complaints, Origin};
 
@@ -28,25 +29,29 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The system of the equations, in the units of the study.
-    ///
-    /// # Errors
-    /// A complaint about a law whose numbers are out of their bounds in these units.
-    pub(super) fn system(&self) -> Result<System, Complaints> {
+    /// Reads the system of a document and nothing else; `None` if something is wrong, which has then been reported.
+    pub(super) fn assemble(
+        reader: &mut Reader,
+        document: &Table,
+    ) -> Option<Result<System, Complaints>> {
+        match DocumentKind::of(document) {
+            DocumentKind::System => system::assemble(reader, document).map(Ok),
+            _ => Self::read(reader, document).map(|kind| kind.template().system()),
+        }
+    }
+
+    /// What the equations are made from.
+    pub(super) fn template(&self) -> &dyn Template {
         match self {
-            Self::Belt(setup) => setup.system(),
-            Self::Disc(setup) => Ok(setup.disc().system()),
-            Self::System(setup) => Ok(setup.system().clone()),
+            Self::Belt(setup) => setup.as_ref(),
+            Self::Disc(setup) => setup.as_ref(),
+            Self::System(setup) => setup.as_ref(),
         }
     }
 
     /// Name of the kind.
     pub fn name(&self) -> &'static str {
-        match self {
-            Self::Belt(_) => BeltSetup::NAME,
-            Self::Disc(_) => DiscSetup::NAME,
-            Self::System(_) => SystemSetup::NAME,
-        }
+        self.template().name()
     }
 }
 

@@ -17,6 +17,7 @@ use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::input::Inputs;
 use computed::Computed;
 use document::{Table, Value};
+use reader::StudyParts;
 use vocabulary::{DocumentKind, SCHEMA_VERSION};
 
 mod actuator;
@@ -46,6 +47,7 @@ mod study_kind;
 pub mod suggest;
 mod sweep;
 pub mod system;
+mod template;
 mod uncertainty;
 pub mod vocabulary;
 mod wave_file;
@@ -93,6 +95,7 @@ struct StudySource {
     /// The files that the study names.
     files: Files,
     computed: Computed,
+    parts: StudyParts,
     /// What it was read as, whichever kind it is answered as.
     declared: Kind,
     /// The file that it was read from; `-` is standard input.
@@ -255,7 +258,7 @@ impl<K: StudyKind + Into<Kind>> StudyOf<K> {
         let kind = K::read(&mut reader, &document);
         let sweeps = sweep::read(&mut reader, &document);
         let uncertainty = uncertainty::read(&mut reader, &document);
-        let (complaints, files, computed) = reader.into_parts();
+        let (complaints, files, computed, parts) = reader.finish();
         let (Some(kind), Some(sweeps), Some(uncertainty)) = (kind, sweeps, uncertainty) else {
             return Err(some_of(complaints).into());
         };
@@ -270,6 +273,7 @@ impl<K: StudyKind + Into<Kind>> StudyOf<K> {
             text,
             files,
             computed,
+            parts,
             declared: kind.clone().into(),
             file,
             changes,
@@ -330,7 +334,15 @@ impl<K: StudyKind + Into<Kind>> StudyOf<K> {
     /// contribute; neither title nor axes nor distributions. The version of the file is among them even where the text leaves it out. Two
     /// studies with equal settings compute the same.
     pub fn settings(&self) -> Vec<(String, String)> {
-        let document = &self.source.document;
+        self.settings_of(&self.source.document)
+    }
+
+    /// The settings of a study some of whose numbers are varied: they have the value `"varied"`, by whichever key the study gives them.
+    pub fn settings_varying(&self, varied: &[ParameterId]) -> Vec<(String, String)> {
+        self.settings_of(&self.model().varying(varied))
+    }
+
+    fn settings_of(&self, document: &Table) -> Vec<(String, String)> {
         let mut settings = Vec::new();
         let apart = ["title", "sweep", "uncertainty"];
         for (name, node) in document.iter().filter(|(name, _)| !apart.contains(name)) {

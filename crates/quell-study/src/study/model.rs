@@ -12,10 +12,10 @@ use quell_model::parameter::Parameter;
 
 use super::document::{Node, Table, Value};
 use super::path::{self, FoundPath, LostPath};
-use super::reader::Reader;
+use super::reader::{Reader, StudyParts};
 use super::study_kind::StudyKind;
 use super::vocabulary::DocumentKind;
-use super::{Kind, StudyOf, StudySource, belt, system};
+use super::{Kind, StudyOf, StudySource};
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
 
 /// A number that a study declares, or could declare, found by its path.
@@ -55,14 +55,7 @@ impl<K> StudyOf<K> {
 
     /// The number at a path, in the unit of its key, its formula evaluated; `None` where the study has no such number.
     pub fn number(&self, path: &str) -> Option<f64> {
-        match &self.source.declared {
-            Kind::Belt(setup) => belt::number::number(setup.belt(), path),
-            Kind::Disc(_) => {
-                let document = &self.source.document;
-                path::number(document, &mut Kind::reader(document), path)
-            }
-            Kind::System(setup) => setup.number(&self.source.document, path),
-        }
+        self.source.declared.template().number(&self.source.document, path)
     }
 
     /// The unit to which a value of a path with a unit is converted; `None` without a unit and where the study has no such number.
@@ -72,11 +65,7 @@ impl<K> StudyOf<K> {
 
     /// The path of a number of a contact of the study's system.
     pub fn path_of(&self, contact: &str, parameter: Parameter) -> String {
-        match &self.source.declared {
-            Kind::Belt(setup) if setup.belt().scales().is_some() => path::with_unit(parameter.path),
-            Kind::Belt(_) | Kind::Disc(_) => parameter.path.to_owned(),
-            Kind::System(_) => format!("contact.{contact}.{}", parameter.key()),
-        }
+        self.source.declared.template().path_of(contact, parameter)
     }
 }
 
@@ -127,10 +116,17 @@ impl Model {
     /// All complaints about the changed study.
     pub fn at(&self, numbers: &[(ParameterId, f64)]) -> Result<System, Complaints> {
         let document = self.document_at(numbers);
-        match DocumentKind::of(&document) {
-            DocumentKind::System => self.read(Kind::reader, &document, system::assemble),
-            _ => self.read(Kind::reader, &document, Kind::read)?.system(),
+        self.read(Kind::reader, &document, Kind::assemble)?
+    }
+
+    /// The document with words in place of numbers that are varied.
+    pub(super) fn varying(&self, varied: &[ParameterId]) -> Table {
+        let mut document = self.source.document.clone();
+        for parameter in varied {
+            let node = Node { value: Value::Text("varied".to_owned()), origin: Origin::Whole };
+            path::put(&mut document, &parameter.0, &node);
         }
+        document
     }
 
     /// The document with other values, and without what the study asks for.
@@ -153,12 +149,18 @@ impl Model {
         document: &Table,
         read: impl Fn(&mut Reader, &Table) -> Option<T>,
     ) -> Result<T, Complaints> {
-        let StudySource { files, computed, .. } = &*self.source;
-        let reader = reader(document).of_kind(DocumentKind::of(document));
-        let mut reader = reader.with(files.to_read_again(), computed.clone());
-        match (read(&mut reader, document), reader.into_complaints()) {
-            (Some(read), complaints) if complaints.is_empty() => Ok(read),
-            (_, complaints) => Err(super::some_of(complaints).into()),
-        }
+        let StudySource { files, computed, parts, .. } = &*self.source;
+        let by = |parts: StudyParts| {
+            let reader = reader(document).of_kind(DocumentKind::of(document));
+            let reader = reader.with(files.to_read_again(), computed.clone());
+            let mut reader = reader.with_parts(parts);
+            match (read(&mut reader, document), reader.into_complaints()) {
+                (Some(read), complaints) if complaints.is_empty() => Ok(read),
+                (_, complaints) => Err(complaints),
+            }
+        };
+        // What is refused is read in whole, for the complaints that the file would get.
+        let whole = |_| by(StudyParts::default()).map_err(super::some_of);
+        by(parts.to_reuse()).or_else(whole).map_err(Complaints::from)
     }
 }

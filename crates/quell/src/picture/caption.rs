@@ -94,7 +94,7 @@ pub(super) fn caption_of_disc(study: &DiscStudy) -> String {
         )),
         _ => parts.push(format!("{} given modes", disc.modes().len())),
     }
-    if let Some(damping) = disc.get("disc.modal_damping") {
+    if let Some(damping) = disc.modal_damping() {
         parts.push(format!("$ξ$ = {}", short(damping)));
     }
     for (load, radius) in disc.loads().iter().zip(study.radii()) {

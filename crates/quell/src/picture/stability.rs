@@ -26,7 +26,7 @@ pub fn stability(study: &BeltStudy, done: &BeltStability) -> Figure {
     let end = last_amplitude(belt, critical.iter().copied().fold(own, f64::max));
     let force = Ruler::new(study, Quantity::Force, end);
     let value = |amplitude: f64| {
-        let changed = belt.with(&belt.dither_path(0, "amplitude"), amplitude).ok()?;
+        let changed = belt.with_amplitude(0, amplitude).ok()?;
         let found = criterion(&changed, averaged.options).ok()?;
         Some((force.place(amplitude), found.value))
     };

@@ -24,11 +24,13 @@ const JUMP: f64 = 0.05;
 /// The axis of a parameter, and its ruler.
 fn axis_of(study: &BeltStudy, path: &str, range: (f64, f64)) -> (PlotAxis, Ruler) {
     let largest = range.0.abs().max(range.1.abs());
-    let Some(parameter) = study.belt().parameter(path) else {
+    let address = study.address(path).ok();
+    let Some((quantity, symbol)) = address.and_then(|found| found.quantity.zip(found.symbol))
+    else {
         return (PlotAxis::new(path), Ruler::new(study, Quantity::Ratio, largest));
     };
-    let ruler = Ruler::new(study, parameter.quantity, largest);
-    let (about, symbol) = name_of(study, path).unwrap_or((path, parameter.symbol));
+    let ruler = Ruler::new(study, quantity, largest);
+    let (about, symbol) = name_of(study, path).unwrap_or((path, symbol));
     let axis = ruler
         .axis(short_name(about), &symbol.replace('₀', "_0"))
         .between(ruler.place(range.0.min(range.1)), ruler.place(range.0.max(range.1)));
@@ -104,7 +106,7 @@ pub fn thresholds(study: &BeltStudy, done: &Thresholds) -> Figure {
 
 /// The range of a number of the equations, by the key and in the unit of the study.
 fn range<'a>(study: &BeltStudy, path: &'a str, (from, to): (f64, f64)) -> (Cow<'a, str>, f64, f64) {
-    let quantity = study.belt().parameter(path).map(|parameter| parameter.quantity);
+    let quantity = study.address(path).ok().and_then(|address| address.quantity);
     let unit =
         study.scales().zip(quantity).map_or(1.0, |(scales, quantity)| scales.per_unit(quantity));
     (Cow::Owned(key_of(study, path)), unit * from, unit * to)

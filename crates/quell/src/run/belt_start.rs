@@ -2,7 +2,6 @@
 
 use quell_dynamics::belt_motion::ContactStart;
 use quell_dynamics::simulation::Start;
-use quell_model::Parametrisation;
 
 use super::{of_beginning, start};
 use crate::complaint::{Complaint, Failure, Fault, Origin};

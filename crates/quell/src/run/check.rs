@@ -1,6 +1,4 @@
 //! `check`: the numbers of a valid study.
-
-use quell_model::Parametrisation;
 use quell_model::parameter::{BELT_VELOCITY, DAMPING_RATIO, NORMAL_LOAD};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;

@@ -4,6 +4,7 @@ use quell_dynamics::orbit::curve::{CurvesFound, Open, OpenLine, ParameterPlane, 
 pub use quell_dynamics::orbit::curve::{ThresholdCurve, ThresholdCurveEnd, ThresholdCurvePoint};
 use quell_dynamics::simulation::within;
 use quell_linear::averaging::{AveragingOptions, Becomes, CriticalAmplitude, critical_amplitudes};
+use quell_model::Belt;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
@@ -164,30 +165,34 @@ pub fn run(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failur
 }
 
 fn found(study: &BeltStudy, question: &CurvesRequest) -> Result<Curves, Failure> {
-    let belt = study.belt();
     let (asked, question) = understood(study, question)?;
-    let plane = ParameterPlane {
-        path: &question.parameter,
-        window: question.window,
-        along: &question.along,
-        between: question.between,
-    };
+    let at = |values: &[f64]| belt_at(study, &asked, values);
+    let plane = ParameterPlane { at: &at, window: question.window, between: question.between };
     let CurvesFound { curves, open } =
-        curves(belt, plane, LINES, POINTS).map_err(|line| match line.why {
+        curves(study.belt(), plane, LINES, POINTS).map_err(|line| match line.why {
             Open::Begin(why) => refused(study, why, &question.parameter, "--from"),
             _ => Failure::Failed {
                 key: "thresholds".to_owned(),
                 why: line_in_words(study, &asked, &line),
             },
         })?;
-    let averaged = averaged(study, &question);
+    let averaged = averaged(study, &asked, &question);
     Ok(Curves { question, asked, curves, open, averaged })
+}
+
+/// The belt at numbers of the equations that both parameters give; `None` where it is none.
+fn belt_at(study: &BeltStudy, [parameter, along]: &[Named; 2], values: &[f64]) -> Option<Belt> {
+    let numbers = [along.set(values[1]), parameter.set(values[0])];
+    Some(study.setup_at(&numbers).ok()?.belt().clone())
 }
 
 /// The boundaries of averaging; none if the first parameter is not the amplitude of the first dither. A boundary is broken
 /// where averaging gives no result.
-fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<AveragedBoundary> {
-    let belt = study.belt();
+fn averaged(
+    study: &BeltStudy,
+    [_, along]: &[Named; 2],
+    question: &CurvesRequest,
+) -> Vec<AveragedBoundary> {
     let amplitude = ["dither.amplitude", "dither[0].amplitude"];
     if !amplitude.contains(&question.parameter.as_str()) {
         return Vec::new();
@@ -199,8 +204,8 @@ fn averaged(study: &BeltStudy, question: &CurvesRequest) -> Vec<AveragedBoundary
         .into_iter()
         .map(|(limit, options)| {
             let boundary = |becomes: Becomes| {
-                move |along: f64| {
-                    let belt = belt.with(&question.along, along).ok()?;
+                move |value: f64| {
+                    let belt = along.belt_at(study, value)?;
                     let found = critical_amplitudes(&belt, options).ok()?;
                     let first = found.iter().find(|critical| critical.becomes == becomes)?;
                     Some(*first).filter(inside).map(|critical| critical.amplitude)
@@ -303,10 +308,8 @@ impl Curves {
             format!("curves may be missing {}", line_in_words(study, &self.asked, line))
         };
         let mut slip = SlipMet::default();
-        let question = &self.question;
         for point in self.curves.iter().flat_map(|curve| &curve.points) {
-            let along = study.belt().with(&question.along, point.along);
-            if let Ok(belt) = along.and_then(|belt| belt.with(&question.parameter, point.value)) {
+            if let Some(belt) = belt_at(study, &self.asked, &[point.value, point.along]) {
                 slip.add_attractor(&belt, point.state);
             }
         }

@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 
 use quell_dynamics::attractor::{Attractor, AttractorKind, Patience, Unsettled, measure, settle};
 use quell_dynamics::simulation::{Start, within};
-use quell_model::Parametrisation;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 

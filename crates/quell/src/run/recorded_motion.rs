@@ -5,8 +5,8 @@
 use quell_design::decay::RecordedQuantity;
 use quell_dynamics::belt_motion::motion_start;
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart, ReadingSampler};
+use quell_model::System;
 use quell_model::units::Quantity;
-use quell_model::{Parametrisation, System};
 use quell_study::record::TimeSeries;
 use serde_json::Value as Json;
 

@@ -9,7 +9,6 @@ use quell_dynamics::simulation::{
     Event, EventKind, EventRecorder, FinalState, LargestSlip, Sample, Sampler,
 };
 use quell_model::Dither;
-use quell_model::Parametrisation;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 

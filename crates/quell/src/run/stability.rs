@@ -15,7 +15,7 @@ use quell_linear::growth::{Growth, of_criterion};
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
 use quell_model::units::Quantity;
-use quell_model::{Belt, Dither, Parametrisation};
+use quell_model::{Belt, Dither};
 use serde_json::Value as Json;
 
 use crate::contact_state;

@@ -1,5 +1,6 @@
 //! One number of a study varied over a range: `--parameter PATH --from A --to B --points N`.
 
+use quell_model::Belt;
 use quell_model::parameter::{BELT_VELOCITY, DITHER_AMPLITUDE, Parameter, SCALES};
 
 use super::evenly;
@@ -8,7 +9,7 @@ use crate::fields::Fields;
 use crate::study::document::given_number;
 use crate::study::vocabulary::size::SignalMeasure;
 use crate::study::vocabulary::{DocumentKind, Role, join};
-use crate::study::{Address, BeltStudy, key_at, suggest, with_unit};
+use crate::study::{Address, BeltStudy, ParameterId, key_at, suggest, with_unit};
 use crate::words::digits;
 
 /// Most values of a range.
@@ -129,6 +130,8 @@ pub(super) fn ascending(from: f64, to: f64) -> Result<(), Box<Complaint>> {
 pub struct Named {
     /// Path of the number of the equations, such as `dither.amplitude`.
     pub(super) path: String,
+    /// The number of the study that the key names.
+    parameter: ParameterId,
     /// The key that names it.
     key: String,
     /// What that key gives for one number of the equations.
@@ -147,7 +150,6 @@ impl Named {
         option: &'static str,
         path: &str,
     ) -> Result<Self, Box<Complaint>> {
-        let belt = study.belt();
         let table = path.trim().rsplit_once('.').map_or("", |(table, _)| table);
         let found = key_at(path, DocumentKind::Belt);
         // The intended number of the equations, whether or not this study uses its key.
@@ -155,14 +157,16 @@ impl Named {
             Ok(address) => address.key.parameter().map(|parameter| join(table, parameter.key())),
             Err(nearest) => nearest.clone(),
         };
-        let meant = meant.or_else(|| Some(path.to_owned())).filter(|path| belt.get(path).is_some());
+        let meant =
+            meant.or_else(|| Some(path.to_owned())).filter(|path| study.number(path).is_some());
         // A root mean square depends on the waveform, and the result is a peak value.
         let per_unit = study.per_one(path).filter(|_| not_a_peak(path).is_none());
         let per_unit = per_unit.map(|(_, per_unit)| per_unit);
         match (meant, per_unit) {
             (Some(number), Some(per_unit)) => {
                 let unit = study.address(path).map_or("1", |address| address.unit);
-                Ok(Self { path: number, key: path.to_owned(), per_unit, unit })
+                let parameter = study.model().parameter(path)?;
+                Ok(Self { path: number, parameter, key: path.to_owned(), per_unit, unit })
             }
             (_, _) if is_of_several(path) => {
                 let allowed = format!(
@@ -215,6 +219,16 @@ impl Named {
     /// Adds a number of the equations to an answer, as the key gives it.
     pub(super) fn put(&self, fields: &mut Fields, name: &str, number: f64) {
         fields.measured(name, self.unit, number * self.per_unit);
+    }
+
+    /// The study with another number of the equations, which the key gives.
+    pub(super) fn set(&self, number: f64) -> (ParameterId, f64) {
+        (self.parameter.clone(), number * self.per_unit)
+    }
+
+    /// The belt of another number of the equations; `None` where it is none.
+    pub(super) fn belt_at(&self, study: &BeltStudy, number: f64) -> Option<Belt> {
+        Some(study.setup_at(&[self.set(number)]).ok()?.belt().clone())
     }
 
     /// A value of the named key as a number of the equations.

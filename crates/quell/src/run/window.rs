@@ -5,9 +5,9 @@ use quell_dynamics::belt_motion::motion_start;
 use quell_dynamics::motion::{
     ContactMeans, ContactMeter, MOTION_TOLERANCE, Motion, MotionStart, RowMeter,
 };
+use quell_model::System;
 use quell_model::profile::Wave;
 use quell_model::units::Quantity;
-use quell_model::{Parametrisation, System};
 use quell_numerics::spectrum::{Peak, Spectrum};
 use serde_json::Value as Json;
 

@@ -12,7 +12,7 @@ use serde_json::{Map, Value as Json, json};
 use crate::sweep::Plan;
 
 /// Version of the store format.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 
 /// Maximum number of differences that are named.
 const NAMED: usize = 6;
@@ -44,9 +44,8 @@ impl StudyTexts {
 /// The identity of the map of a plan.
 pub(super) fn identity(plan: &Plan) -> Json {
     let grid = plan.grid();
-    // Numbers that the axes replace have their values at the first point.
-    let settings =
-        grid.study_at(0).map_or_else(|_| grid.study().settings(), |study| study.settings());
+    // What the study says of a number of an axis does not matter.
+    let settings = grid.study().settings_varying(grid.parameters());
     let settings: Map<String, Json> =
         settings.into_iter().map(|(path, value)| (path, value.into())).collect();
     let axes: Map<String, Json> = grid
@@ -74,19 +73,23 @@ pub(super) fn identity(plan: &Plan) -> Json {
     })
 }
 
-/// Descriptions of the differences between the store and the plan; empty if they agree.
+/// Descriptions of the differences between the store and the plan; empty if they agree. A store of another format says nothing else.
 pub(super) fn differences(store: &Json, plan: &Json) -> Vec<String> {
+    let both = |field: &str| [plan, store].map(|identity| plain(&identity[field]));
+    let [here, there] = both("format");
+    if here != there {
+        return vec![format!(
+            "the version of the store format is {here} here and {there} in the store: it is continued only by the version of Quell \
+             that wrote it, {}",
+            plain(&store["quell"])
+        )];
+    }
     let mut found = Vec::new();
-    for (field, name) in
-        [("format", "the version of the store format"), ("quell", "the version of Quell")]
-    {
-        if store[field] != plan[field] {
-            found.push(format!(
-                "{name} is {} here and {} in the store: bits may differ",
-                plain(&plan[field]),
-                plain(&store[field])
-            ));
-        }
+    let [here, there] = both("quell");
+    if here != there {
+        found.push(format!(
+            "the version of Quell is {here} here and {there} in the store: bits may differ"
+        ));
     }
     settings(&store["study"], &plan["study"], &mut found);
     axes(&store["axes"], &plan["axes"], &mut found);

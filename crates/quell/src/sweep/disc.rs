@@ -151,7 +151,7 @@ fn growth(
 ) -> Result<Growth, Status> {
     let (unit, factor) = match disc.loads() {
         [load] if disc.law().is_none() => {
-            let unit = disc.with("disc.load.friction", 1.0).map_err(|_| Status::NotFinite)?;
+            let unit = disc.with_friction_of(0, 1.0).map_err(|_| Status::NotFinite)?;
             (unit, load.friction)
         }
         _ => (disc.clone(), 1.0),

@@ -325,8 +325,7 @@ impl Results {
             // An amplitude ratio of the first dither.
             Computation::CriticalAmplitudes | Computation::LimitCriticalAmplitudes => {
                 belt.dithers().first().is_some_and(|dither| {
-                    let path = belt.dither_path(0, "amplitude");
-                    let acting = belt.with(&path, value * dither.frequency_ratio);
+                    let acting = belt.with_amplitude(0, value * dither.frequency_ratio);
                     differs_from_rigid(acting.as_ref().unwrap_or(belt))
                 })
             }

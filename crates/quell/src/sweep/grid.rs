@@ -110,6 +110,11 @@ impl Grid {
         &self.study
     }
 
+    /// The number that each axis varies.
+    pub fn parameters(&self) -> &[ParameterId] {
+        &self.parameters
+    }
+
     /// The axes in order.
     pub fn axes(&self) -> &[GridAxis] {
         &self.axes

@@ -56,6 +56,14 @@ fn one(
         reader.wrong(prefix, node, format!("a table; got {}", node.kind()));
         return None;
     };
+    reader.part(table, has_actuator, |reader| whole(reader, (node, table), (prefix, has_actuator)))
+}
+
+fn whole(
+    reader: &mut Reader,
+    (node, table): (&Node, &Table),
+    (prefix, has_actuator): (&str, bool),
+) -> Option<(Dither, String, SizedAmplitude)> {
     reader.unknown_keys(table, Section::Dither, prefix);
     let direction = reader
         .needed_choice(table, prefix, node.origin, "direction", Choice::Direction)

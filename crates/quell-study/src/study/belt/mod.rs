@@ -1,9 +1,10 @@
 //! The study of a mass on a moving belt: `[belt]`, `[friction]`, `[dither]`, `[solver]`, `[response]`.
 
 mod dither;
-pub(super) mod number;
+mod number;
 mod solver;
 mod table;
+mod template;
 pub(in crate::study) mod units;
 
 use std::sync::Arc;
@@ -13,8 +14,7 @@ use quell_dynamics::response::Solver;
 use quell_dynamics::start::InitialState;
 use quell_model::parameter::NORMAL_LOAD;
 use quell_model::units::{Quantity, Scales, UnitSystem};
-use quell_model::{Belt, Dither, Friction, Invalid, LawKind, Parametrisation, System};
-use serde_json::Value as Json;
+use quell_model::{Belt, Dither, Friction, LawKind, System};
 
 use super::StudyOf;
 use super::actuator;
@@ -28,7 +28,7 @@ use super::path::key_at;
 use super::reader::Reader;
 use super::study_kind::{StudyKind, wrong_kind};
 use super::vocabulary::DocumentKind;
-use crate::complaint::{Complaint, Complaints, Fault, Origin};
+use crate::complaint::Complaints;
 
 use super::friction::Measured;
 use super::system::{DescribedSystem, SystemSetup, SystemStudy};
@@ -117,21 +117,6 @@ impl BeltSetup {
     pub fn belt(&self) -> &Belt {
         &self.belt
     }
-
-    /// The system of the belt, in the units of a study that has units.
-    ///
-    /// # Errors
-    /// A complaint about a law whose numbers are out of their bounds in these units.
-    pub(super) fn system(&self) -> Result<System, Complaints> {
-        let belt = &self.belt;
-        belt.system_in_units().unwrap_or_else(|| Ok(belt.system())).map_err(|invalid| {
-            let complaint = |invalid: Invalid| {
-                let Invalid { key, value, allowed } = invalid;
-                Complaint::new(Fault::Value, key, Origin::Whole, Json::String(value), allowed)
-            };
-            invalid.into_iter().map(complaint).collect::<Vec<Complaint>>().into()
-        })
-    }
 }
 
 impl BeltStudy {
@@ -170,7 +155,7 @@ impl BeltStudy {
     pub fn per_one(&self, path: &str) -> Option<(String, f64)> {
         let address = key_at(path, DocumentKind::Belt).ok()?;
         let number = number::number_of_the_equations(path, &address);
-        self.belt().get(&number)?;
+        self.number(&number)?;
         Some((number, number::per_one(self.belt(), path)?))
     }
 
@@ -179,7 +164,7 @@ impl BeltStudy {
     /// # Errors
     /// A complaint about a law whose numbers are out of their bounds in these units.
     pub fn system(&self) -> Result<System, Complaints> {
-        self.kind().system()
+        super::template::Template::system(self.kind())
     }
 
     /// The belt as a system, with the given row and start.

@@ -4,13 +4,15 @@ use quell_model::Belt;
 use quell_model::parameter::{MASS, NATURAL_FREQUENCY, Parameter, STIFFNESS, SiTwin};
 use quell_model::units::{Quantity, Scales, UnitSystem, measure};
 
-use crate::study::path::{Address, key_at};
+use super::units;
+use crate::study::document::Table;
+use crate::study::path::{self, Address, key_at};
 use crate::study::vocabulary::size::{SizeKey, SizedSignal};
 use crate::study::vocabulary::{DocumentKind, Role, join};
 
-/// The value of the key at a path, such as `dither.amplitude` or `dither.amplitude_n`, in the unit of the key; `None` where the belt has no
-/// such number.
-pub(in crate::study) fn number(belt: &Belt, path: &str) -> Option<f64> {
+/// The value of the key at a path, such as `dither.amplitude` or `dither.amplitude_n`, in the unit of the key; `None` where the
+/// belt has no such number.
+pub(super) fn number(belt: &Belt, document: &Table, path: &str) -> Option<f64> {
     let address = key_at(path, DocumentKind::Belt).ok()?;
     if let Some(scale) = address.key.parameter().filter(|known| is_scale(*known)) {
         let scales = belt.scales()?;
@@ -20,8 +22,13 @@ pub(in crate::study) fn number(belt: &Belt, path: &str) -> Option<f64> {
             _ => Some(own),
         };
     }
-    let number = belt.get(&number_of_the_equations(path, &address))?;
-    Some(per_one(belt, path)? * number)
+    if let Some((dither, _)) = path::amplitude_key(document, path) {
+        return Some(per_one(belt, path)? * belt.dithers().get(dither)?.amplitude);
+    }
+    // A number of the law may be left out.
+    let of_law = || belt.friction().get(&number_of_the_equations(path, &address));
+    path::number(document, &mut units::reader(document), path)
+        .or_else(|| Some(per_one(belt, path)? * of_law()?))
 }
 
 /// The path of the number of the equations that a key gives.

@@ -43,6 +43,12 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> BeltTable {
     let Some(table) = reader.table("belt", node) else {
         return BeltTable::default();
     };
+    let in_newtons = friction::in_newtons(root);
+    let read = |reader: &mut Reader| Some(numbers(reader, (node, table), in_newtons));
+    reader.part(table, in_newtons, read).unwrap_or_default()
+}
+
+fn numbers(reader: &mut Reader, (node, table): (&Node, &Table), in_newtons: bool) -> BeltTable {
     reader.unknown_keys(table, Section::Belt, "belt");
     let course =
         |reader: &mut Reader, name, what| CoursePlace(what).optional(reader, table, "belt", name);
@@ -69,7 +75,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> BeltTable {
             };
             first.filter(|_| found == Found::Absent)
         }
-        Found::Absent if friction::in_newtons(root) => None,
+        Found::Absent if in_newtons => None,
         Found::Absent => reader.number(table, "belt", node.origin, NORMAL_LOAD),
         Found::Value(load) => Some(load),
         Found::Wrong => None,

@@ -106,26 +106,32 @@ fn only_with_units(reader: &mut Reader, belt: &Table) {
 
 /// Whether all quantities of a study have the suffix of a unit: then it has units, and its mass and stiffness are missing.
 fn is_suffixed(root: &Table) -> bool {
-    let (mut bare, mut suffixed) = (false, false);
+    let mut suffixed = false;
     for section in [Section::Belt, Section::Friction, Section::Dither] {
         for table in root.get(section.path()).map(tables).unwrap_or_default() {
-            for key in table
-                .iter()
-                .filter_map(|(name, _)| vocabulary::key(section, name, DocumentKind::Belt))
-            {
-                match key.role {
-                    Role::Twin(_, other) => suffixed |= !other.unit.is_empty(),
-                    Role::Speeds { si } => suffixed |= si,
-                    Role::FrictionForce(..) => suffixed = true,
-                    Role::Number(parameter) => {
-                        bare |= parameter.quantity.si_unit().is_some() && !parameter.is_pure();
-                    }
-                    _ => {}
+            let keys = table.iter();
+            let mut keys =
+                keys.filter_map(|(name, _)| vocabulary::key(section, name, DocumentKind::Belt));
+            let is_bare = keys.any(|key| match key.role {
+                Role::Number(parameter) => {
+                    parameter.quantity.si_unit().is_some() && !parameter.is_pure()
                 }
+                role => {
+                    suffixed |= match role {
+                        Role::Twin(_, other) => !other.unit.is_empty(),
+                        Role::Speeds { si } => si,
+                        Role::FrictionForce(..) => true,
+                        _ => false,
+                    };
+                    false
+                }
+            });
+            if is_bare {
+                return false;
             }
         }
     }
-    suffixed && !bare
+    suffixed
 }
 
 /// The tables of a list, or the only one.

@@ -16,6 +16,7 @@ mod modes_file;
 mod patch;
 mod plate;
 mod rotation;
+mod template;
 
 use std::sync::Arc;
 

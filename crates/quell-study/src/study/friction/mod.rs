@@ -47,16 +47,20 @@ pub(in crate::study) fn read_table(
 ) -> Option<ReadLaw> {
     let path = place.path;
     let table = reader.table(path, node)?;
-    let name = reader.needed_choice(table, path, node.origin, "law", Choice::Law);
-    let kind = name.and_then(LawKind::from_name);
-    unknown_keys(reader, table, path, kind);
-    match kind {
-        Some(LawKind::Expression) => {
-            expression::read(reader, table, path, node.origin).map(ReadLaw::of)
+    // Only friction that is given as forces depends on the load.
+    let load = place.normal_load.filter(|_| are_given_as_forces(table));
+    reader.part(table, (load, place.may_be_reversed), |reader| {
+        let name = reader.needed_choice(table, path, node.origin, "law", Choice::Law);
+        let kind = name.and_then(LawKind::from_name);
+        unknown_keys(reader, table, path, kind);
+        match kind {
+            Some(LawKind::Expression) => {
+                expression::read(reader, table, path, node.origin).map(ReadLaw::of)
+            }
+            Some(LawKind::Samples) => samples::read(reader, table, path, node.origin),
+            kind => numeric_law(reader, table, node, place, kind),
         }
-        Some(LawKind::Samples) => samples::read(reader, table, path, node.origin),
-        kind => numeric_law(reader, table, node, place, kind),
-    }
+    })
 }
 
 /// Reads the law of a disc, which is defined by numbers alone.

@@ -7,6 +7,7 @@ use quell_model::Friction;
 use super::measured::Measured;
 
 /// A law as its table gives it.
+#[derive(Clone)]
 pub(in crate::study) struct ReadLaw {
     /// The law.
     pub(in crate::study) law: Friction,

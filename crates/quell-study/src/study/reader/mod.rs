@@ -15,10 +15,12 @@ use super::vocabulary::{self, DocumentKind, Section, join};
 use crate::complaint::{Complaint, Fault, Origin};
 
 mod numbers;
+mod parts;
 mod units;
 mod words;
 
 pub(super) use numbers::{Found, Keyed, NumbersByName, Reported, WantedNumber, suffixed};
+pub(super) use parts::StudyParts;
 pub(super) use units::{EquationScale, StudyUnits};
 
 /// Where and how a parameter was written.
@@ -45,6 +47,7 @@ pub struct Reader {
     written: Vec<Written>,
     files: Files,
     computed: Computed,
+    parts: StudyParts,
 }
 
 impl Reader {
@@ -58,12 +61,18 @@ impl Reader {
             written: Vec::new(),
             files: Files::default(),
             computed: Computed::default(),
+            parts: StudyParts::default(),
         }
     }
 
     /// The reader with what an earlier reading left.
     pub(super) fn with(self, files: Files, computed: Computed) -> Self {
         Self { files, computed, ..self }
+    }
+
+    /// The reader with parts of the study that may stand for tables that did not change.
+    pub(super) fn with_parts(self, parts: StudyParts) -> Self {
+        Self { parts, ..self }
     }
 
     /// The reader of a document of a kind.
@@ -140,13 +149,13 @@ impl Reader {
 
     /// All complaints, in the order of the text.
     pub(super) fn into_complaints(self) -> Vec<Complaint> {
-        self.into_parts().0
+        self.finish().0
     }
 
     /// All complaints, in the order of the text, and what a later reading need not read or compute again.
-    pub(super) fn into_parts(mut self) -> (Vec<Complaint>, Files, Computed) {
+    pub(super) fn finish(mut self) -> (Vec<Complaint>, Files, Computed, StudyParts) {
         self.complaints.sort_by_key(|complaint| complaint.origin.line().unwrap_or(usize::MAX));
-        (self.complaints, self.files, self.computed)
+        (self.complaints, self.files, self.computed, self.parts)
     }
 
     /// Reports keys that a table does not have.

@@ -1,5 +1,7 @@
 //! `[[contact]]`: rows, load, moving surface and friction law.
 
+use std::sync::Arc;
+
 use quell_model::friction::Surroundings;
 use quell_model::parameter::Parameter;
 use quell_model::parameter::system::{
@@ -10,7 +12,7 @@ use quell_model::profile::Profile;
 use quell_model::{Contact, Friction, LawKind};
 
 use super::names::{MOST_COORDINATES, NAME, is_plain_name};
-use super::rows::RowBasis;
+use super::rows::{RowBasis, SameBasis};
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Fault};
@@ -25,13 +27,32 @@ use crate::study::vocabulary::{DRIVE, LOAD, join};
 /// What contacts need to know of the rest of the study.
 #[derive(Clone, Copy)]
 pub(super) struct ContactContext<'a> {
-    pub(super) basis: &'a RowBasis,
+    pub(super) basis: &'a Arc<RowBasis>,
     /// Whether the equations are of first order.
     pub(super) first_order: bool,
     /// Whether the names are those of a measured frequency response, which may name rows of contacts.
     pub(super) measured: bool,
     /// The law of contacts without one of their own.
     pub(super) shared: Option<&'a Node>,
+}
+
+/// What a contact is read by in addition to its own table.
+struct ContactSurroundings {
+    basis: SameBasis,
+    first_order: bool,
+    measured: bool,
+    shared: Option<Table>,
+}
+
+impl PartialEq for ContactSurroundings {
+    fn eq(&self, other: &Self) -> bool {
+        let shared = match (&self.shared, &other.shared) {
+            (Some(own), Some(other)) => own.is_same(other),
+            (own, other) => own.is_none() && other.is_none(),
+        };
+        let own = (&self.basis, self.first_order, self.measured);
+        shared && own == (&other.basis, other.first_order, other.measured)
+    }
 }
 
 /// Each table of a list with its prefix; a single one has no index.
@@ -65,6 +86,7 @@ pub(super) fn listed<'t>(
 }
 
 /// A contact as it was read.
+#[derive(Clone)]
 pub(super) struct ReadContact {
     pub(super) contact: Contact,
     /// Whether its friction coefficient was negative.
@@ -104,7 +126,16 @@ pub(super) fn read(
         .enumerate()
         .map(|(index, (prefix, node, table))| {
             let name = name(reader, table, &prefix, index, &mut names);
-            let read = one(reader, table, node, &prefix, index, context)?;
+            // A contact without a law of its own has the shared one.
+            let shared = context.shared.and_then(Node::table).filter(|_| !table.has("friction"));
+            let around = ContactSurroundings {
+                basis: SameBasis(Arc::clone(context.basis)),
+                first_order: context.first_order,
+                measured: context.measured,
+                shared: shared.cloned(),
+            };
+            let read = reader
+                .part(table, around, |reader| one(reader, table, node, &prefix, index, context))?;
             let contact = Contact { name: name.unwrap_or_default(), ..read.contact };
             Some(ReadContact { contact, ..read })
         })

@@ -1,5 +1,7 @@
 //! `[[dither]]`: forces on coordinates and modulations of the load of a contact, periodic or noise.
 
+use std::sync::Arc;
+
 use quell_model::Contact;
 use quell_model::parameter::system::{
     FRICTION_FACTOR, FRICTION_FACTOR_MEAN, SYSTEM_DITHER_FREQUENCY,
@@ -9,7 +11,7 @@ use quell_model::profile::{Profile, Wave};
 use quell_model::system::{Input, InputTarget};
 
 use super::contact::listed;
-use super::rows::RowBasis;
+use super::rows::{RowBasis, SameBasis};
 use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::band;
 use crate::study::course::{Course, CoursePlace};
@@ -30,13 +32,36 @@ pub(in crate::study) const PLACES: &str = "places";
 /// The contacts that a dither can modulate.
 #[derive(Clone, Copy)]
 pub(super) struct DitherContext<'a> {
-    pub(super) basis: &'a RowBasis,
+    pub(super) basis: &'a Arc<RowBasis>,
     /// Names of all contacts.
     pub(super) names: &'a [String],
     /// The contacts, if all are right.
     pub(super) contacts: Option<&'a [Contact]>,
     /// Whether the study has a table `[actuator]`.
     pub(super) has_actuator: bool,
+}
+
+/// What a dither is read by in addition to its own table.
+#[derive(PartialEq)]
+struct DitherSurroundings {
+    basis: SameBasis,
+    has_actuator: bool,
+    /// The contact on which it acts: its place and its rows.
+    contact: Option<(usize, [Option<Vec<f64>>; 3])>,
+}
+
+impl DitherSurroundings {
+    fn of(table: &Table, context: DitherContext<'_>) -> Self {
+        let DitherContext { basis, names, contacts, has_actuator } = context;
+        let name = table.get("contact").map(|node| &node.value);
+        let index =
+            names.iter().position(|known| matches!(name, Some(Value::Text(name)) if name == known));
+        let contact = index.and_then(|index| {
+            let Contact { force, tangent, normal, .. } = contacts?.get(index)?;
+            Some((index, [force.clone(), tangent.clone(), normal.clone()]))
+        });
+        Self { basis: SameBasis(Arc::clone(basis)), has_actuator, contact }
+    }
 }
 
 /// The inputs, and the table of each with the size that gives its amplitude.
@@ -52,7 +77,9 @@ pub(super) fn read(
     let (inputs, sizes): (Vec<Option<Input>>, Vec<_>) = tables
         .iter()
         .map(|(prefix, node, table)| {
-            let read = one(reader, (prefix, *node, *table), context);
+            let around = DitherSurroundings::of(table, context);
+            let read =
+                reader.part(table, around, |reader| one(reader, (prefix, *node, *table), context));
             let (input, size) = read.unzip();
             (input, size.map(|size| (prefix.clone(), size)))
         })

@@ -20,6 +20,7 @@ mod rows;
 mod setup;
 mod sized;
 mod structure;
+mod template;
 mod unused;
 
 use quell_design::actuator::Actuator;

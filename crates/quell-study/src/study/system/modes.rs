@@ -56,7 +56,7 @@ pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> ReadSt
         let mass = MassMatrix::identity(count);
         Mechanical::new(basis.names.clone(), mass, damping, stiffness).under(force).into()
     });
-    ReadStructure { basis: Some(basis), structure }
+    ReadStructure { basis: Some(basis.into()), structure }
 }
 
 /// Names of the modal coordinates and the rows of the points.

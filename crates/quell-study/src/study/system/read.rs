@@ -82,7 +82,7 @@ struct SystemEquations<'t> {
     table: &'t Table,
     units: UnitSystem,
     named: NumbersByName,
-    basis: RowBasis,
+    basis: Arc<RowBasis>,
     first_order: bool,
     structure: Option<Structure>,
     response: Option<Arc<FrequencyResponse>>,
@@ -112,7 +112,8 @@ impl<'t> SystemEquations<'t> {
         };
         let table = reader.table("system", node)?;
         reader.unknown_keys(table, Section::System, "system");
-        let (ReadStructure { basis, structure }, response) = body(reader, table, header);
+        let body = reader.part(table, (), |reader| Some(body(reader, table, header)));
+        let (ReadStructure { basis, structure }, response) = body?;
         reader.set_natural_frequency(structure.as_ref().and_then(natural_frequency));
         // Without names no row can be read.
         let basis = basis?;

@@ -1,5 +1,7 @@
 //! Rows over the coordinates: tables of names or arrays.
 
+use std::sync::Arc;
+
 use quell_numerics::matrix::Matrix;
 
 use crate::complaint::{Complaint, Fault};
@@ -16,6 +18,16 @@ pub(super) struct RowBasis {
     pub(super) what: &'static str,
     /// ShapePoints of modal structures: a name of a point stands for its row over the modal coordinates.
     pub(super) points: Option<ShapePoints>,
+}
+
+/// A basis that was read once.
+#[derive(Clone, Debug)]
+pub(super) struct SameBasis(pub(super) Arc<RowBasis>);
+
+impl PartialEq for SameBasis {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
 }
 
 /// ShapePoints of a structure given by its modes.

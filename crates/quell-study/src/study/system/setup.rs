@@ -98,15 +98,8 @@ impl SystemSetup {
 }
 
 impl SystemSetup {
-    /// The number at a path, its formula evaluated: in the units of the file, or in SI for a path that ends in a twin. `None` where the
-    /// study has no such number.
-    pub(in crate::study) fn number(&self, document: &Table, path: &str) -> Option<f64> {
-        let number = || path::number(document, &mut self.reader(), path);
-        self.amplitude_at(document, path).or_else(number)
-    }
-
     /// A reader of numbers as those of this study.
-    fn reader(&self) -> Reader {
+    pub(super) fn reader(&self) -> Reader {
         let mut reader = Reader::in_units(self.units, EquationScale::OfTheFile);
         reader.set_named(self.named.clone());
         reader.set_natural_frequency(natural_frequency(&self.system.structure));
@@ -114,7 +107,7 @@ impl SystemSetup {
     }
 
     /// The amplitude of a dither by a key that need not be the one in the file; `None` for other numbers, and for what an actuator takes.
-    fn amplitude_at(&self, document: &Table, path: &str) -> Option<f64> {
+    pub(super) fn amplitude_at(&self, document: &Table, path: &str) -> Option<f64> {
         let (dither, key) = path::amplitude_key(document, path)?;
         let wave = self.system.inputs.get(dither)?.profile.waves().first()?;
         let size = DITHER_SIZES.iter().find(|size| size.key == key);

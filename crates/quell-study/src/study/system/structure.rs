@@ -1,5 +1,7 @@
 //! The linear structure: matrices over named coordinates, first-order equations, modes, or a measured frequency response.
 
+use std::sync::Arc;
+
 use quell_model::system::{MassMatrix, Mechanical, StateSpace, Structure};
 use quell_model::units::Quantity;
 use quell_numerics::matrix::Matrix;
@@ -17,7 +19,7 @@ use crate::study::vocabulary::join;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ReadStructure {
     /// The names of rows; known even where a matrix is wrong.
-    pub(super) basis: Option<RowBasis>,
+    pub(super) basis: Option<Arc<RowBasis>>,
     pub(super) structure: Option<Structure>,
 }
 
@@ -40,7 +42,7 @@ pub(super) fn mechanical(reader: &mut Reader, table: &Table, header: Origin) -> 
         Some(structure.under(force?).into())
     };
     let structure = build();
-    ReadStructure { structure, basis: Some(basis) }
+    ReadStructure { structure, basis: Some(basis.into()) }
 }
 
 /// Reads `states`, `matrix` and `force`.
@@ -55,7 +57,7 @@ pub(super) fn first_order(reader: &mut Reader, table: &Table, header: Origin) ->
     let force = force(reader, table, &basis);
     let build = || Some(StateSpace::new(basis.names.clone(), matrix.ok()??).under(force?).into());
     let structure = build();
-    ReadStructure { structure, basis: Some(basis) }
+    ReadStructure { structure, basis: Some(basis.into()) }
 }
 
 /// A structure of which only the names are known: one of a measured frequency response.
@@ -67,7 +69,7 @@ pub(super) fn of_names(reader: &mut Reader, table: &Table, names: Vec<String>) -
     let force = force(reader, table, &basis);
     ReadStructure {
         structure: force.map(|force| structure.under(force).into()),
-        basis: Some(basis),
+        basis: Some(basis.into()),
     }
 }
 

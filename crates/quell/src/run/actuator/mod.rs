@@ -8,10 +8,12 @@
 mod answer;
 mod demand;
 
+use std::sync::Arc;
+
 use quell_design::actuator::{Actuator, ActuatorAtFrequency, ActuatorCoverage, coverage};
 use quell_design::least_dither::{BeltPlant, DesignStart, OperatingPoint, Plant};
-use quell_model::Waveform;
 use quell_model::parameter::DITHER_FREQUENCY_RATIO;
+use quell_model::{Belt, Waveform};
 use quell_numerics::order::{ascending, ascending_by};
 use serde_json::Value as Json;
 
@@ -113,12 +115,15 @@ pub fn run(study: &BeltStudy, range: Option<(f64, f64)>) -> Result<ActuatorFound
     super::moves(study, "sliding on it is to be stable")?;
     let path = belt.dither_path(0, DITHER_FREQUENCY_RATIO.key());
     let first = &belt.dithers()[0];
-    let plant = BeltPlant {
-        belt: belt.clone(),
-        over: Vec::new(),
-        others: vec![path.clone()],
-        start: DesignStart::Local,
+    let at = |at: OperatingPoint<'_>| {
+        let quiet = belt.with_amplitude(0, 0.0);
+        let ratio = |belt: Belt| match at.others {
+            [ratio] => belt.with_frequency_ratio(0, *ratio),
+            _ => Ok(belt),
+        };
+        quiet.and_then(ratio).map_err(|why| why.to_string())
     };
+    let plant = BeltPlant { at: Arc::new(at), start: DesignStart::Local };
     let question = ActuatorQuestion {
         actuator,
         plant: &plant,

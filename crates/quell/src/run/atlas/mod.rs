@@ -22,6 +22,7 @@ pub(crate) use round_numbers::{
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::parallel::Parallel;
+use crate::run::thresholds::quantity_of;
 use crate::run::varied::key_of;
 use crate::study::BeltStudy;
 use crate::sweep::Running;
@@ -92,7 +93,7 @@ pub fn run(study: &BeltStudy, exact: bool) -> Result<AtlasFound, Failure> {
 /// The complaint about a key that places a study outside, in the units of the study.
 fn complaint(study: &BeltStudy, outside: &OutsideAtlas) -> Complaint {
     let OutsideAtlas { key, value, word, range, allowed } = outside;
-    let quantity = study.belt().parameter(key).map_or(Quantity::Ratio, |found| found.quantity);
+    let quantity = quantity_of(study, key);
     let scale = study.scales().and_then(|scales| scales.one(quantity)).map_or(1.0, |(one, _)| one);
     let words = |value: f64| in_words(study, quantity, value);
     let allowed = match range {

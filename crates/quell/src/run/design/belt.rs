@@ -1,9 +1,12 @@
 //! `design` of a belt.
 
+use std::sync::Arc;
+
 use quell_design::least_dither::{
     BeltPlant, OperatingPoint, Plant, SampledQuiet, SystemAtPoint, SystemPlant,
 };
-use quell_model::Waveform;
+use quell_model::units::Quantity;
+use quell_model::{Belt, Waveform};
 
 use super::found::{DesignNumber, DesignNumbers, LeastDitherFound, TriedDither};
 use super::least::{asked, least_dither, least_dither_of_systems, without_amplitude};
@@ -11,7 +14,7 @@ use super::waveform::with_waveform;
 use crate::complaint::{Complaint, Failure, Origin};
 use crate::contact_state::refused_of_belt;
 use crate::run::varied::Named;
-use crate::study::{BeltStudy, DesignRange};
+use crate::study::{BeltStudy, DesignRange, ParameterId};
 
 /// The least dither of a belt.
 ///
@@ -25,35 +28,51 @@ pub fn run(study: &BeltStudy) -> Result<LeastDitherFound, Failure> {
     let own = belt.dither_path(0, "amplitude");
     let is_own = |path: &str| path == own || path == "dither.amplitude";
     let (amplitude, others): (Vec<_>, Vec<_>) =
-        vary.into_iter().partition(|(path, _)| is_own(path));
-    let [(_, amplitude)] = amplitude.as_slice() else {
+        vary.into_iter().partition(|(named, _)| is_own(&named.path));
+    let [(amplitude_key, amplitude)] = amplitude.as_slice() else {
         let allowed = format!(
             "a list with {own}, the amplitude of the first dither, once: the least one is sought"
         );
         return Err(without_amplitude(asked, allowed));
     };
-    let paths = |numbers: &[(String, DesignNumber)]| -> Vec<String> {
-        numbers.iter().map(|(path, _)| path.clone()).collect()
+    // The amplitude of the study must not make a point invalid.
+    let quiet = amplitude_key.set(0.0);
+    let set = |numbers: &[(Named, DesignNumber)]| -> Vec<Named> {
+        numbers.iter().map(|(named, _)| named.clone()).collect()
     };
-    let (over_paths, other_paths) = (paths(&over), paths(&others));
-    let plant = |waveform: &Waveform| -> Result<BeltPlant, Failure> {
-        let belt = with_waveform(belt, waveform).map_err(|why| failed(why.to_string()))?;
-        let (over, others) = (over_paths.clone(), other_paths.clone());
-        Ok(BeltPlant { belt, over, others, start: asked.start })
+    let (over_keys, other_keys) = (set(&over), set(&others));
+    let plant = |waveform: &Waveform, sample: &[(ParameterId, f64)]| -> BeltPlant<'_> {
+        let (over, others) = (over_keys.clone(), other_keys.clone());
+        let (waveform, quiet, sample) = (waveform.clone(), quiet.clone(), sample.to_vec());
+        let at = move |at: OperatingPoint<'_>| {
+            let point = over.iter().zip(at.point).chain(others.iter().zip(at.others));
+            let point = point.map(|(named, value)| named.set(*value));
+            let numbers: Vec<_> =
+                sample.iter().cloned().chain([quiet.clone()]).chain(point).collect();
+            let setup = study.setup_at(&numbers).map_err(|why| why.to_string())?;
+            with_waveform(setup.belt(), &waveform).map_err(|why| why.to_string())
+        };
+        BeltPlant { at: Arc::new(at), start: asked.start }
     };
-    let tried = |waveform: &Waveform| -> Result<TriedDither<'_, BeltPlant>, Failure> {
-        let (waveform, plant) = (waveform.clone(), plant(waveform)?);
-        Ok(TriedDither { waveform, place: None, study, plant })
+    let tried = |waveform: &Waveform| -> TriedDither<'_, BeltPlant<'_>> {
+        let (waveform, plant) = (waveform.clone(), plant(waveform, &[]));
+        TriedDither { waveform, place: None, study, plant }
     };
-    let tried: Vec<TriedDither<'_, BeltPlant>> =
-        asked.waveforms.iter().map(tried).collect::<Result<_, Failure>>()?;
-    let only = |numbers: Vec<(String, DesignNumber)>| -> Vec<DesignNumber> {
+    let tried: Vec<TriedDither<'_, BeltPlant<'_>>> = asked.waveforms.iter().map(tried).collect();
+    let only = |numbers: Vec<(Named, DesignNumber)>| -> Vec<DesignNumber> {
         numbers.into_iter().map(|(_, number)| number).collect()
     };
     let numbers =
         DesignNumbers { amplitude: amplitude.clone(), others: only(others), over: only(over) };
     let samples = |waveform: usize, values: &[(&str, f64)], others: &[f64]| {
-        sampled(study, &tried[waveform].plant, &numbers, values, others)
+        let values = study.model().numbers(values).map_err(|why| why.to_string())?;
+        let sample = study.setup_at(&values).map_err(|why| why.to_string())?;
+        // The equations of a sample may have other scales: its mass or its stiffness may be uncertain.
+        let force =
+            |belt: &Belt| belt.scales().map_or(1.0, |scales| scales.per_unit(Quantity::Force));
+        let factor = force(belt) / force(sample.belt());
+        let plant = plant(&asked.waveforms[waveform], &values);
+        Ok(sampled(&plant, factor, others, belt.has_contact_state()))
     };
     if !belt.has_contact_state() {
         return least_dither(study, asked, &numbers, &tried, Ok(&samples));
@@ -69,61 +88,39 @@ pub fn run(study: &BeltStudy) -> Result<LeastDitherFound, Failure> {
     least_dither_of_systems(study, asked, &numbers, &systems, (0, &[1.0]), &samples)
 }
 
-/// The quiet amplitudes of a sample of an uncertain belt, whose equations may have other scales: its mass or its stiffness may be
-/// uncertain.
-fn sampled(
-    study: &BeltStudy,
-    plant: &BeltPlant,
-    numbers: &DesignNumbers,
-    values: &[(&str, f64)],
+/// The quiet amplitudes of a sample of an uncertain belt, one unit of whose amplitudes is `factor` of those of the sample's equations.
+fn sampled<'a>(
+    plant: &BeltPlant<'a>,
+    factor: f64,
     others: &[f64],
-) -> Result<SampledQuiet<'static>, String> {
-    let sample = study.at(values.iter().copied()).map_err(|why| why.to_string())?;
-    let first = plant.belt.dithers().first().ok_or("the study has no dither")?;
-    let belt = with_waveform(sample.belt(), &first.waveform).map_err(|why| why.to_string())?;
-    // Numbers of the sample's equations that one of the study's is.
-    let factor = |number: &DesignNumber| -> Result<f64, String> {
-        let named = Named::new(&sample, "[design]", &number.path).map_err(|why| why.to_string())?;
-        Ok(named.of(number.per_unit))
-    };
-    let factors = |numbers: &[DesignNumber]| -> Result<Vec<f64>, String> {
-        numbers.iter().map(factor).collect()
-    };
-    let times = |values: &[f64], factors: &[f64]| -> Vec<f64> {
-        values.iter().zip(factors).map(|(value, factor)| value * factor).collect()
-    };
-    let amplitude = factor(&numbers.amplitude)?;
-    let over = factors(&numbers.over)?;
-    let others = times(others, &factors(&numbers.others)?);
-    let plant = BeltPlant { belt, ..plant.clone() };
+    has_state: bool,
+) -> SampledQuiet<'a> {
     let exactly = |exactly: bool| {
-        let (plant, over, others) = (plant.clone(), over.clone(), others.clone());
+        let (plant, others) = (plant.clone(), others.to_vec());
         move |point: &[f64], (from, to): (f64, f64)| {
-            let point = times(point, &over);
-            let at = OperatingPoint { point: &point, others: &others };
-            let range = (amplitude * from, amplitude * to);
-            let found = match (exactly, plant.belt.has_contact_state()) {
-                (true, false) => plant.exact(at, range),
-                (false, false) => plant.averaged(at, range),
-                (exactly, true) => {
-                    let system = |at: OperatingPoint<'_>, value: f64| plant.system(at, value);
-                    let of =
-                        SystemPlant { at: &system, input: 0, observe: &[], start: plant.start };
-                    if exactly { of.exact(at, range) } else { of.averaged(at, range) }
-                }
+            let at = OperatingPoint { point, others: &others };
+            let range = (factor * from, factor * to);
+            let found = if has_state {
+                let system = |at: OperatingPoint<'_>, value: f64| plant.system(at, value);
+                let of = SystemPlant { at: &system, input: 0, observe: &[], start: plant.start };
+                if exactly { of.exact(at, range) } else { of.averaged(at, range) }
+            } else if exactly {
+                plant.exact(at, range)
+            } else {
+                plant.averaged(at, range)
             };
-            Ok(found?.times(1.0 / amplitude))
+            Ok(found?.times(1.0 / factor))
         }
     };
-    Ok(SampledQuiet { averaged: Box::new(exactly(false)), exact: Box::new(exactly(true)) })
+    SampledQuiet { averaged: Box::new(exactly(false)), exact: Box::new(exactly(true)) }
 }
 
-/// Numbers of `[design]` with their paths in the equations. Both ends of every range must give valid studies.
+/// Numbers of `[design]` with the keys that give them. Both ends of every range must give valid studies.
 fn numbers(
     study: &BeltStudy,
     key: &str,
     ranges: &[DesignRange],
-) -> Result<Vec<(String, DesignNumber)>, Failure> {
+) -> Result<Vec<(Named, DesignNumber)>, Failure> {
     let mut found = Vec::new();
     let mut wrong: Vec<Complaint> = Vec::new();
     let placed = |complaint: Complaint, path: &str| at_end(complaint, key, path);
@@ -144,7 +141,7 @@ fn numbers(
             per_unit: 1.0 / named.of(1.0),
             range: (named.of(range.from), named.of(range.to)),
         };
-        found.push((named.path.clone(), number));
+        found.push((named, number));
     }
     if wrong.is_empty() { Ok(found) } else { Err(wrong.into()) }
 }
@@ -161,8 +158,4 @@ pub(crate) fn at_end(complaint: Complaint, key: &str, path: &str) -> Complaint {
         allowed,
         ..complaint
     }
-}
-
-fn failed(why: String) -> Failure {
-    Failure::Failed { key: "design".to_owned(), why }
 }

@@ -6,7 +6,7 @@ use quell_design::actuator::Actuator;
 use quell_linear::averaging::DitheredSystem;
 use quell_model::disc::DiscDither;
 use quell_model::units::Quantity;
-use quell_model::{Parametrisation, System, Waveform};
+use quell_model::{System, Waveform};
 use serde_json::Value as Json;
 
 use super::slow_response::{self, SlowResponse};

@@ -126,7 +126,14 @@ impl DiscNumber {
         let in_equations = || {
             let given = |path: &&str| range.path != **path || !study.file_units().is_none();
             let path = parameter.filter(given)?;
-            let value = study.at([(range.path.as_str(), end)]).ok()?.disc().get(path)?;
+            let numbers = study.model().numbers(&[(range.path.as_str(), end)]).ok()?;
+            let setup = study.setup_at(&numbers).ok()?;
+            let disc = setup.disc();
+            let value = match path {
+                path if path == DISC_SPEED.path => disc.speed(),
+                path if path == DISC_DITHER_AMPLITUDE.path => disc.dither().mean_and_amplitude().1,
+                _ => disc.dither().frequency_ratio()?,
+            };
             (value != 0.0).then_some(end / value)
         };
         let per_unit = in_equations().unwrap_or(1.0);
@@ -156,16 +163,18 @@ fn disc_at(
     let words = |why: quell_model::InvalidValues| why.to_string();
     if disc.waveform() != waveform {
         // The amplitude of the study may be too large for another waveform.
-        disc = disc.with(DISC_DITHER_AMPLITUDE.path, 0.0).map_err(words)?;
+        disc = disc.with_amplitude(0.0).map_err(words)?;
         disc = disc.shaped(waveform.clone()).map_err(words)?;
     }
     for (known, value) in numbers {
-        let Some(path) = known.parameter else { continue };
-        disc =
-            if path == DISC_SPEED.path { disc.at_speed(*value) } else { disc.with(path, *value) }
-                .map_err(words)?;
+        let changed = match known.parameter {
+            Some(path) if path == DISC_SPEED.path => disc.at_speed(*value),
+            Some(path) if path == DITHER_FREQUENCY_RATIO.path => disc.with_frequency_ratio(*value),
+            _ => continue,
+        };
+        disc = changed.map_err(words)?;
     }
-    disc.with(DISC_DITHER_AMPLITUDE.path, amplitude).map_err(words)
+    disc.with_amplitude(amplitude).map_err(words)
 }
 
 /// Rejects questions that the dither of a disc does not answer.

@@ -137,8 +137,7 @@ const SAME: f64 = 1e-6;
 fn shaken(study: &DiscStudy) -> Result<(Vec<MarginalFriction>, Option<f64>), String> {
     let disc = study.disc();
     // The partition gives factors of the friction, so start from 1, not from 0.
-    let unit =
-        disc.with("disc.load.friction", 1.0).map_err(|_| "the disc has no load".to_owned())?;
+    let unit = disc.with_friction_of(0, 1.0).map_err(|_| "the disc has no load".to_owned())?;
     let sign = sign_of_friction(study);
     let unit = if sign < 0.0 { unit.with_friction_times(-1.0).unwrap_or(unit) } else { unit };
     let change =

@@ -73,9 +73,20 @@ fn oscillates(study: &BeltStudy) -> bool {
 fn thresholds(study: &BeltStudy, ramped: &RampCourse) -> Result<Vec<RampThreshold>, String> {
     let (from, largest) = ramped.searched()?;
     let belt = study.belt().steady_at(ramped.time_of_largest()).map_err(|why| why.to_string())?;
-    let first = belt.with(&ramped.path, from).map_err(|why| why.to_string())?;
-    let found =
-        within(STEPS_OF_MANY_SEARCHES, || local(&first, &ramped.path, from, largest, STEPS));
+    let at = |values: &[f64]| {
+        let value = values[0];
+        let varied = match ramped.path.as_str() {
+            path if path == BELT_VELOCITY.path => belt.with_belt_velocity(value),
+            path if path == NORMAL_LOAD.path => belt.with_normal_load(value),
+            path => {
+                let is = |index: &usize| belt.dither_path(*index, "amplitude") == path;
+                let dither = (0..belt.dithers().len()).find(is)?;
+                belt.with_amplitude(dither, value)
+            }
+        };
+        varied.ok()
+    };
+    let found = within(STEPS_OF_MANY_SEARCHES, || local(&at, from, largest, STEPS));
     let found = found.map_err(|why| match why {
         NoThresholds::Invalid { value } => format!("the value {value} is not allowed"),
         NoThresholds::Start(why) => format!("no base response at the least value: {why}"),

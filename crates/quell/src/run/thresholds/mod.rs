@@ -5,6 +5,7 @@ use quell_dynamics::attractor::{
     AttractorSettings, Reached, SWITCH_CLOSENESS, StroboscopicSection, Switches, ramped, switches,
 };
 use quell_dynamics::orbit::NoOrbit;
+use quell_dynamics::orbit::family::BeltAt;
 pub use quell_dynamics::orbit::family::Signature;
 pub use quell_dynamics::orbit::threshold::{
     BranchEnding, Local, SignatureChange, Threshold, ThresholdKind,
@@ -95,7 +96,7 @@ pub fn value_in_words(study: &BeltStudy, path: &str, value: f64) -> String {
 
 /// The quantity of a number of the equations.
 pub fn quantity_of(study: &BeltStudy, path: &str) -> Quantity {
-    study.belt().parameter(path).map_or(Quantity::Ratio, |parameter| parameter.quantity)
+    study.address(path).ok().and_then(|address| address.quantity).unwrap_or(Quantity::Ratio)
 }
 
 /// The failure that reports why there are no thresholds.
@@ -166,7 +167,7 @@ pub(in crate::run) fn can_ramp(ramp: f64, without_runs: bool) -> Result<(), Comp
 fn slides(study: &BeltStudy, named: &Named, from: f64) -> Result<(), Box<Complaint>> {
     let belt = study.belt();
     let at_rest = |belt: &quell_model::Belt| belt.belt_velocity() == 0.0;
-    if !belt.with(&named.path, named.of(from)).is_ok_and(|first| at_rest(&first)) {
+    if !named.belt_at(study, named.of(from)).is_some_and(|first| at_rest(&first)) {
         return Ok(());
     }
     let why = "thresholds are computed for the response continued from steady sliding, which a belt at rest does not have; \
@@ -190,11 +191,11 @@ pub fn run(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds,
 }
 
 fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, Failure> {
-    let belt = study.belt();
     let (asked, question) = understood(study, question)?;
     let path = question.parameter.as_str();
     let (from, to) = (question.from, question.to);
-    let (local, no_base) = match local(belt, path, from, to, STEPS) {
+    let at = |values: &[f64]| asked.belt_at(study, values[0]);
+    let (local, no_base) = match local(&at, from, to, STEPS) {
         Ok(local) => (local, None),
         // Runs have an outcome even without a base response.
         Err(NoThresholds::Start(why))
@@ -204,7 +205,7 @@ fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, F
         }
         Err(why) => return Err(refused(study, why, path, "--from")),
     };
-    let last = belt.with(path, to).ok();
+    let last = at(&[to]);
     let resumes = local.ending != BranchEnding::Covered
         && last.is_some_and(|belt| {
             AttractorSettings::new(&belt).is_ok_and(|settings| settings.base.is_ok())
@@ -226,14 +227,14 @@ fn found(study: &BeltStudy, question: ThresholdsRequest) -> Result<Thresholds, F
                 ramped => ramped.map(Some),
             }
         };
-        let found = switches(belt, path, (from, to), TRIED, SWITCH_CLOSENESS, start)
+        let found = switches(&at, (from, to), TRIED, SWITCH_CLOSENESS, start)
             .map_err(|why| refused(study, why, path, "--from"))?;
         protocols.push((protocol, found));
     }
-    let slip = slip_met(study, &question, &local, &protocols);
+    let slip = slip_met(&at, &question, &local, &protocols);
     let reaches = |value: f64| {
-        let belt = belt.with(path, value).ok();
-        belt.and_then(|belt| StroboscopicSection::of(&belt).ok())
+        at(&[value])
+            .and_then(|belt| StroboscopicSection::of(&belt).ok())
             .is_some_and(|section| section.reaches_the_band())
     };
     let in_band = reaches(from) || reaches(to);
@@ -248,13 +249,13 @@ fn is_lost(why: NoOrbit) -> bool {
 /// The slip reached by the responses at the thresholds, by steady sliding at both ends, and by the runs of protocols there and
 /// at their switches.
 fn slip_met(
-    study: &BeltStudy,
+    at: BeltAt<'_>,
     question: &ThresholdsRequest,
     local: &Local,
     protocols: &[(Protocol, Switches)],
 ) -> SlipMet {
     let mut slip = SlipMet::default();
-    let at = |value: f64| study.belt().with(&question.parameter, value).ok();
+    let at = |value: f64| at(&[value]);
     for threshold in &local.thresholds {
         if let Some(belt) = at(threshold.value) {
             slip.add_attractor(&belt, threshold.state);

@@ -20,7 +20,7 @@ use quell_linear::averaging::{
 use quell_linear::linear_cost::linear_cost;
 use quell_model::units::Quantity;
 use quell_model::waveform::Burst;
-use quell_model::{Belt, Dither, Parametrisation, System, Waveform};
+use quell_model::{Belt, Dither, System, Waveform};
 use serde_json::Value as Json;
 
 pub(crate) use comparison::{COLUMNS, CostColumn};
@@ -137,7 +137,7 @@ fn compared(belt: &Belt, first: &Dither, waveform: Waveform) -> ComparedWaveform
         Err(why) => Err(why.clone()),
     };
     let without_state = averaged.as_ref().ok().zip(with.as_ref().ok()).and_then(|(least, belt)| {
-        let acting = belt.with(&belt.dither_path(0, "amplitude"), least.amplitude).ok()?;
+        let acting = belt.with_amplitude(0, least.amplitude).ok()?;
         let bristles = || acting.friction().bristles().map(|_| small_motions(""));
         rigid_average(&acting, acting.belt_velocity()).or_else(bristles)
     });
@@ -232,19 +232,17 @@ fn exact(belt: &Belt, averaged: &Result<LeastDither, NoAveragedDither>) -> Resul
     if belt.dithers().first().is_some_and(|first| first.repetition_ratio() <= BAND_END) {
         return Err(in_the_band());
     }
-    let path = belt.dither_path(0, "amplitude");
-    let range =
-        searched(averaged, belt.normal_load(), |amplitude| belt.with(&path, amplitude).is_ok())?;
+    let at = |values: &[f64]| belt.with_amplitude(0, values[0]).ok();
+    let range = searched(averaged, belt.normal_load(), |amplitude| at(&[amplitude]).is_some())?;
     if belt.has_contact_state() {
-        let at = |values: &[f64]| -> Result<System, String> {
-            let belt = belt.with(&path, values[0]).map_err(|why| why.to_string())?;
+        let system = |values: &[f64]| -> Result<System, String> {
+            let belt = belt.with_amplitude(0, values[0]).map_err(|why| why.to_string())?;
             Ok(belt.system())
         };
-        return exact_of_system(&at, range);
+        return exact_of_system(&system, range);
     }
-    let (found, cut_short) = within(STEPS_OF_AN_ALTERNATIVE, || {
-        (local(belt, &path, range.from, range.to, STEPS), is_used_up())
-    });
+    let (found, cut_short) =
+        within(STEPS_OF_AN_ALTERNATIVE, || (local(&at, range.from, range.to, STEPS), is_used_up()));
     let found = found.map_err(|why| match why {
         _ if cut_short => TOO_SENSITIVE.to_owned(),
         NoThresholds::Invalid { .. } => "the contact would open".to_owned(),
