@@ -62,17 +62,17 @@ fn table(section: Section) -> String {
     };
     let headings: Vec<String> = places(section).into_iter().map(heading).collect();
     let mut text = format!("{}: {}\n", headings.join(", "), section.about());
-    let rows = rows(section);
-    let width = |of: fn(&ListedKey) -> &str| {
-        rows.iter().map(|row| of(row).chars().count()).max().unwrap_or_default()
-    };
-    let (names, takes) = (width(|row| row.key.name), width(|row| row.takes));
+    let listed = rows(section).into_iter().map(|row| (row.key.name, row.takes, row.what()));
+    let rows: Vec<(&str, &str, String)> = section.chosen_keys().into_iter().chain(listed).collect();
+    let width = |of: fn(&(&str, &str, String)) -> usize| rows.iter().map(of).max();
+    let names = width(|(name, ..)| name.chars().count()).unwrap_or_default();
+    let takes = width(|(_, takes, _)| takes.chars().count()).unwrap_or_default();
     let before = names + takes + 6;
-    for row in &rows {
-        let lines = broken(&row.what(), WIDTH - before);
+    for (name, kind, what) in &rows {
+        let lines = broken(what, WIDTH - before);
         let mut lines = lines.iter();
         let first = lines.next().map_or("", String::as_str);
-        let _ = writeln!(text, "  {:names$}  {:takes$}  {first}", row.key.name, row.takes);
+        let _ = writeln!(text, "  {name:names$}  {kind:takes$}  {first}");
         for line in lines {
             let _ = writeln!(text, "{:before$}{line}", "");
         }
@@ -219,6 +219,7 @@ mod tests {
         for section in Section::ALL.iter().copied() {
             let listed: usize = rows(section).iter().map(|row| 1 + row.others.len()).sum();
             assert_eq!(listed, keys().iter().filter(|key| key.section == section).count());
+            assert!(table(section).lines().count() > 1, "{section:?} lists nothing");
         }
         for heading in
             ["[belt]", "[[contact]]", "[friction], [contact.friction]", "[[system.mode]]"]

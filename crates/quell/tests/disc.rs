@@ -260,6 +260,30 @@ fn a_map_has_the_numbers_of_its_points_and_points_beside_resonances() {
 }
 
 #[test]
+fn a_speed_axis_has_points_at_the_tongues_in_every_unit() {
+    let steel = "youngs_modulus_pa = 210e9\ndensity_kg_per_m3 = 7850\nthickness_m = 0.01\nouter_radius_m = 0.14\n";
+    let plate = PLATE.replace("[disc.load]", &format!("{steel}[disc.load]"));
+    let speeds = |path: &str, per_speed: f64| {
+        let (from, to) = (0.02 * per_speed, per_speed);
+        let axis = format!(
+            "[[sweep]]\nparameter = \"{path}\"\nfrom = {from:?}\nto = {to:?}\npoints = 12\n"
+        );
+        let study = good(&format!("{plate}{DITHER}{axis}"));
+        let values = Grid::of(&study).expect("an axis").axes()[0].values.clone();
+        values.into_iter().map(|value| value / per_speed).collect::<Vec<f64>>()
+    };
+    let hertz = good(&plate).reference_hz().expect("a material");
+    let own = speeds("disc.load.speed", 1.0);
+    assert!(own.len() > 20, "{own:?}");
+    for (path, per_speed) in [("disc.load.speed_hz", hertz), ("disc.load.speed_rpm", 60.0 * hertz)]
+    {
+        let other = speeds(path, per_speed);
+        assert_eq!(other.len(), own.len(), "{path}");
+        assert!(own.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-12), "{path}: {other:?}");
+    }
+}
+
+#[test]
 fn numbers_set_one_by_one_are_those_of_the_file() {
     let study = good(&format!("{PLATE}{DITHER}"));
     let at = |path, value| {

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value as Json, json};
 
-use crate::study::DISTRIBUTIONS;
+use crate::study::{CORRELATED, DISTRIBUTIONS, JOINTLY_NORMAL};
 
 /// Distributions by paths, their covariance and their correlation.
 pub(super) fn uncertainty() -> Json {
@@ -15,14 +15,14 @@ pub(super) fn uncertainty() -> Json {
         "properties": {
             "covariance": {
                 "type": "object",
-                "description": "numbers that are jointly normal",
+                "description": JOINTLY_NORMAL,
                 "properties": { "of": of, "mean": row, "matrix": matrix },
                 "required": ["of", "mean", "matrix"],
                 "additionalProperties": false,
             },
             "correlation": {
                 "type": "object",
-                "description": "the correlation of numbers with distributions of their own",
+                "description": CORRELATED,
                 "properties": { "of": of, "matrix": matrix },
                 "required": ["of", "matrix"],
                 "additionalProperties": false,

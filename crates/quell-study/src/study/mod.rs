@@ -73,8 +73,8 @@ pub use sweep::{Axis, Sweep};
 pub use system::{
     DescribedSystem, FrequencyResponse, ScaledTime, SystemSetup, SystemStart, SystemStudy,
 };
-pub(crate) use uncertainty::DISTRIBUTIONS;
 pub use uncertainty::Uncertainty;
+pub(crate) use uncertainty::{CORRELATED, DISTRIBUTIONS, JOINTLY_NORMAL};
 
 /// A checked study of the kind `K`: of any kind ([`Study`]), of a belt ([`BeltStudy`]), of a disc ([`DiscStudy`]),
 /// of a system ([`SystemStudy`]).

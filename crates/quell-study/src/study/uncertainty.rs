@@ -30,6 +30,12 @@ pub(crate) const DISTRIBUTIONS: [(&str, &str); 3] = [
     ("uniform", "[smallest value, largest value]"),
 ];
 
+/// What `covariance` describes.
+pub(crate) const JOINTLY_NORMAL: &str = "numbers that are jointly normal";
+
+/// What `correlation` describes.
+pub(crate) const CORRELATED: &str = "the correlation of numbers with distributions of their own";
+
 /// The uncertain numbers of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainty {

@@ -77,6 +77,9 @@ impl Check<'_> {
                 )
                 .number("amplitude_ratio", Quantity::Velocity, dither.amplitude_ratio())
                 .plain("has_envelope", dither.envelope.is_some());
+            if scales.is_some() {
+                inner.number("frequency", Quantity::FrequencyRatio, dither.frequency_ratio);
+            }
             if let Some(noise) = dither.waveform.noise() {
                 inner.plain("noise", noise::json(noise, dither.frequency_ratio));
             }

@@ -24,15 +24,26 @@ pub(super) fn values(study: &DiscStudy, sweep: &Sweep) -> Vec<f64> {
         Axis::Linear { from, to, .. } | Axis::Logarithmic { from, to, .. } => (from, to),
         Axis::Values(_) => return values,
     };
-    if sweep.path.ends_with(DISC_SPEED.key()) && study.file_units().is_none() {
-        values.extend(beside(study, range));
-        ascending(&mut values);
-        values.dedup_by(|a, b| (*a - *b).abs() <= 1e-9);
-        if range.0 > range.1 {
-            values.reverse();
-        }
+    let Some(per_speed) = per_speed(study, sweep, range) else { return values };
+    let speeds = beside(study, (range.0 / per_speed, range.1 / per_speed));
+    values.extend(speeds.into_iter().map(|speed| speed * per_speed));
+    ascending(&mut values);
+    values.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * per_speed.abs());
+    if range.0 > range.1 {
+        values.reverse();
     }
     values
+}
+
+/// The value of an axis for the speed Ω = 1; `None` if it varies no speed.
+fn per_speed(study: &DiscStudy, sweep: &Sweep, (from, to): (f64, f64)) -> Option<f64> {
+    if !sweep.target.number.ends_with(&format!(".{}", DISC_SPEED.key())) {
+        return None;
+    }
+    let end = if to == 0.0 { from } else { to };
+    let parameter = study.model().parameter(&sweep.path).ok()?;
+    let speed = study.setup_at(&[(parameter, end)]).ok()?.disc().speed();
+    (speed != 0.0).then_some(end / speed)
 }
 
 /// Points near the resonances strictly between two speeds.

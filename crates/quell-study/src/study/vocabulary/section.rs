@@ -1,5 +1,6 @@
 //! The tables of a study file.
 
+use crate::study::uncertainty::{CORRELATED, DISTRIBUTIONS, JOINTLY_NORMAL};
 use quell_model::friction::expression;
 
 use super::course::{CourseTable, DISC_DRIVE, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
@@ -225,6 +226,28 @@ impl Section {
     /// Whether the study chooses the names of its keys.
     pub(in crate::study) fn has_own_names(self) -> bool {
         matches!(self, Self::Constants | Self::Parameters)
+    }
+
+    /// The keys of a table that are no entries of the table of keys, because the study chooses them: name, kind of value and description.
+    pub fn chosen_keys(self) -> Vec<(&'static str, &'static str, String)> {
+        match self {
+            Self::Parameters => {
+                vec![("NAME", "number", "a number, or a formula of other parameters".to_owned())]
+            }
+            Self::Constants => vec![("NAME", "number", "a constant of the formula".to_owned())],
+            Self::Uncertainty => {
+                let kinds =
+                    DISTRIBUTIONS.map(|(name, numbers)| format!("{{ {name} = {numbers} }}"));
+                let number =
+                    format!("the distribution of the number at a path: {}", kinds.join(" or "));
+                vec![
+                    ("\"PATH\"", "table", number),
+                    ("covariance", "table", format!("{JOINTLY_NORMAL}: of (paths), mean, matrix")),
+                    ("correlation", "table", format!("{CORRELATED}: of (paths), matrix")),
+                ]
+            }
+            _ => Vec::new(),
+        }
     }
 }
 
