@@ -132,6 +132,15 @@ impl Bounds {
             && (value > self.lower || (self.lower_included && value == self.lower))
             && value <= self.upper
     }
+
+    /// Whether some value of the sign of a number is within the bounds: what can be said of a number in an unknown unit.
+    pub fn has_sign_of(&self, number: f64) -> bool {
+        match number {
+            number if number > 0.0 => self.upper > 0.0,
+            number if number < 0.0 => self.lower < 0.0,
+            number => self.contains(number),
+        }
+    }
 }
 
 impl fmt::Display for Bounds {

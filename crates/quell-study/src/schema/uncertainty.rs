@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value as Json, json};
 
-use crate::study::{CORRELATED, DISTRIBUTIONS, JOINTLY_NORMAL};
+use crate::study::vocabulary::{CORRELATED, DISTRIBUTIONS, JOINTLY_NORMAL};
 
 /// Distributions by paths, their covariance and their correlation.
 pub(super) fn uncertainty() -> Json {

@@ -74,7 +74,6 @@ pub use system::{
     DescribedSystem, FrequencyResponse, ScaledTime, SystemSetup, SystemStart, SystemStudy,
 };
 pub use uncertainty::Uncertainty;
-pub(crate) use uncertainty::{CORRELATED, DISTRIBUTIONS, JOINTLY_NORMAL};
 
 /// A checked study of the kind `K`: of any kind ([`Study`]), of a belt ([`BeltStudy`]), of a disc ([`DiscStudy`]),
 /// of a system ([`SystemStudy`]).
@@ -297,9 +296,14 @@ impl<K: StudyKind + Into<Kind>> StudyOf<K> {
                 let Err(wrong) = self.at([(sweep.path.as_str(), value)]) else { continue };
                 complaints.extend(wrong.into_iter().map(|mut complaint| {
                     if complaint.fault == Fault::Value {
+                        let Complaint { key, value: other, allowed, .. } = &complaint;
+                        let what = if *key == sweep.path {
+                            format!("{key} = {value}")
+                        } else {
+                            format!("at {} = {value}, {key} = {other}", sweep.path)
+                        };
                         complaint.allowed = format!(
-                            "a path and values that give valid studies; {} = {value} must be {}",
-                            complaint.key, complaint.allowed
+                            "a path and values that give valid studies; {what} must be {allowed}"
                         );
                     }
                     let key = format!("sweep[{index}].parameter");

@@ -12,7 +12,7 @@ use super::address::NumberAddress;
 use super::document::{Node, Table, Value};
 use super::path;
 use super::reader::Reader;
-use super::vocabulary::join;
+use super::vocabulary::{DISTRIBUTIONS, join};
 use crate::complaint::{Complaint, Fault, Origin};
 
 /// Standard deviations of a normal number at which a study must be valid: values beyond them have a probability of 10⁻⁶ on each
@@ -22,19 +22,6 @@ const CHECKED: f64 = 4.753_424_308_822_899;
 /// The tables of numbers with a joint distribution.
 const COVARIANCE: &str = "covariance";
 const CORRELATION: &str = "correlation";
-
-/// The kinds of distribution and their two numbers.
-pub(crate) const DISTRIBUTIONS: [(&str, &str); 3] = [
-    ("normal", "[mean, standard deviation]"),
-    ("lognormal", "[median, standard deviation of the natural logarithm]"),
-    ("uniform", "[smallest value, largest value]"),
-];
-
-/// What `covariance` describes.
-pub(crate) const JOINTLY_NORMAL: &str = "numbers that are jointly normal";
-
-/// What `correlation` describes.
-pub(crate) const CORRELATED: &str = "the correlation of numbers with distributions of their own";
 
 /// The uncertain numbers of a study.
 #[derive(Clone, Debug, PartialEq)]

@@ -108,7 +108,11 @@ pub(super) fn put_criticalities(fields: &mut Fields, found: &[Result<FirstLyapun
         _ => Json::Null,
     };
     let values: Vec<Json> = found.iter().map(value).collect();
-    fields.plain("first_lyapunov_coefficient", values);
+    let name = "first_lyapunov_coefficient";
+    if values.iter().any(Json::is_null) {
+        fields.why(name, "criticality_reason has the reason at each point");
+    }
+    fields.plain(name, values);
 }
 
 fn put_words(fields: &mut Fields, name: &str, found: &[Result<&'static str, String>]) {
@@ -118,7 +122,14 @@ fn put_words(fields: &mut Fields, name: &str, found: &[Result<&'static str, Stri
         .iter()
         .map(|word| word.as_ref().err().map_or(Json::Null, |why| why.as_str().into()))
         .collect();
-    fields.plain(name, words).plain(&format!("{name}_reason"), reasons);
+    let of_reasons = format!("{name}_reason");
+    if words.iter().any(Json::is_null) {
+        fields.why(name, format!("{of_reasons} has the reason at each point"));
+    }
+    if reasons.iter().any(Json::is_null) {
+        fields.why(&of_reasons, format!("{name} is known there"));
+    }
+    fields.plain(name, words).plain(&of_reasons, reasons);
 }
 
 /// Adds the fields of a threshold. `length` is the unit of displacements.

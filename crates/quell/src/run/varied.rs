@@ -243,7 +243,9 @@ impl Named {
         (option, given): (&'static str, f64),
     ) -> impl Iterator<Item = Complaint> {
         let refused = study.with(&self.key, given).err();
-        refused.into_iter().flatten().map(move |complaint| for_option(complaint, option))
+        refused.into_iter().flatten().map(move |complaint| {
+            for_option(Complaint { value: given_number(given), ..complaint }, option)
+        })
     }
 }
 

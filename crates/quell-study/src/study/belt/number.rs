@@ -1,7 +1,7 @@
 //! The number of a belt that a path names, in the unit of its key.
 
 use quell_model::Belt;
-use quell_model::parameter::{MASS, NATURAL_FREQUENCY, Parameter, STIFFNESS, SiTwin};
+use quell_model::parameter::{MASS, NATURAL_FREQUENCY, NORMAL_LOAD, Parameter, STIFFNESS, SiTwin};
 use quell_model::units::{Quantity, Scales, UnitSystem, measure};
 
 use super::units;
@@ -25,10 +25,13 @@ pub(super) fn number(belt: &Belt, document: &Table, path: &str) -> Option<f64> {
     if let Some((dither, _)) = path::amplitude_key(document, path) {
         return Some(per_one(belt, path)? * belt.dithers().get(dither)?.amplitude);
     }
-    // A number of the law may be left out.
-    let of_law = || belt.friction().get(&number_of_the_equations(path, &address));
+    // A number of the law may be left out, and the load where friction is given as forces.
+    let left_out = || match number_of_the_equations(path, &address) {
+        number if number == NORMAL_LOAD.path && belt.load().is_none() => Some(belt.normal_load()),
+        number => belt.friction().get(&number),
+    };
     path::number(document, &mut units::reader(document), path)
-        .or_else(|| Some(per_one(belt, path)? * of_law()?))
+        .or_else(|| Some(per_one(belt, path)? * left_out()?))
 }
 
 /// The path of the number of the equations that a key gives.

@@ -211,13 +211,13 @@ impl Reader {
         let value = wanted
             .quantity
             .map_or(Some(number), |quantity| self.units().in_equations(number, quantity, unit));
-        // Without scales the sign can still be checked.
-        let signed = wanted.bounds.lower == 0.0 && wanted.bounds.upper.is_infinite();
-        let judged = value.or(signed.then_some(number)).or(number.is_finite().then_some(1.0));
         let whole = wanted.quantity != Some(Quantity::Count) || number.fract() == 0.0;
-        let right =
-            whole && judged.is_some_and(|value| value.is_nan() || wanted.bounds.contains(value));
-        if !right || value.is_some_and(f64::is_nan) {
+        let within = match value {
+            Some(value) => wanted.bounds.contains(value),
+            // Without scales the sign can still be checked.
+            None => number.is_finite() && wanted.bounds.has_sign_of(number),
+        };
+        if !(whole && within) {
             let is = match &node.value {
                 Value::Text(text) if !measure::has_unit(text) => {
                     format!("; its value is {}", digits(number, 6))

@@ -3,6 +3,7 @@
 //! One list serves the readers, `--set`, sweeps, suggestions and the JSON Schema.
 
 mod course;
+mod distributions;
 mod key;
 mod key_unit;
 mod keys;
@@ -20,6 +21,7 @@ pub const UNITS_ABOUT: &str =
 pub const UNITS: &str = "units";
 
 pub use course::{CourseKey, CourseTable, DISC_DRIVE, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
+pub(crate) use distributions::{CORRELATED, DISTRIBUTIONS, JOINTLY_NORMAL};
 pub use key::{Key, Role, RowUnit, SCHEMA_ABOUT, join};
 pub(in crate::study) use key_unit::KeyUnit;
 pub use keys::{key, keys, keys_of, law_keys};

@@ -1,9 +1,9 @@
 //! The tables of a study file.
 
-use crate::study::uncertainty::{CORRELATED, DISTRIBUTIONS, JOINTLY_NORMAL};
 use quell_model::friction::expression;
 
 use super::course::{CourseTable, DISC_DRIVE, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
+use super::distributions::{CORRELATED, DISTRIBUTIONS, JOINTLY_NORMAL};
 use crate::study::document::Table;
 
 /// A table of the study file, in its order.

@@ -32,6 +32,11 @@ impl Presented<SystemSetup> for MotionThresholdsFound {
         let mut text = String::new();
         let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
         let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+        let thresholds = self.local.iter().flat_map(|local| &local.thresholds);
+        let of_runs = self.runs.iter().flat_map(|(_, switches)| &switches.changes);
+        let shown = thresholds.map(|found| found.value).chain(of_runs.map(|change| change.value));
+        let shown = shown.map(|value| figure(value).chars().count() + unit.chars().count() + 2);
+        let values = shown.fold(16, usize::max);
         let found = self.local.iter().flat_map(|local| &local.thresholds);
         let kinds: Vec<(String, _)> =
             found.map(|found| (kind_in_words(study, found.kind, &found.contacts), found)).collect();
@@ -39,7 +44,7 @@ impl Presented<SystemSetup> for MotionThresholdsFound {
         for (kind, found) in kinds {
             let value = figure(found.value) + &unit;
             let sides = format!("{} below, {} above", side(found.was), side(found.becomes));
-            let _ = writeln!(text, "  {value:<16}{kind:<width$}{sides}");
+            let _ = writeln!(text, "  {value:<values$}{kind:<width$}{sides}");
         }
         for (protocol, switches) in &self.runs {
             let _ = writeln!(
@@ -49,15 +54,18 @@ impl Presented<SystemSetup> for MotionThresholdsFound {
                 STEPS_TRIED + 1
             );
             let first = figure(self.request.window.0) + &unit;
-            let _ = writeln!(text, "  {first:<16}{}", self.words(&switches.first));
+            let _ = writeln!(text, "  {first:<values$}{}", self.words(&switches.first));
             for change in &switches.changes {
                 let value = figure(change.value) + &unit;
                 let kind = change.kind.map_or_else(
                     || format!("± {}", figure(change.error)),
                     |kind| kind.name().to_owned(),
                 );
-                let _ =
-                    writeln!(text, "  {value:<16}{kind:<16}{} above", self.words(&change.becomes));
+                let _ = writeln!(
+                    text,
+                    "  {value:<values$}{kind:<16}{} above",
+                    self.words(&change.becomes)
+                );
             }
         }
         text

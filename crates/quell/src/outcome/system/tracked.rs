@@ -30,11 +30,15 @@ impl Presented<SystemSetup> for TrackedStability {
         let mut text = String::new();
         let unit = study.unit_of(&self.request.parameter).filter(|unit| *unit != "1");
         let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
+        let shown = self.tracked.thresholds.iter().map(|found| found.value);
+        let shown = shown.chain(self.rests.iter().map(|rest| rest.value));
+        let shown = shown.map(|value| figure(value).chars().count() + unit.chars().count() + 2);
+        let values = shown.fold(16, usize::max);
         let mut rests = self.rests.iter().peekable();
         let mut comes_to_rest = |text: &mut String, until: f64| {
             while let Some(rest) = rests.next_if(|rest| rest.value <= until) {
                 let value = figure(rest.value) + &unit;
-                let _ = writeln!(text, "  {value:<16}{:<13}contact {}", "rest", rest.contact);
+                let _ = writeln!(text, "  {value:<values$}{:<13}contact {}", "rest", rest.contact);
             }
         };
         for found in &self.tracked.thresholds {
@@ -46,7 +50,7 @@ impl Presented<SystemSetup> for TrackedStability {
                 format!("{before} below, {beyond} above")
             };
             let value = figure(found.value) + &unit;
-            let _ = writeln!(text, "  {value:<16}{:<13}{verdicts}", found.change.name());
+            let _ = writeln!(text, "  {value:<values$}{:<13}{verdicts}", found.change.name());
         }
         comes_to_rest(&mut text, f64::INFINITY);
         for curve in &self.curves {

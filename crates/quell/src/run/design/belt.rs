@@ -133,7 +133,7 @@ fn numbers(
             }
         };
         for value in [range.from, range.to] {
-            let refused = named.unable(study, ("[design]", value));
+            let refused = study.with(&range.path, value).err().into_iter().flatten();
             wrong.extend(refused.map(|complaint| placed(complaint, &range.path)));
         }
         let number = DesignNumber {

@@ -7,6 +7,7 @@ use quell_model::System;
 
 use super::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run, local_verdict};
 use super::protocol::SystemProtocol;
+use super::thresholds::ends_are_valid;
 use super::tracked::{TrackRequest, understood};
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
@@ -75,7 +76,7 @@ fn checked(study: &SystemStudy, range: &Range) -> Result<(), Failure> {
         let allowed = format!("a whole number from 2 to {MOST_VALUES}");
         return Err(Complaint::option("--points", range.points, allowed).into());
     }
-    Ok(())
+    ends_are_valid(study, &range.parameter, (range.from, range.to))
 }
 
 /// Sweeps a study.

@@ -93,17 +93,19 @@ pub fn run(study: &SystemStudy, request: &CurvesRequest) -> Result<SystemCurves,
     let plane = MotionPlane { at: &at, window, between, points: POINTS };
     let found = motion_curves(&plane, LINES)
         .map_err(|line| failed("thresholds", line_in_words(study, request, &line)))?;
-    let averaged = averaged(request, &at);
+    let averaged = averaged(study, request, &at);
     Ok(SystemCurves { request: request.clone(), found, averaged })
 }
 
 /// The boundaries of averaging; none if the first parameter is not the amplitude of the first dither.
 fn averaged(
+    study: &SystemStudy,
     request: &CurvesRequest,
     at: &dyn Fn(&[f64]) -> Result<System, String>,
 ) -> Vec<AveragedBoundary> {
     let (least, most) = request.window;
-    if !["dither.amplitude", "dither[0].amplitude"].contains(&request.parameter.as_str()) {
+    // A peak force is in newtons under every key of a study with units.
+    if study.dither_of(&request.parameter) != Some(0) {
         return Vec::new();
     }
     let boundary = |becomes: Becomes| {

@@ -75,6 +75,23 @@ pub struct MotionThresholdsFound {
     pub in_band: bool,
 }
 
+/// Rejects a window at whose ends the study is not valid.
+pub(super) fn ends_are_valid(
+    study: &SystemStudy,
+    path: &str,
+    (from, to): (f64, f64),
+) -> Result<(), Failure> {
+    let model = study.model();
+    let parameter = model.parameter(path)?;
+    for (option, value) in [("--from", from), ("--to", to)] {
+        model.at(&[(parameter.clone(), value)]).map_err(|why| {
+            let allowed = format!("a value that {path} can take: {why}");
+            Complaint::option(option, value, allowed)
+        })?;
+    }
+    Ok(())
+}
+
 /// Whether some dither acts at an end of the window.
 pub fn is_dithered_within(study: &SystemStudy, request: &MotionThresholdsRequest) -> bool {
     let (from, to) = request.window;
@@ -104,12 +121,7 @@ pub fn run(
         model.at(&[(parameter.clone(), values[0])]).map_err(|why| why.to_string())
     };
     let (from, to) = request.window;
-    for (option, value) in [("--from", from), ("--to", to)] {
-        at(&[value]).map_err(|why| {
-            let allowed = format!("a value that {path} can take: {why}");
-            Complaint::option(option, value, allowed)
-        })?;
-    }
+    ends_are_valid(study, path, (from, to))?;
     let local = match &request.near {
         Some((numbers, periods)) => {
             let guess = start_with(study, numbers)?.state;

@@ -295,7 +295,9 @@ pub(super) fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<
             wrong.push(Complaint::option(to, window.1, allowed));
         }
     }
-    if request.along.as_ref().is_some_and(|(path, _)| *path == request.parameter) {
+    let number = |path: &str| study.address(path).map(|address| address.number).ok();
+    let first = number(&request.parameter);
+    if request.along.as_ref().is_some_and(|(path, _)| first.is_some() && number(path) == first) {
         let allowed = "a parameter other than --parameter";
         wrong.push(Complaint::option("--along", request.parameter.as_str(), allowed));
     }
