@@ -297,9 +297,10 @@ pub(super) fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<
     }
     let number = |path: &str| study.address(path).map(|address| address.number).ok();
     let first = number(&request.parameter);
-    if request.along.as_ref().is_some_and(|(path, _)| first.is_some() && number(path) == first) {
+    let same = |(path, _): &&(String, (f64, f64))| first.is_some() && number(path) == first;
+    if let Some((path, _)) = request.along.as_ref().filter(same) {
         let allowed = "a parameter other than --parameter";
-        wrong.push(Complaint::option("--along", request.parameter.as_str(), allowed));
+        wrong.push(Complaint::option("--along", path.as_str(), allowed));
     }
     if wrong.is_empty() { Ok(()) } else { Err(wrong.into()) }
 }
