@@ -131,7 +131,9 @@ fn understood(
         .chain(across.into_iter().flat_map(|end| along.unable(study, end)))
         .collect();
     wrong.extend(ascending(from, to).err().map(|complaint| *complaint));
+    wrong.extend(parameter.without_effect(study, "--parameter", (from, to)).filter(|_| from < to));
     let (first, last) = question.between;
+    wrong.extend(along.without_effect(study, "--along", (first, last)).filter(|_| first < last));
     if first.is_nan() || last.is_nan() || first >= last {
         let given = format!("{first}:{last}");
         let allowed = "two numbers, the second above the first";

@@ -12,6 +12,9 @@ use crate::study::vocabulary::{DocumentKind, Role, join};
 use crate::study::{Address, BeltStudy, ParameterId, key_at, suggest, with_unit};
 use crate::words::digits;
 
+/// What a varied number must be.
+pub(super) const OF_THE_EQUATIONS: &str = "a number of the equations, such as one of a contact, a friction law or a dither; this one changes none of them";
+
 /// Most values of a range.
 pub const MOST_VALUES: usize = 100_000;
 
@@ -86,9 +89,7 @@ impl Varied {
             && first.belt() == last.belt()
             && from < to
         {
-            let allowed =
-                "a number of the belt, its friction law or a dither; this one changes none of them";
-            complaints.push(Complaint::option(option, path.as_str(), allowed));
+            complaints.push(Complaint::option(option, path.as_str(), OF_THE_EQUATIONS));
         }
         if !complaints.is_empty() {
             return Err(complaints.into());
@@ -229,6 +230,18 @@ impl Named {
     /// The belt of another number of the equations; `None` where it is none.
     pub(super) fn belt_at(&self, study: &BeltStudy, number: f64) -> Option<Belt> {
         Some(study.setup_at(&[self.set(number)]).ok()?.belt().clone())
+    }
+
+    /// The complaint about a number that is given by `option` and changes nothing between two values of its key.
+    pub(super) fn without_effect(
+        &self,
+        study: &BeltStudy,
+        option: &'static str,
+        ends: (f64, f64),
+    ) -> Option<Complaint> {
+        let [first, last] = [ends.0, ends.1].map(|end| self.belt_at(study, self.of(end)));
+        let same = first.is_some() && first == last;
+        same.then(|| Complaint::option(option, self.key.as_str(), OF_THE_EQUATIONS))
     }
 
     /// A value of the named key as a number of the equations.

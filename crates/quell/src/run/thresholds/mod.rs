@@ -141,6 +141,7 @@ fn understood(
     let mut wrong: Vec<Complaint> =
         ends.into_iter().flat_map(|end| named.unable(study, end)).collect();
     wrong.extend(ascending(from, to).err().map(|complaint| *complaint));
+    wrong.extend(named.without_effect(study, "--parameter", (from, to)).filter(|_| from < to));
     wrong.extend(can_ramp(ramp, question.protocols.is_empty()).err().into_iter().flatten());
     if !wrong.is_empty() {
         return Err(wrong.into());
