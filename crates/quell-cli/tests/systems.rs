@@ -422,3 +422,30 @@ fn a_chain_of_blocks_has_an_unstable_cycle_alone() {
         |start: &&Json| start["start"].as_str().is_some_and(|s| s.contains("disturbance"));
     assert_eq!(tried.iter().filter(disturbed).count(), 3, "{tried:?}");
 }
+
+/// The observed row follows the tangent of the contact where the study gives none: a varied value answers as `--set` does.
+#[test]
+fn a_varied_tangent_is_observed_as_a_set_one() {
+    let range = ["--parameter", "contact.tangent.x", "--from", "0.8", "--to", "1"];
+    let swept = ["bifurcation", "belt-as-system.toml", "--up", "--points", "2"];
+    let swept = answer(&[&swept[..], &range].concat());
+    let set = answer(&["attractor", "belt-as-system.toml", "--set", "contact.tangent.x=0.8"]);
+    let found = &swept["up"][0]["peak_to_peak"];
+    assert!(found.is_number() && *found == set["attractor"]["peak_to_peak"], "{found} {set}");
+}
+
+/// A range of a number that changes none of the equations has no answer, in any verb and kind of study.
+#[test]
+fn numbers_without_effect_are_refused() {
+    let range = ["--from", "100", "--to", "300"];
+    let of_belt = ["thresholds", "does-it-squeal.toml", "--set", "solver.settle=200"];
+    let of_belt = [&of_belt[..], &["--parameter", "solver.settle"]].concat();
+    let initial = "system.initial.displacements.b1";
+    let system = ["--set", "system.initial.displacements.b1=0.1", "--parameter", initial];
+    let of_system = [&["thresholds", "two-blocks.toml"][..], &system].concat();
+    let swept = [&["bifurcation", "two-blocks.toml"][..], &system].concat();
+    for asked in [&of_belt, &of_system, &swept] {
+        let words = complaint(&[&asked[..], &range].concat());
+        assert!(words.contains("--parameter = ") && words.contains("changes none"), "{words}");
+    }
+}

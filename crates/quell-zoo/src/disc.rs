@@ -78,7 +78,7 @@ impl ZooModes {
     }
 }
 
-/// Variations of a disc. A single number is changed by [`Disc::with`], the speed by [`Disc::at_speed`].
+/// Variations of a disc. A single number is changed by a setter of [`Disc`], the speed by [`Disc::at_speed`].
 pub trait DiscExt: Sized {
     /// The same disc with another dither.
     #[must_use]

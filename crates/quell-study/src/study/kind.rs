@@ -49,6 +49,11 @@ impl Kind {
         }
     }
 
+    /// Whether the study gives the tables of a system, as opposed to a belt or a disc that is answered as one.
+    pub(super) fn is_system(&self) -> bool {
+        matches!(self, Self::System(_))
+    }
+
     /// Name of the kind.
     pub fn name(&self) -> &'static str {
         self.template().name()

@@ -14,6 +14,7 @@ use super::document::{Node, Table, Value};
 use super::path::{self, FoundPath, LostPath};
 use super::reader::{Reader, StudyParts};
 use super::study_kind::StudyKind;
+use super::system::SystemStudy;
 use super::vocabulary::DocumentKind;
 use super::{Kind, StudyOf, StudySource};
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
@@ -79,6 +80,22 @@ impl<K: StudyKind> StudyOf<K> {
         let model = self.model();
         let document = model.document_at(numbers);
         model.read(K::reader, &document, K::read)
+    }
+}
+
+impl SystemStudy {
+    /// The system of other values of its numbers, with the row that is observed and the start that the study gives for them; a belt or a
+    /// disc that is answered as a system is observed and begins as it was described.
+    ///
+    /// # Errors
+    /// All complaints about the changed study.
+    pub fn varied(&self, numbers: &[(ParameterId, f64)]) -> Result<Self, Complaints> {
+        let setup = if self.source.declared.is_system() {
+            self.setup_at(numbers)?
+        } else {
+            self.kind().with_system(self.model().at(numbers)?)
+        };
+        Ok(self.map_kind(setup))
     }
 }
 

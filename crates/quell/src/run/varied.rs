@@ -151,6 +151,13 @@ impl Named {
         option: &'static str,
         path: &str,
     ) -> Result<Self, Box<Complaint>> {
+        // What else is known of a wrong path, such as which of several dithers it may mean.
+        if let Err(lost) = study.model().parameter(path)
+            && lost.fault == Fault::Conflict
+        {
+            let allowed = format!("a number of this study; {}", lost.allowed);
+            return Err(Box::new(Complaint::option(option, path, allowed)));
+        }
         let table = path.trim().rsplit_once('.').map_or("", |(table, _)| table);
         let found = key_at(path, DocumentKind::Belt);
         // The intended number of the equations, whether or not this study uses its key.

@@ -79,9 +79,7 @@ pub(super) fn differences(store: &Json, plan: &Json) -> Vec<String> {
     let [here, there] = both("format");
     if here != there {
         return vec![format!(
-            "the version of the store format is {here} here and {there} in the store: it is continued only by the version of Quell \
-             that wrote it, {}",
-            plain(&store["quell"])
+            "the version of the store format is {here} here and {there} in the store, whose map has to be computed again"
         )];
     }
     let mut found = Vec::new();

@@ -98,6 +98,11 @@ impl SystemSetup {
 }
 
 impl SystemSetup {
+    /// The same parts with another system.
+    pub(in crate::study) fn with_system(&self, system: System) -> Self {
+        Self { system: system.into(), ..self.clone() }
+    }
+
     /// A reader of numbers as those of this study.
     pub(super) fn reader(&self) -> Reader {
         let mut reader = Reader::in_units(self.units, EquationScale::OfTheFile);

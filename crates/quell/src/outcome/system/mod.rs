@@ -27,6 +27,12 @@ use crate::study::UnitSystem;
 /// Motions that a table lists.
 const MOST_MOTIONS: usize = 12;
 
+/// The width of a column of values with a unit, two spaces after the longest.
+fn width_of(values: impl Iterator<Item = f64>, unit: &str) -> usize {
+    let widths = values.map(|value| figure(value).chars().count() + unit.chars().count() + 2);
+    widths.fold(16, usize::max)
+}
+
 /// The frequency of a motion that a table lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum ListedMotion {

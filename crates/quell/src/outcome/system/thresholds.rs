@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
+use super::width_of;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::outcome::Presented;
@@ -35,8 +36,7 @@ impl Presented<SystemSetup> for MotionThresholdsFound {
         let thresholds = self.local.iter().flat_map(|local| &local.thresholds);
         let of_runs = self.runs.iter().flat_map(|(_, switches)| &switches.changes);
         let shown = thresholds.map(|found| found.value).chain(of_runs.map(|change| change.value));
-        let shown = shown.map(|value| figure(value).chars().count() + unit.chars().count() + 2);
-        let values = shown.fold(16, usize::max);
+        let values = width_of(shown, &unit);
         let found = self.local.iter().flat_map(|local| &local.thresholds);
         let kinds: Vec<(String, _)> =
             found.map(|found| (kind_in_words(study, found.kind, &found.contacts), found)).collect();

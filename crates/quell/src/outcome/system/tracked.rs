@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::Value as Json;
 
+use super::width_of;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::outcome::Presented;
@@ -32,8 +33,7 @@ impl Presented<SystemSetup> for TrackedStability {
         let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
         let shown = self.tracked.thresholds.iter().map(|found| found.value);
         let shown = shown.chain(self.rests.iter().map(|rest| rest.value));
-        let shown = shown.map(|value| figure(value).chars().count() + unit.chars().count() + 2);
-        let values = shown.fold(16, usize::max);
+        let values = width_of(shown, &unit);
         let mut rests = self.rests.iter().peekable();
         let mut comes_to_rest = |text: &mut String, until: f64| {
             while let Some(rest) = rests.next_if(|rest| rest.value <= until) {

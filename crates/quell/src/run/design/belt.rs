@@ -136,6 +136,13 @@ fn numbers(
             let refused = study.with(&range.path, value).err().into_iter().flatten();
             wrong.extend(refused.map(|complaint| placed(complaint, &range.path)));
         }
+        let ends = (range.from, range.to);
+        let idle = named.without_effect(study, "[design]", ends).filter(|_| ends.0 < ends.1);
+        wrong.extend(idle.map(|complaint| Complaint {
+            key: format!("design.{key}"),
+            origin: Origin::Whole,
+            ..complaint
+        }));
         let number = DesignNumber {
             path: range.path.clone(),
             per_unit: 1.0 / named.of(1.0),

@@ -21,7 +21,7 @@ use crate::study::{SystemStudy, suggest};
 use crate::sweep::Running;
 
 /// A system, the start of its runs, and the places in the plane that replace two of its numbers.
-type BasinsTask<'a> = (&'a System, &'a [f64], &'a [[f64; 2]]);
+type BasinsTask<'a> = (&'a SystemStudy, &'a [f64], &'a [[f64; 2]]);
 
 /// Starts of one task, at most: several times the lanes of the widest instruction set, so that a lane whose run has ended takes another.
 const SIDE_BY_SIDE: usize = 64;
@@ -215,29 +215,28 @@ pub fn run(
     let windows = [window_of(0), window_of(1)];
     let starts = request.layout.places(windows);
     let values = values(study, request.over.as_ref(), starts.len())?;
-    let model = study.model();
-    let over = request.over.as_ref().map(|over| model.parameter(&over.parameter)).transpose()?;
+    let over = request.over.as_ref();
+    let over = over.map(|over| study.model().parameter(&over.parameter)).transpose()?;
     let systems = values.iter().map(|value| {
         let numbers: Vec<_> = over.clone().zip(*value).into_iter().collect();
-        let system: System = model.at(&numbers).map_err(|why| failed("basins", why))?;
-        let start = SystemProtocol::Study.state(study, &system)?;
-        Ok((system, start))
+        let at = study.varied(&numbers).map_err(|why| failed("basins", why))?;
+        let start = SystemProtocol::Study.state(&at, at.system())?;
+        Ok((at, start))
     });
     let systems = systems.collect::<Result<Vec<_>, Failure>>()?;
-    let row = study.observe();
     let count = starts.len();
     running.progress.begin(systems.len() * count, 0);
     // Each task takes some starts of one system, whose runs go on side by side. Few starts are shared among the threads.
     let together = count.div_ceil(LEAST_TASKS).clamp(1, SIDE_BY_SIDE);
     let tasks: Vec<BasinsTask<'_>> = systems
         .iter()
-        .flat_map(|(system, begun)| {
-            starts.chunks(together).map(move |part| (system, begun.as_slice(), part))
+        .flat_map(|(at, begun)| {
+            starts.chunks(together).map(move |part| (at, begun.as_slice(), part))
         })
         .collect();
     let ends = running.pool()?.install(|| {
         tasks
-            .in_parallel(|(system, begun, part)| {
+            .in_parallel(|(at, begun, part)| {
                 if running.stop.load(Ordering::Relaxed) {
                     return Err(stopped("basins"));
                 }
@@ -251,7 +250,7 @@ pub fn run(
                         state
                     })
                     .collect();
-                let ends = ends_of_runs(system, &row, &states);
+                let ends = ends_of_runs(at.system(), &at.observe(), &states);
                 running.progress.advance(part.len());
                 Ok(ends)
             })
@@ -259,9 +258,9 @@ pub fn run(
     });
     running.progress.end();
     let mut ends = ends?.into_iter().flatten();
-    let portraits = values.into_iter().zip(&systems).map(|(value, (system, _))| {
+    let portraits = values.into_iter().zip(&systems).map(|(value, (at, _))| {
         let own: Vec<_> = ends.by_ref().take(count).collect();
-        SystemPortrait::of(value, system, own, request.layout)
+        SystemPortrait::of(value, at.system(), own, request.layout)
     });
     let portraits = portraits.collect();
     let names = request.axes.each_ref().map(|axis| axis.name.clone());

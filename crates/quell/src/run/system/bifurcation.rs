@@ -3,8 +3,6 @@
 
 use std::sync::atomic::Ordering;
 
-use quell_model::System;
-
 use super::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run, local_verdict};
 use super::protocol::SystemProtocol;
 use super::thresholds::ends_are_valid;
@@ -15,7 +13,7 @@ use crate::run::bifurcation::shared::{directions, ranges};
 use crate::run::bifurcation::{SweepDirection, SweepRequest};
 use crate::run::varied::{MOST_VALUES, Range};
 use crate::run::{evenly, stopped};
-use crate::study::{Model, ParameterId, SystemStudy};
+use crate::study::{ParameterId, SystemStudy};
 use crate::sweep::Running;
 
 /// Relative difference of size beyond which the two directions show different motions.
@@ -93,8 +91,7 @@ pub fn run(
     let directions = directions(request);
     let values = evenly((range.from, range.to), range.points);
     running.progress.begin(values.len() * directions.len(), 0);
-    let model = study.model();
-    let parameter = model.parameter(&range.parameter)?;
+    let parameter = study.model().parameter(&range.parameter)?;
     let mut state: Option<Vec<f64>> = None;
     let mut branches: Vec<SystemBranch> = Vec::new();
     let swept = directions.into_iter().try_for_each(|direction| {
@@ -107,7 +104,7 @@ pub fn run(
             if running.stop.load(Ordering::Relaxed) {
                 return Err(stopped("bifurcation"));
             }
-            let (point, end) = point(study, (&model, &parameter), value, state.take())?;
+            let (point, end) = point(study, &parameter, value, state.take())?;
             points.push(point);
             state = Some(end);
             running.progress.advance(1);
@@ -125,19 +122,20 @@ pub fn run(
 /// The motion at one value, and the state from which the next one starts.
 fn point(
     study: &SystemStudy,
-    (model, parameter): (&Model, &ParameterId),
+    parameter: &ParameterId,
     value: f64,
     begun: Option<Vec<f64>>,
 ) -> Result<(SystemSweepPoint, Vec<f64>), Failure> {
-    let system: System =
-        model.at(&[(parameter.clone(), value)]).map_err(|why| failed("bifurcation", why))?;
+    let study =
+        study.varied(&[(parameter.clone(), value)]).map_err(|why| failed("bifurcation", why))?;
+    let system = study.system();
     let begun = match begun {
         Some(state) => state,
-        None => SystemProtocol::Study.state(study, &system)?,
+        None => SystemProtocol::Study.state(&study, system)?,
     };
-    let end = end_of_run(&system, &study.observe(), &begun);
+    let end = end_of_run(system, &study.observe(), &begun);
     let state = end.as_ref().map_or(begun, |end| end.attractor.state.clone());
-    let local = local_verdict(&system);
+    let local = local_verdict(system);
     let is_dithered = system.is_dithered();
     Ok((SystemSweepPoint { value, local, is_dithered, end }, state))
 }

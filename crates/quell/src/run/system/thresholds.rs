@@ -19,7 +19,6 @@ use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::effort::STEPS_OF_A_SEARCH;
 use crate::parallel::Parallel;
 use crate::run::thresholds::{ThresholdsRequest, can_ramp};
-use crate::run::varied::OF_THE_EQUATIONS;
 use crate::study::SystemStudy;
 
 /// Equal steps between the values at which runs are tried.
@@ -76,7 +75,7 @@ pub struct MotionThresholdsFound {
     pub in_band: bool,
 }
 
-/// Rejects a window at whose ends the study is not valid, or the same.
+/// Rejects a window at whose ends the study is not valid.
 pub(super) fn ends_are_valid(
     study: &SystemStudy,
     path: &str,
@@ -84,14 +83,11 @@ pub(super) fn ends_are_valid(
 ) -> Result<(), Failure> {
     let model = study.model();
     let parameter = model.parameter(path)?;
-    let end = |option: &'static str, value: f64| {
+    for (option, value) in [("--from", from), ("--to", to)] {
         model.at(&[(parameter.clone(), value)]).map_err(|why| {
             let allowed = format!("a value that {path} can take: {why}");
-            Box::new(Complaint::option(option, value, allowed))
-        })
-    };
-    if end("--from", from)? == end("--to", to)? {
-        return Err(Complaint::option("--parameter", path, OF_THE_EQUATIONS).into());
+            Complaint::option(option, value, allowed)
+        })?;
     }
     Ok(())
 }

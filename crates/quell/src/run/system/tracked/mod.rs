@@ -20,6 +20,7 @@ use super::validity::ContactRanges;
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Failure};
 use crate::contact_state::refused_of_system;
+use crate::run::varied::OF_THE_EQUATIONS;
 use crate::study::{Model, ParameterId, SystemStudy};
 
 /// Values of the parameter at which eigenvalues are computed at least.
@@ -293,6 +294,13 @@ pub(super) fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<
         if window.0.is_nan() || window.1.is_nan() || window.0 >= window.1 {
             let allowed = format!("a finite number above {from} {}", window.0);
             wrong.push(Complaint::option(to, window.1, allowed));
+            continue;
+        }
+        let model = study.model();
+        let parameter = model.parameter(path)?;
+        let [first, last] = [window.0, window.1].map(|end| model.at(&[(parameter.clone(), end)]));
+        if first.is_ok_and(|first| last.is_ok_and(|last| first == last)) {
+            wrong.push(Complaint::option(option, path.as_str(), OF_THE_EQUATIONS));
         }
     }
     let number = |path: &str| study.address(path).map(|address| address.number).ok();
