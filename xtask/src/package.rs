@@ -17,6 +17,7 @@ const ORDER: &[&str] = &[
     "quell-disc",
     "quell-design",
     "quell-plot",
+    "quell-input",
     "quell-study",
     "quell",
     "quell-reproduce",

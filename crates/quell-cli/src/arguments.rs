@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use quell::document::Node;
 use quell::input::Inputs;
 use quell::kind::verbs;
 use quell::outcome::Outcome;
@@ -11,7 +12,6 @@ use quell::picture::{self, EXTENSIONS, PicturePage, PictureWidth};
 use quell::plot::Figure;
 use quell::quantity;
 use quell::run::system::start::duration as duration_of_motion;
-use quell::study::document::Node;
 use quell::table_file::TableFormat;
 use quell::{Change, Complaint, Failure, Fault, Origin, Study};
 use serde_json::Value as Json;

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use quell_design::decay::{
-    DECAY_PARAMETERS, DecayFit, DecayLaw, FreeVibration, NoDecay, RecordedQuantity, fit_decay,
-    readings,
+    DECAY_PARAMETERS, DecayFit, DecayLaw, FreeVibration, NoDecay, fit_decay, readings,
 };
+use quell_model::RecordedQuantity;
 use quell_numerics::random::SplitMix;
 
 const NONE: [Option<f64>; DECAY_PARAMETERS] = [None; DECAY_PARAMETERS];

@@ -18,6 +18,7 @@ pub mod friction;
 mod invalid;
 pub mod parameter;
 pub mod profile;
+mod recorded;
 pub mod system;
 pub mod units;
 pub mod waveform;
@@ -31,6 +32,7 @@ pub use friction::{
 };
 pub use invalid::{Invalid, InvalidValues};
 pub use profile::Profile;
+pub use recorded::RecordedQuantity;
 pub use system::{Contact, Input, Structure, System};
 pub use waveform::Waveform;
 

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
+use quell::document::{Node, Table};
 use quell::run::basins::{BasinsRequest, StartLayout};
 use quell::run::bifurcation::SweepRequest;
 use quell::run::varied::Range;
 use quell::study::Files;
-use quell::study::document::{Node, Table};
 use quell::{Change, Complaints, Failure, Study};
 use quell_model::units::Quantity;
 

@@ -27,7 +27,8 @@ use std::time::Instant;
 use serde_json::{Value as Json, json};
 
 use quell::complaint::{Complaint, Complaints, Failure};
-use quell::study::{Change, suggest};
+use quell::nearest;
+use quell::study::Change;
 
 mod amplitude_columns;
 mod axis;
@@ -103,7 +104,7 @@ pub fn find(names: &[String]) -> Result<Vec<CatalogueEntry>, Complaints> {
                 name.as_str(),
                 format!("one of {}", list.join(", ")),
             )
-            .suggesting(suggest::word(bare(name), known()))
+            .suggesting(nearest::word(bare(name), known()))
         })
         .collect();
     if !complaints.is_empty() {

@@ -6,7 +6,7 @@ use quell_model::Waveform;
 
 use super::shared::SharedMeasurements;
 use quell::complaint::{Complaint, Complaints, Failure, Fault};
-use quell::study::document::{Node, Value};
+use quell::document::{Node, Value};
 use quell::study::vocabulary::DocumentKind;
 use quell::study::{Axis, BeltStudy, Change, Study, Sweep, key_at};
 

@@ -1,16 +1,12 @@
-//! Study files: text → document → a valid [`Study`]; all errors are reported together.
+//! Study files: document → a valid [`Study`]; all errors are reported together.
 //!
 //! | module | what |
 //! |---|---|
 //! | [`study`] | the study of any kind, its keys, and changes to it |
-//! | [`complaint`] | errors: the key, the line, the value and the allowed values |
 //! | [`quantity`] | numbers with units in options and arguments |
-//! | [`input`] | the files that a study was read from, which outputs never overwrite |
-//! | [`measurement`] | a CSV file of measured friction |
-//! | [`record`] | CSV files of measured time series and spectra |
 //! | [`schema`] | the JSON Schema of a study file |
 //!
-//! This crate computes nothing: the engines take the belt or the disc of a study, and the crate `quell` runs them.
+//! Text, files and complaints are those of `quell_input`. This crate computes nothing: the engines take the belt or the disc of a study, and the crate `quell` runs them.
 //!
 //! ```
 //! use quell_study::Study;
@@ -30,13 +26,9 @@
 //! assert_eq!(wrong[0].key, "belt.belt_velocity");
 //! ```
 
-pub mod complaint;
-pub mod input;
-pub mod measurement;
 pub mod quantity;
-pub mod record;
 pub mod schema;
 pub mod study;
 
-pub use complaint::{Complaint, Complaints, Failure, Fault, Origin};
+pub use quell_input::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 pub use study::{BeltStudy, Change, DiscStudy, Kind, Study};

@@ -3,12 +3,12 @@
 //! A plain number is in the units of the study: SI or dimensionless. A number with a unit requires a study in SI; angles and
 //! ratios may have units (`30deg`, `2%`) in any study.
 
+use quell_input::complaint::Complaint;
 use quell_model::digits::digits;
 use quell_model::units::measure::{self, Unread};
 use quell_model::units::{Quantity, Scales};
 use serde_json::Value as Json;
 
-use crate::complaint::Complaint;
 use crate::study::vocabulary::DocumentKind;
 use crate::study::{DiscStudy, Kind, Study, UnitSystem, key_at};
 

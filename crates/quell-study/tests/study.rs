@@ -709,8 +709,8 @@ fn axes_are_added_one_after_the_other_and_take_the_place_of_others() {
     // An axis beyond the next one is still refused.
     assert!(complaints(GOOD, &["sweep[1].parameter=dither.amplitude"])[0].fault == Fault::Conflict);
 
-    let mut table = quell_study::study::document::Table::default();
-    let value = |text| quell_study::study::document::Node::from_argument(text, "axes");
+    let mut table = quell_input::document::Table::default();
+    let value = |text| quell_input::document::Node::from_argument(text, "axes");
     table.set("parameter", value("belt.normal_load"));
     table.set("values", value("[1, 2, 3]"));
     let other = study.sweeping(&[table]).expect("valid");

@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use crate::study::suggest;
+use crate::nearest;
 use crate::study::vocabulary::{
-    CourseKey, DocumentKind, Key, KeyScope, Role, RowUnit, Section, WaveKey, join, keys,
+    DocumentKind, Key, KeyScope, Role, RowUnit, Section, WaveKey, join, keys,
 };
 use quell_model::parameter::{Bounds, Parameter, SCALES};
 use quell_model::units::UnitSystem;
@@ -34,7 +34,7 @@ pub fn listing(path: Option<&str>) -> Result<String, Option<String>> {
     let tables: Vec<String> = sections.into_iter().map(table).collect();
     if tables.is_empty() {
         let all: Vec<String> = Section::ALL.iter().flat_map(|section| paths(*section)).collect();
-        return Err(suggest::word(asked.unwrap_or_default(), all.iter().map(String::as_str)));
+        return Err(nearest::word(asked.unwrap_or_default(), all.iter().map(String::as_str)));
     }
     Ok(tables.join("\n"))
 }
@@ -138,7 +138,7 @@ fn takes(role: Role) -> &'static str {
         Role::Paths => "paths",
         Role::Matrix(_) => "matrix",
         Role::Row(_) => "row",
-        Role::Ranges | Role::Course(CourseKey::Oscillation) | Role::Table(_) => "table",
+        Role::Ranges | Role::Table(_) => "table",
         Role::Tables(_) | Role::List(_) => "tables",
         Role::Speeds { .. }
         | Role::Band { .. }

@@ -177,8 +177,9 @@ pub mod table_file;
 pub mod template;
 pub mod words;
 
+pub use quell_input::{complaint, document, input, measurement, nearest, record};
 pub use quell_plot as plot;
-pub use quell_study::{complaint, input, measurement, quantity, record, schema, study};
+pub use quell_study::{quantity, schema, study};
 
 pub use complaint::{Complaint, Complaints, Failure, Fault, Origin};
 pub use study::{BeltStudy, Change, DiscStudy, Study};

@@ -11,8 +11,8 @@ use serde_json::{Value as Json, json};
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::input::Inputs;
+use crate::nearest;
 use crate::output::Output;
-use crate::study::suggest;
 
 /// Option that names the file.
 const SAVE: &str = "--save";
@@ -64,7 +64,7 @@ impl CommentedStudy {
             let allowed = format!("one of {}", names().collect::<Vec<_>>().join(", "));
             let origin = Origin::Argument("question");
             let complaint = Complaint::new(Fault::Value, "question", origin, name, allowed);
-            Box::new(complaint.suggesting(suggest::word(name, names())))
+            Box::new(complaint.suggesting(nearest::word(name, names())))
         })
     }
 

@@ -84,7 +84,7 @@ fn the_stored_decay_is_recovered() {
         velocity: number("velocity"),
         offset: 0.0,
     };
-    let quantity = quell_design::decay::RecordedQuantity::Displacement;
+    let quantity = quell_model::RecordedQuantity::Displacement;
     let found = quell_design::decay::readings(&vibration, quantity, &times, true).values;
     for (own, stored) in found.iter().zip(&values) {
         assert!((own - stored).abs() < 1e-14, "{own} {stored}");
@@ -178,7 +178,7 @@ fn a_system_is_fitted_from_its_start() {
     let study = Study::parse(text, &[]).expect("valid");
     let motion = quell::kind::verbs(&study).recorded_motion("test").expect("a motion");
     let times: Vec<f64> = (0..300).map(|k| 0.15 * f64::from(k)).collect();
-    let quantity = quell_design::decay::RecordedQuantity::Displacement;
+    let quantity = quell_model::RecordedQuantity::Displacement;
     let (exact, _) = motion.readings(quantity, &times).expect("readings");
     let mut random = SplitMix::new(4);
     let noisy: Vec<f64> = exact.iter().map(|y| y + 0.002 * random.normal()).collect();
@@ -247,7 +247,7 @@ fn a_record_of_the_study_itself_has_no_difference() {
     let rate = motion.scales.second.expect("in SI");
     let settled = 200.0 * std::f64::consts::TAU;
     let at: Vec<f64> = times.iter().map(|t| t.mul_add(rate, settled)).collect();
-    let quantity = quell_design::decay::RecordedQuantity::Velocity;
+    let quantity = quell_model::RecordedQuantity::Velocity;
     let path = |name: &str, motion: &quell::run::recorded_motion::ObservedMotion| {
         let (values, _) = motion.readings(quantity, &at).expect("readings");
         let values: Vec<f64> = values.iter().map(|v| v * rate).collect();

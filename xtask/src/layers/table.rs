@@ -18,10 +18,11 @@ const NOUNS_AND_ZOO: &[&str] = &["quell-model", "quell-numerics", "quell-zoo"];
 const LINEAR_AND_ZOO: &[&str] = &["quell-linear", "quell-model", "quell-numerics", "quell-zoo"];
 const PHYSICS_AND_ZOO: &[&str] =
     &["quell-disc", "quell-dynamics", "quell-linear", "quell-model", "quell-numerics", "quell-zoo"];
-const PHYSICS_AND_DESIGN: &[&str] = &[
+const PHYSICS_AND_INPUT: &[&str] = &[
     "quell-design",
     "quell-disc",
     "quell-dynamics",
+    "quell-input",
     "quell-linear",
     "quell-model",
     "quell-numerics",
@@ -30,6 +31,7 @@ const ENGINES_AND_STUDIES: &[&str] = &[
     "quell-design",
     "quell-disc",
     "quell-dynamics",
+    "quell-input",
     "quell-linear",
     "quell-model",
     "quell-numerics",
@@ -59,7 +61,8 @@ pub(crate) const LAYERS: &[CrateLayer] = &[
     layer("quell-disc",     LINEAR_AND_ZOO, "what only a disc has; its motion is that of any structure"),
     layer("quell-design",   PHYSICS_AND_ZOO, "questions about many studies at once: it asks the engines, and knows no file and no thread"),
     layer("quell-plot",     NOTHING,     "a figure is data plus a renderer, independent of physics and studies"),
-    layer("quell-study",    PHYSICS_AND_DESIGN,     "reads and checks studies; computes nothing"),
+    layer("quell-input",    NOUNS, "text and files before they are a study: no key, no unit system, no engine"),
+    layer("quell-study",    PHYSICS_AND_INPUT,     "reads and checks studies; computes nothing"),
     layer("quell",          ENGINES_AND_STUDIES, "runs the physics, independent of its clients"),
     layer("quell-reproduce", CLIENT,     "the dissertation is a client of `quell`; only user interfaces use it"),
     layer("quell-cli",      FRONT_DOOR,  "a user interface parses and displays: no physics, no other interface"),
@@ -93,17 +96,17 @@ const fn confined(
 #[rustfmt::skip]
 pub(crate) const CONFINED: &[Confined] = &[
     confined("rayon",      &["quell"],            false, "the engines are single-threaded, so that no result depends on scheduling"),
-    confined("toml",       &["quell-study", "xtask"],    false, "study files are read by one crate; xtask reads manifests"),
+    confined("toml",       &["quell-input", "xtask"],    true,  "study files are read by one crate; xtask reads manifests; tests compare studies with their schema"),
     confined("zarrs",      &["quell"],              false, "stores are written by one crate, atomically"),
     confined("png",        &["quell-plot"],         true,  "pictures are drawn by one crate; tests decode them"),
     confined("resvg",      &["quell-plot"],         false, "pictures are drawn by one crate"),
     confined("svg2pdf",    &["quell-plot"],         false, "pictures are drawn by one crate"),
-    confined("rustix",     &["quell", "quell-study"], false, "untrusted files are opened by two crates: studies and stores"),
+    confined("rustix",     &["quell", "quell-input"], false, "untrusted files are opened by two crates: studies and stores"),
     confined("signal-hook", &["quell-cli"],         false, "signals are handled by the program that owns the process"),
     confined("clap",       &["quell-cli"],          false, "arguments are parsed by the command line alone"),
     confined("indicatif",  &["quell-cli"],          false, "progress bars are shown by the command line alone"),
     confined("pyo3",       &["quell-python"],       false, "the core does not depend on its bindings"),
     confined("numpy",      &["quell-python"],       false, "the core does not depend on its bindings"),
     confined("serde",      &["quell-python"],       false, "no type of Quell is serialised; the dependency only sets features"),
-    confined("serde_json", &["quell", "quell-cli", "quell-plot", "quell-python", "quell-reproduce", "quell-study"], true,  "JSON is read and written by few crates; tests of any crate may read reference numbers"),
+    confined("serde_json", &["quell", "quell-cli", "quell-input", "quell-plot", "quell-python", "quell-reproduce", "quell-study"], true,  "JSON is read and written by few crates; tests of any crate may read reference numbers"),
 ];

@@ -7,9 +7,10 @@
 mod motion;
 mod start;
 
+use quell_model::RecordedQuantity;
 use quell_numerics::damped_least_squares::{DampedMinimum, DampedSearch, FittedFunction, fitted};
 
-pub use motion::{DECAY_PARAMETERS, DecayReadings, FreeVibration, RecordedQuantity, readings};
+pub use motion::{DECAY_PARAMETERS, DecayReadings, FreeVibration, readings};
 pub use start::{NoDecay, dominant_frequency};
 
 use crate::estimates::{Estimates, Freedom};

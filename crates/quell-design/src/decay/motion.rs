@@ -7,33 +7,13 @@
 
 use std::f64::consts::PI;
 
+use quell_model::RecordedQuantity;
+
 /// Number of parameters: ω, ζ, d, x₀, ẋ₀, and the zero of the sensor.
 pub const DECAY_PARAMETERS: usize = 6;
 
 /// Parameters of the motion itself, without the zero of the sensor.
 const OWN: usize = 5;
-
-/// What a record shows of the motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RecordedQuantity {
-    /// x.
-    Displacement,
-    /// ẋ.
-    Velocity,
-    /// ẍ.
-    Acceleration,
-}
-
-impl RecordedQuantity {
-    /// Name in data files and JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Displacement => "displacement",
-            Self::Velocity => "velocity",
-            Self::Acceleration => "acceleration",
-        }
-    }
-}
 
 /// Numbers of a free vibration.
 #[derive(Clone, Copy, Debug, PartialEq)]

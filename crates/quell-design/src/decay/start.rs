@@ -6,10 +6,11 @@
 
 use std::f64::consts::PI;
 
+use quell_model::RecordedQuantity;
 use quell_numerics::least_squares::least_squares;
 use quell_numerics::spectrum::Spectrum;
 
-use super::motion::{DECAY_PARAMETERS, FreeVibration, RecordedQuantity, readings};
+use super::motion::{DECAY_PARAMETERS, FreeVibration, readings};
 
 /// Amplitudes below this share of the largest are not used: noise, and rest after friction.
 const VISIBLE: f64 = 0.1;

@@ -19,20 +19,5 @@ pub(super) fn property(course: CourseKey, table: Option<CourseTable>) -> Json {
             })
         }
         CourseKey::Shape | CourseKey::File => json!({ "type": "string" }),
-        CourseKey::Oscillation => json!({
-            "type": "object",
-            "properties": {
-                "amplitude": { "type": "number", "minimum": 0 },
-                "amplitude_m_per_s": { "type": "number", "minimum": 0 },
-                "amplitude_n": { "type": "number", "minimum": 0 },
-                "amplitude_hz": { "type": "number", "minimum": 0 },
-                "frequency_ratio": { "type": "number", "exclusiveMinimum": 0 },
-                "frequency": { "type": "number", "exclusiveMinimum": 0 },
-                "frequency_hz": { "type": "number", "exclusiveMinimum": 0 },
-                "phase": { "type": "number" },
-            },
-            "required": [],
-            "additionalProperties": false,
-        }),
     }
 }

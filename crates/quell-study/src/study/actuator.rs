@@ -1,6 +1,9 @@
 //! `[actuator]`: what gives the dither, by the numbers of its data sheet or a measured frequency response.
 
 use quell_design::actuator::{Actuator, ActuatorKind, CoilActuator, MeasuredActuator, PiezoStack};
+use quell_input::actuator_file::{ActuatorFile, COLUMNS, GivenColumn};
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table};
 use quell_model::digits::digits;
 use quell_model::parameter::Parameter;
 use quell_model::parameter::actuator::{
@@ -11,11 +14,8 @@ use quell_model::parameter::actuator::{
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::actuator_file::{ActuatorFile, COLUMNS, GivenColumn};
-use super::document::{Node, Table};
 use super::reader::Reader;
 use super::vocabulary::{Choice, KeyUnit, Section, join};
-use crate::complaint::{Complaint, Fault, Origin};
 
 /// Path of the table.
 const PATH: &str = "actuator";

@@ -1,9 +1,9 @@
 //! The number of a study that a path names, and the units of a study before it is read.
 
+use quell_input::document::{Node, Table, Value};
 use quell_model::units::{Quantity, UnitSystem};
 
 use super::belt::units::belt_units;
-use super::document::{Node, Table, Value};
 use super::vocabulary::UNITS;
 
 /// The number of a study that a path names.

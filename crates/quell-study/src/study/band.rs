@@ -1,9 +1,9 @@
 //! Bands of frequencies: that of `[response]`, in which a vibration level is requested, and that of noise.
 
+use quell_input::document::{Node, Table, Value};
 use quell_model::parameter::Bounds;
 use quell_model::units::Quantity;
 
-use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Keyed, Reader, WantedNumber};
 use crate::study::vocabulary::Section;
 

@@ -3,9 +3,10 @@
 
 use std::fmt;
 
-use super::document::{Node, Table, Value};
+use quell_input::complaint::{Complaint, Origin};
+use quell_input::document::{Node, Table, Value};
+
 use super::path;
-use crate::complaint::{Complaint, Origin};
 
 /// One change.
 #[derive(Clone, Debug, PartialEq)]

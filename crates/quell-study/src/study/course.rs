@@ -2,21 +2,19 @@
 //!
 //! A table has knots (`time` and values, or a file of both) or, for drives and loads, an oscillation about the constant value.
 
-use quell_model::parameter::course::{
-    OSCILLATION_AMPLITUDE, OSCILLATION_FREQUENCY, OSCILLATION_PHASE,
-};
+use quell_input::complaint::{Complaint, Fault};
+use quell_input::data_file::DataFile;
+use quell_input::document::{Node, Table, Value};
+use quell_input::files::WantedFile;
+use quell_model::parameter::course::{OSCILLATION_FREQUENCY, OSCILLATION_PHASE};
 use quell_model::parameter::{Bounds, Parameter};
 use quell_model::profile::{KnotShape, Knots, Profile, Wave};
 use quell_model::units::Quantity;
 use quell_model::{Invalid, Waveform};
 use serde_json::Value as Json;
 
-use super::data_file::DataFile;
-use super::document::{Node, Table, Value};
-use super::files::WantedFile;
 use super::reader::{Keyed, Reader, WantedNumber, suffixed};
 use super::vocabulary::{Choice, CourseTable, KeyUnit, Section, join};
-use crate::complaint::{Complaint, Fault};
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of times and values";
@@ -119,7 +117,7 @@ impl CoursePlace {
             None
         })?;
         self.unknown_keys(reader, table, prefix)?;
-        if let Some(inner) = table.get("oscillation").filter(|_| self.0.oscillates) {
+        if let Some(inner) = table.get("oscillation").filter(|_| self.0.amplitude.is_some()) {
             return self.oscillation(reader, table, inner, prefix);
         }
         let shape = match table.get("shape") {
@@ -208,7 +206,7 @@ impl CoursePlace {
     ) -> Option<Keyed<'t>> {
         let found = reader.keyed(table, prefix, name, quantity).ok()?;
         if found.is_none() {
-            let or = if self.0.oscillates {
+            let or = if self.0.amplitude.is_some() {
                 "; or oscillation, a table of amplitude and frequency"
             } else {
                 ""
@@ -237,30 +235,15 @@ impl CoursePlace {
             return None;
         }
         let prefix = join(prefix, "oscillation");
-        let Some(inner) = node.table() else {
-            let allowed = format!("a table of amplitude, frequency and phase; got {}", node.kind());
-            reader.wrong(&prefix, node, allowed);
+        let inner = reader.table(&prefix, node)?;
+        let mut sections = Section::ALL.iter();
+        let section = sections.find(|section| section.oscillates() == Some(self.0))?;
+        let before = reader.complaints_so_far();
+        reader.unknown_keys(inner, *section, &prefix);
+        if reader.complaints_so_far() != before {
             return None;
-        };
-        let amplitude = Parameter { quantity: self.0.quantity, ..OSCILLATION_AMPLITUDE };
-        let parameters = [amplitude, OSCILLATION_FREQUENCY, OSCILLATION_PHASE];
-        let suffixed = suffixed(amplitude.key(), amplitude.quantity);
-        let mut known: Vec<&str> = parameters.iter().flat_map(Parameter::keys).collect();
-        known.extend(suffixed.as_ref().map(|(name, _)| name.as_str()));
-        for (name, other) in inner.iter() {
-            if !known.contains(&name) {
-                let key = join(&prefix, name);
-                let (origin, given) = (other.origin, other.given());
-                let there = known.join(", ");
-                reader.complain(Complaint::new(Fault::Unknown, key, origin, given, there));
-                return None;
-            }
         }
-        let found = self.keyed(reader, inner, (node, &prefix), "amplitude", Some(self.0.quantity));
-        let amplitude = found.and_then(|Keyed { node, key, unit }| {
-            let (quantity, bounds) = (Some(self.0.quantity), Bounds::NOT_NEGATIVE);
-            reader.quantity(|| key.clone(), node, WantedNumber { quantity, bounds, unit })
-        });
+        let amplitude = reader.number(inner, &prefix, node.origin, self.0.amplitude?);
         let frequency = reader.number(inner, &prefix, node.origin, OSCILLATION_FREQUENCY);
         let phase = reader.optional(inner, &prefix, OSCILLATION_PHASE).or(0.0);
         let wave = Wave {

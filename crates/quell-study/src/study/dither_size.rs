@@ -6,6 +6,8 @@
 //! is zero until then.
 
 use quell_design::actuator::{Actuator, ActuatorDemand, SignalSize};
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
 use quell_linear::driven_point::DrivenPoint;
 use quell_model::Waveform;
 use quell_model::parameter::DITHER_AMPLITUDE;
@@ -13,11 +15,9 @@ use quell_model::units::Quantity;
 use quell_model::units::measure;
 use serde_json::Value as Json;
 
-use super::document::{Node, Table, Value};
 use super::reader::{Reader, WantedNumber};
 use super::vocabulary::size::{DITHER_SIZES, SignalMeasure, SizeKey, SizedSignal};
 use super::vocabulary::{KeyUnit, join};
-use crate::complaint::{Complaint, Fault, Origin};
 
 /// An amplitude as the study gives it.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,18 +1,18 @@
 //! The kinds of study, listed and matched here alone.
 
+use quell_input::complaint::{Complaint, Complaints, Origin};
+use quell_input::document::Table;
 use quell_model::System;
 use quell_model::units::Scales;
 
 use super::StudyOf;
 use super::belt::{BeltSetup, BeltStudy};
 use super::disc::{DiscSetup, DiscStudy};
-use super::document::Table;
 use super::reader::Reader;
 use super::study_kind::{StudyKind, wrong_kind};
 use super::system::{self, SystemSetup, SystemStudy};
 use super::template::Template;
 use super::vocabulary::DocumentKind;
-use crate::complaint::{Complaint, Complaints, Origin};
 
 /// A checked study of any kind.
 pub type Study = StudyOf<Kind>;

@@ -10,31 +10,26 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use quell_input::complaint::{Complaint, Complaints, Failure, Fault, Origin};
+use quell_input::document::{Table, Value};
+use quell_input::input::Inputs;
 use quell_model::units::measure;
 use serde_json::Value as Json;
 
-use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
-use crate::input::Inputs;
 use computed::Computed;
-use document::{Table, Value};
 use reader::StudyParts;
 use vocabulary::{DocumentKind, SCHEMA_VERSION};
 
 mod actuator;
-mod actuator_file;
 mod address;
 mod band;
 pub mod belt;
 mod change;
 mod computed;
 mod course;
-pub(crate) mod data_file;
 mod design;
 pub mod disc;
 pub(crate) mod dither_size;
-pub mod document;
-mod file;
-mod files;
 mod friction;
 mod kind;
 mod model;
@@ -50,7 +45,6 @@ pub mod system;
 mod template;
 mod uncertainty;
 pub mod vocabulary;
-mod wave_file;
 mod waveform;
 
 pub use address::NumberAddress;
@@ -59,13 +53,13 @@ pub use change::Change;
 pub use design::{BurstNumber, Confidence, Design, DesignRange, DitherPlace};
 pub use disc::{DiscSetup, DiscStudy};
 pub use dither_size::GivenSize;
-pub use files::Files;
 pub use friction::Measured;
 pub use kind::{Kind, Study};
 pub use model::{Model, ParameterId};
 pub use path::{Address, key_at, with_unit};
 pub use quell_dynamics::response::Solver;
 pub use quell_dynamics::start::InitialState;
+pub use quell_input::files::Files;
 pub use quell_model::units::UnitSystem;
 pub use steady::{not_periodic, varies_in_time};
 pub use study_kind::{StudyKind, not_available};
@@ -132,9 +126,9 @@ impl<K: StudyKind + Into<Kind>> StudyOf<K> {
     /// # Errors
     /// All complaints together.
     pub fn read(path: &Path, changes: &[Change]) -> Result<Self, Failure> {
-        let text = file::text(path)?;
+        let text = quell_input::study_file::text(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        Ok(Self::parse_in(&text, changes, folder)?.read_from(file::place(path)))
+        Ok(Self::parse_in(&text, changes, folder)?.read_from(quell_input::study_file::place(path)))
     }
 
     /// Checks the text of a study after changing it; files that it names are searched in the working directory.

@@ -7,17 +7,17 @@
 
 use std::sync::Arc;
 
+use quell_input::complaint::{Complaint, Complaints, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
 use quell_model::System;
 use quell_model::parameter::Parameter;
 
-use super::document::{Node, Table, Value};
 use super::path::{self, FoundPath, LostPath};
 use super::reader::{Reader, StudyParts};
 use super::study_kind::StudyKind;
 use super::system::SystemStudy;
 use super::vocabulary::DocumentKind;
 use super::{Kind, StudyOf, StudySource};
-use crate::complaint::{Complaint, Complaints, Fault, Origin};
 
 /// A number that a study declares, or could declare, found by its path.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,11 +1,11 @@
 //! The keys outside any table (version and title), and unknown tables.
 
+use quell_input::complaint::{Complaint, Fault};
+use quell_input::document::{Table, Value};
 use serde_json::Value as Json;
 
-use super::document::{Table, Value};
 use super::reader::Reader;
 use super::vocabulary::{self, DocumentKind, NOT_BUILT, Role, SCHEMA_VERSION, Section};
-use crate::complaint::{Complaint, Fault};
 
 /// Reports unknown tables and keys, and those of other kinds of study. Returns the title.
 pub(super) fn read(reader: &mut Reader, document: &Table) -> Option<String> {

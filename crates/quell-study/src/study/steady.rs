@@ -1,13 +1,13 @@
 //! The steady study of one moment of a study whose drive, load or dither varies in time, and what makes a study vary or not repeat.
 
+use quell_input::complaint::{Complaint, Complaints, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
 use quell_model::parameter::Parameter;
 use quell_model::units::measure;
 use quell_model::waveform::NOISE;
 use serde_json::Value as Json;
 
-use super::document::{Node, Table, Value};
 use super::kind::Study;
-use crate::complaint::{Complaint, Complaints, Fault, Origin};
 
 impl Study {
     /// The table that makes the study vary in time, such as `belt.drive`; `None` for a steady study.

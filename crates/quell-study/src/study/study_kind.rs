@@ -1,10 +1,10 @@
 //! What a kind of study is to the reader of study files.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::Table;
 use serde_json::Value as Json;
 
-use super::document::Table;
 use super::reader::Reader;
-use crate::complaint::{Complaint, Fault, Origin};
 
 /// What a kind of study reads in addition to what all kinds share.
 pub trait StudyKind: Clone {

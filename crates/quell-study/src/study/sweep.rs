@@ -1,14 +1,14 @@
 //! `[[sweep]]`: the axes of a map.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
 use quell_model::parameter::Bounds;
 use serde_json::Value as Json;
 
 use super::address::NumberAddress;
-use super::document::{Node, Table, Value};
 use super::path;
 use super::reader::Reader;
 use super::vocabulary::{Choice, MOST_POINTS, Section, join};
-use crate::complaint::{Complaint, Fault, Origin};
 
 /// One axis of a map. Its values are in the unit of the key it names.
 #[derive(Clone, Debug, PartialEq)]

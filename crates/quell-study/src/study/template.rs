@@ -1,10 +1,9 @@
 //! What the equations of a study are made from.
 
+use quell_input::complaint::Complaints;
+use quell_input::document::Table;
 use quell_model::System;
 use quell_model::parameter::Parameter;
-
-use super::document::Table;
-use crate::complaint::Complaints;
 
 /// What a study of one kind declares: names, units and an assembly of the system that they describe. A kind implements it where its tables
 /// are read; what is above does not know which kind it has.

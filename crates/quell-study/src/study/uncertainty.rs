@@ -5,15 +5,15 @@
 //! `[uncertainty.correlation]`, with `of` and `matrix`, correlates numbers with distributions of their own.
 
 use quell_design::probability::{Distribution, JointDistribution};
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
 use quell_model::parameter::Bounds;
 use serde_json::Value as Json;
 
 use super::address::NumberAddress;
-use super::document::{Node, Table, Value};
 use super::path;
 use super::reader::Reader;
 use super::vocabulary::{DISTRIBUTIONS, join};
-use crate::complaint::{Complaint, Fault, Origin};
 
 /// Standard deviations of a normal number at which a study must be valid: values beyond them have a probability of 10⁻⁶ on each
 /// side.
@@ -288,7 +288,7 @@ fn distribution(
     let key = join(key, name);
     let Some((_, meaning)) = DISTRIBUTIONS.iter().find(|(known, _)| *known == name) else {
         let complaint = Complaint::new(Fault::Unknown, key, numbers.origin, numbers.given(), kinds);
-        let nearest = super::suggest::word(name, DISTRIBUTIONS.iter().map(|(name, _)| *name));
+        let nearest = quell_input::nearest::word(name, DISTRIBUTIONS.iter().map(|(name, _)| *name));
         reader.complain(complaint.suggesting(nearest));
         return None;
     };
@@ -338,7 +338,9 @@ fn only(reader: &mut Reader, prefix: &str, table: &Table, known: &[&str]) {
             node.given(),
             known.join(", "),
         );
-        reader.complain(complaint.suggesting(super::suggest::word(name, known.iter().copied())));
+        reader.complain(
+            complaint.suggesting(quell_input::nearest::word(name, known.iter().copied())),
+        );
     }
 }
 

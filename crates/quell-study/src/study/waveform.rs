@@ -1,5 +1,8 @@
 //! The waveform of a dither: its name, and the keys that describe one by harmonics, by samples, by bursts, or as noise.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
+use quell_input::wave_file;
 use quell_model::Waveform;
 use quell_model::waveform::{
     BURST, Burst, FOURIER, FourierWave, Harmonic, Hold, LARGEST_SEED, NOISE, Noise, SAMPLES,
@@ -7,11 +10,8 @@ use quell_model::waveform::{
 };
 use serde_json::Value as Json;
 
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::vocabulary::{Choice, WAVE_KEYS, join};
-use crate::study::wave_file;
 
 /// Lines of noise by default.
 const LINES: f64 = 64.0;

@@ -8,7 +8,7 @@ use crate::plot::{
 };
 use crate::run::decay::FreeDecay;
 use crate::run::record_fit::RecordFit;
-use quell_study::record::TimeSeries;
+use quell_input::record::TimeSeries;
 
 /// Samples that are drawn as points; more of them are a line.
 const POINTS: usize = 400;

@@ -4,11 +4,10 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use quell_design::decay::{
-    DECAY_NAMES, DECAY_PARAMETERS, DecayFit, DecayLaw, RecordedQuantity, fit_decay,
-};
+use quell_design::decay::{DECAY_NAMES, DECAY_PARAMETERS, DecayFit, DecayLaw, fit_decay};
 use quell_design::fit::{akaike_weights, runs};
-use quell_study::record::{RecordRequest, TimeSeries};
+use quell_input::record::{RecordRequest, TimeSeries};
+use quell_model::RecordedQuantity;
 
 use super::named_estimates::{NamedEstimates, ReportedParameter};
 use crate::complaint::{Complaint, Failure, Fault, Origin};

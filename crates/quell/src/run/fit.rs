@@ -9,10 +9,10 @@ use std::path::Path;
 use quell_design::fit::{
     Estimate, FitModel, FitPoint, LawFit, akaike_weights, fit, student_quantile,
 };
+use quell_input::measurement::FrictionData;
 use quell_model::InvalidValues;
 use quell_model::friction::LawKind;
 use quell_model::parameter::Parameter;
-use quell_study::measurement::FrictionData;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 

@@ -2,12 +2,12 @@
 //!
 //! Every kind of study gives its system, the observed row and the start; the motion is that of the engine for systems.
 
-use quell_design::decay::RecordedQuantity;
 use quell_dynamics::belt_motion::motion_start;
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart, ReadingSampler};
+use quell_input::record::TimeSeries;
+use quell_model::RecordedQuantity;
 use quell_model::System;
 use quell_model::units::Quantity;
-use quell_study::record::TimeSeries;
 use serde_json::Value as Json;
 
 use super::belt_start::begin;

@@ -5,11 +5,12 @@ use quell_model::parameter::{BELT_VELOCITY, DITHER_AMPLITUDE, Parameter, SCALES}
 
 use super::evenly;
 use crate::complaint::{Complaint, Complaints, Fault, Origin};
+use crate::document::given_number;
 use crate::fields::Fields;
-use crate::study::document::given_number;
+use crate::nearest;
 use crate::study::vocabulary::size::SignalMeasure;
 use crate::study::vocabulary::{DocumentKind, Role, join};
-use crate::study::{Address, BeltStudy, ParameterId, key_at, suggest, with_unit};
+use crate::study::{Address, BeltStudy, ParameterId, key_at, with_unit};
 use crate::words::digits;
 
 /// What a varied number must be.
@@ -324,7 +325,7 @@ fn address(study: &BeltStudy, option: &'static str, path: &str) -> Result<Addres
     };
     let found = key_at(path, DocumentKind::Belt).map_err(|nearest| {
         let nearest = nearest.map(|path| key_of(study, &path));
-        refuse(nearest.or_else(|| suggest::word(path, known.each_ref().map(String::as_str))))
+        refuse(nearest.or_else(|| nearest::word(path, known.each_ref().map(String::as_str))))
     })?;
     if found.key.takes_number() { Ok(found) } else { Err(refuse(None)) }
 }

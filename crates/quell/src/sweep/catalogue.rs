@@ -3,7 +3,8 @@
 use super::quantity::MapQuantity;
 use super::{belt, disc, system};
 use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::{BeltSetup, suggest};
+use crate::nearest;
+use crate::study::BeltSetup;
 
 impl MapQuantity {
     /// The quantity of a belt with this name.
@@ -32,7 +33,7 @@ impl MapQuantity {
         let allowed = format!("one of {}", names.join(", "));
         let complaint =
             Complaint::new(Fault::Value, option, Origin::Argument(option), name, allowed);
-        let nearest = suggest::word(&name.replace('_', "-"), names);
+        let nearest = nearest::word(&name.replace('_', "-"), names);
         Err(Box::new(complaint.suggesting(nearest)))
     }
 }

@@ -1,6 +1,7 @@
 //! `[dither]` or `[[dither]]`.
 
 use quell_design::actuator::Actuator;
+use quell_input::document::{Node, Table, Value};
 use quell_linear::driven_point::DrivenPoint;
 use quell_model::parameter::{Bounds, DITHER_FREQUENCY_RATIO, DITHER_PHASE};
 use quell_model::{Direction, Dither, Waveform};
@@ -8,7 +9,6 @@ use quell_model::{Direction, Dither, Waveform};
 use crate::study::band;
 use crate::study::course::{Course, CoursePlace};
 use crate::study::dither_size::{self, GivenSize, SizedAmplitude};
-use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::vocabulary::{Choice, ENVELOPE, Section, join};
 use crate::study::waveform;

@@ -1,11 +1,11 @@
 //! The number of a belt that a path names, in the unit of its key.
 
+use quell_input::document::Table;
 use quell_model::Belt;
 use quell_model::parameter::{MASS, NATURAL_FREQUENCY, NORMAL_LOAD, Parameter, STIFFNESS, SiTwin};
 use quell_model::units::{Quantity, Scales, UnitSystem, measure};
 
 use super::units;
-use crate::study::document::Table;
 use crate::study::path::{self, Address, key_at};
 use crate::study::vocabulary::size::{SizeKey, SizedSignal};
 use crate::study::vocabulary::{DocumentKind, Role, join};

@@ -1,9 +1,9 @@
 //! `[solver]`: optional, with the defaults of the design.
 
+use quell_input::document::Table;
 use quell_model::parameter::{RECORD_PERIODS, SETTLE, TOLERANCE};
 
 use crate::study::Solver;
-use crate::study::document::Table;
 use crate::study::reader::Reader;
 use crate::study::vocabulary::Section;
 

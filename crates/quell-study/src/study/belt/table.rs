@@ -1,6 +1,8 @@
 //! `[belt]` and `[belt.initial]`.
 
 use quell_dynamics::start::InitialState;
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table};
 use quell_model::parameter::{
     BELT_VELOCITY, DAMPING_RATIO, INITIAL_DISPLACEMENT, INITIAL_VELOCITY, NORMAL_LOAD,
     TANGENTIAL_STIFFNESS,
@@ -9,9 +11,7 @@ use quell_model::units::Quantity;
 use quell_model::{Friction, LawKind};
 use serde_json::Value as Json;
 
-use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::course::{Course, CoursePlace, no_constant, replaces_constant};
-use crate::study::document::{Node, Table};
 use crate::study::friction;
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::{Choice, DRIVE, LOAD, Section};

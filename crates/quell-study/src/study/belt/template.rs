@@ -1,12 +1,12 @@
 //! A belt as the template of a study.
 
+use quell_input::complaint::{Complaint, Complaints, Fault, Origin};
+use quell_input::document::{Table, Value};
 use quell_model::parameter::{BELT_VELOCITY, NORMAL_LOAD, Parameter, indexed};
 use quell_model::{Invalid, System};
 use serde_json::Value as Json;
 
 use super::BeltSetup;
-use crate::complaint::{Complaint, Complaints, Fault, Origin};
-use crate::study::document::{Table, Value};
 use crate::study::path;
 use crate::study::steady::{each, replace, scale};
 use crate::study::template::Template;

@@ -1,10 +1,10 @@
 //! The units of a belt: those that it names, or SI where mass and stiffness are given.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
 use quell_model::parameter::{MASS, NATURAL_FREQUENCY, Parameter, SCALES, STIFFNESS};
 use quell_model::units::{Scales, UnitSystem};
 
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{EquationScale, Found, Reader};
 use crate::study::vocabulary::{self, Choice, DocumentKind, Role, Section, UNITS, join};
 

@@ -3,17 +3,17 @@
 mod tried;
 
 use quell_design::least_dither::{DesignObjective, DesignStart, LimitedQuantity};
+use quell_input::complaint::{Complaint, Fault};
+use quell_input::document::{Node, Table, Value};
 use quell_model::Waveform;
 use quell_model::parameter::Bounds;
 use quell_model::parameter::design::{CONFIDENCE, CONFIDENT, LIMITS, SAMPLES, SEED};
 use serde_json::Value as Json;
 
-use super::document::{Node, Table, Value};
 use super::path::{self, LostPath};
 use super::reader::{Found, Reader};
 use super::system::PLACES;
 use super::vocabulary::{Choice, DocumentKind, Section, join};
-use crate::complaint::{Complaint, Fault};
 use tried::ChosenPeriods;
 
 pub use tried::{BurstNumber, DitherPlace};

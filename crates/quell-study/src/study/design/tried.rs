@@ -1,11 +1,11 @@
 //! What a design tries in turn: waveforms, bursts of every chosen number of periods, and places of the dither.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
 use quell_model::Waveform;
 use quell_model::waveform::Burst;
 use serde_json::Value as Json;
 
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::vocabulary::Choice;
 

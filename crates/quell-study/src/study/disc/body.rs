@@ -1,19 +1,19 @@
 //! The table `[disc]`: its modes, its loads, and the contributions to the equations that are omitted.
 
+use quell_input::complaint::Origin;
+use quell_input::document::{Node, Table, Value};
 use quell_model::disc::{Contribution, Contributions};
 use quell_model::disc::{Load, Mode, Patch};
 use quell_model::parameter::disc::MODAL_DAMPING;
 use quell_model::profile::Profile;
 use quell_model::units::DiscScales;
 
-use super::super::document::{Node, Table, Value};
 use super::super::reader::Reader;
 use super::super::vocabulary::{Choice, Section};
 use super::loads::{LoadScales, Pad};
 use super::modes::{self, ModeSource};
 use super::plate::Metal;
 use super::{loads, rotation};
-use crate::complaint::Origin;
 
 /// The contents of `[disc]`.
 pub(super) struct Body {

@@ -1,5 +1,7 @@
 //! The pad and the caliper of a load.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::Table;
 use quell_model::disc::Carrier;
 use quell_model::parameter::Parameter;
 use quell_model::parameter::disc::{
@@ -7,8 +9,6 @@ use quell_model::parameter::disc::{
 };
 use serde_json::Value as Json;
 
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::Table;
 use crate::study::reader::Reader;
 
 /// Reads pad and caliper of a load.

@@ -1,12 +1,12 @@
 //! `[dither]` of a disc: its waveform, read as those of belts and systems are, its envelope, and its amplitude relative to friction.
 
+use quell_input::document::{Table, Value};
 use quell_model::Direction;
 use quell_model::disc::{DiscDither, DitherShape};
 use quell_model::parameter::DITHER_FREQUENCY_RATIO;
 use quell_model::parameter::disc::DISC_DITHER_AMPLITUDE;
 
 use crate::study::course::{Course, CoursePlace};
-use crate::study::document::{Table, Value};
 use crate::study::reader::Reader;
 use crate::study::vocabulary::{Choice, ENVELOPE, Section};
 use crate::study::waveform;

@@ -1,12 +1,12 @@
 //! `[friction]` of a disc: the law of all loads, whose normal loads are their own.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::Table;
 use quell_model::Friction;
 use quell_model::parameter::disc::{LOAD_HALF_THICKNESS, LOAD_NORMAL};
 use serde_json::Value as Json;
 
 use super::body::{self, Body};
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::Table;
 use crate::study::friction;
 use crate::study::reader::Reader;
 

@@ -1,5 +1,7 @@
 //! `[disc.load]` and `[[disc.load]]`.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
 use quell_model::disc::Load;
 use quell_model::parameter::disc::{
     DISC_SPEED, LOAD_ANGLE, LOAD_DAMPING, LOAD_DITHER_PHASE, LOAD_FRICTION, LOAD_HALF_THICKNESS,
@@ -9,9 +11,7 @@ use quell_model::units::{DiscScales, Quantity, measure};
 
 use super::carriers;
 use super::patch::PatchSize;
-use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::course::CoursePlace;
-use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Reader, WantedNumber};
 use crate::study::vocabulary::{KeyUnit, LOAD_ENVELOPE, Section, join};
 

@@ -3,6 +3,9 @@
 use std::sync::Arc;
 
 use quell_disc::plate::PlateMaterial;
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::disc_modes_file::{self, ModeLine};
+use quell_input::document::{Node, Table, Value};
 use quell_model::disc::Mode;
 use quell_model::parameter::disc::{
     MODE_CENTRIFUGAL, MODE_DAMPING, MODE_DIAMETERS, MODE_FREQUENCY, MODE_RATIO, MODE_SHAPE_AT_LOAD,
@@ -10,11 +13,7 @@ use quell_model::parameter::disc::{
 use serde_json::Value as Json;
 
 use super::loads::Pad;
-use super::mode_line::ModeLine;
-use super::modes_file;
 use super::plate::{self, PlateModes};
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::vocabulary::Section;
 
@@ -96,8 +95,8 @@ pub(super) fn read(reader: &mut Reader, table: &Table, header: Origin) -> Option
         return listed(reader, node).map(ModeSource::List);
     }
     let name = reader.text(key, node)?;
-    let parse = |text: &str| together(&modes_file::parse(text)?);
-    match reader.files().parsed(key, &name, modes_file::WANTED, parse) {
+    let parse = |text: &str| together(&disc_modes_file::parse(text)?);
+    match reader.files().parsed(key, &name, disc_modes_file::WANTED, parse) {
         Ok(listed) => Some(ModeSource::File { name, listed: Listed::clone(&listed) }),
         Err(why) => {
             reader.complain(Complaint::new(Fault::Path, key, node.origin, name, why));

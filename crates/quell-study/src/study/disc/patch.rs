@@ -1,5 +1,7 @@
 //! The area over which a load is distributed.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::Table;
 use quell_model::disc::Patch;
 use quell_model::parameter::Parameter;
 use quell_model::parameter::disc::{
@@ -8,8 +10,6 @@ use quell_model::parameter::disc::{
 use serde_json::Value as Json;
 
 use super::plate::PlateModes;
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::Table;
 use crate::study::reader::Reader;
 
 /// Sizes of a patch as the study gives them.

@@ -3,6 +3,8 @@
 use std::sync::Arc;
 
 use quell_disc::plate::{ModeSet, ModeSetError, Plate, PlateMaterial, Reference};
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
 use quell_model::parameter::Bounds;
 use quell_model::parameter::disc::{
     DENSITY, INNER_RADIUS_RATIO, NODAL_DIAMETERS, OUTER_RADIUS, PLATE_MASS, POISSON_RATIO,
@@ -10,8 +12,6 @@ use quell_model::parameter::disc::{
 };
 use serde_json::Value as Json;
 
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader};
 
 /// A plate and its modes.

@@ -1,12 +1,12 @@
 //! Which part rotates, at which speed over time, and how centrifugal stress stiffens the disc.
 
+use quell_input::complaint::{Complaint, Fault};
+use quell_input::document::Table;
 use quell_model::parameter::disc::CENTRIFUGAL;
 
 use super::loads::{DRIVE, Pad};
 use super::modes::{Listed, ModeSource};
-use crate::complaint::{Complaint, Fault};
 use crate::study::course::{Course, CoursePlace, replaces_constant};
-use crate::study::document::Table;
 use crate::study::reader::Reader;
 use crate::study::vocabulary::{Choice, DISC_DRIVE};
 

@@ -1,13 +1,13 @@
 //! A disc as the template of a study.
 
+use quell_input::complaint::{Complaints, Origin};
+use quell_input::document::{Node, Table, Value};
 use quell_model::System;
 use quell_model::parameter::Parameter;
 use quell_model::parameter::disc::{DISC_DITHER_AMPLITUDE, DISC_SPEED, LOAD_FRICTION, LOAD_NORMAL};
 use quell_model::units::DiscScales;
 
 use super::DiscSetup;
-use crate::complaint::{Complaints, Origin};
-use crate::study::document::{Node, Table, Value};
 use crate::study::path;
 use crate::study::steady::{each, scale_by};
 use crate::study::study_kind::StudyKind;

@@ -1,11 +1,11 @@
 //! A law written as a formula, with its named constants and the parameters of the study that it uses.
 
+use quell_input::complaint::Origin;
+use quell_input::document::{Node, Table, Value};
 use quell_model::parameter::{Bounds, MAXIMUM_VELOCITY, STATIC_COEFFICIENT};
 use quell_model::units::Quantity;
 use quell_model::{Expression, Friction, Invalid, InvalidValues};
 
-use crate::complaint::Origin;
-use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::vocabulary::{KeyUnit, join};
 

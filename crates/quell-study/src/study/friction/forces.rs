@@ -4,6 +4,8 @@
 //! T = F_c + c v_r, F_s at rest. With a normal load N the coefficients are F/N. Without one N is 1 N (1 without units), so that
 //! coefficients are forces in newtons; the motion does not depend on N. Only normal dither needs the normal load itself.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
 use quell_model::LawKind;
 use quell_model::parameter::{
     Bounds, COEFFICIENT, MINIMUM_COEFFICIENT, Parameter, STATIC_COEFFICIENT, VISCOUS,
@@ -12,8 +14,6 @@ use quell_model::units::{Quantity, UnitSystem};
 use quell_model::{Direction, Dither};
 
 use super::law_place::LawPlace;
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Found, Reader, Reported, WantedNumber};
 use crate::study::vocabulary::{self, Key, KeyUnit, Role, join};
 

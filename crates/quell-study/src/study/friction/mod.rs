@@ -1,14 +1,14 @@
 //! `[friction]` and `[contact.friction]`: a law and its parameters, or a user-defined law.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table};
 use quell_model::friction::Otherwise;
 use quell_model::parameter::{COEFFICIENT, Parameter, STATIC_COEFFICIENT};
 use quell_model::{Friction, InvalidValues, LawKind};
 use serde_json::Value as Json;
 
-use super::document::{Node, Table};
 use super::reader::{Found, Reader};
 use super::vocabulary::{Choice, Role, Section, join, law_keys};
-use crate::complaint::{Complaint, Fault, Origin};
 use forces::ForceLevels;
 pub(in crate::study) use forces::{
     are_given as are_given_as_forces, in_newtons, needs_no_normal_force,

@@ -1,8 +1,8 @@
 //! A law from measured samples, in the study or in a separate CSV file.
-//!
-//! The file: comment lines begin with `#`; the first other line names the columns, `slip_velocity` or, in a study with units,
-//! `slip_velocity_m_per_s`, and `coefficient`. Other columns are ignored.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
+use quell_input::sample_file::{self, SI_SPEED, SPEED};
 use quell_model::friction::samples::{COEFFICIENTS, MOST_TERMS, SPEEDS};
 use quell_model::parameter::{Bounds, STATIC_COEFFICIENT};
 use quell_model::units::Quantity;
@@ -12,19 +12,8 @@ use serde_json::Value as Json;
 use super::expression::{complain, velocity_unit};
 use super::measured::Measured;
 use super::read_law::ReadLaw;
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::data_file::{DataFile, Row};
-use crate::study::document::{Node, Table, Value};
-use crate::study::files::WantedFile;
 use crate::study::reader::Reader;
 use crate::study::vocabulary::{KeyUnit, join};
-
-/// What the file must be.
-const WHAT: &str = "a CSV file of samples";
-
-/// Keys and columns of slip velocities in the unit of the study, and in SI.
-const SPEED: &str = "slip_velocity";
-const SI_SPEED: &str = "slip_velocity_m_per_s";
 
 /// Reads the samples and fits them.
 pub(super) fn read(
@@ -122,9 +111,10 @@ fn given<'t>(
         }
         let name = reader.text(&key, node)?;
         let may_be_si = reader.units().take_suffixes();
-        let file = reader.files().parsed(&key, &name, WantedFile::of(WHAT), parse);
+        let file = reader.files().parsed(&key, &name, sample_file::WANTED, sample_file::parse);
         return match file.and_then(|file| file.samples(may_be_si)) {
-            Ok((unit, samples)) => {
+            Ok((is_si, samples)) => {
+                let unit = if is_si { KeyUnit::Suffix("m/s") } else { KeyUnit::Study };
                 let own =
                     |(speed, coefficient)| Some((in_study(reader, speed, unit)?, coefficient));
                 let samples = samples.into_iter().map(own).collect::<Option<_>>()?;
@@ -189,87 +179,4 @@ fn list<'t>(
         })
         .collect();
     Some((node, numbers.into_iter().collect::<Option<_>>()?))
-}
-
-/// A file of samples: those of each column of slip velocities that it has, or what is wrong with them.
-#[derive(Debug)]
-pub(in crate::study) struct SampleFile {
-    plain: Option<Result<Vec<(f64, f64)>, String>>,
-    si: Option<Result<Vec<(f64, f64)>, String>>,
-}
-
-impl SampleFile {
-    /// The unit of the slip velocities, and slip velocities with coefficients; `may_be_si` says whether the study has units.
-    fn samples(&self, may_be_si: bool) -> Result<(KeyUnit, Vec<(f64, f64)>), String> {
-        match (&self.si, &self.plain) {
-            (Some(si), _) if may_be_si => Ok((KeyUnit::Suffix("m/s"), si.clone()?)),
-            (_, Some(plain)) => Ok((KeyUnit::Study, plain.clone()?)),
-            // Only a column in SI is named; other column names are not shown.
-            (Some(_), None) => Err(format!(
-                "a CSV file with columns {SPEED} and coefficient; its column {SI_SPEED} needs a study with units"
-            )),
-            (None, None) => {
-                Err(format!("a CSV file with columns {SPEED} or {SI_SPEED}, and coefficient"))
-            }
-        }
-    }
-}
-
-fn parse(text: &str) -> Result<SampleFile, String> {
-    let file = DataFile::new(text, WHAT)?;
-    let column = |name| Some(file.column(name)?).map(|at| samples(&file, at, name));
-    Ok(SampleFile { plain: column(SPEED), si: column(SI_SPEED) })
-}
-
-/// Slip velocities of a column with coefficients; errors name the line.
-fn samples(file: &DataFile<'_>, speed: usize, column: &str) -> Result<Vec<(f64, f64)>, String> {
-    let coefficient = file
-        .column("coefficient")
-        .ok_or_else(|| format!("a CSV file with columns {column} and coefficient"))?;
-    let value = |row: &Row<'_>, at: usize, name: &str| {
-        let number = row.number(at, name, "a finite number ≥ 0", |number| {
-            number.is_finite() && number >= 0.0
-        });
-        number.map_err(|why| {
-            if row.is_negative(at) {
-                format!(
-                    "{why}; friction is assumed equal in both directions of slip: give samples of one direction, with \
-                     both values positive"
-                )
-            } else {
-                why
-            }
-        })
-    };
-    let sample = |row| Ok((value(row, speed, column)?, value(row, coefficient, "coefficient")?));
-    file.rows().iter().map(sample).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn read(text: &str) -> Result<(KeyUnit, Vec<(f64, f64)>), String> {
-        parse(text)?.samples(true)
-    }
-
-    #[test]
-    fn columns_are_found_by_name_and_wrong_cells_by_line() {
-        let text = "# synthetic\ncoefficient, note, slip_velocity\n0.4,a,0\n\n0.3,b,0.5\n";
-        assert_eq!(read(text), Ok((KeyUnit::Study, vec![(0.0, 0.4), (0.5, 0.3)])));
-        let si = text.replace("slip_velocity", "slip_velocity_m_per_s");
-        let unit = KeyUnit::Suffix("m/s");
-        assert_eq!(read(&si), Ok((unit, vec![(0.0, 0.4), (0.5, 0.3)])));
-        let wrong = parse(&si).expect("a table").samples(false).expect_err("a study without units");
-        assert!(wrong.contains("its column slip_velocity_m_per_s needs"), "{wrong}");
-        for (row, part) in [
-            ("-1,0.3", "one direction"),
-            ("x,0.3", "line 3, slip_velocity: \"x\""),
-            ("1", "line 3"),
-        ] {
-            let text = format!("slip_velocity,coefficient\n0,0.4\n{row}\n");
-            let wrong = read(&text).expect_err(row);
-            assert!(wrong.contains(part), "{row}: {wrong}");
-        }
-    }
 }

@@ -1,9 +1,10 @@
 //! The end of a path: an entry of a matrix or of a row.
 
+use quell_input::document::{Node, Value};
+use quell_input::nearest;
+
 use super::found::{FoundPath, LostPath, PathStep};
 use super::walk::{PathSegment, Walk};
-use crate::study::document::{Node, Value};
-use crate::study::suggest;
 use crate::study::vocabulary::{Key, Section};
 
 impl<'d> Walk<'d> {
@@ -114,7 +115,7 @@ impl<'d> Walk<'d> {
     }
 
     fn unknown_name(&self, name: &str, names: &[String]) -> LostPath {
-        let nearest = suggest::word(name, names.iter().map(String::as_str));
+        let nearest = nearest::word(name, names.iter().map(String::as_str));
         let nearest = nearest.map(|name| format!("{}.{name}", self.written));
         LostPath::near(nearest)
     }

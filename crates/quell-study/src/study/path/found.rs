@@ -1,9 +1,9 @@
 //! What a path of a study leads to.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
 use serde_json::Value as Json;
 
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::{Node, Table, Value};
 use crate::study::vocabulary::Key;
 
 /// A step from a value of the document to one inside it.

@@ -9,13 +9,13 @@ mod walk;
 
 use std::fmt::Write as _;
 
+use quell_input::complaint::{Complaint, Fault};
+use quell_input::document::{Node, Table, Value};
 use quell_model::parameter::DITHER_AMPLITUDE;
 
 use super::address::{NumberAddress, units_of};
-use super::document::{Node, Table, Value};
 use super::reader::{Reader, WantedNumber};
 use super::vocabulary::{DocumentKind, Key, KeyUnit, Role};
-use crate::complaint::{Complaint, Fault};
 pub(super) use found::{FoundPath, LostPath};
 use found::{PathStep, node_at};
 pub(super) use walk::{follow, is_factor};

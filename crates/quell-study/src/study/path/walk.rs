@@ -3,13 +3,14 @@
 use std::fmt::Write as _;
 use std::sync::LazyLock;
 
+use quell_input::complaint::Fault;
+use quell_input::document::{Node, Table, Value};
+use quell_input::nearest;
 use quell_model::friction::expression;
 use quell_model::parameter::SCALES;
 use quell_model::parameter::system::FRICTION_FACTOR;
 
 use super::found::{FoundPath, LostPath, PathStep};
-use crate::complaint::Fault;
-use crate::study::document::{Node, Table, Value};
 use crate::study::root;
 use crate::study::suggest;
 use crate::study::vocabulary::{
@@ -263,7 +264,7 @@ impl<'d> Walk<'d> {
             table.into_iter().flat_map(Table::iter).map(|(name, _)| name).collect();
         let there = may_be_new || known.contains(&segment.name);
         if !there || !rest.is_empty() || !segment.indices.is_empty() {
-            let nearest = suggest::word(segment.name, known);
+            let nearest = nearest::word(segment.name, known);
             let nearest = nearest.map(|name| format!("{}.{name}", self.written));
             return Err(LostPath::near(nearest));
         }
@@ -287,7 +288,7 @@ impl<'d> Walk<'d> {
         let contact = || {
             let named = which == Section::Contact && !rest.is_empty();
             let node = self.document.get("contact").filter(|_| named)?;
-            let name = suggest::word(segment.name, node.entries().iter().filter_map(name_of))?;
+            let name = nearest::word(segment.name, node.entries().iter().filter_map(name_of))?;
             Some(format!("contact.{name}{}", after(rest)))
         };
         let named = || {
@@ -318,7 +319,7 @@ fn name_of(node: &Node) -> Option<&str> {
 fn unspecified(name: &str, entries: &[Node], rest: &[PathSegment<'_>]) -> LostPath {
     let first = rest.first().map(|first| first.name).unwrap_or_default();
     let names: Vec<&str> = entries.iter().filter_map(name_of).collect();
-    let nearest = suggest::word(first, names.iter().copied()).filter(|_| rest.len() > 1);
+    let nearest = nearest::word(first, names.iter().copied()).filter(|_| rest.len() > 1);
     let nearest = nearest.map(|found| format!("{name}.{found}{}", after(&rest[1..])));
     let allowed = match entries.len() {
         0 => counted(name, 0),

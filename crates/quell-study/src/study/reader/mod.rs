@@ -3,16 +3,16 @@
 //! Every number is read in one way ([`Reader::quantity`]): bare in the units of the study, quoted with a unit, or by a key with the unit
 //! as a suffix. What is read is a number of the equations ([`StudyUnits`]).
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, given_number};
+use quell_input::files::Files;
 use quell_model::InvalidValues;
 use quell_model::units::{DiscScales, Scales, UnitSystem};
 use serde_json::Value as Json;
 
 use super::computed::Computed;
-use super::document::{Node, Table, given_number};
-use super::files::Files;
 use super::suggest;
 use super::vocabulary::{self, DocumentKind, Section, join};
-use crate::complaint::{Complaint, Fault, Origin};
 
 mod numbers;
 mod parts;

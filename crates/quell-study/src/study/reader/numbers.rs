@@ -1,5 +1,7 @@
 //! Numbers: bare in the units of the study, quoted with a unit, by a key with the unit as a suffix, or as a formula of parameters.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
 use quell_model::digits::digits;
 use quell_model::friction::expression::NumberFormula;
 use quell_model::parameter::{Bounds, Parameter};
@@ -9,8 +11,6 @@ use serde_json::Value as Json;
 
 use super::Reader;
 use super::units::EquationScale;
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::{Node, Table, Value};
 use crate::study::vocabulary::{KeyUnit, join};
 
 /// The result of reading the keys of a parameter.

@@ -7,8 +7,9 @@ use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
 
+use quell_input::document::Table;
+
 use super::{NumbersByName, Reader, StudyUnits};
-use crate::study::document::Table;
 
 /// What the tables of a valid study gave.
 #[derive(Clone, Default)]

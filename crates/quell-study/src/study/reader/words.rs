@@ -1,11 +1,11 @@
 //! Reads words, text and tables.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
+use quell_input::nearest;
 use serde_json::Value as Json;
 
 use super::Reader;
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::{Node, Table, Value};
-use crate::study::suggest;
 use crate::study::vocabulary::{Choice, join};
 
 impl Reader {
@@ -23,7 +23,7 @@ impl Reader {
         };
         let found = names.iter().copied().find(|name| name == text);
         if found.is_none() {
-            let nearest = suggest::word(text, names).map(|name| format!("\"{name}\""));
+            let nearest = nearest::word(text, names).map(|name| format!("\"{name}\""));
             let (given, allowed) = (node.given(), one_of(choice));
             let complaint = Complaint::new(Fault::Value, key, node.origin, given, allowed);
             self.complain(complaint.suggesting(nearest));

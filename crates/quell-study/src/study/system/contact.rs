@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use quell_input::complaint::{Complaint, Fault};
+use quell_input::document::{Node, Table, Value};
 use quell_model::friction::Surroundings;
 use quell_model::parameter::Parameter;
 use quell_model::parameter::system::{
@@ -15,10 +17,8 @@ use super::names::{MOST_COORDINATES, NAME, is_plain_name};
 use super::rows::{RowBasis, SameBasis};
 use serde_json::Value as Json;
 
-use crate::complaint::{Complaint, Fault};
 use crate::study::belt::one_state;
 use crate::study::course::{CoursePlace, no_constant, replaces_constant};
-use crate::study::document::{Node, Table, Value};
 use crate::study::friction::{self, LawPlace, ReadLaw};
 use crate::study::reader::{Found, Reader};
 use crate::study::vocabulary::Section;

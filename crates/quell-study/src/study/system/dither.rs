@@ -2,6 +2,9 @@
 
 use std::sync::Arc;
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
+use quell_input::nearest;
 use quell_model::Contact;
 use quell_model::parameter::system::{
     FRICTION_FACTOR, FRICTION_FACTOR_MEAN, SYSTEM_DITHER_FREQUENCY,
@@ -12,15 +15,12 @@ use quell_model::system::{Input, InputTarget};
 
 use super::contact::listed;
 use super::rows::{RowBasis, SameBasis};
-use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::band;
 use crate::study::course::{Course, CoursePlace};
 use crate::study::design::DitherPlace;
 use crate::study::dither_size::{self, SizedAmplitude};
-use crate::study::document::{Node, Table, Value};
 use crate::study::path::is_factor;
 use crate::study::reader::Reader;
-use crate::study::suggest;
 use crate::study::vocabulary::size::DITHER_SIZES;
 use crate::study::vocabulary::{self, DocumentKind, Section};
 use crate::study::vocabulary::{Choice, ENVELOPE, FRICTION, join};
@@ -319,7 +319,7 @@ fn of_contact(
     let name = reader.text(&key, contact)?;
     let Some(index) = context.names.iter().position(|known| *known == name) else {
         let listed = context.names.join(", ");
-        let nearest = suggest::word(&name, context.names.iter().map(String::as_str));
+        let nearest = nearest::word(&name, context.names.iter().map(String::as_str));
         let complaint = Complaint::new(
             Fault::Value,
             key,

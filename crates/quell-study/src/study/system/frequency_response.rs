@@ -1,61 +1,26 @@
 //! A measured frequency response in place of matrices: `frequency_response = "frf.csv"`.
 //!
-//! Columns `frequency` (angular) or `frequency_hz`, `output`, `input`, `re`, `im`: the receptance, displacement at `output`
-//! over force at `input`. Names are those of points that rows of contacts and dithers use, or `CONTACT.tangent` and
-//! `CONTACT.normal`. A static value (frequency 0) is needed for every pair.
+//! Its names are those of points that rows of contacts and dithers use, or `CONTACT.tangent` and `CONTACT.normal`.
 
-use std::collections::BTreeMap;
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use quell_input::complaint::{Complaint, Fault};
+use quell_input::document::Node;
+use quell_input::frequency_response::{self, FrequencyResponse};
 use quell_model::Contact;
-use quell_model::parameter::Bounds;
 use quell_model::system::{Input, InputTarget};
-use quell_numerics::order::ascending_by;
 
-use crate::complaint::{Complaint, Fault};
-use crate::study::data_file::{DataFile, Row};
-use crate::study::document::Node;
-use crate::study::files::WantedFile;
 use crate::study::reader::Reader;
-
-/// What the file must be.
-const WHAT: &str = "a CSV file of a frequency response";
 
 /// Path of the file's key.
 const KEY: &str = "system.frequency_response";
-
-/// The largest number of names.
-const MOST_NAMES: usize = 200;
-
-/// A measured receptance.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct FrequencyResponse {
-    /// Angular frequencies, ascending, the first 0.
-    pub frequencies: Vec<f64>,
-    /// Names of outputs and inputs.
-    pub names: Vec<String>,
-    /// Output and input of each series, as places among the names.
-    pub pairs: Vec<(usize, usize)>,
-    /// Real and imaginary part at each frequency, one series for each pair: displacement over force in the units of the
-    /// file.
-    pub data: Vec<Vec<[f64; 2]>>,
-    in_hertz: bool,
-}
-
-impl FrequencyResponse {
-    /// The series of displacement at `output` over force at `input`, places among the names.
-    pub fn receptance(&self, output: usize, input: usize) -> Option<&[[f64; 2]]> {
-        let pair = self.pairs.iter().position(|pair| *pair == (output, input))?;
-        self.data.get(pair).map(Vec::as_slice)
-    }
-}
 
 /// Reads the file of the key.
 pub(super) fn read(reader: &mut Reader, node: &Node) -> Option<Arc<FrequencyResponse>> {
     let name = reader.text(KEY, node)?;
     let has_units = reader.units().take_suffixes();
-    let found = reader.files().parsed(KEY, &name, WantedFile::of(WHAT), parse);
+    let found =
+        reader.files().parsed(KEY, &name, frequency_response::WANTED, frequency_response::parse);
     let found = found.and_then(|found| {
         if found.in_hertz && !has_units {
             return Err("a CSV file with a column frequency: the study has no units, but frequency_hz is in hertz; or \
@@ -105,119 +70,5 @@ pub(super) fn check_pairs(
                 return;
             }
         }
-    }
-}
-
-/// Frequencies and values of each output and input.
-type ResponseSeries = BTreeMap<(usize, usize), Vec<(f64, [f64; 2])>>;
-
-fn parse(text: &str) -> Result<FrequencyResponse, String> {
-    let file = DataFile::new(text, WHAT)?;
-    let (frequency, in_hertz) = match (file.column("frequency"), file.column("frequency_hz")) {
-        (Some(_), Some(_)) => {
-            return Err("a CSV file with either the column frequency, angular, or frequency_hz; this one has both".into());
-        }
-        (Some(at), None) => (at, false),
-        (None, Some(at)) => (at, true),
-        (None, None) => return Err("a CSV file with a column frequency or frequency_hz".into()),
-    };
-    let [output, input, re, im] = ["output", "input", "re", "im"]
-        .map(|name| file.column(name).ok_or_else(|| format!("a CSV file with a column {name}")));
-    let (output, input, re, im) = (output?, input?, re?, im?);
-    let mut names: Vec<String> = Vec::new();
-    let mut series = ResponseSeries::new();
-    for row in file.rows() {
-        let number = |at, name, bounds: Bounds| {
-            row.number(at, name, &bounds.to_string(), |value| bounds.contains(value))
-        };
-        let written = number(frequency, "frequency", Bounds::NOT_NEGATIVE)?;
-        let frequency = if in_hertz { TAU * written } else { written };
-        let output = place(&mut names, row, output, "output")?;
-        let input = place(&mut names, row, input, "input")?;
-        let value = [number(re, "re", Bounds::FINITE)?, number(im, "im", Bounds::FINITE)?];
-        series.entry((output, input)).or_default().push((frequency, value));
-    }
-    ordered(names, series, in_hertz)
-}
-
-/// The place of a name among the names.
-fn place(names: &mut Vec<String>, row: &Row<'_>, at: usize, column: &str) -> Result<usize, String> {
-    let name = row.text(at);
-    if name.is_empty() {
-        return Err(format!("{}, {column}: a name is missing", row.place()));
-    }
-    if let Some(found) = names.iter().position(|known| known == name) {
-        return Ok(found);
-    }
-    if names.len() == MOST_NAMES {
-        return Err(format!("a CSV file of at most {MOST_NAMES} different names"));
-    }
-    names.push(name.to_owned());
-    Ok(names.len() - 1)
-}
-
-/// The series in the order of frequency, each at the same frequencies.
-fn ordered(
-    names: Vec<String>,
-    series: ResponseSeries,
-    in_hertz: bool,
-) -> Result<FrequencyResponse, String> {
-    let mut found = FrequencyResponse { names, in_hertz, ..FrequencyResponse::default() };
-    for (pair, mut values) in series {
-        ascending_by(&mut values, |a| a.0);
-        let of = format!("{} over {}", found.names[pair.0], found.names[pair.1]);
-        let (frequencies, values): (Vec<f64>, Vec<[f64; 2]>) = values.into_iter().unzip();
-        if frequencies.windows(2).any(|two| two[0] == two[1]) {
-            return Err(format!(
-                "a CSV file with one line for each frequency; {of} has two at one"
-            ));
-        }
-        if frequencies.first() != Some(&0.0) {
-            return Err(format!(
-                "a CSV file with a static value, a line with frequency 0, for every pair; {of} has none"
-            ));
-        }
-        if found.frequencies.is_empty() {
-            found.frequencies = frequencies;
-        } else if found.frequencies != frequencies {
-            return Err(format!(
-                "a CSV file with the same frequencies for every pair; {of} has others"
-            ));
-        }
-        found.pairs.push(pair);
-        found.data.push(values);
-    }
-    if found.frequencies.len() < 2 {
-        return Err("a CSV file with a static value and at least one frequency above 0".into());
-    }
-    Ok(found)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn series_are_ordered_and_complete() {
-        let head = "frequency_hz,output,input,re,im\n";
-        let right = format!("{head}2,a,a,0.5,-0.1\n0,a,a,1,0\n0,b,a,2,0\n2,b,a,3,1\n");
-        let found = parse(&right).expect("a response");
-        assert_eq!(found.frequencies, [0.0, 2.0 * TAU]);
-        assert_eq!(found.names, ["a", "b"]);
-        assert_eq!(found.receptance(1, 0), Some(&[[2.0, 0.0], [3.0, 1.0]][..]));
-        assert_eq!(found.receptance(0, 1), None);
-        for (rows, part) in [
-            ("1,a,a,1,0\n2,a,a,1,0\n", "static value"),
-            ("0,a,a,1,0\n", "at least one frequency"),
-            ("0,a,a,1,0\n1,a,a,1,0\n1,a,a,2,0\n", "two at one"),
-            ("0,a,a,1,0\n1,a,a,1,0\n0,b,a,2,0\n", "others"),
-            ("0,a,a,nan,0\n", "line 2, re"),
-            ("0,,a,1,0\n", "line 2, output"),
-        ] {
-            let wrong = parse(&format!("{head}{rows}")).expect_err(rows);
-            assert!(wrong.contains(part), "{rows}: {wrong}");
-        }
-        let both = "frequency,frequency_hz,output,input,re,im\n";
-        assert!(parse(both).expect_err("two units").contains("both"));
     }
 }

@@ -1,11 +1,11 @@
 //! `[system.initial]` and `observe`.
 
+use quell_input::complaint::{Complaint, Fault};
+use quell_input::document::Table;
 use quell_model::units::Quantity;
 use quell_model::{Contact, Structure};
 
 use super::rows::RowBasis;
-use crate::complaint::{Complaint, Fault};
-use crate::study::document::Table;
 use crate::study::reader::{Keyed, Reader, Reported, WantedNumber};
 use crate::study::vocabulary::Section;
 use crate::study::vocabulary::{Choice, join};

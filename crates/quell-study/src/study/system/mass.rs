@@ -1,5 +1,7 @@
 //! The mass matrix: symmetric and positive definite, or refused with the place.
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
 use quell_model::system::MassMatrix;
 use quell_numerics::matrix::Matrix;
 use serde_json::Value as Json;
@@ -7,8 +9,6 @@ use serde_json::Value as Json;
 use super::matrices::matrix;
 use super::names::PREFIX;
 
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::{Node, Table, Value};
 use crate::study::reader::Reader;
 use crate::study::vocabulary::join;
 

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
+use quell_input::complaint::{Complaint, Fault};
+use quell_input::document::{Node, Table, Value};
+use quell_input::files::{Files, WantedFile};
+use quell_input::matrix_market;
 use quell_model::units::Quantity;
 use quell_numerics::matrix::Matrix;
 
-use super::matrix_market;
 use super::names::PREFIX;
-use crate::complaint::{Complaint, Fault};
-use crate::study::document::{Node, Table, Value};
-use crate::study::files::{Files, WantedFile};
 use crate::study::reader::{Keyed, Reader, Reported, WantedNumber};
 use crate::study::vocabulary::{KeyUnit, join};
 

@@ -10,9 +10,7 @@ mod frequency_response;
 mod initial;
 mod mass;
 mod matrices;
-mod matrix_market;
 mod modes;
-mod modes_file;
 mod names;
 mod parameters;
 mod read;
@@ -24,20 +22,20 @@ mod template;
 mod unused;
 
 use quell_design::actuator::Actuator;
+use quell_input::complaint::{Complaints, Origin};
+use quell_input::document::{Node, Table, Value};
 use quell_model::System;
 use quell_model::units::UnitSystem;
 
 use super::StudyOf;
 use super::design::{Design, DitherPlace};
 use super::dither_size::GivenSize;
-use super::document::{Node, Table, Value};
 use super::reader::{EquationScale, Reader};
 use super::study_kind::StudyKind;
-use crate::complaint::{Complaints, Origin};
 
 pub(in crate::study) use dither::PLACES;
-pub use frequency_response::FrequencyResponse;
 pub use initial::SystemStart;
+pub use quell_input::frequency_response::FrequencyResponse;
 pub(in crate::study) use read::assemble;
 pub use setup::{DescribedSystem, ScaledTime, SystemSetup};
 

@@ -5,6 +5,9 @@
 
 use std::sync::Arc;
 
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
+use quell_input::modes_file::{self, ModeList, SystemMode};
 use quell_model::parameter::system::{
     SYSTEM_MODAL_MASS, SYSTEM_MODE_DAMPING, SYSTEM_MODE_FREQUENCY,
 };
@@ -13,12 +16,9 @@ use quell_numerics::matrix::Matrix;
 use serde_json::Value as Json;
 
 use super::contact::listed;
-use super::modes_file::{ModeList, SystemMode};
 use super::names::{MOST_COORDINATES, NAME, PREFIX, is_plain_name};
 use super::rows::{RowBasis, ShapePoints};
 use super::structure::{ReadStructure, force};
-use crate::complaint::{Complaint, Fault, Origin};
-use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Reader, WantedNumber};
 use crate::study::vocabulary::Section;
 use crate::study::vocabulary::{Choice, join};
@@ -176,7 +176,9 @@ fn normalised(
 fn file(reader: &mut Reader, node: &Node, key: &str) -> Option<Arc<ModeList>> {
     let name = reader.text(key, node)?;
     let has_units = reader.units().take_suffixes();
-    let list = ModeList::read(reader.files(), key, &name);
+    let list = reader
+        .files()
+        .parsed(key, &name, modes_file::WANTED, |text| modes_file::parse(text, MOST_COORDINATES));
     let list = list.and_then(|list| {
         if list.in_hertz && !has_units {
             return Err("a CSV file with a column frequency: the study has no units, but frequency_hz is in hertz; or \

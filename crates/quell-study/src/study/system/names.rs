@@ -1,7 +1,8 @@
 //! Names of coordinates, states, components and contacts.
 
-use crate::complaint::{Complaint, Fault};
-use crate::study::document::{Table, Value};
+use quell_input::complaint::{Complaint, Fault};
+use quell_input::document::{Table, Value};
+
 use crate::study::reader::Reader;
 use crate::study::vocabulary::join;
 

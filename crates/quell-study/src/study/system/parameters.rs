@@ -1,10 +1,10 @@
 //! `[parameters]`: named numbers, or formulas of other parameters.
 
+use quell_input::complaint::{Complaint, Fault};
+use quell_input::document::{Node, Table, Value};
 use quell_model::friction::expression::{NumberFormula, is_name, is_taken};
 use quell_model::parameter::Bounds;
 
-use crate::complaint::{Complaint, Fault};
-use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{NumbersByName, Reader};
 
 /// A parameter while it is evaluated.

@@ -3,23 +3,24 @@
 use std::sync::Arc;
 
 use quell_design::actuator::Actuator;
+use quell_input::complaint::{Complaint, Fault, Origin};
+use quell_input::document::{Node, Table, Value};
+use quell_input::frequency_response::FrequencyResponse;
 use quell_model::system::{Input, Structure};
 use quell_model::{Contact, System, Waveform};
 use serde_json::Value as Json;
 
 use super::contact::{self, ContactContext, ReadContact};
 use super::dither::{self, DitherContext, ReadDithers};
-use super::frequency_response::{self, FrequencyResponse};
+use super::frequency_response;
 use super::modes;
 use super::rows::RowBasis;
 use super::setup::{SystemSetup, natural_frequency};
 use super::structure::{self, ReadStructure};
 use super::{initial, parameters, sized, unused};
-use crate::complaint::{Complaint, Fault, Origin};
 use crate::study::actuator;
 use crate::study::design::{self, DesignContext};
 use crate::study::dither_size::GivenSize;
-use crate::study::document::{Node, Table, Value};
 use crate::study::path::amplitude_of;
 use crate::study::plausible;
 use crate::study::reader::{NumbersByName, Reader};

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
+use quell_input::complaint::{Complaint, Fault};
+use quell_input::document::{Node, Table, Value};
+use quell_input::nearest;
 use quell_numerics::matrix::Matrix;
 
-use crate::complaint::{Complaint, Fault};
-use crate::study::document::{Node, Table, Value};
 use crate::study::reader::{Reader, WantedNumber};
-use crate::study::suggest;
 
 /// The names over which rows are written.
 #[derive(Clone, Debug, PartialEq)]
@@ -185,7 +185,7 @@ impl RowBasis {
         let names = self.candidates();
         // Rows are meant to name points where there are any.
         let meant = self.points.as_ref().map_or(&self.names, |points| &points.names);
-        let nearest = suggest::word(name, meant.iter().map(String::as_str));
+        let nearest = nearest::word(name, meant.iter().map(String::as_str));
         let mut listed = names.iter().take(12).copied().collect::<Vec<_>>().join(", ");
         if names.len() > 12 {
             listed += ", …";

@@ -3,16 +3,16 @@
 use std::sync::Arc;
 
 use quell_design::actuator::Actuator;
+use quell_input::document::Table;
+use quell_input::frequency_response::FrequencyResponse;
 use quell_model::System;
 use quell_model::parameter::DITHER_AMPLITUDE;
 use quell_model::system::Structure;
 use quell_model::units::UnitSystem;
 
-use super::frequency_response::FrequencyResponse;
 use super::initial::SystemStart;
 use crate::study::design::Design;
 use crate::study::dither_size::GivenSize;
-use crate::study::document::Table;
 use crate::study::path;
 use crate::study::reader::{EquationScale, NumbersByName, Reader};
 use crate::study::vocabulary::size::{DITHER_SIZES, SignalMeasure, SizeKey, SizedSignal};

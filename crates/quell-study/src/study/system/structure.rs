@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use quell_input::complaint::Origin;
+use quell_input::document::Table;
 use quell_model::system::{MassMatrix, Mechanical, StateSpace, Structure};
 use quell_model::units::Quantity;
 use quell_numerics::matrix::Matrix;
@@ -10,8 +12,6 @@ use super::mass;
 use super::matrices::matrix;
 use super::names::{PREFIX, names};
 use super::rows::RowBasis;
-use crate::complaint::Origin;
-use crate::study::document::Table;
 use crate::study::reader::{Keyed, Reader, WantedNumber};
 use crate::study::vocabulary::join;
 

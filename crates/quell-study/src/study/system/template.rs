@@ -1,12 +1,12 @@
 //! A system as the template of a study.
 
+use quell_input::complaint::Complaints;
+use quell_input::document::Table;
 use quell_model::System;
 use quell_model::parameter::{BELT_VELOCITY, NORMAL_LOAD, Parameter, indexed};
 use quell_model::system::{Contact, Input};
 
 use super::SystemSetup;
-use crate::complaint::Complaints;
-use crate::study::document::Table;
 use crate::study::path;
 use crate::study::steady::{each, replace, scale};
 use crate::study::template::Template;

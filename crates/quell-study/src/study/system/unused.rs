@@ -1,6 +1,7 @@
 //! Warnings about parameters that no formula uses.
 
-use crate::study::document::{Node, Table, Value};
+use quell_input::document::{Node, Table, Value};
+
 use crate::study::reader::NumbersByName;
 
 /// Keys whose texts are no formulas.

@@ -1,6 +1,9 @@
 //! The tables of drives, loads and envelopes: numbers over time.
 
-use quell_model::parameter::Bounds;
+use quell_model::parameter::course::{
+    LOAD_AMPLITUDE, SHARE_AMPLITUDE, SPEED_AMPLITUDE, VELOCITY_AMPLITUDE,
+};
+use quell_model::parameter::{Bounds, Parameter};
 use quell_model::units::Quantity;
 
 /// A table that gives a number over time.
@@ -12,8 +15,8 @@ pub struct CourseTable {
     pub quantity: Quantity,
     /// The values that are allowed.
     pub bounds: Bounds,
-    /// Whether the number may oscillate about a constant instead.
-    pub oscillates: bool,
+    /// The amplitude of a sine that may be added to a constant instead.
+    pub amplitude: Option<Parameter>,
     /// Whether the number may jump.
     pub jumps: bool,
 }
@@ -23,7 +26,7 @@ pub const DRIVE: CourseTable = CourseTable {
     value: "velocity",
     quantity: Quantity::Velocity,
     bounds: Bounds::FINITE,
-    oscillates: true,
+    amplitude: Some(VELOCITY_AMPLITUDE),
     jumps: false,
 };
 
@@ -32,7 +35,7 @@ pub const LOAD: CourseTable = CourseTable {
     value: "load",
     quantity: Quantity::Force,
     bounds: Bounds::POSITIVE,
-    oscillates: true,
+    amplitude: Some(LOAD_AMPLITUDE),
     jumps: true,
 };
 
@@ -41,7 +44,7 @@ pub const ENVELOPE: CourseTable = CourseTable {
     value: "share",
     quantity: Quantity::Ratio,
     bounds: Bounds::NOT_NEGATIVE,
-    oscillates: false,
+    amplitude: None,
     jumps: true,
 };
 
@@ -50,7 +53,7 @@ pub const LOAD_ENVELOPE: CourseTable = CourseTable {
     value: "share",
     quantity: Quantity::Ratio,
     bounds: Bounds::POSITIVE,
-    oscillates: true,
+    amplitude: Some(SHARE_AMPLITUDE),
     jumps: true,
 };
 
@@ -59,7 +62,7 @@ pub const DISC_DRIVE: CourseTable = CourseTable {
     value: "speed",
     quantity: Quantity::FrequencyRatio,
     bounds: Bounds::FINITE,
-    oscillates: true,
+    amplitude: Some(SPEED_AMPLITUDE),
     jumps: false,
 };
 
@@ -80,8 +83,6 @@ pub enum CourseKey {
     Shape,
     /// A CSV file of times and values.
     File,
-    /// An oscillation about a constant.
-    Oscillation,
 }
 
 impl CourseTable {
@@ -96,9 +97,6 @@ impl CourseTable {
             keys.push((name, CourseKey::Value { si: true }));
         }
         keys.extend([("shape", CourseKey::Shape), ("file", CourseKey::File)]);
-        if self.oscillates {
-            keys.push(("oscillation", CourseKey::Oscillation));
-        }
         keys
     }
 
@@ -127,9 +125,6 @@ impl CourseKey {
                 "straight between the knots, or smooth with slope zero at them [default: linear]"
             }
             Self::File => "CSV file of times and values, relative to the study file",
-            Self::Oscillation => {
-                "a sine added to the constant value: amplitude, frequency and phase"
-            }
         }
     }
 

@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use quell_model::parameter::course::{OSCILLATION_FREQUENCY, OSCILLATION_PHASE};
 use quell_model::parameter::{
     self, COEFFICIENT, DITHER_AMPLITUDE, MINIMUM_COEFFICIENT, Parameter, STATIC_COEFFICIENT,
     VISCOUS,
@@ -52,6 +53,7 @@ pub fn key(section: Section, name: &str, kind: DocumentKind) -> Option<&'static 
 fn all() -> Vec<Key> {
     let mut keys = words();
     keys.extend(numbers());
+    keys.extend(oscillations());
     keys.extend(own_law());
     keys.extend(disc());
     keys.extend(of_systems::keys());
@@ -93,6 +95,10 @@ fn tables() -> Vec<Key> {
         one(S::Belt, "initial", S::Initial),
         one(S::Belt, "drive", S::Drive),
         one(S::Belt, "load", S::Load),
+        one(S::Drive, "oscillation", S::DriveOscillation),
+        one(S::Load, "oscillation", S::LoadOscillation),
+        one(S::DiscDrive, "oscillation", S::DiscDriveOscillation),
+        one(S::LoadEnvelope, "oscillation", S::LoadEnvelopeOscillation),
         one(S::Friction, "constants", S::Constants),
         several(S::Disc, "mode", S::DiscMode),
         several(S::Disc, "load", S::DiscLoad),
@@ -174,6 +180,15 @@ fn numbers() -> Vec<Key> {
         keys[first..].iter_mut().for_each(|key| key.scope = key.scope.and(scope));
     }
     keys
+}
+
+/// Amplitude, frequency and phase of what oscillates.
+fn oscillations() -> impl Iterator<Item = Key> {
+    let amplitude = |section: &Section| Some((*section, section.oscillates()?.amplitude?));
+    let numbers = Section::ALL.iter().filter_map(amplitude).flat_map(|(section, amplitude)| {
+        [amplitude, OSCILLATION_FREQUENCY, OSCILLATION_PHASE].map(|number| (section, number))
+    });
+    numbers.flat_map(|(section, number)| Key::of_number(section, number))
 }
 
 /// The parameters of all kinds of study, each with the kinds that have it, of questions and of friction laws.

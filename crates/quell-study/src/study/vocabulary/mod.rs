@@ -69,7 +69,10 @@ mod tests {
     fn every_parameter_stands_in_its_table() {
         for key in keys() {
             if let Role::Number(parameter) = key.role {
-                assert_eq!(key.path(), parameter.path);
+                // What oscillates stands in several tables.
+                let inner =
+                    key.section.oscillates().is_some() && key.path().ends_with(parameter.path);
+                assert!(inner || key.path() == parameter.path, "{}", parameter.path);
             }
         }
     }

@@ -1,10 +1,10 @@
 //! The tables of a study file.
 
+use quell_input::document::Table;
 use quell_model::friction::expression;
 
 use super::course::{CourseTable, DISC_DRIVE, DRIVE, ENVELOPE, LOAD, LOAD_ENVELOPE};
 use super::distributions::{CORRELATED, DISTRIBUTIONS, JOINTLY_NORMAL};
-use crate::study::document::Table;
 
 /// A table of the study file, in its order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -17,8 +17,12 @@ pub enum Section {
     Initial,
     /// `[belt.drive]`, `[contact.drive]`.
     Drive,
+    /// `[belt.drive.oscillation]`, `[contact.drive.oscillation]`.
+    DriveOscillation,
     /// `[belt.load]`, `[contact.load]`.
     Load,
+    /// `[belt.load.oscillation]`, `[contact.load.oscillation]`.
+    LoadOscillation,
     /// `[friction]`, `[contact.friction]`.
     Friction,
     /// `[friction.constants]`, whose names a study chooses.
@@ -31,8 +35,12 @@ pub enum Section {
     DiscLoad,
     /// `[disc.drive]`.
     DiscDrive,
+    /// `[disc.drive.oscillation]`.
+    DiscDriveOscillation,
     /// `[disc.load.envelope]`.
     LoadEnvelope,
+    /// `[disc.load.envelope.oscillation]`.
+    LoadEnvelopeOscillation,
     /// `[system]`.
     System,
     /// `[[system.mode]]`.
@@ -74,14 +82,18 @@ impl Section {
         Self::Belt,
         Self::Initial,
         Self::Drive,
+        Self::DriveOscillation,
         Self::Load,
+        Self::LoadOscillation,
         Self::Friction,
         Self::Constants,
         Self::Disc,
         Self::DiscMode,
         Self::DiscLoad,
         Self::DiscDrive,
+        Self::DiscDriveOscillation,
         Self::LoadEnvelope,
+        Self::LoadEnvelopeOscillation,
         Self::System,
         Self::Mode,
         Self::Component,
@@ -107,14 +119,18 @@ impl Section {
             Self::Belt => "belt",
             Self::Initial => "belt.initial",
             Self::Drive => "belt.drive",
+            Self::DriveOscillation => "belt.drive.oscillation",
             Self::Load => "belt.load",
+            Self::LoadOscillation => "belt.load.oscillation",
             Self::Friction => "friction",
             Self::Constants => expression::CONSTANTS,
             Self::Disc => "disc",
             Self::DiscMode => "disc.mode",
             Self::DiscLoad => "disc.load",
             Self::DiscDrive => "disc.drive",
+            Self::DiscDriveOscillation => "disc.drive.oscillation",
             Self::LoadEnvelope => "disc.load.envelope",
+            Self::LoadEnvelopeOscillation => "disc.load.envelope.oscillation",
             Self::System => "system",
             Self::Mode => "system.mode",
             Self::Component => "system.component",
@@ -148,6 +164,10 @@ impl Section {
             Self::Drive => {
                 "velocity of the surface over time, instead of or added to belt_velocity"
             }
+            Self::DriveOscillation
+            | Self::LoadOscillation
+            | Self::DiscDriveOscillation
+            | Self::LoadEnvelopeOscillation => "a sine that is added to the constant value",
             Self::Load => "normal load over time, instead of or added to normal_load",
             Self::Friction => "the friction law",
             Self::Constants => "named numbers of a formula",
@@ -191,13 +211,28 @@ impl Section {
         }
     }
 
+    /// The table over time of which it is the oscillation.
+    pub fn oscillates(self) -> Option<CourseTable> {
+        match self {
+            Self::DriveOscillation => Some(DRIVE),
+            Self::LoadOscillation => Some(LOAD),
+            Self::DiscDriveOscillation => Some(DISC_DRIVE),
+            Self::LoadEnvelopeOscillation => Some(LOAD_ENVELOPE),
+            _ => None,
+        }
+    }
+
     /// The studies that have the table.
     pub fn scope(self) -> KeyScope {
         match self {
             Self::Belt | Self::Initial | Self::Solver | Self::Response => KeyScope::BELT,
-            Self::Disc | Self::DiscMode | Self::DiscLoad | Self::DiscDrive | Self::LoadEnvelope => {
-                KeyScope::DISC
-            }
+            Self::Disc
+            | Self::DiscMode
+            | Self::DiscLoad
+            | Self::DiscDrive
+            | Self::DiscDriveOscillation
+            | Self::LoadEnvelope
+            | Self::LoadEnvelopeOscillation => KeyScope::DISC,
             Self::System
             | Self::Mode
             | Self::Component
@@ -205,7 +240,11 @@ impl Section {
             | Self::Contact
             | Self::Parameters
             | Self::DitherPlace => KeyScope::SYSTEM,
-            Self::Drive | Self::Load | Self::Actuator => KeyScope::BELT_OR_SYSTEM,
+            Self::Drive
+            | Self::DriveOscillation
+            | Self::Load
+            | Self::LoadOscillation
+            | Self::Actuator => KeyScope::BELT_OR_SYSTEM,
             Self::Root
             | Self::Friction
             | Self::Constants

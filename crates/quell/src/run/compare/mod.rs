@@ -9,9 +9,9 @@ mod spectra;
 
 use std::path::{Path, PathBuf};
 
-use quell_design::decay::RecordedQuantity;
+use quell_input::record::{MeasuredFile, MeasuredSpectrum, RecordRequest, TimeSeries};
+use quell_model::RecordedQuantity;
 use quell_numerics::spectrum::Spectrum;
-use quell_study::record::{MeasuredFile, MeasuredSpectrum, RecordRequest, TimeSeries};
 
 pub use lines::{ComparedLine, decibels};
 pub use spectra::ComparedSpectrum;

@@ -74,7 +74,7 @@ impl ProbabilityStart {
             let names = Self::ALL.map(Self::name);
             let complaint =
                 Complaint::option("--start", name, format!("one of {}", names.join(", ")));
-            Box::new(complaint.suggesting(crate::study::suggest::word(name, names)))
+            Box::new(complaint.suggesting(crate::nearest::word(name, names)))
         })
     }
 

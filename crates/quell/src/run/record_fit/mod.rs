@@ -11,9 +11,9 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use quell_design::estimates::{Estimates, Freedom};
+use quell_input::record::{RecordRequest, TimeSeries};
 use quell_numerics::damped_least_squares::{DampedMinimum, DampedSearch, FittedFunction, fitted};
 use quell_numerics::order::ascending_by;
-use quell_study::record::{RecordRequest, TimeSeries};
 
 pub use request::{FreeNumber, FreeStart, MEASUREMENT};
 

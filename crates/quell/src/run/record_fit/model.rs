@@ -11,8 +11,8 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, ReadingSampler};
+use quell_input::record::TimeSeries;
 use quell_numerics::damped_least_squares::FittedFunction;
-use quell_study::record::TimeSeries;
 
 use super::request::FreeNumber;
 use crate::complaint::Failure;

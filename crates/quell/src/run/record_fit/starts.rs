@@ -7,10 +7,10 @@
 use std::f64::consts::TAU;
 
 use quell_design::decay::dominant_frequency;
+use quell_input::record::TimeSeries;
 use quell_numerics::damped_least_squares::FittedFunction;
 use quell_numerics::order::ascending_by;
 use quell_numerics::random::SplitMix;
-use quell_study::record::TimeSeries;
 
 use super::model::RecordModel;
 use super::request::{FreeNumber, FreeStart};

@@ -12,12 +12,13 @@ use super::start::{state_names, state_quantity};
 use super::tracked::{TrackRequest, understood};
 use super::{failed, has_equations};
 use crate::complaint::{Complaint, Complaints, Failure, Origin};
+use crate::nearest;
 use crate::parallel::Parallel;
 use crate::quantity;
 use crate::run::basins::{BasinsRequest, MOST_STARTS, Share, StartLayout};
 use crate::run::varied::{MOST_VALUES, Range};
 use crate::run::{evenly, stopped};
-use crate::study::{SystemStudy, suggest};
+use crate::study::SystemStudy;
 use crate::sweep::Running;
 
 /// A system, the start of its runs, and the places in the plane that replace two of its numbers.
@@ -126,7 +127,7 @@ fn places(study: &SystemStudy, request: &PlaneRequest) -> Result<[usize; 2], Fai
             let allowed = "two names of the state, such as x,velocity.x";
             let complaint = Complaint::option("--plane", axis.name.as_str(), allowed);
             wrong.push(
-                complaint.suggesting(suggest::word(&axis.name, names.iter().map(String::as_str))),
+                complaint.suggesting(nearest::word(&axis.name, names.iter().map(String::as_str))),
             );
         }
         if let Some((from, to)) = axis.window

@@ -6,8 +6,9 @@ use quell_model::units::{Quantity, measure};
 use quell_model::{Contact, System};
 
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
+use crate::nearest;
 use crate::quantity;
-use crate::study::{SystemStart, SystemStudy, UnitSystem, suggest};
+use crate::study::{SystemStart, SystemStudy, UnitSystem};
 use crate::words::digits;
 
 /// Numbers of a state by their places in it.
@@ -158,7 +159,7 @@ fn place_of(names: &[String], name: &str) -> Result<usize, Box<Complaint>> {
         let listed = names.iter().take(MOST_LISTED).cloned().collect::<Vec<_>>().join(", ");
         let more = if names.len() > MOST_LISTED { ", …" } else { "" };
         let allowed = format!("one of the names of the state, {listed}{more}");
-        let nearest = suggest::word(name, names.iter().map(String::as_str));
+        let nearest = nearest::word(name, names.iter().map(String::as_str));
         Box::new(Complaint::option("--start", name, allowed).suggesting(nearest))
     })
 }

@@ -24,12 +24,12 @@ use super::protocol::Protocol;
 use super::varied::{Named, ascending, key_of};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::contact_state::refused_of_belt;
+use crate::document::given_number;
 use crate::effort::STEPS_OF_MANY_SEARCHES;
 use crate::fields::Fields;
 use crate::quantity::bearable;
 use crate::quantity::unit_of;
 use crate::range::SlipMet;
-use crate::study::document::given_number;
 use crate::study::{BeltStudy, InitialState};
 use crate::words::{digits, in_words, plural};
 

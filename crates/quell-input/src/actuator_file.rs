@@ -5,14 +5,14 @@
 
 use std::sync::Arc;
 
-use crate::study::data_file::{self, DataFile};
-use crate::study::files::{Files, WantedFile};
+use crate::data_file::{self, DataFile};
+use crate::files::{Files, WantedFile};
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of an actuator's frequency response";
 
 /// The columns and their names in SI.
-pub(super) const COLUMNS: [(&str, &str); 4] = [
+pub const COLUMNS: [(&str, &str); 4] = [
     ("frequency", "frequency_hz"),
     ("force_per_volt", "force_per_volt_n_per_v"),
     ("force_per_ampere", "force_per_ampere_n_per_a"),
@@ -21,17 +21,18 @@ pub(super) const COLUMNS: [(&str, &str); 4] = [
 
 /// A column as the file gives it.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct GivenColumn {
+pub struct GivenColumn {
     /// Whether it is in SI.
-    pub(super) si: bool,
+    pub si: bool,
     /// Its numbers.
-    pub(super) values: Vec<f64>,
+    pub values: Vec<f64>,
 }
 
 /// The columns of a file, one place for each of [`COLUMNS`].
 #[derive(Debug)]
-pub(super) struct ActuatorFile {
-    pub(super) columns: [Option<GivenColumn>; 4],
+pub struct ActuatorFile {
+    /// The columns of [`COLUMNS`] in this order, those that the file has.
+    pub columns: [Option<GivenColumn>; 4],
 }
 
 impl ActuatorFile {
@@ -39,7 +40,7 @@ impl ActuatorFile {
     ///
     /// # Errors
     /// Why it cannot be read, or the line that is wrong.
-    pub(super) fn read(files: &mut Files, key: &str, name: &str) -> Result<Arc<Self>, String> {
+    pub fn read(files: &mut Files, key: &str, name: &str) -> Result<Arc<Self>, String> {
         files.parsed(key, name, WantedFile::of(WHAT), |text| Ok(Self { columns: parse(text)? }))
     }
 }

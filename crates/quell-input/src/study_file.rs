@@ -12,7 +12,7 @@ use crate::complaint::{Complaint, Fault, Origin};
 const LARGEST: u64 = 16 << 20;
 
 /// The absolute path of a study file, which stays valid if the working directory changes; `-` is standard input.
-pub(super) fn place(path: &Path) -> PathBuf {
+pub fn place(path: &Path) -> PathBuf {
     let here = if path == Path::new("-") { None } else { path::absolute(path).ok() };
     here.unwrap_or_else(|| path.to_owned())
 }
@@ -22,7 +22,7 @@ pub(super) fn place(path: &Path) -> PathBuf {
 /// # Errors
 /// A complaint about a file that is missing, unreadable, a directory, too large, empty, or
 /// not text.
-pub(super) fn text(path: &Path) -> Result<String, Box<Complaint>> {
+pub fn text(path: &Path) -> Result<String, Box<Complaint>> {
     let complaint = |allowed: String| {
         let given = Json::String(path.display().to_string());
         Box::new(Complaint::new(Fault::Path, "study file", Origin::Whole, given, allowed))

@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::data_file::{self, DataFile, Row};
 use crate::input::Inputs;
-use crate::study::data_file::{self, DataFile, Row};
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of measured friction";

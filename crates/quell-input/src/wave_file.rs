@@ -3,8 +3,8 @@
 //! The file has one number per line, or is a CSV file whose header line names the column `value` (a single column may have any name).
 //! Comment lines begin with `#`. The samples are at equal distances, so that no line may be left out.
 
-use crate::study::data_file;
-use crate::study::files::{Files, WantedFile};
+use crate::data_file;
+use crate::files::{Files, WantedFile};
 
 /// What the file must be.
 const WHAT: &str = "a file of samples, one number per line, or a CSV file with a column value";
@@ -26,7 +26,7 @@ struct FileSamples(Vec<f64>);
 ///
 /// # Errors
 /// Why it cannot be read, or the line that is wrong.
-pub(super) fn values(files: &mut Files, key: &str, name: &str) -> Result<Vec<f64>, String> {
+pub fn values(files: &mut Files, key: &str, name: &str) -> Result<Vec<f64>, String> {
     let samples =
         files.parsed(key, name, WantedFile::of(WHAT), |text| parse(text).map(FileSamples))?;
     Ok(samples.0.clone())

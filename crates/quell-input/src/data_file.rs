@@ -10,7 +10,7 @@ use std::path::Path;
 use crate::input::read_regular;
 
 /// The largest file that is read, in MiB.
-pub(super) const LARGEST: u64 = 16;
+pub const LARGEST: u64 = 16;
 
 /// Maximum number of characters of a cell that are shown.
 const SHOWN: usize = 24;
@@ -19,7 +19,7 @@ const SHOWN: usize = 24;
 ///
 /// # Errors
 /// Why it cannot be read.
-pub(crate) fn text(path: &Path, what: &str) -> Result<String, String> {
+pub fn text(path: &Path, what: &str) -> Result<String, String> {
     text_up_to(path, what, LARGEST)
 }
 
@@ -27,14 +27,14 @@ pub(crate) fn text(path: &Path, what: &str) -> Result<String, String> {
 ///
 /// # Errors
 /// Why it cannot be read.
-pub(crate) fn text_up_to(path: &Path, what: &str, most: u64) -> Result<String, String> {
+pub fn text_up_to(path: &Path, what: &str, most: u64) -> Result<String, String> {
     let bytes = read_regular(path, most << 20)
         .map_err(|error| format!("{what} of at most {most} MiB; it cannot be read: {error}"))?;
     String::from_utf8(bytes).map_err(|_| format!("{what}; this file is not text"))
 }
 
 /// The 64-bit FNV-1a checksum of bytes.
-pub(crate) fn checksum(bytes: &[u8]) -> u64 {
+pub fn checksum(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum: u64, byte| {
         (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
     })
@@ -45,7 +45,7 @@ pub(crate) fn checksum(bytes: &[u8]) -> u64 {
 ///
 /// # Errors
 /// The places of columns that have. Names are not shown: the file may be any.
-pub(crate) fn distinct(names: &[&str]) -> Result<(), String> {
+pub fn distinct(names: &[&str]) -> Result<(), String> {
     if let Some(place) = names.iter().position(|name| name.contains(char::is_control)) {
         return Err(format!(
             "a CSV file with columns whose names have no control characters; that of column {} has",
@@ -69,7 +69,7 @@ pub(crate) fn distinct(names: &[&str]) -> Result<(), String> {
 ///
 /// # Errors
 /// The line, and the numbers of cells and columns.
-pub(crate) fn within(cells: &[&str], columns: usize, line: usize) -> Result<(), String> {
+pub fn within(cells: &[&str], columns: usize, line: usize) -> Result<(), String> {
     if cells.iter().skip(columns).all(|cell| cell.trim().is_empty()) {
         return Ok(());
     }
@@ -81,14 +81,14 @@ pub(crate) fn within(cells: &[&str], columns: usize, line: usize) -> Result<(), 
 
 /// A CSV file whose columns are known.
 #[derive(Debug)]
-pub(crate) struct DataFile<'t> {
+pub struct DataFile<'t> {
     names: Vec<&'t str>,
     rows: Vec<Row<'t>>,
 }
 
 /// A line of numbers.
 #[derive(Debug)]
-pub(crate) struct Row<'t> {
+pub struct Row<'t> {
     /// Number of the line, from 1.
     line: usize,
     cells: Vec<&'t str>,
@@ -101,7 +101,7 @@ impl<'t> DataFile<'t> {
     ///
     /// # Errors
     /// If there is no header line, or if it has one name twice.
-    pub(crate) fn new(text: &'t str, what: &str) -> Result<Self, String> {
+    pub fn new(text: &'t str, what: &str) -> Result<Self, String> {
         let mut lines = text
             .lines()
             .enumerate()
@@ -124,34 +124,34 @@ impl<'t> DataFile<'t> {
     }
 
     /// Index of a column.
-    pub(crate) fn column(&self, name: &str) -> Option<usize> {
+    pub fn column(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| *known == name)
     }
 
     /// Names of the columns.
-    pub(crate) fn names(&self) -> &[&'t str] {
+    pub fn names(&self) -> &[&'t str] {
         &self.names
     }
 
     /// The lines of numbers.
-    pub(crate) fn rows(&self) -> &[Row<'t>] {
+    pub fn rows(&self) -> &[Row<'t>] {
         &self.rows
     }
 }
 
 impl Row<'_> {
     /// The text in a column; empty if the line is too short.
-    pub(crate) fn text(&self, at: usize) -> &str {
+    pub fn text(&self, at: usize) -> &str {
         self.cells.get(at).copied().unwrap_or_default().trim_matches('"')
     }
 
     /// Number of the line, from 1.
-    pub(crate) fn line(&self) -> usize {
+    pub fn line(&self) -> usize {
         self.line
     }
 
     /// Where the row is in its file.
-    pub(crate) fn place(&self) -> String {
+    pub fn place(&self) -> String {
         format!("line {}", self.line)
     }
 
@@ -159,7 +159,7 @@ impl Row<'_> {
     ///
     /// # Errors
     /// Line, column, the cell, and what it must be.
-    pub(crate) fn number(
+    pub fn number(
         &self,
         at: usize,
         name: &str,
@@ -176,7 +176,7 @@ impl Row<'_> {
     }
 
     /// Whether the number in a column is below 0.
-    pub(crate) fn is_negative(&self, at: usize) -> bool {
+    pub fn is_negative(&self, at: usize) -> bool {
         self.cells
             .get(at)
             .and_then(|cell| cell.parse::<f64>().ok())

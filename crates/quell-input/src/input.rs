@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// File system errors; a file that is not regular or is longer than `most`.
-pub(crate) fn read_regular(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+pub fn read_regular(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let regular = |found: &Metadata| {
         let refused = || io::Error::other("it is not a regular file");
         if found.is_file() { Ok(()) } else { Err(refused()) }
@@ -64,7 +64,7 @@ impl Inputs {
     pub const NONE: Self = Self { files: Vec::new(), standard_input: false };
 
     /// These files; `-` is standard input.
-    pub(crate) fn of<'p>(paths: impl IntoIterator<Item = &'p Path>) -> Self {
+    pub fn of<'p>(paths: impl IntoIterator<Item = &'p Path>) -> Self {
         let mut inputs = Self::NONE;
         for path in paths {
             if path == Path::new("-") {

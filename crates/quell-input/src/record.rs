@@ -13,14 +13,14 @@
 
 use std::path::{Path, PathBuf};
 
-use quell_design::decay::RecordedQuantity;
+use quell_model::RecordedQuantity;
 use quell_numerics::order::ascending;
 use serde_json::Value as Json;
 
 use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::data_file::{self, DataFile};
 use crate::input::Inputs;
-use crate::study::data_file::{self, DataFile};
-use crate::study::suggest;
+use crate::nearest;
 
 const WHAT: &str = "a CSV file of a measured record";
 
@@ -465,7 +465,7 @@ fn reading_column(
     if let Some(name) = &request.column {
         let Some(at) = file.column(name) else {
             let allowed = format!("a column of the file: {}", listed(file));
-            let nearest = suggest::word(name, file.names().iter().copied());
+            let nearest = nearest::word(name, file.names().iter().copied());
             let complaint = Complaint::option("--column", name.as_str(), allowed);
             return Err(complaint.suggesting(nearest).into());
         };

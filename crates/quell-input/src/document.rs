@@ -241,7 +241,7 @@ impl Node {
 
     /// Adds every value below this node with its path; numbers have enough digits to read back
     /// as the same number.
-    pub(super) fn leaves(&self, path: &str, leaves: &mut Vec<(String, String)>) {
+    pub fn leaves(&self, path: &str, leaves: &mut Vec<(String, String)>) {
         match &self.value {
             Value::Number(number) => leaves.push((path.to_owned(), format!("{number:?}"))),
             Value::Table(table) => {
@@ -259,7 +259,7 @@ impl Node {
     }
 
     /// The entries of a list; a single value is a list of one.
-    pub(super) fn entries(&self) -> &[Self] {
+    pub fn entries(&self) -> &[Self] {
         match &self.value {
             Value::List(list) => list,
             _ => std::slice::from_ref(self),

@@ -6,7 +6,7 @@ use std::fmt;
 use std::path::{self, Path, PathBuf};
 use std::sync::Arc;
 
-use super::data_file;
+use crate::data_file;
 
 /// The files of a study, and the folder in which they are.
 #[derive(Clone, Default)]
@@ -28,16 +28,16 @@ struct HeldFile {
 
 /// What a file must be.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct WantedFile {
+pub struct WantedFile {
     /// In words, such as "a CSV file of modes".
-    pub(super) what: &'static str,
+    pub what: &'static str,
     /// The largest size in MiB.
-    pub(super) largest: u64,
+    pub largest: u64,
 }
 
 impl WantedFile {
     /// A file of the usual size.
-    pub(super) const fn of(what: &'static str) -> Self {
+    pub const fn of(what: &'static str) -> Self {
         Self { what, largest: data_file::LARGEST }
     }
 }
@@ -71,12 +71,13 @@ impl Files {
     }
 
     /// The same files for another reading, which names its own.
-    pub(super) fn to_read_again(&self) -> Self {
+    #[must_use]
+    pub fn to_read_again(&self) -> Self {
         Self { named: Vec::new(), ..self.clone() }
     }
 
     /// The path of a file by its name in the study.
-    pub(super) fn path(&self, name: &str) -> PathBuf {
+    pub fn path(&self, name: &str) -> PathBuf {
         self.folder.join(name)
     }
 
@@ -84,12 +85,7 @@ impl Files {
     ///
     /// # Errors
     /// Why it cannot be read.
-    pub(super) fn text(
-        &mut self,
-        key: &str,
-        name: &str,
-        wanted: WantedFile,
-    ) -> Result<Arc<str>, String> {
+    pub fn text(&mut self, key: &str, name: &str, wanted: WantedFile) -> Result<Arc<str>, String> {
         let place = self.place(key, name, wanted)?;
         Ok(Arc::clone(&self.held[place].text))
     }
@@ -98,7 +94,7 @@ impl Files {
     ///
     /// # Errors
     /// Why it cannot be read, or the line that is wrong.
-    pub(super) fn parsed<C: Send + Sync + 'static>(
+    pub fn parsed<C: Send + Sync + 'static>(
         &mut self,
         key: &str,
         name: &str,
@@ -135,12 +131,12 @@ impl Files {
     }
 
     /// The paths of the files that the study names.
-    pub(super) fn paths(&self) -> impl Iterator<Item = &Path> {
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
         self.named.iter().map(|(_, place)| self.held[*place].path.as_path())
     }
 
     /// What identifies the contents of the files, as `key.contents = size and checksum`.
-    pub(super) fn settings(&self) -> impl Iterator<Item = (String, String)> {
+    pub fn settings(&self) -> impl Iterator<Item = (String, String)> {
         self.named.iter().map(|(key, place)| {
             let text = &self.held[*place].text;
             let sum = data_file::checksum(text.as_bytes());

@@ -46,7 +46,7 @@ impl<'t> MarketLines<'t> {
 ///
 /// # Errors
 /// What the file must be, with the line that is wrong.
-pub(super) fn parse(text: &str, n: usize) -> Result<Matrix, String> {
+pub fn parse(text: &str, n: usize) -> Result<Matrix, String> {
     let text = text.trim_start_matches('\u{feff}');
     let (is_dense, symmetry) = header(text.lines().next().unwrap_or_default())?;
     let mut lines = MarketLines { lines: text.lines().enumerate() };

@@ -1,4 +1,4 @@
-//! A CSV file of modes, as `quell modes --save` writes it.
+//! A CSV file of the modes of a disc, as `quell modes --save` writes it.
 //!
 //! Comment lines begin with `#`; the first other line names the columns: `diameters`, `ratio` or `frequency_hz`,
 //! `shape_at_load`, and optionally `damping` and `centrifugal`. Other columns are ignored. If both are given, `ratio` is used.
@@ -8,21 +8,37 @@ use quell_model::parameter::disc::{
     MODE_CENTRIFUGAL, MODE_DAMPING, MODE_DIAMETERS, MODE_FREQUENCY, MODE_RATIO, MODE_SHAPE_AT_LOAD,
 };
 
-use super::mode_line::ModeLine;
-use crate::study::data_file::{DataFile, Row};
-use crate::study::files::WantedFile;
+use crate::data_file::{DataFile, Row};
+use crate::files::WantedFile;
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of modes";
 
 /// The file.
-pub(super) const WANTED: WantedFile = WantedFile::of(WHAT);
+pub const WANTED: WantedFile = WantedFile::of(WHAT);
+
+/// One mode of a list, with its frequency as given.
+#[derive(Clone, Copy, Debug)]
+pub struct ModeLine {
+    /// Nodal diameters, a whole number.
+    pub diameters: f64,
+    /// Frequency as a ratio to ω_ref.
+    pub ratio: Option<f64>,
+    /// Frequency, Hz.
+    pub hertz: Option<f64>,
+    /// Shape at the load.
+    pub shape_at_load: f64,
+    /// Damping ratio.
+    pub damping: Option<f64>,
+    /// Centrifugal coefficient.
+    pub centrifugal: Option<f64>,
+}
 
 /// The lines of a text.
 ///
 /// # Errors
 /// What is wrong, with its line.
-pub(super) fn parse(text: &str) -> Result<Vec<ModeLine>, String> {
+pub fn parse(text: &str) -> Result<Vec<ModeLine>, String> {
     let file = DataFile::new(text, WHAT)?;
     let column = |parameter: Parameter| file.column(parameter.key());
     let needed = |parameter: Parameter| {

@@ -4,60 +4,57 @@
 //! point, and its numbers are the displacements of the point in the modes.
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 use quell_model::parameter::system::{
     SYSTEM_MODAL_MASS, SYSTEM_MODE_DAMPING, SYSTEM_MODE_FREQUENCY,
 };
 use quell_model::parameter::{Bounds, Parameter};
 
-use super::names::MOST_COORDINATES;
-use crate::study::data_file::DataFile;
-use crate::study::files::{Files, WantedFile};
+use crate::data_file::DataFile;
+use crate::files::WantedFile;
 
 /// What the file must be.
 const WHAT: &str = "a CSV file of modes";
+
+/// The file.
+pub const WANTED: WantedFile = WantedFile::of(WHAT);
 
 /// The column of frequencies in hertz.
 const HERTZ: &str = "frequency_hz";
 
 /// A mode.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct SystemMode {
+pub struct SystemMode {
     /// Angular frequency.
-    pub(super) frequency: f64,
-    pub(super) damping_ratio: f64,
-    pub(super) modal_mass: Option<f64>,
+    pub frequency: f64,
+    /// Damping ratio.
+    pub damping_ratio: f64,
+    /// Modal mass, if the file has it.
+    pub modal_mass: Option<f64>,
     /// Displacement of each point of the list.
-    pub(super) shape: Vec<f64>,
+    pub shape: Vec<f64>,
 }
 
 /// The modes of a structure or of one of its components.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct ModeList {
+pub struct ModeList {
     /// Whether the file gives frequencies in hertz.
-    pub(super) in_hertz: bool,
-    pub(super) points: Vec<String>,
-    pub(super) modes: Vec<SystemMode>,
+    pub in_hertz: bool,
+    /// Names of the points.
+    pub points: Vec<String>,
+    /// The modes, in the order of the file.
+    pub modes: Vec<SystemMode>,
 }
 
-impl ModeList {
-    /// The modes of the file that `key` names.
-    ///
-    /// # Errors
-    /// What is wrong, with its line.
-    pub(super) fn read(files: &mut Files, key: &str, name: &str) -> Result<Arc<Self>, String> {
-        files.parsed(key, name, WantedFile::of(WHAT), parse)
-    }
-}
-
-fn parse(text: &str) -> Result<ModeList, String> {
+/// The modes of a text, at most `most`.
+///
+/// # Errors
+/// What is wrong, with its line.
+pub fn parse(text: &str, most: usize) -> Result<ModeList, String> {
     let file = DataFile::new(text, WHAT)?;
     let count = file.rows().len();
-    if count > MOST_COORDINATES {
-        return Err(format!(
-            "a CSV file of at most {MOST_COORDINATES} modes; this one has {count}"
-        ));
+    if count > most {
+        return Err(format!("a CSV file of at most {most} modes; this one has {count}"));
     }
     let column = |parameter: Parameter| file.column(parameter.key());
     let (frequency, in_hertz) = match (column(SYSTEM_MODE_FREQUENCY), file.column(HERTZ)) {
@@ -121,7 +118,7 @@ mod tests {
     #[test]
     fn columns_beyond_the_known_ones_are_points() {
         let text = "# a rotor\nfrequency_hz, damping_ratio, pad_x, pad_y\n10, 0.01, 0.5, 1\n20, 0.02, -1, 0\n";
-        let list = parse(text).expect("modes");
+        let list = parse(text, 10).expect("modes");
         assert_eq!(list.points, ["pad_x", "pad_y"]);
         assert_eq!(list.modes[1].frequency, TAU * 20.0);
         assert_eq!(list.modes[0].shape, [0.5, 1.0]);
@@ -135,10 +132,10 @@ mod tests {
             ("frequency,damping_ratio,x\n", "at least one mode"),
             ("frequency,damping_ratio,x,x\n1,0,1,1\n", "different names"),
         ] {
-            let wrong = parse(text).expect_err(text);
+            let wrong = parse(text, 10).expect_err(text);
             assert!(wrong.contains(part), "{text}: {wrong}");
         }
         let many = "frequency,damping_ratio,x\n".to_owned() + &"1,0,1\n".repeat(100_000);
-        assert!(parse(&many).expect_err("too many").contains("100000"));
+        assert!(parse(&many, 2000).expect_err("too many").contains("100000"));
     }
 }
