@@ -302,21 +302,25 @@ fn a_disc_may_be_in_si() {
     let place = Place::with("disc-si", &[("steel.toml", STEEL)]);
     let check = place.good(&["check", "steel.toml"]);
     let modes = place.good(&["modes", "steel.toml"]);
-    let (hertz, mass) = (number(&modes["reference_hz"]), number(&modes["plate_mass_kg"]));
-    let omega = std::f64::consts::TAU * hertz;
+    // Every number of an answer is in the units of the study, one under each name.
+    let (turn, radius) = (2.0 * std::f64::consts::TAU * 5.0, 0.75 * 0.14);
     let load = &check["disc"]["loads"][0];
-    let radius = 0.75 * 0.14;
-    for (name, wanted) in [
-        ("mass", 0.2 / mass),
-        ("damping", 400.0 / (mass * omega)),
-        ("stiffness", 2e7 / (mass * omega * omega)),
-        ("friction", 500.0 / (radius * mass * omega * omega)),
+    for (name, wanted, unit) in [
+        ("mass", 0.2, "kg"),
+        ("damping", 400.0, "N·s/m"),
+        ("stiffness", 2e7, "N/m"),
+        ("friction", 500.0, "N"),
     ] {
         assert!((number(&load[name]) / wanted - 1.0).abs() < 1e-14, "{name}: {load}");
+        assert_eq!(load["units"][name], unit);
     }
-    assert!((number(&check["disc"]["speed"]) / (10.0 / hertz) - 1.0).abs() < 1e-14);
-    assert!((number(&check["dither"]["frequency_ratio"]) / (2e4 / hertz) - 1.0).abs() < 1e-14);
-    // The answer in Hz, rpm and km/h, and every unstable mode.
+    assert!((number(&check["disc"]["speed"]) / turn - 1.0).abs() < 1e-14, "{check}");
+    assert!((number(&check["dither"]["frequency"]) / (2e3 * turn) - 1.0).abs() < 1e-14, "{check}");
+    let first = &modes["modes"][0];
+    let ratio = number(&first["frequency"]) / number(&modes["reference"]);
+    assert!((ratio / number(&first["ratio"]) - 1.0).abs() < 1e-14, "{first}");
+    assert_eq!([&check["unit_system"], &modes["units"]["critical_speed"]], ["SI", "rad/s"]);
+    // Every unstable mode; the table has Hz, rpm and km/h as well.
     let still = [
         "stability",
         "steel.toml",
@@ -326,18 +330,14 @@ fn a_disc_may_be_in_si() {
         "disc.without=[\"dither\"]",
     ];
     let found = place.good(&still[..4]);
-    assert!((number(&found["speed_rpm"]) - 600.0).abs() < 1e-9);
-    let along = 3.6 * std::f64::consts::TAU * 10.0 * radius;
-    assert!((number(&found["speed_at_load_km_per_h"]) / along - 1.0).abs() < 1e-12);
+    assert!((number(&found["speed"]) / turn - 1.0).abs() < 1e-12, "{found}");
+    assert!((number(&found["speed_at_load"]) / (turn * radius) - 1.0).abs() < 1e-12, "{found}");
     for mode in found["unstable_modes"].as_array().expect("a list") {
-        assert!(
-            (number(&mode["frequency_hz"]) / (hertz * number(&mode["frequency"])) - 1.0).abs()
-                < 1e-12
-        );
-        assert!(
-            number(&mode["growth_rate_per_s"]) > 0.0 && mode["growth_rate_db_per_s"].is_number()
-        );
+        assert!(number(&mode["growth_rate"]) > 0.0 && number(&mode["frequency"]) > 100.0, "{mode}");
     }
+    assert_eq!(found["units"]["growth_rate"], "1/s");
+    let named = found.as_object().expect("an object").keys();
+    assert!(named.clone().all(|name| !name.ends_with("_hz") && !name.ends_with("_rpm")), "{found}");
     let (words, _, _) = quell(&place, &still[..4]);
     assert!(words.contains(" rpm)") && words.contains("km/h") && words.contains("dB/s"), "{words}");
     // Options take units; plain numbers are in hertz here.
@@ -350,7 +350,7 @@ fn a_disc_may_be_in_si() {
     };
     let units = ask("0rpm:60000rpm", "6000rpm:12000rpm", "18kHz:20kHz");
     assert_eq!(units, ask("0:1000", "100:200", "18000:20000"));
-    assert!(number(&units["clear"]["frequencies_hz"][0]) > 17_999.0);
+    assert!(number(&units["clear"]["frequencies"][0]) > 17_999.0 * std::f64::consts::TAU);
     // Each key may be in SI or not; both at once, or SI without a size, is refused.
     place.good(&[
         "check",
@@ -395,4 +395,26 @@ fn each_load_may_have_a_phase_of_its_dither() {
 
 fn number(value: &Json) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("a number: {value}"))
+}
+
+/// A point of a map of a disc in SI is the answer of `stability` there, in the same unit, and a motion has its time in seconds.
+#[test]
+fn maps_and_motions_of_a_disc_in_si_have_its_units() {
+    let loud = STEEL.replace("friction_n = 500", "friction_n = \"50 kN\"");
+    let place = Place::with("disc-units", &[("steel.toml", &loud)]);
+    let axes =
+        ["--set", "sweep[0].parameter=disc.load.speed_rpm", "--set", "sweep[0].values=[600, 1200]"];
+    let map = place.good(&[&["map", "steel.toml", "--quantity", "growth"][..], &axes].concat());
+    assert_eq!(map["units"]["growth"], "1/s");
+    let speeds = map["axes"][0]["values"].as_array().expect("values");
+    for (place_of, speed) in speeds.iter().enumerate() {
+        let set = format!("disc.load.speed_rpm={speed}");
+        let found = place.good(&["stability", "steel.toml", "--set", &set]);
+        assert_eq!(map["growth"][place_of], found["growth_rate"], "{speed}");
+    }
+    let run = place.good(&["simulate", "steel.toml", "--until", "1ms"]);
+    assert!((number(&run["final"]["time"]) / 1e-3 - 1.0).abs() < 1e-12, "{run}");
+    assert_eq!([&run["units"]["time"], &run["units"]["mean_friction"]], ["s", "N"]);
+    let sentence = run["sentence"].as_str().expect("words");
+    assert!(sentence.contains("at t = 0.001 s"), "{sentence}");
 }

@@ -378,3 +378,40 @@ fn a_slider_repeats_itself_after_several_periods() {
         assert!((found - mean).abs() < 3e-3, "k_t = {stiffness}, V = {slip}: {found} {mean}");
     }
 }
+
+/// A slider that adheres above its static level, because sliding at its speed would take more, and one that slides against the direction
+/// of its slip, go on so after a cut at any time: T decides, and T is part of the state.
+#[test]
+fn a_run_continues_from_every_branch_of_a_slider() {
+    let mut seed = 12_345_u64;
+    let mut share = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    for case in 0..60 {
+        let level = 0.2 + 0.2 * share();
+        let rise = if share() > 0.4 { 0.15 * share() } else { 0.0 };
+        let values = [level, level + rise, 0.05 + 0.3 * share(), 2.0, 0.8 * share()];
+        let tangential =
+            dithered(Direction::Tangential, 1.5 * share(), 1.0 + 6.0 * share(), share());
+        let normal = dithered(Direction::Normal, 0.8 * share(), 1.0 + 6.0 * share(), share());
+        let system = slider(
+            (0.05 * share(), 0.02 + 0.3 * share()),
+            LawKind::StribeckExponential,
+            &values,
+            Some(2.0 + 60.0 * share()),
+            vec![tangential, normal],
+        );
+        let motion = Motion::new(&system).expect("a motion");
+        let from = [share() - 0.5, share() - 0.5];
+        let whole = run(&system, from, 8.0).0;
+        for _ in 0..20 {
+            let cut = run(&system, from, 8.0 * share()).0;
+            let end = motion.run(&cut.restart(), 8.0, MOTION_TOLERANCE, &mut ()).expect("an end");
+            for (found, expected) in end.state.iter().zip(&whole.state) {
+                let contacts = &cut.contacts;
+                assert!((found - expected).abs() < 1e-11, "{case}, {}: {contacts:?}", cut.time);
+            }
+        }
+    }
+}

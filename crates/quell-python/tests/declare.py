@@ -19,10 +19,10 @@ from quell._result import REPORTED_ELSEWHERE
 
 FILE = Path(__file__).parents[1] / "python" / "quell" / "results" / "_columns.py"
 
-HEAD = '''"""Arrays of results, columns of facts that are lists, and facts of discs in SI.
+HEAD = '''"""Arrays of results, and columns of facts that are lists.
 
 Written by tests/declare.py from what the verbs give. Arrays are in the units of the study; a column such as ``local_value`` has
-one entry for each entry of the fact ``local``; ``frequency_hz`` is ``frequency`` in Hz, of a disc with a material.
+one entry for each entry of the fact ``local``.
 """
 
 from __future__ import annotations

@@ -125,7 +125,7 @@ def test_a_study_in_si_answers_in_si() -> None:
     end = belt.simulate("1500ms").final
     assert end["time"] == 1.5 and "time_s" not in end
     assert belt.simulate(1.5).final == end
-    assert belt.check().system == "si"
+    assert belt.check().unit_system == "SI"
 
 
 def test_arguments_of_a_study_in_si_are_in_si_or_have_units() -> None:

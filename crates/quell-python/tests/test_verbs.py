@@ -201,7 +201,7 @@ def test_a_new_study_is_the_same(cli: Any, tmp_path: Any) -> None:
     assert quell.new() == cli("new")
     made = quell.new("drive")
     assert made == cli("new", "drive")
-    assert quell.Study.from_text(made["text"]).check().system == "si"
+    assert quell.Study.from_text(made["text"]).check().unit_system == "SI"
     path = tmp_path / "drive.toml"
     assert quell.new("drive", save=path)["saved"] == str(path)
     with pytest.raises(quell.StudyError, match="overwrite"):

@@ -3,6 +3,8 @@
 //! A plain number is in the units of the study: SI or dimensionless. A number with a unit requires a study in SI; angles and
 //! ratios may have units (`30deg`, `2%`) in any study.
 
+use std::f64::consts::TAU;
+
 use quell_input::complaint::Complaint;
 use quell_model::digits::digits;
 use quell_model::units::measure::{self, Unread};
@@ -38,7 +40,7 @@ pub fn system_frequency(
     if units != UnitSystem::None
         && let Ok(hertz) = measure::read(text.trim(), Some("Hz"))
     {
-        return Ok(std::f64::consts::TAU * hertz);
+        return Ok(TAU * hertz);
     }
     let allowed = match units {
         UnitSystem::None => "an angular frequency in the units of the study",
@@ -177,8 +179,14 @@ pub fn value_of(
         Some(study) => study.address(path).ok().map(|found| (found.measured_in, found.unit)),
         None => of_no_study(),
     };
-    let (wanted, unit) = known.unwrap_or((Some("1"), ""));
-    measured(text, wanted, unit, option)
+    match known {
+        Some((wanted, unit)) => measured(text, wanted, unit, option),
+        // The path is what is wrong, not the unit.
+        None => match measure::number(text) {
+            Some(number) => Ok(number),
+            None => measured(text, Some("1"), "", option),
+        },
+    }
 }
 
 /// A finite number in `unit`; `otherwise` describes numbers without a unit.
@@ -189,7 +197,14 @@ fn measured(
     option: &'static str,
 ) -> Result<f64, Box<Complaint>> {
     let text = text.trim();
-    let why = match measure::read(text, unit) {
+    let read = match measure::read(text, unit) {
+        // A frequency counts cycles.
+        Err(Unread::OtherDimension(_)) if unit == Some("rad/s") => {
+            measure::read(text, Some("Hz")).map(|hertz| TAU * hertz)
+        }
+        read => read,
+    };
+    let why = match read {
         Ok(number) if number.is_finite() => return Ok(number),
         Err(why) if measure::has_unit(text) => Some(why),
         _ => None,
@@ -313,7 +328,9 @@ frequency_hz = 50
         assert_eq!(of("90deg", "dither.phase"), Ok(std::f64::consts::FRAC_PI_2));
         assert_eq!(of("2%", "belt.damping_ratio"), Ok(0.02));
         assert!(of("5m", "dither.amplitude_n").expect_err("a length").contains("in N"));
-        assert!(of("5kN", "dither.waveform").is_err());
+        // A path that names no number is what is wrong; its reader says so.
+        assert_eq!(of("5kN", "dither.waveform"), Ok(5.0));
+        assert!(of("loud", "dither.waveform").is_err());
     }
 
     #[test]

@@ -833,3 +833,74 @@ fn the_speed_of_a_disc_may_be_that_along_its_surface() {
     assert_eq!((complaints.len(), complaints[0].key.as_str()), (1, "disc.load.speed"));
     assert!(complaints[0].allowed.contains("outer_radius_m"), "{complaints}");
 }
+
+/// Amplitude, frequency and phase of what oscillates have paths in belts, discs and contacts, in every unit, and complaints name them.
+#[test]
+fn the_numbers_of_an_oscillation_have_paths() {
+    let text = SI.replace(
+        "[friction]",
+        "drive = { oscillation = { amplitude_m_per_s = 0.01, frequency_hz = 5 } }\n[friction]",
+    );
+    let belt = BeltStudy::parse(&text, &[]).expect("valid");
+    let path = "belt.drive.oscillation.amplitude";
+    assert_eq!(belt.number(path), Some(0.01));
+    let (_, largest) = belt.belt().drive().expect("a drive").bounds();
+    let faster = belt.with(path, 0.02).expect("a study");
+    let (_, further) = faster.belt().drive().expect("a drive").bounds();
+    assert!((further / largest - 0.04 / 0.03).abs() < 1e-14, "{further} {largest}");
+    let changed = |change: &str| BeltStudy::parse(&text, &set(&[change]));
+    assert_eq!(
+        changed("belt.drive.oscillation.amplitude_m_per_s=20mm/s").expect("a study").belt(),
+        faster.belt()
+    );
+    let twice = BeltStudy::parse(&text, &set(&["belt.drive.oscillation.frequency=10Hz"]));
+    let hertz = twice.expect("a frequency").number("belt.drive.oscillation.frequency_hz");
+    assert!((hertz.expect("a number") / 10.0 - 1.0).abs() < 1e-14, "{hertz:?}");
+    let wrong = changed("belt.drive.oscillation.amplitud=1").expect_err("no such key");
+    assert_eq!(wrong[0].suggestion.as_deref(), Some(path));
+    let wrong = changed("belt.drive.oscillation.amplitude=-1").expect_err("negative");
+    assert!(wrong[0].allowed.contains("≥ 0"), "{wrong}");
+}
+
+/// Lists take numbers with units as single numbers do, and what is wrong with knots is said in the numbers of the file.
+#[test]
+fn lists_have_the_units_of_the_file() {
+    let law = |speeds: &str| {
+        let own = format!(
+            "law = \"samples\"\nslip_velocity = {speeds}\ncoefficient = [0.4, 0.35, 0.3, 0.29, 0.28]\n"
+        );
+        let start = SI.find("law =").expect("a law");
+        let end = SI.find("[[dither]]").expect("a dither");
+        [&SI[..start], &own, &SI[end..]].concat()
+    };
+    let plain = BeltStudy::parse(&law("[0, 0.01, 0.02, 0.05, 0.1]"), &[]).expect("plain");
+    let quoted = law("[0, \"10 mm/s\", \"0.072 km/h\", \"50 mm/s\", 0.1]");
+    let quoted = BeltStudy::parse(&quoted, &[]).expect("with units");
+    let at = |study: &BeltStudy| study.belt().friction().coefficient(study.belt().belt_velocity());
+    assert!((at(&quoted) / at(&plain) - 1.0).abs() < 1e-12, "{} {}", at(&quoted), at(&plain));
+    let falling = SI.replace("belt_velocity_m_per_s = 0.02\n", "").replace(
+        "[friction]",
+        "[belt.drive]\ntime = [0, 1.5, 0.5]\nvelocity = [0.02, 0.02, 0.03]\n[friction]",
+    );
+    let wrong = BeltStudy::parse(&falling, &[]).expect_err("times that fall");
+    assert_eq!((wrong.len(), wrong[0].key.as_str()), (1, "belt.drive.time[2]"));
+    assert!(wrong[0].allowed.contains("1.5"), "{wrong}");
+    // A frequency whose scale is wrong is told its sign alone.
+    let wrong = SI
+        .replace("stiffness_n_per_m = 1.0e6", "stiffness_n_per_m = -1")
+        .replace("frequency_hz = ", "frequency_hz = -");
+    let wrong = BeltStudy::parse(&wrong, &[]).expect_err("two faults");
+    let range = wrong.iter().find(|fault| fault.key.ends_with("frequency_hz")).expect("told");
+    assert!(range.allowed.contains("> 0") && !range.allowed.contains("100000"), "{wrong}");
+}
+
+/// A wrong name of the unit system is one fault, not one for every number with a unit.
+#[test]
+fn a_wrong_unit_system_is_one_fault() {
+    let text = "[system]\nunits = \"si\"\ncoordinates = [\"x\"]\nmass_kg = [2.0]\nstiffness_n_per_m = [2e4]\n[[contact]]\n\
+                name = \"guide\"\ntangent = { x = 1.0 }\nnormal_load = \"150 N\"\nbelt_velocity_m_per_s = 0.02\n[contact.friction]\n\
+                law = \"coulomb\"\ncoefficient = 0.3\n";
+    let wrong = Study::parse(text, &[]).expect_err("a wrong word");
+    assert_eq!((wrong.len(), wrong[0].key.as_str()), (1, "system.units"), "{wrong}");
+    assert_eq!(wrong[0].suggestion.as_deref(), Some("\"SI\""));
+}

@@ -169,6 +169,19 @@ impl Dataset {
         self
     }
 
+    /// The same dataset with other units: `one` gives, for the name and the unit of an array, what one of that unit is in another.
+    pub(crate) fn rescaled(
+        mut self,
+        one: impl Fn(&str, &str) -> Option<(f64, &'static str)>,
+    ) -> Self {
+        for array in self.axes.iter_mut().chain(&mut self.arrays) {
+            let Some((factor, unit)) = one(&array.name, &array.scaling) else { continue };
+            array.values.iter_mut().for_each(|value| *value *= factor);
+            (array.unit, array.scaling) = readable(unit);
+        }
+        self
+    }
+
     /// The axes.
     pub fn axes(&self) -> &[Array] {
         &self.axes

@@ -34,7 +34,11 @@ pub fn listing(path: Option<&str>) -> Result<String, Option<String>> {
     let tables: Vec<String> = sections.into_iter().map(table).collect();
     if tables.is_empty() {
         let all: Vec<String> = Section::ALL.iter().flat_map(|section| paths(*section)).collect();
-        return Err(nearest::word(asked.unwrap_or_default(), all.iter().map(String::as_str)));
+        // The last word of a path is asked for more often than another path that is as long.
+        let asked = asked.unwrap_or_default();
+        let last = |path: &&String| path.rsplit('.').next() == Some(asked);
+        let named = all.iter().find(last).cloned();
+        return Err(named.or_else(|| nearest::word(asked, all.iter().map(String::as_str))));
     }
     Ok(tables.join("\n"))
 }

@@ -15,7 +15,7 @@ use quell_model::units::Quantity;
 use quell_model::{Belt, Contact, System};
 
 use crate::study::BeltStudy;
-use crate::words::{digits, in_words};
+use crate::words::in_words;
 
 /// Time for which a start is observed: its first slow period, in which a decaying transient is largest.
 const OF_START: f64 = TAU;
@@ -26,6 +26,7 @@ const OF_ATTRACTOR: f64 = 4.0 * TAU;
 /// Warnings about contacts of a system whose slip leaves the range of their law; `dithered` has their fast motion.
 pub(crate) fn outside_of_laws(
     system: &System,
+    in_words: impl Fn(f64) -> String,
     dithered: Option<&[DitheredContact]>,
 ) -> Vec<String> {
     let contacts = system.contacts.iter().enumerate();
@@ -35,7 +36,7 @@ pub(crate) fn outside_of_laws(
                 Some(found) => found[index].largest_slip(contact),
                 None => contact.surface_velocity.mean().abs(),
             };
-            at_contact(contact, slip)
+            at_contact(contact, slip, &in_words)
         })
         .collect()
 }
@@ -179,15 +180,19 @@ pub(crate) fn averaged_at(study: &BeltStudy, slip: f64) -> Vec<String> {
     warnings
 }
 
-/// The warning about slip at a contact of a system beyond the range of its law.
-pub(crate) fn at_contact(contact: &Contact, slip: f64) -> Option<String> {
+/// The warning about slip at a contact of a system beyond the range of its law; `in_words` writes a velocity with its unit.
+pub(crate) fn at_contact(
+    contact: &Contact,
+    slip: f64,
+    in_words: impl Fn(f64) -> String,
+) -> Option<String> {
     let range = contact.friction.range()?;
     (slip > range.upper).then(|| {
         format!(
             "the slip velocity at contact {} reaches {}, beyond the range of its friction law, {} ({})",
             contact.name,
-            digits(slip),
-            digits(range.upper),
+            in_words(slip),
+            in_words(range.upper),
             range.limit
         )
     })

@@ -49,8 +49,8 @@ fn speeds_may_be_given_in_si() {
     );
     let plain = facts(&format!("{DISC}{NORMAL}{DESIGN}"));
     let study = Study::parse(&format!("{si}{NORMAL}"), &[]).expect("valid");
-    let stability = verbs(&study).stability().expect("finite").facts();
-    let hertz = number(&stability["speed_hz"]) / 0.4;
+    let modes = verbs(&study).modes().expect("modes").facts();
+    let hertz = number(&modes["reference"]) / std::f64::consts::TAU;
     let rpm = |speed: f64| 60.0 * hertz * speed;
     let range = format!("\"disc.load.speed_rpm\" = [{}, {}]", rpm(0.695), rpm(0.705));
     let asked = DESIGN.replace("\"disc.load.speed\" = [0.695, 0.705]", &range);

@@ -9,7 +9,8 @@ use serde_json::Value as Json;
 use crate::twins::Twin;
 
 /// Texts whose words are free, counts of work, and complaints, which name the keys of each form.
-const FREE: &[&str] = &["sentence", "why", "units", "steps", "title", "file", "errors"];
+const FREE: &[&str] =
+    &["sentence", "why", "units", "unit_system", "steps", "title", "file", "errors"];
 
 /// Relative and absolute difference of numbers beyond their stated errors. Far above the tolerance of both engines (10⁻¹² a step); a threshold
 /// that one form bisects and the other computes exactly differs by 2·10⁻⁶, which must show. With larger ones such a second rule would hide.

@@ -129,6 +129,12 @@ pub fn scaled(text: &str, factor: f64) -> Option<String> {
     Some(format!("{:?} {}", factor * number, unit.trim()))
 }
 
+/// The number at the start of a text, without regard to its unit.
+pub fn number(text: &str) -> Option<f64> {
+    let text = text.trim();
+    text[..length_of_number(text)].parse().ok().filter(|number: &f64| number.is_finite())
+}
+
 /// Whether a text is a number followed by something that may be a unit.
 pub fn has_unit(text: &str) -> bool {
     let text = text.trim();

@@ -5,6 +5,7 @@ use quell_model::parameter::{Bounds, Parameter};
 use quell_model::units::{Quantity, UnitSystem};
 use serde_json::{Map, Value as Json, json};
 
+use super::list::with_units;
 use super::object::object;
 use super::{course, list, waveform};
 use crate::study::vocabulary::{
@@ -191,15 +192,6 @@ pub(super) fn number_or_formula(parameter: Option<Parameter>) -> Json {
         plain[if lower_included { "minimum" } else { "exclusiveMinimum" }] = lower.into();
     }
     json!({ "anyOf": [plain, { "type": "string" }] })
-}
-
-/// Texts of a number followed by a unit; the reader checks the unit.
-const WITH_UNIT: &str =
-    "^\\s*[-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][-+]?[0-9]+)?\\s*[^-+.\\s0-9eE]";
-
-/// A number, or a text such as "5.7 kN".
-fn with_units(number: &Json) -> Json {
-    json!({ "anyOf": [number, { "type": "string", "pattern": WITH_UNIT }] })
 }
 
 /// A number of the registry.

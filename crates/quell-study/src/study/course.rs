@@ -36,7 +36,10 @@ pub(super) struct CoursePlace(pub(super) CourseTable);
 struct NumberList<'t> {
     node: &'t Node,
     key: String,
+    /// The numbers of the equations.
     values: Vec<f64>,
+    /// The numbers by the key.
+    written: Vec<f64>,
 }
 
 impl NumberList<'_> {
@@ -141,6 +144,9 @@ impl CoursePlace {
         match self.knots(times.values.clone(), values.values.clone(), shape) {
             Ok(knots) => Some(Course::Over(knots)),
             Err(why) => {
+                // What is wrong is said in the numbers of the file.
+                let written = self.knots(times.written.clone(), values.written.clone(), shape);
+                let why = written.err().unwrap_or(why);
                 let list = if why.key.starts_with("time") { times } else { values };
                 list.complain(reader, &why);
                 None
@@ -192,7 +198,12 @@ impl CoursePlace {
             .enumerate()
             .map(|(place, node)| reader.quantity(|| format!("{key}[{place}]"), node, wanted))
             .collect();
-        Some(NumberList { node, key, values: values.into_iter().collect::<Option<_>>()? })
+        let values: Vec<f64> = values.into_iter().collect::<Option<_>>()?;
+        let of_one = wanted
+            .quantity
+            .and_then(|quantity| reader.units().written_per_one(quantity, wanted.unit));
+        let written = values.iter().map(|value| value * of_one.unwrap_or(1.0)).collect();
+        Some(NumberList { node, key, values, written })
     }
 
     /// The key of a number or of a list; reported where it is missing.
@@ -314,13 +325,15 @@ impl CoursePlace {
             let given =
                 rows.map(|row| row.number(at, &name, &allowed, |value| bounds.contains(value)));
             let given: Vec<f64> = given.collect::<Result<_, String>>()?;
-            let values = given.into_iter().map(|value| units.in_equations(value, quantity, unit));
-            Ok::<_, String>(values.collect::<Option<Vec<f64>>>())
+            let values = given.iter().map(|value| units.in_equations(*value, quantity, unit));
+            Ok::<_, String>((values.collect::<Option<Vec<f64>>>(), given))
         };
-        let times: Option<Vec<f64>> = read(time, Quantity::Time, Bounds::FINITE)?;
-        let values: Option<Vec<f64>> = read(values, quantity, bounds)?;
+        let (times, written_times) = read(time, Quantity::Time, Bounds::FINITE)?;
+        let (values, written_values) = read(values, quantity, bounds)?;
         let (Some(times), Some(values)) = (times, values) else { return Ok(None) };
         let knots = self.knots(times, values, shape).map_err(|why| {
+            // What is wrong is said in the numbers of the file.
+            let why = self.knots(written_times, written_values, shape).err().unwrap_or(why);
             let place = why.key.split(['[', ']']).nth(1).and_then(|at| at.parse::<usize>().ok());
             let row = place.and_then(|place| file.rows().get(place));
             let at = row.map_or_else(String::new, |row| format!("{}, ", row.place()));

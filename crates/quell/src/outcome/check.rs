@@ -212,7 +212,10 @@ fn table_of_disc(study: &DiscStudy) -> String {
         &format!("{}, from the {}", object["disc"]["modes"], word(&object["disc"]["modes_from"])),
     );
     match study.disc().drive().map(Profile::bounds) {
-        None => table.word("speed Ω", &object["disc"]["speed"].to_string()),
+        None => {
+            let disc = &object["disc"];
+            table.word("speed Ω", &format!("{} {}", disc["speed"], word(&disc["units"]["speed"])));
+        }
         Some((least, largest)) => {
             table.word("speed Ω, over time", &format!("{least} to {largest}"));
         }
@@ -222,7 +225,12 @@ fn table_of_disc(study: &DiscStudy) -> String {
             .as_object()
             .into_iter()
             .flatten()
-            .map(|(name, value)| format!("{} {value}", name.replace('_', " ")))
+            .filter(|(name, _)| *name != "units")
+            .map(|(name, value)| {
+                let unit = load["units"][name].as_str().filter(|unit| !unit.starts_with('1'));
+                let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
+                format!("{} {value}{unit}", name.replace('_', " "))
+            })
             .collect();
         table.word(&format!("load {index}"), &words.join(", "));
     }

@@ -5,6 +5,7 @@ use serde_json::Value as Json;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::outcome::Presented;
+use crate::outcome::disc_units::{DiscUnits, in_units_of_study};
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::disc::motion::DiscSimulation;
@@ -14,7 +15,7 @@ impl Presented<DiscSetup> for DiscSimulation {
     const TITLED: bool = true;
 
     fn json(&self, study: &DiscStudy) -> Json {
-        self.json(study)
+        in_units_of_study(study, self.json(study))
     }
 
     fn sentence(&self, study: &DiscStudy) -> Option<String> {
@@ -25,8 +26,14 @@ impl Presented<DiscSetup> for DiscSimulation {
         self.motion.table(&self.system)
     }
 
-    fn datasets(&self, _: &DiscStudy) -> Vec<(&'static str, Dataset)> {
-        self.motion.datasets(&self.system)
+    fn datasets(&self, study: &DiscStudy) -> Vec<(&'static str, Dataset)> {
+        let Some(units) = DiscUnits::of(study) else { return self.motion.datasets(&self.system) };
+        // States are those of the equations, with which another run may begin.
+        let one = |name: &str, _: &str| {
+            if name == "time" { units.one(name, "1/ω_ref") } else { None }
+        };
+        let datasets = self.motion.datasets(&self.system).into_iter();
+        datasets.map(|(name, dataset)| (name, dataset.rescaled(one))).collect()
     }
 
     fn sound(&self, _: &DiscStudy) -> Option<Result<Vec<u8>, Failure>> {

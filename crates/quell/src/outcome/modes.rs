@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use serde_json::Value as Json;
 
 use super::Presented;
+use super::disc_units::{dataset_in_units, in_units_of_study};
 use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
@@ -17,7 +18,7 @@ impl Presented<DiscSetup> for Modes {
     const TITLED: bool = true;
 
     fn json(&self, study: &DiscStudy) -> Json {
-        self.json(study)
+        in_units_of_study(study, self.json(study))
     }
 
     fn table(&self, _: &DiscStudy) -> String {
@@ -25,7 +26,7 @@ impl Presented<DiscSetup> for Modes {
     }
 
     fn datasets(&self, study: &DiscStudy) -> Vec<(&'static str, Dataset)> {
-        vec![("modes", self.dataset(study))]
+        vec![("modes", dataset_in_units(study, self.dataset(study)))]
     }
 
     fn figure(&self, study: &DiscStudy) -> Option<Result<Figure, Failure>> {

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use serde_json::Value as Json;
 
 use super::Presented;
+use super::disc_units::{dataset_in_units, in_units_of_study};
 use super::table::{figure, in_hertz, in_rpm};
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
@@ -19,7 +20,7 @@ impl Presented<DiscSetup> for Resonances {
     const TITLED: bool = true;
 
     fn json(&self, study: &DiscStudy) -> Json {
-        self.json(study)
+        in_units_of_study(study, self.json(study))
     }
 
     fn table(&self, study: &DiscStudy) -> String {
@@ -27,7 +28,7 @@ impl Presented<DiscSetup> for Resonances {
     }
 
     fn datasets(&self, study: &DiscStudy) -> Vec<(&'static str, Dataset)> {
-        vec![("resonances", self.dataset(study))]
+        vec![("resonances", dataset_in_units(study, self.dataset(study)))]
     }
 
     fn figure(&self, study: &DiscStudy) -> Option<Result<Figure, Failure>> {

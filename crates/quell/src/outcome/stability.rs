@@ -6,6 +6,7 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
+use super::disc_units::in_units_of_study;
 use super::table::{TextTable, figure, figure_of, in_hertz, in_rpm};
 use crate::complaint::Failure;
 use crate::picture;
@@ -37,7 +38,7 @@ impl Presented<BeltSetup> for BeltStability {
 
 impl Presented<DiscSetup> for DiscStability {
     fn json(&self, study: &DiscStudy) -> Json {
-        self.json(study)
+        in_units_of_study(study, self.json(study))
     }
 
     fn sentence(&self, study: &DiscStudy) -> Option<String> {

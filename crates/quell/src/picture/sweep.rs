@@ -11,14 +11,21 @@ use super::caption::{VariedNumber, caption_of, with_varied};
 use super::map::{self, MapAxis, MapKind, MappedQuantity};
 use super::undrawable;
 use crate::complaint::Failure;
+use crate::outcome::disc_units::DiscUnits;
 use crate::plot::{
     Figure, Layer, Legend, LineStyle, Marker, Note, Panel, PlotAxis, PlotError, PlotRole, Points,
     Polyline, Size, Spread,
 };
 use crate::run::curves::{self, CurvesRequest};
 use crate::run::map::{FinishedMap, amplitude_and_other, boundaries_at};
-use crate::study::DiscStudy;
+use crate::study::{DiscStudy, Study};
 use crate::sweep::{Grid, GridAxis, Status, VariableArrays, VariableKind};
+
+/// What a growth rate of one ω_ref is in the units in which a disc is answered.
+fn one_growth(study: &Study) -> f64 {
+    let units = study.disc().ok().and_then(|study| DiscUnits::of(&study));
+    units.and_then(|units| units.one("growth", "ω_ref")).map_or(1.0, |(one, _)| one)
+}
 
 /// Whether a variable is drawn only if no other quantity was requested.
 fn is_secondary(name: &str) -> bool {
@@ -103,7 +110,7 @@ fn picture(done: &FinishedMap, entry: &VariableArrays, over: &[Layer]) -> Mapped
         VariableKind::Rate => MapKind::Growth(Spread::Linear),
         // Growth rates in tongues are 10⁻⁹ to 10⁻², decay rates about 10⁻².
         VariableKind::DiscRate if variable.symbol.starts_with("Re") => {
-            MapKind::Growth(Spread::SignedLog(1e-5))
+            MapKind::Growth(Spread::SignedLog(1e-5 * one_growth(grid.study())))
         }
         VariableKind::Number(_) if variable.name == "residual_vibration" => {
             MapKind::ResidualVibration

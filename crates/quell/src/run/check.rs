@@ -31,7 +31,7 @@ impl Check<'_> {
             Some(title) => fields.plain("title", title),
             None => fields.unknown("title", "the study has no title"),
         };
-        fields.plain("system", if scales.is_some() { "si" } else { "dimensionless" });
+        fields.plain("unit_system", study.units().name());
         let mut inner = Fields::new(scales);
         for (parameter, value, over_time) in [
             (DAMPING_RATIO, belt.damping_ratio(), None),

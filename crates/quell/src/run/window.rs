@@ -13,13 +13,14 @@ use serde_json::Value as Json;
 
 use super::belt_start::begin;
 use super::failed;
-use super::system::has_equations;
-use super::system::simulate::{beyond_laws, of_engine, put_means};
+use super::system::simulate::{beyond_laws_of, of_engine, put_means};
 use super::system::start::start_of;
+use super::system::{has_equations, velocity_in_words};
 use crate::complaint::{Complaint, Failure};
 use crate::contact_state::{passivity, passivity_of_system};
 use crate::fields::Fields;
 use crate::study::{BeltStudy, SystemStudy};
+use crate::words::in_words;
 
 /// Samples of the window.
 const MOST_SAMPLES: f64 = 1_000_000.0;
@@ -51,7 +52,8 @@ pub struct WindowedResponse {
 pub fn of_belt(study: &BeltStudy, window: (f64, f64)) -> Result<WindowedResponse, Failure> {
     let system = study.belt().system();
     let start = motion_start(&system, begin(study)?);
-    let mut found = measured(&system, &[1.0], &start, window)?;
+    let words = |speed| in_words(study, Quantity::Velocity, speed);
+    let mut found = measured(&system, &[1.0], &start, window, words)?;
     found.warnings.extend(passivity(study.belt()));
     Ok(found)
 }
@@ -62,7 +64,8 @@ pub fn of_belt(study: &BeltStudy, window: (f64, f64)) -> Result<WindowedResponse
 /// As [`of_belt`].
 pub fn of_system(study: &SystemStudy, window: (f64, f64)) -> Result<WindowedResponse, Failure> {
     has_equations(study, "response")?;
-    let mut found = measured(study.system(), &study.observe(), &start_of(study)?, window)?;
+    let words = |speed| velocity_in_words(study, speed);
+    let mut found = measured(study.system(), &study.observe(), &start_of(study)?, window, words)?;
     found.warnings.extend(study.warnings().iter().cloned().chain(passivity_of_system(study)));
     Ok(found)
 }
@@ -72,6 +75,7 @@ fn measured(
     row: &[f64],
     start: &MotionStart,
     window: (f64, f64),
+    in_words: impl Fn(f64) -> String,
 ) -> Result<WindowedResponse, Failure> {
     let (from, to) = window;
     if !(from >= start.time && from < to && to.is_finite()) {
@@ -90,7 +94,7 @@ fn measured(
     let end = motion.run(&before.restart(), to, MOTION_TOLERANCE, &mut (&mut observed, &mut meter));
     let end = end.map_err(failed)?;
     observed.finish(&end.state);
-    let mut warnings = beyond_laws(system, |contact| meter.largest_slip(contact));
+    let mut warnings = beyond_laws_of(system, in_words, |contact| meter.largest_slip(contact));
     warnings.extend(of_engine(system, &end));
     let spectrum = Spectrum::of(&observed.samples, step).map_err(|why| why.to_string());
     let strongest = spectrum.and_then(|spectrum| {

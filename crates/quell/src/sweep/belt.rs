@@ -10,7 +10,7 @@ use quell_model::units;
 use super::cost;
 use super::evaluate::{Computation, ResponseNumbers, Results, evaluate};
 use super::grid::Grid;
-use super::mapped::{Mapped, PointResults};
+use super::mapped::{Mapped, PointResults, PointScales};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, variable};
 use super::quench_variables as quench;
 use super::status::Status;
@@ -42,8 +42,7 @@ impl Mapped for BeltPoints {
     ) -> Vec<Option<PointResults>> {
         let belt = |index: &usize| grid.study_at(*index).ok()?.belt().ok();
         let studies: Vec<Option<BeltStudy>> = indices.iter().map(belt).collect();
-        let scales: Vec<_> =
-            studies.iter().map(|study| study.as_ref().map(BeltStudy::scales)).collect();
+        let scales: Vec<_> = studies.iter().map(|study| study.as_ref().map(scales_of)).collect();
         let valid: Vec<BeltStudy> = studies.into_iter().flatten().collect();
         let mut results = evaluate(&valid, wanted).into_iter();
         scales
@@ -51,6 +50,10 @@ impl Mapped for BeltPoints {
             .map(|scales| scales.and_then(|scales| results.next().map(|found| (scales, found))))
             .collect()
     }
+}
+
+fn scales_of(study: &BeltStudy) -> PointScales {
+    study.scales().map_or(PointScales::Own, PointScales::Belt)
 }
 
 /// Statuses of a response other than known.

@@ -3,6 +3,8 @@
 //! Points that differ only in the friction of a single load share the constant flow or the assembled equations. Every point
 //! goes through the same arithmetic with or without such neighbours, so that its bits do not depend on them.
 
+use std::f64::consts::TAU;
+
 use quell_disc::dithered;
 use quell_disc::equations::linearised;
 use quell_linear::eigenvalues;
@@ -16,7 +18,7 @@ use quell_numerics::floquet::Effort;
 
 use super::evaluate::{Computation, Results};
 use super::grid::Grid;
-use super::mapped::{Mapped, PointResults};
+use super::mapped::{Mapped, PointResults, PointScales};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, decided, variable};
 use super::status::Status;
 use super::{cost, refine};
@@ -56,7 +58,12 @@ impl Mapped for DiscPoints {
             .map(|index| Some(study.setup_at(&grid.numbers_at(*index)).ok()?.disc().clone()))
             .collect();
         let found = evaluate(&discs, study.parts(), wanted);
-        found.into_iter().map(|found| found.map(|found| (None, found))).collect()
+        let scales = |disc: &Disc| match disc.scales(0) {
+            Some(scales) if study.is_si() => PointScales::Disc(TAU * scales.reference_hz),
+            _ => PointScales::Own,
+        };
+        let each = discs.iter().zip(found);
+        each.map(|(disc, found)| Some((scales(disc.as_ref()?), found?))).collect()
     }
 }
 

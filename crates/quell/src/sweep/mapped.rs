@@ -7,8 +7,19 @@ use super::grid::Grid;
 use super::quantity::MapQuantity;
 use crate::study::Sweep;
 
+/// What the numbers of the equations of a point are in the units of its study.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum PointScales {
+    /// The same.
+    Own,
+    /// Those of a belt with mass and stiffness.
+    Belt(Scales),
+    /// Those of a disc whose ω_ref is this, in rad/s.
+    Disc(f64),
+}
+
 /// Results at a point, with the scales of its study.
-pub(super) type PointResults = (Option<Scales>, Results);
+pub(super) type PointResults = (PointScales, Results);
 
 /// A kind of study that maps can compute.
 pub(crate) trait Mapped: Send + Sync {

@@ -5,11 +5,13 @@
 //! the code of the status, or the word for "unknown". The fill values (the plain NaN, 255) mean
 //! "missing" and nothing else.
 
-use quell_model::units::{Quantity, Scales};
+use quell_model::units::Quantity;
 
-use super::evaluate::{Computation, Results};
+use super::evaluate::Computation;
+use super::mapped::{PointResults, PointScales};
 use super::quantity::{MapQuantity, Variable, VariableKind};
 use super::status::Status;
+use crate::outcome::disc_units::DiscUnits;
 use crate::study::{Study, UnitSystem};
 
 /// Bits of the NaN for an unknown number, to which the code of its status is added.
@@ -116,6 +118,7 @@ impl Sheet {
             Ok(study) => study.units(),
             Err(_) => study.file_units(),
         };
+        let disc_units = study.disc().ok().and_then(|study| DiscUnits::of(&study));
         let mut sheet = Self { entries: Vec::new(), fields: Vec::new() };
         let variables = quantities.iter().flat_map(|quantity| {
             quantity.variables.iter().map(|variable| (variable, quantity.computation))
@@ -135,7 +138,12 @@ impl Sheet {
                 }
             };
             let state = Some(format!("{name}_status"));
-            let unit = unit(variable.kind, units, scaled);
+            let unit = match &disc_units {
+                Some(disc) if variable.kind == VariableKind::DiscRate => disc
+                    .one(name, &unit(variable.kind, units, scaled))
+                    .map_or_else(String::new, |(_, unit)| unit.to_owned()),
+                _ => unit(variable.kind, units, scaled),
+            };
             let value = sheet.add(name.to_owned(), variable.about, unit, content, state.clone());
             let states = variable.all_statuses(computation);
             let states = states.iter().map(|status| (status.code(), status.name())).collect();
@@ -176,7 +184,7 @@ impl Sheet {
     }
 
     /// The arrays of some points; `None` where the axis values do not form a valid study.
-    pub(super) fn fill(&self, points: &[Option<(Option<Scales>, Results)>]) -> Vec<Data> {
+    pub(super) fn fill(&self, points: &[Option<PointResults>]) -> Vec<Data> {
         let mut arrays = self.missing(0);
         for point in points {
             for entry in &self.entries {
@@ -186,9 +194,9 @@ impl Sheet {
                         let known = |value: f64| results.qualification(entry.computation, value);
                         (value.map(|value| (value, known(value))), *scales)
                     }
-                    None => (Err(Status::InvalidStudy), None),
+                    None => (Err(Status::InvalidStudy), PointScales::Own),
                 };
-                let factor = scales.map_or(1.0, |scales| factor(entry.variable.kind, scales));
+                let factor = factor(entry.variable.kind, scales);
                 let (number, code, status) = match value {
                     Ok((value, status)) => (value * factor, whole(value), status),
                     Err(status) => (unknown(status), unknown_word(entry.variable.kind), status),
@@ -250,14 +258,14 @@ fn unit(kind: VariableKind, units: UnitSystem, scaled: bool) -> String {
 }
 
 /// What one number of the equations is in the units of the study.
-fn factor(kind: VariableKind, scales: Scales) -> f64 {
-    match kind {
-        VariableKind::Number(quantity) => scales.own(quantity).map_or(1.0, |(one, _)| one),
-        VariableKind::Rate => scales.angular_frequency(),
-        VariableKind::DiscRate
-        | VariableKind::SystemRate
-        | VariableKind::SystemNumber(_)
-        | VariableKind::Word { .. } => 1.0,
+fn factor(kind: VariableKind, scales: PointScales) -> f64 {
+    match (kind, scales) {
+        (VariableKind::Number(quantity), PointScales::Belt(scales)) => {
+            scales.own(quantity).map_or(1.0, |(one, _)| one)
+        }
+        (VariableKind::Rate, PointScales::Belt(scales)) => scales.angular_frequency(),
+        (VariableKind::DiscRate, PointScales::Disc(angular)) => angular,
+        _ => 1.0,
     }
 }
 

@@ -15,7 +15,7 @@ use super::evaluate::{
     Computation, Results, SystemEndPoint, SystemOrbitPoint, SystemPoint, SystemResponsePoint,
 };
 use super::grid::Grid;
-use super::mapped::{Mapped, PointResults};
+use super::mapped::{Mapped, PointResults, PointScales};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, decided, variable};
 use super::quench::quench_numbers_of_system;
 use super::quench_variables as quench;
@@ -83,7 +83,7 @@ impl Mapped for SystemPoints {
             let numbers = grid.numbers_at(*index);
             let system = self.0.model().at(&numbers).ok()?;
             if self.0.frequency_response().is_some() {
-                return Some((None, unmeasured()));
+                return Some((PointScales::Own, unmeasured()));
             }
             let mut results = evaluate(&system, wanted);
             // Runs have a start, which a study gives.
@@ -97,7 +97,7 @@ impl Mapped for SystemPoints {
                     results.system_response = Some(steady_response(&study));
                 }
             }
-            Some((None, results))
+            Some((PointScales::Own, results))
         };
         indices.iter().map(point).collect()
     }
@@ -139,7 +139,7 @@ fn evaluate(system: &System, wanted: &[Computation]) -> Results {
 fn undithered(system: &System) -> Result<SystemPoint, Status> {
     let linear = Linearised::new(system).map_err(|_| Status::NoSteadySliding)?;
     let growth = spectrum::growth(&linear, &linear.friction()).map_err(|_| Status::NotFinite)?;
-    let beyond_range = !outside_of_laws(system, None).is_empty();
+    let beyond_range = !outside_of_laws(system, crate::words::digits, None).is_empty();
     Ok(SystemPoint { growth, slip_ratio: 0.0, opens: false, beyond_range, without_state: false })
 }
 
@@ -155,7 +155,8 @@ pub(crate) fn growth(system: &System) -> Result<SystemPoint, Status> {
         growth,
         slip_ratio: ratios.fold(0.0, f64::max),
         opens: average.contacts.iter().any(DitheredContact::opens),
-        beyond_range: !outside_of_laws(system, Some(&average.contacts)).is_empty(),
+        beyond_range: !outside_of_laws(system, crate::words::digits, Some(&average.contacts))
+            .is_empty(),
         without_state: !averaged_without_states(system, &average.contacts).is_empty(),
     })
 }
@@ -214,7 +215,7 @@ fn steady_response(study: &SystemStudy) -> Result<SystemResponsePoint, Status> {
         effect: response.effect,
         amplitude: response.dithered.lines.whole,
         undithered_amplitude: response.undithered.lines.whole,
-        beyond_range: !beyond_laws(study.system(), |contact| {
+        beyond_range: !beyond_laws(study, |contact| {
             records.iter().map(|record| record.largest_slip(contact)).fold(0.0, f64::max)
         })
         .is_empty(),

@@ -32,7 +32,7 @@ def averaged(study: Study) -> Answer:
     """The averaged stability, and the friction laws with their averages under the dither."""
     found = study.stability()
     facts = found.facts
-    growth = facts.get("growth_rate_per_s", facts.get("growth_rate"))
+    growth = facts.get("growth_rate")
     laws = friction_of_belt(study) if study._native.kind == "belt" else contacts_of(study, facts)
     return {
         "sentence": facts.get("sentence", ""),

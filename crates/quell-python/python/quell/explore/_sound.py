@@ -46,7 +46,7 @@ def sound(study: Study, chosen: Mapping[str, float] | None = None) -> Answer:
 
 def heard(study: Study) -> float:
     """Time of the study that a second of sound takes: seconds in SI, otherwise ω₀ sounds at 110 Hz."""
-    return 1.0 if study.check().facts["system"] == "si" else 2.0 * math.pi * 110.0
+    return 1.0 if study.check().facts["unit_system"] != "none" else 2.0 * math.pi * 110.0
 
 
 def gain_of(run: Simulation) -> float | None:

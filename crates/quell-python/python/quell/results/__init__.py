@@ -1,8 +1,7 @@
 """Results of the verbs of a study.
 
 A result has the facts that the command line prints with ``--json`` as attributes (``response.residual_vibration``), in the
-dimensionless form of the equations and, for a study in SI, also in SI (``amplitude_m``). Unknown facts are ``None``, with
-the reason in ``result.why``. Its arrays and their coordinates are attributes too (``run.displacement`` over ``run.time``), as
+units of the study, which ``result.units`` names. Unknown facts are ``None``, with the reason in ``result.why``. Its arrays and their coordinates are attributes too (``run.displacement`` over ``run.time``), as
 NumPy arrays in the units of the study: in SI for a study in SI. Names that depend on the study, such as those of coordinates,
 are not known to type checkers: ``run["velocity_x"]``. ``result.dataset`` has everything, with units and provenance, as one
 :class:`xarray.Dataset`. pint reads the units (:meth:`Result.quantity`), and ``attrs["scaling"]`` is the scale of a dimensionless

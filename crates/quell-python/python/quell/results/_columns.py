@@ -1,7 +1,7 @@
-"""Arrays of results, columns of facts that are lists, and facts of discs in SI.
+"""Arrays of results, and columns of facts that are lists.
 
 Written by tests/declare.py from what the verbs give. Arrays are in the units of the study; a column such as ``local_value`` has
-one entry for each entry of the fact ``local``; ``frequency_hz`` is ``frequency`` in Hz, of a disc with a material.
+one entry for each entry of the fact ``local``.
 """
 
 from __future__ import annotations
@@ -294,24 +294,17 @@ class CheckColumns(Frozen):
     contact_law_varies_in_time: npt.NDArray[Any]
     disc_load_angle_deg: npt.NDArray[np.float64]
     disc_load_damping: npt.NDArray[np.float64]
-    disc_load_damping_n_s_per_m: npt.NDArray[np.float64]
     disc_load_dither_phase_deg: npt.NDArray[np.float64]
     disc_load_friction: npt.NDArray[np.float64]
-    disc_load_friction_n: npt.NDArray[np.float64]
     disc_load_mass: npt.NDArray[np.float64]
-    disc_load_mass_kg: npt.NDArray[np.float64]
     disc_load_radius_ratio: npt.NDArray[np.float64]
     disc_load_stiffness: npt.NDArray[np.float64]
-    disc_load_stiffness_n_per_m: npt.NDArray[np.float64]
     disc_modes: Any
     disc_speed: float
-    disc_speed_hz: float
-    disc_speed_rpm: float
     dither_amplitude: Any
     dither_amplitude_ratio: npt.NDArray[np.float64]
     dither_direction: npt.NDArray[np.str_]
     dither_frequency: Any
-    dither_frequency_hz: float
     dither_frequency_ratio: Any
     dither_has_envelope: npt.NDArray[Any]
     dither_phase: npt.NDArray[np.float64]
@@ -692,12 +685,10 @@ class ModesColumns(Frozen):
     frequency_parameter: npt.NDArray[np.float64]
     mode: npt.NDArray[np.float64]
     mode_critical_speed: npt.NDArray[np.float64]
-    mode_critical_speed_rpm: npt.NDArray[np.float64]
     mode_damping: npt.NDArray[np.float64]
     mode_damping_ratio: npt.NDArray[np.float64]
     mode_diameters: npt.NDArray[Any]
     mode_frequency: npt.NDArray[np.float64]
-    mode_frequency_hz: npt.NDArray[np.float64]
     mode_frequency_parameter: npt.NDArray[np.float64]
     mode_radial: npt.NDArray[Any]
     mode_ratio: npt.NDArray[np.float64]
@@ -855,7 +846,7 @@ class ResonancesColumns(Frozen):
     clear_original_suppressed: Any
     clear_speeds: npt.NDArray[np.float64]
     clear_suggestion: float
-    clear_tested_frequency_ratio: npt.NDArray[np.float64]
+    clear_tested_frequency: npt.NDArray[np.float64]
     clear_tested_growth_rate: npt.NDArray[np.float64]
     clear_tested_speed: npt.NDArray[np.float64]
     clear_tested_verdict: npt.NDArray[np.str_]
@@ -874,28 +865,21 @@ class ResonancesColumns(Frozen):
     clear_verified_speed: float
     dithered_conjugate: npt.NDArray[Any]
     dithered_edges: npt.NDArray[np.float64]
-    dithered_edges_hz: npt.NDArray[np.float64]
     dithered_harmonic: npt.NDArray[Any]
     dithered_pair: npt.NDArray[np.str_]
     dithered_pair_can_be_unstable: npt.NDArray[Any]
     dithered_peak_growth: npt.NDArray[np.float64]
     dithered_speed: npt.NDArray[np.float64]
-    dithered_speed_hz: npt.NDArray[np.float64]
-    dithered_speed_rpm: npt.NDArray[np.float64]
     dithered_threshold: npt.NDArray[np.float64]
     dithered_width: npt.NDArray[np.float64]
-    dithered_width_hz: npt.NDArray[np.float64]
     frequency: npt.NDArray[np.float64]
     growing_explained_by: npt.NDArray[np.str_]
     growing_from: npt.NDArray[np.float64]
-    growing_from_hz: npt.NDArray[np.float64]
     growing_order: npt.NDArray[np.str_]
     growing_pair: npt.NDArray[np.str_]
     growing_peak_growth: npt.NDArray[np.float64]
     growing_peak_speed: npt.NDArray[np.float64]
-    growing_peak_speed_hz: npt.NDArray[np.float64]
     growing_to: npt.NDArray[np.float64]
-    growing_to_hz: npt.NDArray[np.float64]
     harmonic: npt.NDArray[np.float64]
     lower_edge: npt.NDArray[np.float64]
     meeting: npt.NDArray[np.float64]
@@ -904,8 +888,6 @@ class ResonancesColumns(Frozen):
     response_contact: npt.NDArray[np.str_]
     response_dither: npt.NDArray[Any]
     speed: npt.NDArray[np.float64]
-    speeds_hz: list[float | None]
-    speeds_hz_value: npt.NDArray[np.float64]
     threshold: npt.NDArray[np.float64]
     undithered_conjugate: npt.NDArray[Any]
     undithered_harmonic: npt.NDArray[Any]
@@ -913,11 +895,8 @@ class ResonancesColumns(Frozen):
     undithered_pair_can_be_unstable: npt.NDArray[Any]
     undithered_peak_growth: npt.NDArray[np.float64]
     undithered_speed: npt.NDArray[np.float64]
-    undithered_speed_hz: npt.NDArray[np.float64]
-    undithered_speed_rpm: npt.NDArray[np.float64]
     undithered_threshold: npt.NDArray[np.float64]
     undithered_width: npt.NDArray[np.float64]
-    undithered_width_hz: npt.NDArray[np.float64]
     upper_edge: npt.NDArray[np.float64]
 
 
@@ -988,11 +967,7 @@ class SimulationColumns(Frozen):
     final_state_value: npt.NDArray[np.float64]
     final_sticking: Any
     final_time: float
-    final_time_s: float
     final_velocity: float
-    growth_observed_per_s: float | None
-    leading_frequency_hz: float
-    leading_growth_rate_per_s: float
     manoeuvre_begins_above: float
     manoeuvre_dither_onset: float
     manoeuvre_ends_below: float
@@ -1017,7 +992,6 @@ class SimulationColumns(Frozen):
     start_displacement: float
     start_state_value: npt.NDArray[np.float64]
     start_time: float
-    start_time_s: float
     start_velocity: float
     sticking: npt.NDArray[np.float64]
     time: npt.NDArray[np.float64]
@@ -1028,9 +1002,7 @@ class StabilityColumns(Frozen):
     """Of :class:`quell.results.Stability`."""
 
     change_frequency: npt.NDArray[np.float64]
-    change_frequency_hz: npt.NDArray[np.float64]
     change_friction: npt.NDArray[np.float64]
-    change_friction_n: npt.NDArray[np.float64]
     contact_effective_coefficient: npt.NDArray[np.float64]
     contact_friction: npt.NDArray[np.float64]
     contact_load_amplitude: npt.NDArray[np.float64]
@@ -1052,10 +1024,7 @@ class StabilityColumns(Frozen):
     critical_speed_mode: npt.NDArray[Any]
     critical_speed_near: npt.NDArray[Any]
     critical_speed_speed: npt.NDArray[np.float64]
-    critical_speed_speed_rpm: npt.NDArray[np.float64]
-    frequency_hz: float
     growth_rate_db_per_s: float
-    growth_rate_per_s: float
     limit_criterion: float
     limit_critical_amplitude_amplitude: npt.NDArray[np.float64]
     limit_critical_amplitude_amplitude_ratio: npt.NDArray[np.float64]
@@ -1077,10 +1046,6 @@ class StabilityColumns(Frozen):
     motion_error: npt.NDArray[np.float64]
     motion_frequency: npt.NDArray[np.float64]
     motion_growth_rate: npt.NDArray[np.float64]
-    speed_at_load_km_per_h: float
-    speed_at_load_m_per_s: float
-    speed_hz: float
-    speed_rpm: float
     undithered_frequency: float
     undithered_growth_rate: float
     undithered_growth_rate_error: float

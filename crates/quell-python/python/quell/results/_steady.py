@@ -21,14 +21,12 @@ class Check(_columns.CheckColumns, Result):
     """The study in numbers."""
 
     verb = "check"
-    system: Literal["dimensionless", "si"]
-    """Whether the numbers are only dimensionless, or also in SI."""
     coordinates: list[str]
     """System: names of the coordinates or states."""
     contacts: list[str]
     """System: names of the contacts."""
     unit_system: Literal["none", "SI", "mm-t-s"]
-    """System: the unit of bare numbers."""
+    """The units of the numbers."""
     title: str | None
     """Title of the study."""
     kind: str
@@ -599,7 +597,9 @@ class Stability(_columns.StabilityColumns, Result):
     critical_speeds: list[dict[str, Any]]
     """Disc: ``mode``, ``diameters``, ``speed`` of each critical speed, and whether the speed of the study is ``near``."""
     speed: float
-    """Disc: speed of the loads, in ω_ref."""
+    """Disc: speed of the loads."""
+    speed_at_load: float
+    """Disc with units and a radius of the first load: speed of the surface there."""
     without: list[str]
     """Disc: contributions that were left out."""
     changes: list[dict[str, float]] | None
@@ -690,7 +690,7 @@ class Modes(_columns.ModesColumns, Result):
 
     verb = "modes"
     modes: list[dict[str, Any]]
-    """Disc: ``radial``, ``diameters``, ``frequency_parameter`` (k²), ``ratio`` (ω_ref), ``shape_at_load``, ``damping``, …
+    """Disc: ``radial``, ``diameters``, ``frequency_parameter`` (k²), ``ratio``, ``frequency``, ``shape_at_load``, ``damping``, …
     System: ``frequency``, ``damping_ratio``, ``shape``, ``shape_imaginary``, with the springs of contacts and without friction."""
     critical_mode: dict[str, int] | None
     """Disc: the mode with the lowest critical speed."""
@@ -698,9 +698,9 @@ class Modes(_columns.ModesColumns, Result):
     """System: names of the coordinates of the shapes."""
     reference_frequency: float
     """Disc: frequency parameter k² of ω_ref."""
-    reference_hz: float | None
-    """Disc: ω_ref in Hz."""
-    plate_mass_kg: float | None
+    reference: float | None
+    """Disc: ω_ref in rad/s."""
+    plate_mass: float | None
     """Disc: mass of the plate, in kg."""
 
 

@@ -170,11 +170,16 @@ fn list<'t>(
         reader.wrong(&key, node, format!("an array of numbers; got {}", node.kind()));
         return None;
     };
+    let own = reader.units().file.unit(Quantity::Velocity);
     let numbers: Vec<Option<f64>> = list
         .iter()
         .enumerate()
         .map(|(index, node)| {
-            let unit = if let KeyUnit::Suffix(unit) = unit { unit } else { "" };
+            let unit = match unit {
+                KeyUnit::Suffix(unit) => unit,
+                _ if name == SPEED => own.unwrap_or_default(),
+                _ => "",
+            };
             reader.within(&format!("{key}[{index}]"), node, Bounds::NOT_NEGATIVE, unit, false)
         })
         .collect();

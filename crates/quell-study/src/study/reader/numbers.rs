@@ -260,8 +260,14 @@ impl Reader {
     /// What is allowed, in the unit of the key.
     fn range(&self, wanted: WantedNumber) -> String {
         let WantedNumber { quantity, bounds, unit } = wanted;
-        let of_one = quantity.and_then(|quantity| self.units().written_per_one(quantity, unit));
-        let size = |end: f64| if end == 0.0 { end } else { end * of_one.unwrap_or(1.0) };
+        let of_one =
+            quantity.map_or(Some(1.0), |quantity| self.units().written_per_one(quantity, unit));
+        // Without its scales only the sign of an end is known.
+        let size = |end: f64| match of_one {
+            _ if end == 0.0 => end,
+            Some(of_one) => end * of_one,
+            None => f64::INFINITY.copysign(end),
+        };
         let bounds = Bounds { lower: size(bounds.lower), upper: size(bounds.upper), ..bounds };
         let text = bounds.to_string();
         let text = if quantity == Some(Quantity::Count) {

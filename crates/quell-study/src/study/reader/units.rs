@@ -128,7 +128,11 @@ impl StudyUnits {
     }
 
     /// What a key in a unit gives for one number of the equations; `None` without the scales for it.
-    pub(super) fn written_per_one(self, quantity: Quantity, unit: KeyUnit) -> Option<f64> {
+    pub(in crate::study) fn written_per_one(
+        self,
+        quantity: Quantity,
+        unit: KeyUnit,
+    ) -> Option<f64> {
         self.in_equations(1.0, quantity, unit).map(f64::recip)
     }
 

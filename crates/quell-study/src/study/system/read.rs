@@ -212,8 +212,9 @@ fn units(reader: &mut Reader, document: &Table) -> UnitSystem {
     let Some(node) = system.and_then(|table| table.get("units")) else {
         return UnitSystem::None;
     };
+    // Where the word is wrong, numbers with units are no further faults.
     let name = reader.choice("system.units", node, Choice::Units);
-    name.and_then(UnitSystem::from_name).unwrap_or_default()
+    name.map_or(UnitSystem::Si, |name| UnitSystem::from_name(name).unwrap_or_default())
 }
 
 /// The keys that a form of the structure has, the first of which choose it.

@@ -19,7 +19,7 @@ use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
 use crate::noise::few_lines_of_system;
 use crate::range;
-use crate::run::system::{has_equations, in_units, oscillating};
+use crate::run::system::{has_equations, in_units, oscillating, velocity_in_words};
 use crate::study::{SystemStudy, UnitSystem};
 
 /// Averaged friction of one contact under a slow sinusoid of its slip velocity.
@@ -115,7 +115,9 @@ fn warnings(study: &SystemStudy, average: &AveragedSliding, largest: f64) -> Vec
     let mut warnings = study.warnings().to_vec();
     let contacts = system.contacts.iter().zip(&average.contacts);
     warnings.extend(contacts.filter_map(|(contact, found): (&Contact, _)| {
-        range::at_contact(contact, found.largest_slip(contact) + largest)
+        range::at_contact(contact, found.largest_slip(contact) + largest, |speed| {
+            velocity_in_words(study, speed)
+        })
     }));
     warnings.extend(contact_state::passivity_of_system(study));
     warnings.extend(contact_state::averaged_without_states(system, &average.contacts));

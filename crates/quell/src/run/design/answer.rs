@@ -419,7 +419,8 @@ impl LeastDitherFound {
         if let Some(first) = verified.first() {
             inner.number("multiplier", Quantity::Ratio, first.multiplier);
             if let Some(rate) = first.growth_rate {
-                inner.measured("growth_rate", "ω_ref", rate);
+                let (one, unit) = study.unit_of_growth();
+                inner.measured("growth_rate", unit, one * rate);
             }
             inner.plain("point", self.point_by_path(&first.point));
         }

@@ -12,6 +12,7 @@ use serde_json::Value as Json;
 use super::slow_response::{self, SlowResponse};
 use super::waveform::{system_with_waveform, with_waveform};
 use crate::fields::Fields;
+use crate::outcome::disc_units::DiscUnits;
 use crate::range::{outside_of_laws, sentence, with_dither};
 use crate::run::system::in_units;
 use crate::study::{BeltStudy, Design, DiscStudy, SystemStudy, Uncertainty, UnitSystem};
@@ -39,6 +40,11 @@ pub trait StudyWithDesign: Sync {
         Quantity::Force
     }
 
+    /// What a growth rate of one is in the units of the study, and that unit.
+    fn unit_of_growth(&self) -> (f64, &'static str) {
+        (1.0, "ω_ref")
+    }
+
     /// The document of the study after its changes.
     fn document(&self) -> Json;
 
@@ -59,7 +65,11 @@ pub trait StudyWithDesign: Sync {
     fn beyond_laws(&self, waveform: &Waveform, numbers: &[(&str, f64)]) -> Vec<String> {
         let Ok(system) = self.system_with(waveform, numbers) else { return Vec::new() };
         let average = DitheredSystem::new(&system).and_then(|prepared| prepared.average());
-        average.map_or_else(|_| Vec::new(), |found| outside_of_laws(&system, Some(&found.contacts)))
+        let words = |speed| self.in_words(Quantity::Velocity, speed);
+        average.map_or_else(
+            |_| Vec::new(),
+            |found| outside_of_laws(&system, words, Some(&found.contacts)),
+        )
     }
 
     /// The response to a dither that repeats in the band of the vibration, on the base response, with numbers set in order as by `--set` and
@@ -272,6 +282,11 @@ impl StudyWithDesign for DiscStudy {
 
     fn frequency_scale(&self) -> FrequencyScale {
         FrequencyScale::new(None, "frequency ratio")
+    }
+
+    fn unit_of_growth(&self) -> (f64, &'static str) {
+        let own = "ω_ref";
+        DiscUnits::of(self).and_then(|units| units.one("growth", own)).unwrap_or((1.0, own))
     }
 
     fn quantity_of_amplitude(&self) -> Quantity {

@@ -8,17 +8,22 @@ use quell_model::parameter::disc::{
 };
 use quell_model::parameter::{DITHER_FREQUENCY_RATIO, Parameter};
 use quell_model::profile::Profile;
-use quell_model::units::{DiscScales, measure};
+use quell_model::units::{DiscScales, Quantity, UnitSystem};
 use quell_model::{Direction, Disc, Waveform};
 use serde_json::{Value as Json, json};
 
+use crate::outcome::disc_units::DiscUnits;
 use crate::removed_mean;
 use crate::study::DiscStudy;
 use crate::study::disc::ModeSource;
 
+/// The units of the answers, with the scales of a load; `None` where numbers are those of the equations.
+type LoadUnits = Option<(DiscUnits, DiscScales)>;
+
 /// The study as JSON.
 pub fn json(study: &DiscStudy) -> Json {
     let disc = study.disc();
+    let units = DiscUnits::of(study);
     let loads: Vec<Json> = disc
         .loads()
         .iter()
@@ -30,21 +35,21 @@ pub fn json(study: &DiscStudy) -> Json {
                 "angle_deg": load.angle.to_degrees(),
                 LOAD_DITHER_PHASE.key(): load.dither_phase.to_degrees(),
             });
-            let scales = study.scales(index);
+            let scales = units.zip(study.scales(index));
             for (parameter, value) in [
                 (LOAD_MASS, load.mass),
                 (LOAD_DAMPING, load.damping),
                 (LOAD_STIFFNESS, load.stiffness),
                 (LOAD_FRICTION, load.friction),
             ] {
-                put_both(&mut object, parameter, value, scales);
+                put(&mut object, parameter, value, scales);
             }
             if load.static_load != 0.0 {
-                put_both(&mut object, LOAD_STATIC, load.static_load, scales);
+                put(&mut object, LOAD_STATIC, load.static_load, scales);
             }
             if let Some(normal_load) = load.normal_load {
-                put_both(&mut object, LOAD_NORMAL, normal_load, scales);
-                put_both(&mut object, LOAD_HALF_THICKNESS, load.half_thickness, scales);
+                put(&mut object, LOAD_NORMAL, normal_load, scales);
+                put(&mut object, LOAD_HALF_THICKNESS, load.half_thickness, scales);
             }
             put_area(&mut object, load);
             if let Some((least, largest)) = load.share.as_ref().map(Profile::bounds) {
@@ -56,7 +61,7 @@ pub fn json(study: &DiscStudy) -> Json {
             for (body, names) in [(load.pad, of_pad), (load.caliper, of_caliper)] {
                 let Some(Carrier { mass, damping, stiffness }) = body else { continue };
                 for (parameter, value) in names.into_iter().zip([mass, damping, stiffness]) {
-                    put_both(&mut object, parameter, value, scales);
+                    put(&mut object, parameter, value, scales);
                 }
             }
             object
@@ -80,7 +85,7 @@ pub fn json(study: &DiscStudy) -> Json {
     let mut object = json!({
         "ok": true,
         "title": study.title(),
-        "system": "dimensionless",
+        "unit_system": units.map_or(UnitSystem::None, |units| units.system()).name(),
         "disc": {
             "modes": disc.modes().len(),
             "modes_from": source(study),
@@ -98,10 +103,11 @@ pub fn json(study: &DiscStudy) -> Json {
             numbers.map(|(name, value)| (name.key().to_owned(), Json::from(value))).collect();
         object["friction"]["law"] = kind.name().into();
     }
-    let scales = study.scales(0);
+    let scales = units.zip(study.scales(0));
     put_speed(&mut object, disc, scales);
-    if let Some(ratio) = disc.dither().frequency_ratio() {
-        put_both(&mut object["dither"], DITHER_FREQUENCY_RATIO, ratio, scales);
+    if let Some(ratio) = disc.dither().frequency_ratio().filter(|_| units.is_some()) {
+        let frequency = Parameter { path: "dither.frequency", ..DITHER_FREQUENCY_RATIO };
+        put(&mut object["dither"], frequency, ratio, scales);
     }
     if study.title().is_none() {
         object["why"]["title"] = "the study has no title".into();
@@ -110,9 +116,9 @@ pub fn json(study: &DiscStudy) -> Json {
 }
 
 /// Adds the speed; where it varies in time, its least and its largest value.
-fn put_speed(object: &mut Json, disc: &Disc, scales: Option<DiscScales>) {
+fn put_speed(object: &mut Json, disc: &Disc, scales: LoadUnits) {
     let Some((least, largest)) = disc.drive().map(Profile::bounds) else {
-        put_both(&mut object["disc"], DISC_SPEED, disc.speed(), scales);
+        put(&mut object["disc"], DISC_SPEED, disc.speed(), scales);
         return;
     };
     object["disc"][DISC_SPEED.key()] = Json::Null;
@@ -120,10 +126,10 @@ fn put_speed(object: &mut Json, disc: &Disc, scales: Option<DiscScales>) {
     let mut ends = json!({});
     for (name, value) in [("least", least), ("largest", largest)] {
         let mut one = json!({});
-        put_both(&mut one, DISC_SPEED, value, scales);
-        for (key, value) in one.as_object().into_iter().flatten() {
-            ends[format!("{name}_{key}")] = value.clone();
-        }
+        put(&mut one, DISC_SPEED, value, scales);
+        let key = format!("{name}_{}", DISC_SPEED.key());
+        ends["units"][&key] = one["units"][DISC_SPEED.key()].take();
+        ends[key] = one[DISC_SPEED.key()].take();
     }
     if let (Some(whole), Json::Object(mut ends)) = (object["disc"].as_object_mut(), ends) {
         whole.append(&mut ends);
@@ -140,14 +146,20 @@ fn put_area(object: &mut Json, load: &Load) {
     }
 }
 
-/// Adds a number of the equations, and its value in SI under each SI key if its scale is known.
-fn put_both(object: &mut Json, parameter: Parameter, value: f64, scales: Option<DiscScales>) {
-    object[parameter.key()] = value.into();
-    let per_unit = scales.and_then(|scales| scales.si_per_unit(parameter.quantity));
-    let Some((per_unit, (unit, _))) = per_unit.zip(parameter.quantity.si_unit()) else { return };
-    for twin in parameter.si {
-        let size = measure::convert(1.0, unit, twin.unit).unwrap_or(1.0);
-        object[twin.key] = (value * per_unit * size).into();
+/// Adds a number of the equations in the units of the study, with its unit.
+fn put(object: &mut Json, parameter: Parameter, value: f64, scales: LoadUnits) {
+    let quantity = parameter.quantity;
+    let one = scales.and_then(|(units, scales)| units.one_at(&scales, quantity));
+    let (one, unit) = one.unwrap_or((1.0, parameter_unit(quantity)));
+    object[parameter.key()] = (one * value).into();
+    object["units"][parameter.key()] = unit.into();
+}
+
+/// The unit of a number of the equations of a disc.
+fn parameter_unit(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::FrequencyRatio => "ω_ref",
+        quantity => quantity.scaled_unit(),
     }
 }
 

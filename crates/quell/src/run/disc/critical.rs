@@ -4,6 +4,7 @@ use quell_disc::static_load::{CriticalSpeed, critical_speeds, deflections};
 use quell_numerics::eigen::EigenError;
 use serde_json::{Map, Value as Json, json};
 
+use crate::outcome::disc_units::DiscUnits;
 use crate::study::DiscStudy;
 
 /// Deflections at the loads.
@@ -61,34 +62,29 @@ impl Critical {
 
     /// Adds critical speeds and deflections to an answer, and the reasons of nulls.
     pub(super) fn put(&self, study: &DiscStudy, object: &mut Json, why: &mut Map<String, Json>) {
-        let hertz = study.reference_hz();
         let one = |critical: &CriticalSpeed| {
-            let mut object = json!({
+            json!({
                 "mode": critical.mode,
                 "diameters": study.disc().modes()[critical.mode].diameters,
                 "speed": critical.speed,
                 "near": critical.is_near(),
-            });
-            if let Some(hertz) = hertz {
-                object["speed_rpm"] = (60.0 * hertz * critical.speed).into();
-            }
-            object
+            })
         };
         object["critical_speeds"] = self.speeds.iter().map(one).collect();
         let Some(found) = &self.deflection else { return };
-        let radius = |load| study.scales(load).and_then(|scales| scales.load_radius_m);
-        let metres = |deflections: &[f64]| {
-            let pairs = deflections.iter().enumerate();
-            pairs
-                .map(|(load, w)| radius(load).map(|radius| radius * w))
-                .collect::<Option<Vec<f64>>>()
-        };
-        object["deflection"] = json!(found.deflections);
-        object["deflection_at_rest"] = json!(found.at_rest);
-        object["units"]["deflection"] = "r₀".into();
-        object["units"]["deflection_at_rest"] = "r₀".into();
-        if let Some(metres) = found.deflections.as_deref().and_then(metres) {
-            object["deflection_m"] = json!(metres);
+        // Each load has a radius of its own.
+        let units = DiscUnits::of(study);
+        let radius = |load| units?.length(study.scales(load)?.load_radius_m?);
+        let radii: Option<Vec<_>> = (0..study.disc().loads().len()).map(radius).collect();
+        let radii = radii.unwrap_or_else(|| vec![(1.0, "r₀"); study.disc().loads().len()]);
+        for (name, over_radii) in
+            [("deflection", &found.deflections), ("deflection_at_rest", &found.at_rest)]
+        {
+            let deflections = over_radii.as_ref().map(|list| {
+                list.iter().zip(&radii).map(|(w, (radius, _))| w * radius).collect::<Vec<f64>>()
+            });
+            object[name] = json!(deflections);
+            object["units"][name] = radii.first().map_or("r₀", |(_, unit)| unit).into();
         }
         let singular = "the disc has no unique equilibrium under the static load";
         if found.deflections.is_none() {

@@ -1,5 +1,7 @@
 //! `modes`: natural frequencies and shapes of the disc, and the critical speeds.
 
+use std::f64::consts::TAU;
+
 use quell_model::units::Quantity;
 use serde_json::{Map, Value as Json, json};
 
@@ -119,8 +121,7 @@ impl Modes {
                     "shape_at_load": row.shape_at_load,
                     "damping": row.damping,
                     "critical_speed": row.critical_speed(),
-                    "frequency_hz": row.frequency_hz,
-                    "critical_speed_rpm": row.critical_speed_rpm(),
+                    "frequency": row.ratio,
                 })
             })
             .collect();
@@ -142,10 +143,8 @@ impl Modes {
         let mass =
             if listed { "the study does not give plate_mass_kg and modes in hertz" } else { metal };
         let metal = if listed { "the listed modes are not in hertz" } else { metal };
-        explain(self.reference_hz.is_none(), "modes[].frequency_hz", metal);
-        explain(self.reference_hz.is_none(), "modes[].critical_speed_rpm", metal);
-        explain(self.reference_hz.is_none(), "reference_hz", metal);
-        explain(self.plate_mass.is_none(), "plate_mass_kg", mass);
+        explain(self.reference_hz.is_none(), "reference", metal);
+        explain(self.plate_mass.is_none(), "plate_mass", mass);
         explain(
             self.rows.iter().any(|row| row.critical_speed.is_none()),
             "modes[].critical_speed",
@@ -161,16 +160,16 @@ impl Modes {
             "modes": modes,
             "critical_mode": critical,
             "reference_frequency": self.reference,
-            "reference_hz": self.reference_hz,
-            "plate_mass_kg": self.plate_mass,
+            "reference": self.reference_hz.map(|hertz| TAU * hertz),
+            "plate_mass": self.plate_mass,
             "units": {
                 "frequency_parameter": "1 (k² = ω a² √(ρh/D))",
-                "ratio": "ω_ref",
+                "ratio": "1 (ω/ω_ref)",
                 "shape_at_load": "1 (unit mean square of φ cos qθ over the plate)",
                 "critical_speed": "ω_ref",
-                "frequency_hz": "Hz",
-                "critical_speed_rpm": "1/min",
-                "plate_mass_kg": "kg",
+                "frequency": "ω_ref",
+                "reference": "rad/s",
+                "plate_mass": "kg",
             },
             "why": why,
             "warnings": study.warnings(),
@@ -195,7 +194,7 @@ impl Modes {
             dataset = dataset.with(Array::new("frequency_parameter", "1", values));
         }
         dataset = dataset
-            .with(Array::new("ratio", "ω_ref", column(&|row| row.ratio)))
+            .with(Array::new("ratio", "1", column(&|row| row.ratio)))
             .with(Array::new("shape_at_load", "1", column(&|row| row.shape_at_load)))
             .with(Array::new("damping", "1", column(&|row| row.damping)));
         if self.reference_hz.is_some() {

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use std::f64::consts::TAU;
 
+use quell_model::units::Quantity;
 use quell_model::{Contact, System};
 use serde_json::{Map, Value as Json};
 
@@ -11,6 +12,8 @@ use super::kick::{self, KICK, Kick};
 use super::overflowed;
 use super::watch::RowWatch;
 use crate::complaint::Failure;
+use crate::outcome::disc_units::{DiscUnits, FORCE, POWER};
+use crate::run::system::in_units_of;
 use crate::run::system::simulate::{MotionRequest, SystemSimulation, run_observed, slowest_period};
 use crate::study::{DescribedSystem, DiscStudy, ScaledTime, SystemStart, SystemStudy, UnitSystem};
 use crate::words::digits;
@@ -34,9 +37,6 @@ const GROWS: &str = "the motion grows without bound: in this model friction foll
 /// Why a run under a speed, load or dither over time has no growth rate.
 const VARIES: &str =
     "the speed, a load or the dither varies in time: the growth rate is that of no moment";
-
-/// The unit of a friction force.
-const FORCE: &str = "r₀M_pω_ref²";
 
 /// One motion of a disc.
 #[derive(Clone, Debug)]
@@ -149,15 +149,20 @@ impl DiscSimulation {
     /// The outcome in a few sentences.
     pub fn sentence(&self, study: &DiscStudy) -> String {
         let mut text = self.motion.sentence(&self.system);
-        let unit = Self::length_unit(study);
+        let units = DiscUnits::of(study);
+        let length = |value: f64| {
+            let own = Self::length_unit(study);
+            let (one, unit) = units.and_then(|units| units.one("", own)).unwrap_or((1.0, own));
+            format!("{} {unit}", digits(one * value))
+        };
         if self.motion.request.begins_as_the_study() {
             let words = match (self.kick.changes_contacts, self.kick.amplitude) {
                 (true, deflection) => format!(
-                    "loads and slip velocities change by at most {KICK} of their values, and the deflection under load 0 by {} {unit}",
-                    digits(deflection)
+                    "loads and slip velocities change by at most {KICK} of their values, and the deflection under load 0 by {}",
+                    length(deflection)
                 ),
                 (false, deflection) => {
-                    format!("its deflection under load 0 is {} {unit}", digits(deflection))
+                    format!("its deflection under load 0 is {}", length(deflection))
                 }
             };
             let _ = write!(text, " In the small motion at the start {words}.");
@@ -165,12 +170,12 @@ impl DiscSimulation {
         if let Some(amplitude) = self.amplitude {
             let _ = write!(
                 text,
-                " Over the last tenth of the run the amplitude of the deflection under load 0 is {} {unit}.",
-                digits(amplitude)
+                " Over the last tenth of the run the amplitude of the deflection under load 0 is {}.",
+                length(amplitude)
             );
         }
         if self.chosen {
-            let until = digits(self.motion.end.time);
+            let until = in_units_of(&self.system, Quantity::Time, self.motion.end.time);
             let _ = write!(text, " The duration {until} was chosen; --until sets another.");
         }
         text
@@ -215,11 +220,6 @@ impl DiscSimulation {
             object["start"]["amplitude"] = Json::Null;
             why.insert("start.amplitude".to_owned(), "the start is given".into());
         }
-        let radius = study.scales(0).and_then(|scales| scales.load_radius_m);
-        if let Some(radius) = radius.filter(|_| study.disc().law().is_some()) {
-            object["amplitude_m"] = self.amplitude.map(|amplitude| amplitude * radius).into();
-        }
-        put_seconds(&mut object, study);
         put_units(&mut object, study);
         // Indexing would insert a null where there is no such key.
         if let Some(known) = object.get_mut("why").and_then(Json::as_object_mut) {
@@ -242,27 +242,6 @@ fn put(object: &mut Json, why: &mut Map<String, Json>, name: &str, value: &Resul
     }
 }
 
-/// Adds times in seconds, and growth per second, where ω_ref is known in hertz.
-fn put_seconds(object: &mut Json, study: &DiscStudy) {
-    let Some(hertz) = study.reference_hz() else { return };
-    let in_seconds = |moment: &mut Json| {
-        if let Some(time) = moment["time"].as_f64() {
-            moment["time_s"] = (time / (TAU * hertz)).into();
-        }
-    };
-    for name in ["start", "final"] {
-        in_seconds(&mut object[name]);
-    }
-    object["events"].as_array_mut().into_iter().flatten().for_each(in_seconds);
-    for (name, twin, factor) in [
-        ("growth_observed", "growth_observed_per_s", TAU * hertz),
-        ("leading_growth_rate", "leading_growth_rate_per_s", TAU * hertz),
-        ("leading_frequency", "leading_frequency_hz", hertz),
-    ] {
-        object[twin] = object[name].as_f64().map(|value| factor * value).into();
-    }
-}
-
 /// Names the units of a disc.
 fn put_units(object: &mut Json, study: &DiscStudy) {
     let under_law = study.disc().law().is_some();
@@ -274,6 +253,7 @@ fn put_units(object: &mut Json, study: &DiscStudy) {
         ("slip_velocity", velocity),
         ("friction", FORCE),
         ("mean_friction", FORCE),
+        ("friction_power", if under_law { POWER } else { FORCE }),
         ("normal", normal),
         ("mean_normal", normal),
         ("least_normal", normal),

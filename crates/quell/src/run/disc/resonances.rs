@@ -269,7 +269,7 @@ fn growing(
 }
 
 /// An interval of growth as JSON.
-fn interval(growing: &GrowingInterval, hertz: Option<f64>) -> Json {
+fn interval(growing: &GrowingInterval) -> Json {
     let GrowingSpeeds { from, to, peak_speed, peak_growth } = growing.speeds;
     let (explained, order, pair) = match &growing.explained {
         Explained::Wave => ("wave", Json::Null, Json::Null),
@@ -287,7 +287,6 @@ fn interval(growing: &GrowingInterval, hertz: Option<f64>) -> Json {
         "order": order,
         "pair": pair,
     });
-    put_hertz(&mut object, hertz, &["from", "to", "peak_speed"]);
     if let Explained::Not { nearest } = &growing.explained {
         object["nearest_meeting"] = nearest.map_or(Json::Null, |meeting| meeting.speed.into());
         object["why"] = json!({ "pair": THREE_WAVES });
@@ -305,23 +304,8 @@ fn named(order: Order) -> &'static str {
     }
 }
 
-/// Adds to an object its numbers in ω_ref converted to hertz, under their names with `_hz`.
-fn put_hertz(object: &mut Json, hertz: Option<f64>, names: &[&str]) {
-    fn times(value: &Json, hertz: f64) -> Json {
-        match value {
-            Json::Array(list) => list.iter().map(|value| times(value, hertz)).collect(),
-            _ => value.as_f64().map_or(Json::Null, |value| (value * hertz).into()),
-        }
-    }
-    for name in names {
-        if let Some(hertz) = hertz {
-            object[format!("{name}_hz")] = times(&object[*name], hertz);
-        }
-    }
-}
-
 /// A meeting as JSON.
-fn meeting(resonance: &Resonance, hertz: Option<f64>) -> Json {
+fn meeting(resonance: &Resonance) -> Json {
     let [first, second] = &resonance.waves;
     let mut why = Map::new();
     let edges = resonance.tongue.edges();
@@ -356,10 +340,6 @@ fn meeting(resonance: &Resonance, hertz: Option<f64>) -> Json {
         "width": resonance.tongue.width(),
         "peak_growth": resonance.tongue.peak_growth(),
     });
-    put_hertz(&mut object, hertz, &["speed", "edges", "width"]);
-    if let Some(hertz) = hertz {
-        object["speed_rpm"] = (60.0 * hertz * resonance.speed).into();
-    }
     if !why.is_empty() {
         object["why"] = Json::Object(why);
     }
@@ -418,28 +398,26 @@ impl Resonances {
 
     /// As JSON.
     pub fn json(&self, study: &DiscStudy) -> Json {
-        let hertz = study.reference_hz();
         let (start, end) = (self.question.speeds.start(), self.question.speeds.end());
         let mut object = json!({
             "ok": true,
             "speeds": [start, end],
             "order": named(self.question.order),
-            "undithered": self.undithered.iter().map(|resonance| meeting(resonance, hertz)).collect::<Vec<_>>(),
-            "dithered": self.dithered.iter().map(|resonance| meeting(resonance, hertz)).collect::<Vec<_>>(),
+            "undithered": self.undithered.iter().map(meeting).collect::<Vec<_>>(),
+            "dithered": self.dithered.iter().map(meeting).collect::<Vec<_>>(),
             "growing": self.growing.as_ref().ok().map(|found| {
-                found.iter().map(|growing| interval(growing, hertz)).collect::<Vec<_>>()
+                found.iter().map(interval).collect::<Vec<_>>()
             }),
             "friction": study.disc().loads().first().map(|load| load.friction),
             "units": {
-                "speed": "ω_ref", "edges": "ω_ref", "width": "ω_ref", "peak_growth": "ω_ref", "threshold": "1 (f*)",
-                "from": "ω_ref", "to": "ω_ref", "peak_speed": "ω_ref", "friction": "1 (f*)",
+                "speeds": "ω_ref", "speed": "ω_ref", "edges": "ω_ref", "width": "ω_ref", "peak_growth": "ω_ref", "threshold": "1 (f*)",
+                "from": "ω_ref", "to": "ω_ref", "peak_speed": "ω_ref", "nearest_meeting": "ω_ref", "friction": "1 (f*)",
             },
             "warnings": study.warnings(),
         });
         if let Err(why) = &self.growing {
             object["why"] = json!({ "growing": why });
         }
-        put_hertz(&mut object, hertz, &["speeds"]);
         if let Some(clear) = &self.clear {
             let mut inner = json!({
                 "speeds": [clear.speeds.start(), clear.speeds.end()],
@@ -456,17 +434,16 @@ impl Resonances {
                     "speed": verified.speed,
                 })),
                 "tested": clear.tested.iter().map(|tested| json!({
-                    "frequency_ratio": tested.result.frequency_ratio,
+                    "frequency": tested.result.frequency_ratio,
                     "verdict": tested.result.growth.verdict().name(),
                     "growth_rate": tested.result.growth.rate,
                     "speed": tested.result.speed,
                 })).collect::<Vec<_>>(),
                 "units": {
                     "speeds": "ω_ref", "frequencies": "ω_ref", "clear": "ω_ref", "suggestion": "ω_ref",
-                    "verified_growth_rate": "ω_ref", "growth_rate": "ω_ref", "growth_rate_error": "ω_ref", "speed": "ω_ref", "frequency_ratio": "ω_ref",
+                    "verified_growth_rate": "ω_ref", "growth_rate": "ω_ref", "growth_rate_error": "ω_ref", "speed": "ω_ref", "frequency": "ω_ref",
                 },
             });
-            put_hertz(&mut inner, hertz, &["speeds", "frequencies", "clear", "suggestion"]);
             let mut why = Map::new();
             if clear.suggestion.is_none() {
                 why.insert("suggestion".to_owned(), "no frequency in the range is clear".into());
@@ -488,7 +465,7 @@ impl Resonances {
                 let nearby: Vec<Json> = nearby
                     .iter()
                     .map(|nearby| {
-                        let mut object = meeting(&nearby.resonance, hertz);
+                        let mut object = meeting(&nearby.resonance);
                         object["reaches_in"] = nearby.reaches_in.into();
                         object
                     })

@@ -9,7 +9,6 @@ use quell_disc::undithered;
 use quell_linear::growth::{Growth, Verdict};
 use quell_model::disc::Contributions;
 use quell_model::disc::DiscDither;
-use quell_model::units::Quantity;
 use quell_numerics::floquet::Effort;
 use quell_numerics::order::ascending_by;
 use serde_json::{Map, Value as Json, json};
@@ -17,8 +16,10 @@ use serde_json::{Map, Value as Json, json};
 use super::critical::{self, Critical};
 use super::{overflowed, tangential};
 use crate::complaint::Failure;
+use crate::outcome::disc_units::{DiscUnits, FRICTION};
 use crate::run::stability::DECIBELS;
 use crate::study::DiscStudy;
+use crate::words::digits;
 
 /// A friction at which some motion is marginal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -190,36 +191,34 @@ fn put_origin(object: &mut Json, origin: Option<&GrowthShares>) {
     });
 }
 
-/// Adds growth per second, in decibels per second, and hertz to a motion.
-fn put_si(object: &mut Json, hertz: f64, growth: &Growth) {
-    let rate = std::f64::consts::TAU * hertz * growth.rate;
-    object["growth_rate_per_s"] = rate.into();
-    object["growth_rate_db_per_s"] = (DECIBELS * rate).into();
-    object["frequency_hz"] = (hertz * growth.frequency).into();
-}
-
 impl DiscStability {
     /// The result in one or two sentences.
     pub fn sentence(&self, study: &DiscStudy) -> String {
-        let speed = study.disc().speed();
+        let units = DiscUnits::of(study);
+        let words = |name: &str, value: f64| {
+            let own = (1.0, "ω_ref");
+            let (one, unit) = units.and_then(|units| units.one(name, own.1)).unwrap_or(own);
+            (one * value, unit)
+        };
+        let (speed, unit) = words("speed", study.disc().speed());
+        let speed = format!("{} {unit}", digits(speed));
         let under = match study.disc().dither() {
             DiscDither::None => "without dither",
             DiscDither::Normal { .. } => "under this normal dither",
             DiscDither::Tangential { .. } => "under this tangential dither",
         };
-        let Growth { rate, error, .. } = self.growth;
+        let (rate, unit) = words("growth", self.growth.rate);
+        let (error, _) = words("growth", self.growth.error);
         match self.growth.verdict() {
             Verdict::Stable => {
-                format!("At Ω = {speed} ω_ref the disc is stable {under}: every motion decays.")
+                format!("At Ω = {speed} the disc is stable {under}: every motion decays.")
             }
             Verdict::Unstable => {
-                format!(
-                    "At Ω = {speed} ω_ref the disc is unstable {under}: at least one motion grows."
-                )
+                format!("At Ω = {speed} the disc is unstable {under}: at least one motion grows.")
             }
             Verdict::Undecided => format!(
-                "At Ω = {speed} ω_ref the stability of the disc {under} is undecided: the growth rate {rate:.1e} ω_ref is zero \
-                 within its error {error:.1e} ω_ref. Without damping of its own, a disc is undecided along whole lines of a map."
+                "At Ω = {speed} the stability of the disc {under} is undecided: the growth rate {rate:.1e} {unit} is zero \
+                 within its error {error:.1e} {unit}. Without damping of its own, a disc is undecided along whole lines of a map."
             ),
         }
     }
@@ -234,7 +233,6 @@ impl DiscStability {
                 "frequency": growth.frequency,
             })
         };
-        let hertz = study.reference_hz();
         let mut object = growth(&self.growth);
         let mut why = Map::new();
         object["unstable_modes"] = self
@@ -245,9 +243,6 @@ impl DiscStability {
                 let mut object = growth(mode);
                 let origin = self.origins.as_ref().ok().and_then(|origins| origins.get(index));
                 put_origin(&mut object, origin);
-                if let Some(hertz) = hertz {
-                    put_si(&mut object, hertz, mode);
-                }
                 object
             })
             .collect();
@@ -295,29 +290,15 @@ impl DiscStability {
         warnings.extend(self.critical.warnings(study));
         object["warnings"] = warnings.into();
         object["units"] = json!({
-            "growth_rate": "ω_ref", "growth_rate_error": "ω_ref", "frequency": "ω_ref", "speed": "ω_ref", "friction": "1",
+            "growth_rate": "ω_ref", "growth_rate_error": "ω_ref", "frequency": "ω_ref", "speed": "ω_ref", "friction": FRICTION,
         });
         self.critical.put(study, &mut object, &mut why);
-        if let Some(hertz) = hertz {
-            put_si(&mut object, hertz, &self.growth);
-            let speed = hertz * study.disc().speed();
-            object["speed_hz"] = speed.into();
-            object["speed_rpm"] = (60.0 * speed).into();
-            if let Some(radius) = study.scales(0).and_then(|scales| scales.load_radius_m) {
-                let velocity = std::f64::consts::TAU * radius * speed;
-                object["speed_at_load_m_per_s"] = velocity.into();
-                object["speed_at_load_km_per_h"] = (3.6 * velocity).into();
-            }
-            if let Some(force) =
-                study.scales(0).and_then(|scales| scales.si_per_unit(Quantity::LoadFriction))
-                && let Some(changes) = object["changes"].as_array_mut()
-            {
-                for change in changes {
-                    let friction = change["friction"].as_f64().map(|friction| friction * force);
-                    let frequency = change["frequency"].as_f64().map(|frequency| frequency * hertz);
-                    change["friction_n"] = friction.into();
-                    change["frequency_hz"] = frequency.into();
-                }
+        if let Some(hertz) = study.reference_hz().filter(|_| study.is_si()) {
+            let omega = std::f64::consts::TAU * hertz;
+            object["growth_rate_db_per_s"] = (DECIBELS * omega * self.growth.rate).into();
+            if study.scales(0).is_some_and(|scales| scales.load_radius_m.is_some()) {
+                object["speed_at_load"] = study.disc().speed().into();
+                object["units"]["speed_at_load"] = "r₀ω_ref".into();
             }
         }
         if !why.is_empty() {

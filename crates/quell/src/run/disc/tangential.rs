@@ -5,6 +5,7 @@ use quell_model::disc::DiscDither;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
+use crate::outcome::disc_units::DiscUnits;
 use crate::study::DiscStudy;
 
 /// One object for each load with a slip ratio; null where no load slides with one, `None` without tangential dither.
@@ -22,21 +23,20 @@ pub(super) fn json(study: &DiscStudy) -> Option<Json> {
             let dither = TangentialDither { slip_ratio, speed, frequency_ratio };
             let mass = load.mass + load.pad.map_or(0.0, |pad| pad.mass);
             let force = dither.force(mass, load.friction);
-            let mut object = json!({
+            // Each load has scales of its own.
+            let newtons = DiscUnits::of(study)
+                .and_then(|_| study.scales(index)?.si_per_unit(Quantity::LoadFriction));
+            let (unit, own) =
+                newtons.map_or(("1 (F/(r₀M_pω_ref²))", 1.0), |force| ("N", force));
+            Some(json!({
                 "load": index,
                 "slip_ratio": slip_ratio,
                 "angle_deg": dither.angle().to_degrees(),
                 "mean": dither.mean(),
                 "fundamental": dither.harmonic(1),
-                "force": force,
-                "units": { "angle_deg": "°", "mean": "f*", "fundamental": "f*", "force": "1 (F/(r₀M_pω_ref²))" },
-            });
-            let scales = study.scales(index);
-            let newtons = scales.and_then(|scales| scales.si_per_unit(Quantity::LoadFriction));
-            if let Some(newtons) = newtons {
-                object["force_n"] = (force * newtons).into();
-            }
-            Some(object)
+                "force": own * force,
+                "units": { "angle_deg": "°", "mean": "f*", "fundamental": "f*", "force": unit },
+            }))
         })
         .collect();
     Some(if shaken.is_empty() { Json::Null } else { shaken.into() })

@@ -39,7 +39,7 @@ pub fn of_system(
     let runs: Vec<(NoisyRun, Vec<f64>)> = found.into_iter().collect::<Result<_, _>>()?;
     let largest = |contact: usize| runs.iter().map(|(_, slip)| slip[contact]).fold(0.0, f64::max);
     let mut warnings = study.warnings().to_vec();
-    warnings.extend(beyond_laws(system, largest));
+    warnings.extend(beyond_laws(study, largest));
     let undithered = without.record();
     Ok(NoiseResponse {
         start: start_in_words(study, &Vec::new()),

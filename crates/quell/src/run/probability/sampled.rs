@@ -1,5 +1,7 @@
 //! The kinds of study whose numbers can be uncertain, and the judges of one sample.
 
+use std::f64::consts::TAU;
+
 use quell_design::least_dither::{averaged_quiet_of_belt, averaged_quiet_of_system};
 use quell_dynamics::attractor::reached;
 use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
@@ -14,6 +16,7 @@ use super::ProbabilityStart;
 use crate::complaint::{Complaint, Failure};
 use crate::contact_state::refused_of_belt;
 use crate::fields::Fields;
+use crate::outcome::disc_units::DiscUnits;
 use crate::range;
 use crate::run::stability::FAST;
 use crate::run::system::attractor::{MotionKind, end_of_run, local_verdict};
@@ -352,7 +355,11 @@ impl SampledKind for DiscStudy {
     }
 
     fn averaged_growth(&self, disc: &Disc) -> AveragedGrowth {
+        // A sample has an ω_ref of its own.
+        let one = disc.scales(0).filter(|_| self.is_si());
+        let one = one.map_or(1.0, |scales| TAU * scales.reference_hz);
         let growth = growth_of_disc(disc, self.parts()).map(JudgedGrowth::of);
+        let growth = growth.map(|growth| JudgedGrowth { rate: one * growth.rate, ..growth });
         AveragedGrowth::of(growth.map_err(|status| status.about().to_owned()))
     }
 
@@ -374,6 +381,6 @@ impl SampledKind for DiscStudy {
     }
 
     fn unit_of_rates(&self) -> (&'static str, f64) {
-        ("ω_ref", 1.0)
+        (if DiscUnits::of(self).is_some() { "1/s" } else { "ω_ref" }, 1.0)
     }
 }

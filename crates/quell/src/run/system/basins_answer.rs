@@ -177,7 +177,7 @@ impl SystemBasins {
             let basins = self.portraits.iter().flat_map(|portrait| &portrait.basins);
             basins.map(|basin| &basin.attractor)
         };
-        let beyond = beyond_laws(study.system(), |contact| {
+        let beyond = beyond_laws(study, |contact| {
             attractors().map(|attractor| attractor.largest_slip[contact]).fold(0.0, f64::max)
         });
         study.warnings().iter().cloned().chain(beyond).chain(unknown).collect()

@@ -82,7 +82,7 @@ impl SystemBifurcation {
             points.filter_map(SystemSweepPoint::attractor)
         };
         // The laws are those of the study: a law that is swept itself keeps the range of its study here.
-        warnings.extend(beyond_laws(study.system(), |contact| {
+        warnings.extend(beyond_laws(study, |contact| {
             attractors().map(|attractor| attractor.largest_slip[contact]).fold(0.0, f64::max)
         }));
         for branch in &self.branches {

@@ -10,7 +10,7 @@ use crate::contact_state::passivity_of_system;
 use crate::noise;
 use crate::removed_mean;
 use crate::run::actuator::beyond_actuator;
-use crate::study::{SystemStart, SystemStudy, UnitSystem};
+use crate::study::{SystemStart, SystemStudy};
 
 /// The study as JSON.
 pub fn json(study: &SystemStudy) -> Json {
@@ -39,7 +39,6 @@ pub fn json(study: &SystemStudy) -> Json {
         "title": study.title(),
         "kind": "system",
         "form": form,
-        "system": if study.units() == UnitSystem::None { "dimensionless" } else { "si" },
         "unit_system": study.units().name(),
         "coordinates": names,
         "contacts": contacts,

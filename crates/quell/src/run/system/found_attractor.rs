@@ -144,7 +144,7 @@ impl AttractorOfSystem {
     fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let attractor = self.end.as_ref().ok().map(|end| &end.attractor);
         let beyond = attractor.map_or_else(Vec::new, |attractor| {
-            beyond_laws(study.system(), |contact| attractor.largest_slip[contact])
+            beyond_laws(study, |contact| attractor.largest_slip[contact])
         });
         let warnings = study.warnings().iter().cloned().chain(beyond);
         let found = self.measured().map(MeasuredExponents::warnings).unwrap_or_default();

@@ -11,7 +11,7 @@ use quell_model::system::{Contact, Input, InputTarget};
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::has_equations;
+use super::{has_equations, velocity_in_words};
 use crate::complaint::Failure;
 use crate::contact_state::passivity_of_system;
 use crate::dataset::{Array, Dataset};
@@ -74,7 +74,8 @@ pub fn run(study: &SystemStudy, at: Option<&[f64]>) -> Result<SystemFriction, Fa
     warnings.extend(contacts.iter().zip(&system.contacts).filter_map(|(found, contact)| {
         let speeds = found.curve.points.iter().map(|point| point.slip_velocity.abs());
         let fast = *found.fast_velocity.as_ref().unwrap_or(&0.0);
-        range::at_contact(contact, speeds.fold(found.velocity.abs(), f64::max) + fast)
+        let largest = speeds.fold(found.velocity.abs(), f64::max) + fast;
+        range::at_contact(contact, largest, |speed| velocity_in_words(study, speed))
     }));
     Ok(SystemFriction { contacts, warnings })
 }

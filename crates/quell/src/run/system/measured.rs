@@ -9,7 +9,7 @@ use serde_json::Value as Json;
 
 use super::stability::{SlidingContact, put_contact, put_critical};
 use super::validity::{condition, opened, opening};
-use super::{failed, oscillating};
+use super::{failed, oscillating, velocity_in_words};
 use crate::complaint::Failure;
 use crate::fields::Fields;
 use crate::range::outside_of_laws;
@@ -103,7 +103,8 @@ impl MeasuredStability {
     fn warnings(&self, study: &SystemStudy) -> Vec<String> {
         let (system, dithered) = (study.system(), self.sliding.dithered.as_slice());
         let fast = (!dithered.is_empty()).then_some(dithered);
-        let listed = study.warnings().iter().cloned().chain(outside_of_laws(system, fast));
+        let words = |speed| velocity_in_words(study, speed);
+        let listed = study.warnings().iter().cloned().chain(outside_of_laws(system, words, fast));
         listed.chain(opened(study.units(), system, dithered)).collect()
     }
 

@@ -90,6 +90,21 @@ pub(crate) fn in_units(units: UnitSystem, quantity: Quantity, value: f64) -> Str
     format!("{}{unit}", digits(value))
 }
 
+/// A number of a study with its unit; a time in seconds where plain times of its options are.
+pub(crate) fn in_units_of(study: &SystemStudy, quantity: Quantity, value: f64) -> String {
+    match study.scaled_time().filter(|time| time.plain_in_seconds) {
+        Some(time) if quantity == Quantity::Time => {
+            in_units(UnitSystem::Si, quantity, value / time.per_second)
+        }
+        _ => in_units(study.units(), quantity, value),
+    }
+}
+
+/// A velocity with its unit.
+pub(crate) fn velocity_in_words(study: &SystemStudy, speed: f64) -> String {
+    in_units(study.units(), Quantity::Velocity, speed)
+}
+
 /// A growth rate with its unit.
 pub(crate) fn rate_of(units: UnitSystem, rate: f64) -> String {
     let unit = if units == UnitSystem::None { "" } else { " 1/s" };

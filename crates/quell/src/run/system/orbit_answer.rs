@@ -196,9 +196,10 @@ impl OrbitOfSystem {
             "independent events coincide: the multipliers hold for deviations to one side only"
                 .to_owned()
         });
-        let beyond = self.found.iter().flat_map(|found| {
-            beyond_laws(study.system(), |contact| found.samples.largest_slip(contact))
-        });
+        let beyond = self
+            .found
+            .iter()
+            .flat_map(|found| beyond_laws(study, |contact| found.samples.largest_slip(contact)));
         study.warnings().iter().cloned().chain(one_sided).chain(beyond).collect()
     }
 

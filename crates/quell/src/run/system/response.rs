@@ -222,9 +222,8 @@ impl SettledSystem {
         let mut warnings = study.warnings().to_vec();
         let records = [&response.dithered, &response.undithered];
         let largest = |contact| records.map(|record| record.whole.largest_slip(contact));
-        warnings.extend(beyond_laws(study.system(), |contact| {
-            largest(contact).into_iter().fold(0.0, f64::max)
-        }));
+        warnings
+            .extend(beyond_laws(study, |contact| largest(contact).into_iter().fold(0.0, f64::max)));
         warnings.extend(of_engine(study.system(), &response.dithered.end));
         let settle = in_units(study.units(), Quantity::Time, self.plan.settle);
         let runs = [

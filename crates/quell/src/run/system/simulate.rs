@@ -16,7 +16,7 @@ use serde_json::Value as Json;
 use super::history::{EventHistory, KINDS};
 use super::sound::{self, MotionSoundTap};
 use super::start::{StateNumbers, start_in_words, start_with, state_in_words, state_names};
-use super::{failed, has_equations, in_units, modes};
+use super::{failed, has_equations, in_units_of, modes, velocity_in_words};
 use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::contact_state::passivity_of_system;
 use crate::fields::Fields;
@@ -154,7 +154,7 @@ pub(crate) fn run_observed(
     } else {
         sampler.push_end(&end);
     }
-    let beyond = beyond_laws(system, |contact| meter.largest_slip(contact));
+    let beyond = beyond_laws(study, |contact| meter.largest_slip(contact));
     Ok(SystemSimulation {
         request: request.clone(),
         start,
@@ -265,9 +265,19 @@ pub(super) fn failed_run(verb: &str, system: &System, stopped: &MotionStopped) -
 }
 
 /// Warnings about slip beyond the ranges of the laws; `largest` is the largest slip speed of a contact.
-pub(crate) fn beyond_laws(system: &System, largest: impl Fn(usize) -> f64) -> Vec<String> {
+pub(crate) fn beyond_laws(study: &SystemStudy, largest: impl Fn(usize) -> f64) -> Vec<String> {
+    beyond_laws_of(study.system(), |speed| velocity_in_words(study, speed), largest)
+}
+
+/// [`beyond_laws`] of a system whose velocities are written so.
+pub(crate) fn beyond_laws_of(
+    system: &System,
+    in_words: impl Fn(f64) -> String,
+    largest: impl Fn(usize) -> f64,
+) -> Vec<String> {
     let contacts = system.contacts.iter().enumerate();
-    contacts.filter_map(|(index, contact)| range::at_contact(contact, largest(index))).collect()
+    let warning = |(index, contact)| range::at_contact(contact, largest(index), &in_words);
+    contacts.filter_map(warning).collect()
 }
 
 /// Period of the slowest oscillation of the structure, contacts closed and without friction, or of the dither.
@@ -339,7 +349,7 @@ impl SystemSimulation {
     pub fn start_in_words(&self, study: &SystemStudy) -> String {
         match &self.request.from {
             Some(from) => {
-                let time = in_units(study.units(), Quantity::Time, from.time);
+                let time = in_units_of(study, Quantity::Time, from.time);
                 format!("from the given state at t = {time}")
             }
             None => start_in_words(study, &self.request.start),
@@ -348,7 +358,7 @@ impl SystemSimulation {
 
     /// The outcome in one or two sentences.
     pub fn sentence(&self, study: &SystemStudy) -> String {
-        let time = in_units(study.units(), Quantity::Time, self.end.time);
+        let time = in_units_of(study, Quantity::Time, self.end.time);
         let totals = self.totals();
         let each = KINDS.iter().zip(totals).filter(|(_, count)| *count > 0);
         let each: Vec<String> =
@@ -379,16 +389,15 @@ impl SystemSimulation {
     /// When the observed row vibrates, in one or two sentences, where a drive, a load or a dither varies in time.
     pub fn manoeuvre_sentence(&self, study: &SystemStudy) -> Option<String> {
         let found = self.manoeuvre.as_ref()?;
-        let units = study.units();
-        Some(found.sentence("The observed row", |quantity, value| in_units(units, quantity, value)))
+        let words = |quantity, value| in_units_of(study, quantity, value);
+        Some(found.sentence("The observed row", words))
     }
 
     /// The sound in one sentence, if it was requested.
     pub fn sound_sentence(&self, study: &SystemStudy) -> Option<String> {
         let sound = self.sound.as_ref()?;
-        let units = study.units();
         let in_real_time = study.time_per_second().is_some() && sound.transposition == 1.0;
-        Some(sound.sentence(in_real_time, |quantity, value| in_units(units, quantity, value)))
+        Some(sound.sentence(in_real_time, |quantity, value| in_units_of(study, quantity, value)))
     }
 
     /// Warnings about the result.
@@ -404,8 +413,8 @@ impl SystemSimulation {
             ));
         }
         if let Some(sound) = &self.sound {
-            let units = study.units();
-            warnings.extend(sound.warnings(|quantity, value| in_units(units, quantity, value)));
+            let words = |quantity, value| in_units_of(study, quantity, value);
+            warnings.extend(sound.warnings(words));
         }
         if self.history.lost > 0 {
             let kept = self.history.events.len();

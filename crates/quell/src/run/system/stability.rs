@@ -11,7 +11,10 @@ use serde_json::Value as Json;
 
 use super::modes::natural;
 use super::validity::{condition, opened, opening};
-use super::{failed, force, has_equations, not_averaged, oscillating, put_motion, rate_of, upper};
+use super::{
+    failed, force, has_equations, not_averaged, oscillating, put_motion, rate_of, upper,
+    velocity_in_words,
+};
 use crate::complaint::Failure;
 use crate::contact_state;
 use crate::fields::Fields;
@@ -68,7 +71,7 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
     let undithered =
         spectrum(&linear, &linear.friction()).map_err(|why| failed("stability", why))?;
     let mut warnings = study.warnings().to_vec();
-    warnings.extend(outside_of_laws(system, None));
+    warnings.extend(outside_of_laws(system, |speed| velocity_in_words(study, speed), None));
     if !system.is_dithered() {
         warnings.extend(contact_state::passivity_of_system(study));
     }
@@ -96,7 +99,11 @@ pub fn run(study: &SystemStudy) -> Result<SystemStability, Failure> {
             dithered: Some(*contact),
         })
         .collect();
-    warnings.extend(outside_of_laws(system, Some(&average.contacts)));
+    warnings.extend(outside_of_laws(
+        system,
+        |speed| velocity_in_words(study, speed),
+        Some(&average.contacts),
+    ));
     warnings.extend(opened(study.units(), system, &average.contacts));
     warnings.extend(not_slow(study, &undithered));
     warnings.extend(few_lines_of_system(system));
