@@ -885,12 +885,13 @@ fn lists_have_the_units_of_the_file() {
     let wrong = BeltStudy::parse(&falling, &[]).expect_err("times that fall");
     assert_eq!((wrong.len(), wrong[0].key.as_str()), (1, "belt.drive.time[2]"));
     assert!(wrong[0].allowed.contains("1.5"), "{wrong}");
-    // A frequency whose scale is wrong is told its sign alone.
+    // A frequency whose scale is wrong shows its sign alone.
     let wrong = SI
         .replace("stiffness_n_per_m = 1.0e6", "stiffness_n_per_m = -1")
         .replace("frequency_hz = ", "frequency_hz = -");
     let wrong = BeltStudy::parse(&wrong, &[]).expect_err("two faults");
-    let range = wrong.iter().find(|fault| fault.key.ends_with("frequency_hz")).expect("told");
+    let range =
+        wrong.iter().find(|fault| fault.key.ends_with("frequency_hz")).expect("a complaint");
     assert!(range.allowed.contains("> 0") && !range.allowed.contains("100000"), "{wrong}");
 }
 
