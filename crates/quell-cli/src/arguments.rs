@@ -67,9 +67,10 @@ fn moment(study: &Study, text: &str) -> Result<f64, Failure> {
         let allowed = "left out: nothing varies in time in this study";
         return Err(Complaint::option(OPTION, text, allowed).into());
     }
-    Ok(match study.system() {
-        Ok(system) => duration_of_motion(&system, text, OPTION)?,
-        Err(_) => quantity::duration(text, study.scales(), OPTION)?,
+    Ok(match (study.system(), study.disc()) {
+        (Ok(system), _) => duration_of_motion(&system, text, OPTION)?,
+        (_, Ok(disc)) => quantity::time_of_disc(text, &disc, OPTION)?,
+        _ => quantity::duration(text, study.scales(), OPTION)?,
     })
 }
 

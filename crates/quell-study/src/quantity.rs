@@ -247,6 +247,22 @@ pub fn duration(
     bearable_up_to(time, text, option, longest)
 }
 
+/// Reads a time of a disc: a plain one is in seconds where the study has numbers in SI, else in 1/ω_ref.
+///
+/// # Errors
+/// A complaint about `option`.
+pub fn time_of_disc(
+    text: &str,
+    study: &DiscStudy,
+    option: &'static str,
+) -> Result<f64, Box<Complaint>> {
+    let hertz = study.reference_hz();
+    match hertz.filter(|_| study.is_si() || measure::has_unit(text)) {
+        Some(hertz) => Ok(TAU * hertz * duration_of_system(text, UnitSystem::Si, option)?),
+        None => duration(text, None, option),
+    }
+}
+
 /// Rejects a time τ beyond [`MOST_TIME`], reported as given.
 ///
 /// # Errors

@@ -22,8 +22,9 @@ pub(crate) fn at_time(study: &Study, text: &str) -> Result<Study, Failure> {
 }
 
 fn moment(study: &Study, text: &str, option: &'static str) -> Result<f64, Failure> {
-    Ok(match study.system() {
-        Ok(system) => duration_of_motion(&system, text, option)?,
-        Err(_) => quantity::duration(text, study.scales(), option)?,
+    Ok(match (study.system(), study.disc()) {
+        (Ok(system), _) => duration_of_motion(&system, text, option)?,
+        (_, Ok(disc)) => quantity::time_of_disc(text, &disc, option)?,
+        _ => quantity::duration(text, study.scales(), option)?,
     })
 }

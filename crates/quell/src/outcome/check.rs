@@ -211,14 +211,14 @@ fn table_of_disc(study: &DiscStudy) -> String {
         "modes",
         &format!("{}, from the {}", object["disc"]["modes"], word(&object["disc"]["modes_from"])),
     );
-    match study.disc().drive().map(Profile::bounds) {
-        None => {
-            let disc = &object["disc"];
-            table.word("speed Ω", &format!("{} {}", disc["speed"], word(&disc["units"]["speed"])));
-        }
-        Some((least, largest)) => {
-            table.word("speed Ω, over time", &format!("{least} to {largest}"));
-        }
+    let disc = &object["disc"];
+    let unit = |name: &str| word(&disc["units"][name]);
+    if study.disc().drive().is_none() {
+        table.word("speed Ω", &format!("{} {}", disc["speed"], unit("speed")));
+    } else {
+        let (least, largest) = (&disc["least_speed"], &disc["largest_speed"]);
+        let words = format!("{least} to {largest} {}", unit("least_speed"));
+        table.word("speed Ω, over time", &words);
     }
     for (index, load) in object["disc"]["loads"].as_array().into_iter().flatten().enumerate() {
         let words: Vec<String> = load

@@ -5,7 +5,7 @@ use serde_json::Value as Json;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::outcome::Presented;
-use crate::outcome::disc_units::{DiscUnits, in_units_of_study};
+use crate::outcome::disc_units::{DiscUnits, FORCE, in_units_of_study};
 use crate::picture;
 use crate::plot::Figure;
 use crate::run::disc::motion::DiscSimulation;
@@ -28,9 +28,14 @@ impl Presented<DiscSetup> for DiscSimulation {
 
     fn datasets(&self, study: &DiscStudy) -> Vec<(&'static str, Dataset)> {
         let Some(units) = DiscUnits::of(study) else { return self.motion.datasets(&self.system) };
-        // States are those of the equations, with which another run may begin.
-        let one = |name: &str, _: &str| {
-            if name == "time" { units.one(name, "1/ω_ref") } else { None }
+        // States are those of the equations, with which another run may begin. Without a law the slip velocity is 1 and the load is given.
+        let under_law = study.disc().law().is_some();
+        let one = |name: &str, _: &str| match name.rsplit('.').next() {
+            Some("time") => units.one(name, "1/ω_ref"),
+            Some("friction") => units.one(name, FORCE),
+            Some("normal") if under_law => units.one(name, FORCE),
+            Some("slip_velocity") if under_law => units.one(name, "r₀ω_ref"),
+            _ => None,
         };
         let datasets = self.motion.datasets(&self.system).into_iter();
         datasets.map(|(name, dataset)| (name, dataset.rescaled(one))).collect()

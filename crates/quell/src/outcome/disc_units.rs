@@ -36,7 +36,11 @@ impl DiscUnits {
             UnitSystem::None => UnitSystem::Si,
             units => units,
         };
-        Some(Self { scales: study.scales(0).unwrap_or(plain), units })
+        // Forces and lengths are relative to the radius of each load: one factor for all where it is one radius.
+        let mut radii = study.radii().iter();
+        let first = radii.next();
+        let same = radii.all(|radius| Some(radius) == first);
+        Some(Self { scales: study.scales(0).filter(|_| same).unwrap_or(plain), units })
     }
 
     /// What one unit of the equations is in the units of the study, and that unit; `None` for other units and where the study does not
@@ -51,7 +55,7 @@ impl DiscUnits {
             "1/ω_ref" => return Some((1.0 / omega, "s")),
             "r₀" => return self.length(self.scales.load_radius_m?),
             "r₀ω_ref" => (Quantity::Velocity, velocity()?),
-            FORCE | FRICTION => (Quantity::Force, force()?),
+            FORCE | FRICTION | "f*" => (Quantity::Force, force()?),
             POWER => (Quantity::Power, force()? * velocity()?),
             _ => return None,
         };
@@ -96,8 +100,9 @@ impl DiscUnits {
                 *unit = own.into();
             }
         }
-        for (name, value) in
-            fields.iter_mut().filter(|(name, _)| !["units", "why"].contains(&name.as_str()))
+        for (name, value) in fields
+            .iter_mut()
+            .filter(|(name, _)| !["units", "why", "shares"].contains(&name.as_str()))
         {
             match known.iter().find(|(other, _)| other == name) {
                 Some((_, factor)) if !has_objects(value) => scale(value, *factor),

@@ -24,7 +24,7 @@ use quell_input::document::Table;
 use quell_model::Disc;
 use quell_model::disc::{Contribution, Contributions, DiscDither};
 use quell_model::parameter::disc::LOAD_SLIP_RATIO;
-use quell_model::units::DiscScales;
+use quell_model::units::{DiscScales, measure};
 
 use super::StudyOf;
 use super::address::units_of;
@@ -33,7 +33,7 @@ use super::path;
 use super::reader::{EquationScale, Reader};
 use super::study_kind::StudyKind;
 use super::system::{DescribedSystem, SystemStudy};
-use super::vocabulary::Role;
+use super::vocabulary::{Choice, Role, Section, UNITS};
 
 pub use modes::{Listed, ModeSource};
 pub use plate::PlateModes;
@@ -69,6 +69,9 @@ impl StudyKind for DiscSetup {
 
     fn read(reader: &mut Reader, document: &Table) -> Option<Self> {
         let table = document.get("disc").and_then(|node| reader.table("disc", node));
+        if let Some(node) = table.and_then(|table| table.get(UNITS)) {
+            reader.choice("disc.units", node, Choice::Units);
+        }
         let read = table.map(|table| {
             let origin = document.get("disc").map_or(Origin::Whole, |node| node.origin);
             Body::read(reader, table, origin)
@@ -196,10 +199,25 @@ impl DiscStudy {
     /// Whether a key of the study gives a load, its speed or the dither's frequency in SI: plain numbers of speeds and
     /// frequencies are in hertz then.
     pub fn is_si(&self) -> bool {
-        let said = |path: &str| {
-            let found = path::follow(&self.source.document, path);
-            matches!(found.map(|found| found.key.role), Ok(Role::Twin(..)))
+        let document = &self.source.document;
+        let mut given = Vec::new();
+        for (name, node) in document.iter() {
+            node.leaves(name, &mut given);
+        }
+        let said = |(path, value): &(String, String)| {
+            let Ok(found) = path::follow(document, path) else { return false };
+            let key = found.key;
+            let of_motion = !matches!(key.section, Section::Disc | Section::DiscMode);
+            let quoted = || {
+                let has_unit = key.quantity().is_some_and(|quantity| quantity.si_unit().is_some());
+                has_unit && measure::has_unit(value.trim_matches('"'))
+            };
+            match key.role {
+                Role::Twin(..) => true,
+                Role::Course(course) => course.si() == Some(true),
+                _ => of_motion && quoted(),
+            }
         };
-        !self.file_units().is_none() || self.settings().iter().any(|(path, _)| said(path))
+        !self.file_units().is_none() || given.iter().any(said)
     }
 }

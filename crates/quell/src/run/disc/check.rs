@@ -98,10 +98,10 @@ pub fn json(study: &DiscStudy) -> Json {
     });
     if let Some(law) = disc.law() {
         let kind = law.kind();
-        let numbers = kind.parameters().iter().zip(law.values());
-        object["friction"] =
-            numbers.map(|(name, value)| (name.key().to_owned(), Json::from(value))).collect();
-        object["friction"]["law"] = kind.name().into();
+        object["friction"] = json!({ "law": kind.name() });
+        for (parameter, value) in kind.parameters().iter().zip(law.values()) {
+            put(&mut object["friction"], *parameter, value, units.zip(study.scales(0)));
+        }
     }
     let scales = units.zip(study.scales(0));
     put_speed(&mut object, disc, scales);

@@ -18,6 +18,7 @@ use serde_json::{Map, Value as Json, json};
 
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::dataset::{Array, Dataset};
+use crate::outcome::disc_units::FRICTION;
 use crate::study::DiscStudy;
 
 /// Largest number of harmonics of a dither that are examined: their meetings fill an answer of some hundred thousand lines.
@@ -384,7 +385,7 @@ impl Resonances {
             ))
             .with(Array::new(
                 "threshold",
-                "1",
+                FRICTION,
                 column(&|resonance| resonance.threshold.unwrap_or(none)),
             ))
             .with(Array::new("lower_edge", "ω_ref", edge(0)))
@@ -410,8 +411,8 @@ impl Resonances {
             }),
             "friction": study.disc().loads().first().map(|load| load.friction),
             "units": {
-                "speeds": "ω_ref", "speed": "ω_ref", "edges": "ω_ref", "width": "ω_ref", "peak_growth": "ω_ref", "threshold": "1 (f*)",
-                "from": "ω_ref", "to": "ω_ref", "peak_speed": "ω_ref", "nearest_meeting": "ω_ref", "friction": "1 (f*)",
+                "speeds": "ω_ref", "speed": "ω_ref", "edges": "ω_ref", "width": "ω_ref", "peak_growth": "ω_ref", "threshold": FRICTION,
+                "from": "ω_ref", "to": "ω_ref", "peak_speed": "ω_ref", "nearest_meeting": "ω_ref", "friction": FRICTION,
             },
             "warnings": study.warnings(),
         });

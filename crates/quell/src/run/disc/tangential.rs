@@ -35,7 +35,7 @@ pub(super) fn json(study: &DiscStudy) -> Option<Json> {
                 "mean": dither.mean(),
                 "fundamental": dither.harmonic(1),
                 "force": own * force,
-                "units": { "angle_deg": "°", "mean": "f*", "fundamental": "f*", "force": unit },
+                "units": { "angle_deg": "°", "mean": "1", "fundamental": "1", "force": unit },
             }))
         })
         .collect();

@@ -240,7 +240,7 @@ fn quantiles(study: &impl SampledKind, growth: &SampledGrowth) -> Fields {
     let found = growth.quantiles();
     for (place, (key, _)) in QUANTILES.iter().enumerate() {
         let why = || growth.why.clone().unwrap_or_else(|| "no growth rate is known".to_owned());
-        inner.rate(key, found.map(|found| found[place]).ok_or_else(why));
+        study.put_rate(&mut inner, key, found.map(|found| found[place]).ok_or_else(why));
     }
     let mut fields = study.fields();
     fields.nested("growth", inner);

@@ -113,6 +113,11 @@ pub trait SampledKind {
 
     /// The unit of growth rates in sentences, pictures and datasets, and how many of them one of the equations is.
     fn unit_of_rates(&self) -> (&'static str, f64);
+
+    /// Adds a growth rate to an answer.
+    fn put_rate(&self, fields: &mut Fields, name: &str, rate: Result<f64, String>) {
+        fields.rate(name, rate);
+    }
 }
 
 /// Why a study without dither has no threshold.
@@ -378,6 +383,13 @@ impl SampledKind for DiscStudy {
 
     fn force_in_words(&self, force: f64) -> String {
         digits(force)
+    }
+
+    fn put_rate(&self, fields: &mut Fields, name: &str, rate: Result<f64, String>) {
+        match rate {
+            Ok(rate) => fields.measured(name, self.unit_of_rates().0, rate),
+            Err(why) => fields.unknown(name, why),
+        };
     }
 
     fn unit_of_rates(&self) -> (&'static str, f64) {
