@@ -1,6 +1,6 @@
 //! The study file: text, its document, and the checked study.
 //!
-//! `study.toml` → [`document::Table`] → [`Study`], which is valid by construction. All errors are reported together, with
+//! `study.toml` → [`quell_input::document::Table`] → [`Study`], which is valid by construction. All errors are reported together, with
 //! key, line, value, allowed values, and the nearest valid key.
 //!
 //! One [`Study`] serves every kind: the parts that all kinds share (title, axes, text, changes) are read here, the rest by
