@@ -10,8 +10,7 @@ use quell::outcome::Outcome;
 use quell::output::Output;
 use quell::picture::{self, EXTENSIONS, PicturePage, PictureWidth};
 use quell::plot::Figure;
-use quell::quantity;
-use quell::run::system::start::duration as duration_of_motion;
+use quell::run::moment::at_time;
 use quell::table_file::TableFormat;
 use quell::{Change, Complaint, Failure, Fault, Origin, Study};
 use serde_json::Value as Json;
@@ -54,24 +53,10 @@ impl StudyArguments {
         let study = complaints.take(Study::read(&self.study, &changes).map_err(belts_alone));
         let study = complaints.finish(study)?;
         match &self.at_time {
-            Some(text) => Ok(study.at_time(moment(&study, text)?)?),
+            Some(text) => at_time(&study, text),
             None => Ok(study),
         }
     }
-}
-
-/// The time of --at-time.
-fn moment(study: &Study, text: &str) -> Result<f64, Failure> {
-    const OPTION: &str = "--at-time";
-    if study.varies_by().is_none() {
-        let allowed = "left out: nothing varies in time in this study";
-        return Err(Complaint::option(OPTION, text, allowed).into());
-    }
-    Ok(match (study.system(), study.disc()) {
-        (Ok(system), _) => duration_of_motion(&system, text, OPTION)?,
-        (_, Ok(disc)) => quantity::time_of_disc(text, &disc, OPTION)?,
-        _ => quantity::duration(text, study.scales(), OPTION)?,
-    })
 }
 
 /// Complaints about a study in which --tolerance names no key say that only belts have it.

@@ -7,6 +7,9 @@
 
 use std::path::Path;
 
+use serde_json::Value as Json;
+
+use crate::complaint::{Complaint, Fault, Origin};
 use crate::input::read_regular;
 
 /// The largest file that is read, in MiB.
@@ -96,7 +99,20 @@ pub struct Row<'t> {
     columns: usize,
 }
 
+/// The complaint about a data file that an argument names.
+pub(crate) fn complaint(path: &Path, why: String) -> Complaint {
+    let given = Json::from(path.display().to_string());
+    Complaint::new(Fault::Path, "data file", Origin::Whole, given, why)
+}
+
 impl<'t> DataFile<'t> {
+    /// The columns in words, at most twelve.
+    pub(crate) fn listed(&self) -> String {
+        let names: Vec<String> =
+            self.names.iter().take(12).map(|name| format!("{name:?}")).collect();
+        names.join(", ")
+    }
+
     /// Splits the text into column names and rows.
     ///
     /// # Errors

@@ -11,10 +11,8 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::Value as Json;
-
-use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::data_file::{self, DataFile, Row};
+use crate::complaint::{Complaint, Failure};
+use crate::data_file::{self, DataFile, Row, complaint};
 use crate::input::Inputs;
 
 /// What the file must be.
@@ -156,7 +154,7 @@ impl Columns {
         let velocity = one_of(file, &VELOCITIES)?.ok_or_else(|| {
             format!(
                 "{WHAT} with a column slip_velocity or slip_velocity_m_per_s; it has {}",
-                listed(file)
+                file.listed()
             )
         })?;
         let force = one_of(file, &FORCES)?;
@@ -167,7 +165,7 @@ impl Columns {
             _ => {
                 return Err(format!(
                     "{WHAT} with a column friction_coefficient or coefficient, or with friction_force and normal_load; it has {}",
-                    listed(file)
+                    file.listed()
                 ));
             }
         };
@@ -233,17 +231,6 @@ fn one_of(file: &DataFile<'_>, names: &[&'static str]) -> Result<Option<NamedCol
             first.name, second.name
         )),
     }
-}
-
-/// The columns of a file in words.
-fn listed(file: &DataFile<'_>) -> String {
-    let names: Vec<String> = file.names().iter().take(12).map(|name| format!("{name:?}")).collect();
-    names.join(", ")
-}
-
-fn complaint(path: &Path, why: String) -> Complaint {
-    let given = Json::from(path.display().to_string());
-    Complaint::new(Fault::Path, "data file", Origin::Whole, given, why)
 }
 
 #[cfg(test)]

@@ -15,10 +15,9 @@ use std::path::{Path, PathBuf};
 
 use quell_model::RecordedQuantity;
 use quell_numerics::order::ascending;
-use serde_json::Value as Json;
 
-use crate::complaint::{Complaint, Failure, Fault, Origin};
-use crate::data_file::{self, DataFile};
+use crate::complaint::{Complaint, Failure};
+use crate::data_file::{self, DataFile, complaint};
 use crate::input::Inputs;
 use crate::nearest;
 
@@ -321,7 +320,7 @@ fn read_record(
 ) -> Result<TimeSeries, Failure> {
     let wrong = |why: String| complaint(path, why);
     let (time_at, time_name, time_factor) = first_of(file, TIMES).ok_or_else(|| {
-        wrong(format!("{WHAT} with a column time, time_s or time_ms; it has {}", listed(file)))
+        wrong(format!("{WHAT} with a column time, time_s or time_ms; it has {}", file.listed()))
     })?;
     let value = reading_column(path, file, request)?;
     if file.rows().len() > MOST_SAMPLES {
@@ -386,7 +385,7 @@ fn read_spectrum(
 ) -> Result<MeasuredSpectrum, Failure> {
     let wrong = |why: String| complaint(path, why);
     let (at, name, unit) = first_of(file, FREQUENCIES).ok_or_else(|| {
-        wrong(format!("a spectrum with a column frequency_hz; it has {}", listed(file)))
+        wrong(format!("a spectrum with a column frequency_hz; it has {}", file.listed()))
     })?;
     let level = LEVELS.iter().find_map(|name| Some((file.column(name)?, *name)));
     let plain = file.column(AMPLITUDE).map(|at| (at, AMPLITUDE));
@@ -464,7 +463,7 @@ fn reading_column(
     };
     if let Some(name) = &request.column {
         let Some(at) = file.column(name) else {
-            let allowed = format!("a column of the file: {}", listed(file));
+            let allowed = format!("a column of the file: {}", file.listed());
             let nearest = nearest::word(name, file.names().iter().copied());
             let complaint = Complaint::option("--column", name.as_str(), allowed);
             return Err(complaint.suggesting(nearest).into());
@@ -491,7 +490,7 @@ fn reading_column(
         let why = format!(
             "{WHAT} with a column displacement, velocity or acceleration (with _m, _m_per_s or _m_per_s2 in SI), or one named by \
              --column with --quantity; it has {}",
-            listed(file)
+            file.listed()
         );
         complaint(path, why).into()
     })
@@ -513,16 +512,6 @@ fn reported(path: &Path, mut found: Vec<String>) -> Result<(), Failure> {
         found.push(format!("{further} further cells are invalid"));
     }
     Err(found.into_iter().map(|why| complaint(path, why)).collect::<Vec<_>>().into())
-}
-
-fn listed(file: &DataFile<'_>) -> String {
-    let names: Vec<String> = file.names().iter().take(12).map(|name| format!("{name:?}")).collect();
-    names.join(", ")
-}
-
-fn complaint(path: &Path, why: String) -> Complaint {
-    let given = Json::from(path.display().to_string());
-    Complaint::new(Fault::Path, "data file", Origin::Whole, given, why)
 }
 
 #[cfg(test)]

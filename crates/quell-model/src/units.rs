@@ -324,9 +324,14 @@ pub struct DiscScales {
 }
 
 impl DiscScales {
+    /// ω_ref, rad/s.
+    pub fn angular_frequency(&self) -> f64 {
+        std::f64::consts::TAU * self.reference_hz
+    }
+
     /// SI value of one dimensionless unit of a quantity; `None` if the required scales are unknown.
     pub fn si_per_unit(&self, quantity: Quantity) -> Option<f64> {
-        let omega = std::f64::consts::TAU * self.reference_hz;
+        let omega = self.angular_frequency();
         let mass = self.plate_mass_kg;
         match quantity {
             Quantity::FrequencyRatio => Some(self.reference_hz),

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use quell::document::{Node, Table};
 use quell::run::basins::{BasinsRequest, StartLayout};
 use quell::run::bifurcation::SweepRequest;
+use quell::run::moment::at_time;
 use quell::run::varied::Range;
 use quell::study::Files;
 use quell::{Change, Complaints, Failure, Study};
@@ -297,7 +298,7 @@ impl NativeStudy {
     /// The document of the steady study of a moment.
     fn document_at(&self, py: Python<'_>, time: String) -> PyResult<Py<PyAny>> {
         let study = self.study();
-        let steady = call::here(py, move || window::at_time(&study, &time))?;
+        let steady = call::here(py, move || at_time(&study, &time))?;
         convert::to_python(py, &steady.document())
     }
 

@@ -3,8 +3,8 @@
 use clap::{Args, ValueHint};
 use quell::complaint::Complaints;
 use quell::kind::verbs;
+use quell::run::moment::moment;
 use quell::run::system::response::ResponseRequest;
-use quell::run::system::start::duration as duration_of_motion;
 use quell::study::SystemStudy;
 use quell::{Complaint, Failure, Fault, Origin, Study, quantity};
 
@@ -57,11 +57,7 @@ impl Arguments {
             let allowed = "two times with a colon between them, such as 100:200";
             return Err(Complaint::option(OPTION, text.as_str(), allowed).into());
         };
-        let read = |text: &str| match study.system() {
-            Ok(system) => duration_of_motion(&system, text, OPTION),
-            Err(_) => quantity::duration(text, study.scales(), OPTION),
-        };
-        Ok(Some((read(from)?, read(to)?)))
+        Ok(Some((moment(study, from, OPTION)?, moment(study, to, OPTION)?)))
     }
 
     /// Rejects the options that only systems have.

@@ -1,8 +1,8 @@
-//! `window`: what a run does between two of its times, and the steady study of a moment.
+//! `window`: what a run does between two of its times.
 
 use quell::kind::verbs;
-use quell::run::system::start::duration as duration_of_motion;
-use quell::{Complaint, Failure, Study, quantity};
+use quell::run::moment::moment;
+use quell::{Failure, Study};
 
 use crate::answer::NativeAnswer;
 
@@ -10,21 +10,4 @@ use crate::answer::NativeAnswer;
 pub(crate) fn run(study: &Study, (start, end): (&str, &str)) -> Result<NativeAnswer, Failure> {
     let window = (moment(study, start, "--window")?, moment(study, end, "--window")?);
     Ok(NativeAnswer::new(verbs(study).response_within(window)?))
-}
-
-/// The steady study of a moment.
-pub(crate) fn at_time(study: &Study, text: &str) -> Result<Study, Failure> {
-    if study.varies_by().is_none() {
-        let allowed = "left out: nothing varies in time in this study";
-        return Err(Complaint::option("--at-time", text, allowed).into());
-    }
-    Ok(study.at_time(moment(study, text, "--at-time")?)?)
-}
-
-fn moment(study: &Study, text: &str, option: &'static str) -> Result<f64, Failure> {
-    Ok(match (study.system(), study.disc()) {
-        (Ok(system), _) => duration_of_motion(&system, text, option)?,
-        (_, Ok(disc)) => quantity::time_of_disc(text, &disc, option)?,
-        _ => quantity::duration(text, study.scales(), option)?,
-    })
 }

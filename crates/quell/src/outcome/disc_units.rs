@@ -3,8 +3,6 @@
 //! A disc is computed in the numbers of its equations: ω_ref, r₀ and M_p. A study that has units, or gives a load, its speed or the dither
 //! in SI, is answered in its units: every number of an answer whose unit is one of those is converted here, with the name of its unit.
 
-use std::f64::consts::TAU;
-
 use quell_model::units::{DiscScales, Quantity, UnitSystem};
 use serde_json::Value as Json;
 
@@ -46,7 +44,7 @@ impl DiscUnits {
     /// What one unit of the equations is in the units of the study, and that unit; `None` for other units and where the study does not
     /// determine it. A number of the name `name` in ω_ref is a growth rate or an angular frequency.
     pub(crate) fn one(&self, name: &str, unit: &str) -> Option<(f64, &'static str)> {
-        let omega = TAU * self.scales.reference_hz;
+        let omega = self.scales.angular_frequency();
         let force = || self.scales.si_per_unit(Quantity::LoadFriction);
         let velocity = || self.scales.si_per_unit(Quantity::Velocity);
         let (quantity, si) = match unit {

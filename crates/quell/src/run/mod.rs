@@ -27,6 +27,7 @@ pub mod friction_export;
 pub mod law;
 pub mod manoeuvre;
 pub mod map;
+pub mod moment;
 pub mod named_estimates;
 pub mod noise_response;
 pub mod orbit;

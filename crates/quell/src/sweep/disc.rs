@@ -3,8 +3,6 @@
 //! Points that differ only in the friction of a single load share the constant flow or the assembled equations. Every point
 //! goes through the same arithmetic with or without such neighbours, so that its bits do not depend on them.
 
-use std::f64::consts::TAU;
-
 use quell_disc::dithered;
 use quell_disc::equations::linearised;
 use quell_linear::eigenvalues;
@@ -22,6 +20,7 @@ use super::mapped::{Mapped, PointResults, PointScales};
 use super::quantity::{MapQuantity, VERDICTS, Variable, VariableKind, decided, variable};
 use super::status::Status;
 use super::{cost, refine};
+use crate::outcome::disc_units::DiscUnits;
 use crate::study::{DiscSetup, DiscStudy, Sweep};
 
 /// Maps of disc studies.
@@ -58,9 +57,11 @@ impl Mapped for DiscPoints {
             .map(|index| Some(study.setup_at(&grid.numbers_at(*index)).ok()?.disc().clone()))
             .collect();
         let found = evaluate(&discs, study.parts(), wanted);
-        let scales = |disc: &Disc| match disc.scales(0) {
-            Some(scales) if study.is_si() => PointScales::Disc(TAU * scales.reference_hz),
-            _ => PointScales::Own,
+        // Asked once: every point has the units of the study, and an ω_ref of its own.
+        let has_units = DiscUnits::of(study).is_some();
+        let scales = |disc: &Disc| {
+            let scales = disc.scales(0).filter(|_| has_units);
+            scales.map_or(PointScales::Own, |scales| PointScales::Disc(scales.angular_frequency()))
         };
         let each = discs.iter().zip(found);
         each.map(|(disc, found)| Some((scales(disc.as_ref()?), found?))).collect()

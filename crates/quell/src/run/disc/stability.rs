@@ -293,8 +293,8 @@ impl DiscStability {
             "growth_rate": "ω_ref", "growth_rate_error": "ω_ref", "frequency": "ω_ref", "speed": "ω_ref", "friction": FRICTION,
         });
         self.critical.put(study, &mut object, &mut why);
-        if let Some(hertz) = study.reference_hz().filter(|_| study.is_si()) {
-            let omega = std::f64::consts::TAU * hertz;
+        let units = DiscUnits::of(study);
+        if let Some((omega, _)) = units.and_then(|units| units.one("growth_rate", "ω_ref")) {
             object["growth_rate_db_per_s"] = (DECIBELS * omega * self.growth.rate).into();
             if study.scales(0).is_some_and(|scales| scales.load_radius_m.is_some()) {
                 object["speed_at_load"] = study.disc().speed().into();

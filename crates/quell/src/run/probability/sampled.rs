@@ -1,7 +1,5 @@
 //! The kinds of study whose numbers can be uncertain, and the judges of one sample.
 
-use std::f64::consts::TAU;
-
 use quell_design::least_dither::{averaged_quiet_of_belt, averaged_quiet_of_system};
 use quell_dynamics::attractor::reached;
 use quell_dynamics::orbit::{OrbitVerdict, from_sliding};
@@ -361,8 +359,8 @@ impl SampledKind for DiscStudy {
 
     fn averaged_growth(&self, disc: &Disc) -> AveragedGrowth {
         // A sample has an ω_ref of its own.
-        let one = disc.scales(0).filter(|_| self.is_si());
-        let one = one.map_or(1.0, |scales| TAU * scales.reference_hz);
+        let scales = disc.scales(0).filter(|_| DiscUnits::of(self).is_some());
+        let one = scales.map_or(1.0, |scales| scales.angular_frequency());
         let growth = growth_of_disc(disc, self.parts()).map(JudgedGrowth::of);
         let growth = growth.map(|growth| JudgedGrowth { rate: one * growth.rate, ..growth });
         AveragedGrowth::of(growth.map_err(|status| status.about().to_owned()))
