@@ -9,8 +9,8 @@ use quell_model::{Belt, System};
 
 use crate::motion::orbit::sliding_state;
 use crate::motion::{
-    ContactEnd, ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionEvent, MotionObserver,
-    MotionSegment, MotionStart, MotionStopped,
+    ContactEnd, ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionEvent, MotionMoment,
+    MotionObserver, MotionSegment, MotionStart, MotionStopped,
 };
 use crate::simulation::{Event, FinalState, Observer, Segment, Stalled, Start, simulate};
 
@@ -108,7 +108,7 @@ pub fn run_belt(
     let system = belt.system();
     let motion = Motion::new(&system).map_err(|why| BeltStopped::Immobile(why.to_string()))?;
     let start = motion_start(&system, (start, contact));
-    let mut watch = AsBelt { observer };
+    let mut watch = AsBelt { observer, is_jump: false };
     let end = motion.run(&start, until, tolerance.min(MOTION_TOLERANCE), &mut watch);
     let end = end.map_err(BeltStopped::Stopped)?;
     Ok(BeltEnd { state: final_state(&end), contact: end.contacts.first().copied() })
@@ -131,6 +131,8 @@ fn final_state(end: &MotionEnd) -> FinalState {
 /// Shows the motion of a belt as a system to an observer of belts.
 struct AsBelt<'a> {
     observer: &'a mut dyn Observer,
+    /// Whether the events of this moment are caused by a jump of the dither.
+    is_jump: bool,
 }
 
 impl MotionObserver for AsBelt<'_> {
@@ -145,6 +147,10 @@ impl MotionObserver for AsBelt<'_> {
         ));
     }
 
+    fn moment(&mut self, moment: &MotionMoment<'_>) {
+        self.is_jump = moment.is_jump;
+    }
+
     fn event(&mut self, event: &MotionEvent<'_>) {
         self.observer.event(&Event {
             time: event.time,
@@ -153,6 +159,7 @@ impl MotionObserver for AsBelt<'_> {
             slip_sign: event.slip_sign,
             displacement: event.state[0],
             velocity: event.state[1],
+            is_jump: self.is_jump,
         });
     }
 

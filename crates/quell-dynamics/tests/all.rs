@@ -20,6 +20,7 @@ mod motion_energy;
 mod motion_errata;
 mod motion_refusals;
 mod motion_thresholds;
+mod one_mass;
 mod orbits;
 mod own_laws;
 mod reasons;

@@ -136,11 +136,11 @@ fn runs_that_stall() {
     let stalled = stalled.expect_err("no steps are left");
     assert_states(&stalled, &[stalled.why, "used up"]);
     let why = no_orbit(within(0, || near(&belt, Start::REST, 1)));
-    assert_eq!(why, NoOrbit::Stalled(stalled));
+    assert!(matches!(why, NoOrbit::Stalled(other) if other.why == stalled.why), "{why:?}");
     assert_states(&why, &[stalled.why]);
     let squeal = within(0, || InitialState::Squealing.resolve(&belt::stribeck()));
     let why = squeal.expect_err("no steps are left");
-    assert_eq!(why, NoSquealingStart::Stalled(stalled));
+    assert!(matches!(why, NoSquealingStart::Stalled(other) if other.why == stalled.why), "{why:?}");
     assert_states(&why, &[stalled.why]);
 }
 

@@ -10,7 +10,10 @@ use crate::profile::{Knots, Profile};
 use crate::units::Scales;
 use crate::{Invalid, InvalidValues};
 
+mod one_mass;
 mod system;
+
+pub use one_mass::OneMass;
 
 /// Mass, spring, damper, contact, friction law and dither, in the numbers of the equations.
 #[derive(Clone, Debug, PartialEq)]

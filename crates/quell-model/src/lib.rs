@@ -23,7 +23,7 @@ pub mod system;
 pub mod units;
 pub mod waveform;
 
-pub use belt::Belt;
+pub use belt::{Belt, OneMass};
 pub use disc::Disc;
 pub use dither::{Direction, Dither};
 pub use friction::{

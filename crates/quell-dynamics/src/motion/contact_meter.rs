@@ -4,11 +4,10 @@ use std::sync::LazyLock;
 
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 use quell_numerics::gauss_legendre::GaussLegendre;
-use quell_numerics::lane::horner;
 
 use super::observer::{MotionObserver, MotionSegment};
 use super::phase::ContactPhase;
-use crate::simulation::ORDER;
+use crate::simulation::{ORDER, RECIPROCALS, Series, horner_at};
 
 /// Nodes of the rule on a segment: it is exact for the product of two of its series.
 const NODES: usize = ORDER + 1;
@@ -113,60 +112,101 @@ impl Work for ContactsOnSegment<'_, '_> {
 
     #[inline(always)]
     fn run(self) {
-        for (contact, sums) in self.sums.iter_mut().enumerate() {
-            match self.segment.phase(contact) {
+        let Self { sums, segment } = self;
+        let duration = segment.duration();
+        let moments = moments_of(duration);
+        for (contact, sums) in sums.iter_mut().enumerate() {
+            match segment.phase(contact) {
                 ContactPhase::Open => {
-                    sums.open += self.segment.duration();
+                    sums.open += duration;
                     sums.least_load = 0.0;
                     continue;
                 }
-                ContactPhase::Stick => sums.stick += self.segment.duration(),
-                ContactPhase::Slip(_) => sums.add_slip(self.segment, contact),
+                ContactPhase::Stick => sums.stick += duration,
+                ContactPhase::Slip(_) => {}
             }
-            sums.add_forces(self.segment, contact);
+            sums.add_closed(segment, contact, &moments);
         }
     }
 }
 
 impl ContactSums {
-    /// Friction and load of a closed contact, and the work of friction.
+    /// Friction and load of a closed contact, its largest slip speed, and the work of friction.
     #[inline(always)]
-    fn add_forces(&mut self, segment: &MotionSegment<'_>, contact: usize) {
+    fn add_closed(&mut self, segment: &MotionSegment<'_>, contact: usize, moments: &NodeTimes) {
         let duration = segment.duration();
         let (friction, load) = (segment.friction(contact), segment.normal_load(contact));
-        let slip = segment.slip_velocity(contact);
-        // The spring of an elastic slider that adheres takes and returns work.
-        let moves = !segment.is_held(contact);
         self.friction += integral(friction, duration);
-        self.load += integral(load, duration);
-        self.least_load = self.least_load.min(horner(load, 0.0)).min(horner(load, duration));
-        let [nodes, weights] = &*RULE;
-        for (node, weight) in nodes.iter().zip(weights) {
-            let since = node * duration;
-            self.least_load = self.least_load.min(horner(load, since));
-            if moves {
-                let power = horner(friction, since) * horner(slip, since);
-                self.work = f64::mul_add(weight * duration, power, self.work);
+        if load[1..].iter().all(|term| *term == 0.0) {
+            self.load += load[0] * duration;
+            self.least_load = lesser(self.least_load, load[0]);
+        } else {
+            self.load += integral(load, duration);
+            self.least_load = values_at(load, moments).into_iter().fold(self.least_load, lesser);
+        }
+        // The spring of an elastic slider that adheres takes and returns work.
+        if segment.is_held(contact) {
+            return;
+        }
+        let slips = values_at(segment.slip_velocity(contact), moments);
+        if matches!(segment.phase(contact), ContactPhase::Slip(_)) {
+            for slip in slips {
+                self.largest_slip = -lesser(-self.largest_slip, -slip.abs());
             }
         }
+        let forces = values_at(friction, moments);
+        let rule = RULE[1].iter().zip(forces.iter().zip(&slips));
+        for (weight, (force, slip)) in rule {
+            self.work = f64::mul_add(weight * duration, force * slip, self.work);
+        }
     }
+}
 
-    #[inline(always)]
-    fn add_slip(&mut self, segment: &MotionSegment<'_>, contact: usize) {
-        let slip = segment.slip_velocity(contact);
-        let moments = RULE[0].iter().copied().chain([0.0, 1.0]);
-        self.largest_slip = moments
-            .map(|moment| horner(slip, moment * segment.duration()).abs())
-            .fold(self.largest_slip, f64::max);
+/// The lesser of two numbers, neither of which is NaN.
+#[inline(always)]
+fn lesser(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+/// The nodes of the rule on a segment, and its ends.
+type NodeTimes = [f64; MOMENTS];
+
+/// A multiple of the moments of a group.
+const MOMENTS: usize = 20;
+
+/// As many moments as a vector holds.
+const GROUP: usize = 4;
+
+const _: () = assert!(MOMENTS >= NODES + 2, "the nodes and both ends");
+
+/// The moments of a segment.
+#[inline(always)]
+fn moments_of(duration: f64) -> NodeTimes {
+    let mut moments = [duration; MOMENTS];
+    moments[NODES] = 0.0;
+    for (moment, node) in moments.iter_mut().zip(&RULE[0]) {
+        *moment = node * duration;
     }
+    moments
+}
+
+/// A Taylor polynomial at all moments at once.
+#[inline(always)]
+fn values_at(series: &Series, moments: &NodeTimes) -> NodeTimes {
+    let mut values = [0.0; MOMENTS];
+    let (groups, _) = values.as_chunks_mut::<GROUP>();
+    for (group, moments) in groups.iter_mut().zip(moments.as_chunks::<GROUP>().0) {
+        *group = horner_at(series, moments);
+    }
+    values
 }
 
 /// Integral of a series from 0 to `duration`.
 #[inline(always)]
 pub(super) fn integral(series: &[f64; ORDER + 1], duration: f64) -> f64 {
     let mut sum = 0.0;
-    for (k, coefficient) in series.iter().enumerate().rev() {
-        sum = f64::mul_add(sum, duration, coefficient / (k + 1) as f64);
+    for (coefficient, inverse) in series.iter().zip(&RECIPROCALS[1..]).rev() {
+        sum = f64::mul_add(sum, duration, coefficient * inverse);
     }
     sum * duration
 }

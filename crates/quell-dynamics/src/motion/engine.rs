@@ -17,6 +17,9 @@ use super::stopped::{MotionStopped, StopReason};
 use super::stuck::{StuckForces, coupling, dependent};
 use crate::simulation::{Clock, ORDER, StepBudget};
 
+/// Default bound on the last retained terms of a step, relative to the size of each number of the state.
+pub const MOTION_TOLERANCE: f64 = 1e-13;
+
 /// Decisions at one moment after which the contacts are held in stick: a jump that releases a contact just made needs two;
 /// grazing of a threshold repeats indefinitely.
 pub(super) const PATIENCE: u32 = 4;

@@ -23,6 +23,7 @@
 //! | `guards`, `selection` | what ends a step, and what follows |
 //! | `lanes` | runs of many systems side by side |
 //! | `engine`, `transitions` | the loop, and what the contacts do at its events |
+//! | `one_mass` | runs of systems of one mass, by their own engine |
 //! | `phase`, `state`, `observer`, `stopped` | what goes into a run and comes out of it |
 //! | `extremes` | extremes of a series on a step |
 //! | `contact_meter`, `input_meter`, `row_meter` | integrals over a motion: what contacts do on average, the cost of inputs, a row |
@@ -45,6 +46,7 @@ mod lanes;
 mod law_along_slip;
 mod lyapunov;
 mod observer;
+mod one_mass;
 pub mod orbit;
 mod own_events;
 mod own_friction;
@@ -64,13 +66,17 @@ mod stuck;
 mod transitions;
 mod variation;
 
-use quell_model::{Profile, System};
+use quell_model::{OneMass, Profile, System};
 
 use engine::MotionRun;
 use equations::MotionEquations;
+use one_mass::{PlannedMass, run_mass};
 use selection::first_minor_not_positive;
 
+use crate::simulation::DEFAULT_TOLERANCE;
+
 pub use contact_meter::{ContactMeans, ContactMeter};
+pub use engine::MOTION_TOLERANCE;
 pub use input_meter::{InputCost, InputMeter, NoPower, SeriesCost};
 pub use lanes::{PlannedMotion, run_many, run_many_with};
 pub use lyapunov::{LyapunovExponent, LyapunovExponents, LyapunovVerdict, NoExponents};
@@ -85,14 +91,13 @@ pub use state::{ContactEnd, MotionEnd, MotionStart};
 pub use stopped::{Immobile, MotionStopped, StopReason};
 pub use variation::MotionVariation;
 
-/// Default bound on the last retained terms of a step, relative to the size of each number of the state.
-pub const MOTION_TOLERANCE: f64 = 1e-13;
-
 /// A system whose motion can be computed.
 #[derive(Clone, Debug)]
 pub struct Motion<'s> {
     system: &'s System,
     equations: MotionEquations,
+    /// The belt that the system is, if it is one.
+    one_mass: Option<OneMass>,
 }
 
 /// Whether a surface has no velocity about which it moves; of one over knots, whether it ever stands still.
@@ -133,7 +138,7 @@ impl<'s> Motion<'s> {
                 contacts: set.into_iter().map(|place| name(able[place])).collect(),
             });
         }
-        Ok(Self { system, equations })
+        Ok(Self { system, equations, one_mass: system.one_mass() })
     }
 
     /// The system.
@@ -173,9 +178,21 @@ impl<'s> Motion<'s> {
         1.0 / self.equations.rates.of_all
     }
 
+    /// The bound on the last terms of a step for runs from which no periodic motion is computed: [`MOTION_TOLERANCE`], of a system of one
+    /// mass that of a belt ([`DEFAULT_TOLERANCE`]).
+    pub fn run_tolerance(&self) -> f64 {
+        if self.one_mass.is_some() { one_mass::RUN_TOLERANCE } else { MOTION_TOLERANCE }
+    }
+
+    /// What [`Motion::run_tolerance`] bounds: the last terms over the numbers of the state, or of one mass over the load.
+    pub fn bound_of_runs(&self) -> f64 {
+        if self.one_mass.is_some() { DEFAULT_TOLERANCE } else { MOTION_TOLERANCE }
+    }
+
     /// Integrates from `start` to t = `until` and passes every segment and event to `observer`.
     ///
-    /// `tolerance` bounds the last two retained Taylor terms of a step ([`MOTION_TOLERANCE`]).
+    /// `tolerance` bounds the last two retained Taylor terms of a step ([`MOTION_TOLERANCE`]), relative to each number of the state; of
+    /// a system of one mass a tenth of it bounds them relative to the load, as a displacement.
     ///
     /// # Errors
     /// [`MotionStopped`] with time, state and reason.
@@ -191,6 +208,10 @@ impl<'s> Motion<'s> {
         tolerance: f64,
         observer: &mut dyn MotionObserver,
     ) -> Result<MotionEnd, MotionStopped> {
+        if let Some(mass) = &self.one_mass {
+            let run = PlannedMass { mass, start: start.clone(), until, observer };
+            return run_mass(run, tolerance);
+        }
         let parts = (self.system, &self.equations);
         if start.state.len() == self.size() {
             return MotionRun::new(parts, start, until, tolerance, observer).run();

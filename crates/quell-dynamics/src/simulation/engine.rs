@@ -9,7 +9,7 @@
 //! loop indefinitely; the held time is below every tolerance in use. How far a pass advances time is a separate
 //! matter: [`super::step_budget`] limits the steps.
 
-use quell_model::{Belt, Direction};
+use quell_model::Direction;
 use quell_numerics::dispatch::{InstructionSet, Work, with_scalar_of};
 use quell_numerics::lane::horner;
 use quell_numerics::polynomial::first_crossing_after;
@@ -73,7 +73,7 @@ impl<'a> Engine<'a> {
         let belt_velocity = belt.belt_velocity() / unit;
         let damping = 2.0 * belt.damping_ratio();
         let slip = (belt.belt_velocity() - start.velocity) / unit;
-        let (tangential, normal) = forcings(belt, unit, clock);
+        let (tangential, normal) = Forcing::of_belt(belt, unit, clock);
         let stiction = Stiction {
             damper: damping * belt_velocity,
             belt_velocity,
@@ -173,11 +173,16 @@ impl<'a> Engine<'a> {
         if !self.budget.is_due(steps) {
             return Ok(());
         }
-        self.budget.check(steps, time).map_err(|why| Stalled { time, why })
+        self.budget.check(steps, time).map_err(|why| Stalled { time, ..self.stalled(why) })
     }
 
     fn stalled(&self, why: &'static str) -> Stalled {
-        Stalled { time: self.state.clock.time(), why }
+        Stalled {
+            time: self.state.clock.time(),
+            displacement: self.unit * self.state.displacement,
+            velocity: self.belt_velocity - self.unit * self.state.slip,
+            why,
+        }
     }
 
     fn final_state(&self) -> FinalState {
@@ -232,7 +237,7 @@ impl<'a> Engine<'a> {
             // The zero is of higher order than its cause allows: rounding at a grazing contact. The
             // slip that was requested has no length.
             self.state.contact = ContactState::Stick { held: true };
-            self.report(EventKind::Stick);
+            self.report(EventKind::Stick, false);
             return self.check_progress(before);
         }
         let (root, displacement) = match taken.root {
@@ -417,12 +422,4 @@ pub(super) fn step_tolerance(
     let driven = tangential.amplitude() / (rate * rate);
     let rounding = INVISIBLE * displacement.abs().max(slip.abs()).max(driven);
     (tolerance * normal.mean()).max(rounding)
-}
-
-/// The dithers of a belt in units of `unit`, tangential and normal, at the moment `clock`.
-#[inline(always)]
-pub(super) fn forcings(belt: &Belt, unit: f64, clock: Clock) -> (Forcing, Forcing) {
-    let load = belt.normal_load() / unit;
-    let forcing = |direction, mean| Forcing::new(belt.dithers(), direction, mean, unit, clock);
-    (forcing(Direction::Tangential, 0.0), forcing(Direction::Normal, load))
 }

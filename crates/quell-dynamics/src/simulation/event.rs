@@ -43,4 +43,6 @@ pub struct Event {
     pub displacement: f64,
     /// Velocity x′; without a contact of its own state it is that of the belt.
     pub velocity: f64,
+    /// Whether a jump of the dither has caused it.
+    pub is_jump: bool,
 }

@@ -9,7 +9,7 @@
 
 use quell_model::profile::{KnotPiece, Knots, Profile};
 use quell_model::waveform::Piece;
-use quell_model::{Direction, Dither, Waveform};
+use quell_model::{Belt, Direction, Dither, Waveform};
 use quell_numerics::elementary::sin_cos_of_phase;
 use quell_numerics::lane::Lane;
 
@@ -174,6 +174,14 @@ impl Forcing {
         };
         forcing.pass_breaks(clock);
         forcing
+    }
+
+    /// The tangential dithers of a belt and its normal load, in units of `unit`, at the moment `clock`.
+    #[inline(always)]
+    pub(crate) fn of_belt(belt: &Belt, unit: f64, clock: Clock) -> (Self, Self) {
+        let load = belt.normal_load() / unit;
+        let forcing = |direction, mean| Self::new(belt.dithers(), direction, mean, unit, clock);
+        (forcing(Direction::Tangential, 0.0), forcing(Direction::Normal, load))
     }
 
     /// The sum of profiles, set to the moment `clock`.

@@ -69,6 +69,12 @@ impl Segment<'_> {
         self.slip_sign
     }
 
+    /// Coefficients of x and of v_r, in the unit of the engine.
+    #[inline(always)]
+    pub(crate) fn series(&self) -> (&[f64], &[f64]) {
+        (self.displacement, self.slip)
+    }
+
     /// Coefficients of v_r, and their unit.
     #[inline(always)]
     pub(crate) fn slip_series(&self) -> (&[f64], f64) {
@@ -156,7 +162,7 @@ impl Segment<'_> {
 
 /// A Taylor polynomial at N moments at once.
 #[inline(always)]
-fn horner_at<const N: usize>(coefficients: &[f64], since: &[f64; N]) -> [f64; N] {
+pub(crate) fn horner_at<const N: usize>(coefficients: &[f64], since: &[f64; N]) -> [f64; N] {
     let mut values = [0.0_f64; N];
     for &coefficient in coefficients.iter().rev() {
         for moment in 0..N {

@@ -10,7 +10,8 @@ use quell_model::friction::{LawSeries, LawVisitor};
 use quell_numerics::dispatch::{Work, with_fused_multiply_add};
 
 use super::clock::Clock;
-use super::engine::{forcings, longest_step, step_tolerance};
+use super::engine::{longest_step, step_tolerance};
+use super::forcing::Forcing;
 use super::lane_row::LaneRow;
 use super::observer::{Observer, Segment};
 use super::slip::{DitherSeries, SlipEquation, SlipSeries, SlipStart, StepLimits, StepLoad};
@@ -31,7 +32,7 @@ pub(crate) fn continue_slip(
     observer: &mut dyn Observer,
 ) -> Result<FinalState, Stalled> {
     if let Some(why) = belt.unsimulated() {
-        return Err(Stalled { time: start.time, why });
+        return Err(Stalled::before(&start, why));
     }
     with_fused_multiply_add(SlipContinuation { belt, sign, start, until, tolerance, observer })
 }
@@ -54,7 +55,7 @@ impl Work for SlipContinuation<'_> {
         let law = belt.friction();
         let unit = law.velocity_scale();
         let mut clock = Clock::at(start.time);
-        let (mut tangential, mut normal) = forcings(belt, unit, clock);
+        let (mut tangential, mut normal) = Forcing::of_belt(belt, unit, clock);
         let longest = longest_step(&tangential, &normal);
         let belt_velocity = belt.belt_velocity() / unit;
         let equation = SlipEquation { damping: 2.0 * belt.damping_ratio(), belt_velocity };
@@ -63,7 +64,7 @@ impl Work for SlipContinuation<'_> {
         let mut series = SlipSeries { displacement: [0.0; ORDER + 1], slip: [0.0; ORDER + 1] };
         let mut table = [LaneRow::ZERO; ORDER + 1];
         let fastest = tangential.highest_rate().max(normal.highest_rate());
-        StepBudget::begin().map_err(|why| Stalled { time: start.time, why })?;
+        StepBudget::begin().map_err(|why| Stalled::before(&start, why))?;
         let mut budget = StepBudget::new(start.time, until, fastest);
         let tolerance = step_tolerance(tolerance, (&tangential, &normal), displacement, slip);
         let mut steps = 0;
@@ -104,7 +105,11 @@ impl Work for SlipContinuation<'_> {
                 tangential.pass_breaks(clock);
                 normal.pass_breaks(clock);
             }
-            let stalled = |why| Stalled { time: clock.time(), why };
+            let stalled = |why| {
+                let velocity = belt.belt_velocity() - unit * slip;
+                let displacement = unit * displacement;
+                Stalled { time: clock.time(), displacement, velocity, why }
+            };
             if !(displacement.is_finite() && slip.is_finite()) {
                 return Err(stalled("the state left the finite numbers"));
             }

@@ -62,13 +62,23 @@ impl FinalState {
 pub struct Stalled {
     /// τ at which it stopped.
     pub time: f64,
+    /// x there.
+    pub displacement: f64,
+    /// x′ there.
+    pub velocity: f64,
     /// The reason.
     pub why: &'static str,
 }
 
 impl Stalled {
     /// The result of a run that has not been started yet.
-    pub(crate) const NEVER_STARTED: Self = Self { time: 0.0, why: "the run was never started" };
+    pub(crate) const NEVER_STARTED: Self = Self::before(&Start::REST, "the run was never started");
+
+    /// A run that does not leave its start.
+    pub(crate) const fn before(start: &Start, why: &'static str) -> Self {
+        let Start { time, displacement, velocity } = *start;
+        Self { time, displacement, velocity, why }
+    }
 }
 
 impl fmt::Display for Stalled {

@@ -27,9 +27,9 @@ impl Engine<'_> {
     pub(super) fn arrive(&mut self, sign: f64) {
         self.state.contact = self.decided();
         match self.state.contact {
-            ContactState::Stick { .. } => self.report(EventKind::Stick),
+            ContactState::Stick { .. } => self.report(EventKind::Stick, false),
             ContactState::Slip { sign: after, .. } if after != sign => {
-                self.report(EventKind::Reversal);
+                self.report(EventKind::Reversal, false);
             }
             // Grazing: v_r touches 0 and returns to the same side, without an event.
             ContactState::Slip { .. } => {}
@@ -51,11 +51,11 @@ impl Engine<'_> {
         }
         let zeros = if jumped || !self.smooth_release { 1 } else { 2 };
         self.state.contact = ContactState::Slip { sign, zeros };
-        self.report(EventKind::Release);
+        self.report(EventKind::Release, jumped);
     }
 
     #[inline(always)]
-    pub(super) fn report(&mut self, kind: EventKind) {
+    pub(super) fn report(&mut self, kind: EventKind, is_jump: bool) {
         self.state.events += 1;
         let event = Event {
             time: self.state.clock.time(),
@@ -64,6 +64,7 @@ impl Engine<'_> {
             slip_sign: self.state.slip_sign(),
             displacement: self.unit * self.state.displacement,
             velocity: self.belt_velocity,
+            is_jump,
         };
         self.observer.event(&event);
     }

@@ -245,6 +245,18 @@ macro_rules! recurrences {
             }
         }
 
+        impl<V: Lane> FrictionConstants<V> {
+            /// The coefficient along a scaled slip w(t) on the branch of `sign` (±1), order by order.
+            #[inline(always)]
+            pub fn along<const N: usize>(&mut self, sign: V, w: &[V; N]) -> [V; N] {
+                match self {
+                    $(Self::$kind(constants) => {
+                        composed(<$kind as LawSeries>::series::<V, N>(constants, sign, w[0]), w)
+                    })+
+                }
+            }
+        }
+
         impl<V: Lane, const N: usize> BranchSeries<V> for FrictionSeries<'_, V, N> {
             #[inline(always)]
             fn first(&self) -> V {
@@ -267,6 +279,21 @@ macro_rules! recurrences {
             }
         }
     };
+}
+
+/// The coefficient along w(t), all of whose terms are known.
+#[inline(always)]
+fn composed<V: Lane, const N: usize>(mut branch: impl BranchSeries<V>, w: &[V; N]) -> [V; N] {
+    let slope = branch.slope();
+    let mut series = [branch.first(); N];
+    const { assert!(N <= 17, "unrolled up to order 16") };
+    quell_numerics::for_each_order_below_16!(J, {
+        const K: usize = J + 1;
+        if K < N {
+            series[K] = slope.mul_add(w[K], branch.lower(K, w));
+        }
+    });
+    series
 }
 
 /// A law with a recurrence of its own, as a variant of [`FrictionConstants`].

@@ -3,7 +3,7 @@
 //! Every kind of study gives its system, the observed row and the start; the motion is that of the engine for systems.
 
 use quell_dynamics::belt_motion::motion_start;
-use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart, ReadingSampler};
+use quell_dynamics::motion::{Motion, MotionStart, ReadingSampler};
 use quell_input::record::TimeSeries;
 use quell_model::RecordedQuantity;
 use quell_model::System;
@@ -101,7 +101,7 @@ impl ObservedMotion {
         let last = times.last().copied().unwrap_or(self.start.time);
         // Beyond the last sample, which may round to just after it.
         let until = last + motion.time_scale() + 1e-9 * last.abs();
-        motion.run(&self.start, until, MOTION_TOLERANCE, &mut sampler).map_err(failed)?;
+        motion.run(&self.start, until, motion.run_tolerance(), &mut sampler).map_err(failed)?;
         Ok((sampler.values, sampler.rates))
     }
 }

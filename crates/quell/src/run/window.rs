@@ -2,9 +2,7 @@
 //! response; a steady study has one as well.
 
 use quell_dynamics::belt_motion::motion_start;
-use quell_dynamics::motion::{
-    ContactMeans, ContactMeter, MOTION_TOLERANCE, Motion, MotionStart, RowMeter,
-};
+use quell_dynamics::motion::{ContactMeans, ContactMeter, Motion, MotionStart, RowMeter};
 use quell_model::System;
 use quell_model::profile::Wave;
 use quell_model::units::Quantity;
@@ -83,7 +81,7 @@ fn measured(
         return Err(Complaint::option("--window", format!("{from}:{to}"), allowed).into());
     }
     let motion = Motion::new(system).map_err(failed)?;
-    let before = motion.run(start, from, MOTION_TOLERANCE, &mut ()).map_err(failed)?;
+    let before = motion.run(start, from, motion.run_tolerance(), &mut ()).map_err(failed)?;
     let fastest = system.waves().map(Wave::highest).fold(1.0 / motion.time_scale(), f64::max);
     let wanted = SAMPLES_PER_PERIOD * (to - from) * fastest / std::f64::consts::TAU;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
@@ -91,7 +89,8 @@ fn measured(
     let step = (to - from) / count as f64;
     let mut observed = RowMeter::new(row, from, step, count);
     let mut meter = ContactMeter::new(system.contacts.len());
-    let end = motion.run(&before.restart(), to, MOTION_TOLERANCE, &mut (&mut observed, &mut meter));
+    let end =
+        motion.run(&before.restart(), to, motion.run_tolerance(), &mut (&mut observed, &mut meter));
     let end = end.map_err(failed)?;
     observed.finish(&end.state);
     let mut warnings = beyond_laws_of(system, in_words, |contact| meter.largest_slip(contact));

@@ -31,6 +31,7 @@ use self::drive::LaneLoop;
 pub use self::request::PlannedMotion;
 use self::request::{Finish, Queue};
 use self::shape::LaneShape;
+use super::one_mass::{PlannedMass, run_masses};
 use super::state::MotionEnd;
 use super::stopped::MotionStopped;
 
@@ -64,13 +65,23 @@ pub fn run_many_with(
     let mut ends: Vec<Option<Result<MotionEnd, MotionStopped>>> = Vec::new();
     ends.resize_with(requests.len(), || None);
     let mut groups: Vec<(Option<LaneShape>, Queue<'_>)> = Vec::new();
+    let mut masses: (Vec<usize>, Vec<PlannedMass<'_>>) = (Vec::new(), Vec::new());
     for (number, request) in requests.into_iter().enumerate() {
         assert_eq!(request.start.state.len(), request.motion.size(), "numbers of the state");
+        if let Some(mass) = &request.motion.one_mass {
+            let PlannedMotion { start, until, observer, .. } = request;
+            masses.0.push(number);
+            masses.1.push(PlannedMass { mass, start, until, observer });
+            continue;
+        }
         let shape = LaneShape::of(request.motion);
         match groups.iter_mut().find(|(other, _)| *other == shape) {
             Some((_, group)) => group.push((number, request)),
             None => groups.push((shape, vec![(number, request)])),
         }
+    }
+    for (number, end) in masses.0.into_iter().zip(run_masses(set, masses.1, tolerance)) {
+        ends[number] = Some(end);
     }
     for (shape, queue) in groups {
         let mut finish = |number: usize, end| ends[number] = Some(end);

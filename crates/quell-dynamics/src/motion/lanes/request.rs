@@ -21,7 +21,7 @@ pub struct PlannedMotion<'a> {
 impl<'a> PlannedMotion<'a> {
     /// The run, before its first decision.
     pub(super) fn prepared(self, tolerance: f64) -> MotionRun<'a> {
-        let Motion { system, equations } = self.motion;
+        let Motion { system, equations, .. } = self.motion;
         MotionRun::new((system, equations), &self.start, self.until, tolerance, self.observer)
     }
 }

@@ -41,7 +41,7 @@ pub(super) fn side_by_side(
     let mut rest: Vec<(usize, SimulationRun<'_>)> = Vec::with_capacity(runs.len());
     for (number, run) in runs.into_iter().enumerate() {
         match run.belt.unsimulated() {
-            Some(why) => outcomes[number] = Err(Stalled { time: run.start.time, why }),
+            Some(why) => outcomes[number] = Err(Stalled::before(&run.start, why)),
             None => rest.push((number, run)),
         }
     }

@@ -63,6 +63,9 @@ impl EventHistory {
 
 impl MotionObserver for EventHistory {
     fn segment(&mut self, segment: &MotionSegment<'_>) {
+        if !self.keeps_intervals {
+            return;
+        }
         let from = segment.clock().time();
         let to = segment.clock().after(segment.duration()).time();
         for (contact, intervals) in self.intervals.iter_mut().enumerate() {

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 pub use quell_dynamics::motion::MotionStart;
 use quell_dynamics::motion::{
-    ContactMeans, ContactMeter, ContactPhase, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver,
-    MotionSampler, MotionSegment, MotionStopped, RowMeter,
+    ContactMeans, ContactMeter, ContactPhase, Motion, MotionEnd, MotionObserver, MotionSampler,
+    MotionSegment, MotionStopped, RowMeter,
 };
 use quell_model::System;
 use quell_model::profile::Wave;
@@ -87,6 +87,8 @@ pub struct SystemSimulation {
     pub means: Option<Vec<ContactMeans>>,
     /// Samples at equal steps, both ends included, if requested.
     pub samples: Option<MotionSampler>,
+    /// Bound on the last terms of a step, relative to the numbers of the state; of one mass relative to the load.
+    pub tolerance: f64,
     /// Whether the samples are too coarse to resolve the fastest motion.
     pub coarse: bool,
     /// The sound of the velocity of the observed row, if requested.
@@ -147,7 +149,7 @@ pub(crate) fn run_observed(
     let mut observer = (&mut meter, (&mut history, (&mut sampler, watch)));
     let start_time = start.time;
     let end = motion
-        .run(&start, until, MOTION_TOLERANCE, &mut observer)
+        .run(&start, until, motion.run_tolerance(), &mut observer)
         .map_err(|stopped| failed_run("simulate", system, &stopped))?;
     if request.times.is_some() {
         sampler.finish(&end);
@@ -163,6 +165,7 @@ pub(crate) fn run_observed(
         history,
         means: meter.means(),
         samples: request.samples.then_some(sampler),
+        tolerance: motion.bound_of_runs(),
         coarse,
         manoeuvre: manoeuvre(study, trace, start_time),
         beyond,
@@ -462,7 +465,7 @@ impl SystemSimulation {
             .nested("event_counts", put_counts(units, &self.totals()))
             .plain("steps", self.end.steps)
             .plain("near_tangential_releases", self.end.near_tangential_releases)
-            .plain("tolerance", MOTION_TOLERANCE)
+            .plain("tolerance", self.tolerance)
             .plain("warnings", self.warnings(study));
         fields.finish()
     }

@@ -53,6 +53,9 @@ impl MotionObserver for MotionSoundTap {
     }
 
     fn segment(&mut self, segment: &MotionSegment<'_>) {
+        if !self.tap.is_wanted() {
+            return;
+        }
         let series = segment.row(&self.row, 0);
         let until = |time| segment.clock().until(time);
         self.tap.take(segment.duration(), until, |since| MotionSegment::value(&series, since));

@@ -1,0 +1,448 @@
+//! Systems of one mass, whose runs are those of [`crate::simulation`], in the units and to the observers of a system.
+//!
+//! The engine for one mass knows stick in closed form, for as long as it lasts. Here it is shown in pieces, each a Taylor series with
+//! the friction that holds the mass, so that one kind of observer sees every motion. What a run computes depends on no observer.
+
+use quell_model::friction::FrictionConstants;
+use quell_model::{Direction, OneMass};
+use quell_numerics::dispatch::{InstructionSet, Work, with_fused_multiply_add};
+use quell_numerics::polynomial::{derivative, step_length, value};
+
+use super::contact_series::ContactSeries;
+use super::observer::{MotionEvent, MotionMoment, MotionObserver, MotionSegment, Trigger};
+use super::own_state::law_of;
+use super::phase::{ContactNow, ContactPhase};
+use super::state::{ContactEnd, MotionEnd, MotionStart};
+use super::stopped::{MotionStopped, StopReason};
+use crate::simulation::{
+    Clock, DEFAULT_TOLERANCE, Event, EventKind, FinalState, Forcing, ORDER, Observer, Segment,
+    Series, SimulationRun, Stalled, Start, simulate, simulate_many_with,
+};
+
+/// Length of the state.
+const SIZE: usize = 2;
+
+/// Slip velocities below this multiple of their rounding are zero at the start of a run.
+const AT_REST: f64 = 32.0 * f64::EPSILON;
+
+/// A run of a system of one mass.
+pub(super) struct PlannedMass<'a> {
+    pub(super) mass: &'a OneMass,
+    pub(super) start: MotionStart,
+    pub(super) until: f64,
+    pub(super) observer: &'a mut dyn MotionObserver,
+}
+
+/// Integrates a run of a system of one mass.
+pub(super) fn run_mass(
+    PlannedMass { mass, start, until, observer }: PlannedMass<'_>,
+    tolerance: f64,
+) -> Result<MotionEnd, MotionStopped> {
+    let mut view = MassView::new(mass, &start, observer);
+    let (units, start, end) = (view.units, view.start, mass.rate() * until);
+    let outcome = simulate(mass.belt(), start, end, OF_THE_LOAD * tolerance, &mut view);
+    units.outcome(outcome, until)
+}
+
+/// Bound on the last terms of a step relative to F, over that relative to the numbers of the state: with it periodic motions and
+/// their multipliers are as accurate as those of systems in general.
+const OF_THE_LOAD: f64 = 0.1;
+
+/// A bound for runs that no periodic motion is computed from.
+pub(super) const RUN_TOLERANCE: f64 = DEFAULT_TOLERANCE / OF_THE_LOAD;
+
+/// Integrates runs of systems of one mass side by side. The results are in the order of the runs.
+pub(super) fn run_masses(
+    set: InstructionSet,
+    runs: Vec<PlannedMass<'_>>,
+    tolerance: f64,
+) -> Vec<Result<MotionEnd, MotionStopped>> {
+    let mut views: Vec<(f64, MassView<'_>)> = Vec::with_capacity(runs.len());
+    for PlannedMass { mass, start, until, observer } in runs {
+        views.push((until, MassView::new(mass, &start, observer)));
+    }
+    let planned = views.iter_mut().map(|(until, view)| {
+        let (belt, start) = (view.units.mass.belt(), view.start);
+        SimulationRun { belt, start, until: view.units.mass.rate() * *until, observer: view }
+    });
+    let outcomes = simulate_many_with(set, planned.collect(), OF_THE_LOAD * tolerance);
+    let ends = outcomes.into_iter().zip(&views);
+    ends.map(|(outcome, (until, view))| view.units.outcome(outcome, *until)).collect()
+}
+
+/// The numbers of a belt in those of its system.
+#[derive(Clone, Copy)]
+struct MassUnits<'a> {
+    mass: &'a OneMass,
+}
+
+impl MassUnits<'_> {
+    fn start(self, start: &MotionStart) -> Start {
+        let (mass, state) = (self.mass, &start.state);
+        let velocity = mass.tangent() * state[1];
+        let surface = mass.belt().belt_velocity();
+        let rests = (surface - velocity).abs() <= AT_REST * (surface.abs() + velocity.abs());
+        Start {
+            time: mass.rate() * start.time,
+            displacement: mass.rate() * mass.tangent() * state[0] - mass.shift(),
+            velocity: if rests { surface } else { velocity },
+        }
+    }
+
+    fn state(self, displacement: f64, velocity: f64) -> [f64; SIZE] {
+        let mass = self.mass;
+        [(displacement + mass.shift()) * mass.displacement(), velocity / mass.tangent()]
+    }
+
+    /// A moment of the belt.
+    fn clock(self, clock: Clock) -> Clock {
+        let rate = self.mass.rate();
+        if rate == 1.0 {
+            return clock;
+        }
+        let time = clock.time() / rate;
+        let rest = f64::mul_add(-time, rate, clock.time()) + clock.low();
+        Clock::at(time).after(rest / rate)
+    }
+
+    fn outcome(
+        self,
+        outcome: Result<FinalState, Stalled>,
+        until: f64,
+    ) -> Result<MotionEnd, MotionStopped> {
+        outcome.map(|end| self.end(&end, until)).map_err(|stalled| self.stopped(&stalled))
+    }
+
+    fn end(self, end: &FinalState, until: f64) -> MotionEnd {
+        let (mass, belt) = (self.mass, self.mass.belt());
+        let slip = if end.sticking { 0.0 } else { belt.belt_velocity() - end.velocity };
+        let load = belt.normal_load_at(end.time);
+        let friction = if end.sticking {
+            let damper = 2.0 * belt.damping_ratio() * belt.belt_velocity();
+            damper + end.displacement - belt.dither_force(Direction::Tangential, end.time)
+        } else {
+            f64::from(end.slip_sign) * belt.friction().coefficient(slip.abs()) * load
+        };
+        let phase = phase_of(end.slip_sign);
+        MotionEnd {
+            time: if end.time == mass.rate() * until { until } else { end.time / mass.rate() },
+            state: self.state(end.displacement, end.velocity).to_vec(),
+            contacts: vec![ContactEnd {
+                phase,
+                slip_velocity: slip,
+                friction: mass.force() * friction,
+                normal_load: mass.force() * load,
+                bristle: None,
+            }],
+            events: end.events,
+            steps: end.steps,
+            near_tangential_releases: end.near_tangential_releases,
+            dependent: Vec::new(),
+        }
+    }
+
+    fn stopped(self, stalled: &Stalled) -> MotionStopped {
+        let Stalled { time, displacement, velocity, why } = *stalled;
+        MotionStopped {
+            time: time / self.mass.rate(),
+            state: self.state(displacement, velocity).to_vec(),
+            reason: StopReason::Stalled(why),
+        }
+    }
+}
+
+fn phase_of(slip_sign: i8) -> ContactPhase {
+    if slip_sign == 0 { ContactPhase::Stick } else { ContactPhase::Slip(slip_sign) }
+}
+
+/// Shows a run of the belt to an observer of the system.
+struct MassView<'a> {
+    units: MassUnits<'a>,
+    start: Start,
+    observer: &'a mut dyn MotionObserver,
+    law: FrictionConstants,
+    /// Length unit of the engine: the law's velocity scale.
+    unit: f64,
+    tangential: Forcing,
+    normal: Forcing,
+    /// The series of the last piece, and its end.
+    states: [f64; (ORDER + 1) * SIZE],
+    contact: ContactSeries,
+    now: ContactNow,
+    ended: (Clock, f64),
+    /// Powers of ω.
+    rates: Series,
+}
+
+impl<'a> MassView<'a> {
+    fn new(mass: &'a OneMass, start: &MotionStart, observer: &'a mut dyn MotionObserver) -> Self {
+        let units = MassUnits { mass };
+        let start = units.start(start);
+        let belt = mass.belt();
+        let (unit, clock) = (belt.friction().velocity_scale(), Clock::at(start.time));
+        let (tangential, normal) = Forcing::of_belt(belt, unit, clock);
+        let mut rates = [1.0; ORDER + 1];
+        for k in 1..=ORDER {
+            rates[k] = rates[k - 1] * mass.rate();
+        }
+        let mut contact = ContactSeries::zero();
+        contact.surface[0] = belt.belt_velocity();
+        let mut view = Self {
+            start,
+            observer,
+            law: law_of(belt.friction()),
+            unit,
+            tangential,
+            normal,
+            states: [0.0; (ORDER + 1) * SIZE],
+            contact,
+            now: ContactNow::of(ContactPhase::Stick),
+            ended: (clock, 0.0),
+            rates,
+            units,
+        };
+        view.now = ContactNow::of(view.phase_at_start());
+        if view.normal.is_constant() {
+            view.contact.load[0] = units.mass.force() * belt.normal_load();
+            view.contact.given[0] = view.contact.load[0];
+            view.contact.pressed[0] = view.contact.load[0];
+        }
+        view
+    }
+
+    /// What the contact does first, as far as no event says it.
+    fn phase_at_start(&self) -> ContactPhase {
+        let (belt, start) = (self.units.mass.belt(), &self.start);
+        let slip = belt.belt_velocity() - start.velocity;
+        let direction = if slip == 0.0 {
+            let damper = 2.0 * belt.damping_ratio() * belt.belt_velocity();
+            let force =
+                damper + start.displacement - belt.dither_force(Direction::Tangential, start.time);
+            let holds = force.abs()
+                <= belt.friction().static_coefficient() * belt.normal_load_at(start.time);
+            if holds { 0.0 } else { force }
+        } else {
+            slip
+        };
+        phase_of(if direction == 0.0 {
+            0
+        } else if direction > 0.0 {
+            1
+        } else {
+            -1
+        })
+    }
+
+    /// Passes on a piece whose series have been written.
+    fn emit(&mut self, clock: Clock, duration: f64) {
+        let rate = self.units.mass.rate();
+        self.ended = (clock.after(duration), duration / rate);
+        self.observer.segment(&MotionSegment {
+            clock: self.units.clock(clock),
+            duration: duration / rate,
+            size: SIZE,
+            states: &self.states,
+            contacts: std::slice::from_ref(&self.contact),
+            now: std::slice::from_ref(&self.now),
+        });
+    }
+
+    /// The rate at which the guard that ended the last piece reached zero.
+    fn rate(&self, trigger: Trigger) -> f64 {
+        let (contact, after) = (&self.contact, self.ended.1);
+        let slope = |series: &Series| value(&derivative(series), after);
+        match trigger {
+            Trigger::Margin(_, side) => {
+                let level = self.units.mass.belt().friction().static_coefficient();
+                f64::from(side) * slope(&contact.friction) - level * slope(&contact.pressed)
+            }
+            _ => -f64::from(self.now.phase.slip_sign()) * slope(&contact.slip),
+        }
+    }
+}
+
+impl Observer for MassView<'_> {
+    fn segment(&mut self, segment: &Segment<'_>) {
+        self.now = ContactNow::of(phase_of(segment.slip_sign()));
+        let (mut clock, mut rest) = (segment.clock(), segment.duration());
+        if segment.slip_sign() != 0 {
+            self.pass_breaks(clock);
+            with_fused_multiply_add(Shown { view: self, clock, piece: MassPiece::Slip(segment) });
+            self.emit(clock, rest);
+            return;
+        }
+        let mut displacement = segment.displacement(0.0);
+        while rest > 0.0 {
+            self.pass_breaks(clock);
+            let room = clock.until(self.tangential.next_break().min(self.normal.next_break()));
+            let piece = MassPiece::Stick { displacement };
+            let longest = with_fused_multiply_add(Shown { view: self, clock, piece });
+            let duration = longest.min(room).min(rest);
+            self.emit(clock, duration);
+            displacement =
+                f64::mul_add(self.units.mass.belt().belt_velocity(), duration, displacement);
+            clock = clock.after(duration);
+            rest -= duration;
+        }
+    }
+
+    fn event(&mut self, event: &Event) {
+        let before = self.now.phase;
+        let after = phase_of(event.slip_sign);
+        let trigger = match event.kind {
+            EventKind::Release => Trigger::Margin(0, event.slip_sign),
+            _ => Trigger::Slip(0),
+        };
+        let rate = self.rate(trigger);
+        let state = self.units.state(event.displacement, event.velocity);
+        let time = event.time / self.units.mass.rate();
+        let clock = if self.ended.0.time() == event.time {
+            self.units.clock(self.ended.0)
+        } else {
+            Clock::at(time)
+        };
+        self.now = ContactNow::of(after);
+        self.observer.moment(&MotionMoment {
+            clock,
+            state: &state,
+            before: &[before],
+            after: &[after],
+            triggers: &[(trigger, rate)],
+            is_jump: event.is_jump,
+            is_one_sided: false,
+        });
+        let law = self.units.mass.belt().friction();
+        self.observer.event(&MotionEvent {
+            time,
+            contact: 0,
+            kind: event.kind,
+            slip_sign: event.slip_sign,
+            is_smooth: event.kind == EventKind::Release
+                && !event.is_jump
+                && law.starts_at_static_level(),
+            state: &state,
+        });
+    }
+
+    fn watches(&self) -> bool {
+        self.observer.watches()
+    }
+}
+
+impl MassView<'_> {
+    fn pass_breaks(&mut self, clock: Clock) {
+        for forcing in [&mut self.tangential, &mut self.normal] {
+            if clock.until(forcing.next_break()) <= 0.0 {
+                forcing.pass_breaks(clock);
+            }
+        }
+    }
+}
+
+/// A piece whose series are to be written.
+enum MassPiece<'p, 's> {
+    /// A step of slip.
+    Slip(&'p Segment<'s>),
+    /// Stick from a displacement on.
+    Stick { displacement: f64 },
+}
+
+/// Writes the series of a piece. Returns how long a piece of stick they describe, in the time of the belt.
+struct Shown<'v, 'a, 'p, 's> {
+    view: &'v mut MassView<'a>,
+    clock: Clock,
+    piece: MassPiece<'p, 's>,
+}
+
+impl Work for Shown<'_, '_, '_, '_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let Self { view, clock, piece } = self;
+        let belt = view.units.mass.belt();
+        let (unit, force) = (view.unit, view.unit * view.units.mass.force());
+        let load = view.load(clock, force);
+        match piece {
+            MassPiece::Slip(segment) => {
+                view.show_slip(segment.series());
+                f64::INFINITY
+            }
+            MassPiece::Stick { displacement } => {
+                let velocity = belt.belt_velocity();
+                let dither = view.tangential.series(clock);
+                let damper = 2.0 * belt.damping_ratio() * velocity;
+                let mut friction = dither.map(|term| -unit * term);
+                friction[0] += damper + displacement;
+                friction[1] += velocity;
+                view.show_stick(displacement, &friction);
+                let size = friction.iter().take(2).fold(belt.normal_load(), |a, b| a.max(b.abs()));
+                let last = |k: usize| {
+                    let load = load.as_ref().map_or(0.0, |load| unit * load[k]);
+                    friction[k].abs() + load.abs()
+                };
+                step_length(1e-15 * size, last(ORDER), last(ORDER - 1), ORDER)
+            }
+        }
+    }
+}
+
+impl MassView<'_> {
+    /// Writes the series of the load where it varies, and returns it in the units of the engine.
+    #[inline(always)]
+    fn load(&mut self, clock: Clock, force: f64) -> Option<Series> {
+        if self.normal.is_constant() {
+            return None;
+        }
+        let load = self.normal.series(clock);
+        let terms = self.contact.load.iter_mut().zip(&load).zip(&self.rates);
+        terms.for_each(|((term, load), rate)| *term = force * load * rate);
+        self.contact.given = self.contact.load;
+        self.contact.pressed = self.contact.load;
+        Some(load)
+    }
+
+    #[inline(always)]
+    fn show_slip(&mut self, (displacement, slip): (&[f64], &[f64])) {
+        let is_steady = self.normal.is_constant();
+        let Self { units, contact, states, rates, unit, .. } = self;
+        let (mass, unit) = (units.mass, *unit);
+        let sign = f64::from(self.now.phase.slip_sign());
+        let (length, velocity) = (unit * mass.displacement(), mass.belt().belt_velocity());
+        for k in 0..=ORDER {
+            states[2 * k] = length * displacement[k] * rates[k];
+            contact.scaled[k] = slip[k] * rates[k];
+            contact.slip[k] = unit * contact.scaled[k];
+            states[2 * k + 1] = -contact.slip[k] / mass.tangent();
+        }
+        states[0] += mass.shift() * mass.displacement();
+        states[1] = (velocity - contact.slip[0]) / mass.tangent();
+        // The law along the slip in the time of the system.
+        contact.coefficient = self.law.along(sign, &contact.scaled);
+        if is_steady {
+            let load = contact.load[0];
+            contact.friction = contact.coefficient.map(|term| load * term);
+            return;
+        }
+        for k in 0..=ORDER {
+            let terms = contact.coefficient[..=k].iter().zip(contact.load[..=k].iter().rev());
+            contact.friction[k] = terms.fold(0.0, |sum, (a, b)| f64::mul_add(*a, *b, sum));
+        }
+    }
+
+    #[inline(always)]
+    fn show_stick(&mut self, displacement: f64, friction: &Series) {
+        let Self { units, contact, states, rates, .. } = self;
+        let mass = units.mass;
+        let velocity = mass.belt().belt_velocity();
+        states.fill(0.0);
+        [states[0], states[1]] = units.state(displacement, velocity);
+        states[2] = states[1];
+        contact.slip = [0.0; ORDER + 1];
+        contact.scaled = [0.0; ORDER + 1];
+        contact.coefficient = [0.0; ORDER + 1];
+        for k in 0..=ORDER {
+            contact.friction[k] = mass.force() * friction[k] * rates[k];
+        }
+    }
+}
