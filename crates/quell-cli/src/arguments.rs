@@ -250,7 +250,7 @@ impl Outputs {
                     "--save: this answer has no form in a file .{extension}, which has the averaged friction of a belt"
                 ),
                 _ => {
-                    "--save: this answer has no table; the table of attractor is that of --lyapunov"
+                    "--save: this answer has no table: `orbit` has one of the motion that it finds, `attractor` one with --lyapunov"
                         .to_owned()
                 }
             };

@@ -176,11 +176,7 @@ fn numbers_and_pictures_are_written() {
     let text = std::fs::read_to_string(&csv).expect("saved");
     let rows: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
     assert_eq!(rows.len(), states + 1);
-    assert!(
-        rows[0].starts_with("row,direction,dither_amplitude,kind,quiet,local_verdict"),
-        "{}",
-        rows[0]
-    );
+    assert!(rows[0].starts_with("row,direction,parameter,kind,quiet,local_verdict"), "{}", rows[0]);
     assert!(std::fs::read_to_string(&svg).expect("drawn").starts_with("<svg"));
     let (csv, png) = (path("map.csv"), path("map.png"));
     let (found, status) =

@@ -230,14 +230,15 @@ fn a_support_at_rest_has_orbits_from_rest() {
     let object = place.good(&["orbit", file]);
     let run = place.good(&["orbit", file, "--from-rest"]);
     assert_eq!(object["displacement"], run["displacement"]);
-    assert_eq!((&object["verdict"], &object["reversals"]), (&"stable".into(), &2.into()));
-    assert!(object["sentence"].as_str().expect("text").contains("run from rest"), "{object}");
-    assert!(!run["sentence"].as_str().expect("text").contains("run from rest"), "{run}");
+    let reversals = &object["contacts"][0]["reversals"];
+    assert_eq!((&object["verdict"], reversals), (&"stable".into(), &2.into()));
+    assert!(object["no_base_response"].is_string(), "{object}");
+    assert!(run["no_base_response"].is_null(), "{run}");
     let errors = place.refused(&["orbit", file, "--periods", "2"]);
     assert_eq!(errors[0]["key"], "--periods");
     // With a support at rest, a dither weaker than stiction causes no motion.
     let weak = place.good(&["orbit", file, "--set", "dither.amplitude=0.2"]);
-    assert_eq!(weak["stick_fraction"], 1.0);
+    assert_eq!(weak["contacts"][0]["stick_fraction"], 1.0);
     let range = ["--from", "1", "--to", "2"];
     let words = [
         "thresholds",

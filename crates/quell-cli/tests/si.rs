@@ -481,7 +481,7 @@ fn an_orbit_has_extremes_and_a_table() {
     let period = found["period"].as_f64().expect("a period");
     let times = column("time");
     assert!((times[times.len() - 1] / period - 1.0).abs() < 1e-12);
-    assert_eq!(column("sticking").len(), times.len());
+    assert_eq!(column("belt.slip_velocity").len(), times.len());
     for (name, low, high) in
         [("displacement", "lowest", "highest"), ("velocity", "lowest_velocity", "highest_velocity")]
     {

@@ -1,6 +1,9 @@
 //! Arguments shared by several verbs: pairs of numbers, states, ends of a range.
 
-use quell::study::Study;
+use pyo3::FromPyObject;
+use quell::run::system::protocol::{numbers_of, pair_of};
+use quell::run::system::start::StateNumbers;
+use quell::study::{Study, SystemStudy};
 use quell::{Failure, quantity};
 use quell_model::units::{Quantity, Scales};
 
@@ -9,6 +12,29 @@ pub(crate) type Pair = (String, String);
 
 /// Names of a state with their values.
 pub(crate) type NamedNumbers = Vec<(String, String)>;
+
+/// A state: displacement and velocity, or names with their values.
+#[derive(FromPyObject)]
+pub(crate) enum GivenState {
+    /// Displacement and velocity of one mass.
+    Pair(Pair),
+    /// Names and values.
+    Named(NamedNumbers),
+}
+
+impl GivenState {
+    /// The numbers of a state of a system.
+    pub(crate) fn numbers(
+        &self,
+        system: &SystemStudy,
+        option: &'static str,
+    ) -> Result<StateNumbers, Failure> {
+        Ok(match self {
+            Self::Named(pairs) => numbers_of(system, option, pairs)?,
+            Self::Pair((x, v)) => pair_of(system, option, (x, v))?,
+        })
+    }
+}
 
 /// Two quantities as dimensionless numbers of the equations.
 pub(crate) fn both(

@@ -15,7 +15,7 @@ use quell::{Change, Complaints, Failure, Study};
 use quell_model::units::Quantity;
 
 use crate::answer::NativeAnswer;
-use crate::arguments::{NamedNumbers, Pair, both, ends};
+use crate::arguments::{GivenState, NamedNumbers, Pair, both, ends};
 use crate::verbs::attractor::TimeTexts;
 use crate::verbs::compare::RecordTexts;
 use crate::verbs::map::Asked;
@@ -357,26 +357,15 @@ impl NativeStudy {
     fn orbit(
         &self,
         py: Python<'_>,
-        near: Option<Pair>,
+        near: Option<GivenState>,
         periods: u32,
-        after: Vec<String>,
-        start: Option<Pair>,
+        after: Option<String>,
+        start: Option<GivenState>,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
-        call::run(py, move || orbit::run(&study, near.as_ref(), periods, &after, start.as_ref()))
-    }
-
-    /// Of a system: `near` and `start` are names of its state with their values.
-    #[pyo3(signature = (near, periods, start))]
-    fn orbit_of_system(
-        &self,
-        py: Python<'_>,
-        near: Option<NamedNumbers>,
-        periods: u32,
-        start: Option<NamedNumbers>,
-    ) -> PyResult<NativeAnswer> {
-        let study = self.study();
-        call::run(py, move || orbit::run_of_system(&study, near.as_ref(), periods, start.as_ref()))
+        call::run(py, move || {
+            orbit::run(&study, near.as_ref(), periods, after.as_deref(), start.as_ref())
+        })
     }
 
     /// `times`: before the record of the exponents and its length, if they are requested.
@@ -384,23 +373,11 @@ impl NativeStudy {
     fn attractor(
         &self,
         py: Python<'_>,
-        start: Option<Pair>,
+        start: Option<GivenState>,
         times: Option<TimeTexts>,
     ) -> PyResult<NativeAnswer> {
         let study = self.study();
         call::run(py, move || attractor::run(&study, start.as_ref(), times.as_ref()))
-    }
-
-    /// Of a system: `start` are names of its state with their values.
-    #[pyo3(signature = (start, times))]
-    fn attractor_of_system(
-        &self,
-        py: Python<'_>,
-        start: NamedNumbers,
-        times: Option<TimeTexts>,
-    ) -> PyResult<NativeAnswer> {
-        let study = self.study();
-        call::run(py, move || attractor::run_of_system(&study, &start, times.as_ref()))
     }
 
     /// `protocols`: names of starts; `start`: a further start as a state.

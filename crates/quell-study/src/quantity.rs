@@ -66,7 +66,10 @@ pub fn of_system(
         _ => String::new(),
     };
     let allowed = match unit {
-        None => "a finite number in the units of the study".to_owned(),
+        None if measure::has_unit(text.trim()) => {
+            "a finite number: units require a study with units".to_owned()
+        }
+        None => "a finite number".to_owned(),
         Some(unit) => {
             format!("a finite number in {unit}, optionally with a unit, such as 0.5{unit}{why}")
         }

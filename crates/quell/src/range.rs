@@ -189,9 +189,12 @@ pub(crate) fn at_contact(
     let range = contact.friction.range()?;
     (slip > range.upper).then(|| {
         format!(
-            "the slip velocity at contact {} reaches {}, beyond the range of its friction law, {} ({})",
+            "the slip velocity at contact {} reaches {}, outside the range of the {} law, {} to {} ({}): numbers from there are \
+             extrapolated",
             contact.name,
             in_words(slip),
+            contact.friction.kind().name(),
+            in_words(range.lower),
             in_words(range.upper),
             range.limit
         )

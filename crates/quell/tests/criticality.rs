@@ -24,7 +24,7 @@ fn list(value: &Json) -> &[Json] {
 
 fn exponents(study: &Study, times: (f64, f64)) -> Json {
     let lyapunov = ExponentTimes { settle: Some(times.0), record: Some(times.1) };
-    let request = AttractorRequest { start: None, lyapunov: Some(lyapunov) };
+    let request = AttractorRequest { start: Vec::new(), lyapunov: Some(lyapunov) };
     verbs(study).attractor(&request).unwrap_or_else(|why| panic!("{why:?}")).json()
 }
 

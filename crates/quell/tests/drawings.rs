@@ -4,8 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use quell::kind::verbs;
-use quell::picture::{basins as draw_basins, curves as draw_curves, disc, periodic_response};
+use quell::kind::{system_of, verbs};
+use quell::picture::orbit::orbit as draw_orbit;
+use quell::picture::{basins as draw_basins, curves as draw_curves, disc};
 use quell::plot::Figure;
 use quell::run::basins::{self, StartLayout};
 use quell::run::curves;
@@ -153,17 +154,20 @@ fn an_orbit_closes_and_its_multipliers_are_drawn() {
         [("can-dither-make-it-worse.toml", 1e-9), ("can-it-squeal-although-stable.toml", 1e-9)]
     {
         let study = belt(name, &[]);
-        let found = orbit::run(&study, Wanted::default()).expect("an orbit");
-        let figure = periodic_response(&study, &found).expect("a picture").described();
+        let system = system_of(&study.into(), "orbit").expect("a system");
+        let found = orbit::run(&system, &Wanted::default()).expect("an orbit");
+        let figure = draw_orbit(&system, &found).expect("a picture").described();
         let curve = places(layers(&figure, 0, "line")[0]);
         let (first, last) = (curve[0], curve[curve.len() - 1]);
         assert!((first.0 - last.0).hypot(first.1 - last.1) < closed, "{first:?} {last:?}");
         let multipliers = places(layers(&figure, 1, "points")[0]);
-        assert_eq!(multipliers, found.orbit.expect("an orbit").multipliers.to_vec());
+        let found = found.found.expect("an orbit").orbit.multipliers;
+        assert_eq!(multipliers, found.iter().map(|z| (z.re, z.im)).collect::<Vec<_>>());
     }
     let quiet = belt("does-it-squeal.toml", &["belt.belt_velocity=9"]);
-    let found = orbit::run(&quiet, Wanted::default()).expect("sliding");
-    let refused = periodic_response(&quiet, &found).expect_err("no orbit").to_string();
+    let quiet = system_of(&quiet.into(), "orbit").expect("a system");
+    let found = orbit::run(&quiet, &Wanted::default()).expect("sliding");
+    let refused = draw_orbit(&quiet, &found).expect_err("no orbit").to_string();
     assert!(refused.contains("No limit cycle was found"), "{refused}");
 }
 

@@ -2,9 +2,10 @@
 //!
 //! Numbers: `reference/laws.json` (source and tolerance in `reference/README.md`); published cases with their source.
 
+use quell::kind::verbs;
+use quell::run::orbit::Wanted;
 use quell::run::{
-    basins, bifurcation, check, friction, map, orbit, response, simulate, stability, thresholds,
-    varied,
+    basins, bifurcation, check, friction, map, response, simulate, stability, thresholds, varied,
 };
 use quell::study::{BeltStudy, Change};
 use quell::sweep::{MapQuantity, Plan, Running, Status};
@@ -232,6 +233,11 @@ fn laws_not_analytic_at_rest_are_only_averaged() {
     assert!(stability::run(&study).averaged.criterion.is_ok());
 }
 
+fn orbit(study: &BeltStudy) -> Json {
+    let found = verbs(&study.into()).orbit(&Wanted::default());
+    found.expect("an answer").json()
+}
+
 const CUBIC: &str = "schema = 1\n[belt]\ndamping_ratio = 0.005\nnormal_load = 1.0\nbelt_velocity = 0.1\n[friction]\n\
      law = \"stribeck\"\nstatic_coefficient = 0.4\nminimum_coefficient = 0.2857\nreference_velocity = 0.2\n[dither]\n\
      direction = \"tangential\"\nwaveform = \"sine\"\namplitude = 0.5\nfrequency_ratio = 10.0\n[solver]\nsettle = 100.0\n\
@@ -252,7 +258,7 @@ fn a_cubic_far_out_warns_in_the_study_s_units() {
         response::run(&set(si, &["solver.settle_s=0.1", "solver.record_periods=4"]))
             .expect("a response")
             .json(&far),
-        orbit::run(&far, orbit::Wanted::default()).expect("sliding").json(&far),
+        orbit(&far),
     ] {
         let said = warnings(&json);
         assert!(
@@ -296,8 +302,8 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     warns(&simulate::run(&outside, 40.0, options).expect("a run").json(&outside));
     quiet(&response::run(&inside).expect("a response").json(&inside));
     warns(&response::run(&outside).expect("a response").json(&outside));
-    quiet(&orbit::run(&inside, orbit::Wanted::default()).expect("an orbit").json(&inside));
-    warns(&orbit::run(&outside, orbit::Wanted::default()).expect("an orbit").json(&outside));
+    quiet(&orbit(&inside));
+    warns(&orbit(&outside));
     let question = |to| thresholds::ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
         from: 1.2,
@@ -311,8 +317,8 @@ fn every_verb_warns_where_slip_leaves_the_range() {
     let range =
         varied::Range { parameter: "dither.amplitude".to_owned(), from: 1.8, to: 3.0, points: 2 };
     let question = bifurcation::SweepRequest { range, up: true, down: false };
-    let found = bifurcation::run(&inside, &question, running).expect("a sweep");
-    warns(&found.json(&inside));
+    let found = verbs(&(&inside).into()).bifurcation(&question, running).expect("a sweep");
+    warns(&found.json());
     let question = basins::BasinsRequest {
         displacement: None,
         velocity: None,

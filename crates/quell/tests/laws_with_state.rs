@@ -4,15 +4,15 @@
 
 use quell::kind::verbs;
 use quell::run::found_attractor::AttractorRequest;
+use quell::run::orbit::{Wanted, run as orbit_run};
 use quell::run::protocol::Protocol;
 use quell::run::system::exact::run as system_exact;
-use quell::run::system::orbit::{WantedMotion, run as orbit_of_system};
 use quell::run::system::protocol::SystemProtocol;
 use quell::run::system::simulate::{MotionRequest, run as run_system};
 use quell::run::system::stability::run as system_stability;
 use quell::run::system::thresholds::MotionThresholdsRequest;
 use quell::run::thresholds::ThresholdsRequest;
-use quell::run::{friction, orbit, response, simulate, stability};
+use quell::run::{friction, response, simulate, stability};
 use quell::study::{BeltStudy, Study, SystemStudy};
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum::spectrum;
@@ -257,8 +257,8 @@ frequency = 10.0
 #[test]
 fn a_dithered_slider_has_a_periodic_motion_with_multipliers() {
     let study = system(SLIDER);
-    let wanted = WantedMotion::After(SystemProtocol::Study);
-    let found = orbit_of_system(&study, &wanted).expect("an orbit");
+    let wanted = Wanted::After(SystemProtocol::Study);
+    let found = orbit_run(&study, &wanted).expect("an orbit");
     let json = found.json(&study);
     assert_eq!(json["verdict"], "stable", "{json}");
     assert_eq!(json["state"].as_array().expect("a state").len(), 3);
@@ -324,11 +324,8 @@ fn belts_with_a_state_are_answered_as_their_systems() {
         (verbs(&Study::from(&belt(SLIDER_ON_A_BELT))), verbs(&system(SLIDER).into()));
     let pairs = [
         (
-            of_belt.orbit(orbit::Wanted::After(Protocol::Rest)).expect("an orbit").json(),
-            of_system
-                .orbit_of_system(&WantedMotion::After(SystemProtocol::Rest))
-                .expect("an orbit")
-                .json(),
+            of_belt.orbit(&Wanted::After(SystemProtocol::Rest)).expect("an orbit").json(),
+            of_system.orbit(&Wanted::After(SystemProtocol::Rest)).expect("an orbit").json(),
         ),
         (
             of_belt.attractor(&AttractorRequest::default()).expect("an end").json(),
@@ -340,8 +337,8 @@ fn belts_with_a_state_are_answered_as_their_systems() {
             assert_eq!(a.get(key), b.get(key), "{key}");
         }
     }
-    let near = orbit::Wanted::Near { state: (0.28, 0.0), periods: 1 };
-    assert_eq!(of_belt.orbit(near).expect("an orbit").json()["verdict"], "stable");
+    let near = Wanted::Near { state: vec![(0, 0.28), (1, 0.0)], periods: 1 };
+    assert_eq!(of_belt.orbit(&near).expect("an orbit").json()["verdict"], "stable");
     let request = ThresholdsRequest {
         parameter: "dither.amplitude".to_owned(),
         from: 0.3,
@@ -430,7 +427,7 @@ fn belts_with_a_state_are_answered_in_si() {
             [&si, &scaled]
                 .map(|verbs| ask(verbs.as_ref()).unwrap_or_else(|why| panic!("{why}")).json())
         };
-        let [a, b] = of(&|verbs| verbs.orbit(orbit::Wanted::OfSliding { periods: 1 }));
+        let [a, b] = of(&|verbs| verbs.orbit(&Wanted::default()));
         assert_eq!(a["verdict"], b["verdict"]);
         assert_eq!(a["units"]["period"], "s");
         close(&a["period"], &b["period"], 0.1);
@@ -490,7 +487,7 @@ frequency_ratio = 10.0
 #[test]
 fn thresholds_just_beyond_a_border_do_not_depend_on_the_window() {
     let verbs = verbs(&Study::from(&belt(FALLING_SLIDER)));
-    let orbit = verbs.orbit(orbit::Wanted::OfSliding { periods: 1 }).expect("an orbit").json();
+    let orbit = verbs.orbit(&Wanted::default()).expect("an orbit").json();
     let multiplier = &orbit["multipliers"][0];
     for (part, expected) in [(0, 0.88325), (1, 0.63560)] {
         assert!((number(&multiplier[part]).abs() - expected).abs() < 1e-5, "{orbit}");
@@ -517,8 +514,7 @@ fn the_response_of_a_belt_with_a_slider_is_that_of_its_motion() {
     let study = belt(SLIDER_ON_A_BELT);
     let found = response::run(&study).expect("a response");
     let orbit = verbs(&system(SLIDER).into());
-    let orbit =
-        orbit.orbit_of_system(&WantedMotion::After(SystemProtocol::Rest)).expect("an orbit").json();
+    let orbit = orbit.orbit(&Wanted::After(SystemProtocol::Rest)).expect("an orbit").json();
     let json = found.json(&study);
     assert!(found.response.settled, "{json}");
     let sticks = number(&orbit["contacts"][0]["stick_fraction"]);

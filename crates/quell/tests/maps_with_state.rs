@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use quell::Study;
 use quell::kind::verbs;
 use quell::run::found_attractor::AttractorRequest;
-use quell::run::system::orbit::WantedMotion;
+use quell::run::orbit::Wanted;
 use quell::run::system::protocol::SystemProtocol;
 use quell::run::system::thresholds::MotionThresholdsRequest;
 use quell::sweep::{MapQuantity, Plan, Running};
@@ -114,7 +114,7 @@ fn points_of_systems_are_the_answers_of_the_verbs() {
             assert_eq!(found["growth_undithered_status"][point], "known");
             // The bristles always move with the dither, and the displacement of the dither is that of about one breakaway.
             assert_eq!(found["growth_status"][point], "without_state", "{found}");
-            match one.orbit_of_system(&WantedMotion::Base { periods: 1 }) {
+            match one.orbit(&Wanted::Base { periods: 1 }) {
                 // Where the base response does not exist, the verb has the motion that a run from rest reaches.
                 Ok(orbit) if orbit.json()["no_base_response"].is_null() => {
                     assert_same(&found, "orbit_verdict", point, &orbit.json()["verdict"]);

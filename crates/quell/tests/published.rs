@@ -3,12 +3,14 @@
 //! Numbers and sources are in `reference/published.json`; the page on correctness shows the same table.
 
 use quell::BeltStudy;
-use quell::run::orbit::{PeriodicResponse, Wanted, run as orbit};
+use quell::kind::system_of;
+use quell::run::orbit::{FoundMotion, Wanted, run as orbit_of};
 use quell::run::simulate::{Options, run as simulate};
 use quell::run::thresholds::{ThresholdKind, ThresholdsRequest, run as thresholds};
-use quell_dynamics::orbit::cycle::cycles;
-use quell_dynamics::orbit::{Orbit, OrbitVerdict};
-use quell_dynamics::simulation::{Event, EventKind, EventRecorder, simulate as trajectory};
+use quell_dynamics::motion::RecordedEvent;
+use quell_dynamics::motion::orbit::limit_cycles;
+use quell_dynamics::orbit::OrbitVerdict;
+use quell_dynamics::simulation::EventKind;
 use quell_model::units::Quantity;
 use serde_json::Value;
 
@@ -52,42 +54,45 @@ fn driven(damping: f64, stiction: f64, amplitude: f64, ratio: f64) -> BeltStudy 
     belt(damping, 0.0, "1.0", &rest)
 }
 
-fn only(found: PeriodicResponse) -> Orbit {
-    found.orbit.expect("an orbit")
+fn orbit(study: &BeltStudy) -> FoundMotion {
+    let system = system_of(&study.into(), "orbit").expect("a system");
+    orbit_of(&system, &Wanted::default()).expect("an answer").found.expect("an orbit")
 }
 
-/// Events of one period.
-fn events(study: &BeltStudy, orbit: &Orbit) -> Vec<Event> {
-    let mut watch = EventRecorder::default();
-    trajectory(study.belt(), orbit.start, orbit.period, 1e-13, &mut watch).expect("no stall");
-    watch.events
+fn stick_fraction(found: &FoundMotion) -> f64 {
+    found.samples.means()[0].stick_fraction
+}
+
+/// Events of one period of a kind.
+fn events(found: &FoundMotion, kind: EventKind) -> Vec<&RecordedEvent> {
+    found.orbit.events.iter().filter(|event| event.kind == kind).collect()
 }
 
 #[test]
 fn driven_oscillator_in_slip_and_with_stick() {
     let slip = case("driven_slip");
-    let found = only(orbit(&driven(0.05, 1.1, 1.5, 0.9), Wanted::default()).expect("an orbit"));
-    close(found.period, number(&slip, "printed", "period"), 1e-12);
-    for (index, (re, im)) in found.multipliers.into_iter().enumerate() {
+    let found = orbit(&driven(0.05, 1.1, 1.5, 0.9));
+    close(found.orbit.period, number(&slip, "printed", "period"), 1e-12);
+    for (index, multiplier) in found.orbit.multipliers.iter().enumerate() {
         let printed = slip["printed"]["multipliers"][index].as_f64().expect("a number");
-        close(re, printed, 6e-11);
-        close(im, 0.0, 1e-12);
+        close(multiplier.re, printed, 6e-11);
+        close(multiplier.im, 0.0, 1e-12);
     }
-    assert_eq!((found.count(EventKind::Reversal), found.stick_fraction), (2, 0.0));
+    assert_eq!((events(&found, EventKind::Reversal).len(), stick_fraction(&found)), (2, 0.0));
 
-    let (stick, study) = (case("driven_stick"), driven(0.05, 1.1, 1.5, 0.6));
-    let found = only(orbit(&study, Wanted::default()).expect("an orbit"));
-    let stuck = 0.5 * found.stick_fraction * found.period;
-    for (value, name) in [(stuck, "stick"), (0.5 * found.period - stuck, "slip")] {
+    let stick = case("driven_stick");
+    let found = orbit(&driven(0.05, 1.1, 1.5, 0.6));
+    let half = 0.5 * found.orbit.period;
+    let stuck = half * stick_fraction(&found);
+    for (value, name) in [(stuck, "stick"), (half - stuck, "slip")] {
         close(value, number(&stick, "exact", name), CLOSE);
         close(value, number(&stick, "printed", name), 1e-12);
     }
-    close(found.multipliers[0].0, number(&stick, "printed", "multiplier"), 6e-11);
-    let sticks = events(&study, &found).into_iter().filter(|event| event.kind == EventKind::Stick);
-    let places: Vec<f64> = sticks.map(|event| event.displacement.abs()).collect();
-    assert_eq!(places.len(), 2);
-    for place in places {
-        close(place, number(&stick, "printed", "place"), 1e-12);
+    close(found.orbit.multipliers[0].re, number(&stick, "printed", "multiplier"), 6e-11);
+    let sticks = events(&found, EventKind::Stick);
+    assert_eq!(sticks.len(), 2);
+    for stick_event in sticks {
+        close(stick_event.state[0].abs(), number(&stick, "printed", "place"), 1e-12);
     }
 }
 
@@ -95,23 +100,19 @@ fn driven_oscillator_in_slip_and_with_stick() {
 #[test]
 fn stick_slip_of_a_block_on_a_belt() {
     let leine = case("leine1998");
-    let found = only(
-        orbit(&belt(0.0, 0.2, "1/(1 + 3*abs(v))", "LAW"), Wanted::default()).expect("an orbit"),
-    );
+    let found = orbit(&belt(0.0, 0.2, "1/(1 + 3*abs(v))", "LAW"));
     let exact = number(&leine, "exact", "period");
-    close(found.period, exact, CLOSE);
-    close(found.stick_fraction, number(&leine, "exact", "stick_fraction"), CLOSE);
-    assert_eq!(found.verdict(), OrbitVerdict::Stable);
+    close(found.orbit.period, exact, CLOSE);
+    close(stick_fraction(&found), number(&leine, "exact", "stick_fraction"), CLOSE);
+    assert_eq!(found.orbit.verdict(), OrbitVerdict::Stable);
     for (name, least, most) in [("period", 0.003, 0.004), ("period_smoothed", 0.05, 0.07)] {
         let short = 1.0 - number(&leine, "printed", name) / exact;
         assert!((least..most).contains(&short), "{name}: {short}");
     }
     let block = case("carlson1989");
-    let found = only(
-        orbit(&belt(0.0, 0.01, "1/(1 + 5*abs(v))", "LAW"), Wanted::default()).expect("an orbit"),
-    );
-    close(found.period, number(&block, "exact", "period"), 10.0 * CLOSE);
-    close(found.stick_fraction, number(&block, "exact", "stick_fraction"), CLOSE);
+    let found = orbit(&belt(0.0, 0.01, "1/(1 + 5*abs(v))", "LAW"));
+    close(found.orbit.period, number(&block, "exact", "period"), 10.0 * CLOSE);
+    close(stick_fraction(&found), number(&block, "exact", "stick_fraction"), CLOSE);
 }
 
 /// x stops at 15 − √205; a step of 0.01 misses it by 1.3·10⁻⁴.
@@ -138,12 +139,11 @@ fn amplitude_without_stops_is_den_hartogs() {
         let damping = angle.sin() / (ratio * (1.0 + angle.cos()));
         let formula = ((response * amplitude).powi(2) - damping * damping).sqrt();
         close(formula, exact, 1e-13);
-        let study = driven(0.0, 1.0, amplitude, ratio);
-        let found = only(orbit(&study, Wanted::default()).expect("an orbit"));
-        let reversals = events(&study, &found);
-        assert_eq!(reversals.len(), 2, "{row}");
+        let found = orbit(&driven(0.0, 1.0, amplitude, ratio));
+        let reversals = events(&found, EventKind::Reversal);
+        assert_eq!((reversals.len(), found.orbit.events.len()), (2, 2), "{row}");
         for reversal in reversals {
-            close(reversal.displacement.abs(), exact, 1e-11);
+            close(reversal.state[0].abs(), exact, 1e-11);
         }
     }
 }
@@ -174,7 +174,8 @@ fn bistability_of_the_block_of_veraszto_and_stepan() {
 
     // Cycles at this velocity: the squeal and the smaller unstable cycle, or none.
     let count = |velocity: f64| {
-        cycles(study.with(key, velocity).expect("valid").belt()).expect("no stall").len()
+        let belt = study.with(key, velocity).expect("valid");
+        limit_cycles(&belt.system().expect("in SI")).expect("one mass").len()
     };
     let exact = number(&case, "exact", "end_of_bistability");
     assert_eq!((count(exact - 1e-6), count(exact + 1e-6)), (2, 0));

@@ -80,7 +80,7 @@ fn numbers_and_sentences_are_those_of_the_verbs() {
         let asked = [
             ("stability", verbs.stability()),
             ("response", verbs.response()),
-            ("orbit", verbs.orbit(Wanted::default())),
+            ("orbit", verbs.orbit(&Wanted::default())),
             ("modes", verbs.modes()),
         ];
         let mut compared = 0;

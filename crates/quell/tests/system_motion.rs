@@ -8,8 +8,8 @@ use quell::Study;
 use quell::kind::verbs;
 use quell::run::basins::StartLayout;
 use quell::run::bifurcation::SweepRequest;
+use quell::run::orbit::Wanted;
 use quell::run::system::basins::{PlaneRequest, read_plane};
-use quell::run::system::orbit::WantedMotion;
 use quell::run::system::protocol::{SystemProtocol, read_state_of};
 use quell::run::system::thresholds::MotionThresholdsRequest;
 use quell::run::varied::Range;
@@ -44,8 +44,8 @@ fn named<'a>(cases: &'a Json, name: &str) -> &'a Json {
     found.unwrap_or_else(|| panic!("no case {name}"))
 }
 
-fn orbit(text: &str, wanted: &WantedMotion) -> Json {
-    let answer = verbs(&study(text)).orbit_of_system(wanted);
+fn orbit(text: &str, wanted: &Wanted) -> Json {
+    let answer = verbs(&study(text)).orbit(wanted);
     answer.unwrap_or_else(|why| panic!("{why:?}")).json()
 }
 
@@ -84,7 +84,7 @@ fn same_events(name: &str, found: &Json, wanted: &Json) {
 fn orbits_of_dithered_systems_are_those_of_the_reference() {
     for case in list(&reference()["orbits"]) {
         let name = case["name"].as_str().expect("a name");
-        let found = orbit(case["study"].as_str().expect("a study"), &WantedMotion::default());
+        let found = orbit(case["study"].as_str().expect("a study"), &Wanted::default());
         println!("{name}: {}", found["sentence"]);
         assert!((number(&found["period"]) - number(&case["period"])).abs() <= ACCURACY);
         let off = distance(&found["state"], &case["state"]);
@@ -101,7 +101,7 @@ fn orbits_of_dithered_systems_are_those_of_the_reference() {
 fn limit_cycles_are_those_of_the_reference() {
     for case in list(&reference()["limit_cycles"]) {
         let name = case["name"].as_str().expect("a name");
-        let found = orbit(case["study"].as_str().expect("a study"), &WantedMotion::default());
+        let found = orbit(case["study"].as_str().expect("a study"), &Wanted::default());
         println!("{name}: {}", found["sentence"]);
         assert_eq!(found["free_phase"], true, "{name}");
         assert!((number(&found["period"]) - number(&case["period"])).abs() <= ACCURACY, "{name}");
@@ -116,12 +116,20 @@ fn limit_cycles_are_those_of_the_reference() {
 /// Stable steady sliding of a damped mass on a belt has no limit cycle: the answer says what was tried.
 #[test]
 fn a_system_without_a_cycle_says_what_was_tried() {
-    let text = "schema = 1\n[system]\ncoordinates = [\"x\"]\nmass = [1.0]\ndamping = [[0.2]]\nstiffness = [[1.0]]\n\
+    let one = "schema = 1\n[system]\ncoordinates = [\"x\"]\nmass = [1.0]\ndamping = [[0.2]]\nstiffness = [[1.0]]\n\
         [[contact]]\nname = \"pad\"\ntangent = { x = 1.0 }\nnormal_load = 1.0\nbelt_velocity = 0.1\n\
         [contact.friction]\nlaw = \"coulomb\"\ncoefficient = 0.3\n";
-    let found = orbit(text, &WantedMotion::default());
+    // Of one mass all cycles are known.
+    let found = orbit(one, &Wanted::default());
+    assert_eq!((&found["cycles"], &found["verdict"]), (&Json::Array(Vec::new()), &"stable".into()));
+    let two = one
+        .replace("[\"x\"]\nmass = [1.0]", "[\"x\", \"y\"]\nmass = [1.0, 1.0]")
+        .replace("damping = [[0.2]]", "damping = [[0.2, 0.0], [0.0, 0.2]]")
+        .replace("stiffness = [[1.0]]", "stiffness = [[1.0, 0.0], [0.0, 1.0]]");
+    let found = orbit(&two, &Wanted::default());
     assert!(found["period"].is_null() && found["why"]["period"].is_string(), "{found}");
     assert_eq!(found["verdict"], "stable");
+    assert!(found["cycles"].is_null() && found["why"]["cycles"].is_string(), "{found}");
     assert!(list(&found["tried"]).len() >= 3, "{found}");
     assert!(
         found["sentence"].as_str().is_some_and(
@@ -136,7 +144,7 @@ fn runs_and_shooting_find_the_same_orbit() {
     let reference = reference();
     let case = list(&reference["orbits"]).iter().find(|case| case["verdict"] == "stable");
     let text = case.expect("a stable orbit")["study"].as_str().expect("a study");
-    let rest = orbit(text, &WantedMotion::After(SystemProtocol::Rest));
+    let rest = orbit(text, &Wanted::After(SystemProtocol::Rest));
     assert_eq!(rest["response"], "reached");
     let Ok(system) = study(text).system() else { panic!("a system") };
     let names = list(&rest["state_names"]).iter().zip(list(&rest["state"]));
@@ -146,7 +154,7 @@ fn runs_and_shooting_find_the_same_orbit() {
         })
         .collect();
     let state = read_state_of(&system, "--near", &state.join(",")).expect("a state");
-    let near = orbit(text, &WantedMotion::Near { state, periods: 1 });
+    let near = orbit(text, &Wanted::Near { state, periods: 1 });
     assert!(distance(&near["state"], &rest["state"]) <= ACCURACY);
     let wrong = read_state_of(&system, "--near", "nothing=1").expect_err("no such name");
     assert!(wrong.iter().all(|complaint| complaint.key == "--near"));
@@ -160,7 +168,7 @@ fn a_study_can_start_on_its_limit_cycle() {
         "[system.initial]\ndisplacements = { b1 = 0.1, b2 = -0.05 }",
         "[system.initial]\nstate = \"squealing\"",
     );
-    let found = orbit(&text, &WantedMotion::default());
+    let found = orbit(&text, &Wanted::default());
     assert!((number(&found["period"]) - number(&case["period"])).abs() <= ACCURACY, "{found}");
 }
 

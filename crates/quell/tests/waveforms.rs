@@ -147,11 +147,7 @@ fn a_burst_without_pause_has_the_answers_of_its_carrier() {
         assert_eq!(runs[0], runs[1], "{carrier}");
         let answers = |of: &Study| {
             let verbs = verbs(of);
-            let replies = [
-                verbs.response(),
-                verbs.stability(),
-                verbs.orbit(Wanted::OfSliding { periods: 1 }),
-            ];
+            let replies = [verbs.response(), verbs.stability(), verbs.orbit(&Wanted::default())];
             replies.map(|reply| {
                 reply.map_or_else(|why| why.to_string(), |found| found.json().to_string())
             })
@@ -312,7 +308,7 @@ fn a_belt_and_a_system_have_the_same_periodic_motion() {
         let facts = [belt, system].map(|text| {
             let study =
                 Study::parse(&text, &[]).unwrap_or_else(|wrong| panic!("{text}\n{wrong:?}"));
-            verbs(&study).orbit(Wanted::default()).expect("an orbit").facts()
+            verbs(&study).orbit(&Wanted::default()).expect("an orbit").facts()
         });
         let [belt, system] = &facts;
         assert!(

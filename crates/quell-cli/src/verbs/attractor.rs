@@ -1,15 +1,13 @@
 //! `quell attractor`: the motion on which a run ends, and its Lyapunov exponents.
 
 use clap::{Args, ValueHint};
-use quell::kind::verbs;
+use quell::kind::{system_of, verbs};
 use quell::run::exponents::ExponentTimes;
 use quell::run::found_attractor::AttractorRequest;
-use quell::run::system::found_attractor::MotionAttractorRequest;
 use quell::run::system::protocol::read_state_of;
 use quell::study::SystemStudy;
-use quell::{Complaint, Failure, Study, quantity};
+use quell::{Failure, quantity};
 
-use super::numbers::{duration, state};
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
@@ -18,8 +16,8 @@ use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments,
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Starts from this state x,v; in a study in SI in metres and m/s, or with units such as 1um,50mm/s [default: that of the
-    /// study]. Of a system, numbers that replace those of the study's start, such as x=0.1,velocity.x=-2
+    /// Starts from this state: numbers that replace those of the study's start, such as x=0.1,velocity.x=-2, of one mass also x,v
+    /// alone; in a study in SI in metres and m/s, or with units such as 1um,50mm/s [default: that of the study]
     #[arg(long, value_name = "X,V", allow_hyphen_values = true)]
     start: Option<String>,
     /// Measures the Lyapunov exponents: mean rates at which small changes of the motion grow
@@ -38,20 +36,20 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// The times of the exponents; `read` reads a duration.
-    fn times(
-        &self,
-        complaints: &mut Gathered,
-        read: impl Fn(&'static str, &str) -> Result<f64, Box<Complaint>>,
-    ) -> Option<ExponentTimes> {
+    /// The request of a system.
+    fn request(&self, study: &SystemStudy) -> Result<AttractorRequest, Failure> {
+        let mut complaints = Gathered::default();
         let mut time = |option, text: &Option<String>| {
-            let found = text.as_deref().map(|text| read(option, text)).transpose();
-            complaints.take(found)
+            let read = |text: &str| quantity::duration_of_system(text, study.units(), option);
+            complaints.take(text.as_deref().map(read).transpose())
         };
         let settle = time("--settle", &self.settle);
         let record = time("--record", &self.record);
-        let (settle, record) = settle.zip(record)?;
-        Some(ExponentTimes { settle, record })
+        let start = self.start.as_deref().map(|text| read_state_of(study, "--start", text));
+        let start = complaints.take(start.transpose());
+        let ((settle, record), start) = complaints.finish(settle.zip(record).zip(start))?;
+        let lyapunov = self.lyapunov.then_some(ExponentTimes { settle, record });
+        Ok(AttractorRequest { start: start.unwrap_or_default(), lyapunov })
     }
 }
 
@@ -59,44 +57,16 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
-    if let Some(Ok(system)) = study.as_ref().map(Study::system) {
-        return run_on_system(arguments, &system, complaints);
-    }
     let inputs = inputs(study.as_ref());
-    let times =
-        arguments.times(&mut complaints, |option, text| duration(option, text, study.as_ref()));
-    let start = arguments.start.as_deref().map(|text| state("--start", text, study.as_ref()));
-    let start = complaints.take(start.transpose());
-    let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
-    let plot = complaints.take(arguments.plot.prepare(&inputs));
-    let ((study, times), (start, (outputs, plot))) =
-        complaints.finish(study.zip(times).zip(start.zip(outputs.zip(plot))))?;
-    let done = verbs(&study)
-        .attractor(&AttractorRequest { start, lyapunov: arguments.lyapunov.then_some(times) })?;
-    answer(arguments.study.json, done.as_ref(), outputs, plot)
-}
-
-/// Runs the verb on a system.
-fn run_on_system(
-    arguments: &Arguments,
-    system: &SystemStudy,
-    mut complaints: Gathered,
-) -> Result<Answer, Failure> {
-    let study: Study = system.into();
-    let inputs = inputs(Some(&study));
-    let times = arguments.times(&mut complaints, |option, text| {
-        quantity::duration_of_system(text, system.units(), option)
-    });
-    let start = arguments.start.as_deref().map(|text| read_state_of(system, "--start", text));
-    let start = complaints.take(start.transpose());
-    let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
-    let plot = complaints.take(arguments.plot.prepare(&inputs));
-    let ((times, start), (outputs, plot)) =
-        complaints.finish(times.zip(start).zip(outputs.zip(plot)))?;
-    let request = MotionAttractorRequest {
-        start: start.unwrap_or_default(),
-        lyapunov: arguments.lyapunov.then_some(times),
+    let system = study.as_ref().map(|study| system_of(study, "attractor"));
+    let request = match complaints.take(system.transpose()) {
+        Some(Some(system)) => complaints.take(arguments.request(&system)),
+        _ => None,
     };
-    let done = verbs(&study).attractor_of_system(&request)?;
+    let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
+    let plot = complaints.take(arguments.plot.prepare(&inputs));
+    let ((study, request), (outputs, plot)) =
+        complaints.finish(study.zip(request).zip(outputs.zip(plot)))?;
+    let done = verbs(&study).attractor(&request)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }

@@ -1,15 +1,12 @@
 //! `quell orbit`: the periodic response and its Floquet multipliers.
 
 use clap::Args;
-use quell::kind::verbs;
+use quell::Failure;
+use quell::kind::{system_of, verbs};
 use quell::run::orbit::Wanted;
-use quell::run::protocol::Protocol;
-use quell::run::system::orbit::WantedMotion;
 use quell::run::system::protocol::{SystemProtocol, read_state_of};
 use quell::study::SystemStudy;
-use quell::{Failure, Study};
 
-use super::numbers::state;
 use crate::answer::Answer;
 use crate::arguments::{Gathered, OutputArguments, PlotArguments, StudyArguments, answer, inputs};
 
@@ -21,9 +18,9 @@ const STARTS: [&str; 4] = ["from_rest", "from_sliding", "from_squeal", "start"];
 pub(crate) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Searches near this state x,v at τ = 0; in a study in SI in metres and m/s, or with units such as 1um,50mm/s [default:
-    /// the base response, continued from steady sliding; without dither the limit cycle; at v₀ = 0 the response that a run
-    /// from rest reaches]. Of a system, numbers that replace those of the study's start, such as x=0.1,velocity.x=-2
+    /// Searches near this state: numbers that replace those of the study's start, such as x=0.1,velocity.x=-2, of one mass also x,v
+    /// alone; in a study in SI in metres and m/s, or with units such as 1um,50mm/s [default: the base response, continued from
+    /// steady sliding; without dither the limit cycle; where no base response exists the one that a run reaches]
     #[arg(long, value_name = "X,V", conflicts_with_all = STARTS, allow_hyphen_values = true)]
     near: Option<String>,
     /// Number of common periods of the dithers in one period of the response
@@ -48,19 +45,8 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// The start of the run whose response is requested.
-    fn after(&self, start: Option<(f64, f64)>) -> Option<Protocol> {
-        let flags = [
-            (self.from_rest, Protocol::Rest),
-            (self.from_sliding, Protocol::Sliding),
-            (self.from_squeal, Protocol::Squeal),
-        ];
-        let flag = flags.into_iter().find_map(|(asked, protocol)| asked.then_some(protocol));
-        flag.or(start.map(|(x, v)| Protocol::From(x, v)))
-    }
-
-    /// The motion of a system that is requested.
-    fn motion(&self, study: &SystemStudy) -> Result<WantedMotion, Failure> {
+    /// The response that is requested of a system.
+    fn wanted(&self, study: &SystemStudy) -> Result<Wanted, Failure> {
         let mut complaints = Gathered::default();
         let mut read = |option, text: &Option<String>| {
             let read = |text: &str| read_state_of(study, option, text);
@@ -69,15 +55,17 @@ impl Arguments {
         let near = read("--near", &self.near);
         let start = read("--start", &self.start);
         let (near, start) = complaints.finish(near.zip(start))?;
+        let flags = [
+            (self.from_rest, SystemProtocol::Rest),
+            (self.from_sliding, SystemProtocol::Sliding),
+            (self.from_squeal, SystemProtocol::Squeal),
+        ];
+        let flag = flags.into_iter().find_map(|(asked, protocol)| asked.then_some(protocol));
         let periods = self.periods;
-        let after = match (self.after(None), start) {
-            (Some(protocol), _) => Some(SystemProtocol::of(protocol)?),
-            (None, start) => start.map(SystemProtocol::From),
-        };
-        Ok(match (after, near) {
-            (Some(protocol), _) => WantedMotion::After(protocol),
-            (None, Some(state)) => WantedMotion::Near { state, periods },
-            (None, None) => WantedMotion::Base { periods },
+        Ok(match (flag.or(start.map(SystemProtocol::From)), near) {
+            (Some(protocol), _) => Wanted::After(protocol),
+            (None, Some(state)) => Wanted::Near { state, periods },
+            (None, None) => Wanted::Base { periods },
         })
     }
 }
@@ -87,28 +75,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Answer, Failure> {
     let mut complaints = Gathered::default();
     let study = complaints.take(arguments.study.read());
     let inputs = inputs(study.as_ref());
-    if let Some(Ok(system)) = study.as_ref().map(Study::system) {
-        let wanted = complaints.take(arguments.motion(&system));
-        let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
-        let plot = complaints.take(arguments.plot.prepare(&inputs));
-        let (wanted, (outputs, plot)) = complaints.finish(wanted.zip(outputs.zip(plot)))?;
-        let done = verbs(&(&system).into()).orbit_of_system(&wanted)?;
-        return answer(arguments.study.json, done.as_ref(), outputs, plot);
-    }
-    let near = arguments.near.as_deref().map(|text| state("--near", text, study.as_ref()));
-    let near = complaints.take(near.transpose());
-    let start = arguments.start.as_deref().map(|text| state("--start", text, study.as_ref()));
-    let start = complaints.take(start.transpose());
+    let system = study.as_ref().map(|study| system_of(study, "orbit"));
+    let wanted = match complaints.take(system.transpose()) {
+        Some(Some(system)) => complaints.take(arguments.wanted(&system)),
+        _ => None,
+    };
     let outputs = complaints.take(arguments.output.prepare(&[], &inputs));
     let plot = complaints.take(arguments.plot.prepare(&inputs));
-    let (study, ((near, start), (outputs, plot))) =
-        complaints.finish(study.zip(near.zip(start).zip(outputs.zip(plot))))?;
-    let periods = arguments.periods;
-    let wanted = match (arguments.after(start), near) {
-        (Some(protocol), _) => Wanted::After(protocol),
-        (None, Some(state)) => Wanted::Near { state, periods },
-        (None, None) => Wanted::OfSliding { periods },
-    };
-    let done = verbs(&study).orbit(wanted)?;
+    let ((study, wanted), (outputs, plot)) =
+        complaints.finish(study.zip(wanted).zip(outputs.zip(plot)))?;
+    let done = verbs(&study).orbit(&wanted)?;
     answer(arguments.study.json, done.as_ref(), outputs, plot)
 }

@@ -78,20 +78,19 @@ struct MassUnits<'a> {
 
 impl MassUnits<'_> {
     fn start(self, start: &MotionStart) -> Start {
-        let (mass, state) = (self.mass, &start.state);
-        let velocity = mass.tangent() * state[1];
+        let mass = self.mass;
+        let (displacement, velocity) = mass.of_state(&start.state);
         let surface = mass.belt().belt_velocity();
         let rests = (surface - velocity).abs() <= AT_REST * (surface.abs() + velocity.abs());
         Start {
             time: mass.rate() * start.time,
-            displacement: mass.rate() * mass.tangent() * state[0] - mass.shift(),
+            displacement,
             velocity: if rests { surface } else { velocity },
         }
     }
 
     fn state(self, displacement: f64, velocity: f64) -> [f64; SIZE] {
-        let mass = self.mass;
-        [(displacement + mass.shift()) * mass.displacement(), velocity / mass.tangent()]
+        self.mass.state(displacement, velocity)
     }
 
     /// A moment of the belt.

@@ -55,6 +55,20 @@ impl OneMass {
         1.0 / (self.rate * self.tangent)
     }
 
+    /// Coordinate and velocity of the system in a state of the belt.
+    pub fn state(&self, displacement: f64, velocity: f64) -> [f64; 2] {
+        [(displacement + self.shift) * self.displacement(), velocity / self.tangent]
+    }
+
+    /// Displacement and velocity of the belt in a state of the system.
+    ///
+    /// # Panics
+    /// If `state` has not two numbers at least.
+    pub fn of_state(&self, state: &[f64]) -> (f64, f64) {
+        let displacement = self.rate * self.tangent * state[0] - self.shift;
+        (displacement, self.tangent * state[1])
+    }
+
     /// The tangent t: a velocity of the belt is t times that of the coordinate.
     pub fn tangent(&self) -> f64 {
         self.tangent

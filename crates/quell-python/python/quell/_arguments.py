@@ -118,6 +118,14 @@ class Arguments:
             return []
         return [(self.text(name, key, allowed), self.quantity(name, value)) for key, value in given.items()]
 
+    def state(self, name: str, given: object) -> tuple[str, str] | list[tuple[str, str]] | None:
+        """A state: displacement and velocity, or names with their values."""
+        if given is None:
+            return None
+        if isinstance(given, Mapping):
+            return self.named(name, given)
+        return self.quantities(name, given, "two finite numbers (x, x′), or a dict of names and numbers")
+
     def path(self, name: str, given: object) -> str:
         """A path."""
         try:

@@ -70,19 +70,15 @@ class NativeStudy:
     def is_noise(self) -> bool: ...
     def orbit(
         self,
-        near: tuple[str, str] | None,
+        near: tuple[str, str] | list[tuple[str, str]] | None,
         periods: int,
-        after: list[str],
-        start: tuple[str, str] | None,
-    ) -> NativeAnswer: ...
-    def orbit_of_system(
-        self, near: list[tuple[str, str]] | None, periods: int, start: list[tuple[str, str]] | None
+        after: str | None,
+        start: tuple[str, str] | list[tuple[str, str]] | None,
     ) -> NativeAnswer: ...
     def attractor(
-        self, start: tuple[str, str] | None, times: tuple[str | None, str | None] | None
-    ) -> NativeAnswer: ...
-    def attractor_of_system(
-        self, start: list[tuple[str, str]], times: tuple[str | None, str | None] | None
+        self,
+        start: tuple[str, str] | list[tuple[str, str]] | None,
+        times: tuple[str | None, str | None] | None,
     ) -> NativeAnswer: ...
     def thresholds_of_system(
         self,

@@ -354,21 +354,17 @@ class Study(CheckedStudy):
         Parameters
         ----------
         near :
-            State (x, x′) at τ = 0 near which to search, in m and m/s or as texts with units in a study in SI [default: the
-            base response, continued from steady sliding; at v₀ = 0 the response that a run from rest reaches].
+            State near which to search: (x, x′) of one mass, or numbers that replace those of the study's start, such as
+            ``{"x": 0.1, "velocity.x": -2}``, in the units of the study or as texts with units [default: the base response,
+            continued from steady sliding; where it does not exist the response that a run from the study's start reaches].
         periods :
             Number of common periods of the dithers in one period of the response.
         from_rest, from_sliding, from_squeal, start :
             At most one of them: finds the response, of any number of periods, on which a run from this start ends.
-
-        Of a system, ``near`` and ``start`` are numbers that replace those of its start, such as ``{"x": 0.1, "velocity.x": -2}``.
         """
         arguments = Arguments()
-        if isinstance(near, Mapping) or isinstance(start, Mapping):
-            return self._orbit_of_system(near, periods, from_rest or from_sliding or from_squeal, start)
-        state = None if near is None else arguments.quantities("near", near, "two finite numbers (x, x′)")
+        state, begin = arguments.state("near", near), arguments.state("start", start)
         count = arguments.whole("periods", periods, 1, 1000)
-        begin = None if start is None else arguments.quantities("start", start, "two finite numbers (x, x′)")
         flags = {"from_rest": from_rest, "from_sliding": from_sliding, "from_squeal": from_squeal}
         asked = [name for name, wanted in flags.items() if wanted]
         if len(asked) + (start is not None) > 1:
@@ -379,22 +375,7 @@ class Study(CheckedStudy):
                     allowed = "given without a start: a run determines its response"
                     arguments.wrong.append(complaint(name, given, allowed, "conflict"))
         arguments.done()
-        return results.Orbit._of(self, self._native.orbit(state, count, asked, begin))
-
-    def _orbit_of_system(self, near: object, periods: int, flagged: bool, start: object) -> results.Orbit:
-        """The motion of a system near a state, or on which a run from a start ends, whose numbers have names."""
-        arguments = Arguments()
-        count = arguments.whole("periods", periods, 1, 1000)
-        state, begin = arguments.named("near", near), arguments.named("start", start)
-        if start is not None and (flagged or near is not None or count != 1):
-            arguments.wrong.append(complaint("start", start, "given without near, periods and other starts", "conflict"))
-        if near is not None and flagged:
-            arguments.wrong.append(complaint("near", near, "given without a start", "conflict"))
-        arguments.done()
-        native = self._native.orbit_of_system(
-            None if near is None else state, count, None if start is None else begin
-        )
-        return results.Orbit._of(self, native)
+        return results.Orbit._of(self, self._native.orbit(state, count, asked[0] if asked else None, begin))
 
     @keywords
     def attractor(
@@ -410,8 +391,8 @@ class Study(CheckedStudy):
         Parameters
         ----------
         start :
-            State (x, x′) at τ = 0, in m and m/s or as texts with units in a study in SI; of a system, numbers that replace those
-            of its start, such as ``{"x": 0.1, "velocity.x": -2}`` [default: the start of the study].
+            (x, x′) of one mass, or numbers that replace those of the study's start, such as ``{"x": 0.1, "velocity.x": -2}``, in
+            the units of the study or as texts with units [default: the start of the study].
         lyapunov :
             Whether to measure the exponents: mean rates at which small changes of the motion grow.
         settle, record :
@@ -426,11 +407,7 @@ class Study(CheckedStudy):
             if given is not None and not lyapunov:
                 arguments.wrong.append(complaint(name, given, "given with lyapunov=True", "conflict"))
         times = (before, length) if lyapunov else None
-        if isinstance(start, Mapping):
-            named = arguments.named("start", start)
-            arguments.done()
-            return results.Attractor._of(self, self._native.attractor_of_system(named, times))
-        begin = None if start is None else arguments.quantities("start", start, "two finite numbers (x, x′)")
+        begin = arguments.state("start", start)
         arguments.done()
         return results.Attractor._of(self, self._native.attractor(begin, times))
 

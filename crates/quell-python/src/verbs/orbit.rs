@@ -1,49 +1,34 @@
 //! `orbit`: the periodic response and its Floquet multipliers.
 
-use quell::kind::verbs;
+use quell::kind::{system_of, verbs};
 use quell::run::orbit::Wanted;
-use quell::run::system::orbit::WantedMotion;
-use quell::run::system::protocol::{SystemProtocol, numbers_of};
+use quell::run::system::protocol::SystemProtocol;
 use quell::{Failure, Study};
 
-use super::thresholds::protocols;
 use crate::answer::NativeAnswer;
-use crate::arguments::{NamedNumbers, Pair, state};
+use crate::arguments::GivenState;
 
-/// Runs the verb. `after`: names of starts; `start`: a state. The run from the first one is followed.
+/// Runs the verb. `after`: name of a start; `start`: a state. The run from there is followed.
 pub(crate) fn run(
     study: &Study,
-    near: Option<&Pair>,
+    near: Option<&GivenState>,
     periods: u32,
-    after: &[String],
-    start: Option<&Pair>,
+    after: Option<&str>,
+    start: Option<&GivenState>,
 ) -> Result<NativeAnswer, Failure> {
-    let verbs = verbs(study);
-    let scales = study.scales();
-    let near = near.map(|pair| state(pair, scales, "--near")).transpose()?;
-    let start = start.map(|pair| state(pair, scales, "--start")).transpose()?;
-    let wanted = match (protocols(after, start).into_iter().next(), near) {
+    let system = system_of(study, "orbit")?;
+    let near = near.map(|given| given.numbers(&system, "--near")).transpose()?;
+    let start = start.map(|given| given.numbers(&system, "--start")).transpose()?;
+    let named = match after {
+        Some("from_rest") => Some(SystemProtocol::Rest),
+        Some("from_sliding") => Some(SystemProtocol::Sliding),
+        Some(_) => Some(SystemProtocol::Squeal),
+        None => None,
+    };
+    let wanted = match (named.or(start.map(SystemProtocol::From)), near) {
         (Some(protocol), _) => Wanted::After(protocol),
         (None, Some(state)) => Wanted::Near { state, periods },
-        (None, None) => Wanted::OfSliding { periods },
+        (None, None) => Wanted::Base { periods },
     };
-    Ok(NativeAnswer::new(verbs.orbit(wanted)?))
-}
-
-/// Runs the verb on a system, near a state or from a start, whose numbers have names.
-pub(crate) fn run_of_system(
-    study: &Study,
-    near: Option<&NamedNumbers>,
-    periods: u32,
-    start: Option<&NamedNumbers>,
-) -> Result<NativeAnswer, Failure> {
-    let system = study.system()?;
-    let near = near.map(|pairs| numbers_of(&system, "--near", pairs)).transpose()?;
-    let start = start.map(|pairs| numbers_of(&system, "--start", pairs)).transpose()?;
-    let wanted = match (start, near) {
-        (Some(start), _) => WantedMotion::After(SystemProtocol::From(start)),
-        (None, Some(state)) => WantedMotion::Near { state, periods },
-        (None, None) => WantedMotion::Base { periods },
-    };
-    Ok(NativeAnswer::new(verbs(study).orbit_of_system(&wanted)?))
+    Ok(NativeAnswer::new(verbs(study).orbit(&wanted)?))
 }

@@ -9,9 +9,9 @@ use crate::run::found_attractor::AttractorRequest;
 use crate::run::recorded_motion::ObservedMotion;
 use crate::run::system::response::ResponseRequest;
 use crate::run::{
-    actuator, atlas, basins, belt_system, bifurcation, curves, describing, design, found_attractor,
-    friction, noise_response, orbit, probability, ramp, response, simulate, stability, thresholds,
-    waveforms, window,
+    actuator, atlas, basins, belt_system, bifurcation, curves, describing, design, friction,
+    noise_response, orbit, probability, ramp, response, simulate, stability, thresholds, waveforms,
+    window,
 };
 use crate::study::{BeltSetup, BeltStudy};
 use crate::sweep::Running;
@@ -101,17 +101,11 @@ impl Verbs for BeltStudy {
     }
 
     fn attractor(&self, request: &AttractorRequest) -> Reply {
-        if let Some(system) = belt_system::of_state(self, "attractor")? {
-            return system.attractor_of_system(&belt_system::attractor(self, request));
-        }
-        answer(self, found_attractor::run(self, request))
+        belt_system::of(self, "attractor")?.attractor(request)
     }
 
-    fn orbit(&self, wanted: orbit::Wanted) -> Reply {
-        if let Some(system) = belt_system::of_state(self, "orbit")? {
-            return system.orbit_of_system(&belt_system::wanted(self, wanted));
-        }
-        answer(self, orbit::run(self, wanted))
+    fn orbit(&self, wanted: &orbit::Wanted) -> Reply {
+        belt_system::of(self, "orbit")?.orbit(wanted)
     }
 
     fn thresholds(&self, request: thresholds::ThresholdsRequest) -> Reply {
@@ -149,10 +143,7 @@ impl Verbs for BeltStudy {
     }
 
     fn bifurcation(&self, request: &bifurcation::SweepRequest, running: Running<'_>) -> Reply {
-        if let Some(system) = belt_system::of_state(self, "bifurcation")? {
-            return system.bifurcation(request, running);
-        }
-        answer(self, bifurcation::run(self, request, running))
+        belt_system::of(self, "bifurcation")?.bifurcation(request, running)
     }
 
     fn basins(&self, request: &basins::BasinsRequest, running: Running<'_>) -> Reply {

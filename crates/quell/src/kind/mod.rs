@@ -14,13 +14,11 @@ use crate::run::orbit::Wanted;
 use crate::run::probability::ProbabilityRequest;
 use crate::run::recorded_motion::ObservedMotion;
 use crate::run::system::basins::PlaneRequest;
-use crate::run::system::found_attractor::MotionAttractorRequest;
-use crate::run::system::orbit::WantedMotion;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
 use crate::run::system::thresholds::MotionThresholdsRequest;
 use crate::run::system::tracked::TrackRequest;
-use crate::run::{basins, bifurcation, curves, simulate, thresholds};
+use crate::run::{basins, belt_system, bifurcation, curves, simulate, thresholds};
 use crate::study::{
     DiscSetup, Kind, Study, StudyKind, StudyOf, SystemStudy, not_available, varies_in_time,
 };
@@ -174,18 +172,9 @@ pub trait Verbs: Send + Sync {
     ///
     /// # Errors
     /// A kind without this verb; as [`crate::run::orbit::run`].
-    fn orbit(&self, wanted: Wanted) -> Reply {
+    fn orbit(&self, wanted: &Wanted) -> Reply {
         let _ = wanted;
         Err(self.lacks("orbit"))
-    }
-
-    /// A periodic motion of a system and its multipliers.
-    ///
-    /// # Errors
-    /// A kind without this verb; as [`crate::run::system::orbit::run`].
-    fn orbit_of_system(&self, wanted: &WantedMotion) -> Reply {
-        let _ = wanted;
-        Err(self.lacks("orbit with named states"))
     }
 
     /// The motion on which a run ends, and its Lyapunov exponents.
@@ -195,15 +184,6 @@ pub trait Verbs: Send + Sync {
     fn attractor(&self, request: &AttractorRequest) -> Reply {
         let _ = request;
         Err(self.lacks("attractor"))
-    }
-
-    /// The motion on which a run of a system ends, and its Lyapunov exponents.
-    ///
-    /// # Errors
-    /// A kind without this verb; as [`crate::run::system::found_attractor::run`].
-    fn attractor_of_system(&self, request: &MotionAttractorRequest) -> Reply {
-        let _ = request;
-        Err(self.lacks("attractor with named states"))
     }
 
     /// Thresholds of one parameter.
@@ -448,6 +428,18 @@ pub fn moving_system(study: &Study) -> Option<SystemStudy> {
         Kind::Belt(_) => None,
         Kind::Disc(setup) => Some(motion::at_rest(&study.narrowed(setup.as_ref()))),
         Kind::System(setup) => Some(study.narrowed(setup.as_ref())),
+    }
+}
+
+/// The system whose motions a verb is about: that of a belt, or a system itself.
+///
+/// # Errors
+/// A kind without the verb; noise, which has no period.
+pub fn system_of(study: &Study, verb: &str) -> Result<SystemStudy, Failure> {
+    match study.kind() {
+        Kind::Belt(setup) => belt_system::of(&study.narrowed(setup.as_ref()), verb),
+        Kind::Disc(_) => Err(verbs(study).lacks(verb)),
+        Kind::System(setup) => Ok(study.narrowed(setup.as_ref())),
     }
 }
 

@@ -15,9 +15,6 @@ use crate::run::orbit::Wanted;
 use crate::run::recorded_motion::ObservedMotion;
 use crate::run::simulate::Options;
 use crate::run::system::basins::{PlaneRequest, default_plane};
-use crate::run::system::found_attractor::MotionAttractorRequest;
-use crate::run::system::orbit::WantedMotion;
-use crate::run::system::protocol::unnamed;
 use crate::run::system::response::ResponseRequest;
 use crate::run::system::simulate::MotionRequest;
 use crate::run::system::thresholds::{
@@ -25,11 +22,13 @@ use crate::run::system::thresholds::{
 };
 use crate::run::system::tracked::TrackRequest;
 use crate::run::system::{
-    actuator, basins, bifurcation, curves, design, exact, found_attractor, friction, measured,
-    modes, orbit, reach, response, simulate, stability, thresholds, tracked, waveforms,
+    actuator, basins, curves, design, exact, friction, measured, modes, reach, response, simulate,
+    stability, thresholds, tracked, waveforms,
 };
 use crate::run::thresholds::ThresholdsRequest;
-use crate::run::{describing, noise_response, probability, ramp, window};
+use crate::run::{
+    bifurcation, describing, found_attractor, noise_response, orbit, probability, ramp, window,
+};
 use crate::study::{SystemSetup, SystemStudy};
 use crate::sweep::Running;
 
@@ -170,23 +169,11 @@ impl Verbs for SystemStudy {
         answer(self, response::run(self, request))
     }
 
-    fn orbit(&self, wanted: Wanted) -> Reply {
-        self.orbit_of_system(&WantedMotion::of(wanted)?)
-    }
-
-    fn orbit_of_system(&self, wanted: &WantedMotion) -> Reply {
+    fn orbit(&self, wanted: &Wanted) -> Reply {
         answer(self, orbit::run(self, wanted))
     }
 
     fn attractor(&self, request: &AttractorRequest) -> Reply {
-        let AttractorRequest { start, lyapunov } = *request;
-        if let Some(start) = start {
-            return Err(unnamed("--start", start).into());
-        }
-        self.attractor_of_system(&MotionAttractorRequest { start: Vec::new(), lyapunov })
-    }
-
-    fn attractor_of_system(&self, request: &MotionAttractorRequest) -> Reply {
         answer(self, found_attractor::run(self, request))
     }
 

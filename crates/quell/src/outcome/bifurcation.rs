@@ -1,4 +1,4 @@
-//! `bifurcation`: the response along a parameter swept up and down.
+//! `bifurcation`: the motion along a parameter, swept up and down.
 
 use std::fmt::Write as _;
 
@@ -10,72 +10,65 @@ use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::attractor::words;
-use crate::run::bifurcation::{Bifurcation, Branch};
-use crate::study::{BeltSetup, BeltStudy};
+use crate::run::bifurcation::{Bifurcation, Branch, SweepPoint, words};
+use crate::run::system::attractor::MotionKind;
+use crate::study::{SystemSetup, SystemStudy};
 
-impl Presented<BeltSetup> for Bifurcation {
+impl Presented<SystemSetup> for Bifurcation {
     const TITLED: bool = true;
 
-    fn json(&self, study: &BeltStudy) -> Json {
+    fn json(&self, study: &SystemStudy) -> Json {
         self.json(study)
     }
 
-    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
         Some(self.sentence(study))
     }
 
-    fn table(&self, _: &BeltStudy) -> String {
-        table(self)
+    fn table(&self, study: &SystemStudy) -> String {
+        let mut text = String::new();
+        for branch in &self.branches {
+            let _ = writeln!(text, "\n{}:", branch.direction.name());
+            for interval in intervals(study, branch) {
+                let _ = writeln!(text, "  {interval}");
+            }
+        }
+        text
     }
 
-    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
         vec![("bifurcation", self.dataset(study))]
     }
 
-    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
-        Some(Ok(picture::bifurcation(study, self)))
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(Ok(picture::bifurcation::bifurcation(study, self)))
     }
 }
 
-fn table(done: &Bifurcation) -> String {
-    let mut text = String::new();
-    for branch in &done.branches {
-        let _ = writeln!(text, "\n{}:", branch.direction.name());
-        for interval in intervals(branch) {
-            let _ = writeln!(text, "  {interval}");
-        }
+/// The motion of a point as a range shares it: the frequency of a quasi-periodic one changes from value to value.
+fn kind(study: &SystemStudy, point: &SweepPoint) -> String {
+    let attractor = point.attractor();
+    if attractor.is_some_and(|attractor| matches!(attractor.kind, MotionKind::QuasiPeriodic { .. }))
+    {
+        return "quasi-periodic".to_owned();
     }
-    text
+    words(study, point)
 }
 
-/// Ranges of neighbouring values with the same kind of response, one line each.
-fn intervals(branch: &Branch) -> Vec<String> {
-    let kind = |place: usize| {
-        let point = &branch.points[place];
-        match &point.response {
-            // The frequency of a quasi-periodic response changes from value to value; a range shares the kind.
-            Ok(attractor)
-                if attractor.rotation.is_some_and(|rotation| rotation.ratio.is_none()) =>
-            {
-                attractor.kind.words()
-            }
-            Ok(attractor) => words(point.scales, attractor, point.period),
-            Err(_) => "not settled".to_owned(),
-        }
-    };
+/// Ranges of neighbouring values with the same kind of motion, one line each.
+fn intervals(study: &SystemStudy, branch: &Branch) -> Vec<String> {
     let mut lines = Vec::new();
     let mut from = 0;
     for place in 0..branch.points.len() {
         let last = place + 1 == branch.points.len();
-        if last || kind(place + 1) != kind(from) {
+        if last || kind(study, &branch.points[place + 1]) != kind(study, &branch.points[from]) {
             let value = |place: usize| figure(branch.points[place].value);
             let ends = if from == place {
                 value(place)
             } else {
                 format!("{} to {}", value(from), value(place))
             };
-            lines.push(format!("{ends:<22}  {}", kind(from)));
+            lines.push(format!("{ends:<22}  {}", kind(study, &branch.points[from])));
             from = place + 1;
         }
     }

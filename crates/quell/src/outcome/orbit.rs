@@ -6,72 +6,92 @@ use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
 use super::Presented;
-use super::table::TextTable;
+use super::table::figure;
 use crate::complaint::Failure;
 use crate::dataset::Dataset;
 use crate::picture;
 use crate::plot::Figure;
-use crate::run::orbit::{Orbit, PeriodicResponse, extremes, sentence};
-use crate::study::{BeltSetup, BeltStudy};
+use crate::run::orbit::{FoundMotion, PeriodicResponse};
+use crate::run::system::start::{state_names, state_quantity};
+use crate::study::{SystemSetup, SystemStudy};
 
-impl Presented<BeltSetup> for PeriodicResponse {
-    fn json(&self, study: &BeltStudy) -> Json {
+/// Numbers of a state, multipliers and contacts that a table lists.
+const MOST_LISTED: usize = 12;
+
+impl Presented<SystemSetup> for PeriodicResponse {
+    const TITLED: bool = true;
+
+    fn json(&self, study: &SystemStudy) -> Json {
         self.json(study)
     }
 
-    fn sentence(&self, study: &BeltStudy) -> Option<String> {
+    fn sentence(&self, study: &SystemStudy) -> Option<String> {
         Some(self.sentence(study))
     }
 
-    fn table(&self, study: &BeltStudy) -> String {
-        tables(study, self)
+    fn table(&self, study: &SystemStudy) -> String {
+        let mut text = String::new();
+        if let Some(found) = &self.found {
+            text += &table(study, found);
+        }
+        for tried in &self.tried {
+            let _ = writeln!(text, "  tried {}: {}", tried.start, tried.outcome);
+        }
+        text
     }
 
-    fn datasets(&self, study: &BeltStudy) -> Vec<(&'static str, Dataset)> {
+    fn datasets(&self, study: &SystemStudy) -> Vec<(&'static str, Dataset)> {
         self.dataset(study).map(|dataset| ("orbit", dataset)).into_iter().collect()
     }
 
-    fn figure(&self, study: &BeltStudy) -> Option<Result<Figure, Failure>> {
-        Some(picture::periodic_response(study, self))
+    fn figure(&self, study: &SystemStudy) -> Option<Result<Figure, Failure>> {
+        Some(picture::orbit::orbit(study, self))
     }
 }
 
-fn tables(study: &BeltStudy, found: &PeriodicResponse) -> String {
+fn table(study: &SystemStudy, found: &FoundMotion) -> String {
+    let (orbit, samples) = (&found.orbit, &found.samples);
+    let unit = |quantity: Option<Quantity>| {
+        let unit = quantity.and_then(|quantity| study.units().unit(quantity));
+        unit.map_or(String::new(), |unit| format!(" {unit}"))
+    };
     let mut text = String::new();
-    if let Some(orbit) = &found.orbit {
-        text += &table(study, orbit);
+    let mut row = |label: &str, value: String| {
+        let _ = writeln!(text, "  {label:<36}{value}");
+    };
+    row("verdict", orbit.verdict().name().to_owned());
+    for z in orbit.multipliers.iter().take(MOST_LISTED) {
+        let sign = if z.im < 0.0 { '−' } else { '+' };
+        row("multiplier", format!("{:.9} {sign} {:.9} i", z.re, z.im.abs()));
     }
-    let others = found.cycles.iter().filter(|cycle| Some(*cycle) != found.orbit.as_ref());
-    for other in others {
-        let _ = write!(text, "\nAlso found: {}\n{}", sentence(study, other), table(study, other));
+    row("modulus of the deciding multiplier", figure(orbit.radius()));
+    row("period", figure(orbit.period) + &unit(Some(Quantity::Time)));
+    let states = state_names(study.system()).into_iter().zip(&orbit.state).enumerate();
+    for (place, (name, value)) in states.take(MOST_LISTED) {
+        let unit = unit(state_quantity(study.system(), place));
+        row(&format!("{name} at t = 0"), figure(*value) + &unit);
+    }
+    for (contact, means) in study.system().contacts.iter().zip(samples.means()).take(MOST_LISTED) {
+        let name = &contact.name;
+        row(&format!("stick fraction of {name}"), figure(means.stick_fraction));
+        if means.open_fraction > 0.0 {
+            row(&format!("open fraction of {name}"), figure(means.open_fraction));
+        }
+    }
+    let [displacements, rates] = samples.extremes;
+    let ranges = [
+        ("displacement", Quantity::Displacement, displacements),
+        ("velocity", Quantity::Velocity, rates),
+    ];
+    for (name, quantity, (low, high)) in ranges {
+        row(&format!("lowest {name}"), figure(low) + &unit(Some(quantity)));
+        row(&format!("highest {name}"), figure(high) + &unit(Some(quantity)));
+    }
+    row("residual", figure(orbit.residual));
+    row("error of the state", figure(orbit.state_error));
+    row("error of the multiplier", figure(orbit.multiplier_error));
+    if orbit.state.len() > MOST_LISTED {
+        row("…", "--json lists every number".to_owned());
     }
     text
-}
-
-fn table(study: &BeltStudy, found: &Orbit) -> String {
-    let mut table = TextTable::new(study.scales());
-    table.word("verdict", found.verdict().name());
-    for (re, im) in found.multipliers {
-        let multiplier = format!("{re:.9} {} {:.9} i", if im < 0.0 { '−' } else { '+' }, im.abs());
-        table.word("multiplier", &multiplier);
-    }
-    let modulus =
-        if found.is_free { "modulus of the deciding one" } else { "modulus of the larger" };
-    table.number(modulus, Quantity::Ratio, found.radius());
-    table.number("displacement x at τ = 0", Quantity::Displacement, found.start.displacement);
-    table.number("velocity x′ at τ = 0", Quantity::Velocity, found.start.velocity);
-    table.number("period", Quantity::Time, found.period);
-    if let Some((least, _)) = found.least_slip {
-        table.number("least slip velocity |v_r|", Quantity::Velocity, least);
-    }
-    table.number("stick fraction", Quantity::Ratio, found.stick_fraction);
-    let reach = extremes(study, found);
-    table.number("lowest displacement", Quantity::Displacement, reach.displacement.0);
-    table.number("highest displacement", Quantity::Displacement, reach.displacement.1);
-    table.number("lowest velocity", Quantity::Velocity, reach.velocity.0);
-    table.number("highest velocity", Quantity::Velocity, reach.velocity.1);
-    table.number("residual", Quantity::Displacement, found.residual);
-    table.number("error of the state", Quantity::Displacement, found.state_error);
-    table.number("error of the multiplier", Quantity::Ratio, found.multiplier_error);
-    table.text()
 }

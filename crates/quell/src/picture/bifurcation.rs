@@ -1,20 +1,20 @@
-//! Bifurcation diagrams: stroboscopic section, amplitude and slow frequency over the parameter, swept up and down.
+//! The bifurcation diagram: stroboscopic section, peak-to-peak and slow frequency over the parameter, swept up and down.
 
-use quell_dynamics::attractor::Attractor;
-use quell_dynamics::orbit::OrbitVerdict;
 use quell_model::units::Quantity;
 use quell_numerics::order::ascending_by;
 
-use super::caption::{VariedNumber, caption_of_run, with_varied};
+use super::caption::{VariedNumber, caption_of_varied};
 use super::ruler::Ruler;
 use super::sweep::{short_name, unit_or_none};
+use super::system::axis_of;
 use super::with_unstable;
 use crate::plot::{
     Figure, Marker, Panel, PlotAxis, PlotRole, Points, Polyline, SharedLegend, Sharing, Size,
 };
 use crate::run::bifurcation::{Bifurcation, Branch, SweepDirection};
+use crate::run::system::attractor::SystemAttractor;
 use crate::run::varied::Varied;
-use crate::study::BeltStudy;
+use crate::study::SystemStudy;
 
 /// Maximum number of states of all sections that are drawn: more states overlap, and the file would have many megabytes.
 const MOST_STATES: usize = 16_000;
@@ -58,51 +58,59 @@ pub(super) fn intervals(values: &[(f64, bool)]) -> Vec<(f64, f64)> {
 }
 
 /// The diagram.
-pub fn bifurcation(study: &BeltStudy, done: &Bifurcation) -> Figure {
+pub fn bifurcation(study: &SystemStudy, done: &Bifurcation) -> Figure {
+    let range = &done.range;
+    let (axis, varied) = axis_of(study, &range.parameter, (range.from, range.to));
+    let across = || axis.clone();
     let attractors = || {
-        done.branches
-            .iter()
-            .flat_map(|branch| &branch.points)
-            .filter_map(|point| point.response.as_ref().ok())
+        let points = done.branches.iter().flat_map(|branch| &branch.points);
+        points.filter_map(|point| point.attractor())
     };
-    let ruler = Ruler::of(
-        study,
-        Quantity::Displacement,
-        attractors().flat_map(|attractor| [attractor.lowest, attractor.highest]),
-    );
-    let count = attractors().count().max(1);
-    let each = (MOST_STATES / count).max(STATES);
-    let (across, varied) = axis(&done.varied);
-    let unstable: Vec<(f64, f64)> = unstable(done)
-        .into_iter()
-        .map(|(from, to)| (varied.place(from), varied.place(to)))
-        .collect();
-    let panel = |up: PlotAxis| with_unstable(Panel::new(across.clone(), up), unstable.clone());
-    let mut section = panel(ruler.axis("section displacement", "x"));
-    let mut size = panel(ruler.axis("peak-to-peak", "").from(0.0));
-    let mut frequency = panel(PlotAxis::new("slow frequency").symbol("ω/ω_0"));
+    let states = attractors().flat_map(|attractor| attractor.section.iter().copied());
+    let place = Ruler::of_system(study, Quantity::Displacement, states);
+    let extent = attractors().map(SystemAttractor::size);
+    let extent = Ruler::of_system(study, Quantity::Displacement, extent);
+    let unstable = || {
+        let first = done.branches.first().map_or(&[][..], |branch| &branch.points);
+        let mut values: Vec<(f64, bool)> = first
+            .iter()
+            .map(|point| (point.value, point.local.as_ref().is_ok_and(|word| *word == "unstable")))
+            .collect();
+        ascending_by(&mut values, |a| a.0);
+        let scaled = intervals(&values).into_iter();
+        scaled.map(|(from, to)| (varied.place(from), varied.place(to))).collect::<Vec<_>>()
+    };
+    let mut section =
+        with_unstable(Panel::new(across(), place.axis("section displacement", "")), unstable());
+    let mut size =
+        with_unstable(Panel::new(across(), extent.axis("peak-to-peak", "").from(0.0)), unstable());
+    let each = (MOST_STATES / attractors().count().max(1)).max(STATES);
+    let slow = attractors().filter_map(|attractor| attractor.slow);
+    let slow = Ruler::of_system(study, Quantity::FrequencyRatio, slow);
+    let up = slow.axis("slow frequency", "");
+    let mut frequency = with_unstable(Panel::new(across(), up), unstable());
     // The small marks of the sweep up are drawn over the larger circles of the sweep down.
     for branch in done.branches.iter().rev() {
-        let (role, marker, width) = look(branch.direction);
-        let label = format!("swept {}", branch.direction.name());
-        let settled = || {
-            branch.points.iter().filter_map(|point| Some((point, point.response.as_ref().ok()?)))
+        let (role, marker, width) = match branch.direction {
+            SweepDirection::Up => (PlotRole::Series(0), Marker::Disc, 2.2),
+            SweepDirection::Down => (PlotRole::Series(1), Marker::Circle, 4.2),
         };
-        let states = settled().flat_map(|(point, attractor)| {
-            let step = attractor.section.len().div_ceil(each).max(1);
-            let states = attractor.section.iter().step_by(step);
-            states.map(|(x, _)| (varied.place(point.value), ruler.place(*x))).collect::<Vec<_>>()
+        let label = format!("swept {}", branch.direction.name());
+        let states = branch.points.iter().flat_map(|point| {
+            let section = point.attractor().map_or(&[][..], |attractor| &attractor.section);
+            let step = section.len().div_ceil(each).max(1);
+            let states = section.iter().step_by(step);
+            states.map(|x| (varied.place(point.value), place.place(*x))).collect::<Vec<_>>()
         });
         section = section.with(Points::new(role, states).marker(marker).size(width).label(label));
-        let sizes = line(branch, &varied, |attractor| Some(ruler.place(attractor.size())));
-        size = size.with(Polyline::pieces(role, sizes).width(1.6));
-        let turning = settled().filter_map(|(point, attractor)| {
-            Some((varied.place(point.value), attractor.frequency(point.period)?))
+        size = size.with(Polyline::pieces(role, sizes(branch, &varied, &extent)).width(1.6));
+        let turning = branch.points.iter().filter_map(|point| {
+            Some((varied.place(point.value), slow.place(point.attractor()?.slow?)))
         });
         frequency = frequency.with(Points::new(role, turning).marker(marker).size(width + 1.0));
     }
     let mut panels = vec![section, size];
-    if attractors().any(|attractor| attractor.rotation.is_some()) {
+    if attractors().any(|attractor| attractor.slow.is_some()) {
         panels.push(frequency);
     }
     Figure::grid(1, panels)
@@ -113,49 +121,25 @@ pub fn bifurcation(study: &BeltStudy, done: &Bifurcation) -> Figure {
         .caption(format!(
             "{} {}",
             done.sentence(study),
-            with_varied(study, caption_of_run, &[range(&done.varied)])
+            caption_of_varied(study, &[(range.parameter.as_str().into(), range.from, range.to)])
         ))
 }
 
-/// Role, marker and size of a direction, such that both are visible where they coincide.
-fn look(direction: SweepDirection) -> (PlotRole, Marker, f64) {
-    match direction {
-        SweepDirection::Up => (PlotRole::Series(0), Marker::Disc, 2.2),
-        SweepDirection::Down => (PlotRole::Series(1), Marker::Circle, 4.2),
-    }
-}
-
-/// Intervals in which the base response is unstable.
-fn unstable(done: &Bifurcation) -> Vec<(f64, f64)> {
-    let Some(branch) = done.branches.first() else { return Vec::new() };
-    let mut values: Vec<(f64, bool)> = branch
-        .points
-        .iter()
-        .map(|point| (point.value, point.local == Ok(OrbitVerdict::Unstable)))
-        .collect();
-    ascending_by(&mut values, |a| a.0);
-    intervals(&values)
-}
-
-/// A quantity of a branch, with a gap where it jumps between a quiescent response and another.
-fn line(
-    branch: &Branch,
-    varied: &Ruler,
-    value: impl Fn(&Attractor) -> Option<f64>,
-) -> Vec<Vec<(f64, f64)>> {
+/// Peak-to-peak over the parameter, with a gap where the kind of motion changes.
+fn sizes(branch: &Branch, varied: &Ruler, extent: &Ruler) -> Vec<Vec<(f64, f64)>> {
     let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
-    let mut before: Option<bool> = None;
+    let mut before = None;
     for point in &branch.points {
-        let Some(y) = point.response.as_ref().ok().and_then(&value) else {
+        let Some(attractor) = point.attractor() else {
             before = None;
             continue;
         };
-        let at = varied.place(point.value);
+        let place = (varied.place(point.value), extent.place(attractor.size()));
         match pieces.last_mut() {
-            Some(piece) if before == point.quiet() => piece.push((at, y)),
-            _ => pieces.push(vec![(at, y)]),
+            Some(piece) if before == Some(attractor.quiet) => piece.push(place),
+            _ => pieces.push(vec![place]),
         }
-        before = point.quiet();
+        before = Some(attractor.quiet);
     }
     pieces
 }

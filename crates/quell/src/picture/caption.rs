@@ -158,6 +158,20 @@ pub(super) fn with_varied<K: StudyKind + Into<Kind>>(
     })
 }
 
+/// The caption of a system, in which "varied" stands for the numbers that are varied.
+pub(super) fn caption_of_varied(study: &SystemStudy, ranges: &[VariedNumber]) -> String {
+    ranges.iter().fold(caption_of_system(study), |text, (path, from, to)| {
+        let at = |value: f64| {
+            let parameter = study.model().parameter(path).ok()?;
+            Some(caption_of_system(&study.varied(&[(parameter, value)]).ok()?))
+        };
+        match (at(*from), at(*to)) {
+            (Some(first), Some(last)) => where_equal(&text, &first, &last),
+            _ => text,
+        }
+    })
+}
+
 /// The text, in which "varied" stands for the values that differ between two other texts of the same items.
 fn where_equal(text: &str, one: &str, other: &str) -> String {
     const SEPARATOR: &str = ", ";

@@ -82,7 +82,10 @@ pub(super) fn axis_of(
     (from, to): (f64, f64),
 ) -> (PlotAxis, Ruler) {
     let ruler = Ruler::of_path(study, path, from.abs().max(to.abs()));
-    let axis = ruler.axis(&name_of(path), "");
+    // The unit of a key such as `amplitude_n` is that of the axis.
+    let unit = study.address(path).ok().and_then(|address| address.quantity?.si_unit());
+    let bare = unit.and_then(|(_, suffix)| path.strip_suffix(suffix)?.strip_suffix('_'));
+    let axis = ruler.axis(&name_of(bare.unwrap_or(path)), "");
     (axis.between(ruler.place(from), ruler.place(to)), ruler)
 }
 

@@ -1,7 +1,7 @@
 //! Basins of a system in the plane of starts, and the share of quiescent motions over a parameter.
 
 use super::basins::panel_of_shares;
-use super::caption::{VariedNumber, caption_of_system, with_varied};
+use super::caption::{VariedNumber, caption_of_varied};
 use super::map::{MapAxis, MapKind, MappedQuantity, map_panel};
 use super::system::axis_of;
 use super::undrawable;
@@ -28,10 +28,9 @@ pub fn basins(study: &SystemStudy, done: &SystemBasins) -> Result<Figure, Failur
     let ranges: Vec<VariedNumber> =
         done.over.iter().map(|over| (over.parameter.as_str().into(), over.from, over.to)).collect();
     let (sentence, starts) = (done.sentence(study), done.starts_in_words(study));
-    Ok(figure.title(study.title().unwrap_or_default()).caption(format!(
-        "{sentence} {starts}. {}",
-        with_varied(study, caption_of_system, &ranges)
-    )))
+    Ok(figure
+        .title(study.title().unwrap_or_default())
+        .caption(format!("{sentence} {starts}. {}", caption_of_varied(study, &ranges))))
 }
 
 /// The plane of starts.
@@ -94,7 +93,7 @@ fn shares(study: &SystemStudy, done: &SystemBasins) -> Panel {
 
 /// The quiescent motion is blue, the largest other one red.
 fn role(basins: &[SystemBasin], place: usize) -> PlotRole {
-    let quiet_first = basins.first().is_some_and(|basin| basin.attractor.is_quiet());
+    let quiet_first = basins.first().is_some_and(|basin| basin.attractor.quiet);
     match (quiet_first, place) {
         (true, 0) => PlotRole::Stable,
         (true, 1) | (false, 0) => PlotRole::Unstable,

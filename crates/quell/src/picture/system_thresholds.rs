@@ -1,7 +1,7 @@
 //! The modulus of the deciding multiplier of a system's periodic motion over a parameter, with its thresholds; and threshold
 //! curves in two parameters.
 
-use super::caption::{caption_of_system, with_varied};
+use super::caption::caption_of_varied;
 use super::system::axis_of;
 use super::thresholds::{with_curves, words};
 use crate::plot::{
@@ -72,11 +72,7 @@ pub fn thresholds(study: &SystemStudy, done: &MotionThresholdsFound) -> Figure {
         format!(
             "{} {}",
             done.sentence(study),
-            with_varied(
-                study,
-                caption_of_system,
-                &[(done.request.parameter.as_str().into(), from, to)]
-            )
+            caption_of_varied(study, &[(done.request.parameter.as_str().into(), from, to)])
         ),
     )
 }
@@ -94,9 +90,8 @@ pub fn curves(study: &SystemStudy, done: &SystemCurves) -> Figure {
         .caption(format!(
             "{} {}",
             done.sentence(study),
-            with_varied(
+            caption_of_varied(
                 study,
-                caption_of_system,
                 &[
                     (request.along.as_str().into(), request.between.0, request.between.1),
                     (request.parameter.as_str().into(), request.window.0, request.window.1),

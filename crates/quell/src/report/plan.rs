@@ -210,7 +210,7 @@ pub(super) fn ask(verbs: &dyn Verbs, asked: ReportedVerb) -> Reply {
         ReportedVerb::Modes => verbs.modes(),
         ReportedVerb::Stability => verbs.stability(),
         ReportedVerb::Response => verbs.response(),
-        ReportedVerb::Orbit => verbs.orbit(Wanted::default()),
+        ReportedVerb::Orbit => verbs.orbit(&Wanted::default()),
         ReportedVerb::Friction => verbs.friction(None, false),
         ReportedVerb::Resonances => verbs.resonances(ResonancesRequest::default()),
         ReportedVerb::Thresholds(request) => verbs.thresholds(request),

@@ -4,10 +4,10 @@ use quell_dynamics::attractor::{Attractor, AttractorKind, AttractorSettings};
 use quell_dynamics::orbit::{NoOrbit, OrbitVerdict};
 use quell_model::Belt;
 use quell_model::units::{Quantity, Scales};
-use serde_json::json;
+use serde_json::{Value as Json, json};
 
-use super::orbit::refused;
-use crate::complaint::Failure;
+use super::failed;
+use crate::complaint::{Complaint, Failure, Fault, Origin};
 use crate::fields::Fields;
 use crate::study::BeltStudy;
 use crate::words::{digits, in_scales, plural};
@@ -15,6 +15,31 @@ use crate::words::{digits, in_scales, plural};
 /// The belt with its stroboscopic section and its base response.
 pub(super) fn settings(belt: &Belt) -> Result<AttractorSettings<'_>, Failure> {
     AttractorSettings::new(belt).map_err(refused)
+}
+
+/// The failure that reports why no orbit was found.
+pub(super) fn refused(why: NoOrbit) -> Failure {
+    let key = match why {
+        NoOrbit::NoDither => "dither",
+        NoOrbit::Incommensurate => {
+            return Failure::Failed { key: "dither".to_owned(), why: why.to_string() };
+        }
+        NoOrbit::NotConverged { .. }
+        | NoOrbit::Degenerate { .. }
+        | NoOrbit::Another { .. }
+        | NoOrbit::Ends { .. }
+        | NoOrbit::LostOnTheWay { .. }
+        | NoOrbit::NoPeriod { .. }
+        | NoOrbit::AtRest
+        | NoOrbit::Unsettled(_)
+        | NoOrbit::NoLimit
+        | NoOrbit::NoMirror
+        | NoOrbit::Invalid { .. } => {
+            return Failure::Failed { key: "orbit".to_owned(), why: why.to_string() };
+        }
+        NoOrbit::Stalled(stalled) => return failed(stalled),
+    };
+    Complaint::new(Fault::Value, key, Origin::Whole, Json::Null, why.to_string()).into()
 }
 
 /// The attractor as text: its kind and its slow frequency.
@@ -151,33 +176,9 @@ pub(super) fn number(study: &BeltStudy, unit: &str, value: f64) -> String {
     if study.scales().is_some() && !unit.starts_with('1') { format!("{text} {unit}") } else { text }
 }
 
-/// Words of the column `kind`.
-pub(super) const KINDS: [(u8, &str); 7] = [
-    (0, "period-1"),
-    (1, "locked"),
-    (2, "quasi-periodic"),
-    (3, "unclassified"),
-    (4, "unsettled"),
-    (5, "limit-cycle"),
-    (6, "rest"),
-];
-
 /// Words of the column `local_verdict`.
 pub(super) const VERDICTS: [(u8, &str); 4] =
     [(0, "stable"), (1, "unstable"), (2, "undecided"), (3, "unknown")];
-
-/// Code of the column `kind`.
-pub(super) fn kind_code(attractor: Option<&Attractor>) -> u8 {
-    match attractor.map(|attractor| attractor.kind) {
-        Some(AttractorKind::Periodic { periods: 1, .. }) => 0,
-        Some(AttractorKind::Periodic { .. }) => 1,
-        Some(AttractorKind::QuasiPeriodic) => 2,
-        Some(AttractorKind::Unclassified) => 3,
-        Some(AttractorKind::Cycle) => 5,
-        Some(AttractorKind::Rest) => 6,
-        None => 4,
-    }
-}
 
 /// Code of the column `local_verdict`.
 pub(super) fn verdict_code(local: &Result<OrbitVerdict, String>) -> u8 {

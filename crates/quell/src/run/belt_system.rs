@@ -6,11 +6,7 @@ use quell_dynamics::start::InitialState;
 use quell_model::units::Quantity;
 
 use super::basins::BasinsRequest;
-use super::found_attractor::AttractorRequest;
-use super::orbit::Wanted;
 use super::protocol::Protocol;
-use super::system::found_attractor::MotionAttractorRequest;
-use super::system::orbit::WantedMotion;
 use super::system::protocol::SystemProtocol;
 use super::system::start::StateNumbers;
 use super::system::thresholds::MotionThresholdsRequest;
@@ -25,13 +21,18 @@ use crate::study::{BeltStudy, DescribedSystem, Study, SystemStart, SystemStudy, 
 /// # Errors
 /// Noise, which has no period; a law whose numbers are out of their bounds in SI.
 pub(crate) fn of_state(study: &BeltStudy, verb: &str) -> Result<Option<SystemStudy>, Failure> {
-    if !study.belt().has_contact_state() {
-        return Ok(None);
-    }
+    if study.belt().has_contact_state() { of(study, verb).map(Some) } else { Ok(None) }
+}
+
+/// The system of a belt, for a verb about motions that repeat.
+///
+/// # Errors
+/// Noise, which has no period; a law whose numbers are out of their bounds in SI.
+pub(crate) fn of(study: &BeltStudy, verb: &str) -> Result<SystemStudy, Failure> {
     if let Some(key) = Study::from(study).noise() {
         return Err(not_periodic(verb, key).into());
     }
-    described(study).map(Some)
+    described(study)
 }
 
 /// The belt as a system in the units of a study that has units, otherwise in the numbers of the equations.
@@ -69,17 +70,6 @@ fn numbers(study: &BeltStudy, (displacement, velocity): (f64, f64)) -> StateNumb
 }
 
 /// The request about a belt for its system.
-pub(crate) fn wanted(study: &BeltStudy, wanted: Wanted) -> WantedMotion {
-    match wanted {
-        Wanted::OfSliding { periods } => WantedMotion::Base { periods },
-        Wanted::Near { state, periods } => {
-            WantedMotion::Near { state: numbers(study, state), periods }
-        }
-        Wanted::After(start) => WantedMotion::After(protocol(study, start)),
-    }
-}
-
-/// The request about a belt for its system.
 pub(crate) fn thresholds(study: &BeltStudy, request: ThresholdsRequest) -> MotionThresholdsRequest {
     let ThresholdsRequest { parameter, from, to, protocols, ramp } = request;
     let protocols = protocols.into_iter().map(|start| protocol(study, start)).collect();
@@ -95,13 +85,6 @@ fn protocol(study: &BeltStudy, protocol: Protocol) -> SystemProtocol {
             SystemProtocol::From(numbers(study, (displacement, velocity)))
         }
     }
-}
-
-/// The request about a belt for its system.
-pub(crate) fn attractor(study: &BeltStudy, request: &AttractorRequest) -> MotionAttractorRequest {
-    let AttractorRequest { start, lyapunov } = *request;
-    let start = start.map_or_else(Vec::new, |state| numbers(study, state));
-    MotionAttractorRequest { start, lyapunov }
 }
 
 /// The request about a belt for its system.

@@ -2,7 +2,7 @@
 
 use quell_model::System;
 
-use super::{MotionOrbit, base_motion, free_cycle, sliding_state};
+use super::{MotionOrbit, base_motion, free_cycle, limit_cycles, sliding_state};
 use crate::orbit::OrbitVerdict;
 
 /// Velocities of kicked starts, over that of the surface: at 1 the contact moves with it.
@@ -135,6 +135,11 @@ pub fn usual_starts(system: &System) -> Vec<NamedStart> {
 /// What was tried.
 pub fn squealing_state(system: &System) -> Result<Vec<f64>, String> {
     let system = system.undithered();
+    if let Some(cycles) = limit_cycles(&system) {
+        let stable = cycles.into_iter().find(|cycle| cycle.verdict() == OrbitVerdict::Stable);
+        let none = || "another state: without dither there is no stable limit cycle".to_owned();
+        return stable.map(|cycle| cycle.state).ok_or_else(none);
+    }
     let search = search_cycle(&system, usual_starts(&system));
     match search.found {
         Some((cycle, _)) if cycle.verdict() == OrbitVerdict::Stable => Ok(cycle.state),

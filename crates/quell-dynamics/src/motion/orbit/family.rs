@@ -16,7 +16,7 @@ use super::super::{
     ContactPhase, Immobile, MOTION_TOLERANCE, Motion, MotionEnd, MotionObserver, MotionStart,
     MotionStopped, MotionVariation, RecordedEvent,
 };
-use crate::simulation::EventKind;
+use crate::simulation::{EventKind, count_taken};
 
 /// The sequence of events in a period.
 #[derive(Clone, Debug, PartialEq)]
@@ -176,6 +176,9 @@ pub(crate) fn scale_of(motion: &Motion<'_>, state: &[f64]) -> f64 {
     if largest > 0.0 { largest } else { 1.0 }
 }
 
+/// Steps without a variation that take as long as what the variation adds to one.
+const VARIATION: u64 = 20;
+
 /// The image of a state after a time, with its derivative and events.
 pub(crate) fn shot(
     motion: &Motion<'_>,
@@ -196,6 +199,7 @@ pub(super) fn shot_within(
 ) -> Result<(Image<MotionSignature>, Shot), NoImage> {
     let new = || MotionVariation::new(motion);
     let (end, variation) = run_over(motion, state, (time, tolerance), held, new)?;
+    count_taken(VARIATION * end.steps);
     if variation.has_failed {
         return Err(NoImage::NoVariation);
     }

@@ -25,6 +25,7 @@ use super::periodic::{MotionOrbit, orbit_at, scale_of};
 use super::recurrence::{COARSE, NEAR, ON_IT, SAME, STAGNANT, distance, nearest_return};
 use super::watch::{MOST_STEPS, PASSAGES, WatchLengths};
 use crate::orbit::OrbitVerdict;
+use crate::orbit::cycle::cycles;
 
 /// Passages in a period that are tried.
 const MOST_PASSAGES: usize = 8;
@@ -190,6 +191,24 @@ pub fn free_cycle(system: &System, start: &[f64]) -> Result<MotionOrbit, NoCycle
             return Err(NoCycle::NotFound { time, passages: passed, mismatch, steps, unstable });
         }
     }
+}
+
+/// Every limit cycle of a system of one mass without its dither, stable or not, the largest first, by the map of its sizes
+/// ([`cycles`]); `None` of other systems, and where the map cannot be computed.
+pub fn limit_cycles(system: &System) -> Option<Vec<MotionOrbit>> {
+    let free = system.undithered();
+    let mass = free.one_mass()?;
+    let motion = Motion::new(&free).ok()?;
+    let found = cycles(mass.belt()).ok()?;
+    let reported = found.iter().map(|cycle| {
+        let period = cycle.period / mass.rate();
+        let lowest = mass.state(cycle.start.displacement, cycle.start.velocity).to_vec();
+        let start = MotionStart { time: 0.0, state: lowest };
+        // Away from the section, which the lowest point may be on.
+        let away = motion.run(&start, 0.25 * period, MOTION_TOLERANCE, &mut ()).ok()?;
+        reported(&motion, &away.state, period)
+    });
+    reported.collect()
 }
 
 /// The attempts to close a cycle where a run comes back near its own states.

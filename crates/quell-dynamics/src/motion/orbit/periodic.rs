@@ -8,6 +8,7 @@ use quell_model::System;
 use quell_numerics::continuation::branch::{End, Follow, follow};
 use quell_numerics::continuation::shooting::{NotClosed, Shooting, fixed_point};
 use quell_numerics::continuation::{modulus, multipliers, spectral_radius};
+use quell_numerics::matrix::Matrix;
 
 use super::super::own_state::in_steady_sliding;
 use super::super::{Immobile, MOTION_TOLERANCE, Motion, RecordedEvent};
@@ -35,6 +36,8 @@ pub struct MotionOrbit {
     pub state_error: f64,
     /// Multipliers, the largest modulus first; of a limit cycle the 1 of its phase included.
     pub multipliers: Vec<Complex64>,
+    /// Derivative of the state after a period with respect to that at t = 0; `None` of a limit cycle, whose phase is free.
+    pub monodromy: Option<Matrix>,
     /// Estimated error of the modulus of the deciding multiplier: its difference from an integration with a thousand times the
     /// tolerance, and an estimate of what the error of the state adds.
     pub multiplier_error: f64,
@@ -201,6 +204,7 @@ pub(crate) fn orbit_at(
         state_error: noise / slowness,
         multiplier_error: by_state + (coarse - radius).abs(),
         multipliers: found,
+        monodromy: (!is_free).then_some(image.derivative),
         events: met.events,
         signature: image.signature,
         is_free,

@@ -260,72 +260,65 @@ class Orbit(_columns.OrbitColumns, Result):
     """A periodic response and its Floquet multipliers."""
 
     verb = "orbit"
+    response: str
+    """"base", "near", "reached" or "limit-cycle"."""
     free_phase: bool | None
     """Whether it is a limit cycle, whose phase is free; ``None`` for steady sliding."""
-    displacement: float
-    """x at τ = 0: a length."""
-    velocity: float
-    """x′ at τ = 0: a length per τ."""
+    displacement: float | None
+    """Observed displacement at t = 0; ``None`` if there is no orbit."""
+    velocity: float | None
+    """Observed velocity at t = 0; ``None`` if there is no orbit."""
+    state_names: list[str]
+    """Names of the numbers of ``state``."""
+    state: list[float] | None
+    """The state at t = 0."""
     period: float | None
-    """Period, in τ; ``None`` if there is no orbit."""
+    """Period; ``None`` if there is no orbit."""
+    periods: int
+    """Number of common periods of the dithers in one period of the response."""
     monodromy: list[list[float]] | None
-    """Matrix that maps a small change of x and x′ to that after one period; ``None`` if there is no orbit."""
+    """Matrix that maps a small change of the state to that after one period; ``None`` of a limit cycle, whose phase is free."""
+    radius: float | None
+    """Modulus of the decisive multiplier."""
     verdict: Verdict
     """Whether small deviations decay."""
-    stick_episodes: int
-    """Number of sticking phases in a period."""
-    reversals: int
-    """Number of reversals of slip in a period."""
-    stick_fraction: float
-    """Fraction of the period during which the mass sticks."""
+    one_sided: bool
+    """Whether the multipliers are those of changes to one side only."""
     residual: float
-    """Distance of the state from itself after one period: a length."""
+    """Distance of the state from itself after one period."""
     state_error: float | None
-    """Estimated error of the state: a length; ``None`` if a multiplier is too close to 1."""
+    """Estimated error of the state; ``None`` if a multiplier is too close to 1."""
     multiplier_error: float | None
     """Estimated error of the modulus of the decisive multiplier; ``None`` as for ``state_error``."""
-    signature: list[dict[str, Any]]
-    """``kind`` and ``slip_sign`` of the events of a period, in order."""
-    least_slip_velocity: float | None
-    """Least |v_r| during slip: a length per τ; ``None`` if the mass always sticks."""
     protocol: str
-    """How it was found: "base", "near", "reached" or "limit-cycle"."""
-    lowest: float
-    """Least displacement: a length; of a system, of ``observe``."""
-    highest: float
-    """Largest displacement."""
-    lowest_velocity: float
-    """Least velocity: a length per τ; of a system, of ``observe``."""
-    highest_velocity: float
-    """Largest velocity."""
-    cycles: list[dict[str, Any]]
-    """Without dither: every limit cycle, each with all of these facts."""
-    response: str
-    """System: "base", "near", "reached" or "limit-cycle"."""
-    periods: int
-    """System: number of common periods of the dithers in one period of the response."""
-    state_names: list[str]
-    """System: names of the numbers of ``state``."""
-    state: list[float] | None
-    """System: the state at t = 0."""
-    radius: float | None
-    """System: modulus of the decisive multiplier."""
-    one_sided: bool
-    """System: whether the multipliers are those of changes to one side only."""
+    """How the stability was judged."""
+    lowest: float | None
+    """Least observed displacement."""
+    highest: float | None
+    """Largest observed displacement."""
+    lowest_velocity: float | None
+    """Least observed velocity."""
+    highest_velocity: float | None
+    """Largest observed velocity."""
     events: list[dict[str, Any]]
-    """System: ``time``, ``contact``, ``kind``, ``slip_sign`` and ``state`` of the events of a period."""
+    """``time``, ``contact``, ``kind``, ``slip_sign`` and ``state`` of the events of a period."""
     contacts: list[dict[str, Any]]
-    """System: ``name``, ``signature``, ``stick_fraction`` and ``open_fraction`` of every contact."""
+    """``name``, ``signature``, ``stick_episodes``, ``reversals``, ``least_slip_velocity``, ``stick_fraction`` and
+    ``open_fraction`` of every contact."""
     start: str
-    """System: the start of the run that was followed, in words."""
+    """The start of the run that was followed, in words."""
+    periods_to_settle: int
+    """Periods of the dither until that run was near the response."""
+    cycles: list[dict[str, Any]] | None
+    """Without dither: every limit cycle, each with all of these facts; ``None`` where they are not all known."""
     tried: list[str]
-    """System without dither: the starts from which a limit cycle was searched."""
+    """Without dither: the starts from which a limit cycle was searched."""
     steady_sliding: str
-    """System without dither: the verdict on steady sliding."""
+    """Without dither: the verdict on steady sliding."""
 
     @property
     def multipliers(self) -> npt.NDArray[np.complex128]:
-        """The two multipliers; empty if there is no orbit (see ``why``)."""
+        """The multipliers, the largest first; empty if there is no orbit (see ``why``)."""
         return numbers_of(self.facts["multipliers"] or [])
 
 

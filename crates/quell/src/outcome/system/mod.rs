@@ -1,13 +1,10 @@
 //! Answers of a study of a system, one file per verb.
 
-mod attractor;
 mod basins;
-mod bifurcation;
 mod exact;
 mod friction;
 mod measured;
 mod modes;
-mod orbit;
 mod reach;
 mod response;
 mod simulate;

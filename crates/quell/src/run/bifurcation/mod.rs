@@ -1,56 +1,52 @@
-//! `bifurcation`: the response along a parameter, swept up and down with the state carried over.
-//!
-//! At each value the run continues from the end of the last one (on a closed orbit from its exact state) until a growth rate
-//! shows that it has settled. The downward sweep begins where the upward sweep ended. Where the two differ, responses coexist.
+//! `bifurcation`: the motion along a parameter, swept up and down with the state carried over. With dither it is a
+//! periodic motion, locked or not; without dither a limit cycle, steady sliding or rest.
 
 mod answer;
-pub(in crate::run) mod shared;
+mod shared;
 
 use std::sync::atomic::Ordering;
 
-use quell_dynamics::attractor::{Attractor, AttractorKind, Patience, Unsettled, measure, settle};
-use quell_dynamics::orbit::OrbitVerdict;
-use quell_dynamics::simulation::{Start, within};
-use quell_model::units::Scales;
+use quell_dynamics::simulation::within;
 
-use super::attractor::{settings, unknown};
-use super::varied::Varied;
-use super::{failed, start, stopped};
-use crate::complaint::Failure;
-use crate::contact_state::refused_of_belt;
+use super::system::attractor::{EndOfRun, MotionKind, SystemAttractor, end_of_run, local_verdict};
+use super::system::protocol::SystemProtocol;
+use super::system::thresholds::ends_are_valid;
+use super::system::tracked::{TrackRequest, understood};
+use super::system::{failed, has_equations};
+use super::varied::{MOST_VALUES, Range};
+use super::{evenly, stopped};
+use crate::complaint::{Complaint, Failure};
 use crate::effort::STEPS_OF_A_SEARCH;
-use crate::range::SlipMet;
-use crate::study::BeltStudy;
+use crate::study::{ParameterId, SystemStudy};
 use crate::sweep::Running;
+pub use answer::words;
 pub use shared::{SweepDirection, SweepRequest};
+use shared::{directions, ranges};
 
-/// Relative difference of size beyond which the two directions show different responses.
+/// Relative difference of size beyond which the two directions show different motions.
 const APART: f64 = 0.02;
 
-/// The same limit relative to F, for responses without slow motion.
-const APART_AT_LEAST: f64 = 1e-4;
+/// The same where a motion is not periodic: a record shows only a part of it, whose size varies from record to record.
+const APART_IN_RECORDS: f64 = 0.5;
 
-/// Largest difference of rotation numbers (revolutions per period) of two closed curves that count as one: ten times the
-/// tolerance within a steady record.
-const TURN_ALIKE: f64 = 1e-4;
-
-/// The response at one value.
+/// The motion at one value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepPoint {
     /// The parameter.
     pub value: f64,
-    /// Scales at this value, of a study in SI: mass and stiffness may be varied.
-    pub scales: Option<Scales>,
-    /// Period of the section, τ.
-    pub period: f64,
-    /// Whether responses of the dither's own period may vibrate in the band of slow vibration (R ≤ 1.9).
-    pub in_band: bool,
-    /// Whether the base response is stable here, whether or not the sweep is on it; or why this is unknown.
-    pub local: Result<OrbitVerdict, String>,
-    /// The response that the sweep is on, or why it has not settled.
-    pub response: Result<Attractor, Unsettled>,
-    /// Periods until it had settled.
-    pub periods: u64,
+    /// Verdict on the base response, without dither on steady sliding; or why it is unknown.
+    pub local: Result<&'static str, String>,
+    /// Whether some dither acts here.
+    pub is_dithered: bool,
+    /// The motion that the sweep is on, or why it cannot be computed.
+    pub end: Result<EndOfRun, String>,
+}
+
+impl SweepPoint {
+    /// The motion, if it is known.
+    pub fn attractor(&self) -> Option<&SystemAttractor> {
+        self.end.as_ref().ok().map(|end| &end.attractor)
+    }
 }
 
 /// A sweep in one direction, in the order of the sweep.
@@ -62,147 +58,131 @@ pub struct Branch {
     pub points: Vec<SweepPoint>,
 }
 
-/// Two neighbouring values of a branch with known responses, between which the sweep leaves or reaches quiescence.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Jump {
-    /// The last value before.
-    pub before: f64,
-    /// The first value after.
-    pub after: f64,
-    /// Whether the response is quiet afterwards.
-    pub to_quiet: bool,
-    /// Whether the dither lies in the band of slow vibration there.
-    pub in_band: bool,
-}
-
-/// Sweeps of one parameter.
+/// Sweeps of one parameter of a system.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bifurcation {
     /// The parameter and its values.
-    pub varied: Varied,
-    /// The requested sweeps, up before down.
+    pub range: Range,
+    /// The start of the first sweep in words.
+    pub start: String,
+    /// The sweeps, up before down.
     pub branches: Vec<Branch>,
-    /// First and last value of each range in which the two directions show different responses. Values at which one of them
-    /// has not settled do not count.
+    /// First and last value of each range in which the two directions show different motions.
     pub hysteresis: Vec<(f64, f64)>,
-    /// The slip reached by the responses.
-    pub slip: SlipMet,
 }
 
-/// Sweeps the belt of a study.
+/// Checks the request.
+fn checked(study: &SystemStudy, range: &Range) -> Result<(), Failure> {
+    has_equations(study, "bifurcation")?;
+    let window = (range.from, range.to);
+    let parameter = range.parameter.clone();
+    let mut wrong: Vec<Complaint> = Vec::new();
+    match understood(study, &TrackRequest { parameter, window, along: None }) {
+        Err(Failure::Wrong(complaints)) => wrong.extend(complaints.iter().cloned()),
+        other => other?,
+    }
+    if !(2..=MOST_VALUES).contains(&range.points) {
+        let allowed = format!("a whole number from 2 to {MOST_VALUES}");
+        wrong.push(Complaint::option("--points", range.points, allowed));
+    }
+    if !wrong.is_empty() {
+        return Err(wrong.into());
+    }
+    ends_are_valid(study, &range.parameter, (range.from, range.to))
+}
+
+/// Sweeps a study.
 ///
 /// # Errors
-/// Complaints about the request or the start; [`Failure::Failed`] if the engine stops or the work is interrupted.
+/// Complaints about the request or the start; [`Failure::Failed`] if the work is interrupted.
 pub fn run(
-    study: &BeltStudy,
-    question: &SweepRequest,
+    study: &SystemStudy,
+    request: &SweepRequest,
     running: Running<'_>,
 ) -> Result<Bifurcation, Failure> {
-    refused_of_belt(study, "bifurcation")?;
-    let varied = Varied::new(study, "--parameter", &question.range)?;
-    let count = varied.values.len();
-    let directions = shared::directions(question);
-    running.progress.begin(count * directions.len(), 0);
+    let range = &request.range;
+    checked(study, range)?;
+    let directions = directions(request);
+    let values = evenly((range.from, range.to), range.points);
+    running.progress.begin(values.len() * directions.len(), 0);
+    let parameter = study.model().parameter(&range.parameter)?;
+    let mut state: Option<Vec<f64>> = None;
     let mut branches: Vec<Branch> = Vec::new();
-    let mut state: Option<Start> = None;
-    let mut slip = SlipMet::default();
     let swept = directions.into_iter().try_for_each(|direction| {
-        let mut values = varied.values.clone();
+        let mut values = values.clone();
         if direction == SweepDirection::Down {
             values.reverse();
         }
-        let mut found = Vec::with_capacity(count);
+        let mut points = Vec::with_capacity(values.len());
         for value in values {
             if running.stop.load(Ordering::Relaxed) {
                 return Err(stopped("bifurcation"));
             }
-            let at = varied.study_at(study, value)?;
-            let begun = match state {
-                Some(state) => state,
-                None => start(&at)?,
-            };
-            let (point, end) = within(STEPS_OF_A_SEARCH, || point(&at, value, begun))?;
-            slip.add_attractor(at.belt(), end);
-            found.push(point);
+            let begun = state.take();
+            let (point, end) =
+                within(STEPS_OF_A_SEARCH, || point(study, &parameter, value, begun))?;
+            points.push(point);
             state = Some(end);
             running.progress.advance(1);
         }
-        branches.push(Branch { direction, points: found });
+        branches.push(Branch { direction, points });
         Ok(())
     });
     running.progress.end();
     swept?;
-    let hysteresis = hysteresis(study, &branches);
-    Ok(Bifurcation { varied, branches, hysteresis, slip })
+    let hysteresis = hysteresis(&branches);
+    let start = SystemProtocol::Study.words(study);
+    Ok(Bifurcation { range: range.clone(), start, branches, hysteresis })
 }
 
-/// The response at one value, and the state from which the next one starts.
-fn point(study: &BeltStudy, value: f64, begun: Start) -> Result<(SweepPoint, Start), Failure> {
-    let settings = settings(study.belt())?;
-    let patience = Patience { tolerance: study.solver().tolerance, ..Patience::SWEEP };
-    let settled = settle(&settings, begun, patience).map_err(failed)?;
-    let attractor = measure(&settings, &settled).map_err(failed)?;
-    let end = attractor.as_ref().map_or(settled.state, |attractor| attractor.state);
-    let response = attractor.ok_or_else(|| settled.why().unwrap_or(Unsettled::Moving));
-    let local = settings.base.as_ref().map(|base| base.verdict).map_err(unknown);
-    let period = settings.section.period;
-    let in_band = settings.reaches_the_band();
-    let scales = study.scales();
-    Ok((
-        SweepPoint { value, scales, period, in_band, local, response, periods: settled.periods },
-        end,
-    ))
+/// The motion at one value, and the state from which the next one starts.
+fn point(
+    study: &SystemStudy,
+    parameter: &ParameterId,
+    value: f64,
+    begun: Option<Vec<f64>>,
+) -> Result<(SweepPoint, Vec<f64>), Failure> {
+    let study =
+        study.varied(&[(parameter.clone(), value)]).map_err(|why| failed("bifurcation", why))?;
+    let system = study.system();
+    let begun = match begun {
+        Some(state) => state,
+        None => SystemProtocol::Study.state(&study, system)?,
+    };
+    let end = end_of_run(system, &study.observe(), &begun);
+    let state = end.as_ref().map_or(begun, |end| end.attractor.state.clone());
+    let local = local_verdict(system);
+    let is_dithered = system.is_dithered();
+    Ok((SweepPoint { value, local, is_dithered, end }, state))
 }
 
-/// Ranges in which both directions were swept and show different responses.
-fn hysteresis(study: &BeltStudy, branches: &[Branch]) -> Vec<(f64, f64)> {
+/// Ranges in which both directions were swept and show different motions.
+fn hysteresis(branches: &[Branch]) -> Vec<(f64, f64)> {
     let [up, down] = branches else { return Vec::new() };
-    let scale = study.belt().normal_load();
     let pairs = up.points.iter().zip(down.points.iter().rev());
-    shared::ranges(pairs.map(|(one, other)| {
-        let apart = match (&one.response, &other.response) {
-            (Ok(one), Ok(other)) if is_one_torus(one, other) => one.quiet != other.quiet,
-            (Ok(one), Ok(other)) => {
-                let most = one.size().max(other.size());
-                one.quiet != other.quiet
-                    || (one.size() - other.size()).abs() > APART * most + APART_AT_LEAST * scale
+    ranges(pairs.map(|(one, other)| {
+        let apart = one.attractor().zip(other.attractor()).is_some_and(|(one, other)| {
+            if one.kind == MotionKind::Rest && other.kind == MotionKind::Rest {
+                // At rest both sizes are rounding.
+                return false;
             }
-            _ => false,
-        };
+            let most = one.size().max(other.size());
+            let repeats = |attractor: &SystemAttractor| {
+                !matches!(
+                    attractor.kind,
+                    MotionKind::QuasiPeriodic { .. } | MotionKind::NotPeriodic { .. }
+                )
+            };
+            let apart = if repeats(one) && repeats(other) { APART } else { APART_IN_RECORDS };
+            one.quiet != other.quiet || (one.size() - other.size()).abs() > apart * most
+        });
         (one.value, apart)
     }))
 }
 
-/// Whether two responses may be the same although their records differ in size: closed curves with the same rotation, or
-/// responses that are neither a closed orbit nor a curve, of which a record shows only a part.
-fn is_one_torus(one: &Attractor, other: &Attractor) -> bool {
-    let turns =
-        |attractor: &Attractor| attractor.rotation.map(|rotation| rotation.turns_per_period);
-    match (one.kind, other.kind) {
-        (AttractorKind::Unclassified, _) | (_, AttractorKind::Unclassified) => true,
-        (AttractorKind::QuasiPeriodic, AttractorKind::QuasiPeriodic) => turns(one)
-            .zip(turns(other))
-            .is_some_and(|(one, other)| (one - other).abs() <= TURN_ALIKE),
-        _ => false,
-    }
-}
-
 impl SweepPoint {
-    /// Whether the response is quiet; `None` if it has not settled.
+    /// Whether the motion is quiet; `None` if it is unknown.
     pub fn quiet(&self) -> Option<bool> {
-        self.response.as_ref().ok().map(|attractor| attractor.quiet)
-    }
-}
-
-impl Branch {
-    /// The jumps at which the sweep leaves or reaches quiescence.
-    pub fn jumps(&self) -> Vec<Jump> {
-        let changes = shared::changes(self.points.iter().map(SweepPoint::quiet));
-        let jump = |(before, after): (usize, usize)| {
-            let (before, after) = (&self.points[before], &self.points[after]);
-            let (to_quiet, in_band) = (after.quiet() == Some(true), after.in_band);
-            Jump { before: before.value, after: after.value, to_quiet, in_band }
-        };
-        changes.into_iter().map(jump).collect()
+        self.attractor().map(|attractor| attractor.quiet)
     }
 }

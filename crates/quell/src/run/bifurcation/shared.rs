@@ -1,4 +1,4 @@
-//! What sweeps of belts and of systems share: directions, jumps, and ranges in which the two directions differ.
+//! Of sweeps: directions, jumps, and ranges in which the two directions differ.
 
 use serde_json::Value as Json;
 
@@ -36,7 +36,7 @@ impl SweepDirection {
 }
 
 /// The requested directions in the order of the sweeps; both by default.
-pub(in crate::run) fn directions(request: &SweepRequest) -> Vec<SweepDirection> {
+pub(super) fn directions(request: &SweepRequest) -> Vec<SweepDirection> {
     let (up, down) =
         if request.up || request.down { (request.up, request.down) } else { (true, true) };
     let asked = [(up, SweepDirection::Up), (down, SweepDirection::Down)];
@@ -44,7 +44,7 @@ pub(in crate::run) fn directions(request: &SweepRequest) -> Vec<SweepDirection> 
 }
 
 /// The places of neighbouring points of known quiescence that differ in it.
-pub(in crate::run) fn changes(quiet: impl Iterator<Item = Option<bool>>) -> Vec<(usize, usize)> {
+pub(super) fn changes(quiet: impl Iterator<Item = Option<bool>>) -> Vec<(usize, usize)> {
     let known: Vec<(usize, bool)> =
         quiet.enumerate().filter_map(|(place, quiet)| Some((place, quiet?))).collect();
     let pairs = known.windows(2).filter(|pair| pair[0].1 != pair[1].1);
@@ -52,7 +52,7 @@ pub(in crate::run) fn changes(quiet: impl Iterator<Item = Option<bool>>) -> Vec<
 }
 
 /// First and last value of each range of neighbouring values at which both directions differ.
-pub(in crate::run) fn ranges(apart: impl Iterator<Item = (f64, bool)>) -> Vec<(f64, f64)> {
+pub(super) fn ranges(apart: impl Iterator<Item = (f64, bool)>) -> Vec<(f64, f64)> {
     let mut ranges: Vec<(f64, f64)> = Vec::new();
     let mut open = false;
     for (value, apart) in apart {
@@ -68,7 +68,7 @@ pub(in crate::run) fn ranges(apart: impl Iterator<Item = (f64, bool)>) -> Vec<(f
 
 /// The sentence on hysteresis; `known` says at each value whether both directions have a known motion. `noun` is the plural of
 /// what a sweep is on.
-pub(in crate::run) fn hysteresis_sentence(
+pub(super) fn hysteresis_sentence(
     ranges: &[(f64, f64)],
     known: &[bool],
     noun: &str,
@@ -97,7 +97,7 @@ pub(in crate::run) fn hysteresis_sentence(
 }
 
 /// The jumps of all branches and the ranges of hysteresis as fields.
-pub(in crate::run) fn put_comparison(
+pub(super) fn put_comparison(
     fields: &mut Fields,
     jumps: Vec<Fields>,
     ranges: Option<&[(f64, f64)]>,
@@ -115,7 +115,7 @@ pub(in crate::run) fn put_comparison(
 }
 
 /// One jump; `object` is an empty object with the units of the study.
-pub(in crate::run) fn jump(
+pub(super) fn jump(
     mut object: Fields,
     direction: SweepDirection,
     (before, after): (f64, f64),

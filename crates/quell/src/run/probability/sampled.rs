@@ -17,7 +17,7 @@ use crate::fields::Fields;
 use crate::outcome::disc_units::DiscUnits;
 use crate::range;
 use crate::run::stability::FAST;
-use crate::run::system::attractor::{MotionKind, end_of_run, local_verdict};
+use crate::run::system::attractor::{end_of_run, local_verdict};
 use crate::run::system::protocol::SystemProtocol;
 use crate::run::system::{has_equations, in_units};
 use crate::study::{BeltStudy, DiscStudy, ParameterId, SystemStudy, UnitSystem};
@@ -302,11 +302,7 @@ impl SampledKind for SystemStudy {
             Err(why) => return Err(said(&why)),
         };
         let end = end_of_run(system, &self.observe(), &state)?;
-        Ok(match end.attractor.kind {
-            MotionKind::Rest => false,
-            MotionKind::Periodic { periods, .. } => periods > 1,
-            MotionKind::NotPeriodic { .. } | MotionKind::Cycle { .. } => true,
-        })
+        Ok(!end.attractor.quiet)
     }
 
     fn fields(&self) -> Fields {

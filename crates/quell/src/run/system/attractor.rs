@@ -1,21 +1,30 @@
 //! The motion on which a run of a system ends, as `bifurcation` and `basins` report it.
 
+use quell_dynamics::attractor::{
+    Attractor, AttractorKind, AttractorSettings, Patience, Rotation, Settled, Unsettled, measure,
+    settle_many,
+};
 use quell_dynamics::motion::orbit::{
     BASE_STEPS, MotionOrbit, NoCycle, NoMotionOrbit, SettledMotion, base_motion, free_cycle,
     is_on_sliding, kicked_by, settled, settled_many,
 };
 use quell_dynamics::motion::{MOTION_TOLERANCE, Motion, MotionStart};
+use quell_dynamics::response::{BAND_END, vibration_frequency};
+use quell_dynamics::simulation::{Stalled, Start};
 use quell_linear::linearised::Linearised;
 use quell_linear::pure_slip::period;
 use quell_linear::spectrum;
-use quell_model::System;
 use quell_model::units::Quantity;
+use quell_model::{OneMass, System};
+use serde_json::json;
 
 use super::cycle_samples::CycleSamples;
 use super::in_units;
 use super::passing::nearest_distance;
 use crate::fields::Fields;
+use crate::run::attractor::unknown;
 use crate::study::{SystemStudy, UnitSystem};
+use crate::words::{digits, plural};
 
 /// Periods of the dither over which a motion that is not periodic is measured.
 const MEASURED: f64 = 20.0;
@@ -36,6 +45,11 @@ pub enum MotionKind {
         periods: u32,
         /// Modulus of the deciding multiplier.
         radius: f64,
+    },
+    /// It fills a closed curve of the section, by its rotation number; known of one mass alone.
+    QuasiPeriodic {
+        /// Periods of the dither over which it was followed.
+        tried: u32,
     },
     /// It does not repeat itself.
     NotPeriodic {
@@ -58,6 +72,14 @@ pub enum MotionKind {
 pub struct SystemAttractor {
     /// Its kind.
     pub kind: MotionKind,
+    /// Whether it is the response that continues steady sliding as the dither grows; `None` where that is not known, and without dither.
+    pub base: Option<bool>,
+    /// Whether it is quiet: in step with the dither, or periodic with a frequency above the band of the vibration; at rest without it.
+    pub quiet: bool,
+    /// Slow revolutions per period of the dither; `None` of a motion in step with it, and where they are not known.
+    pub rotation: Option<Rotation>,
+    /// Angular frequency of the slow revolutions.
+    pub slow: Option<f64>,
     /// A state of it at a whole period of the dither.
     pub state: Vec<f64>,
     /// Its states at whole periods; of a limit cycle also those at its events.
@@ -90,6 +112,10 @@ pub fn end_of_run(system: &System, row: &[f64], start: &[f64]) -> Result<EndOfRu
         // A dither of amplitude 0 gives the motion no period.
         return on_free_motion(&system.undithered(), row, start);
     }
+    if let Some(mass) = system.one_mass() {
+        let ends = ends_of_one_mass((system, &mass), row, &[start.to_vec()]);
+        return ends.into_iter().next().unwrap_or_else(|| Err("no run".to_owned()));
+    }
     under_dither(system, row, start, settled(system, start))
 }
 
@@ -102,8 +128,83 @@ pub(super) fn ends_of_runs(
     if !system.is_dithered() {
         return starts.iter().map(|start| end_of_run(system, row, start)).collect();
     }
+    if let Some(mass) = system.one_mass() {
+        return ends_of_one_mass((system, &mass), row, starts);
+    }
     let found = settled_many(system, starts).into_iter().zip(starts);
     found.map(|(found, start)| under_dither(system, row, start, found)).collect()
+}
+
+/// The motions on which runs of one mass under dither end, judged by its stroboscopic section: its closed orbits, and the rotation of its
+/// curves.
+fn ends_of_one_mass(
+    (system, mass): (&System, &OneMass),
+    row: &[f64],
+    starts: &[Vec<f64>],
+) -> Vec<Result<EndOfRun, String>> {
+    let settings = match AttractorSettings::new(mass.belt()) {
+        Ok(settings) => settings,
+        Err(why) => return vec![Err(why.to_string()); starts.len()],
+    };
+    let begun = starts.iter().map(|start| {
+        let (displacement, velocity) = mass.of_state(start);
+        Start { time: 0.0, displacement, velocity }
+    });
+    let settled = settle_many(&settings, &begun.collect::<Vec<_>>(), Patience::SWEEP);
+    let end = |settled: Result<Settled, Stalled>| {
+        let stopped = |why: Stalled| {
+            let time = why.time / mass.rate();
+            format!("a run stopped at t = {}: {}", digits(time), why.why)
+        };
+        let settled = settled.map_err(stopped)?;
+        let found = measure(&settings, &settled).map_err(stopped)?;
+        let periods = u32::try_from(settled.periods).unwrap_or(u32::MAX);
+        match found {
+            Some(found) => {
+                let attractor = of_one_mass((system, mass), row, &found, periods)?;
+                Ok(EndOfRun { attractor, periods })
+            }
+            None => Err(settled.why().unwrap_or(Unsettled::Moving).about().to_owned()),
+        }
+    };
+    settled.into_iter().map(end).collect()
+}
+
+/// An attractor of one mass as that of its system; `tried`: the periods over which it was followed.
+fn of_one_mass(
+    (system, mass): (&System, &OneMass),
+    row: &[f64],
+    found: &Attractor,
+    tried: u32,
+) -> Result<SystemAttractor, String> {
+    let dither = period(system).ok_or("the dithers have no common period")?;
+    let state = |(displacement, velocity): (f64, f64)| mass.state(displacement, velocity).to_vec();
+    let at = state((found.state.displacement, found.state.velocity));
+    let (kind, length) = match found.kind {
+        AttractorKind::Periodic { periods, radius } => {
+            (MotionKind::Periodic { periods, radius }, f64::from(periods) * dither)
+        }
+        AttractorKind::QuasiPeriodic => (MotionKind::QuasiPeriodic { tried }, MEASURED * dither),
+        AttractorKind::Rest => (MotionKind::Rest, dither),
+        AttractorKind::Cycle | AttractorKind::Unclassified => {
+            (MotionKind::NotPeriodic { tried }, MEASURED * dither)
+        }
+    };
+    let samples = CycleSamples::over(system, row, &at, length);
+    let states = found.section.iter().copied().map(state).collect();
+    let seen = SystemAttractor::new(kind, row, states, &samples);
+    let ends = [found.lowest, found.highest].map(|x| row[0] * mass.state(x, 0.0)[0]);
+    let rate = |turns: f64| turns.abs() * std::f64::consts::TAU / dither;
+    Ok(SystemAttractor {
+        base: Some(found.base),
+        quiet: found.quiet,
+        rotation: found.rotation,
+        slow: found.rotation.map(|rotation| rate(rotation.turns_per_period)),
+        state: at,
+        extremes: (ends[0].min(ends[1]), ends[0].max(ends[1])),
+        stick: vec![found.stick_fraction],
+        ..seen
+    })
 }
 
 /// The motion that the judge has found for a run under dither.
@@ -113,22 +214,40 @@ fn under_dither(
     start: &[f64],
     found: Result<SettledMotion, NoMotionOrbit>,
 ) -> Result<EndOfRun, String> {
-    let (kind, state, states, length, periods) = match found {
+    match found {
         Ok(SettledMotion { orbit, multiple, periods }) => {
             let states = at_periods(system, &orbit, multiple)?;
+            let samples = CycleSamples::over(system, row, &orbit.state, orbit.period);
             let kind = MotionKind::Periodic { periods: multiple, radius: orbit.radius() };
-            (kind, orbit.state, states, orbit.period, periods)
+            let seen = SystemAttractor::new(kind, row, states, &samples);
+            let base = (multiple == 1).then(|| is_base(system, &orbit.state)).flatten();
+            let quiet = multiple == 1 || is_above_the_band(system, orbit.period);
+            Ok(EndOfRun { attractor: SystemAttractor { base, quiet, ..seen }, periods })
         }
         Err(NoMotionOrbit::Unsettled { periods, mut last, is_steady: true }) => {
             let length = MEASURED * period(system).ok_or("the dithers have no common period")?;
             let state = last.last().cloned().unwrap_or_else(|| start.to_vec());
             last.reverse();
-            (MotionKind::NotPeriodic { tried: periods }, state, last, length, periods)
+            let samples = CycleSamples::over(system, row, &state, length);
+            let kind = MotionKind::NotPeriodic { tried: periods };
+            Ok(EndOfRun { attractor: SystemAttractor::new(kind, row, last, &samples), periods })
         }
-        Err(why) => return Err(why.to_string()),
-    };
-    let samples = CycleSamples::over(system, row, &state, length);
-    Ok(EndOfRun { attractor: SystemAttractor::new(kind, row, states, &samples), periods })
+        Err(why) => Err(why.to_string()),
+    }
+}
+
+/// Whether a motion in step with the dither is the base response; `None` where that is not known.
+fn is_base(system: &System, state: &[f64]) -> Option<bool> {
+    let base = base_motion(system, BASE_STEPS).ok()?;
+    let size = state.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let off = base.state.iter().zip(state).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+    Some(off <= SAME * size)
+}
+
+/// Whether a motion of a period has no line in the band of the vibration.
+fn is_above_the_band(system: &System, period: f64) -> bool {
+    let lowest = std::f64::consts::TAU / period;
+    vibration_frequency(system).is_some_and(|vibration| lowest > BAND_END * vibration)
 }
 
 /// Verdict on the base response of a dithered system, or on steady sliding without dither.
@@ -136,6 +255,12 @@ fn under_dither(
 /// # Errors
 /// Why it is unknown.
 pub fn local_verdict(system: &System) -> Result<&'static str, String> {
+    if system.is_dithered()
+        && let Some(mass) = system.one_mass()
+    {
+        let settings = AttractorSettings::new(mass.belt()).map_err(|why| why.to_string())?;
+        return settings.base.map(|base| base.verdict.name()).map_err(|why| unknown(&why));
+    }
     if system.is_dithered() {
         let base = base_motion(system, BASE_STEPS).map_err(|why| why.to_string())?;
         return Ok(base.verdict().name());
@@ -195,6 +320,11 @@ fn at_periods(
     Ok(states)
 }
 
+/// Rate of an observed displacement in a state of masses.
+fn rate_of(row: &[f64], state: &[f64]) -> f64 {
+    row.iter().zip(&state[row.len()..]).map(|(weight, velocity)| weight * velocity).sum()
+}
+
 impl SystemAttractor {
     fn new(kind: MotionKind, row: &[f64], states: Vec<Vec<f64>>, samples: &CycleSamples) -> Self {
         let observed =
@@ -206,17 +336,34 @@ impl SystemAttractor {
         let stick: Vec<f64> = means.map(|means| means.stick_fraction).collect();
         let largest_slip = (0..stick.len()).map(|contact| samples.largest_slip(contact)).collect();
         let state = states.first().cloned().unwrap_or_default();
-        Self { kind, state, states, section, extremes: bounds, stick, largest_slip }
+        let (base, rotation, slow) = (None, None, None);
+        let quiet = kind == MotionKind::Rest;
+        Self {
+            kind,
+            base,
+            quiet,
+            rotation,
+            slow,
+            state,
+            states,
+            section,
+            extremes: bounds,
+            stick,
+            largest_slip,
+        }
+    }
+
+    /// Observed velocity at whole periods; `None` of first-order equations.
+    pub fn section_rates(&self, study: &SystemStudy) -> Option<Vec<f64>> {
+        study.system().structure.mechanical()?;
+        let observe = study.observe();
+        let states = self.states.iter().take(self.section.len());
+        Some(states.map(|state| rate_of(&observe, state)).collect())
     }
 
     /// Peak-to-peak of the observed displacement.
     pub fn size(&self) -> f64 {
         self.extremes.1 - self.extremes.0
-    }
-
-    /// Whether it has the period of the dither, or is at rest without it.
-    pub fn is_quiet(&self) -> bool {
-        matches!(self.kind, MotionKind::Periodic { periods: 1, .. } | MotionKind::Rest)
     }
 
     /// Whether it is steady sliding: without dither and at rest, while every contact slips.
@@ -226,13 +373,34 @@ impl SystemAttractor {
 
     /// Its kind in words.
     pub fn words(&self, units: UnitSystem) -> String {
+        let slow = self.slow.map_or_else(String::new, |slow| match units {
+            UnitSystem::None => format!(", slow angular frequency {}", digits(slow)),
+            _ => format!(", slow frequency {} Hz", digits(slow / std::f64::consts::TAU)),
+        });
         match self.kind {
+            MotionKind::Periodic { periods: 1, .. } if self.base == Some(true) => {
+                "base response (period 1)".to_owned()
+            }
             MotionKind::Periodic { periods: 1, .. } => {
                 "period 1, in step with the dither".to_owned()
             }
             MotionKind::Periodic { periods, .. } => {
-                format!("locked: repeats after {periods} periods")
+                let Some(ratio) = self.rotation.and_then(|rotation| rotation.ratio) else {
+                    return format!("locked: repeats after {periods} periods");
+                };
+                let (turns, counted) = (ratio.turns, ratio.periods);
+                let repeats = if counted == periods {
+                    String::new()
+                } else {
+                    format!(", repeating after {periods}")
+                };
+                format!(
+                    "locked: {turns} slow cycle{} in {counted} period{}{repeats}{slow}",
+                    plural(turns),
+                    plural(counted)
+                )
             }
+            MotionKind::QuasiPeriodic { .. } => format!("quasi-periodic{slow}"),
             MotionKind::NotPeriodic { tried } => {
                 format!("a motion that does not repeat itself, followed over {tried} periods")
             }
@@ -260,6 +428,7 @@ impl SystemAttractor {
             MotionKind::NotPeriodic { .. } => 2,
             MotionKind::Cycle { .. } => 3,
             MotionKind::Rest => 4,
+            MotionKind::QuasiPeriodic { .. } => 6,
         }
     }
 
@@ -284,17 +453,26 @@ impl SystemAttractor {
             }
             // A record shows a part of a motion that is not periodic: such motions count as one.
             (MotionKind::Rest, MotionKind::Rest)
+            | (MotionKind::QuasiPeriodic { .. }, MotionKind::QuasiPeriodic { .. })
             | (MotionKind::NotPeriodic { .. }, MotionKind::NotPeriodic { .. }) => true,
             _ => false,
         }
     }
 
     /// Adds its fields to an object.
-    pub(super) fn put(&self, fields: &mut Fields, study: &SystemStudy) {
+    pub(in crate::run) fn put(&self, fields: &mut Fields, study: &SystemStudy) {
         fields
             .plain("words", self.words(study.units()))
             .plain("kind", self.kind_name())
-            .plain("quiet", self.is_quiet());
+            .plain("quiet", self.quiet);
+        match self.base {
+            Some(base) => fields.plain("base_response", base),
+            None if self.kind_code() == 0 => {
+                fields.unknown("base_response", "the base response was not found")
+            }
+            None => fields.plain("base_response", false),
+        };
+        self.put_turns(fields);
         match self.kind {
             MotionKind::Periodic { periods, radius } => {
                 fields.plain("periods", periods).plain("multiplier", radius);
@@ -303,7 +481,9 @@ impl SystemAttractor {
                 fields.unknown("periods", "a limit cycle has a period of its own");
                 fields.number("period", Quantity::Time, period).plain("multiplier", radius);
             }
-            MotionKind::NotPeriodic { .. } | MotionKind::Rest => {
+            MotionKind::QuasiPeriodic { .. }
+            | MotionKind::NotPeriodic { .. }
+            | MotionKind::Rest => {
                 let why = self.words(study.units());
                 fields.unknown("periods", why.clone()).unknown("multiplier", why);
             }
@@ -317,32 +497,84 @@ impl SystemAttractor {
             );
             inner
         });
+        let observe = study.observe();
+        let displacement = observe.iter().zip(&self.state).map(|(w, x)| w * x).sum();
+        let is_mechanical = study.system().structure.mechanical().is_some();
+        let velocity = || "the states of first-order equations contain no velocity".to_owned();
         fields
             .plain("state", self.state.clone())
+            .number("displacement", Quantity::Displacement, displacement)
+            .known(
+                "velocity",
+                Quantity::Velocity,
+                is_mechanical.then(|| rate_of(&observe, &self.state)).ok_or_else(velocity),
+            )
             .number("lowest", Quantity::Displacement, self.extremes.0)
             .number("highest", Quantity::Displacement, self.extremes.1)
             .number("peak_to_peak", Quantity::Displacement, self.size())
-            .numbers("section_displacement", Quantity::Displacement, &self.section)
-            .list("contacts", contacts);
+            .numbers("section_displacement", Quantity::Displacement, &self.section);
+        match self.section_rates(study) {
+            Some(rates) => fields.numbers("section_velocity", Quantity::Velocity, &rates),
+            None => fields.unknown("section_velocity", velocity()),
+        };
+        fields.list("contacts", contacts);
+    }
+}
+
+impl SystemAttractor {
+    /// The slow revolutions, or why they are not known.
+    fn put_turns(&self, fields: &mut Fields) {
+        let why = match self.kind {
+            MotionKind::Periodic { periods: 1, .. } => {
+                "a motion in step with the dither has no slow rotation"
+            }
+            MotionKind::Cycle { .. } | MotionKind::Rest => {
+                "rotation is counted in periods of a dither"
+            }
+            _ => "slow revolutions are counted for a single mass with a rigid contact alone",
+        };
+        let Some(rotation) = self.rotation else {
+            for name in ["rotation_number", "rotation_error", "frequency", "locking"] {
+                fields.unknown(name, why);
+            }
+            return;
+        };
+        fields.number("rotation_number", Quantity::Ratio, rotation.turns_per_period).number(
+            "rotation_error",
+            Quantity::Ratio,
+            rotation.error,
+        );
+        if let Some(slow) = self.slow {
+            fields.number("frequency", Quantity::FrequencyRatio, slow);
+        }
+        match rotation.ratio {
+            Some(ratio) => {
+                fields.plain("locking", json!({ "turns": ratio.turns, "periods": ratio.periods }));
+            }
+            None => {
+                fields.unknown("locking", "the response is not locked");
+            }
+        }
     }
 }
 
 /// Words of the column `kind`.
-pub(super) const KINDS: [(u8, &str); 6] = [
+pub(in crate::run) const KINDS: [(u8, &str); 7] = [
     (0, "period-1"),
     (1, "locked"),
     (2, "not-periodic"),
     (3, "limit-cycle"),
     (4, "rest"),
     (5, "unknown"),
+    (6, "quasi-periodic"),
 ];
 
 /// Words of the column `local_verdict`.
-pub(super) const VERDICTS: [(u8, &str); 4] =
+pub(in crate::run) const VERDICTS: [(u8, &str); 4] =
     [(0, "stable"), (1, "unstable"), (2, "undecided"), (3, "unknown")];
 
 /// The code of a verdict in datasets.
-pub(super) fn verdict_code(local: &Result<&'static str, String>) -> u8 {
+pub(in crate::run) fn verdict_code(local: &Result<&'static str, String>) -> u8 {
     let word = local.as_ref().map_or("unknown", |word| *word);
     VERDICTS.iter().find(|(_, known)| *known == word).map_or(3, |(code, _)| *code)
 }

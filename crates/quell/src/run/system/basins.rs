@@ -300,7 +300,7 @@ impl SystemPortrait {
         }
         let count = |place: usize| ends.iter().filter(|end| **end == Some(place)).count();
         let mut order: Vec<usize> = (0..motions.len()).collect();
-        order.sort_by_key(|place| (!motions[*place].0.is_quiet(), usize::MAX - count(*place)));
+        order.sort_by_key(|place| (!motions[*place].0.quiet, usize::MAX - count(*place)));
         let rank = |place: usize| order.iter().position(|other| *other == place);
         let ends: Vec<Option<usize>> = ends.iter().map(|end| end.and_then(rank)).collect();
         let inside = |holds: &dyn Fn(usize) -> bool| -> Vec<bool> {
@@ -316,7 +316,7 @@ impl SystemPortrait {
             })
             .collect();
         let open: Vec<bool> = ends.iter().map(Option::is_none).collect();
-        let ends_quiet = inside(&|end| basins[end].attractor.is_quiet());
+        let ends_quiet = inside(&|end| basins[end].attractor.quiet);
         let quiet = open.contains(&false).then(|| Share::between(layout, &ends_quiet, &open));
         let (is_dithered, local) = (system.is_dithered(), local_verdict(system));
         let unknown = Share::of(layout, &open);

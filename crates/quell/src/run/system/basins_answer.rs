@@ -239,7 +239,7 @@ impl SystemBasins {
     /// Over the grid, or one row per start.
     fn dataset_of(&self, study: &SystemStudy, portrait: &SystemPortrait) -> Dataset {
         let ends = portrait.ends.iter().map(|end| end.map_or(f64::NAN, |place| place as f64));
-        let is_quiet = |place: usize| u8::from(portrait.basins[place].attractor.is_quiet());
+        let is_quiet = |place: usize| u8::from(portrait.basins[place].attractor.quiet);
         let quiet: Vec<u8> = portrait.ends.iter().map(|end| end.map_or(2, is_quiet)).collect();
         let mut dataset = Dataset::of(&study.into(), "basins");
         let words = portrait.basins.iter().map(|basin| basin.attractor.words(study.units()));

@@ -42,6 +42,8 @@ pub struct CycleSamples {
     pub contacts: Vec<SampledContact>,
     /// Exact least and largest value of the observed displacement, and of its rate.
     pub extremes: [(f64, f64); 2],
+    /// The least slip speed of each contact while it slips; infinite where it never does.
+    pub least_slip: Vec<f64>,
     /// Means and extremes of the contacts.
     meter: ContactMeter,
 }
@@ -67,6 +69,7 @@ impl CycleSamples {
             rate: Vec::new(),
             contacts: vec![SampledContact::default(); system.contacts.len()],
             extremes: [NO_RANGE; 2],
+            least_slip: vec![f64::INFINITY; system.contacts.len()],
             meter: ContactMeter::new(system.contacts.len()),
         };
         let start = MotionStart { time: 0.0, state: state.to_vec() };
@@ -89,6 +92,10 @@ impl CycleSamples {
 
     /// Widens a range by the extremes of a series over a segment.
     fn widen(range: &mut (f64, f64), segment: &MotionSegment<'_>, series: &ObservedSeries) {
+        if series[1..].iter().all(|term| *term == 0.0) {
+            *range = (range.0.min(series[0]), range.1.max(series[0]));
+            return;
+        }
         let inner = segment.turning_points(series);
         for since in inner.into_iter().chain([0.0, segment.duration()]) {
             let value = MotionSegment::value(series, since);
@@ -113,6 +120,13 @@ impl MotionObserver for CycleSamples {
         let [displacements, rates] = &mut self.extremes;
         Self::widen(displacements, segment, &series);
         Self::widen(rates, segment, &rate);
+        for (index, least) in self.least_slip.iter_mut().enumerate() {
+            if let ContactPhase::Slip(sign) = segment.phase(index) {
+                let mut range = NO_RANGE;
+                Self::widen(&mut range, segment, segment.slip_velocity(index));
+                *least = least.min(if sign > 0 { range.0 } else { -range.1 }.max(0.0));
+            }
+        }
         while self.times.len() <= SAMPLES {
             let time = self.times.len() as f64 * self.step;
             let since = segment.clock().until(time);

@@ -4,20 +4,15 @@ pub mod actuator;
 pub mod attractor;
 pub mod basins;
 pub mod basins_answer;
-pub mod bifurcation;
-pub mod bifurcation_answer;
 pub mod check;
 pub mod curves;
 pub mod cycle_samples;
 pub mod design;
 pub mod exact;
-pub mod found_attractor;
 pub mod friction;
 pub mod history;
 pub mod measured;
 pub mod modes;
-pub mod orbit;
-pub mod orbit_answer;
 mod passing;
 pub mod protocol;
 pub mod reach;
@@ -46,7 +41,7 @@ use crate::study::{SystemStudy, UnitSystem};
 use crate::words::digits;
 
 /// The failure of a verb with its reason.
-fn failed(verb: &str, why: impl std::fmt::Display) -> Failure {
+pub(in crate::run) fn failed(verb: &str, why: impl std::fmt::Display) -> Failure {
     Failure::Failed { key: verb.to_owned(), why: why.to_string() }
 }
 

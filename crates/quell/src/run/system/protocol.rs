@@ -3,7 +3,7 @@
 use quell_dynamics::motion::orbit::{sliding_state, squealing_state};
 use quell_model::System;
 
-use super::start::{StateNumbers, named, read_state, start_in_words, start_with};
+use super::start::{StateNumbers, named, pair, read_state, start_in_words, start_with};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::run::protocol::Protocol;
 use crate::study::{SystemStart, SystemStudy};
@@ -66,6 +66,7 @@ impl SystemProtocol {
     /// Why there is no such state.
     pub fn state(&self, study: &SystemStudy, system: &System) -> Result<Vec<f64>, Failure> {
         let refused = |option: &'static str, why: String| -> Failure {
+            let why = why.strip_prefix("another state: ").unwrap_or(&why);
             let allowed = format!("choose another start: {why}");
             let origin = Origin::Argument(option);
             Complaint::new(Fault::Conflict, option, origin, serde_json::Value::Null, allowed).into()
@@ -88,9 +89,21 @@ impl SystemProtocol {
 }
 
 /// The complaint about a state given by two numbers.
-pub(crate) fn unnamed(option: &'static str, (x, v): (f64, f64)) -> Complaint {
+fn unnamed(option: &'static str, (x, v): (f64, f64)) -> Complaint {
     let allowed = "name=value pairs such as x=0.1,velocity.x=-2: a system has many coordinates";
     Complaint::option(option, format!("{x},{v}"), allowed)
+}
+
+/// Displacement and velocity of one coordinate, as an option gives them.
+///
+/// # Errors
+/// A complaint about each number, or about several coordinates.
+pub fn pair_of(
+    study: &SystemStudy,
+    option: &'static str,
+    (x, v): (&str, &str),
+) -> Result<StateNumbers, Complaints> {
+    pair(study, (x, v)).map_err(|wrong| renamed(&wrong, option))
 }
 
 /// Numbers of a state by name, as an option gives them.

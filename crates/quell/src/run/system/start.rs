@@ -90,11 +90,14 @@ pub fn start_with(study: &SystemStudy, numbers: &StateNumbers) -> Result<MotionS
     Ok(start)
 }
 
-/// Reads `name=value,…`, such as `x=0.1,velocity.x=-2`.
+/// Reads `name=value,…`, such as `x=0.1,velocity.x=-2`; of one coordinate also its displacement and velocity alone, such as `0.1,-2`.
 ///
 /// # Errors
 /// A complaint about every part.
 pub fn read_state(study: &SystemStudy, text: &str) -> Result<StateNumbers, Complaints> {
+    if let Some((x, v)) = text.split_once(',').filter(|_| !text.contains('=')) {
+        return pair(study, (x.trim(), v.trim()));
+    }
     let parts = text.split(',').map(|part| {
         if let Some((name, value)) = part.split_once('=') {
             return Ok((name.trim(), value.trim()));
@@ -103,6 +106,20 @@ pub fn read_state(study: &SystemStudy, text: &str) -> Result<StateNumbers, Compl
         Err(Box::new(Complaint::option("--start", part.trim(), allowed)))
     });
     named(study, parts)
+}
+
+/// Reads displacement and velocity of a system of one coordinate.
+///
+/// # Errors
+/// A complaint about a number, or about several coordinates.
+pub fn pair(study: &SystemStudy, (x, v): (&str, &str)) -> Result<StateNumbers, Complaints> {
+    let system = study.system();
+    if system.structure.mechanical().is_none_or(|mechanical| mechanical.size() != 1) {
+        let allowed = "name=value pairs such as x=0.1,velocity.x=-2: a system has many coordinates";
+        return Err(Complaint::option("--start", format!("{x},{v}"), allowed).into());
+    }
+    let names = state_names(system);
+    named(study, names.iter().map(String::as_str).zip([x, v]).map(Ok))
 }
 
 /// Reads pairs of a name and a value.

@@ -76,7 +76,7 @@ pub struct MotionThresholdsFound {
 }
 
 /// Rejects a window at whose ends the study is not valid.
-pub(super) fn ends_are_valid(
+pub(in crate::run) fn ends_are_valid(
     study: &SystemStudy,
     path: &str,
     (from, to): (f64, f64),

@@ -17,9 +17,8 @@ use quell_dynamics::start::NoSquealingStart;
 use quell_model::units::Quantity;
 use serde_json::Value as Json;
 
-use super::attractor::unknown;
+use super::attractor::{self, unknown};
 use super::criticality;
-use super::orbit;
 use super::protocol::Protocol;
 use super::varied::{Named, ascending, key_of};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
@@ -119,7 +118,7 @@ pub(super) fn refused(
                 unknown(&why)
             ),
         },
-        NoThresholds::Start(why) => orbit::refused(why),
+        NoThresholds::Start(why) => attractor::refused(why),
         NoThresholds::Lost { at } => Failure::Failed {
             key: "thresholds".to_owned(),
             why: format!("the continuation lost the response beyond {key} = {}", words(at)),

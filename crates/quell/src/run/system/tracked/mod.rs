@@ -277,7 +277,10 @@ fn nearest(study: &SystemStudy, path: &str) -> Option<String> {
 }
 
 /// Every complaint about a request.
-pub(super) fn understood(study: &SystemStudy, request: &TrackRequest) -> Result<(), Failure> {
+pub(in crate::run) fn understood(
+    study: &SystemStudy,
+    request: &TrackRequest,
+) -> Result<(), Failure> {
     let mut wrong = Vec::new();
     let along = request.along.as_ref();
     let along = along.map(|(path, window)| (("--along", "--between", "--between"), path, *window));

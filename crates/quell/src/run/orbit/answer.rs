@@ -1,4 +1,4 @@
-//! The answer of `orbit` of a system in sentences, JSON and a dataset.
+//! The answer of `orbit` in sentences, JSON and a dataset.
 
 use quell_dynamics::motion::orbit::{MotionOrbit, without_cycle};
 use quell_dynamics::motion::{ContactPhase, RecordedEvent};
@@ -7,17 +7,20 @@ use quell_dynamics::simulation::EventKind;
 use quell_model::units::Quantity;
 use serde_json::{Value as Json, json};
 
-use super::orbit::{FoundBy, FoundMotion, OrbitOfSystem};
-use super::simulate::beyond_laws;
-use super::start::{state_names, state_quantity};
+use super::{FoundBy, FoundMotion, PeriodicResponse};
 use crate::complaint::Failure;
 use crate::dataset::{Array, Dataset};
 use crate::fields::Fields;
+use crate::run::system::simulate::beyond_laws;
+use crate::run::system::start::{state_names, state_quantity};
 use crate::study::SystemStudy;
 use crate::words::{capital, digits, plural};
 
 /// Groups of contacts that a sentence describes.
 const MOST_GROUPS: usize = 3;
+
+/// Rows of the largest monodromy matrix that an answer contains.
+const MOST_ROWS: usize = 64;
 
 /// What a contact does, as words with their codes.
 const PHASES: [(u8, &str); 3] = [(0, "slip"), (1, "stick"), (2, "open")];
@@ -122,6 +125,7 @@ pub fn sentence(study: &SystemStudy, found: &FoundMotion) -> String {
         FoundBy::Continuation if found.multiple == 1 => "The base response".to_owned(),
         FoundBy::Continuation | FoundBy::Shooting => "The periodic motion".to_owned(),
         FoundBy::Run { start, .. } => format!("The motion that a run {start} reaches"),
+        FoundBy::Map => "The limit cycle without dither".to_owned(),
         FoundBy::FreeRun { start } => format!("The limit cycle that a run {start} reaches"),
     };
     let locked = match found.multiple {
@@ -167,6 +171,24 @@ fn put_events(events: &[RecordedEvent]) -> Vec<Json> {
     events.iter().map(event).collect()
 }
 
+/// The derivative of a period with respect to the state.
+fn put_monodromy(fields: &mut Fields, orbit: &MotionOrbit) {
+    let size = orbit.state.len();
+    match &orbit.monodromy {
+        None => {
+            fields.unknown("monodromy", "the phase of a limit cycle is free");
+        }
+        Some(_) if size > MOST_ROWS => {
+            let why = format!("a state of {size} numbers, more than {MOST_ROWS}");
+            fields.unknown("monodromy", why);
+        }
+        Some(matrix) => {
+            let row = |i: usize| (0..size).map(|j| matrix[(i, j)]).collect::<Vec<f64>>();
+            fields.plain("monodromy", (0..size).map(row).collect::<Vec<_>>());
+        }
+    }
+}
+
 /// An estimated error, or why it is unknown.
 fn put_error(fields: &mut Fields, name: &str, error: f64) {
     if error.is_finite() {
@@ -176,7 +198,35 @@ fn put_error(fields: &mut Fields, name: &str, error: f64) {
     }
 }
 
-impl OrbitOfSystem {
+/// What is unknown where no motion was found.
+const FACTS: [&str; 13] = [
+    "response",
+    "periods",
+    "free_phase",
+    "state",
+    "multipliers",
+    "monodromy",
+    "radius",
+    "residual",
+    "one_sided",
+    "state_error",
+    "multiplier_error",
+    "events",
+    "contacts",
+];
+
+/// The numbers with units among them.
+const NUMBERS: [(&str, Quantity); 7] = [
+    ("period", Quantity::Time),
+    ("displacement", Quantity::Displacement),
+    ("velocity", Quantity::Velocity),
+    ("lowest", Quantity::Displacement),
+    ("highest", Quantity::Displacement),
+    ("lowest_velocity", Quantity::Velocity),
+    ("highest_velocity", Quantity::Velocity),
+];
+
+impl PeriodicResponse {
     /// The answer in a few sentences.
     pub fn sentence(&self, study: &SystemStudy) -> String {
         let Some(found) = &self.found else {
@@ -196,10 +246,16 @@ impl OrbitOfSystem {
             "independent events coincide: the multipliers hold for deviations to one side only"
                 .to_owned()
         });
-        let beyond = self
-            .found
-            .iter()
-            .flat_map(|found| beyond_laws(study, |contact| found.samples.largest_slip(contact)));
+        let motions = || self.found.iter().chain(self.cycles.iter().flatten());
+        // Without dither steady sliding is judged as well.
+        let slides = |contact: usize| match self.sliding {
+            Some(_) => study.system().contacts[contact].surface_velocity.mean().abs(),
+            None => 0.0,
+        };
+        let beyond = beyond_laws(study, |contact| {
+            let slips = motions().map(|found| found.samples.largest_slip(contact));
+            slips.fold(slides(contact), f64::max)
+        });
         study.warnings().iter().cloned().chain(one_sided).chain(beyond).collect()
     }
 
@@ -213,6 +269,9 @@ impl OrbitOfSystem {
         match &self.found {
             Some(found) => put_found(&mut fields, study, found),
             None => self.put_without(&mut fields),
+        }
+        if self.sliding.is_some() {
+            self.put_cycles(&mut fields, study);
         }
         let tried = self.tried.iter().map(|tried| {
             let mut inner = Fields::of_system(study.units());
@@ -233,11 +292,30 @@ impl OrbitOfSystem {
         fields.finish()
     }
 
+    /// Every limit cycle without dither, each with all of its facts.
+    fn put_cycles(&self, fields: &mut Fields, study: &SystemStudy) {
+        let Some(cycles) = &self.cycles else {
+            let why = "all limit cycles are known of a single mass with a rigid contact alone";
+            fields.unknown("cycles", why);
+            return;
+        };
+        let cycles = cycles.iter().map(|cycle| {
+            let mut inner = Fields::of_system(study.units());
+            inner.plain("sentence", sentence(study, cycle));
+            put_found(&mut inner, study, cycle);
+            inner
+        });
+        fields.list("cycles", cycles);
+    }
+
     fn put_without(&self, fields: &mut Fields) {
         let why = without_cycle(&self.tried);
         fields.plain("protocol", "runs without dither");
-        for name in ["response", "period", "state", "multipliers", "radius", "residual", "events"] {
+        for name in FACTS {
             fields.unknown(name, why.clone());
+        }
+        for (name, quantity) in NUMBERS {
+            fields.known(name, quantity, Err(why.clone()));
         }
         match &self.sliding {
             Some(Ok(verdict)) => fields.plain("verdict", *verdict),
@@ -263,7 +341,7 @@ fn put_found(fields: &mut Fields, study: &SystemStudy, found: &FoundMotion) {
         FoundBy::Continuation if found.multiple == 1 => "base",
         FoundBy::Continuation | FoundBy::Shooting => "near",
         FoundBy::Run { .. } => "reached",
-        FoundBy::FreeRun { .. } => "limit-cycle",
+        FoundBy::Map | FoundBy::FreeRun { .. } => "limit-cycle",
     };
     fields
         .plain("protocol", "local: Floquet multipliers of the periodic motion")
@@ -272,6 +350,14 @@ fn put_found(fields: &mut Fields, study: &SystemStudy, found: &FoundMotion) {
         .plain("free_phase", orbit.is_free)
         .number("period", Quantity::Time, orbit.period)
         .plain("state", orbit.state.clone());
+    let began = "the run of the motion stopped at its beginning";
+    let observed = [
+        ("displacement", Quantity::Displacement, &found.samples.observed),
+        ("velocity", Quantity::Velocity, &found.samples.rate),
+    ];
+    for (name, quantity, values) in observed {
+        fields.known(name, quantity, values.first().copied().ok_or(began.to_owned()));
+    }
     if let FoundBy::Run { start, periods, instead } = &found.by {
         fields.plain("start", start.clone()).plain("periods_to_settle", *periods);
         if let Some(why) = instead {
@@ -288,6 +374,7 @@ fn put_found(fields: &mut Fields, study: &SystemStudy, found: &FoundMotion) {
         .plain("verdict", orbit.verdict().name())
         .plain("residual", orbit.residual)
         .plain("one_sided", orbit.is_one_sided);
+    put_monodromy(fields, orbit);
     put_error(fields, "state_error", orbit.state_error);
     put_error(fields, "multiplier_error", orbit.multiplier_error);
     fields.plain("events", put_events(&orbit.events));
@@ -295,9 +382,22 @@ fn put_found(fields: &mut Fields, study: &SystemStudy, found: &FoundMotion) {
     let contacts = study.system().contacts.iter().zip(samples.means()).enumerate();
     let contacts = contacts.map(|(index, (contact, means))| {
         let mut inner = Fields::of_system(study.units());
+        let count = |kind: EventKind| {
+            let of = |event: &&RecordedEvent| event.contact == index && event.kind == kind;
+            orbit.events.iter().filter(of).count()
+        };
+        let least = samples.least_slip[index];
+        let stuck = || "the contact never slips".to_owned();
         inner
             .plain("name", contact.name.clone())
             .plain("signature", signature_of(found, index))
+            .plain("stick_episodes", count(EventKind::Stick))
+            .plain("reversals", count(EventKind::Reversal))
+            .known(
+                "least_slip_velocity",
+                Quantity::Velocity,
+                Some(least).filter(|least| least.is_finite()).ok_or_else(stuck),
+            )
             .number("stick_fraction", Quantity::Ratio, means.stick_fraction)
             .number("open_fraction", Quantity::Ratio, means.open_fraction);
         inner
@@ -320,8 +420,18 @@ fn dataset(study: &SystemStudy, found: &FoundMotion) -> Dataset {
     };
     let time = Array::new("time", unit(Some(Quantity::Time)), samples.times.clone());
     let mut dataset = Dataset::of(&study.into(), "orbit").with_axis(time);
+    let names = state_names(system);
+    let observed = [
+        ("displacement", Quantity::Displacement, &samples.observed),
+        ("velocity", Quantity::Velocity, &samples.rate),
+    ];
+    for (name, quantity, values) in observed {
+        if !names.iter().any(|known| known == name) {
+            dataset = dataset.with(Array::new(name, unit(Some(quantity)), values.clone()));
+        }
+    }
     let size = found.orbit.state.len();
-    for (place, name) in state_names(system).into_iter().enumerate() {
+    for (place, name) in names.into_iter().enumerate() {
         let values = samples.states.iter().skip(place).step_by(size).copied().collect();
         let name = if name == "time" { "displacement.time".to_owned() } else { name };
         dataset = dataset.with(Array::new(name, unit(state_quantity(system, place)), values));

@@ -1,24 +1,32 @@
-//! `orbit` of a system: the base response under dither, a periodic motion near a state, or the one on which a run ends, with its
+//! `orbit`: the base response under dither, a periodic motion near a state, or the one on which a run ends, with its
 //! Floquet multipliers; without dither the limit cycle on which a run ends, or what was tried to find one.
 
 use quell_dynamics::motion::orbit::{
     BASE_STEPS, CycleSearch, MotionOrbit, NamedStart, NoMotionOrbit, SettledMotion, TriedStart,
-    base_motion, motion_near, search_cycle, settled, usual_starts,
+    base_motion, limit_cycles, motion_near, search_cycle, settled, usual_starts,
 };
+use quell_dynamics::orbit::OrbitVerdict;
+use quell_dynamics::simulation::within;
 use quell_linear::linearised::Linearised;
 use quell_linear::spectrum;
+use quell_model::System;
+use quell_model::parameter::BELT_VELOCITY;
 
-use super::cycle_samples::CycleSamples;
-use super::protocol::{SystemProtocol, unnamed};
-use super::start::{StateNumbers, start_with};
-use super::{failed, has_equations};
-use crate::complaint::{Complaint, Failure};
-use crate::run::orbit::Wanted;
+use crate::complaint::{Complaint, Failure, Fault, Origin};
+use crate::effort::STEPS_OF_A_SEARCH;
+use crate::run::system::cycle_samples::CycleSamples;
+use crate::run::system::protocol::SystemProtocol;
+use crate::run::system::start::{StateNumbers, start_with};
+use crate::run::system::{failed, has_equations};
 use crate::study::SystemStudy;
+
+mod answer;
+
+pub use answer::sentence;
 
 /// The periodic motion to find.
 #[derive(Clone, Debug, PartialEq)]
-pub enum WantedMotion {
+pub enum Wanted {
     /// The base response, or the motion reached from the study's start where it does not exist; without dither the limit cycle.
     Base {
         /// Number of common dither periods in a period of the motion.
@@ -35,23 +43,9 @@ pub enum WantedMotion {
     After(SystemProtocol),
 }
 
-impl Default for WantedMotion {
+impl Default for Wanted {
     fn default() -> Self {
         Self::Base { periods: 1 }
-    }
-}
-
-impl WantedMotion {
-    /// The request about a belt for a system.
-    ///
-    /// # Errors
-    /// A state given by two numbers.
-    pub fn of(wanted: Wanted) -> Result<Self, Failure> {
-        match wanted {
-            Wanted::OfSliding { periods } => Ok(Self::Base { periods }),
-            Wanted::Near { state, .. } => Err(unnamed("--near", state).into()),
-            Wanted::After(protocol) => Ok(Self::After(SystemProtocol::of(protocol)?)),
-        }
     }
 }
 
@@ -71,6 +65,8 @@ pub enum FoundBy {
         /// Why it replaces the base response, if that was wanted.
         instead: Option<String>,
     },
+    /// It is one of all limit cycles of a single mass.
+    Map,
     /// A run without dither ends on it.
     FreeRun {
         /// The start in words.
@@ -93,9 +89,11 @@ pub struct FoundMotion {
 
 /// The answer of `orbit`.
 #[derive(Clone, Debug)]
-pub struct OrbitOfSystem {
+pub struct PeriodicResponse {
     /// The motion; `None` where no limit cycle was found.
     pub found: Option<FoundMotion>,
+    /// Every limit cycle of an undithered system of one mass, stable or not, the largest first; `None` where they are not known.
+    pub cycles: Option<Vec<FoundMotion>>,
     /// Starts from which no limit cycle was reached.
     pub tried: Vec<TriedStart>,
     /// Verdict on steady sliding of an undithered system, or why it is unknown.
@@ -106,32 +104,40 @@ pub struct OrbitOfSystem {
 ///
 /// # Errors
 /// Complaints about the request and the start; [`Failure::Failed`] if a motion under dither was not found.
-pub fn run(study: &SystemStudy, wanted: &WantedMotion) -> Result<OrbitOfSystem, Failure> {
+pub fn run(study: &SystemStudy, wanted: &Wanted) -> Result<PeriodicResponse, Failure> {
     has_equations(study, "orbit")?;
+    within(STEPS_OF_A_SEARCH, || periodic(study, wanted))
+}
+
+fn periodic(study: &SystemStudy, wanted: &Wanted) -> Result<PeriodicResponse, Failure> {
     if !study.system().is_dithered() {
         return undithered(study, wanted);
     }
     let system = study.system();
     let refused = |why: NoMotionOrbit| failed("orbit", why);
     let (orbit, multiple, by) = match wanted {
-        WantedMotion::Near { state, periods } => {
+        Wanted::Near { state, periods } => {
             let guess = start_with(study, state)?.state;
             let periods = (*periods).max(1);
             (motion_near(system, &guess, periods).map_err(refused)?, periods, FoundBy::Shooting)
         }
-        WantedMotion::After(protocol) => reached(study, protocol, None)?,
-        WantedMotion::Base { periods } => match base_motion(system, BASE_STEPS) {
+        Wanted::After(protocol) => reached(study, protocol, None)?,
+        Wanted::Base { periods } => match base_motion(system, BASE_STEPS) {
             Ok(base) if *periods > 1 => {
                 let found = motion_near(system, &base.state, *periods).map_err(refused)?;
                 (found, *periods, FoundBy::Continuation)
             }
             Ok(base) => (base, 1, FoundBy::Continuation),
-            Err(why) if *periods > 1 => return Err(refused(why)),
+            Err(why) if *periods > 1 => {
+                let allowed = format!("1 without --near: there is no base response, {why}");
+                return Err(Complaint::option("--periods", *periods, allowed).into());
+            }
             Err(why) => reached(study, &SystemProtocol::Study, Some(why))?,
         },
     };
-    Ok(OrbitOfSystem {
+    Ok(PeriodicResponse {
         found: Some(with_samples(study, orbit, multiple, by)),
+        cycles: None,
         tried: Vec::new(),
         sliding: None,
     })
@@ -176,38 +182,76 @@ fn reached(
 }
 
 /// The limit cycle of an undithered system.
-fn undithered(study: &SystemStudy, wanted: &WantedMotion) -> Result<OrbitOfSystem, Failure> {
+fn undithered(study: &SystemStudy, wanted: &Wanted) -> Result<PeriodicResponse, Failure> {
     let system = study.system();
-    if let WantedMotion::Base { periods } | WantedMotion::Near { periods, .. } = wanted
+    if let Wanted::Base { periods } | Wanted::Near { periods, .. } = wanted
         && *periods > 1
     {
         let allowed = "1: without dither there is no dither period to count";
         return Err(Complaint::option("--periods", *periods, allowed).into());
     }
     let free = system.undithered();
+    if free.one_mass().is_some_and(|mass| mass.belt().belt_velocity() == 0.0) {
+        let why = "above 0: without dither a mass on a surface at rest has equilibria throughout its stick band, so no response is periodic";
+        let key = study.path_of(&system.contacts[0].name, BELT_VELOCITY);
+        return Err(Complaint::new(Fault::Value, key, Origin::Whole, 0.0, why).into());
+    }
     let given = |protocol: &SystemProtocol| -> Result<NamedStart, Failure> {
         Ok((protocol.words(study), protocol.state(study, &free)?))
     };
-    let CycleSearch { found, tried } = match wanted {
-        WantedMotion::After(SystemProtocol::Squeal) => search_cycle(&free, usual_starts(&free)),
-        WantedMotion::After(protocol) => search_cycle(&free, vec![given(protocol)?]),
-        WantedMotion::Near { state, .. } => {
-            search_cycle(&free, vec![given(&SystemProtocol::From(state.clone()))?])
+    let cycles: Option<Vec<FoundMotion>> = limit_cycles(&free).map(|cycles| {
+        cycles.into_iter().map(|cycle| with_samples(study, cycle, 1, FoundBy::Map)).collect()
+    });
+    let searched = |starts: Vec<NamedStart>| {
+        let CycleSearch { found, tried } = search_cycle(&free, starts);
+        let found =
+            found.map(|(orbit, start)| with_samples(study, orbit, 1, FoundBy::FreeRun { start }));
+        (found, tried)
+    };
+    let (found, tried) = match (wanted, &cycles) {
+        (Wanted::Base { .. }, Some(cycles)) => (cycles.first().cloned(), Vec::new()),
+        (Wanted::Near { state, .. }, Some(cycles)) => {
+            let state = start_with(study, state)?.state;
+            (nearest_cycle(&free, cycles, &state).cloned(), Vec::new())
         }
-        WantedMotion::Base { .. } => {
+        (Wanted::After(SystemProtocol::Squeal), Some(cycles)) => {
+            // A complaint where nothing squeals.
+            given(&SystemProtocol::Squeal)?;
+            let stable = |cycle: &&FoundMotion| cycle.orbit.verdict() == OrbitVerdict::Stable;
+            (cycles.iter().find(stable).cloned(), Vec::new())
+        }
+        (Wanted::After(SystemProtocol::Squeal), None) => searched(usual_starts(&free)),
+        (Wanted::After(protocol), _) => searched(vec![given(protocol)?]),
+        (Wanted::Near { state, .. }, None) => {
+            searched(vec![given(&SystemProtocol::From(state.clone()))?])
+        }
+        (Wanted::Base { .. }, None) => {
             let first = given(&SystemProtocol::Study)?;
             let mut starts = usual_starts(&free);
             starts.retain(|other| other.1 != first.1);
             starts.insert(0, first);
-            search_cycle(&free, starts)
+            searched(starts)
         }
     };
-    let found =
-        found.map(|(orbit, start)| with_samples(study, orbit, 1, FoundBy::FreeRun { start }));
     let sliding = Linearised::new(&free).map_err(|why| why.to_string()).and_then(|linear| {
         let growth =
             spectrum::growth(&linear, &linear.friction()).map_err(|why| why.to_string())?;
         Ok(growth.verdict().name())
     });
-    Ok(OrbitOfSystem { found, tried, sliding: Some(sliding) })
+    Ok(PeriodicResponse { found, cycles, tried, sliding: Some(sliding) })
+}
+
+/// The cycle of a single mass that passes a state nearest, displacements in lengths of ω₀.
+fn nearest_cycle<'c>(
+    system: &System,
+    cycles: &'c [FoundMotion],
+    state: &[f64],
+) -> Option<&'c FoundMotion> {
+    let rate = system.one_mass().map_or(1.0, |mass| mass.rate());
+    let off = |cycle: &FoundMotion| {
+        let states = cycle.samples.states.chunks(state.len());
+        let off = states.map(|at| (rate * (at[0] - state[0])).hypot(at[1] - state[1]));
+        off.fold(f64::INFINITY, f64::min)
+    };
+    cycles.iter().min_by(|a, b| off(a).total_cmp(&off(b)))
 }
