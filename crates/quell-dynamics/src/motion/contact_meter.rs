@@ -151,7 +151,9 @@ impl ContactSums {
         let slips = values_at(segment.slip_velocity(contact), moments);
         if matches!(segment.phase(contact), ContactPhase::Slip(_)) {
             for slip in slips {
-                self.largest_slip = -lesser(-self.largest_slip, -slip.abs());
+                if slip.abs() > self.largest_slip {
+                    self.largest_slip = slip.abs();
+                }
             }
         }
         let forces = values_at(friction, moments);

@@ -4,7 +4,7 @@
 //! the friction that holds the mass, so that one kind of observer sees every motion. What a run computes depends on no observer.
 
 use quell_model::friction::FrictionConstants;
-use quell_model::{Direction, OneMass};
+use quell_model::{Belt, Direction, OneMass};
 use quell_numerics::dispatch::{InstructionSet, Work, with_fused_multiply_add};
 use quell_numerics::polynomial::{derivative, step_length, value};
 
@@ -22,8 +22,13 @@ use crate::simulation::{
 /// Length of the state.
 const SIZE: usize = 2;
 
-/// Slip velocities below this multiple of their rounding are zero at the start of a run.
+/// Slip velocities below this multiple of their rounding are zero at the start of a run, as for systems in general: a state of stick that
+/// a search has computed comes to rest. With a much larger value a start that slips would stick.
 const AT_REST: f64 = 32.0 * f64::EPSILON;
+
+/// Last terms of a piece of stick over its friction and load: below their rounding. With a larger value means and samples of friction in
+/// stick would be that much off; the motion takes no part in it.
+const NEGLIGIBLE: f64 = 1e-15;
 
 /// A run of a system of one mass.
 pub(super) struct PlannedMass<'a> {
@@ -44,8 +49,8 @@ pub(super) fn run_mass(
     units.outcome(outcome, until)
 }
 
-/// Bound on the last terms of a step relative to F, over that relative to the numbers of the state: with it periodic motions and
-/// their multipliers are as accurate as those of systems in general.
+/// Bound on the last terms of a step relative to F, over that relative to the numbers of the state: with it judges run one mass at 10⁻¹⁴
+/// of the load, as the orbits of belts are computed. With 1 the period of a limit cycle was 7·10⁻¹² off.
 const OF_THE_LOAD: f64 = 0.1;
 
 /// A bound for runs that no periodic motion is computed from.
@@ -117,8 +122,7 @@ impl MassUnits<'_> {
         let slip = if end.sticking { 0.0 } else { belt.belt_velocity() - end.velocity };
         let load = belt.normal_load_at(end.time);
         let friction = if end.sticking {
-            let damper = 2.0 * belt.damping_ratio() * belt.belt_velocity();
-            damper + end.displacement - belt.dither_force(Direction::Tangential, end.time)
+            holding_force(belt, end.displacement, end.time)
         } else {
             f64::from(end.slip_sign) * belt.friction().coefficient(slip.abs()) * load
         };
@@ -148,6 +152,12 @@ impl MassUnits<'_> {
             reason: StopReason::Stalled(why),
         }
     }
+}
+
+/// The friction that holds the mass of a belt in stick, a length: 2ζv₀ + x − Σ D_T g_T.
+fn holding_force(belt: &Belt, displacement: f64, time: f64) -> f64 {
+    let damper = 2.0 * belt.damping_ratio() * belt.belt_velocity();
+    damper + displacement - belt.dither_force(Direction::Tangential, time)
 }
 
 fn phase_of(slip_sign: i8) -> ContactPhase {
@@ -214,22 +224,14 @@ impl<'a> MassView<'a> {
         let (belt, start) = (self.units.mass.belt(), &self.start);
         let slip = belt.belt_velocity() - start.velocity;
         let direction = if slip == 0.0 {
-            let damper = 2.0 * belt.damping_ratio() * belt.belt_velocity();
-            let force =
-                damper + start.displacement - belt.dither_force(Direction::Tangential, start.time);
+            let force = holding_force(belt, start.displacement, start.time);
             let holds = force.abs()
                 <= belt.friction().static_coefficient() * belt.normal_load_at(start.time);
             if holds { 0.0 } else { force }
         } else {
             slip
         };
-        phase_of(if direction == 0.0 {
-            0
-        } else if direction > 0.0 {
-            1
-        } else {
-            -1
-        })
+        phase_of(i8::from(direction > 0.0) - i8::from(direction < 0.0))
     }
 
     /// Passes on a piece whose series have been written.
@@ -380,7 +382,7 @@ impl Work for Shown<'_, '_, '_, '_> {
                     let load = load.as_ref().map_or(0.0, |load| unit * load[k]);
                     friction[k].abs() + load.abs()
                 };
-                step_length(1e-15 * size, last(ORDER), last(ORDER - 1), ORDER)
+                step_length(NEGLIGIBLE * size, last(ORDER), last(ORDER - 1), ORDER)
             }
         }
     }

@@ -7,8 +7,8 @@ use crate::dither::{Direction, Dither};
 use crate::profile::{Profile, Wave};
 use crate::system::{Contact, Input, InputTarget, Mechanical, System};
 
-/// Static coefficient below which a system is not taken for a belt, whose errors are bounded relative to the load: they would not be
-/// small compared with its friction.
+/// Static coefficient below which a system is not taken for a belt, whose errors are bounded relative to the load: 10⁻¹² of the load is 10⁻⁹
+/// of the friction here, and would not be small compared with a weaker one.
 const LEAST_COEFFICIENT: f64 = 1e-3;
 
 /// A system as the belt that it is, and what one unit of the belt's numbers is in those of the system.

@@ -1,6 +1,5 @@
-//! A belt as its system: the verbs about motions that repeat, of a belt whose contact has a state of its own.
-//!
-//! The engine for belts has no place for that state, so such a belt is answered by the verbs of systems; its numbers keep their paths.
+//! A belt as its system: `orbit`, `attractor` and `bifurcation` of every belt, and the other verbs about motions that repeat of a belt
+//! whose contact has a state of its own. Its numbers keep their paths.
 
 use quell_dynamics::start::InitialState;
 use quell_model::units::Quantity;

@@ -1,4 +1,4 @@
-//! The motion on which a run of a system ends, as `bifurcation` and `basins` report it.
+//! The motion on which a run of a system ends, as `attractor`, `bifurcation`, `basins` and `probability` report it.
 
 use quell_dynamics::attractor::{
     Attractor, AttractorKind, AttractorSettings, Patience, Rotation, Settled, Unsettled, measure,

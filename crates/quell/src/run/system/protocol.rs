@@ -3,7 +3,7 @@
 use quell_dynamics::motion::orbit::{sliding_state, squealing_state};
 use quell_model::System;
 
-use super::start::{StateNumbers, named, pair, read_state, start_in_words, start_with};
+use super::start::{StateNumbers, named, pair, read_state, start_in_words, start_with, unnamed};
 use crate::complaint::{Complaint, Complaints, Failure, Fault, Origin};
 use crate::run::protocol::Protocol;
 use crate::study::{SystemStart, SystemStudy};
@@ -34,7 +34,7 @@ impl SystemProtocol {
             Protocol::Rest => Ok(Self::Rest),
             Protocol::Sliding => Ok(Self::Sliding),
             Protocol::Squeal => Ok(Self::Squeal),
-            Protocol::From(x, v) => Err(unnamed("--start", (x, v)).into()),
+            Protocol::From(x, v) => Err(unnamed("--start", &format!("{x},{v}")).into()),
         }
     }
 
@@ -86,12 +86,6 @@ impl SystemProtocol {
             Self::Squeal => squealing_state(system).map_err(|why| refused("--from-squeal", why)),
         }
     }
-}
-
-/// The complaint about a state given by two numbers.
-fn unnamed(option: &'static str, (x, v): (f64, f64)) -> Complaint {
-    let allowed = "name=value pairs such as x=0.1,velocity.x=-2: a system has many coordinates";
-    Complaint::option(option, format!("{x},{v}"), allowed)
 }
 
 /// Displacement and velocity of one coordinate, as an option gives them.

@@ -108,6 +108,12 @@ pub fn read_state(study: &SystemStudy, text: &str) -> Result<StateNumbers, Compl
     named(study, parts)
 }
 
+/// The complaint about a state given by two numbers.
+pub(super) fn unnamed(option: &'static str, given: &str) -> Complaint {
+    let allowed = "name=value pairs such as x=0.1,velocity.x=-2: a system has many coordinates";
+    Complaint::option(option, given, allowed)
+}
+
 /// Reads displacement and velocity of a system of one coordinate.
 ///
 /// # Errors
@@ -115,8 +121,7 @@ pub fn read_state(study: &SystemStudy, text: &str) -> Result<StateNumbers, Compl
 pub fn pair(study: &SystemStudy, (x, v): (&str, &str)) -> Result<StateNumbers, Complaints> {
     let system = study.system();
     if system.structure.mechanical().is_none_or(|mechanical| mechanical.size() != 1) {
-        let allowed = "name=value pairs such as x=0.1,velocity.x=-2: a system has many coordinates";
-        return Err(Complaint::option("--start", format!("{x},{v}"), allowed).into());
+        return Err(unnamed("--start", &format!("{x},{v}")).into());
     }
     let names = state_names(system);
     named(study, names.iter().map(String::as_str).zip([x, v]).map(Ok))
